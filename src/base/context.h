@@ -1,0 +1,56 @@
+/* What every call may need from its surroundings: memory, log, threads, instruction set.
+   No globals: a context is made by the caller and handed down; worlds with different contexts are
+   independent.  A failed allocation is a status, never an abort. */
+#ifndef BASE_CONTEXT_H
+#define BASE_CONTEXT_H
+
+#include "fram/error.h"
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct pool pool;
+
+typedef enum log_level { LOG_ERROR, LOG_WARNING, LOG_INFO, LOG_DEBUG } log_level;
+
+/* realloc's contract: ptr NULL allocates, size 0 frees and returns NULL, NULL otherwise means no memory. */
+typedef void *(*memory_function)(void *user, void *ptr, size_t size);
+typedef void (*log_function)(void *user, log_level level, const char *text);
+
+typedef enum isa { ISA_BASELINE, ISA_AVX2, ISA_AVX512 } isa;
+
+typedef struct context {
+    memory_function memory; /* never NULL after context_init */
+    void *memory_user;
+    log_function log; /* NULL: silent */
+    void *log_user;
+    log_level verbosity;
+    pool *threads; /* NULL: everything runs on the calling thread */
+    isa isa;       /* which kernels to run; results are the same to the bit */
+} context;
+
+/* Defaults: the C library's memory, no log, no threads, the best instruction set of this processor. */
+void context_init(context *ctx);
+/* The widest instruction set this processor and build have. */
+isa isa_best(void);
+/* "baseline", "avx2", "avx512" */
+const char *isa_name(isa i);
+
+/* Memory; NULL when there is none.  memory_array checks count * size for overflow and zeroes what it returns. */
+void *memory_resize(context *ctx, void *ptr, size_t size);
+void *memory_array(context *ctx, size_t count, size_t size);
+void memory_free(context *ctx, void *ptr);
+/* A copy of a string, or NULL. */
+char *memory_string(context *ctx, const char *text);
+
+/* printf to the log sink when level <= verbosity. */
+void log_write(context *ctx, log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Fill e (which may be NULL) and return status.  file, key may be NULL. */
+fram_status error_set(fram_error *e, fram_status status, const char *file, int line, const char *key,
+                      const char *format, ...) __attribute__((format(printf, 6, 7)));
+/* The one message for a failed allocation. */
+fram_status error_memory(fram_error *e);
+
+#endif

@@ -1,0 +1,11 @@
+/* Hashes: a fast 64-bit one for state, SHA-256 (nettle) for files. */
+#ifndef BASE_HASH_H
+#define BASE_HASH_H
+
+#include "base/context.h"
+
+uint64_t hash_bytes(const void *data, size_t size, uint64_t seed);
+/* Lower-case hex SHA-256 of a memory block, 64 characters and a NUL. */
+void sha256_text(const void *data, size_t size, char out[65]);
+
+#endif

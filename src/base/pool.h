@@ -1,0 +1,21 @@
+/* A small thread pool with fixed work order.  Work is split into blocks by data alone; which thread runs
+   a block is free, so a block must write only to places of its own.  Reductions are made afterwards over
+   blocks in ascending order.  That is why results never depend on the number of threads. */
+#ifndef BASE_POOL_H
+#define BASE_POOL_H
+
+#include "base/context.h"
+
+typedef void (*block_function)(void *arg, int32_t block, int32_t thread);
+
+/* threads >= 1 counts the caller; NULL when there is no memory or no thread could be started. */
+pool *pool_create(context *ctx, int threads);
+void pool_free(context *ctx, pool *p);
+int pool_threads(const pool *p);
+/* Run fn for block 0..blocks-1 and wait.  thread is 0..pool_threads-1 (for per-thread scratch).  With
+   ctx->threads NULL or a single block, runs on the caller.  Not re-entrant. */
+void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
+/* pool_threads, or 1 without a pool. */
+int context_threads(const context *ctx);
+
+#endif

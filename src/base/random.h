@@ -1,0 +1,24 @@
+/* Counter-based random numbers: a draw is a pure function of (seed, stream, id, counter), so that results do not
+   depend on the order in which threads or events ask.  Philox 4x32-10 (Salmon et al. 2011). */
+#ifndef BASE_RANDOM_H
+#define BASE_RANDOM_H
+
+#include <stdint.h>
+
+/* One sequence.  The counter is the whole state: keep it in a state table when the sequence outlives a step. */
+typedef struct random_stream {
+    uint64_t seed;
+    uint32_t stream; /* what the numbers are for; enum of the room that draws */
+    uint32_t id;     /* which object they are for */
+    uint64_t counter;
+} random_stream;
+
+random_stream random_begin(uint64_t seed, uint32_t stream, uint32_t id);
+uint64_t random_bits(random_stream *r);
+double random_unit(random_stream *r);                          /* uniform in [0, 1) */
+double random_uniform(random_stream *r, double lo, double hi); /* uniform in [lo, hi) */
+double random_normal(random_stream *r);                        /* mean 0, standard deviation 1 */
+double random_lognormal(random_stream *r, double mean, double deviation); /* mean and deviation of the variable itself */
+double random_power_law(random_stream *r, double lo, double hi, double b); /* N(>D) ~ D^-b truncated to [lo, hi] */
+
+#endif
