@@ -1,0 +1,81 @@
+/* Closed triangle surfaces.  Triangles are counter-clockwise seen from outside: the area vector
+   N = 1/2 (b - a) x (c - a) points outward.  Metres, body frame of the owner.  Knows nothing of bodies or water
+   (a "plane" is a plane). */
+#ifndef GEOMETRY_MESH_H
+#define GEOMETRY_MESH_H
+
+#include "geometry/polygon.h"
+
+typedef struct triangle {
+    int32_t v[3];
+} triangle;
+
+typedef struct mesh {
+    ARRAY(vec3) vertex;
+    ARRAY(triangle) face;
+} mesh;
+
+void mesh_free(context *ctx, mesh *m);
+bool mesh_copy(context *ctx, mesh *dst, const mesh *src);
+bool mesh_add_vertex(context *ctx, mesh *m, vec3 v);
+bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c);
+vec3 mesh_area_vector(const mesh *m, int32_t face);
+
+typedef struct box3 {
+    vec3 lo, hi;
+} box3;
+box3 mesh_bounds(const mesh *m);
+
+/* Volume [m3], centre [m] and inertia tensor about that centre of unit density [m5] (xy, xz, yz are the products with the
+   minus sign of an inertia tensor already in), from signed tetrahedra (Eberly 2002).  Exact for a closed mesh. */
+typedef struct solid_properties {
+    double volume;
+    vec3 centre;
+    sym3 inertia;
+} solid_properties;
+solid_properties mesh_solid_properties(const mesh *m);
+/* The three volume integrals of x n_x, y n_y, z n_z dS: equal for a closed mesh. */
+vec3 mesh_volume_integrals(const mesh *m);
+
+/* What is wrong with a surface, in the order in which it is looked for. */
+typedef enum mesh_defect {
+    MESH_CLOSED = 0,
+    MESH_EMPTY,            /* no triangles */
+    MESH_BAD_INDEX,        /* a triangle names a vertex that is not there */
+    MESH_NOT_FINITE,       /* a coordinate is not a number */
+    MESH_DEGENERATE,       /* a triangle without area */
+    MESH_OPEN,             /* an edge with one triangle */
+    MESH_NOT_MANIFOLD,     /* an edge with more than two triangles */
+    MESH_INCONSISTENT,     /* two neighbours turn opposite ways */
+    MESH_INSIDE_OUT,       /* negative volume */
+    MESH_SELF_INTERSECTING /* two triangles cross */
+} mesh_defect;
+typedef struct mesh_report {
+    mesh_defect defect;
+    int32_t face, other_face; /* -1 when not meant */
+    int32_t edge[2];          /* vertices of the edge */
+    int32_t open_edges;
+    char text[200]; /* "edge between vertices 3 (x, y, z) and 7 (...) has one triangle (12)" */
+} mesh_report;
+/* self_intersection: look for crossing triangles too (a sweep over boxes; n log n for real hulls). */
+fram_status mesh_check(context *ctx, const mesh *m, bool self_intersection, mesh_report *report);
+
+/* Join vertices closer than `distance` [m] (grid hash, lowest index wins), drop triangles that lose their area. */
+fram_status mesh_weld(context *ctx, mesh *m, double distance, int32_t *joined);
+
+/* The polygon extruded along z from `bottom` to `top`: outer faces only (top, bottom, sides), closed; top and bottom
+   triangulated through the given triangles or by ear clipping of the (cleaned, simple) outline. */
+fram_status mesh_make_prism(context *ctx, polygon outline, double bottom, double top, mesh *out, fram_error *error);
+/* Axis-aligned box. */
+bool mesh_make_box(context *ctx, vec3 lo, vec3 hi, mesh *out);
+
+/* The part of one triangle below the plane z <= level, as a convex polygon of at most 4 vertices; returns the count.
+   Vertices exactly on the plane belong to both sides. */
+int triangle_clip_below(const vec3 in[3], double level, vec3 out[4]);
+/* The part of a convex polygon of n vertices with dot(normal, x) <= d; out has room for n + 1; returns the count. */
+int facet_clip(const vec3 *in, int n, vec3 normal, double d, vec3 *out);
+
+/* Plan outline of the section z = level: closed rings, counter-clockwise around solid. */
+fram_status mesh_section(context *ctx, const mesh *m, double level, polygon_list *out, fram_error *error);
+
+#endif
