@@ -1,0 +1,66 @@
+/* What this build is made of; see build.h. */
+#include "base/build.h"
+
+#include "base/kernel.h"
+
+/* Each part is ", name version" when it is in, so that a list begins at its third character. */
+#ifdef FRAM_HAVE_CAIRO
+#define PART_CAIRO ", cairo " FRAM_HAVE_CAIRO
+#define LACK_CAIRO ""
+#else
+#define PART_CAIRO ""
+#define LACK_CAIRO ", cairo"
+#endif
+#ifdef FRAM_HAVE_GEOS
+#define PART_GEOS ", geos " FRAM_HAVE_GEOS
+#else
+#define PART_GEOS ""
+#endif
+#ifdef FRAM_HAVE_LIBFYAML
+#define PART_LIBFYAML ", libfyaml " FRAM_HAVE_LIBFYAML
+#else
+#define PART_LIBFYAML ""
+#endif
+#ifdef FRAM_HAVE_NETTLE
+#define PART_NETTLE ", nettle " FRAM_HAVE_NETTLE
+#else
+#define PART_NETTLE ""
+#endif
+#ifdef FRAM_HAVE_ZLIB
+#define PART_ZLIB ", zlib " FRAM_HAVE_ZLIB
+#else
+#define PART_ZLIB ""
+#endif
+
+static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_NETTLE PART_ZLIB;
+static const char lacks[] = LACK_CAIRO;
+
+const char *build_parts(void)
+{
+    return sizeof parts > 2 ? parts + 2 : "none";
+}
+
+const char *build_lacks(void)
+{
+    return sizeof lacks > 2 ? lacks + 2 : "none";
+}
+
+const char *build_compiler(void)
+{
+#if defined(__clang__)
+    return "clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "gcc " __VERSION__;
+#else
+    return "unknown compiler";
+#endif
+}
+
+const char *build_kernels(void)
+{
+#ifdef FRAM_KERNELS_X86
+    return "baseline avx2 avx512";
+#else
+    return "baseline";
+#endif
+}

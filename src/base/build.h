@@ -1,0 +1,16 @@
+/* What this build of Fram is made of, as text for `fram --version` and for the run folder.  The build
+   system defines FRAM_HAVE_<PART>="version" for every library it found; code that needs an optional part
+   stands in #ifdef FRAM_HAVE_<PART> and otherwise answers FRAM_ERROR_UNSUPPORTED. */
+#ifndef BASE_BUILD_H
+#define BASE_BUILD_H
+
+/* "geos 3.11.1, libfyaml 0.7.12, ...", in alphabetical order; "none" when nothing was found. */
+const char *build_parts(void);
+/* Optional parts that this build lacks, "cairo", or "none". */
+const char *build_lacks(void);
+/* The compiler, "gcc 12.2.0" or "clang 14.0.6". */
+const char *build_compiler(void);
+/* Instruction sets that kernels were compiled for, "baseline avx2 avx512" (see base/kernel.h). */
+const char *build_kernels(void);
+
+#endif

@@ -1,0 +1,77 @@
+/* Shapes of bodies.  A prism (floe, wall, box ship in benchmarks) is an outline extruded over
+   -half_height <= z <= half_height about the centre of mass, cut into convex pieces; a solid (hull) is a closed mesh with
+   convex pieces.  The body frame's origin is the centre of mass in both.
+   Prisms are state (fracture makes and removes them) and live in tables; solids never change during a run and are made again from
+   the scenario on resume. */
+#ifndef BODIES_SHAPE_H
+#define BODIES_SHAPE_H
+
+#include "base/table.h"
+#include "geometry/mesh.h"
+#include "geometry/mesh_bvh.h"
+#include "geometry/overlay.h"
+#include "geometry/polyhedron.h"
+
+typedef enum shape_kind { SHAPE_NONE = 0, SHAPE_PRISM, SHAPE_SOLID } shape_kind;
+
+#define SHAPE_FIELDS(X)                                                                                          \
+    X(kind, uint8_t, FIELD_U8, 1, "1", "enum shape_kind; none: free row")                                        \
+    X(half_height, double, FIELD_F64, 1, "m", "prism: half its thickness")                                       \
+    X(radius, double, FIELD_F64, 1, "m", "bounding radius about the centre of mass")                             \
+    X(plan_radius, double, FIELD_F64, 1, "m", "prism: largest distance of an outline vertex from the axis")      \
+    X(area, double, FIELD_F64, 1, "m2", "prism: area of the outline")                                            \
+    X(outline_first, int32_t, FIELD_I32, 1, "1", "prism: first vertex of the outline in the vertex pool")        \
+    X(outline_count, int32_t, FIELD_I32, 1, "1", "prism: vertices of the outline")                               \
+    X(piece_first, int32_t, FIELD_I32, 1, "1", "prism: first row of its convex pieces in the piece table")       \
+    X(piece_count, int32_t, FIELD_I32, 1, "1", "prism: number of convex pieces, 1 when convex")                  \
+    X(solid, int32_t, FIELD_I32, 1, "1", "solid: index of the solid, -1 otherwise")
+TABLE_DECLARE(shape, SHAPE_FIELDS)
+
+/* The outline is itself piece 0 when it is convex; pieces then share its vertices. */
+#define PIECE_FIELDS(X)                                                                    \
+    X(first, int32_t, FIELD_I32, 1, "1", "first vertex in the vertex pool")                \
+    X(count, int32_t, FIELD_I32, 1, "1", "vertices, counter-clockwise")                    \
+    X(inner_edges, uint64_t, FIELD_U64, 1, "1", "bit k: edge k is a seam inside the compound, not a face")
+TABLE_DECLARE(piece, PIECE_FIELDS)
+
+#define SHAPE_VERTEX_FIELDS(X) X(point, vec2, FIELD_F64, 2, "m", "body frame, plan view")
+TABLE_DECLARE(shape_vertex, SHAPE_VERTEX_FIELDS)
+
+/* A closed mesh with what contact and fluid need of it, all in the body frame. */
+typedef struct solid {
+    mesh surface;
+    mesh_adjacency adjacency;
+    mesh_bvh tree;
+    polyhedron_array pieces;
+    double concavity; /* largest distance of the mesh to its pieces [m] */
+    double radius;    /* bounding radius about the origin [m] */
+} solid;
+
+typedef struct shape_store {
+    shape_table shapes;
+    piece_table pieces;
+    shape_vertex_table vertices;
+    ARRAY(solid) solids; /* not state */
+    int32_t dead_vertices; /* vertices of removed shapes, given back by shape_compact; derived, not hashed */
+} shape_store;
+
+void shape_store_free(context *ctx, shape_store *s);
+
+/* A prism of a simple outline given about its centroid (the caller moves it there), cut into convex pieces of at most
+   16 vertices through `o` (may be NULL when the outline is convex).  piece_area_limit [m2]: smaller triangles are
+   dropped (SPEC 2).  row gets the shape's row. */
+fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon outline, double half_height,
+                            double piece_area_limit, int32_t *row, fram_error *error);
+/* A shape that refers to a solid already in the store. */
+fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error);
+/* Builds tree, adjacency, radius and takes over surface and pieces (moved out of the caller's objects). */
+fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
+                      int32_t *index, fram_error *error);
+void shape_remove(shape_store *s, int32_t row);
+/* Squeeze the pools when more than half of them is dead; rows keep their numbers.  Depends on state only. */
+fram_status shape_compact(context *ctx, shape_store *s);
+
+polygon shape_outline(const shape_store *s, int32_t row);
+polygon shape_piece(const shape_store *s, int32_t row, int32_t piece);
+
+#endif
