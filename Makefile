@@ -1,0 +1,65 @@
+# Short commands around CMake; `make help` lists them.  Only make and a shell are needed to begin:
+# tools/deps.sh says what else is missing and installs it.
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+PREFIX ?= /usr/local
+DESTDIR ?=
+FUZZ_SECONDS ?= 20
+BENCH_FLAGS ?=
+CTEST = ctest --output-on-failure --no-label-summary -j$(JOBS)
+STAMPS = build/stamps
+
+.DEFAULT_GOAL = build
+.PHONY: build test demo test-sanitize test-asan test-tsan lint fuzz bench coverage install deps clean help FORCE
+
+build: build/release/build.ninja ## build the command, build/release/fram
+	@cmake --build --preset release -j$(JOBS)
+
+build/%/build.ninja: CMakePresets.json | $(STAMPS)/core
+	@cmake --preset $* --log-level=WARNING
+build/fuzz/build.ninja: | $(STAMPS)/dev
+
+test: build ## run every test
+	@cd build/release && $(CTEST) --output-junit tests.xml
+
+demo: build ## run scenes/demo.yaml and say which files to look at
+	@tools/demo.sh
+
+test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and the threaded rooms under TSan
+
+test-asan: build/asan/build.ninja
+	@cmake --build --preset asan -j$(JOBS)
+	@cd build/asan && $(CTEST) -LE 'package'
+
+test-tsan: build/tsan/build.ninja
+	@cmake --build --preset tsan -j$(JOBS)
+	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^(base|dynamics|fluid|ice|vessel|sim|api)$$'
+
+lint: build/release/build.ninja $(STAMPS)/dev ## check form, includes, libm and the static analysers
+	@tools/lint.sh
+
+fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
+	@cmake --build --preset fuzz -j$(JOBS)
+	@tools/fuzz.sh build/fuzz $(FUZZ_SECONDS)
+
+bench: build ## measure speed; BENCH_FLAGS go to `fram bench`
+	@build/release/fram bench $(BENCH_FLAGS)
+
+coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by the tests
+	@cmake --build --preset coverage -j$(JOBS)
+	@tools/coverage.sh build/coverage $(JOBS)
+
+install: build ## install under DESTDIR and PREFIX (/usr/local)
+	@DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
+
+deps: ## install all that building and checking needs
+	@tools/deps.sh --install core dev
+
+$(STAMPS)/%: tools/deps.sh
+	@tools/deps.sh --install $*
+	@mkdir -p $(@D) && touch $@
+
+clean: ## remove what was built (installed packages stay)
+	@rm -rf build out
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-15s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)

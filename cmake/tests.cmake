@@ -1,0 +1,84 @@
+# Tests and fuzz targets.
+#   tests/<room>/test_<topic>.c    one program, linked to that room and the floors below it, run as <room>/<topic>
+#   tests/<group>/test_<topic>.sh  a script, run as <group>/<topic> with FRAM (the command), FRAM_BUILD and
+#   tests/<group>/test_<topic>.py  FRAM_SOURCE set; exit code 77 means skipped (say why on standard output)
+#   fuzz/fuzz_<name>.c             LLVMFuzzerTestOneInput; the committed corpus is replayed as fuzz/<name>
+# Every test runs in the source folder, and none reads the clock to pass.
+
+# libcheck kills a test after 4 s by default: too little for a sanitizer on a busy machine.
+set(test_environment "CK_DEFAULT_TIMEOUT=300" "FRAM_BUILD=${CMAKE_BINARY_DIR}" "FRAM_SOURCE=${CMAKE_SOURCE_DIR}"
+    "LC_ALL=C.UTF-8")
+if(TARGET fram_command)
+    list(APPEND test_environment "FRAM=${CMAKE_BINARY_DIR}/fram")
+endif()
+if(FRAM_SANITIZE OR FRAM_COVERAGE OR FRAM_FUZZ)
+    # Tests with long scenes shorten them when this is set.
+    list(APPEND test_environment "FRAM_TEST_SHORT=1")
+endif()
+if(FRAM_SANITIZE)
+    list(APPEND test_environment "FRAM_TEST_SANITIZE=${FRAM_SANITIZE}"
+        "UBSAN_OPTIONS=print_stacktrace=1" "TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1")
+endif()
+
+function(fram_test name label)
+    add_test(NAME ${name} COMMAND ${ARGN} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
+    set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600 SKIP_RETURN_CODE 77
+                         ENVIRONMENT "${test_environment}")
+endfunction()
+
+if(FRAM_TESTS)
+    pkg_check_modules(check REQUIRED IMPORTED_TARGET check)
+    file(GLOB tests CONFIGURE_DEPENDS "tests/*/test_*.c")
+    foreach(source ${tests})
+        get_filename_component(room "${source}" DIRECTORY)
+        get_filename_component(room "${room}" NAME)
+        get_filename_component(topic "${source}" NAME_WE)
+        string(REGEX REPLACE "^test_" "" topic "${topic}")
+        set(program test_${room}_${topic})
+        add_executable(${program} "${source}")
+        if(room STREQUAL cli)
+            # The command knows the public interface only, and so do its tests.
+            target_link_libraries(${program} PRIVATE room_cli PkgConfig::check)
+        elseif(TARGET room_${room})
+            target_include_directories(${program} PRIVATE src include)
+            target_link_libraries(${program} PRIVATE room_${room} PkgConfig::check)
+        else()
+            target_link_libraries(${program} PRIVATE fram_objects PkgConfig::check)
+        endif()
+        target_include_directories(${program} PRIVATE tests)
+        set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+        fram_test(${room}/${topic} ${room} ${program})
+    endforeach()
+
+    find_package(Python3 COMPONENTS Interpreter QUIET)
+    file(GLOB scripts CONFIGURE_DEPENDS "tests/*/test_*.sh" "tests/*/test_*.py")
+    foreach(script ${scripts})
+        get_filename_component(group "${script}" DIRECTORY)
+        get_filename_component(group "${group}" NAME)
+        get_filename_component(topic "${script}" NAME_WE)
+        string(REGEX REPLACE "^test_" "" topic "${topic}")
+        if(NOT script MATCHES "\\.py$")
+            fram_test(${group}/${topic} ${group} bash "${script}")
+        elseif(Python3_FOUND)
+            fram_test(${group}/${topic} ${group} "${Python3_EXECUTABLE}" "${script}")
+        else()
+            message(STATUS "no Python: ${group}/${topic} is left out")
+        endif()
+    endforeach()
+endif()
+
+file(GLOB fuzzers CONFIGURE_DEPENDS "fuzz/fuzz_*.c")
+foreach(source ${fuzzers})
+    get_filename_component(program "${source}" NAME_WE)
+    string(REGEX REPLACE "^fuzz_" "" name "${program}")
+    add_executable(${program} "${source}")
+    target_include_directories(${program} PRIVATE fuzz)
+    target_link_libraries(${program} PRIVATE fram_objects)
+    set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/fuzz")
+    if(FRAM_FUZZ)
+        target_link_options(${program} PRIVATE -fsanitize=fuzzer)
+    else()
+        target_sources(${program} PRIVATE fuzz/replay.c)
+        fram_test(fuzz/${name} fuzz ${program} "fuzz/corpus/${name}")
+    endif()
+endforeach()

@@ -1,0 +1,31 @@
+#!/bin/sh
+# Fuzz every target of a build for some seconds each:  tools/fuzz.sh BUILD SECONDS
+# The committed seeds in fuzz/corpus/<name> are only read; what is found is kept in BUILD/corpus/<name>, and a
+# failing input in BUILD/findings.
+set -eu
+build=$1
+seconds=$2
+cd "$(dirname "$0")/.."
+set -- "$build"/fuzz/fuzz_*
+if [ ! -x "$1" ]; then
+    echo "fuzz: there are no targets yet"
+    exit 0
+fi
+mkdir -p "$build/findings"
+for target; do
+    name=${target##*/fuzz_}
+    mkdir -p "$build/corpus/$name"
+    seeds=fuzz/corpus/$name
+    [ -d "$seeds" ] || seeds=""
+    echo "fuzz: $name for $seconds s"
+    log=$build/findings/$name.log
+    # shellcheck disable=SC2086  # seeds is one word or none
+    if ! "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 -print_final_stats=1 \
+        -artifact_prefix="$build/findings/$name-" "$build/corpus/$name" $seeds >"$log" 2>&1; then
+        tail -n 60 "$log"
+        echo "fuzz: $name failed; the input is in $build/findings" >&2
+        exit 1
+    fi
+    sed -n 's/^stat::number_of_executed_units: */fuzz:   inputs run: /p' "$log"
+done
+echo "fuzz: no finding in $# targets"
