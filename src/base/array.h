@@ -11,18 +11,21 @@
         int32_t count, capacity; \
     }
 
-/* Room for at least `capacity` elements; false when there is no memory (the array is then unchanged). */
+/* Room for at least `wanted` elements; false when there is no memory (the array is then unchanged). */
 #define array_reserve(ctx, a, wanted) \
     array_reserve_raw((ctx), (void **)&(a)->data, &(a)->capacity, (wanted), sizeof *(a)->data)
 /* Append one element; false when there is no memory. */
-#define array_push(ctx, a, ...) \
-    ((((a)->count < (a)->capacity) || array_reserve((ctx), (a), (a)->count + 1)) ? ((a)->data[(a)->count++] = (__VA_ARGS__), true) : false)
+#define array_push(ctx, a, ...)                                                                          \
+    ((((a)->count < (a)->capacity) || ((a)->count < INT32_MAX && array_reserve((ctx), (a), (a)->count + 1))) \
+         ? ((a)->data[(a)->count++] = (__VA_ARGS__), true)                                               \
+         : false)
 /* Set the count, new elements undefined; false when there is no memory. */
 #define array_resize(ctx, a, n) (array_reserve((ctx), (a), (n)) ? ((a)->count = (n), true) : false)
 #define array_clear(a) ((a)->count = 0)
 #define array_free(ctx, a) (memory_free((ctx), (a)->data), (a)->data = NULL, (a)->count = (a)->capacity = 0)
 
-/* Grows by half at least, so that pushing stays linear. */
+/* Grows by half at least, so that pushing stays linear.  The block is aligned as the context's memory function aligns,
+   16 bytes with the C library's: enough for v8_load, not for a dereferenced v8 (simd.h). */
 bool array_reserve_raw(context *ctx, void **data, int32_t *capacity, int32_t wanted, size_t size);
 
 #endif

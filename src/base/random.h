@@ -13,12 +13,20 @@ typedef struct random_stream {
     uint64_t counter;
 } random_stream;
 
+/* The sequence of (seed, stream, id) from its start. */
 random_stream random_begin(uint64_t seed, uint32_t stream, uint32_t id);
+
+/* Every draw below takes exactly one step of the counter. */
 uint64_t random_bits(random_stream *r);
-double random_unit(random_stream *r);                          /* uniform in [0, 1) */
-double random_uniform(random_stream *r, double lo, double hi); /* uniform in [lo, hi) */
+double random_unit(random_stream *r);                          /* uniform in [0, 1), a multiple of 2^-53 */
+double random_uniform(random_stream *r, double lo, double hi); /* uniform in [lo, hi); lo when hi <= lo */
 double random_normal(random_stream *r);                        /* mean 0, standard deviation 1 */
-double random_lognormal(random_stream *r, double mean, double deviation); /* mean and deviation of the variable itself */
-double random_power_law(random_stream *r, double lo, double hi, double b); /* N(>D) ~ D^-b truncated to [lo, hi] */
+/* mean > 0 and deviation >= 0 are of the variable itself, not of its logarithm */
+double random_lognormal(random_stream *r, double mean, double deviation);
+/* N(>D) ~ D^-b truncated to 0 < lo <= D <= hi; any finite b, 0 is uniform in log D */
+double random_power_law(random_stream *r, double lo, double hi, double b);
+
+/* The generator itself: 128 bits from a 128-bit counter and a 64-bit key. */
+void random_philox(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4]);
 
 #endif
