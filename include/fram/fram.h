@@ -1,0 +1,216 @@
+/* Fram: vessels in sea ice.  The public C API.
+
+   A context holds what a program lends to Fram (memory, log, threads).  A scenario is read once and never changes; a world
+   is everything that moves.  Step a world yourself, or let fram_run drive it and write results:
+
+       fram_context *context;
+       fram_scenario *scenario;
+       fram_world *world;
+       fram_error error;
+       fram_context_create(NULL, &context, &error);
+       fram_scenario_load(context, "demo.yaml", NULL, 0, &scenario, &error);
+       fram_world_create(scenario, &world, &error);
+       while (fram_world_time(world) < 10)
+           fram_world_step(world, &error);
+
+   Every call that can fail returns a fram_status and fills the caller's fram_error (which may be NULL).  On failure the
+   out-pointers are left alone.  Objects are not locked: use one world from one thread at a time; worlds of different contexts are
+   independent.  A context must outlive its scenarios, a scenario its worlds.
+
+   Units are SI.  Global frame: X, Y horizontal, Z up, still water at z = 0.  Body frame of a vessel: x forward, y to port,
+   z up, origin at the centre of mass.  Quaternions are w, x, y, z and turn body coordinates into global ones. */
+#ifndef FRAM_FRAM_H
+#define FRAM_FRAM_H
+
+#include "fram/error.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define FRAM_API __attribute__((visibility("default")))
+#else
+#define FRAM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- Version ------------------------------------------------------------------------------------------------------------------- */
+
+/* "0.1.0" */
+FRAM_API const char *fram_version(void);
+/* Optional parts of this build, one word each, space separated ("pictures ..."); "" when there are none. */
+FRAM_API const char *fram_features(void);
+/* One word for a status: "ok", "usage", "input", ... */
+FRAM_API const char *fram_status_name(fram_status status);
+
+/* --- Context -------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct fram_context fram_context;
+
+typedef enum fram_log_level { FRAM_LOG_ERROR, FRAM_LOG_WARNING, FRAM_LOG_INFO, FRAM_LOG_DEBUG } fram_log_level;
+
+/* realloc's contract: ptr NULL allocates, size 0 frees and returns NULL; NULL otherwise means no memory. */
+typedef void *(*fram_memory_function)(void *user, void *ptr, size_t size);
+typedef void (*fram_log_function)(void *user, fram_log_level level, const char *text);
+
+typedef struct fram_context_definition {
+    size_t size;                 /* of this struct, set by fram_context_default */
+    fram_memory_function memory; /* NULL: the C library's */
+    void *memory_user;
+    fram_log_function log; /* NULL: silent */
+    void *log_user;
+    fram_log_level verbosity;
+    int threads;     /* >= 1, the caller's included; results never depend on it */
+    const char *isa; /* "baseline", "avx2", "avx512", or NULL for the best; results never depend on it */
+} fram_context_definition;
+
+FRAM_API void fram_context_default(fram_context_definition *definition);
+/* definition NULL: the defaults (one thread, no log). */
+FRAM_API fram_status fram_context_create(const fram_context_definition *definition, fram_context **context, fram_error *error);
+FRAM_API void fram_context_destroy(fram_context *context);
+
+/* --- Scenario ------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct fram_scenario fram_scenario;
+
+/* Read and check a scenario file.  overrides: texts "key=value" as on the command line, applied in order. */
+FRAM_API fram_status fram_scenario_load(fram_context *context, const char *path, const char *const *overrides,
+                                        int override_count, fram_scenario **scenario, fram_error *error);
+/* The effective scenario as YAML text, every default filled in; valid until the scenario is destroyed. */
+FRAM_API const char *fram_scenario_text(const fram_scenario *scenario);
+/* What follows from the scenario for a reader's eye (lengths, loads, thresholds, warnings), as text; same lifetime. */
+FRAM_API const char *fram_scenario_notes(const fram_scenario *scenario);
+/* 64 hexadecimal digits that name the effective scenario. */
+FRAM_API const char *fram_scenario_hash(const fram_scenario *scenario);
+FRAM_API double fram_scenario_duration(const fram_scenario *scenario);  /* [s] */
+FRAM_API double fram_scenario_time_step(const fram_scenario *scenario); /* [s] */
+FRAM_API void fram_scenario_destroy(fram_scenario *scenario);
+/* Every key with unit, default, range and meaning, as Markdown.  The caller frees it with fram_text_free. */
+FRAM_API fram_status fram_scenario_reference(fram_context *context, char **markdown, fram_error *error);
+FRAM_API void fram_text_free(fram_context *context, char *text);
+
+/* --- World ---------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct fram_world fram_world;
+
+/* A body; an id stays valid while its body lives and never names another one. */
+typedef struct fram_body_id {
+    int32_t slot; /* counts from 0 */
+    uint32_t generation;
+} fram_body_id;
+
+typedef enum fram_body_kind { FRAM_BODY_FLOE, FRAM_BODY_VESSEL, FRAM_BODY_WALL, FRAM_BODY_OTHER } fram_body_kind;
+
+typedef struct fram_body_state {
+    fram_body_kind kind;
+    bool dynamic;               /* moved by forces; false: static or driven */
+    double mass;                /* [kg] */
+    double position[3];         /* centre of mass, global [m] */
+    double orientation[4];      /* w x y z */
+    double velocity[3];         /* global [m/s] */
+    double angular_velocity[3]; /* global [rad/s] */
+} fram_body_state;
+
+/* Means over the last step of what the ice does to a vessel: forces [N], moments [N m] about its centre of mass, global frame. */
+typedef struct fram_ice_load {
+    double force[3], moment[3];
+    double capped[3];   /* part of force: normal contact at the crushing limit */
+    double elastic[3];  /* part of force: normal contact below it */
+    double friction[3]; /* part of force */
+    int contacts;
+} fram_ice_load;
+
+FRAM_API fram_status fram_world_create(const fram_scenario *scenario, fram_world **world, fram_error *error);
+FRAM_API void fram_world_destroy(fram_world *world);
+/* One time step.  FRAM_ERROR_SIMULATION when the state is no longer finite. */
+FRAM_API fram_status fram_world_step(fram_world *world, fram_error *error);
+FRAM_API double fram_world_time(const fram_world *world); /* [s] */
+FRAM_API int64_t fram_world_steps(const fram_world *world);
+/* 64-bit hash of the whole state: equal states, equal hashes. */
+FRAM_API uint64_t fram_world_hash(const fram_world *world);
+
+/* Bodies are counted by slot; a slot may be empty. */
+FRAM_API int fram_world_slots(const fram_world *world);
+/* False for an empty slot. */
+FRAM_API bool fram_world_body(const fram_world *world, int slot, fram_body_id *id);
+/* The first vessel; false without one. */
+FRAM_API bool fram_world_vessel(const fram_world *world, fram_body_id *id);
+/* FRAM_ERROR_USAGE when the body lives no more. */
+FRAM_API fram_status fram_body_state_get(const fram_world *world, fram_body_id body, fram_body_state *state, fram_error *error);
+/* Plan outline of a floe or wall: its number of vertices, and up to `room` of them in global coordinates (x, y pairs); 0 for
+   other bodies. */
+FRAM_API int fram_body_outline(const fram_world *world, fram_body_id body, double *xy, int room);
+/* An extra force [N] and moment [N m] about the centre of mass, global frame, on a dynamic body in the next step only;
+   calls add up. */
+FRAM_API fram_status fram_body_apply_wrench(fram_world *world, fram_body_id body, const double force[3],
+                                            const double moment[3], fram_error *error);
+/* FRAM_ERROR_USAGE when the body is no vessel. */
+FRAM_API fram_status fram_world_ice_load(const fram_world *world, fram_body_id vessel, fram_ice_load *load, fram_error *error);
+
+/* --- Runs ------------------------------------------------------------------------------------------------------------------------ */
+
+typedef struct fram_progress {
+    double time, end;        /* simulated [s] */
+    double wall;             /* since the start of this call [s] */
+    double eta;              /* expected wall time to the end [s] */
+    double real_time_factor; /* simulated over wall time */
+} fram_progress;
+typedef void (*fram_progress_function)(void *user, const fram_progress *progress);
+
+typedef struct fram_run_definition {
+    size_t size;        /* of this struct, set by fram_run_default */
+    const char *folder; /* where results go; made when missing */
+    bool force;         /* write into a folder that is not empty */
+    double until;       /* stop at this simulated time with a checkpoint; <= 0: run to the end of the scenario */
+    fram_progress_function progress; /* called a few times a second at most; may be NULL */
+    void *progress_user;
+    const volatile int *stop; /* non-zero: write a checkpoint and return FRAM_INTERRUPTED; may be NULL */
+} fram_run_definition;
+
+typedef struct fram_run_result {
+    uint64_t state_hash;
+    int64_t steps;           /* of the whole run so far */
+    double time;             /* simulated [s] */
+    double wall;             /* of this call [s] */
+    double real_time_factor; /* of this call */
+    int bodies, floes;
+    bool finished; /* the scenario's end was reached */
+} fram_run_result;
+
+FRAM_API void fram_run_default(fram_run_definition *definition);
+/* Run a scenario from its start and write time series, record, pictures and checkpoints to definition->folder. */
+FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_definition *definition,
+                              fram_run_result *result, fram_error *error);
+/* Continue the run in definition->folder from its newest good checkpoint; refuses changed inputs. */
+FRAM_API fram_status fram_resume(fram_context *context, const fram_run_definition *definition, fram_run_result *result,
+                                 fram_error *error);
+
+/* --- Benchmark ------------------------------------------------------------------------------------------------------------------ */
+
+typedef struct fram_bench_result {
+    int64_t steps;
+    int floes;
+    double ms_per_step_median; /* CPU time of a step, all threads [ms] */
+    double ms_wall_median;     /* [ms] */
+    double us_per_floe_step;   /* [us] */
+    double real_time_factor;
+    double contact_points;     /* mean per step */
+    double pairs;              /* mean number of touching pairs per step */
+    double mean_penetration_m, max_penetration_m;
+    double ship_force_kN;      /* mean ice load against the ship's x axis */
+    double kinetic_energy_J;
+    double solver_residual;    /* mean over the steps [m/s] */
+    uint64_t state_hash;
+} fram_bench_result;
+
+/* Step a scenario's world for `time` seconds after `warm` seconds of warm-up, without output, and measure. */
+FRAM_API fram_status fram_bench(const fram_scenario *scenario, double warm, double time, fram_bench_result *result,
+                                fram_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
