@@ -35,15 +35,9 @@
 static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_NETTLE PART_ZLIB;
 static const char lacks[] = LACK_CAIRO;
 
-const char *build_parts(void)
-{
-    return sizeof parts > 2 ? parts + 2 : "none";
-}
+const char *build_parts(void) { return sizeof parts > 2 ? parts + 2 : "none"; }
 
-const char *build_lacks(void)
-{
-    return sizeof lacks > 2 ? lacks + 2 : "none";
-}
+const char *build_lacks(void) { return sizeof lacks > 2 ? lacks + 2 : "none"; }
 
 const char *build_compiler(void)
 {

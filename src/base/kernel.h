@@ -38,10 +38,8 @@
     type name##_baseline parameters;           \
     type name##_avx2 parameters;               \
     type name##_avx512 parameters
-#define KERNEL_PICK(ctx, name)                            \
-    ((ctx)->isa == ISA_AVX512 ? name##_avx512             \
-     : (ctx)->isa == ISA_AVX2 ? name##_avx2               \
-                              : name##_baseline)
+#define KERNEL_PICK(ctx, name) \
+    ((ctx)->isa == ISA_AVX512 ? name##_avx512 : (ctx)->isa == ISA_AVX2 ? name##_avx2 : name##_baseline)
 #else
 #define KERNEL_DECLARE(type, name, parameters) type name##_baseline parameters
 #define KERNEL_PICK(ctx, name) ((void)(ctx), name##_baseline)

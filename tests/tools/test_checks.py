@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""The checkers of tools/ find what they are for: each breach is planted in a small house and must be named."""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+
+
+class House(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(tempfile.mkdtemp(prefix="fram-house-"))
+        self.addCleanup(shutil.rmtree, self.root)
+        shutil.copytree(TOOLS, self.root / "tools", ignore=shutil.ignore_patterns("__pycache__"))
+
+    def plant(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def rooms(self):
+        done = subprocess.run([sys.executable, self.root / "tools/check_rooms.py"], capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.returncode, 1 if done.stdout else 0)
+        return done.stdout
+
+    def objects(self, text, *flags):
+        """What check_objects.py says of one file compiled with flags."""
+        self.plant("object.c", text)
+        rooms = self.root / "build/rooms"
+        rooms.mkdir(parents=True, exist_ok=True)
+        subprocess.run(["cc", "-O2", *flags, "-c", "object.c", "-o", "object.o"], cwd=self.root, check=True)
+        subprocess.run(["ar", "rcs", rooms / "libroom_base.a", "object.o"], cwd=self.root, check=True)
+        done = subprocess.run([sys.executable, self.root / "tools/check_objects.py", self.root / "build"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.returncode, 1 if done.stdout else 0)
+        return done.stdout
+
+    def test_a_good_house_is_silent(self):
+        self.plant("src/base/vec.h", "#include <math.h>\nstatic inline double f(double x) { return sqrt(x); }\n")
+        self.plant("src/ice/floe.c", '#include "ice/floe.h"\n#include "base/vec.h"\n#include "fram/error.h"\n')
+        self.plant("src/cli/main.c", '#include "cli/options.h"\n#include "fram/fram.h"\n')
+        self.plant("src/base/words.c", '/* sin(x) in words */ const char *t = "cos(x)"; double a = wave.sin(1);\n')
+        self.plant("tests/testing.h", "")
+        self.plant("tests/ice/test_floe.c", '#include "ice/floe.h"\n#include "testing.h"\n')
+        self.assertEqual(self.rooms(), "")
+
+    def test_upward_and_sideways_includes(self):
+        self.plant("src/base/vec.h", '\n#include "ice/floe.h"\n')
+        self.plant("src/ice/floe.c", '#include "vessel/hull.h"\n')
+        self.plant("tests/fluid/test_drag.c", '#include "sim/world.h"\n')
+        said = self.rooms()
+        self.assertIn("src/base/vec.h:2: ", said)
+        self.assertIn("src/ice/floe.c:1: ", said)
+        self.assertIn("tests/fluid/test_drag.c:1: ", said)
+
+    def test_the_command_sees_only_the_public_headers(self):
+        self.plant("src/cli/main.c", '#include "sim/world.h"\n')
+        self.plant("src/sim/run.c", '#include "fram/fram.h"\n')
+        said = self.rooms()
+        self.assertIn("src/cli/main.c:1: ", said)
+        self.assertIn("src/sim/run.c:1: ", said)
+
+    def test_include_forms_and_libraries(self):
+        self.plant("src/ice/a.c", '#include "floe.h"\n')
+        self.plant("src/ice/b.c", "#include <geos_c.h>\n")
+        said = self.rooms()
+        self.assertIn("src/ice/a.c:1: ", said)
+        self.assertIn("src/ice/b.c:1: ", said)
+
+    def test_long_files_reminders_and_machine_paths(self):
+        self.plant("src/ice/long.c", "int a;\n" * 801)
+        self.plant("src/ice/later.c", "/* " + "TO" + "DO */\n")
+        self.plant("docs/guide.md", "see /ho" + "me/someone/file\n")
+        said = self.rooms()
+        self.assertIn("src/ice/long.c:801: ", said)
+        self.assertIn("src/ice/later.c:1: ", said)
+        self.assertIn("docs/guide.md:1: ", said)
+
+    def test_libm_in_the_source(self):
+        self.plant("src/ice/wave.c", "double f(double x)\n{\n    return sin (x) + powf(2, 3);\n}\n")
+        said = self.rooms()
+        self.assertIn("src/ice/wave.c:3: sin()", said)
+        self.assertIn("powf()", said)
+
+    def test_libm_in_the_objects(self):
+        self.assertEqual(self.objects("#include <math.h>\ndouble f(double x) { return floor(x); }\n"), "")
+        self.assertIn("calls libm's cos", self.objects("#include <math.h>\ndouble f(double x) { return cos(x); }\n"))
+
+    def test_writable_globals(self):
+        self.assertEqual(self.objects("static const char *const t[] = {\"a\"};\n"
+                                      "const char *f(int i) { return t[i]; }\n", "-fPIC"), "")
+        self.assertIn("count is a writable global", self.objects("int count;\nint next(void) { return count++; }\n"))
+        self.assertIn("writable global", self.objects("int next(void) { static int n = 7; return n++; }\n"))
+
+    def test_fused_multiply_add(self):
+        machine = subprocess.run(["cc", "-dumpmachine"], capture_output=True, text=True, check=True).stdout
+        if not machine.startswith("x86_64"):
+            self.skipTest("flags of x86-64")
+        text = "double f(double a, double b, double c) { return a * b + c; }\n"
+        self.assertIn("fused", self.objects(text, "-mfma", "-ffp-contract=fast"))
+        self.assertEqual(self.objects(text, "-mfma", "-ffp-contract=off"), "")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""Check the house: who includes whom, how long files are, which words and functions they use.
+
+Rules (CONTRIBUTING.md says why):
+  - a room includes itself and rooms on lower floors; the command includes fram/ and itself; a room below the API
+    includes of the public headers only those in SHARED_HEADERS;
+  - a test of a room obeys the floor of its room; it may include headers beside it and in tests/;
+  - a library's header is included only in the room that owns the library;
+  - source files have at most 800 lines, no reminders of unfinished work, no paths of one machine;
+  - no libm function whose last bits differ between machines is called in src/, except in LIBM_EXEMPT.
+
+Prints file:line: message for each breach; exit code 1 when there is one.
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "tools"))
+from libm import TRANSCENDENTAL  # noqa: E402
+
+FLOOR = {
+    "base": 1,
+    "geometry": 2,
+    "bodies": 3,
+    "dynamics": 4,
+    "fluid": 4,
+    "ice": 5,
+    "vessel": 5,
+    "model": 6,
+    "io": 7,
+    "sim": 8,
+    "api": 9,
+    "cli": 10,
+}
+# Public headers that rooms below the API share: the words for failures, and the version.
+SHARED_HEADERS = {"fram/error.h", "fram/version.h"}
+# Which rooms may include a library's headers.
+LIBRARY_ROOMS = {
+    "geos_c.h": {"geometry"},
+    "libfyaml.h": {"io"},
+    "cairo": {"io"},
+    "zlib.h": {"base", "io"},
+    "nettle/": {"base"},
+    "pthread.h": {"base"},
+}
+# Files of src/ that may call libm's transcendentals: they draw, and nothing they compute reaches the state.
+LIBM_EXEMPT = set()
+
+LONGEST_FILE = 800
+LENGTH_SUFFIXES = {".c", ".h", ".py", ".sh", ".js", ".mjs", ".ts", ".cmake"}
+TEXT_SUFFIXES = LENGTH_SUFFIXES | {".md", ".txt", ".yaml", ".yml", ".json", ".in", ".html", ".css"}
+# Spelt in pieces so that this file does not contain them.
+REMINDERS = re.compile(r"\b(" + "|".join(("TO" + "DO", "FIX" + "ME", "X" + "XX", "HA" + "CK")) + r")\b")
+MACHINE_PATHS = re.compile(r"(?<![\w.])/(" + "|".join(("ho" + "me", "ro" + "ot", "wo" + "rk", "Us" + "ers")) + r")/\w")
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
+CALL = re.compile(r"(?<![\w.])(" + "|".join(sorted(TRANSCENDENTAL)) + r")\s*\(")
+COMMENT_OR_TEXT = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
+
+
+def own_files():
+    listing = subprocess.run([ROOT / "tools" / "sources.sh"], capture_output=True, text=True, check=True)
+    return [ROOT / name for name in listing.stdout.splitlines()]
+
+
+def without_comments(text):
+    """The code alone: comments and literals blanked, line breaks kept."""
+    return COMMENT_OR_TEXT.sub(lambda found: re.sub(r"[^\n]", " ", found.group()), text)
+
+
+def include_breach(path, bracket, target):
+    """Why this file must not include target, or None."""
+    place, room = path.parts[0], path.parts[1]
+    if bracket == "<":
+        for header, rooms in LIBRARY_ROOMS.items():
+            if place == "src" and target.startswith(header) and room not in rooms:
+                return f"<{target}> belongs to {' and '.join(sorted(rooms))}"
+        return None
+    head = target.split("/")[0]
+    if head == "fram":
+        if place == "src" and room not in ("api", "cli") and target not in SHARED_HEADERS:
+            return f'"{target}" is public: below the API only {", ".join(sorted(SHARED_HEADERS))} are shared'
+        return None
+    if "/" in target and head in FLOOR:
+        if room == "cli":
+            return None if head == "cli" else f'"{target}": the command includes fram/ and cli/ only'
+        if head != room and FLOOR[head] >= FLOOR[room]:
+            return f'"{target}": {room} is on floor {FLOOR[room]}, {head} on floor {FLOOR[head]}'
+        return None
+    if place == "tests" and ((ROOT / path).parent / target).exists() or (ROOT / "tests" / target).exists():
+        return None
+    return f'"{target}" is not of the form "room/name.h"'
+
+
+def breaches_of(path, text):
+    """(line, message) for each broken rule of one file."""
+    relative = path.relative_to(ROOT)
+    lines = text.splitlines()
+    if path.suffix in LENGTH_SUFFIXES and len(lines) > LONGEST_FILE:
+        yield len(lines), f"{len(lines)} lines; at most {LONGEST_FILE}: make two topics of it"
+    for number, line in enumerate(lines, 1):
+        if REMINDERS.search(line):
+            yield number, "a reminder of unfinished work: open an issue instead"
+        if MACHINE_PATHS.search(line):
+            yield number, "a path of one machine"
+    if path.suffix not in (".c", ".h") or len(relative.parts) < 3:
+        return
+    place, room = relative.parts[0], relative.parts[1]
+    if place not in ("src", "tests"):
+        return
+    if place == "src" and room not in FLOOR:
+        yield 1, f"src/{room} is no room of the house"
+        return
+    code = without_comments(text).splitlines()
+    for number, line in enumerate(lines, 1):
+        found = INCLUDE.match(line)
+        if found and room in FLOOR:
+            breach = include_breach(relative, *found.groups())
+            if breach:
+                yield number, breach
+    if place == "src" and str(relative) not in LIBM_EXEMPT:
+        for number, line in enumerate(code, 1):
+            for name in CALL.findall(line):
+                yield number, f"{name}() of libm differs between machines: see base/transcendental.h"
+
+
+def main():
+    count = 0
+    for path in own_files():
+        if path.suffix not in TEXT_SUFFIXES and path.name not in ("Makefile", "run"):
+            continue
+        try:
+            text = path.read_text(encoding="utf-8")
+        except UnicodeDecodeError:
+            continue  # malformed on purpose: inputs of tests
+        for line, message in breaches_of(path, text):
+            print(f"{path.relative_to(ROOT)}:{line}: {message}")
+            count += 1
+    return 1 if count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
