@@ -24,7 +24,7 @@ void context_init(context *ctx)
 
 isa isa_best(void)
 {
-#if defined(__x86_64__)
+#ifdef FRAM_KERNELS_X86 /* the build holds the wide kernels, see kernel.h */
     /* The 8-lane kernels use double and 64-bit integer operations (f, dq) and 256-bit leftovers (vl). */
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         return ISA_AVX512;
