@@ -11,6 +11,9 @@
         int32_t count, capacity; \
     }
 
+/* The one array of indices, named here so that rooms can hand it to one another. */
+typedef ARRAY(int32_t) int32_array;
+
 /* Room for at least `wanted` elements; false when there is no memory (the array is then unchanged). */
 #define array_reserve(ctx, a, wanted) \
     array_reserve_raw((ctx), (void **)&(a)->data, &(a)->capacity, (wanted), sizeof *(a)->data)

@@ -16,15 +16,46 @@ typedef struct mesh {
 } mesh;
 
 void mesh_free(context *ctx, mesh *m);
+/* Empty, memory kept. */
+void mesh_clear(mesh *m);
 bool mesh_copy(context *ctx, mesh *dst, const mesh *src);
 bool mesh_add_vertex(context *ctx, mesh *m, vec3 v);
 bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c);
 vec3 mesh_area_vector(const mesh *m, int32_t face);
 
+/* Axis-aligned, both ends inside; empty when lo > hi. */
 typedef struct box3 {
     vec3 lo, hi;
 } box3;
+static inline box3 box3_empty(void)
+{
+    return (box3){{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+}
+static inline box3 box3_union(box3 a, box3 b)
+{
+    return (box3){{a.lo.x < b.lo.x ? a.lo.x : b.lo.x, a.lo.y < b.lo.y ? a.lo.y : b.lo.y, a.lo.z < b.lo.z ? a.lo.z : b.lo.z},
+                  {a.hi.x > b.hi.x ? a.hi.x : b.hi.x, a.hi.y > b.hi.y ? a.hi.y : b.hi.y, a.hi.z > b.hi.z ? a.hi.z : b.hi.z}};
+}
+static inline box3 box3_add(box3 b, vec3 p) { return box3_union(b, (box3){p, p}); }
+static inline bool box3_meet(box3 a, box3 b)
+{
+    return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
+           b.lo.z <= a.hi.z;
+}
+/* All vertices; a point at the origin for a mesh without any. */
 box3 mesh_bounds(const mesh *m);
+box3 mesh_face_bounds(const mesh *m, int32_t face);
+
+/* Which triangle lies across which edge: neighbour[3 f + k] is the face that shares the edge of face f from its vertex k to
+   its vertex k + 1 (mod 3), whichever way it turns; -1 where the surface is open and where more than two faces meet.
+   Made in linear time.  Face indices must be valid. */
+typedef struct mesh_adjacency {
+    ARRAY(int32_t) neighbour;
+} mesh_adjacency;
+fram_status mesh_adjacency_build(context *ctx, const mesh *m, mesh_adjacency *out);
+void mesh_adjacency_free(context *ctx, mesh_adjacency *a);
+/* The edge (0 to 2) of `face` that leads to `neighbour`, or -1. */
+int mesh_edge_to(const mesh_adjacency *a, int32_t face, int32_t neighbour);
 
 /* Volume [m3], centre [m] and inertia tensor about that centre of unit density [m5] (xy, xz, yz are the products with the
    minus sign of an inertia tensor already in), from signed tetrahedra (Eberly 2002).  Exact for a closed mesh. */
@@ -34,7 +65,8 @@ typedef struct solid_properties {
     sym3 inertia;
 } solid_properties;
 solid_properties mesh_solid_properties(const mesh *m);
-/* The three volume integrals of x n_x, y n_y, z n_z dS: equal for a closed mesh. */
+/* The three volume integrals of x n_x, y n_y, z n_z dS [m3], about the origin of the mesh's own frame: equal for a closed mesh
+   (and the third is the volume also for one that is open at z = 0 only). */
 vec3 mesh_volume_integrals(const mesh *m);
 
 /* What is wrong with a surface, in the order in which it is looked for. */
@@ -69,10 +101,12 @@ fram_status mesh_make_prism(context *ctx, polygon outline, double bottom, double
 /* Axis-aligned box. */
 bool mesh_make_box(context *ctx, vec3 lo, vec3 hi, mesh *out);
 
-/* The part of one triangle below the plane z <= level, as a convex polygon of at most 4 vertices; returns the count.
-   Vertices exactly on the plane belong to both sides. */
+/* The part of one triangle below the plane z <= level, as a convex polygon of at most 4 vertices; returns the count, which is 1
+   or 2 where the triangle only touches the plane from above.  Vertices exactly on the plane belong to both sides; neighbours
+   are cut at the same points to the bit, and new points have z = level. */
 int triangle_clip_below(const vec3 in[3], double level, vec3 out[4]);
-/* The part of a convex polygon of n vertices with dot(normal, x) <= d; out has room for n + 1; returns the count. */
+/* The part of a convex polygon of n vertices with dot(normal, x) <= d; out has room for n + 1 and may
+   not be `in`; returns the count (1 or 2 where the polygon only touches). */
 int facet_clip(const vec3 *in, int n, vec3 normal, double d, vec3 *out);
 
 /* Plan outline of the section z = level: closed rings, counter-clockwise around solid. */
