@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# What `make install` leaves is usable: a small program is built against it by pkg-config and by find_package, shared
+# and static, and runs; a package built with DESTDIR names nothing of the building machine.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+fail() {
+    echo "$*" >&2
+    exit 1
+}
+
+version=$(sed -n 's/.*FRAM_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\)/\2/p' "$FRAM_SOURCE/include/fram/version.h" |
+    paste -sd.)
+prefix=$scratch/prefix
+cmake --install "$FRAM_BUILD" --prefix "$prefix" >"$scratch/install.log"
+consumer=$FRAM_SOURCE/tests/package/consumer
+if ! nm -D --defined-only "$FRAM_BUILD/libfram.so" | grep -q ' fram_version$'; then
+    echo "skipped: the library has no public calls yet"
+    exit 77
+fi
+
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name fram.pc)")
+export PKG_CONFIG_PATH
+lib=$(dirname "$PKG_CONFIG_PATH")
+export LD_LIBRARY_PATH=$lib
+[ "$(pkg-config --modversion fram)" = "$version" ] || fail "fram.pc has another version than $version"
+
+echo "pkg-config, shared"
+# shellcheck disable=SC2046  # flags are words
+cc -std=c17 -Wall -Wextra -Wpedantic -Werror -o "$scratch/shared" "$consumer/consumer.c" \
+    $(pkg-config --cflags --libs fram)
+[ "$("$scratch/shared")" = "$version" ] || fail "the shared consumer failed"
+# objdump shows the soname that programs are bound to.
+objdump -p "$scratch/shared" | grep -q "NEEDED *libfram.so.${version%%.*}$" || fail "bound to another soname"
+
+echo "pkg-config, static"
+# shellcheck disable=SC2046
+cc -std=c17 -o "$scratch/static" "$consumer/consumer.c" $(pkg-config --cflags fram) "$lib/libfram.a" \
+    $(pkg-config --static --libs fram | sed 's/-lfram\b//')
+[ "$(env -u LD_LIBRARY_PATH "$scratch/static")" = "$version" ] || fail "the static consumer failed"
+
+if command -v c++ >/dev/null; then
+    echo "C++"
+    # shellcheck disable=SC2046
+    c++ -std=c++11 -Wall -Wextra -Wpedantic -Werror -o "$scratch/plus" "$consumer/consumer.cpp" \
+        $(pkg-config --cflags --libs fram)
+    "$scratch/plus" || fail "the C++ consumer failed"
+fi
+
+echo "find_package, shared and static"
+cmake -S "$consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$prefix" -DFRAM_WANTED="$version" >"$scratch/cmake.log" ||
+    fail "$(cat "$scratch/cmake.log")"
+cmake --build "$scratch/build" >"$scratch/cmake.log" || fail "$(cat "$scratch/cmake.log")"
+for kind in shared static; do
+    [ "$("$scratch/build/consumer_$kind")" = "$version" ] || fail "the $kind consumer of find_package failed"
+done
+
+echo "DESTDIR"
+DESTDIR=$scratch/stage cmake --install "$FRAM_BUILD" --prefix /usr >"$scratch/install.log"
+[ -x "$scratch/stage/usr/bin/fram" ] || [ -z "${FRAM:-}" ] || fail "no command in the staged package"
+# Machine paths may not travel in a package.
+found=$(grep -rlF -e "$FRAM_SOURCE" -e "$scratch" "$scratch/stage" || true)
+[ -z "$found" ] || fail "the path of the building machine stands in: $found"
