@@ -21,6 +21,13 @@
     X(work_crushed, double, FIELD_F64, 1, "J", "energy dissipated by rows at their crushing limit")
 TABLE_DECLARE(clock, CLOCK_FIELDS)
 
+/* The recorder's moving average of the ice load on the first vessel: a ring of the last steps, oldest overwritten at row
+   (step mod count).  As many rows as steps in the averaging window. */
+#define LOAD_WINDOW_FIELDS(X)                                                                    \
+    X(force, vec3, FIELD_F64, 3, "N", "ice force on the vessel, mean over the step, global frame") \
+    X(moment, vec3, FIELD_F64, 3, "N m", "ice moment about its centre of mass, global frame")
+TABLE_DECLARE(load_window, LOAD_WINDOW_FIELDS)
+
 /* What the ice does to one vessel in a step: means over the step, on the vessel, global frame, moments about its centre of
    mass. Scratch. */
 typedef struct ice_load {
@@ -43,6 +50,7 @@ typedef struct world {
     pair_table pairs;
     broad_table boxes;
     contact_memory_table memory;
+    load_window_table load_window;
 
     /* Scratch: written anew each step. */
     struct {
@@ -66,7 +74,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 11 };
+enum { WORLD_TABLE_COUNT = 12 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -1,0 +1,161 @@
+/* Answers of the command: errors for people and programs, and a JSON writer for flat results. */
+#include "cli.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int exit_code_of(fram_status status)
+{
+    switch (status) {
+    case FRAM_OK:
+        return EXIT_GOOD;
+    case FRAM_ERROR_USAGE:
+    case FRAM_ERROR_INPUT:
+        return EXIT_BAD_INPUT;
+    case FRAM_INTERRUPTED:
+        return EXIT_INTERRUPTED;
+    default:
+        return EXIT_RUN_FAILED;
+    }
+}
+
+static void print_error_for_people(const fram_error *e)
+{
+    fputs("fram: ", stderr);
+    if (e->file[0]) {
+        fputs(e->file, stderr);
+        if (e->line > 0) fprintf(stderr, ":%d", e->line);
+        if (e->line > 0 && e->column > 0) fprintf(stderr, ":%d", e->column);
+        fputs(": ", stderr);
+    }
+    if (e->key[0]) fprintf(stderr, "%s: ", e->key);
+    fprintf(stderr, "%s\n", e->message);
+}
+
+int answer_error(const common_options *common, const fram_error *error)
+{
+    print_error_for_people(error);
+    if (common->json) {
+        json j = json_begin();
+        json_open(&j, "error");
+        json_text(&j, "status", fram_status_name(error->status));
+        json_text(&j, "file", error->file);
+        json_integer(&j, "line", error->line);
+        json_text(&j, "key", error->key);
+        json_text(&j, "message", error->message);
+        json_close(&j);
+        json_end(&j);
+    }
+    return exit_code_of(error->status);
+}
+
+int answer_usage(const common_options *common, const char *key, const char *message)
+{
+    fram_error error = {.status = FRAM_ERROR_USAGE};
+    snprintf(error.key, sizeof error.key, "%s", key);
+    snprintf(error.message, sizeof error.message, "%s", message);
+    return answer_error(common, &error);
+}
+
+json json_begin(void)
+{
+    json j = {stdout, true};
+    fputc('{', j.file);
+    return j;
+}
+
+void json_end(json *j)
+{
+    fputs("}\n", j->file);
+    fflush(j->file);
+}
+
+static void quoted(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\') fprintf(file, "\\%c", *c);
+        else if (*c == '\n') fputs("\\n", file);
+        else if (*c < 0x20) fprintf(file, "\\u%04x", *c);
+        else fputc(*c, file);
+    }
+    fputc('"', file);
+}
+
+static void member(json *j, const char *key)
+{
+    if (!j->first) fputc(',', j->file);
+    j->first = false;
+    quoted(j->file, key);
+    fputc(':', j->file);
+}
+
+static void number(FILE *file, double value)
+{
+    if (!isfinite(value)) {
+        fputs("null", file);
+        return;
+    }
+    char text[40];
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, value);
+        if (strtod(text, NULL) == value) break;
+    }
+    fputs(text, file);
+}
+
+void json_text(json *j, const char *key, const char *value)
+{
+    member(j, key);
+    quoted(j->file, value);
+}
+
+void json_real(json *j, const char *key, double value)
+{
+    member(j, key);
+    number(j->file, value);
+}
+
+void json_integer(json *j, const char *key, long long value)
+{
+    member(j, key);
+    fprintf(j->file, "%lld", value);
+}
+
+void json_boolean(json *j, const char *key, bool value)
+{
+    member(j, key);
+    fputs(value ? "true" : "false", j->file);
+}
+
+void json_hash(json *j, const char *key, uint64_t value)
+{
+    member(j, key);
+    fprintf(j->file, "\"%016" PRIx64 "\"", value);
+}
+
+void json_reals(json *j, const char *key, const double *values, int count)
+{
+    member(j, key);
+    fputc('[', j->file);
+    for (int i = 0; i < count; i++) {
+        if (i) fputc(',', j->file);
+        number(j->file, values[i]);
+    }
+    fputc(']', j->file);
+}
+
+void json_open(json *j, const char *key)
+{
+    member(j, key);
+    fputc('{', j->file);
+    j->first = true;
+}
+
+void json_close(json *j)
+{
+    fputc('}', j->file);
+    j->first = false;
+}

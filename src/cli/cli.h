@@ -1,0 +1,102 @@
+/* The command: turns words into calls of the public API, and answers into text, JSON and exit codes.
+   Includes fram/ headers only; whatever it does, a program can do through the library. */
+#ifndef CLI_CLI_H
+#define CLI_CLI_H
+
+#include "fram/fram.h"
+#include <stdio.h>
+
+/* Exit codes. */
+enum { EXIT_GOOD = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2, EXIT_INTERRUPTED = 130 };
+
+typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_REAL, OPTION_INTEGER, OPTION_LIST } option_kind;
+
+enum { OPTION_LIST_ROOM = 64 };
+typedef struct option_list {
+    const char *value[OPTION_LIST_ROOM];
+    int count;
+} option_list;
+
+/* One option of a command; `value` points to where it goes: bool, const char *, double, int, option_list. */
+typedef struct option_row {
+    const char *name;       /* "--until" */
+    const char *short_name; /* "-o" or NULL */
+    option_kind kind;
+    void *value;
+    const char *argument; /* "T", NULL for a flag */
+    const char *meaning;
+} option_row;
+
+/* What every command takes, besides its own options. */
+typedef struct common_options {
+    bool json, quiet, verbose, help;
+    int threads;
+    const char *isa;
+} common_options;
+
+/* One command of `fram`. */
+typedef struct command_row {
+    const char *name;
+    const char *arguments; /* "SCENARIO -o DIR" */
+    const char *summary;   /* one line */
+    const char *examples;  /* lines of the help */
+    int (*run)(const struct command_row *self, int argc, char **argv);
+} command_row;
+
+/* --- options.c --- */
+
+/* Read a command's words: options by the table, everything else into positional[0..positional_count), which must
+   hold exactly `positional_count` words.  Returns -1 to go on, or an exit code: help was asked for and printed, or a usage
+   error was reported. */
+int options_read(const command_row *command, const option_row *rows, int row_count, common_options *common, int argc,
+                 char **argv, const char **positional, int positional_count);
+
+/* --- answer.c --- */
+
+/* Print an error for people on standard error, and as JSON on standard output if asked; returns the exit code. */
+int answer_error(const common_options *common, const fram_error *error);
+/* A usage error in the same way. */
+int answer_usage(const common_options *common, const char *key, const char *message);
+int exit_code_of(fram_status status);
+
+/* One JSON object on one line of standard output. */
+typedef struct json {
+    FILE *file;
+    bool first;
+} json;
+json json_begin(void);
+void json_end(json *j);
+void json_text(json *j, const char *key, const char *value);
+void json_real(json *j, const char *key, double value); /* null when not finite; shortest text that reads back the same */
+void json_integer(json *j, const char *key, long long value);
+void json_boolean(json *j, const char *key, bool value);
+void json_hash(json *j, const char *key, uint64_t value); /* 16 hexadecimal digits */
+void json_reals(json *j, const char *key, const double *values, int count);
+/* A nested object: begin, members, end. */
+void json_open(json *j, const char *key);
+void json_close(json *j);
+
+/* --- session.c --- */
+
+/* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1. */
+int session_open(const common_options *common, fram_context **context);
+/* A flag that Ctrl-C and SIGTERM set; the first signal asks for a checkpoint, the second ends the process. */
+const volatile int *session_stop_flag(void);
+/* Progress line on standard error: redrawn on a terminal, a line every ten percent elsewhere. */
+typedef struct progress_view {
+    bool terminal;
+    int last_tenth;
+    bool drawn;
+} progress_view;
+void progress_begin(progress_view *view);
+void progress_show(void *view, const fram_progress *progress);
+void progress_end(progress_view *view);
+
+/* --- the commands, one file each --- */
+int command_run(const command_row *self, int argc, char **argv);
+int command_check(const command_row *self, int argc, char **argv);
+int command_resume(const command_row *self, int argc, char **argv);
+int command_bench(const command_row *self, int argc, char **argv);
+int command_keys(const command_row *self, int argc, char **argv);
+
+#endif

@@ -1,0 +1,98 @@
+/* fram run and fram resume: a simulation with results on disk. */
+#include "cli.h"
+
+static void print_result(const common_options *common, const char *folder, const fram_run_result *r)
+{
+    if (!common->quiet) {
+        fprintf(stderr, "%s at t = %g s after %lld steps: %d floes, wall-clock %.1f s, real-time factor %.2f\n",
+                r->finished ? "finished" : "stopped", r->time, (long long)r->steps, r->floes, r->wall, r->real_time_factor);
+        fprintf(stderr, "results are in %s\n", folder);
+    }
+    if (!common->json) return;
+    json j = json_begin();
+    json_hash(&j, "state_hash", r->state_hash);
+    json_integer(&j, "steps", r->steps);
+    json_real(&j, "time_s", r->time);
+    json_real(&j, "wall_s", r->wall);
+    json_real(&j, "real_time_factor", r->real_time_factor);
+    json_integer(&j, "bodies", r->bodies);
+    json_integer(&j, "floes", r->floes);
+    json_boolean(&j, "finished", r->finished);
+    json_text(&j, "folder", folder);
+    json_end(&j);
+}
+
+static int finish(const common_options *common, fram_status status, const fram_error *error, const char *folder,
+                  const fram_run_result *result)
+{
+    if (status != FRAM_OK) return answer_error(common, error);
+    print_result(common, folder, result);
+    return EXIT_GOOD;
+}
+
+int command_run(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    fram_run_definition definition;
+    fram_run_default(&definition);
+    option_list overrides = {0};
+    const char *path = NULL;
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &definition.folder, "DIR", "folder for the results (required)"},
+        {"--force", NULL, OPTION_FLAG, &definition.force, NULL, "write into a folder that is not empty"},
+        {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
+        {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
+    if (code >= 0) return code;
+    if (!definition.folder) return answer_usage(&common, "--output", "is missing: name a folder for the results, -o DIR");
+
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0) return code;
+    progress_view view;
+    progress_begin(&view);
+    definition.progress = common.quiet ? NULL : progress_show;
+    definition.progress_user = &view;
+    definition.stop = session_stop_flag();
+
+    fram_scenario *scenario = NULL;
+    fram_error error = {0};
+    fram_run_result result = {0};
+    fram_status status = fram_scenario_load(context, path, overrides.value, overrides.count, &scenario, &error);
+    if (status == FRAM_OK) status = fram_run(scenario, &definition, &result, &error);
+    progress_end(&view);
+    code = finish(&common, status, &error, definition.folder, &result);
+    fram_scenario_destroy(scenario);
+    fram_context_destroy(context);
+    return code;
+}
+
+int command_resume(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    fram_run_definition definition;
+    fram_run_default(&definition);
+    const option_row rows[] = {
+        {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &definition.folder, 1);
+    if (code >= 0) return code;
+
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0) return code;
+    progress_view view;
+    progress_begin(&view);
+    definition.progress = common.quiet ? NULL : progress_show;
+    definition.progress_user = &view;
+    definition.stop = session_stop_flag();
+
+    fram_error error = {0};
+    fram_run_result result = {0};
+    fram_status status = fram_resume(context, &definition, &result, &error);
+    progress_end(&view);
+    code = finish(&common, status, &error, definition.folder, &result);
+    fram_context_destroy(context);
+    return code;
+}

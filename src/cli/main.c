@@ -1,0 +1,74 @@
+/* fram: the table of commands and the help that teaches them. */
+#include "cli.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const command_row commands[] = {
+    {"run", "SCENARIO -o DIR", "simulate a scenario and write its results to a folder",
+     "  fram run scenes/demo.yaml -o out/demo\n"
+     "  fram run scenes/demo.yaml -o out/thick --set ice.thickness=1.5 --threads 2\n"
+     "  fram run scenes/demo.yaml -o out/demo --until 30     stop at 30 s with a checkpoint\n",
+     command_run},
+    {"resume", "DIR", "continue a run from its newest checkpoint",
+     "  fram resume out/demo\n"
+     "  fram resume out/demo --until 45\n",
+     command_resume},
+    {"check", "SCENARIO", "check a scenario, print it with every default filled in, and what follows from it",
+     "  fram check scenes/demo.yaml\n"
+     "  fram check scenes/demo.yaml --set ice.concentration=0.7 > full.yaml\n",
+     command_check},
+    {"bench", "SCENARIO", "step a scenario without output and measure its speed",
+     "  fram bench scenes/demo.yaml --warm 5 --time 10\n"
+     "  fram bench scenes/demo.yaml --threads 2 --json\n",
+     command_bench},
+    {"keys", "", "list every scenario key with unit, default, range and meaning (Markdown)", "  fram keys | less\n",
+     command_keys},
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
+
+static void print_help(FILE *file)
+{
+    fputs("fram simulates a vessel in broken sea ice: the loads the ice puts on it, and whether it stays on station.\n\n"
+          "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n",
+          file);
+    for (int i = 0; i < COMMAND_COUNT; i++) fprintf(file, "  %-8s %-18s %s\n", commands[i].name, commands[i].arguments, commands[i].summary);
+    fputs("\nA first run, from the folder of the sources:\n"
+          "  fram check scenes/demo.yaml                what will be simulated\n"
+          "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"
+          "      plan.png         the field seen from above\n"
+          "      loads.png        ice load on the vessel over time\n"
+          "      series.csv       all channels, one row a step, name[unit] headers\n"
+          "      record.fram      every frame, for playback\n"
+          "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted with a checkpoint written.\n"
+          "fram --version prints the version and the optional parts of this build.\n",
+          file);
+}
+
+static int print_version(void)
+{
+    const char *features = fram_features();
+    printf("fram %s\n", fram_version());
+    printf("optional parts: %s\n", *features ? features : "none");
+    return EXIT_GOOD;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_help(stderr);
+        return EXIT_BAD_INPUT;
+    }
+    const char *word = argv[1];
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0) {
+        print_help(stdout);
+        return EXIT_GOOD;
+    }
+    if (strcmp(word, "--version") == 0) return print_version();
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(word, commands[i].name) == 0) return commands[i].run(&commands[i], argc - 2, argv + 2);
+    }
+    common_options common = {0};
+    for (int i = 2; i < argc; i++) common.json = common.json || strcmp(argv[i], "--json") == 0;
+    return answer_usage(&common, word, "is not a command; fram --help lists them");
+}

@@ -1,0 +1,78 @@
+/* What a command needs around the library: a context that logs to standard error, Ctrl-C, a progress line. */
+#include "cli.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+static void log_to_stderr(void *user, fram_log_level level, const char *text)
+{
+    (void)user;
+    static const char *const prefix[] = {"error: ", "warning: ", "", ""};
+    fprintf(stderr, "%s%s\n", prefix[level], text);
+}
+
+int session_open(const common_options *common, fram_context **context)
+{
+    fram_context_definition definition;
+    fram_context_default(&definition);
+    definition.log = log_to_stderr;
+    definition.verbosity = common->quiet ? FRAM_LOG_ERROR : common->verbose ? FRAM_LOG_DEBUG : FRAM_LOG_INFO;
+    definition.threads = common->threads;
+    definition.isa = common->isa;
+    fram_error error;
+    if (fram_context_create(&definition, context, &error) != FRAM_OK) return answer_error(common, &error);
+    return -1;
+}
+
+/* The only mutable global of Fram: a signal handler can reach nothing else. */
+static volatile sig_atomic_t stop_asked;
+static volatile int stop_flag;
+
+static void on_signal(int number)
+{
+    if (stop_asked) _exit(128 + number);
+    stop_asked = 1;
+    stop_flag = 1;
+}
+
+const volatile int *session_stop_flag(void)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    return &stop_flag;
+}
+
+void progress_begin(progress_view *view)
+{
+    *view = (progress_view){.terminal = isatty(STDERR_FILENO) == 1, .last_tenth = -1};
+}
+
+static void print_eta(double seconds)
+{
+    long s = (long)(seconds + 0.5);
+    if (s >= 3600) fprintf(stderr, "%ld h %02ld min", s / 3600, s / 60 % 60);
+    else if (s >= 60) fprintf(stderr, "%ld min %02ld s", s / 60, s % 60);
+    else fprintf(stderr, "%ld s", s);
+}
+
+void progress_show(void *user, const fram_progress *p)
+{
+    progress_view *view = user;
+    double percent = p->end > 0 ? 100 * p->time / p->end : 100;
+    int tenth = (int)(percent / 10);
+    if (!view->terminal && tenth == view->last_tenth) return;
+    view->last_tenth = tenth;
+    if (view->terminal) fputs("\r\033[K", stderr);
+    fprintf(stderr, "%5.1f %%  t = %.2f of %g s  real-time factor %.2f  left ", percent, p->time, p->end, p->real_time_factor);
+    print_eta(p->eta);
+    if (!view->terminal) fputc('\n', stderr);
+    view->drawn = view->terminal;
+    fflush(stderr);
+}
+
+void progress_end(progress_view *view)
+{
+    if (view->drawn) fputc('\n', stderr);
+}
