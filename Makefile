@@ -9,14 +9,15 @@ CTEST = ctest --output-on-failure --no-label-summary -j$(JOBS)
 STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
-.PHONY: build test demo test-sanitize test-asan test-tsan lint fuzz bench coverage install deps clean help FORCE
+.PRECIOUS: $(STAMPS)/% build/%/build.ninja
+.PHONY: build test demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram
 	@cmake --build --preset release -j$(JOBS)
 
 build/%/build.ninja: CMakePresets.json | $(STAMPS)/core
 	@cmake --preset $* --log-level=WARNING
-build/fuzz/build.ninja: | $(STAMPS)/dev
+build/fuzz/build.ninja build/clang/build.ninja: | $(STAMPS)/dev
 
 test: build ## run every test
 	@cd build/release && $(CTEST) --output-junit tests.xml
@@ -28,14 +29,21 @@ test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and the 
 
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
-	@cd build/asan && $(CTEST) -LE 'package'
+	@cd build/asan && $(CTEST) -LE '^(package|tools)$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS)
 	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^(base|dynamics|fluid|ice|vessel|sim|api)$$'
 
+test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
+	@cmake --build --preset clang -j$(JOBS)
+	@cd build/clang && $(CTEST) -LE '^(package|tools)$$'
+
 lint: build/release/build.ninja $(STAMPS)/dev ## check form, includes, libm and the static analysers
 	@tools/lint.sh
+
+format: $(STAMPS)/dev ## put every C file into the form that lint asks for
+	@tools/sources.sh '*.c' '*.h' | xargs clang-format -i
 
 fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
 	@cmake --build --preset fuzz -j$(JOBS)

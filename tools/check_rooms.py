@@ -6,7 +6,8 @@ Rules (CONTRIBUTING.md says why):
     includes of the public headers only those in SHARED_HEADERS;
   - a test of a room obeys the floor of its room; it may include headers beside it and in tests/;
   - a library's header is included only in the room that owns the library;
-  - source files have at most 800 lines, no reminders of unfinished work, no paths of one machine;
+  - source files have at most 800 lines of at most 120 columns, no reminders of unfinished work and no paths of one
+    machine;
   - no libm function whose last bits differ between machines is called in src/, except in LIBM_EXEMPT.
 
 Prints file:line: message for each breach; exit code 1 when there is one.
@@ -50,6 +51,7 @@ LIBRARY_ROOMS = {
 LIBM_EXEMPT = set()
 
 LONGEST_FILE = 800
+LONGEST_LINE = 120
 LENGTH_SUFFIXES = {".c", ".h", ".py", ".sh", ".js", ".mjs", ".ts", ".cmake"}
 TEXT_SUFFIXES = LENGTH_SUFFIXES | {".md", ".txt", ".yaml", ".yml", ".json", ".in", ".html", ".css"}
 # Spelt in pieces so that this file does not contain them.
@@ -57,7 +59,7 @@ REMINDERS = re.compile(r"\b(" + "|".join(("TO" + "DO", "FIX" + "ME", "X" + "XX",
 MACHINE_PATHS = re.compile(r"(?<![\w.])/(" + "|".join(("ho" + "me", "ro" + "ot", "wo" + "rk", "Us" + "ers")) + r")/\w")
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
-CALL = re.compile(r"(?<![\w.])(" + "|".join(sorted(TRANSCENDENTAL)) + r")\s*\(")
+CALL = re.compile(r"(?<![\w.])(?<!->)(" + "|".join(sorted(TRANSCENDENTAL)) + r")\s*\(")
 COMMENT_OR_TEXT = re.compile(r'/\*.*?\*/|//[^\n]*|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
 
@@ -102,6 +104,8 @@ def breaches_of(path, text):
     if path.suffix in LENGTH_SUFFIXES and len(lines) > LONGEST_FILE:
         yield len(lines), f"{len(lines)} lines; at most {LONGEST_FILE}: make two topics of it"
     for number, line in enumerate(lines, 1):
+        if path.suffix in LENGTH_SUFFIXES and len(line) > LONGEST_LINE:
+            yield number, f"{len(line)} columns; at most {LONGEST_LINE}"
         if REMINDERS.search(line):
             yield number, "a reminder of unfinished work: open an issue instead"
         if MACHINE_PATHS.search(line):

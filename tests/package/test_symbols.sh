@@ -19,5 +19,6 @@ if [ -z "$shared" ]; then
     exit 77
 fi
 check libfram.so "$shared"
-check libfram.a "$(nm --extern-only --defined-only "$FRAM_BUILD/libfram.a" 2>/dev/null | awk 'NF == 3 { print $3 }' | sort -u)"
+static=$(nm --extern-only --defined-only "$FRAM_BUILD/libfram.a" 2>/dev/null | awk 'NF == 3 { print $3 }' | sort -u)
+check libfram.a "$static"
 exit $status

@@ -45,7 +45,7 @@ class House(unittest.TestCase):
         self.plant("src/base/vec.h", "#include <math.h>\nstatic inline double f(double x) { return sqrt(x); }\n")
         self.plant("src/ice/floe.c", '#include "ice/floe.h"\n#include "base/vec.h"\n#include "fram/error.h"\n')
         self.plant("src/cli/main.c", '#include "cli/options.h"\n#include "fram/fram.h"\n')
-        self.plant("src/base/words.c", '/* sin(x) in words */ const char *t = "cos(x)"; double a = wave.sin(1);\n')
+        self.plant("src/base/words.c", '/* sin(x) in words */ const char *t = "cos(x)"; double a = w.sin(1) + c->log(1);\n')
         self.plant("tests/testing.h", "")
         self.plant("tests/ice/test_floe.c", '#include "ice/floe.h"\n#include "testing.h"\n')
         self.assertEqual(self.rooms(), "")
@@ -73,13 +73,15 @@ class House(unittest.TestCase):
         self.assertIn("src/ice/a.c:1: ", said)
         self.assertIn("src/ice/b.c:1: ", said)
 
-    def test_long_files_reminders_and_machine_paths(self):
+    def test_long_files_and_lines_reminders_and_machine_paths(self):
         self.plant("src/ice/long.c", "int a;\n" * 801)
         self.plant("src/ice/later.c", "/* " + "TO" + "DO */\n")
+        self.plant("src/ice/wide.c", "/* " + "a" * 120 + " */\n")
         self.plant("docs/guide.md", "see /ho" + "me/someone/file\n")
         said = self.rooms()
         self.assertIn("src/ice/long.c:801: ", said)
         self.assertIn("src/ice/later.c:1: ", said)
+        self.assertIn("src/ice/wide.c:1: ", said)
         self.assertIn("docs/guide.md:1: ", said)
 
     def test_libm_in_the_source(self):
