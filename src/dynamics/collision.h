@@ -5,7 +5,7 @@
 #include "bodies/shape.h"
 #include "dynamics/contact.h"
 
-typedef ARRAY(int32_t) index_array;
+typedef int32_array index_array;
 
 typedef struct collision_settings {
     double margin; /* fat box margin of the broad phase [m] */

@@ -5,7 +5,7 @@
 
 #include "geometry/polygon.h"
 
-typedef ARRAY(int32_t) index_array;
+typedef int32_array index_array;
 
 /* Triangles of the interior of p into out (what it held is dropped): three vertex numbers of p each, counter-clockwise.
    p is simple and counter-clockwise but may repeat a vertex several times in a row (the first one is used) and

@@ -1,4 +1,4 @@
-/* The triangle surface itself: storage, bounds, volume integrals, boxes and prisms.  Knows nothing of what the solid is for. */
+/* The triangle surface itself: storage, bounds, volume integrals, boxes.  Knows nothing of what the solid is for. */
 #include "geometry/mesh.h"
 
 #include <string.h>
@@ -141,44 +141,4 @@ bool mesh_make_box(context *ctx, vec3 lo, vec3 hi, mesh *out)
     out->vertex.count = 8;
     out->face.count = 12;
     return true;
-}
-
-static bool convex_fan(polygon p)
-{
-    for (int32_t i = 2; i < p.count; i++) {
-        vec2 a = vec2_sub(p.vertex[i - 1], p.vertex[0]), b = vec2_sub(p.vertex[i], p.vertex[0]);
-        if (!(vec2_cross(a, b) > 0))
-            return false;
-    }
-    return polygon_is_convex(p);
-}
-
-fram_status mesh_make_prism(context *ctx, polygon outline, double bottom, double top, mesh *out, fram_error *error)
-{
-    int32_t n = outline.count;
-    mesh_clear(out);
-    if (n < 3 || !(polygon_area(outline) > 0))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
-                         "outline of %d vertices and area %g m2: expected at least 3, counter-clockwise", n,
-                         n < 3 ? 0 : polygon_area(outline));
-    if (!(bottom < top))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "prism from z = %g to %g m has no height", bottom, top);
-    if (!array_reserve(ctx, &out->vertex, 2 * n) || !array_reserve(ctx, &out->face, 4 * n - 4))
-        return error_memory(error);
-    for (int32_t i = 0; i < 2 * n; i++) {
-        vec2 p = outline.vertex[i % n];
-        mesh_add_vertex(ctx, out, (vec3){p.x, p.y, i < n ? bottom : top});
-    }
-    if (!convex_fan(outline))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "outline is not convex");
-    for (int32_t i = 2; i < n; i++) {
-        mesh_add_triangle(ctx, out, 0, i, i - 1);
-        mesh_add_triangle(ctx, out, n, n + i - 1, n + i);
-    }
-    for (int32_t i = 0; i < n; i++) {
-        int32_t j = i + 1 < n ? i + 1 : 0;
-        mesh_add_triangle(ctx, out, i, j, n + j);
-        mesh_add_triangle(ctx, out, i, n + j, n + i);
-    }
-    return FRAM_OK;
 }

@@ -95,10 +95,12 @@ fram_status mesh_check(context *ctx, const mesh *m, bool self_intersection, mesh
 /* Join vertices closer than `distance` [m] (grid hash, lowest index wins), drop triangles that lose their area. */
 fram_status mesh_weld(context *ctx, mesh *m, double distance, int32_t *joined);
 
-/* The polygon extruded along z from `bottom` to `top`: outer faces only (top, bottom, sides), closed; top and bottom
-   triangulated through the given triangles or by ear clipping of the (cleaned, simple) outline. */
+/* The polygon extruded along z from `bottom` to `top`: outer faces only (bottom, top, sides), closed.  Vertices repeated in a
+   row are taken once; of the n that are left, vertex i is at the bottom, n + i at the top.  Lids are fans where that is a
+   triangulation (convex outlines), ears otherwise.  What out held is dropped; it is empty on failure.
+   FRAM_ERROR_INPUT: outline not simple, not counter-clockwise, or bottom >= top. */
 fram_status mesh_make_prism(context *ctx, polygon outline, double bottom, double top, mesh *out, fram_error *error);
-/* Axis-aligned box. */
+/* Axis-aligned box; what out held is dropped.  false: no memory. */
 bool mesh_make_box(context *ctx, vec3 lo, vec3 hi, mesh *out);
 
 /* The part of one triangle below the plane z <= level, as a convex polygon of at most 4 vertices; returns the count, which is 1

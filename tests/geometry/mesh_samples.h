@@ -1,0 +1,82 @@
+/* Surfaces that several tests of geometry share. */
+#ifndef MESH_SAMPLES_H
+#define MESH_SAMPLES_H
+
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "geometry/mesh.h"
+#include "testing.h"
+
+/* A closed grid surface over u (stations) and v (around, closed), capped at both ends by fans: what ships are made of.
+   point(u index, v index) gives the vertices; v runs so that triangles look outward for u along +x and v clockwise seen
+   from +x, that is from port over the keel to starboard. */
+typedef vec3 (*surface_point)(int32_t u, int32_t v, const void *arg);
+
+static inline void sample_surface(context *ctx, int32_t stations, int32_t around, surface_point point, const void *arg,
+                                  mesh *out)
+{
+    for (int32_t u = 0; u < stations; u++)
+        for (int32_t v = 0; v < around; v++)
+            mesh_add_vertex(ctx, out, point(u, v, arg));
+    for (int32_t u = 0; u + 1 < stations; u++)
+        for (int32_t v = 0; v < around; v++) {
+            int32_t w = v + 1 < around ? v + 1 : 0;
+            int32_t a = u * around + v, b = u * around + w, c = a + around, d = b + around;
+            mesh_add_triangle(ctx, out, a, c, d);
+            mesh_add_triangle(ctx, out, a, d, b);
+        }
+    for (int end = 0; end < 2; end++) {
+        int32_t first = end ? (stations - 1) * around : 0, centre = out->vertex.count;
+        vec3 sum = {0, 0, 0};
+        for (int32_t v = 0; v < around; v++)
+            sum = vec3_add(sum, out->vertex.data[first + v]);
+        mesh_add_vertex(ctx, out, vec3_scale(sum, 1.0 / around));
+        for (int32_t v = 0; v < around; v++) {
+            int32_t w = v + 1 < around ? v + 1 : 0;
+            if (end)
+                mesh_add_triangle(ctx, out, centre, first + w, first + v);
+            else
+                mesh_add_triangle(ctx, out, centre, first + v, first + w);
+        }
+    }
+}
+
+/* Append a copy of src moved by `shift`. */
+static inline void sample_append(context *ctx, mesh *dst, const mesh *src, vec3 shift)
+{
+    int32_t base = dst->vertex.count;
+    for (int32_t i = 0; i < src->vertex.count; i++)
+        mesh_add_vertex(ctx, dst, vec3_add(src->vertex.data[i], shift));
+    for (int32_t i = 0; i < src->face.count; i++) {
+        const int32_t *v = src->face.data[i].v;
+        mesh_add_triangle(ctx, dst, base + v[0], base + v[1], base + v[2]);
+    }
+}
+
+/* Turn and shift all vertices. */
+static inline void sample_move(mesh *m, quat q, vec3 shift)
+{
+    mat3 r = quat_matrix(quat_unit(q));
+    for (int32_t i = 0; i < m->vertex.count; i++)
+        m->vertex.data[i] = vec3_add(mat3_mul_vec(r, m->vertex.data[i]), shift);
+}
+
+/* A sphere-like grid surface of 2 stations around triangles, radius about 1, for large meshes. */
+typedef struct sample_sphere {
+    int32_t stations, around;
+    double radius;
+} sample_sphere;
+static inline vec3 sample_sphere_point(int32_t u, int32_t v, const void *arg)
+{
+    const sample_sphere *s = arg;
+    double along = PI * (u + 0.5) / s->stations, turn = -2 * PI * v / s->around;
+    double r = s->radius * real_sin(along);
+    return (vec3){-s->radius * real_cos(along), r * real_cos(turn), r * real_sin(turn)};
+}
+static inline void sample_sphere_mesh(context *ctx, int32_t stations, int32_t around, double radius, mesh *out)
+{
+    sample_sphere s = {stations, around, radius};
+    sample_surface(ctx, stations, around, sample_sphere_point, &s, out);
+}
+
+#endif
