@@ -56,8 +56,8 @@ static bool is_ear(const ring *r, int32_t i)
         return false;
     int32_t before = node[i].previous, after = node[i].next;
     vec2 a = r->vertex[before], b = r->vertex[i], c = r->vertex[after];
-    double lo_x = lesser(lesser(a.x, b.x), c.x), hi_x = greater(greater(a.x, b.x), c.x);
-    double lo_y = lesser(lesser(a.y, b.y), c.y), hi_y = greater(greater(a.y, b.y), c.y);
+    double lo_x = real_min(real_min(a.x, b.x), c.x), hi_x = real_max(real_max(a.x, b.x), c.x);
+    double lo_y = real_min(real_min(a.y, b.y), c.y), hi_y = real_max(real_max(a.y, b.y), c.y);
     for (int32_t k = node[after].next; k != before; k = node[k].next) {
         vec2 p = r->vertex[k];
         if (!node[k].convex && p.x >= lo_x && p.x <= hi_x && p.y >= lo_y && p.y <= hi_y && in_triangle(a, b, c, p))

@@ -71,12 +71,15 @@ int orientation(vec2 a, vec2 b, vec2 c)
         return 1;
     if (det < -bound)
         return -1;
+    if ((a.x == c.x || b.y == c.y) && (a.y == c.y || b.x == c.x))
+        return 0; /* a line along an axis: common, and no reason for the slow way */
     return exact_orientation(a, b, c);
 }
 
 static bool in_box(vec2 a, vec2 b, vec2 p)
 {
-    return p.x >= lesser(a.x, b.x) && p.x <= greater(a.x, b.x) && p.y >= lesser(a.y, b.y) && p.y <= greater(a.y, b.y);
+    return p.x >= real_min(a.x, b.x) && p.x <= real_max(a.x, b.x) && p.y >= real_min(a.y, b.y) &&
+           p.y <= real_max(a.y, b.y);
 }
 
 bool segment_contains(vec2 a, vec2 b, vec2 p)
@@ -86,8 +89,8 @@ bool segment_contains(vec2 a, vec2 b, vec2 p)
 
 bool segments_touch(vec2 a, vec2 b, vec2 c, vec2 d)
 {
-    if (greater(a.x, b.x) < lesser(c.x, d.x) || greater(c.x, d.x) < lesser(a.x, b.x) || greater(a.y, b.y) < lesser(c.y, d.y) ||
-        greater(c.y, d.y) < lesser(a.y, b.y))
+    if (real_max(a.x, b.x) < real_min(c.x, d.x) || real_max(c.x, d.x) < real_min(a.x, b.x) ||
+        real_max(a.y, b.y) < real_min(c.y, d.y) || real_max(c.y, d.y) < real_min(a.y, b.y))
         return false;
     int ab_c = orientation(a, b, c), ab_d = orientation(a, b, d);
     if (ab_c * ab_d > 0)

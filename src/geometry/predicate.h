@@ -19,8 +19,8 @@ bool segment_contains(vec2 a, vec2 b, vec2 p);
 bool segments_touch(vec2 a, vec2 b, vec2 c, vec2 d);
 
 /* fmin and fmax without their rule for NaN, which keeps compilers from inlining them. */
-static inline double lesser(double a, double b) { return a < b ? a : b; }
-static inline double greater(double a, double b) { return a > b ? a : b; }
+static inline double real_min(double a, double b) { return a < b ? a : b; }
+static inline double real_max(double a, double b) { return a > b ? a : b; }
 
 static inline bool vec2_equal(vec2 a, vec2 b) { return a.x == b.x && a.y == b.y; }
 

@@ -1,0 +1,112 @@
+/* Algorithm 10: what is too small for the simulator leaves an outline. */
+#include "geometry/polygon.h"
+#include "geometry/predicate.h"
+
+/* Cosine of the turn beyond which a vertex is straight, or below the negative of which it is a spike (about 8
+   degrees). */
+#define TURN_COSINE 0.99
+
+typedef enum fate { FATE_KEPT, FATE_MERGED, FATE_SPIKE } fate;
+
+/* The ring that is left, linked through the numbers of the original vertices. */
+typedef struct clean_node {
+    int32_t previous, next;
+    fate fate;
+} clean_node;
+
+typedef struct cleaning {
+    polygon p;
+    double edge;
+    clean_node *node;
+    int32_t first, left;
+} cleaning;
+
+/* Every vertex merged between the kept ones a and b, and those between them now, lie within the edge threshold of
+   the chord ab. */
+static bool chord_serves(const cleaning *c, int32_t a, int32_t b)
+{
+    vec2 from = c->p.vertex[a], to = c->p.vertex[b];
+    for (int32_t i = a + 1 < c->p.count ? a + 1 : 0; i != b; i = i + 1 < c->p.count ? i + 1 : 0) {
+        vec2 v = c->p.vertex[i];
+        double height = vec2_length(vec2_sub(segment_nearest(from, to, v), v));
+        if (c->node[i].fate != FATE_SPIKE && height >= c->edge && height > 0)
+            return false;
+    }
+    return true;
+}
+
+/* Which vertex of the short edge from i goes. */
+static int32_t short_edge_victim(const cleaning *c, int32_t i)
+{
+    int32_t next = c->node[i].next;
+    if (!chord_serves(c, c->node[i].previous, next) && chord_serves(c, i, c->node[next].next))
+        return next;
+    return i;
+}
+
+/* The vertex that goes because of vertex i, or -1. */
+static int32_t victim_at(const cleaning *c, int32_t i, fate *why)
+{
+    int32_t previous = c->node[i].previous, next = c->node[i].next;
+    vec2 e0 = vec2_sub(c->p.vertex[i], c->p.vertex[previous]), e1 = vec2_sub(c->p.vertex[next], c->p.vertex[i]);
+    double l0 = vec2_length(e0), l1 = vec2_length(e1);
+    *why = FATE_MERGED;
+    if (l1 < c->edge || l1 == 0)
+        return short_edge_victim(c, i);
+    if (l0 == 0)
+        return -1; /* the vertex before goes, in its turn */
+    double cosine = vec2_dot(e0, e1) / (l0 * l1);
+    if (cosine < -TURN_COSINE) {
+        *why = FATE_SPIKE;
+        return i;
+    }
+    return cosine > TURN_COSINE && chord_serves(c, previous, next) ? i : -1;
+}
+
+static void drop(cleaning *c, int32_t i, fate why)
+{
+    int32_t previous = c->node[i].previous, next = c->node[i].next;
+    c->node[i].fate = why;
+    c->node[previous].next = next;
+    c->node[next].previous = previous;
+    if (c->first == i)
+        c->first = next;
+    c->left--;
+}
+
+/* Once round; true when a vertex was dropped. */
+static bool clean_pass(cleaning *c)
+{
+    int32_t before = c->left, i = c->first;
+    for (int32_t visits = c->left; visits > 0 && c->left > 3; visits--) {
+        fate why;
+        int32_t victim = victim_at(c, i, &why), next = c->node[i].next;
+        if (victim >= 0)
+            drop(c, victim, why);
+        if (victim != next)
+            i = next;
+    }
+    return c->left < before;
+}
+
+bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out)
+{
+    array_clear(out);
+    if (p.count == 0)
+        return true;
+    cleaning c = {.p = p, .edge = edge, .left = p.count};
+    c.node = memory_array(ctx, (size_t)p.count, sizeof *c.node);
+    if (!c.node || !array_reserve(ctx, out, p.count)) {
+        memory_free(ctx, c.node);
+        return false;
+    }
+    for (int32_t i = 0; i < p.count; i++)
+        c.node[i] = (clean_node){i > 0 ? i - 1 : p.count - 1, i + 1 < p.count ? i + 1 : 0, FATE_KEPT};
+    while (clean_pass(&c))
+        continue;
+    for (int32_t i = 0; i < p.count; i++)
+        if (c.node[i].fate == FATE_KEPT)
+            out->data[out->count++] = p.vertex[i];
+    memory_free(ctx, c.node);
+    return true;
+}

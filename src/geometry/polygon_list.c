@@ -1,0 +1,36 @@
+/* Pools of polygons. */
+#include "geometry/polygon.h"
+#include <string.h>
+
+polygon polygon_list_get(const polygon_list *l, int32_t i)
+{
+    int32_t first = l->start.data[i];
+    return (polygon){l->vertex.data ? l->vertex.data + first : NULL, l->start.data[i + 1] - first};
+}
+
+bool polygon_list_push(context *ctx, polygon_list *l, polygon p)
+{
+    bool fresh = l->start.count == 0;
+    if (p.count > INT32_MAX - l->vertex.count || !array_reserve(ctx, &l->vertex, l->vertex.count + p.count) ||
+        !array_reserve(ctx, &l->start, l->start.count + 1 + fresh))
+        return false;
+    if (p.count > 0)
+        memcpy(l->vertex.data + l->vertex.count, p.vertex, (size_t)p.count * sizeof *p.vertex);
+    l->vertex.count += p.count;
+    if (fresh)
+        l->start.data[l->start.count++] = 0;
+    l->start.data[l->start.count++] = l->vertex.count;
+    return true;
+}
+
+void polygon_list_clear(polygon_list *l)
+{
+    array_clear(&l->vertex);
+    array_clear(&l->start);
+}
+
+void polygon_list_free(context *ctx, polygon_list *l)
+{
+    array_free(ctx, &l->vertex);
+    array_free(ctx, &l->start);
+}
