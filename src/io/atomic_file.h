@@ -1,0 +1,22 @@
+/* Files that are there whole or not at all: written beside their place, synced, then renamed over it. */
+#ifndef IO_ATOMIC_FILE_H
+#define IO_ATOMIC_FILE_H
+
+#include "io/file.h"
+
+typedef struct atomic_file {
+    file_writer writer; /* give it to file_write */
+    char *path;
+} atomic_file;
+
+/* Begin the temporary file PATH.new. */
+fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error);
+/* Flush, sync, rename, sync the folder.  On an error the old file is untouched and the temporary one is removed. */
+fram_status atomic_file_commit(atomic_file *a, fram_error *error);
+/* Remove the temporary file. */
+void atomic_file_abandon(atomic_file *a);
+
+/* All three. */
+fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error);
+
+#endif

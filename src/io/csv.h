@@ -1,0 +1,32 @@
+/* Comma-separated columns: one header row `name[unit]`, then rows of numbers, each the shortest text that reads back as the
+   same double.  Lines end in a newline.  Knows nothing of what the columns mean. */
+#ifndef IO_CSV_H
+#define IO_CSV_H
+
+#include "io/file.h"
+
+typedef struct csv_column {
+    const char *name;
+    const char *unit; /* "" or NULL: header without brackets */
+} csv_column;
+
+typedef struct csv_writer {
+    file_writer file;
+    int32_t column_count;
+} csv_writer;
+
+/* A new file with its header row. */
+fram_status csv_create(context *ctx, const char *path, const csv_column *columns, int32_t count, csv_writer *w,
+                       fram_error *error);
+/* Continue a file that is cut to `length` (a csv_length of before).  FRAM_ERROR_INPUT when it is shorter, its header row is
+   another or the cut is not after the end of a row. */
+fram_status csv_continue(context *ctx, const char *path, uint64_t length, const csv_column *columns, int32_t count,
+                         csv_writer *w, fram_error *error);
+/* One value per column. */
+fram_status csv_append(csv_writer *w, const double *row, fram_error *error);
+fram_status csv_flush(csv_writer *w, bool sync, fram_error *error);
+/* Bytes so far, the unwritten ones included. */
+uint64_t csv_length(const csv_writer *w);
+fram_status csv_close(csv_writer *w, fram_error *error);
+
+#endif

@@ -1,0 +1,32 @@
+/* Raster images of drawings: a cairo surface, written as PNG through a temporary file.  Without cairo in the build every call
+   returns FRAM_ERROR_UNSUPPORTED. */
+#ifndef IO_IMAGE_H
+#define IO_IMAGE_H
+
+#include "base/context.h"
+
+/* True when this build can make pictures. */
+bool image_available(void);
+
+#ifdef FRAM_HAVE_CAIRO
+#include <cairo.h>
+
+typedef struct image_colour {
+    double r, g, b;
+} image_colour;
+
+/* A white page of width x height pixels. */
+fram_status image_begin(int width, int height, cairo_t **page, fram_error *error);
+/* Write the page to `path` and free it; frees it on failure too. */
+fram_status image_write(context *ctx, cairo_t *page, const char *path, fram_error *error);
+void image_set_colour(cairo_t *page, image_colour c);
+typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
+/* Text with its baseline at (x, y). */
+void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);
+double image_text_width(cairo_t *page, double size, bool bold, const char *text);
+#endif
+
+/* A round step (1, 2 or 5 times a power of ten) that divides `span` into about `parts`. */
+double image_round_step(double span, int parts);
+
+#endif

@@ -1,0 +1,140 @@
+#include "io/plan_view.h"
+
+#include "io/image.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#ifdef FRAM_HAVE_CAIRO
+
+typedef struct plan_look {
+    image_colour fill, line;
+    const char *name;
+} plan_look;
+
+static const plan_look looks[PLAN_STYLE_COUNT] = {
+    [PLAN_FLOE] = {{0.95, 0.97, 0.99}, {0.36, 0.48, 0.60}, "floe"},
+    [PLAN_FIXED_ICE] = {{0.82, 0.89, 0.95}, {0.30, 0.42, 0.55}, "fixed ice"},
+    [PLAN_WALL] = {{0.45, 0.42, 0.40}, {0.30, 0.28, 0.26}, "wall"},
+    [PLAN_DECK] = {{0.80, 0.28, 0.18}, {0.35, 0.08, 0.05}, "vessel"},
+    [PLAN_WATERLINE] = {{0.93, 0.55, 0.42}, {0.35, 0.08, 0.05}, "vessel at the waterline"},
+};
+static const image_colour water = {0.16, 0.36, 0.52}, ink = {0.1, 0.1, 0.1};
+
+typedef struct map {
+    double left, top, scale; /* pixels; pixels per metre */
+    box2 window;
+} map;
+
+static double map_x(const map *m, vec2 p) { return m->left + (p.x - m->window.lo.x) * m->scale; }
+static double map_y(const map *m, vec2 p) { return m->top + (m->window.hi.y - p.y) * m->scale; }
+
+static void trace(cairo_t *page, const map *m, polygon p)
+{
+    for (int32_t i = 0; i < p.count; i++) cairo_line_to(page, map_x(m, p.vertex[i]), map_y(m, p.vertex[i]));
+    cairo_close_path(page);
+}
+
+static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool used[PLAN_STYLE_COUNT])
+{
+    for (int32_t i = 0; i < view->shape_count; i++) {
+        const plan_shape *s = &view->shapes[i];
+        used[s->style] = true;
+        trace(page, m, s->outline);
+        image_set_colour(page, looks[s->style].fill);
+        cairo_fill_preserve(page);
+        image_set_colour(page, looks[s->style].line);
+        cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
+        cairo_stroke(page);
+    }
+    if (view->track_count < 2) return;
+    for (int32_t i = 0; i < view->track_count; i++) cairo_line_to(page, map_x(m, view->track[i]), map_y(m, view->track[i]));
+    cairo_set_source_rgba(page, 0.85, 0.1, 0.1, 0.8);
+    cairo_set_line_width(page, 1.2);
+    cairo_stroke(page);
+}
+
+static void draw_scale_bar(cairo_t *page, const map *m, double x, double y)
+{
+    double length = image_round_step(m->window.hi.x - m->window.lo.x, 6), px = length * m->scale;
+    char text[32];
+    snprintf(text, sizeof text, "%g m", length);
+    image_set_colour(page, ink);
+    cairo_rectangle(page, x, y - 6, px, 6);
+    cairo_fill(page);
+    image_set_colour(page, (image_colour){1, 1, 1});
+    cairo_rectangle(page, x + px / 2, y - 5, px / 2 - 1, 4);
+    cairo_fill(page);
+    image_set_colour(page, ink);
+    image_text(page, x + px + 8, y, 12, ALIGN_LEFT, false, text);
+}
+
+/* The axes of the global frame, for there is no north in a scenario. */
+static void draw_axes(cairo_t *page, double x, double y)
+{
+    image_set_colour(page, ink);
+    cairo_set_line_width(page, 1.5);
+    cairo_move_to(page, x, y - 26);
+    cairo_line_to(page, x, y);
+    cairo_line_to(page, x + 26, y);
+    cairo_stroke(page);
+    image_text(page, x + 29, y + 4, 12, ALIGN_LEFT, true, "X");
+    image_text(page, x - 4, y - 29, 12, ALIGN_LEFT, true, "Y");
+}
+
+static void draw_legend(cairo_t *page, const bool used[PLAN_STYLE_COUNT], double right, double y)
+{
+    for (int s = PLAN_STYLE_COUNT - 1; s >= 0; s--) {
+        if (!used[s]) continue;
+        right -= image_text_width(page, 12, false, looks[s].name);
+        image_set_colour(page, ink);
+        image_text(page, right, y, 12, ALIGN_LEFT, false, looks[s].name);
+        cairo_rectangle(page, right - 20, y - 11, 14, 12);
+        image_set_colour(page, looks[s].fill);
+        cairo_fill_preserve(page);
+        image_set_colour(page, looks[s].line);
+        cairo_set_line_width(page, 1);
+        cairo_stroke(page);
+        right -= 36;
+    }
+}
+
+fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
+{
+    double w = view->window.hi.x - view->window.lo.x, h = view->window.hi.y - view->window.lo.y;
+    if (!(w > 0 && h > 0)) return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "the plan view's window is empty");
+    map m = {.left = 14, .top = 64, .scale = longest / fmax(w, h), .window = view->window};
+    int width = (int)fmax(w * m.scale + 28, 720), height = (int)(h * m.scale + 64 + 44);
+    m.left = (width - w * m.scale) / 2;
+    cairo_t *page = NULL;
+    fram_status status = image_begin(width, height, &page, error);
+    if (status != FRAM_OK) return status;
+
+    bool used[PLAN_STYLE_COUNT] = {false};
+    cairo_save(page);
+    cairo_rectangle(page, m.left, m.top, w * m.scale, h * m.scale);
+    cairo_clip(page);
+    image_set_colour(page, water);
+    cairo_paint(page);
+    draw_shapes(page, &m, view, used);
+    cairo_restore(page);
+
+    double below = m.top + h * m.scale + 28;
+    image_set_colour(page, ink);
+    image_text(page, m.left, 26, 17, ALIGN_LEFT, true, view->title);
+    image_text(page, m.left, 48, 12.5, ALIGN_LEFT, false, view->caption);
+    draw_scale_bar(page, &m, m.left, below);
+    draw_axes(page, width - 60, 44);
+    draw_legend(page, used, m.left + w * m.scale, below);
+    return image_write(ctx, page, path, error);
+}
+
+#else
+
+fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
+{
+    (void)ctx, (void)view, (void)longest;
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL, "this build has no cairo, so it draws no plan views");
+}
+
+#endif

@@ -1,0 +1,20 @@
+/* Text that grows. */
+#ifndef IO_TEXT_BUFFER_H
+#define IO_TEXT_BUFFER_H
+
+#include "base/array.h"
+
+/* data holds count bytes and a NUL after them (NULL while nothing was added).  failed: an addition found no memory; all later
+   ones are ignored, so that it is enough to look at the end. */
+typedef struct text_buffer {
+    char *data;
+    int32_t count, capacity;
+    bool failed;
+} text_buffer;
+
+void text_add(context *ctx, text_buffer *b, const char *text);
+void text_add_bytes(context *ctx, text_buffer *b, const char *data, size_t size);
+void text_format(context *ctx, text_buffer *b, const char *format, ...) __attribute__((format(printf, 3, 4)));
+void text_free(context *ctx, text_buffer *b);
+
+#endif

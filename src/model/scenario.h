@@ -1,0 +1,81 @@
+/* The scenario: everything a run is told, as plain data.  Made once (by io/scenario_file.h, or by scenario_defaults and
+   assignments), checked, then never changed.  Its keys, units and defaults stand in scenario_keys.h; member names are the
+   keys: `run.solver.iterations` of the file is scenario.run.solver.iterations.  Knows neither files nor physics. */
+#ifndef MODEL_SCENARIO_H
+#define MODEL_SCENARIO_H
+
+#include "base/array.h"
+#include "dynamics/solver.h"
+#include "model/scenario_keys.h"
+#include "vessel/vessel.h"
+
+/* Where the ice comes from. */
+typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE } ice_source;
+typedef enum floe_shape { FLOE_RECTANGLE = 0, FLOE_REGULAR } floe_shape;
+/* What closes the domain. */
+typedef enum domain_boundary { BOUNDARY_WALLS = 0, BOUNDARY_OPEN } domain_boundary;
+
+/* Text is held in place, so that a scenario is plain data; longer text is refused. */
+enum { SCENARIO_TEXT_SIZE = 512 };
+typedef char scenario_text[SCENARIO_TEXT_SIZE];
+
+/* Types of the members that the rows' specs stand for. */
+#define SCENARIO_TYPE_REAL(value, lo, hi) double
+#define SCENARIO_TYPE_SCALED(value, at, power, lo, hi) double
+#define SCENARIO_TYPE_AUTOMATIC(lo, hi) double
+#define SCENARIO_TYPE_INTEGER(value, lo, hi) int64_t
+#define SCENARIO_TYPE_BOOLEAN(value) bool
+#define SCENARIO_TYPE_CHOICE(type, value, names) type
+#define SCENARIO_TYPE_TEXT(value) scenario_text
+#define SCENARIO_TYPE_PATH(value) scenario_text
+#define SCENARIO_TYPE_SECTION(noun) scenario_##noun
+#define SCENARIO_TYPE_LIST(noun) scenario_##noun##_list
+
+#define SCENARIO_MEMBER(name, spec, unit, meaning) SCENARIO_TYPE_##spec name;
+#define SCENARIO_STRUCT(noun, KEYS)         \
+    typedef struct scenario_##noun {        \
+        KEYS(SCENARIO_MEMBER)               \
+    } scenario_##noun;                      \
+    typedef ARRAY(scenario_##noun) scenario_##noun##_list;
+
+SCENARIO_SECTIONS(SCENARIO_STRUCT)
+
+/* Where the file gave a key: for errors that are found after reading. */
+typedef struct scenario_place {
+    char key[96]; /* full path, "ice.floes[2].x" */
+    int line, column;
+    bool override; /* given on the command line, not in the file */
+} scenario_place;
+
+typedef struct scenario {
+    SCENARIO_KEYS(SCENARIO_MEMBER)
+
+    /* Not part of what the scenario says: not printed, not hashed. */
+    scenario_text file; /* the file it was read from, or empty */
+    ARRAY(scenario_place) places;
+} scenario;
+
+/* An AUTOMATIC value that was left to Fram. */
+static inline bool is_automatic(double value) { return value != value; }
+/* The value, or `otherwise` when it was left to Fram. */
+static inline double automatic_or(double value, double otherwise) { return is_automatic(value) ? otherwise : value; }
+
+/* Every key at its default for a scaling factor, lists empty.  Allocates nothing. */
+void scenario_defaults(scenario *s, double scale);
+/* A list element at its defaults. */
+void scenario_floe_defaults(scenario_floe *floe, double scale);
+void scenario_free(context *ctx, scenario *s);
+
+/* Range of every key, then that the keys go together (x_min < x_max, floes with a shape, ...).  FRAM_ERROR_INPUT with the
+   key at fault, and its place when the scenario came from a file. */
+fram_status scenario_check(const scenario *s, fram_error *error);
+
+/* Fill file, line and column of an error that names a key, when the file gave that key; otherwise only the file.  For errors
+   found while a world is made from the scenario. */
+void scenario_locate(const scenario *s, fram_error *error);
+
+/* A path of the scenario, which is relative to the scenario's own folder, as one that can be opened.  false when it does
+   not fit. */
+bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size);
+
+#endif

@@ -1,0 +1,79 @@
+/* The schema: scenario_keys.h as a tree of descriptors, for everything that walks a scenario (reader, printer, reference,
+   checks).  A section's keys are in the order of the rows. */
+#ifndef MODEL_SCENARIO_SCHEMA_H
+#define MODEL_SCENARIO_SCHEMA_H
+
+#include "model/scenario.h"
+
+typedef enum key_kind {
+    KEY_REAL = 0,
+    KEY_INTEGER,
+    KEY_BOOLEAN,
+    KEY_CHOICE,
+    KEY_TEXT,
+    KEY_PATH,
+    KEY_SECTION,
+    KEY_LIST
+} key_kind;
+
+typedef struct scenario_section scenario_section;
+
+typedef struct scenario_key {
+    const char *name;
+    const char *unit; /* "" for what has none, "1" for pure numbers */
+    const char *meaning;
+    key_kind kind;
+    bool automatic;                  /* real: `auto` is allowed, and the default */
+    size_t offset;                   /* in the struct of its section */
+    double value;                    /* default of a real (at `at`), integer, boolean or choice */
+    double at, power;                /* default of a real = value * (scale / at)^power; power 0: constant */
+    double lo, hi;                   /* closed range of a real or integer */
+    const char *text;                /* choice: the names, one blank between; text and path: the default */
+    const scenario_section *section; /* of a section, of a list's elements */
+} scenario_key;
+
+struct scenario_section {
+    const char *noun;
+    size_t size; /* of its struct */
+    int32_t key_count;
+    const scenario_key *keys;
+};
+
+/* The whole scenario. */
+extern const scenario_section scenario_schema;
+
+/* What any list begins with: an ARRAY of bytes. */
+typedef struct scenario_any_list {
+    void *data;
+    int32_t count, capacity;
+} scenario_any_list;
+
+/* The member that a key describes, inside the struct of its section. */
+static inline void *key_member(const scenario_key *key, void *section) { return (char *)section + key->offset; }
+static inline const void *key_member_const(const scenario_key *key, const void *section)
+{
+    return (const char *)section + key->offset;
+}
+
+/* Index of a key of a section, -1 when there is none. */
+int32_t section_find(const scenario_section *section, const char *name);
+/* The key whose name is nearest to a misspelt one (Damerau's distance), NULL when none is near. */
+const char *section_nearest(const scenario_section *section, const char *name);
+/* Default of a real key. */
+double key_default(const scenario_key *key, double scale);
+/* Every key of a section, and of those inside it, at its default; lists empty. */
+void section_defaults(const scenario_section *section, void *data, double scale);
+/* One more element at its defaults at the end of a list; NULL without memory. */
+void *list_append(context *ctx, const scenario_key *key, scenario_any_list *list, double scale);
+
+/* The value of a choice, 0 based; its name; the value of a name, -1 when there is none.  Names are not terminated: size gets
+   their length. */
+int32_t choice_value(const scenario_key *key, const void *member);
+const char *choice_name(const scenario_key *key, int32_t value, size_t *size);
+int32_t choice_find(const scenario_key *key, const char *name);
+void choice_set(void *member, int32_t value);
+
+/* Value of a real, integer or boolean member, as a double (exact: integers are below 2^53). */
+double key_number(const scenario_key *key, const void *member);
+
+#endif
