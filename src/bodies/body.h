@@ -43,7 +43,7 @@ typedef struct wrench {
 
 /* A new body in the lowest free slot (so that results depend on order of events only), all fields zero but
    orientation (identity), shape and owner (-1) and generation.  Returns the slot, or -1 without memory. */
-int32_t body_create(context *ctx, body_table *bodies, motion motion, material material);
+int32_t body_create(context *ctx, body_table *bodies, motion kind, material substance);
 void body_remove(body_table *bodies, int32_t slot);
 static inline bool body_is_alive(const body_table *b, int32_t slot) { return b->motion[slot] != MOTION_NONE; }
 static inline bool body_is_dynamic(const body_table *b, int32_t slot) { return b->motion[slot] == MOTION_DYNAMIC; }

@@ -1,0 +1,71 @@
+/* The body table: slots, frames of reference and books.  Knows neither why bodies move nor what they are made for. */
+#include "bodies/body.h"
+
+#include <string.h>
+
+#define TABLE_SELF body_table
+TABLE_DEFINE(body, BODY_FIELDS)
+#undef TABLE_SELF
+
+int32_t body_create(context *ctx, body_table *bodies, motion kind, material substance)
+{
+    /* A free slot is a zero byte in the motion column: a search at memory speed, and no free list that would have to be
+       state. */
+    const uint8_t *hole = bodies->count > 0 ? memchr(bodies->motion, MOTION_NONE, (size_t)bodies->count) : NULL;
+    int32_t slot = hole ? (int32_t)(hole - bodies->motion) : bodies->count;
+    if (!hole && !table_resize(ctx, bodies, &body_table_info, bodies->count + 1))
+        return -1;
+    bodies->orientation[slot] = quat_identity();
+    bodies->shape[slot] = -1;
+    bodies->owner[slot] = -1;
+    bodies->generation[slot]++;
+    bodies->motion[slot] = (uint8_t)kind;
+    bodies->material[slot] = (uint8_t)substance;
+    return slot;
+}
+
+void body_remove(body_table *bodies, int32_t slot)
+{
+    /* Everything but the generation becomes zero, so that the state's hash forgets the body. */
+    uint32_t generation = bodies->generation[slot];
+    for (int f = 0; f < body_table_info.field_count; f++) {
+        const field_info *field = &body_table_info.fields[f];
+        memset((char *)table_field(bodies, field) + field->size * (size_t)slot, 0, field->size);
+    }
+    bodies->generation[slot] = generation;
+}
+
+vec3 body_point_velocity(const body_table *b, int32_t slot, vec3 point)
+{
+    vec3 arm = vec3_sub(point, b->position[slot]);
+    return vec3_add(b->velocity[slot], vec3_cross(b->angular_velocity[slot], arm));
+}
+
+vec3 body_to_local(const body_table *b, int32_t slot, vec3 point)
+{
+    return mat3_tmul_vec(quat_matrix(b->orientation[slot]), vec3_sub(point, b->position[slot]));
+}
+
+vec3 body_to_global(const body_table *b, int32_t slot, vec3 point)
+{
+    return vec3_add(b->position[slot], mat3_mul_vec(quat_matrix(b->orientation[slot]), point));
+}
+
+body_books body_books_of(const body_table *b)
+{
+    body_books sum = {0};
+    for (int32_t i = 0; i < b->count; i++) {
+        if (!body_is_dynamic(b, i))
+            continue;
+        mat3 r = quat_matrix(b->orientation[i]);
+        vec3 spin = mat3_tmul_vec(r, b->angular_velocity[i]);
+        vec3 spin_momentum = sym3_mul_vec(b->inertia[i], spin); /* body frame */
+        vec3 momentum = vec3_scale(b->velocity[i], b->mass[i]);
+        sum.mass += b->mass[i];
+        sum.kinetic_energy += 0.5 * (vec3_dot(momentum, b->velocity[i]) + vec3_dot(spin_momentum, spin));
+        sum.momentum = vec3_add(sum.momentum, momentum);
+        sum.angular_momentum = vec3_add(sum.angular_momentum, vec3_add(vec3_cross(b->position[i], momentum),
+                                                                       mat3_mul_vec(r, spin_momentum)));
+    }
+    return sum;
+}
