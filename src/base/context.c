@@ -47,10 +47,7 @@ const char *isa_name(isa i)
     return "unknown";
 }
 
-void *memory_resize(context *ctx, void *ptr, size_t size)
-{
-    return ctx->memory(ctx->memory_user, ptr, size);
-}
+void *memory_resize(context *ctx, void *ptr, size_t size) { return ctx->memory(ctx->memory_user, ptr, size); }
 
 void *memory_array(context *ctx, size_t count, size_t size)
 {
@@ -126,7 +123,4 @@ fram_status error_set(fram_error *e, fram_status status, const char *file, int l
     return status;
 }
 
-fram_status error_memory(fram_error *e)
-{
-    return error_set(e, FRAM_ERROR_MEMORY, NULL, 0, NULL, "not enough memory");
-}
+fram_status error_memory(fram_error *e) { return error_set(e, FRAM_ERROR_MEMORY, NULL, 0, NULL, "not enough memory"); }

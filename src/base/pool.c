@@ -3,8 +3,8 @@
    Invariants.  `ticket` holds the job's number in its upper half and the blocks not yet taken in its lower half; a
    block is taken by decreasing it.  `unfinished` counts the blocks of the job not yet credited as done; a thread
    credits its blocks after its last one, and the caller does not return before all are credited.  Hence while a
-   thread holds an uncredited block the job stays what it is, and fn, arg and blocks may be read without a lock; a thread
-   that is late finds nothing to take, whichever job it looks at.
+   thread holds an uncredited block the job stays what it is, and fn, arg and blocks may be read without a lock; a
+   thread that is late finds nothing to take, whichever job it looks at.
 
    Threads that find nothing look again for a moment and then sleep.  Both sides of going to sleep announce
    themselves first and look second, in sequentially consistent order, so that no wake-up is lost. */

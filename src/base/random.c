@@ -50,10 +50,7 @@ static void draw(random_stream *r, uint64_t bits[2])
 }
 
 /* The upper 53 bits as a multiple of 2^-53 in [0, 1). */
-static double unit_from_bits(uint64_t bits)
-{
-    return (double)(bits >> 11) * 0x1p-53;
-}
+static double unit_from_bits(uint64_t bits) { return (double)(bits >> 11) * 0x1p-53; }
 
 uint64_t random_bits(random_stream *r)
 {
@@ -62,10 +59,7 @@ uint64_t random_bits(random_stream *r)
     return bits[0];
 }
 
-double random_unit(random_stream *r)
-{
-    return unit_from_bits(random_bits(r));
-}
+double random_unit(random_stream *r) { return unit_from_bits(random_bits(r)); }
 
 double random_uniform(random_stream *r, double lo, double hi)
 {

@@ -17,9 +17,8 @@ mat3 mat3_mul(mat3 a, mat3 b)
 
 mat3 mat3_transpose(mat3 a)
 {
-    return (mat3){{{a.m[0][0], a.m[1][0], a.m[2][0]},
-                   {a.m[0][1], a.m[1][1], a.m[2][1]},
-                   {a.m[0][2], a.m[1][2], a.m[2][2]}}};
+    return (mat3){
+        {{a.m[0][0], a.m[1][0], a.m[2][0]}, {a.m[0][1], a.m[1][1], a.m[2][1]}, {a.m[0][2], a.m[1][2], a.m[2][2]}}};
 }
 
 mat3 mat3_inverse(mat3 a)
