@@ -1,0 +1,40 @@
+/* What a build says of itself. */
+#include "base/build.h"
+#include "fram/version.h"
+#include "testing.h"
+
+START_TEST(parts_name_what_the_build_cannot_do_without)
+{
+    ck_assert_ptr_nonnull(strstr(build_parts(), "geos "));
+    ck_assert_ptr_nonnull(strstr(build_parts(), "libfyaml "));
+    ck_assert_ptr_nonnull(strstr(build_parts(), "nettle "));
+    ck_assert_ptr_nonnull(strstr(build_parts(), "zlib "));
+    ck_assert_int_ne(build_parts()[0], ',');
+    ck_assert_int_ne(build_parts()[0], ' ');
+}
+END_TEST
+
+START_TEST(a_part_is_in_or_lacking_but_not_both)
+{
+    bool in = strstr(build_parts(), "cairo") != NULL, lacking = strstr(build_lacks(), "cairo") != NULL;
+    ck_assert_int_ne(in, lacking);
+}
+END_TEST
+
+START_TEST(compiler_and_kernels_are_named)
+{
+    ck_assert(strncmp(build_compiler(), "gcc ", 4) == 0 || strncmp(build_compiler(), "clang ", 6) == 0);
+    ck_assert(strncmp(build_kernels(), "baseline", 8) == 0);
+}
+END_TEST
+
+START_TEST(version_is_its_three_numbers)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%d.%d.%d", FRAM_VERSION_MAJOR, FRAM_VERSION_MINOR, FRAM_VERSION_PATCH);
+    ck_assert_str_eq(text, FRAM_VERSION);
+}
+END_TEST
+
+TEST_MAIN("build", parts_name_what_the_build_cannot_do_without, a_part_is_in_or_lacking_but_not_both,
+          compiler_and_kernels_are_named, version_is_its_three_numbers)
