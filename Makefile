@@ -4,6 +4,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 DESTDIR ?=
 FUZZ_SECONDS ?= 20
+BENCH_SCENE ?= scenes/demo.yaml
 BENCH_FLAGS ?=
 CTEST = ctest --output-on-failure --no-label-summary -j$(JOBS)
 STAMPS = build/stamps
@@ -49,8 +50,8 @@ fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
 	@cmake --build --preset fuzz -j$(JOBS)
 	@tools/fuzz.sh build/fuzz $(FUZZ_SECONDS)
 
-bench: build ## measure speed; BENCH_FLAGS go to `fram bench`
-	@build/release/fram bench $(BENCH_FLAGS)
+bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `fram bench`
+	@build/release/fram bench $(BENCH_SCENE) $(BENCH_FLAGS)
 
 coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by the tests
 	@cmake --build --preset coverage -j$(JOBS)
