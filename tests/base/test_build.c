@@ -2,6 +2,7 @@
 #include "base/build.h"
 #include "fram/version.h"
 #include "testing.h"
+#include <stdio.h>
 
 START_TEST(parts_name_what_the_build_cannot_do_without)
 {
