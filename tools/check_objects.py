@@ -5,7 +5,8 @@
   - no object holds a fused multiply-add (-ffp-contract=off must reach every file, the wide kernels above all);
   - no object holds writable data: there is no global state.
 
-Files that draw (LIBM_EXEMPT) may call libm.  The command is not looked at: a signal handler needs a flag.  Prints each breach; exit code 1 when there is one.
+Files that draw (LIBM_EXEMPT) may call libm.  The command is not looked at: a signal handler needs a flag.  Prints each
+breach; exit code 1 when there is one.
 """
 
 import pathlib
