@@ -1,0 +1,74 @@
+/* Fluid and gravity on all bodies, in parallel over fixed blocks of slots. */
+#include "base/pool.h"
+#include "fluid/fluid.h"
+
+/* Slots a block: long enough to be worth handing out, short enough to share a thousand bodies among many threads. */
+enum { BLOCK_SLOTS = 64 };
+
+typedef struct fluid_work {
+    const media *media;
+    const drag_coefficients *coefficients;
+    const body_table *bodies;
+    const shape_store *shapes;
+    wrench *loads;
+    fluid_load *detail;
+} fluid_work;
+
+static fluid_load load_of_body(const fluid_work *w, int32_t slot)
+{
+    fluid_load load = {0};
+    const body_table *b = w->bodies;
+    int32_t shape = b->shape[slot];
+    if (shape < 0)
+        return load;
+    fluid_motion state = {b->position[slot], quat_matrix(b->orientation[slot]), b->velocity[slot],
+                           b->angular_velocity[slot]};
+    const drag_coefficients *c = &w->coefficients[b->material[slot]];
+    if (w->shapes->shapes.kind[shape] == SHAPE_PRISM)
+        fluid_load_prism(w->media, c, shape_outline(w->shapes, shape), w->shapes->shapes.half_height[shape], &state,
+                         &load);
+    else if (w->shapes->shapes.kind[shape] == SHAPE_SOLID)
+        fluid_load_mesh(w->media, c, &w->shapes->solids.data[w->shapes->shapes.solid[shape]].surface, &state, &load);
+    return load;
+}
+
+static wrench total_of(const fluid_work *w, int32_t slot, const fluid_load *load)
+{
+    wrench sum = load->hydrostatic;
+    sum.force = vec3_add(sum.force, vec3_add(load->water_drag.force, load->wind_drag.force));
+    sum.moment = vec3_add(sum.moment, vec3_add(load->water_drag.moment, load->wind_drag.moment));
+    sum.force.z -= w->bodies->mass[slot] * w->media->gravity;
+    return sum;
+}
+
+static void apply_block(void *arg, int32_t block, int32_t thread)
+{
+    (void)thread;
+    const fluid_work *w = arg;
+    int32_t first = block * BLOCK_SLOTS, end = first + BLOCK_SLOTS;
+    if (end > w->bodies->count)
+        end = w->bodies->count;
+    for (int32_t slot = first; slot < end; slot++) {
+        fluid_load load = {0};
+        wrench total = {{0, 0, 0}, {0, 0, 0}};
+        if (body_is_dynamic(w->bodies, slot)) {
+            load = load_of_body(w, slot);
+            total = total_of(w, slot, &load);
+        }
+        w->loads[slot] = total;
+        if (w->detail)
+            w->detail[slot] = load;
+    }
+}
+
+fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
+                        const body_table *bodies, const shape_store *shapes, wrench *loads, fluid_load *detail,
+                        fram_error *error)
+{
+    (void)error;
+    fluid_work work = {m, coefficients, bodies, shapes, loads, detail};
+    int32_t blocks = bodies->count / BLOCK_SLOTS + (bodies->count % BLOCK_SLOTS != 0);
+    if (blocks > 0)
+        pool_run(ctx, apply_block, &work, blocks);
+    return FRAM_OK;
+}
