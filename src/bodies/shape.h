@@ -30,11 +30,13 @@ TABLE_DECLARE(shape, SHAPE_FIELDS)
 /* The outline is itself piece 0 when it is convex; pieces then share its vertices. */
 #define PIECE_FIELDS(X)                                                                    \
     X(first, int32_t, FIELD_I32, 1, "1", "first vertex in the vertex pool")                \
-    X(count, int32_t, FIELD_I32, 1, "1", "vertices, counter-clockwise")                    \
+    X(size, int32_t, FIELD_I32, 1, "1", "number of vertices, counter-clockwise")                  \
     X(inner_edges, uint64_t, FIELD_U64, 1, "1", "bit k: edge k is a seam inside the compound, not a face")
 TABLE_DECLARE(piece, PIECE_FIELDS)
 
-#define SHAPE_VERTEX_FIELDS(X) X(point, vec2, FIELD_F64, 2, "m", "body frame, plan view")
+#define SHAPE_VERTEX_FIELDS(X)                               \
+    X(point, vec2, FIELD_F64, 2, "m", "body frame, plan view") \
+    X(corner, int32_t, FIELD_I32, 1, "1", "index in the shape's outline; -1: a point that the outline does not have")
 TABLE_DECLARE(shape_vertex, SHAPE_VERTEX_FIELDS)
 
 /* A closed mesh with what contact and fluid need of it, all in the body frame. */
@@ -52,19 +54,23 @@ typedef struct shape_store {
     piece_table pieces;
     shape_vertex_table vertices;
     ARRAY(solid) solids; /* not state */
-    int32_t dead_vertices; /* vertices of removed shapes, given back by shape_compact; derived, not hashed */
 } shape_store;
 
 void shape_store_free(context *ctx, shape_store *s);
 
+enum { PIECE_MOST_VERTICES = 16 };
+
 /* A prism of a simple outline given about its centroid (the caller moves it there), cut into convex pieces of at most
-   16 vertices through `o` (may be NULL when the outline is convex).  piece_area_limit [m2]: smaller triangles are
-   dropped (SPEC 2).  row gets the shape's row. */
+   PIECE_MOST_VERTICES vertices through `o` (may be NULL when the outline is convex).  piece_area_limit [m2]: smaller
+   triangles are dropped (SPEC 2).  row gets the shape's row.  The outline may be one of this store.
+   FRAM_ERROR_INPUT: fewer than 3 vertices, no area, not finite, no thickness, or a concave outline without `o`; the
+   store is then unchanged, as it is without memory. */
 fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon outline, double half_height,
                             double piece_area_limit, int32_t *row, fram_error *error);
-/* A shape that refers to a solid already in the store. */
+/* A shape that refers to a solid already in the store; FRAM_ERROR_USAGE when it is not there. */
 fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error);
-/* Builds tree, adjacency, radius and takes over surface and pieces (moved out of the caller's objects). */
+/* Builds tree, adjacency, radius and takes over surface and pieces (moved out of the caller's objects, which are then empty;
+   left to the caller on failure).  FRAM_ERROR_INPUT for a mesh without triangles. */
 fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
                       int32_t *index, fram_error *error);
 void shape_remove(shape_store *s, int32_t row);

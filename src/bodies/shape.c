@@ -1,0 +1,362 @@
+/* The shape store: outlines and their convex pieces in pooled tables, solids beside them.  Knows no bodies. */
+#include "bodies/shape.h"
+
+#include "geometry/predicate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define TABLE_SELF shape_table
+TABLE_DEFINE(shape, SHAPE_FIELDS)
+#undef TABLE_SELF
+#define TABLE_SELF piece_table
+TABLE_DEFINE(piece, PIECE_FIELDS)
+#undef TABLE_SELF
+#define TABLE_SELF shape_vertex_table
+TABLE_DEFINE(shape_vertex, SHAPE_VERTEX_FIELDS)
+#undef TABLE_SELF
+
+void shape_store_free(context *ctx, shape_store *s)
+{
+    table_free(ctx, &s->shapes, &shape_table_info);
+    table_free(ctx, &s->pieces, &piece_table_info);
+    table_free(ctx, &s->vertices, &shape_vertex_table_info);
+    for (int32_t i = 0; i < s->solids.count; i++) {
+        solid *body = &s->solids.data[i];
+        mesh_free(ctx, &body->surface);
+        mesh_adjacency_free(ctx, &body->adjacency);
+        mesh_bvh_free(ctx, &body->tree);
+        polyhedron_array_free(ctx, &body->pieces);
+    }
+    array_free(ctx, &s->solids);
+}
+
+/* ---- convex pieces ---- */
+
+/* Cut a convex ring into convex rings of at most PIECE_MOST_VERTICES vertices by chords. */
+static bool cut_convex(context *ctx, polygon ring, polygon_list *pieces)
+{
+    vec2_array rest = {0};
+    bool ok = array_resize(ctx, &rest, ring.count);
+    if (ok)
+        memcpy(rest.data, ring.vertex, (size_t)ring.count * sizeof *ring.vertex);
+    while (ok && rest.count > PIECE_MOST_VERTICES) {
+        ok = polygon_list_push(ctx, pieces, (polygon){rest.data, PIECE_MOST_VERTICES});
+        /* What is left: the first vertex, and all from the last one of the piece on. */
+        int32_t left = rest.count - PIECE_MOST_VERTICES + 1;
+        memmove(rest.data + 1, rest.data + PIECE_MOST_VERTICES - 1, (size_t)left * sizeof *rest.data);
+        rest.count = left + 1;
+    }
+    ok = ok && polygon_list_push(ctx, pieces, (polygon){rest.data, rest.count});
+    array_free(ctx, &rest);
+    return ok;
+}
+
+static fram_status cut_outline(context *ctx, overlay *o, polygon outline, double area_limit, polygon_list *pieces,
+                               fram_error *error)
+{
+    if (polygon_is_convex(outline))
+        return cut_convex(ctx, outline, pieces) ? FRAM_OK : error_memory(error);
+    if (!o)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                         "a concave outline of %d vertices needs an overlay to be cut into convex pieces",
+                         (int)outline.count);
+    fram_status status = overlay_convex_pieces(o, outline, area_limit, PIECE_MOST_VERTICES, pieces, NULL, error);
+    if (status == FRAM_OK && polygon_list_count(pieces) == 0)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                         "no convex piece of an outline of %d vertices is larger than %g m2", (int)outline.count,
+                         area_limit);
+    return status;
+}
+
+typedef struct directed_edge {
+    vec2 from, to;
+} directed_edge;
+
+static int compare_edges(const void *a, const void *b)
+{
+    const directed_edge *x = a, *y = b;
+    int order = vec2_compare(x->from, y->from);
+    return order ? order : vec2_compare(x->to, y->to);
+}
+
+/* inner[i]: bit k is set when edge k of piece i is a seam, that is, when some piece has the same edge the other way
+   round.  An edge that faces a dropped triangle is therefore an outer one. */
+static bool find_seams(context *ctx, const polygon_list *pieces, uint64_t *inner)
+{
+    int32_t count = polygon_list_count(pieces), edge_count = pieces->vertex.count, next = 0;
+    directed_edge *edge = memory_array(ctx, (size_t)edge_count, sizeof *edge);
+    if (!edge)
+        return false;
+    for (int32_t i = 0; i < count; i++) {
+        polygon p = polygon_list_get(pieces, i);
+        for (int32_t k = 0; k < p.count; k++)
+            edge[next++] = (directed_edge){p.vertex[k], p.vertex[k + 1 < p.count ? k + 1 : 0]};
+    }
+    qsort(edge, (size_t)edge_count, sizeof *edge, compare_edges);
+    for (int32_t i = 0; i < count; i++) {
+        polygon p = polygon_list_get(pieces, i);
+        inner[i] = 0;
+        for (int32_t k = 0; k < p.count; k++) {
+            directed_edge back = {p.vertex[k + 1 < p.count ? k + 1 : 0], p.vertex[k]};
+            if (bsearch(&back, edge, (size_t)edge_count, sizeof *edge, compare_edges))
+                inner[i] |= (uint64_t)1 << k;
+        }
+    }
+    memory_free(ctx, edge);
+    return true;
+}
+
+typedef struct outline_corner {
+    vec2 point;
+    int32_t index;
+} outline_corner;
+
+static int compare_corners(const void *a, const void *b)
+{
+    return vec2_compare(((const outline_corner *)a)->point, ((const outline_corner *)b)->point);
+}
+
+/* For every vertex of the pieces its index in the outline, -1 without one. */
+static bool find_corners(context *ctx, polygon outline, const vec2_array *vertex, int32_t *corner)
+{
+    outline_corner *sorted = memory_array(ctx, (size_t)outline.count, sizeof *sorted);
+    if (!sorted)
+        return false;
+    for (int32_t i = 0; i < outline.count; i++)
+        sorted[i] = (outline_corner){outline.vertex[i], i};
+    qsort(sorted, (size_t)outline.count, sizeof *sorted, compare_corners);
+    for (int32_t i = 0; i < vertex->count; i++) {
+        outline_corner key = {vertex->data[i], 0};
+        const outline_corner *found = bsearch(&key, sorted, (size_t)outline.count, sizeof key, compare_corners);
+        corner[i] = found ? found->index : -1;
+    }
+    memory_free(ctx, sorted);
+    return true;
+}
+
+/* ---- rows ---- */
+
+/* The lowest free row, or one more; -1 without memory. */
+static int32_t shape_row(context *ctx, shape_store *s)
+{
+    shape_table *t = &s->shapes;
+    const uint8_t *hole = t->count > 0 ? memchr(t->kind, SHAPE_NONE, (size_t)t->count) : NULL;
+    if (hole)
+        return (int32_t)(hole - t->kind);
+    return table_resize(ctx, t, &shape_table_info, t->count + 1) ? t->count - 1 : -1;
+}
+
+static void append_outline(shape_store *s, polygon outline)
+{
+    shape_vertex_table *v = &s->vertices;
+    for (int32_t i = 0; i < outline.count; i++) {
+        v->point[v->count] = outline.vertex[i];
+        v->corner[v->count++] = i;
+    }
+}
+
+/* Everything is reserved before anything is written, so that a failure leaves the store as it was. */
+static fram_status store_prism(context *ctx, shape_store *s, polygon outline, double half_height,
+                               const polygon_list *pieces, int32_t *row, fram_error *error)
+{
+    int32_t piece_count = polygon_list_count(pieces), first = s->vertices.count, piece_first = s->pieces.count;
+    int32_t extra = piece_count > 1 ? pieces->vertex.count : 0;
+    uint64_t *inner = memory_array(ctx, (size_t)piece_count, sizeof *inner);
+    int32_t *corner = memory_array(ctx, (size_t)pieces->vertex.count, sizeof *corner);
+    bool ok = inner && corner && find_seams(ctx, pieces, inner) && find_corners(ctx, outline, &pieces->vertex, corner) &&
+              table_reserve(ctx, &s->vertices, &shape_vertex_table_info, first + outline.count + extra) &&
+              table_reserve(ctx, &s->pieces, &piece_table_info, piece_first + piece_count);
+    *row = ok ? shape_row(ctx, s) : -1;
+    if (*row >= 0) {
+        append_outline(s, outline);
+        for (int32_t i = 0; i < piece_count; i++) {
+            int32_t at = s->pieces.count++, begin = pieces->start.data[i];
+            polygon p = polygon_list_get(pieces, i);
+            s->pieces.first[at] = piece_count > 1 ? s->vertices.count : first;
+            s->pieces.vertex_count[at] = p.count;
+            s->pieces.inner_edges[at] = inner[i];
+            for (int32_t k = 0; k < p.count && piece_count > 1; k++) {
+                s->vertices.point[s->vertices.count] = p.vertex[k];
+                s->vertices.corner[s->vertices.count++] = corner[begin + k];
+            }
+        }
+        double plan_square = 0;
+        for (int32_t i = 0; i < outline.count; i++)
+            plan_square = real_max(plan_square, vec2_dot(outline.vertex[i], outline.vertex[i]));
+        shape_table *t = &s->shapes;
+        t->kind[*row] = SHAPE_PRISM;
+        t->half_height[*row] = half_height;
+        t->radius[*row] = sqrt(plan_square + half_height * half_height);
+        t->plan_radius[*row] = sqrt(plan_square);
+        t->area[*row] = polygon_area(outline);
+        t->outline_first[*row] = first;
+        t->outline_count[*row] = outline.count;
+        t->piece_first[*row] = piece_first;
+        t->piece_count[*row] = piece_count;
+        t->solid[*row] = -1;
+    }
+    memory_free(ctx, inner);
+    memory_free(ctx, corner);
+    return *row >= 0 ? FRAM_OK : error_memory(error);
+}
+
+static fram_status check_prism(polygon outline, double half_height, fram_error *error)
+{
+    double area = outline.count >= 3 ? polygon_area(outline) : 0;
+    if (!(area > 0) || !isfinite(area))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                         "an outline needs 3 vertices or more, counter-clockwise around a finite area; found %d "
+                         "vertices and %g m2",
+                         (int)outline.count, area);
+    if (!(half_height > 0) || !isfinite(half_height))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "a prism needs a positive thickness, found %g m",
+                         2 * half_height);
+    return FRAM_OK;
+}
+
+fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon outline, double half_height,
+                            double piece_area_limit, int32_t *row, fram_error *error)
+{
+    *row = -1;
+    fram_status status = check_prism(outline, half_height, error);
+    if (status != FRAM_OK)
+        return status;
+    /* A copy: the outline may lie in the pools that are about to grow. */
+    polygon_list copy = {0}, pieces = {0};
+    if (polygon_list_push(ctx, &copy, outline)) {
+        outline = polygon_list_get(&copy, 0);
+        status = cut_outline(ctx, o, outline, piece_area_limit, &pieces, error);
+        if (status == FRAM_OK)
+            status = store_prism(ctx, s, outline, half_height, &pieces, row, error);
+    } else {
+        status = error_memory(error);
+    }
+    polygon_list_free(ctx, &copy);
+    polygon_list_free(ctx, &pieces);
+    return status;
+}
+
+fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error)
+{
+    *row = -1;
+    if (solid_index < 0 || solid_index >= s->solids.count)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL, "there is no solid %d; the store holds %d",
+                         (int)solid_index, (int)s->solids.count);
+    *row = shape_row(ctx, s);
+    if (*row < 0)
+        return error_memory(error);
+    s->shapes.kind[*row] = SHAPE_SOLID;
+    s->shapes.radius[*row] = s->solids.data[solid_index].radius;
+    s->shapes.solid[*row] = solid_index;
+    return FRAM_OK;
+}
+
+fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
+                      int32_t *index, fram_error *error)
+{
+    *index = -1;
+    if (surface->face.count == 0)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "a solid needs a closed surface; this one is empty");
+    solid made = {.concavity = concavity};
+    double square = 0;
+    for (int32_t i = 0; i < surface->vertex.count; i++)
+        square = real_max(square, vec3_dot(surface->vertex.data[i], surface->vertex.data[i]));
+    made.radius = sqrt(square);
+    if (!array_reserve(ctx, &s->solids, s->solids.count + 1))
+        return error_memory(error);
+    fram_status status = mesh_adjacency_build(ctx, surface, &made.adjacency);
+    if (status == FRAM_OK)
+        status = mesh_bvh_build(ctx, surface, &made.tree);
+    if (status != FRAM_OK) {
+        mesh_adjacency_free(ctx, &made.adjacency);
+        return status == FRAM_ERROR_MEMORY
+                   ? error_memory(error)
+                   : error_set(error, status, NULL, 0, NULL, "the surface of a solid of %d triangles is no valid mesh",
+                               (int)surface->face.count);
+    }
+    made.surface = *surface;
+    made.pieces = *pieces;
+    *surface = (mesh){0};
+    *pieces = (polyhedron_array){0};
+    *index = s->solids.count;
+    s->solids.data[s->solids.count++] = made;
+    return FRAM_OK;
+}
+
+void shape_remove(shape_store *s, int32_t row)
+{
+    for (int f = 0; f < shape_table_info.field_count; f++) {
+        const field_info *field = &shape_table_info.fields[f];
+        memset((char *)table_field(&s->shapes, field) + field->size * (size_t)row, 0, field->size);
+    }
+}
+
+/* ---- compaction ---- */
+
+static int32_t vertices_of_pieces(const shape_store *s, int32_t row)
+{
+    int32_t sum = 0, first = s->shapes.piece_first[row];
+    for (int32_t i = first; i < first + s->shapes.piece_count[row] && s->shapes.piece_count[row] > 1; i++)
+        sum += s->pieces.vertex_count[i];
+    return sum;
+}
+
+/* Copies one shape's vertices and pieces behind what the new pools hold, and points the shape there. */
+static void move_shape(shape_store *s, int32_t row, shape_vertex_table *vertices, piece_table *pieces)
+{
+    shape_table *t = &s->shapes;
+    /* A shape's vertices are one block: the outline, then those of the pieces when there are several. */
+    int32_t count = t->outline_count[row] + vertices_of_pieces(s, row), from = t->outline_first[row];
+    int32_t shift = vertices->count - from;
+    memcpy(vertices->point + vertices->count, s->vertices.point + from, (size_t)count * sizeof *vertices->point);
+    memcpy(vertices->corner + vertices->count, s->vertices.corner + from, (size_t)count * sizeof *vertices->corner);
+    vertices->count += count;
+    t->outline_first[row] += shift;
+    int32_t piece_from = t->piece_first[row];
+    t->piece_first[row] = pieces->count;
+    for (int32_t i = piece_from; i < piece_from + t->piece_count[row]; i++) {
+        pieces->first[pieces->count] = s->pieces.first[i] + shift;
+        pieces->vertex_count[pieces->count] = s->pieces.vertex_count[i];
+        pieces->inner_edges[pieces->count++] = s->pieces.inner_edges[i];
+    }
+}
+
+fram_status shape_compact(context *ctx, shape_store *s)
+{
+    int32_t live_vertices = 0, live_pieces = 0;
+    for (int32_t i = 0; i < s->shapes.count; i++) {
+        if (s->shapes.kind[i] != SHAPE_PRISM)
+            continue;
+        live_vertices += s->shapes.outline_count[i] + vertices_of_pieces(s, i);
+        live_pieces += s->shapes.piece_count[i];
+    }
+    if (live_vertices >= s->vertices.count - live_vertices)
+        return FRAM_OK;
+    shape_vertex_table vertices = {0};
+    piece_table pieces = {0};
+    if (!table_reserve(ctx, &vertices, &shape_vertex_table_info, live_vertices) ||
+        !table_reserve(ctx, &pieces, &piece_table_info, live_pieces)) {
+        table_free(ctx, &vertices, &shape_vertex_table_info);
+        return FRAM_ERROR_MEMORY;
+    }
+    for (int32_t i = 0; i < s->shapes.count; i++)
+        if (s->shapes.kind[i] == SHAPE_PRISM)
+            move_shape(s, i, &vertices, &pieces);
+    table_free(ctx, &s->vertices, &shape_vertex_table_info);
+    table_free(ctx, &s->pieces, &piece_table_info);
+    s->vertices = vertices;
+    s->pieces = pieces;
+    return FRAM_OK;
+}
+
+polygon shape_outline(const shape_store *s, int32_t row)
+{
+    return (polygon){s->vertices.point + s->shapes.outline_first[row], s->shapes.outline_count[row]};
+}
+
+polygon shape_piece(const shape_store *s, int32_t row, int32_t piece)
+{
+    int32_t at = s->shapes.piece_first[row] + piece;
+    return (polygon){s->vertices.point + s->pieces.first[at], s->pieces.vertex_count[at]};
+}
