@@ -174,7 +174,7 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
             int32_t at = s->pieces.count++, begin = pieces->start.data[i];
             polygon p = polygon_list_get(pieces, i);
             s->pieces.first[at] = piece_count > 1 ? s->vertices.count : first;
-            s->pieces.vertex_count[at] = p.count;
+            s->pieces.size[at] = p.count;
             s->pieces.inner_edges[at] = inner[i];
             for (int32_t k = 0; k < p.count && piece_count > 1; k++) {
                 s->vertices.point[s->vertices.count] = p.vertex[k];
@@ -298,7 +298,7 @@ static int32_t vertices_of_pieces(const shape_store *s, int32_t row)
 {
     int32_t sum = 0, first = s->shapes.piece_first[row];
     for (int32_t i = first; i < first + s->shapes.piece_count[row] && s->shapes.piece_count[row] > 1; i++)
-        sum += s->pieces.vertex_count[i];
+        sum += s->pieces.size[i];
     return sum;
 }
 
@@ -317,7 +317,7 @@ static void move_shape(shape_store *s, int32_t row, shape_vertex_table *vertices
     t->piece_first[row] = pieces->count;
     for (int32_t i = piece_from; i < piece_from + t->piece_count[row]; i++) {
         pieces->first[pieces->count] = s->pieces.first[i] + shift;
-        pieces->vertex_count[pieces->count] = s->pieces.vertex_count[i];
+        pieces->size[pieces->count] = s->pieces.size[i];
         pieces->inner_edges[pieces->count++] = s->pieces.inner_edges[i];
     }
 }
@@ -358,5 +358,5 @@ polygon shape_outline(const shape_store *s, int32_t row)
 polygon shape_piece(const shape_store *s, int32_t row, int32_t piece)
 {
     int32_t at = s->shapes.piece_first[row] + piece;
-    return (polygon){s->vertices.point + s->pieces.first[at], s->pieces.vertex_count[at]};
+    return (polygon){s->vertices.point + s->pieces.first[at], s->pieces.size[at]};
 }
