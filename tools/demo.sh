@@ -6,9 +6,13 @@ build/release/fram run scenes/demo.yaml -o out/demo --force
 echo
 echo "The demo is in out/demo. Look at:"
 for file in out/demo/*; do
-    case $file in
-    *.csv) echo "  $file   time series, one column per quantity and unit" ;;
-    *.png) echo "  $file   picture" ;;
-    *.html) echo "  $file   playback: open it in a browser" ;;
+    case ${file##*/} in
+    *.csv) meaning="time series: one row a step, one column per quantity and unit" ;;
+    plan*.png) meaning="the hull and the ice seen from above" ;;
+    load*.png) meaning="the ice load on the hull over time" ;;
+    *.png) meaning="picture" ;;
+    *.html) meaning="playback: open it in a browser" ;;
+    *) continue ;;
     esac
+    printf '  %-26s %s\n' "$file" "$meaning"
 done
