@@ -32,10 +32,15 @@ typedef struct floe_definition {
 /* Height of the centre of a level floe at rest in still water [m]: h/2 - h rho_i/rho_w. */
 double floe_floating_elevation(double thickness, double density, double water_density);
 
-/* Adds body, shape and floe row.  piece_area_limit [m2] as in shape_add_prism.  next_number is read and advanced.
-   Mass = density area thickness; inertia of the prism about its centroid. */
+/* Adds body (material ice, at rest, owner: the floe's row), shape and floe row (the lowest free one).  The body stands at the
+   centroid of the outline, turned by yaw alone: a piece of a tilted floe is made from its outline in the parent's frame with
+   yaw 0, and its pose set afterwards.  piece_area_limit [m2] as in shape_add_prism; o as there.  next_number is read and
+   advanced.  Mass = density area thickness; inertia of the prism about its centroid, products included.
+   FRAM_ERROR_INPUT for an outline without area or turning clockwise, and for a thickness or density that is not positive;
+   whatever fails, the tables keep their meaning. */
 fram_status floe_create(context *ctx, const floe_definition *d, double piece_area_limit, overlay *o, body_table *bodies,
                         shape_store *shapes, floe_table *floes, int32_t *next_number, int32_t *row, fram_error *error);
+/* Removes body, shape and row; all three numbers may be used again by later floes. */
 void floe_remove(body_table *bodies, shape_store *shapes, floe_table *floes, int32_t row);
 
 #endif

@@ -1,0 +1,212 @@
+/* Managed ice from Voronoi cells; see field.h. */
+#include "ice/field.h"
+
+#include "base/random.h"
+#include "geometry/voronoi.h"
+#include "ice/field_cells.h"
+
+/* More cells than this are a mistake in the units rather than a field. */
+enum { MOST_CELLS = 20000000 };
+
+/* Share of the open water that corners never take: with roundness 1 neighbours still stay apart. */
+static const double GAP_SHARE = 0.1;
+
+/* Longest cut along an edge, in halves of the shorter edge at a corner: under 1, so that something of every edge stays.
+ */
+static const double LONGEST_CUT = 0.8;
+
+/* Pieces of cells beside a keep-out zone under this part of the mean cell are left as open water: they would be
+ * slivers. */
+static const double SMALLEST_PIECE = 0.02;
+
+static fram_status request_check(const field_request *r, fram_error *error)
+{
+    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
+    const char *key = NULL, *rule = NULL;
+    double value = 0;
+    if (!(size.x > 0 && size.y > 0 && size.x * size.y < HUGE_VAL))
+        key = "domain", rule = "must have an area, in m2", value = size.x * size.y;
+    else if (!(r->concentration > 0 && r->concentration < 1))
+        key = "concentration", rule = "must be over 0 and under 1", value = r->concentration;
+    else if (!(r->mean_area > 0 && size.x * size.y / r->mean_area <= MOST_CELLS))
+        key = "mean_area", rule = "must be positive and make at most 20 million cells, in m2", value = r->mean_area;
+    else if (!(r->size_deviation >= 0 && r->size_deviation <= 1))
+        key = "size_deviation", rule = "must be 0 to 1", value = r->size_deviation;
+    else if (!(r->roundness >= 0 && r->roundness <= 1))
+        key = "roundness", rule = "must be 0 to 1", value = r->roundness;
+    else if (!(r->smallest_area >= 0 && r->smallest_area < HUGE_VAL))
+        key = "smallest_area", rule = "must not be negative, in m2", value = r->smallest_area;
+    else if (!(r->keep_out_margin >= 0 && r->keep_out_margin < HUGE_VAL))
+        key = "keep_out_margin", rule = "must not be negative, in m", value = r->keep_out_margin;
+    if (key)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s %s; it is %g", key, rule, value);
+    for (int32_t i = 0; r->keep_out && i < polygon_list_count(r->keep_out); i++) {
+        polygon zone = polygon_list_get(r->keep_out, i);
+        if (!(polygon_area(zone) > 0) || !polygon_is_convex(zone))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
+                             "zone %d must be convex, counter-clockwise and have an area; cut it into convex zones", i);
+    }
+    return FRAM_OK;
+}
+
+/* A coordinate that the scatter took out of [lo, hi] comes back from the edge as from a mirror. */
+static double reflect(double x, double lo, double hi) { return x < lo ? 2 * lo - x : x > hi ? 2 * hi - x : x; }
+
+/* Rows of a triangular grid, whose Voronoi cells are hexagons, each site moved at random within its grid cell. */
+static bool scatter_sites(context *ctx, const field_request *r, vec2_array *sites)
+{
+    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
+    double columns = floor(size.x / sqrt(2 * r->mean_area / sqrt(3)) + 0.5);
+    int32_t nx = columns < 1 ? 1 : (int32_t)columns;
+    double rows = floor(size.x * size.y / (r->mean_area * nx) + 0.5);
+    int32_t ny = rows < 1 ? 1 : (int32_t)rows;
+    vec2 step = {size.x / nx, size.y / ny};
+    if (!array_reserve(ctx, sites, nx * ny))
+        return false;
+    for (int32_t j = 0; j < ny; j++)
+        for (int32_t i = 0; i < nx; i++) {
+            random_stream stream = random_begin(r->seed, ICE_STREAM_VORONOI_SITE, (uint32_t)(j * nx + i));
+            double u = random_unit(&stream) - 0.5, v = random_unit(&stream) - 0.5;
+            /* One row alone has nothing to be staggered against. */
+            double stagger = ny == 1 ? 0.5 : j % 2 ? 0.75 : 0.25;
+            vec2 site = {r->domain.lo.x + (i + stagger + r->size_deviation * u) * step.x,
+                         r->domain.lo.y + (j + 0.5 + r->size_deviation * v) * step.y};
+            sites->data[sites->count++] = (vec2){reflect(site.x, r->domain.lo.x, r->domain.hi.x),
+                                                 reflect(site.y, r->domain.lo.y, r->domain.hi.y)};
+        }
+    return true;
+}
+
+/* Scratch of one generation. */
+typedef struct field_work {
+    vec2_array sites;
+    polygon_list zones;   /* grown */
+    polygon_list voronoi; /* the cells as they tile the domain */
+    polygon_list parts;   /* of cells, outside the zones */
+    polygon_list kept;    /* parts that are large enough so far */
+    polygon_list cut;     /* kept, with cut corners */
+    polygon_list floes;   /* cut, moved inwards */
+    cells_scratch scratch;
+} field_work;
+
+static void work_free(context *ctx, field_work *w)
+{
+    array_free(ctx, &w->sites);
+    polygon_list_free(ctx, &w->zones);
+    polygon_list_free(ctx, &w->voronoi);
+    polygon_list_free(ctx, &w->parts);
+    polygon_list_free(ctx, &w->kept);
+    polygon_list_free(ctx, &w->cut);
+    polygon_list_free(ctx, &w->floes);
+    cells_scratch_free(ctx, &w->scratch);
+}
+
+/* Appends the members of `in` whose counterparts in `measured` have at least `least` area. */
+static bool keep_large(context *ctx, const polygon_list *in, const polygon_list *measured, double least,
+                       polygon_list *out)
+{
+    for (int32_t i = 0; i < polygon_list_count(in); i++) {
+        polygon p = polygon_list_get(measured, i);
+        if (p.count >= 3 && polygon_area(p) >= least && !polygon_list_push(ctx, out, polygon_list_get(in, i)))
+            return false;
+    }
+    return true;
+}
+
+static fram_status unreachable(const field_request *r, const field_work *w, double free_area, double covered,
+                               fram_error *error)
+{
+    return error_set(
+        error, FRAM_ERROR_INPUT, NULL, 0, "concentration",
+        "concentration %g cannot be reached: without any gap the %d cells that may become floes cover %.6f of "
+        "%g m2 of free area; %d of %d pieces are under the smallest area (%g m2) or slivers beside a keep-out "
+        "zone; lower the concentration or the smallest area",
+        r->concentration, polygon_list_count(&w->kept), covered / free_area, free_area,
+        polygon_list_count(&w->parts) - polygon_list_count(&w->kept), polygon_list_count(&w->parts), r->smallest_area);
+}
+
+/* Cuts corners and widens the gap of w->kept until w->floes has the target area; drops what becomes too small and
+   starts over with the rest. */
+static fram_status shrink_to_target(context *ctx, const field_request *r, field_work *w, double free_area, double *gap,
+                                    fram_error *error)
+{
+    double target = r->concentration * free_area;
+    for (;;) {
+        double covered = cells_area(&w->kept), surplus = covered - target;
+        if (!(surplus >= 0))
+            return unreachable(r, w, free_area, covered, error);
+        double corners = cells_corner_area(&w->kept), wanted = r->roundness * (1 - GAP_SHARE) * surplus;
+        double part = corners > 0 ? sqrt(wanted / corners) : 0;
+        polygon_list_clear(&w->cut);
+        double inset;
+        if (!cells_cut_corners(ctx, &w->kept, part < LONGEST_CUT ? part : LONGEST_CUT, &w->scratch, &w->cut) ||
+            !cells_inset_to_area(ctx, &w->cut, target, &w->scratch, &w->floes, &inset))
+            return error_memory(error);
+        *gap = 2 * inset;
+        polygon_list_clear(&w->cut);
+        if (!keep_large(ctx, &w->kept, &w->floes, r->smallest_area, &w->cut))
+            return error_memory(error);
+        if (polygon_list_count(&w->cut) == polygon_list_count(&w->kept))
+            return FRAM_OK;
+        polygon_list swap = w->kept;
+        w->kept = w->cut;
+        w->cut = swap;
+    }
+}
+
+static fram_status make_floes(context *ctx, const field_request *r, field_work *w, field_report *report,
+                              fram_error *error)
+{
+    if (!scatter_sites(ctx, r, &w->sites) ||
+        (r->keep_out && !zones_grow(ctx, r->keep_out, r->keep_out_margin, &w->zones)))
+        return error_memory(error);
+    fram_status status = voronoi_cells(ctx, w->sites.data, NULL, w->sites.count, r->domain, &w->voronoi, error);
+    if (status != FRAM_OK)
+        return status;
+    if (!cells_outside_zones(ctx, &w->voronoi, &w->zones, &w->scratch, &w->parts))
+        return error_memory(error);
+    /* The cells tile the domain, so that what is left of them is the free area. */
+    double free_area = cells_area(&w->parts);
+    if (!(free_area > 0))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out", "the keep-out zones leave no free area");
+    double sliver = polygon_list_count(&w->zones) ? SMALLEST_PIECE * r->mean_area : 0;
+    if (!keep_large(ctx, &w->parts, &w->parts, fmax(r->smallest_area, sliver), &w->kept))
+        return error_memory(error);
+    double gap = 0;
+    status = shrink_to_target(ctx, r, w, free_area, &gap, error);
+    if (status != FRAM_OK)
+        return status;
+    double overlap = cells_largest_overlap(ctx, &w->floes);
+    if (overlap < 0)
+        return error_memory(error);
+    *report = (field_report){.floes = polygon_list_count(&w->floes),
+                             .concentration = cells_area(&w->floes) / free_area,
+                             .free_area = free_area,
+                             .largest_overlap = overlap,
+                             .gap = gap};
+    return FRAM_OK;
+}
+
+fram_status field_voronoi(context *ctx, overlay *o, const field_request *request, polygon_list *outlines,
+                          field_report *report, fram_error *error)
+{
+    (void)o;
+    fram_status status = request_check(request, error);
+    if (status != FRAM_OK)
+        return status;
+    field_work work = {0};
+    field_report found = {0};
+    status = make_floes(ctx, request, &work, &found, error);
+    /* All room is made before anything is appended, so that a failure changes nothing. */
+    if (status == FRAM_OK &&
+        (!array_reserve(ctx, &outlines->vertex, outlines->vertex.count + work.floes.vertex.count) ||
+         !array_reserve(ctx, &outlines->start, outlines->start.count + work.floes.start.count + 1)))
+        status = error_memory(error);
+    if (status == FRAM_OK) {
+        for (int32_t i = 0; i < found.floes; i++)
+            polygon_list_push(ctx, outlines, polygon_list_get(&work.floes, i));
+        *report = found;
+    }
+    work_free(ctx, &work);
+    return status;
+}

@@ -1,0 +1,334 @@
+/* Work on lists of convex cells; see field_cells.h. */
+#include "ice/field_cells.h"
+
+#include <stdlib.h>
+
+/* Corners whose edges turn by less are left alone (sine of the turn). */
+static const double STRAIGHT_CORNER = 0.05;
+
+/* Area that counts as met, relative; and the steps after which rounding must be all that is left. */
+static const double AREA_MET = 1e-12;
+enum { MOST_STEPS = 60 };
+
+/* Vertices nearer than this part of the perimeter are one: three lines that meet in a point, but for rounding. */
+static const double SAME_VERTEX = 1e-10;
+
+/* Turn between two neighbouring tangents of a grown corner at most: cosine of 45 degrees. */
+static const double TANGENT_TURN = 0.70710678118654752;
+
+void cells_scratch_free(context *ctx, cells_scratch *s)
+{
+    array_free(ctx, &s->a);
+    array_free(ctx, &s->b);
+    array_free(ctx, &s->rest);
+}
+
+static polygon view(const vec2_array *a) { return (polygon){a->data, a->count}; }
+
+static vec2 ring_vertex(polygon p, int32_t i) { return p.vertex[i < 0 ? i + p.count : i >= p.count ? i - p.count : i]; }
+
+/* Unit outward normal of the edge from a to b; zero for an edge without length. */
+static vec2 edge_normal(vec2 a, vec2 b)
+{
+    vec2 e = vec2_sub(b, a);
+    double length = vec2_length(e);
+    return length > 0 ? (vec2){e.y / length, -e.x / length} : (vec2){0, 0};
+}
+
+/* ---- zones ---- */
+
+/* Corners of tangents to the circle of `margin` about v, whose normals turn from n1 to n2 counter-clockwise. */
+static bool grow_corner(context *ctx, vec2 v, vec2 n1, vec2 n2, double margin, vec2_array *out)
+{
+    double cosine = vec2_dot(n1, n2);
+    if (cosine >= TANGENT_TURN)
+        return array_push(ctx, out, vec2_add(v, vec2_scale(vec2_add(n1, n2), margin / (1 + cosine))));
+    /* A spike turns by nearly half a circle: there the sum of both normals says nothing. */
+    vec2 middle = cosine > -0.999 ? vec2_add(n1, n2) : vec2_perp(n1);
+    middle = vec2_scale(middle, 1 / vec2_length(middle));
+    return grow_corner(ctx, v, n1, middle, margin, out) && grow_corner(ctx, v, middle, n2, margin, out);
+}
+
+static bool zone_grow(context *ctx, polygon zone, double margin, vec2_array *out)
+{
+    array_clear(out);
+    vec2 before = {0, 0};
+    for (int32_t i = zone.count - 1; i >= 0 && vec2_dot(before, before) == 0; i--)
+        before = edge_normal(zone.vertex[i], ring_vertex(zone, i + 1));
+    for (int32_t i = 0; i < zone.count; i++) {
+        vec2 after = edge_normal(zone.vertex[i], ring_vertex(zone, i + 1));
+        if (vec2_dot(after, after) == 0)
+            continue;
+        if (!grow_corner(ctx, zone.vertex[i], before, after, margin, out))
+            return false;
+        before = after;
+    }
+    return true;
+}
+
+bool zones_grow(context *ctx, const polygon_list *zones, double margin, polygon_list *out)
+{
+    vec2_array grown = {0};
+    bool done = true;
+    for (int32_t i = 0; done && i < polygon_list_count(zones); i++) {
+        polygon zone = polygon_list_get(zones, i);
+        if (margin > 0) {
+            done = zone_grow(ctx, zone, margin, &grown);
+            zone = view(&grown);
+        }
+        done = done && polygon_list_push(ctx, out, zone);
+    }
+    array_free(ctx, &grown);
+    return done;
+}
+
+/* ---- parts outside zones ---- */
+
+static bool boxes_apart(box2 a, box2 b)
+{
+    return a.hi.x <= b.lo.x || b.hi.x <= a.lo.x || a.hi.y <= b.lo.y || b.hi.y <= a.lo.y;
+}
+
+/* The edge of the zone with most of p outside it, -1 when nothing is outside any. */
+static bool widest_side(context *ctx, polygon p, polygon zone, vec2_array *scratch, int32_t *edge)
+{
+    double most = 0;
+    *edge = -1;
+    for (int32_t i = 0; i < zone.count; i++) {
+        vec2 n = edge_normal(zone.vertex[i], ring_vertex(zone, i + 1));
+        if (!polygon_clip_half_plane(ctx, p, vec2_scale(n, -1), -vec2_dot(n, zone.vertex[i]), scratch))
+            return false;
+        double area = scratch->count >= 3 ? polygon_area(view(scratch)) : 0;
+        if (area > most) {
+            most = area;
+            *edge = i;
+        }
+    }
+    return true;
+}
+
+/* Appends the convex parts of p outside one zone. */
+static bool part_outside_zone(context *ctx, polygon p, polygon zone, cells_scratch *s, polygon_list *out)
+{
+    if (boxes_apart(polygon_bounds(p), polygon_bounds(zone)))
+        return polygon_list_push(ctx, out, p);
+    array_clear(&s->rest);
+    for (int32_t i = 0; i < p.count; i++)
+        if (!array_push(ctx, &s->rest, p.vertex[i]))
+            return false;
+    /* Each turn takes off what lies outside one edge, and no edge has anything outside it twice. */
+    for (int32_t turn = 0; turn < zone.count && s->rest.count >= 3; turn++) {
+        int32_t edge;
+        if (!widest_side(ctx, view(&s->rest), zone, &s->a, &edge))
+            return false;
+        if (edge < 0)
+            break;
+        vec2 n = edge_normal(zone.vertex[edge], ring_vertex(zone, edge + 1));
+        double offset = vec2_dot(n, zone.vertex[edge]);
+        if (!polygon_clip_half_plane(ctx, view(&s->rest), vec2_scale(n, -1), -offset, &s->a) ||
+            !polygon_list_push(ctx, out, view(&s->a)) ||
+            !polygon_clip_half_plane(ctx, view(&s->rest), n, offset, &s->b))
+            return false;
+        vec2_array swap = s->rest;
+        s->rest = s->b;
+        s->b = swap;
+    }
+    return true;
+}
+
+bool cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_list *zones, cells_scratch *s,
+                         polygon_list *out)
+{
+    polygon_list parts = {0}, next = {0};
+    bool done = true;
+    for (int32_t i = 0; done && i < polygon_list_count(cells); i++) {
+        polygon_list_clear(&parts);
+        polygon cell = polygon_list_get(cells, i);
+        done = cell.count < 3 || polygon_list_push(ctx, &parts, cell);
+        for (int32_t z = 0; done && z < polygon_list_count(zones); z++) {
+            polygon_list_clear(&next);
+            for (int32_t k = 0; done && k < polygon_list_count(&parts); k++)
+                done = part_outside_zone(ctx, polygon_list_get(&parts, k), polygon_list_get(zones, z), s, &next);
+            polygon_list swap = parts;
+            parts = next;
+            next = swap;
+        }
+        for (int32_t k = 0; done && k < polygon_list_count(&parts); k++)
+            done = polygon_list_push(ctx, out, polygon_list_get(&parts, k));
+    }
+    polygon_list_free(ctx, &parts);
+    polygon_list_free(ctx, &next);
+    return done;
+}
+
+double cells_area(const polygon_list *cells)
+{
+    double area = 0;
+    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+        polygon p = polygon_list_get(cells, i);
+        area += p.count >= 3 ? polygon_area(p) : 0;
+    }
+    return area;
+}
+
+/* ---- corners ---- */
+
+/* How a corner is cut: unit directions from it along both edges, half the shorter edge, the sine between them. */
+typedef struct corner {
+    vec2 back, forth;
+    double reach, sine;
+} corner;
+
+static corner corner_at(polygon p, int32_t i)
+{
+    vec2 back = vec2_sub(ring_vertex(p, i - 1), p.vertex[i]), forth = vec2_sub(ring_vertex(p, i + 1), p.vertex[i]);
+    double back_length = vec2_length(back), forth_length = vec2_length(forth);
+    if (!(back_length > 0 && forth_length > 0))
+        return (corner){{0, 0}, {0, 0}, 0, 0};
+    back = vec2_scale(back, 1 / back_length);
+    forth = vec2_scale(forth, 1 / forth_length);
+    return (corner){back, forth, fmin(back_length, forth_length) / 2, vec2_cross(forth, back)};
+}
+
+double cells_corner_area(const polygon_list *cells)
+{
+    double area = 0;
+    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+        polygon p = polygon_list_get(cells, i);
+        for (int32_t k = 0; k < p.count; k++) {
+            corner c = corner_at(p, k);
+            if (c.sine > STRAIGHT_CORNER)
+                area += c.reach * c.reach * c.sine / 2;
+        }
+    }
+    return area;
+}
+
+bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out)
+{
+    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+        polygon p = polygon_list_get(cells, i);
+        array_clear(&s->a);
+        for (int32_t k = 0; k < p.count; k++) {
+            corner c = corner_at(p, k);
+            double length = part * c.reach;
+            bool cut = length > 0 && c.sine > STRAIGHT_CORNER;
+            if (!array_push(ctx, &s->a, vec2_add(p.vertex[k], vec2_scale(c.back, cut ? length : 0))) ||
+                (cut && !array_push(ctx, &s->a, vec2_add(p.vertex[k], vec2_scale(c.forth, length)))))
+                return false;
+        }
+        if (!polygon_list_push(ctx, out, view(&s->a)))
+            return false;
+    }
+    return true;
+}
+
+/* ---- moving edges inwards ---- */
+
+/* p with every edge moved inwards, left in s->a; empty when nothing is left. */
+static bool inset_ring(context *ctx, polygon p, double inset, cells_scratch *s)
+{
+    array_clear(&s->a);
+    for (int32_t i = 0; i < p.count; i++)
+        if (!array_push(ctx, &s->a, p.vertex[i]))
+            return false;
+    for (int32_t i = 0; i < p.count && s->a.count > 0 && inset > 0; i++) {
+        vec2 n = edge_normal(p.vertex[i], ring_vertex(p, i + 1));
+        if (vec2_dot(n, n) == 0)
+            continue;
+        if (!polygon_clip_half_plane(ctx, view(&s->a), n, vec2_dot(n, p.vertex[i]) - inset, &s->b))
+            return false;
+        vec2_array swap = s->a;
+        s->a = s->b;
+        s->b = swap;
+    }
+    return true;
+}
+
+/* Drops vertices that differ from the one before by rounding only. */
+static void join_vertices(vec2_array *ring)
+{
+    double least = SAME_VERTEX * polygon_perimeter(view(ring));
+    int32_t kept = 0;
+    for (int32_t i = 0; i < ring->count; i++)
+        if (vec2_length(vec2_sub(ring->data[i], ring->data[kept > 0 ? kept - 1 : ring->count - 1])) > least)
+            ring->data[kept++] = ring->data[i];
+    ring->count = kept >= 3 ? kept : 0;
+}
+
+static bool inset_all(context *ctx, const polygon_list *cells, double inset, cells_scratch *s, polygon_list *out,
+                      double *area, double *perimeter)
+{
+    polygon_list_clear(out);
+    *area = *perimeter = 0;
+    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+        if (!inset_ring(ctx, polygon_list_get(cells, i), inset, s))
+            return false;
+        join_vertices(&s->a);
+        if (s->a.count >= 3) {
+            *area += polygon_area(view(&s->a));
+            *perimeter += polygon_perimeter(view(&s->a));
+        }
+        if (!polygon_list_push(ctx, out, view(&s->a)))
+            return false;
+    }
+    return true;
+}
+
+bool cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s, polygon_list *out,
+                         double *inset)
+{
+    /* The area of a convex cell falls with the inset at the rate of its perimeter, which falls too: Newton's method
+       from zero comes from one side and cannot overshoot. */
+    double area, perimeter;
+    *inset = 0;
+    for (int step = 0; step < MOST_STEPS; step++) {
+        if (!inset_all(ctx, cells, *inset, s, out, &area, &perimeter))
+            return false;
+        if (!(area - target > AREA_MET * target) || !(perimeter > 0))
+            break;
+        *inset += (area - target) / perimeter;
+    }
+    return true;
+}
+
+/* ---- overlap ---- */
+
+typedef struct sweep_item {
+    box2 box;
+    int32_t cell;
+} sweep_item;
+
+static int sweep_order(const void *a, const void *b)
+{
+    const sweep_item *p = a, *q = b;
+    if (p->box.lo.x != q->box.lo.x)
+        return p->box.lo.x < q->box.lo.x ? -1 : 1;
+    return (p->cell > q->cell) - (p->cell < q->cell);
+}
+
+double cells_largest_overlap(context *ctx, const polygon_list *cells)
+{
+    int32_t count = polygon_list_count(cells), used = 0;
+    double deepest = 0;
+    sweep_item *item = memory_array(ctx, (size_t)count + 1, sizeof *item);
+    if (!item)
+        return -1;
+    for (int32_t i = 0; i < count; i++) {
+        polygon p = polygon_list_get(cells, i);
+        if (p.count >= 3)
+            item[used++] = (sweep_item){polygon_bounds(p), i};
+    }
+    qsort(item, (size_t)used, sizeof *item, sweep_order);
+    for (int32_t i = 0; i < used; i++)
+        for (int32_t j = i + 1; j < used && item[j].box.lo.x < item[i].box.hi.x; j++) {
+            if (boxes_apart(item[i].box, item[j].box))
+                continue;
+            double depth = polygon_convex_depth(polygon_list_get(cells, item[i].cell),
+                                                polygon_list_get(cells, item[j].cell), NULL);
+            if (depth > deepest)
+                deepest = depth;
+        }
+    memory_free(ctx, item);
+    return deepest;
+}
