@@ -32,6 +32,8 @@ fram_status polyhedron_hull(context *ctx, const vec3 *point, int32_t count, doub
 /* The prism of a convex outline between two heights. */
 fram_status polyhedron_prism(context *ctx, polygon outline, double bottom, double top, polyhedron *out,
                              fram_error *error);
+/* Move every vertex, plane and the centre; translate.c. */
+void polyhedron_translate(polyhedron *p, vec3 by);
 double polyhedron_volume(const polyhedron *p);
 bool polyhedron_contains(const polyhedron *p, vec3 point, double margin);
 

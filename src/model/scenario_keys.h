@@ -37,6 +37,8 @@
     X(transient, REAL(0, 0, 1e7), "s", "time at the start that statistics leave out")                              \
     X(collision_margin, SCALED(0.3, 30, 1, 0, 1e3), "m", "margin by which bounding boxes are enlarged so that "    \
       "pairs last for several steps; changes speed only")                                                          \
+    X(speed_limit, SCALED(100, 30, 0.5, 1e-6, 1e9), "m/s", "a body that moves faster means that the run went wrong")   \
+    X(speed_limit, SCALED(100, 30, 0.5, 1e-9, 1e6), "m/s", "a faster body means that the run went wrong; it stops")  \
     X(solver, SECTION(solver), "", "the multibody solver")
 
 #define SCENARIO_SOLVER_KEYS(X)                                                                                    \
@@ -142,7 +144,7 @@
     X(x_max, REAL(300, -1e7, 1e7), "m", "edge")                                                                    \
     X(y_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                                   \
     X(y_max, REAL(100, -1e7, 1e7), "m", "edge")                                                                    \
-    X(boundary, CHOICE(domain_boundary, BOUNDARY_WALLS, "walls open"), "", "walls: a basin; open: ice that leaves "\
+    X(boundary, CHOICE(domain_boundary, DOMAIN_WALLS, "walls open"), "", "walls: a basin; open: ice that leaves "\
       "is removed")                                                                                                \
     X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water")               \
     X(wall_thickness, SCALED(10, 30, 1, 1e-6, 1e4), "m", "thickness of the walls, outside the domain")

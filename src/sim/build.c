@@ -1,0 +1,191 @@
+#include "sim/build.h"
+
+#include "base/transcendental.h"
+#include "sim/build_ice.h"
+
+#include <string.h>
+
+static void set_pair(pair_policies *p, material a, material b, double mu_static, double mu_kinetic, bool patch)
+{
+    p->of[a][b] = p->of[b][a] = (pair_policy){mu_static, mu_kinetic, patch};
+}
+
+static vec3 horizontal(double speed, double direction_deg)
+{
+    double angle = radians(direction_deg);
+    return vec3_make(speed * real_cos(angle), speed * real_sin(angle), 0);
+}
+
+step_settings build_settings(const scenario *s)
+{
+    const scenario_environment *e = &s->environment;
+    const scenario_solver *v = &s->run.solver;
+    const scenario_friction *f = &s->ice.friction;
+    step_settings out = {
+        .time_step = s->run.time_step,
+        .fluid = e->water,
+        .media = {e->gravity, e->water_density, e->air_density, horizontal(e->current_speed, e->current_direction_deg),
+                  horizontal(e->wind_speed, e->wind_direction_deg)},
+        .collision = {s->run.collision_margin},
+        .crushing = {s->run.time_step, 0, s->ice.top_plane_area},
+        .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
+                   v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
+        .boundary = s->domain.boundary,
+        .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+        .speed_limit = s->run.speed_limit,
+    };
+    const scenario_ice_drag *di = &e->ice_drag;
+    const scenario_hull_drag *dh = &e->hull_drag;
+    out.drag[MATERIAL_ICE] = (drag_coefficients){di->water_form, di->water_skin, di->air_form, di->air_skin};
+    out.drag[MATERIAL_HULL] = (drag_coefficients){dh->water_form, dh->water_skin, dh->air_form, dh->air_skin};
+    set_pair(&out.policies, MATERIAL_ICE, MATERIAL_ICE, f->ice_ice_static, f->ice_ice_kinetic, s->ice.cap_ice_ice);
+    set_pair(&out.policies, MATERIAL_ICE, MATERIAL_HULL, f->ice_hull_static, f->ice_hull_kinetic, true);
+    set_pair(&out.policies, MATERIAL_ICE, MATERIAL_WALL, f->ice_wall_static, f->ice_wall_kinetic, s->ice.cap_ice_wall);
+    return out;
+}
+
+/* ------------------------------------------------------------------------------------------------------------ vessel */
+
+static hull_particulars particulars_of(const scenario_hull *h)
+{
+    return (hull_particulars){.form = h->form,
+                              .length = h->length,
+                              .beam = h->beam,
+                              .draught = h->draught,
+                              .freeboard = h->freeboard,
+                              .stem_angle = radians(h->stem_angle_deg),
+                              .entrance_angle = radians(h->entrance_angle_deg),
+                              .flare_angle = radians(h->flare_angle_deg),
+                              .stern_angle = radians(h->stern_angle_deg),
+                              .parallel_midbody = h->parallel_midbody};
+}
+
+/* The hull about its centre of mass, with what its making tells. */
+typedef struct made_hull {
+    int32_t solid;
+    vec3 centre;           /* of mass, ship coordinates */
+    double displaced_mass; /* at the draught [kg] */
+} made_hull;
+
+static fram_status name_key(const scenario *s, fram_status status, const char *key, fram_error *error)
+{
+    if (status == FRAM_ERROR_INPUT && error && !error->key[0]) {
+        memcpy(error->key, key, strlen(key) + 1);
+        scenario_locate(s, error);
+    }
+    return status;
+}
+
+static fram_status make_hull(context *ctx, const scenario *s, world *w, made_hull *out, fram_error *error)
+{
+    mesh surface = {0};
+    polyhedron_array pieces = {0};
+    hull_particulars particulars = particulars_of(&s->vessel.hull);
+    hull_hydrostatics floats = {0};
+    fram_status status = hull_make(ctx, &particulars, &surface, &pieces, error);
+    if (status == FRAM_OK) status = hull_hydrostatics_at(ctx, &surface, 0, &floats, error);
+    if (status == FRAM_OK) {
+        out->displaced_mass = floats.volume * s->environment.water_density;
+        out->centre = vec3_make(automatic_or(s->vessel.centre_of_gravity_x, floats.centre_of_buoyancy.x),
+                                automatic_or(s->vessel.centre_of_gravity_y, floats.centre_of_buoyancy.y),
+                                automatic_or(s->vessel.centre_of_gravity_z, 0));
+        mesh_translate(&surface, vec3_neg(out->centre));
+        for (int32_t i = 0; i < pieces.count; i++) polyhedron_translate(&pieces.data[i], vec3_neg(out->centre));
+        status = solid_add(ctx, &w->shapes, &surface, &pieces, 0, &out->solid, error);
+    }
+    mesh_free(ctx, &surface);
+    polyhedron_array_free(ctx, &pieces);
+    return name_key(s, status, "vessel.hull", error);
+}
+
+static fram_status add_vessel(context *ctx, const scenario *s, world *w, const made_hull *hull, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    vessel_definition d = {
+        .solid = hull->solid,
+        .centre = hull->centre,
+        .mass = automatic_or(v->mass, hull->displaced_mass),
+        .gyration = {automatic_or(v->gyration_roll, 0.35 * v->hull.beam), automatic_or(v->gyration_pitch, 0.25 * v->hull.length),
+                     automatic_or(v->gyration_yaw, 0.25 * v->hull.length)},
+        .particulars = particulars_of(&v->hull),
+        .mode = v->mode,
+        .position = {v->x, v->y, 0},
+        .heading = radians(v->heading_deg),
+        .tow_velocity = horizontal(v->speed, automatic_or(v->course_deg, v->heading_deg)),
+        .tow_ramp = v->ramp,
+    };
+    int32_t row = -1;
+    return vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
+}
+
+/* ------------------------------------------------------------------------------------------------------------- walls */
+
+static fram_status add_wall(context *ctx, const scenario *s, world *w, box2 plan, fram_error *error)
+{
+    vec2 centre = vec2_scale(vec2_add(plan.lo, plan.hi), 0.5), half = vec2_scale(vec2_sub(plan.hi, plan.lo), 0.5);
+    vec2 corner[4] = {{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
+    int32_t shape = -1;
+    fram_status status = shape_add_prism(ctx, &w->shapes, NULL, (polygon){corner, 4}, s->domain.wall_height / 2, 0, &shape, error);
+    if (status != FRAM_OK) return status;
+    int32_t slot = body_create(ctx, &w->bodies, MOTION_STATIC, MATERIAL_WALL);
+    if (slot < 0) return error_memory(error);
+    w->bodies.position[slot] = vec3_make(centre.x, centre.y, 0);
+    w->bodies.shape[slot] = shape;
+    return FRAM_OK;
+}
+
+static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    if (s->domain.boundary != BOUNDARY_WALLS) return FRAM_OK;
+    const scenario_domain *d = &s->domain;
+    double t = d->wall_thickness;
+    const box2 plans[4] = {{{d->x_min - t, d->y_min - t}, {d->x_min, d->y_max + t}},
+                           {{d->x_max, d->y_min - t}, {d->x_max + t, d->y_max + t}},
+                           {{d->x_min, d->y_min - t}, {d->x_max, d->y_min}},
+                           {{d->x_min, d->y_max}, {d->x_max, d->y_max + t}}};
+    for (int i = 0; i < 4; i++) {
+        fram_status status = add_wall(ctx, s, w, plans[i], error);
+        if (status != FRAM_OK) return status;
+    }
+    return FRAM_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------------------- world */
+
+static fram_status start_clock(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
+    int32_t window = steps < 1 ? 1 : steps > 1e6 ? 1000000 : (int32_t)steps;
+    if (!table_resize(ctx, &w->clock, &clock_table_info, 1) ||
+        !table_resize(ctx, &w->load_window, &load_window_table_info, s->vessel.present ? window : 0))
+        return error_memory(error);
+    return FRAM_OK;
+}
+
+fram_status build_world(context *ctx, const scenario *s, world *w, build_report *report, fram_error *error)
+{
+    *report = (build_report){0};
+    fram_status status = world_init(ctx, w, error);
+    if (status != FRAM_OK) return status;
+    status = start_clock(ctx, s, w, error);
+    made_hull hull = {0};
+    if (status == FRAM_OK && s->vessel.present) {
+        status = make_hull(ctx, s, w, &hull, error);
+        if (status == FRAM_OK) status = add_vessel(ctx, s, w, &hull, error);
+        report->displaced_mass = hull.displaced_mass;
+    }
+    if (status == FRAM_OK) status = add_walls(ctx, s, w, error);
+    if (status == FRAM_OK) status = name_key(s, build_ice(ctx, s, w, &report->field, error), "ice", error);
+    if (status != FRAM_OK) world_free(ctx, w);
+    return status;
+}
+
+fram_status build_empty_world(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    fram_status status = world_init(ctx, w, error);
+    if (status != FRAM_OK) return status;
+    made_hull hull;
+    if (s->vessel.present) status = make_hull(ctx, s, w, &hull, error);
+    if (status != FRAM_OK) world_free(ctx, w);
+    return status;
+}

@@ -1,0 +1,138 @@
+#include "sim/build_ice.h"
+
+#include "base/transcendental.h"
+
+static ice_material material_of(const scenario *s)
+{
+    const scenario_ice *i = &s->ice;
+    return (ice_material){.density = i->density,
+                          .elastic_modulus = i->elastic_modulus,
+                          .poisson_ratio = i->poisson_ratio,
+                          .flexural_strength = i->flexural_strength,
+                          .crushing_strength = i->crushing_strength,
+                          .crushing_exponent = i->crushing_exponent};
+}
+
+static double floating_elevation(const scenario *s, double thickness)
+{
+    return s->environment.water ? floe_floating_elevation(thickness, s->ice.density, s->environment.water_density) : 0;
+}
+
+fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out, fram_error *error)
+{
+    const mesh *m = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[body]]].surface;
+    vec2_array points = {0};
+    bool good = true;
+    for (int32_t i = 0; good && i < m->vertex.count; i++) {
+        vec3 p = body_to_global(&w->bodies, body, m->vertex.data[i]);
+        if (!below_water || p.z <= 1e-9) good = array_push(ctx, &points, vec2_make(p.x, p.y));
+    }
+    good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, out);
+    array_free(ctx, &points);
+    return good ? FRAM_OK : error_memory(error);
+}
+
+static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines, fram_error *error)
+{
+    floe_definition d = {.thickness = s->ice.thickness,
+                         .material = material_of(s),
+                         .breakable = s->ice.breakable,
+                         .motion = MOTION_DYNAMIC,
+                         .elevation = floating_elevation(s, s->ice.thickness),
+                         .parent = -1};
+    for (int32_t i = 0; i < polygon_list_count(outlines); i++) {
+        int32_t row;
+        d.outline = polygon_list_get(outlines, i);
+        fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
+                                         &w->clock.next_floe[0], &row, error);
+        if (status != FRAM_OK) return status;
+    }
+    return FRAM_OK;
+}
+
+static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+{
+    polygon_list keep_out = {0}, outlines = {0};
+    vec2_array footprint = {0};
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; status == FRAM_OK && i < w->vessels.count; i++) {
+        status = build_footprint(ctx, w, w->vessels.body[i], false, &footprint, error);
+        if (status == FRAM_OK && !polygon_list_push(ctx, &keep_out, (polygon){footprint.data, footprint.count}))
+            status = error_memory(error);
+    }
+    field_request request = {.domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+                             .concentration = s->ice.concentration,
+                             .mean_area = s->ice.mean_floe_area,
+                             .size_deviation = s->ice.size_deviation,
+                             .roundness = s->ice.roundness,
+                             .seed = (uint64_t)s->run.seed,
+                             .smallest_area = s->ice.smallest_floe_area,
+                             .keep_out = &keep_out,
+                             .keep_out_margin = s->ice.keep_out_margin};
+    if (status == FRAM_OK) status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
+    if (status == FRAM_OK) status = add_field_floes(ctx, s, w, &outlines, error);
+    array_free(ctx, &footprint);
+    polygon_list_free(ctx, &keep_out);
+    polygon_list_free(ctx, &outlines);
+    return status;
+}
+
+/* ------------------------------------------------------------------------------------------------------- single floes */
+
+enum { SINGLE_FLOE_VERTICES = 64 };
+
+/* Outline about the origin, unturned. */
+static int32_t single_outline(const scenario_floe *f, vec2 out[SINGLE_FLOE_VERTICES])
+{
+    if (f->shape == FLOE_RECTANGLE) {
+        double x = f->length / 2, y = f->width / 2;
+        out[0] = vec2_make(-x, -y), out[1] = vec2_make(x, -y), out[2] = vec2_make(x, y), out[3] = vec2_make(-x, y);
+        return 4;
+    }
+    for (int64_t i = 0; i < f->sides; i++) {
+        double angle = 2 * PI * (double)i / (double)f->sides;
+        out[i] = vec2_make(f->radius * real_cos(angle), f->radius * real_sin(angle));
+    }
+    return (int32_t)f->sides;
+}
+
+static fram_status add_single_floe(context *ctx, const scenario *s, world *w, const scenario_floe *f, fram_error *error)
+{
+    vec2 outline[SINGLE_FLOE_VERTICES];
+    int32_t count = single_outline(f, outline), row = -1;
+    double yaw = radians(f->yaw_deg), c = real_cos(yaw), sn = real_sin(yaw);
+    for (int32_t i = 0; i < count; i++) {
+        vec2 p = outline[i];
+        outline[i] = vec2_make(f->x + c * p.x - sn * p.y, f->y + sn * p.x + c * p.y);
+    }
+    double thickness = automatic_or(f->thickness, s->ice.thickness);
+    floe_definition d = {.outline = {outline, count},
+                         .thickness = thickness,
+                         .material = material_of(s),
+                         .breakable = s->ice.breakable,
+                         .motion = f->fixed ? MOTION_STATIC : MOTION_DYNAMIC,
+                         .elevation = automatic_or(f->elevation, floating_elevation(s, thickness)),
+                         .yaw = yaw,
+                         .parent = -1};
+    fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
+                                     &w->clock.next_floe[0], &row, error);
+    if (status != FRAM_OK) return status;
+    int32_t body = w->floes.body[row];
+    w->bodies.orientation[body] = quat_from_roll_pitch_yaw(radians(f->roll_deg), radians(f->pitch_deg), yaw);
+    if (f->fixed) return FRAM_OK;
+    w->bodies.velocity[body] = vec3_make(f->velocity_x, f->velocity_y, f->velocity_z);
+    w->bodies.angular_velocity[body] = vec3_make(0, 0, f->spin);
+    return FRAM_OK;
+}
+
+fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+{
+    if (s->ice.source == ICE_VORONOI) return build_voronoi(ctx, s, w, report, error);
+    if (s->ice.source == ICE_NONE) return FRAM_OK;
+    for (int32_t i = 0; i < s->ice.floes.count; i++) {
+        fram_status status = add_single_floe(ctx, s, w, &s->ice.floes.data[i], error);
+        if (status != FRAM_OK) return status;
+    }
+    report->floes = s->ice.floes.count;
+    return FRAM_OK;
+}

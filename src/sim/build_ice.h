@@ -1,0 +1,16 @@
+/* The ice of a scenario as bodies. */
+#ifndef SIM_BUILD_ICE_H
+#define SIM_BUILD_ICE_H
+
+#include "ice/field.h"
+#include "model/scenario.h"
+#include "model/world.h"
+
+/* Adds the scenario's floes to a world whose vessel is in place (its footprint stays clear). */
+fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error);
+
+/* Plan outlines, global [m], of what is drawn or kept clear: the convex hull of all of a solid body seen from above, and of its
+   part below still water. */
+fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out, fram_error *error);
+
+#endif
