@@ -29,6 +29,15 @@ void contact_tangents(vec3 normal, vec3 *t1, vec3 *t2);
 /* Impulse on body a, global frame [N s]. */
 vec3 contact_impulse(const contact *c);
 
+/* The name of a feature where two bodies meet, for contact.key: the same from step to step while both bodies live, another one
+   after a slot was used again.  Ascending with (lower slot, higher slot); within a pair the lower bits are a hash of the
+   rest, so call contact_keys_part on the contacts of each pair.  Slots must be under CONTACT_MOST_BODIES. */
+enum { CONTACT_MOST_BODIES = 1 << 22 };
+uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b,
+                     uint32_t feature);
+/* Makes the keys of all contacts of one pair differ: of equal ones the later are counted up. */
+void contact_keys_part(contact *contacts, int32_t count);
+
 /* How two materials meet. */
 typedef struct pair_policy {
     double friction_static, friction_kinetic;
@@ -53,6 +62,7 @@ TABLE_DECLARE(pair, PAIR_FIELDS)
 
 /* What the broad phase remembers of each body slot: the box it was last paired with. */
 #define BROAD_FIELDS(X)                                                                   \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that was boxed; 0: none")     \
     X(lo, vec3, FIELD_F64, 3, "m", "lower corner of the fat box, global frame")           \
     X(hi, vec3, FIELD_F64, 3, "m", "upper corner of the fat box")
 TABLE_DECLARE(broad, BROAD_FIELDS)
