@@ -13,7 +13,7 @@
 typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE } ice_source;
 typedef enum floe_shape { FLOE_RECTANGLE = 0, FLOE_REGULAR } floe_shape;
 /* What closes the domain. */
-typedef enum domain_boundary { BOUNDARY_WALLS = 0, BOUNDARY_OPEN } domain_boundary;
+typedef enum domain_boundary { DOMAIN_WALLS = 0, DOMAIN_OPEN } domain_boundary;
 
 /* Text is held in place, so that a scenario is plain data; longer text is refused. */
 enum { SCENARIO_TEXT_SIZE = 512 };

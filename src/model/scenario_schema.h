@@ -42,12 +42,6 @@ struct scenario_section {
 /* The whole scenario. */
 extern const scenario_section scenario_schema;
 
-/* What any list begins with: an ARRAY of bytes. */
-typedef struct scenario_any_list {
-    void *data;
-    int32_t count, capacity;
-} scenario_any_list;
-
 /* The member that a key describes, inside the struct of its section. */
 static inline void *key_member(const scenario_key *key, void *section) { return (char *)section + key->offset; }
 static inline const void *key_member_const(const scenario_key *key, const void *section)
@@ -63,17 +57,28 @@ const char *section_nearest(const scenario_section *section, const char *name);
 double key_default(const scenario_key *key, double scale);
 /* Every key of a section, and of those inside it, at its default; lists empty. */
 void section_defaults(const scenario_section *section, void *data, double scale);
-/* One more element at its defaults at the end of a list; NULL without memory. */
-void *list_append(context *ctx, const scenario_key *key, scenario_any_list *list, double scale);
 
-/* The value of a choice, 0 based; its name; the value of a name, -1 when there is none.  Names are not terminated: size gets
-   their length. */
-int32_t choice_value(const scenario_key *key, const void *member);
-const char *choice_name(const scenario_key *key, int32_t value, size_t *size);
-int32_t choice_find(const scenario_key *key, const char *name);
+/* A list through its member: how many elements, one of them, one more at its defaults (NULL without memory), none. */
+int32_t list_count(const void *member);
+void *list_element(const scenario_key *key, const void *member, int32_t index);
+void *list_append(context *ctx, const scenario_key *key, void *member, double scale);
+void list_free(context *ctx, void *member);
+
+/* The value of a choice (0, 1, ...) as it stands in its member. */
+int32_t choice_value(const void *member);
 void choice_set(void *member, int32_t value);
+/* The name of a value, which is not terminated: size gets its length.  NULL when there is no such value. */
+const char *choice_name(const scenario_key *key, int32_t value, size_t *size);
+/* The value of a name, -1 when there is none. */
+int32_t choice_find(const scenario_key *key, const char *name);
 
-/* Value of a real, integer or boolean member, as a double (exact: integers are below 2^53). */
+/* Value of a real, integer or boolean member, as a double (exact: integers are below 2^53); 0 for the others. */
 double key_number(const scenario_key *key, const void *member);
+
+/* A function called for every key of a scenario that is no section and no list, in the order of the rows; path is its full
+   name, "ice.floes[2].x".  Walking ends with the first status that is not FRAM_OK. */
+typedef fram_status (*key_visit)(void *user, const scenario_key *key, const void *member, const char *path,
+                                 fram_error *error);
+fram_status scenario_walk(const scenario *s, key_visit visit, void *user, fram_error *error);
 
 #endif

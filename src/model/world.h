@@ -28,6 +28,10 @@ TABLE_DECLARE(clock, CLOCK_FIELDS)
     X(moment, vec3, FIELD_F64, 3, "N m", "ice moment about its centre of mass, global frame")
 TABLE_DECLARE(load_window, LOAD_WINDOW_FIELDS)
 
+/* Which bodies the record already knows, one row per body slot that it has seen. */
+#define RECORDED_FIELDS(X) X(generation, uint32_t, FIELD_U32, 1, "1", "generation in the record, 0: none")
+TABLE_DECLARE(recorded, RECORDED_FIELDS)
+
 /* What the ice does to one vessel in a step: means over the step, on the vessel, global frame, moments about its centre of
    mass. Scratch. */
 typedef struct ice_load {
@@ -51,6 +55,7 @@ typedef struct world {
     broad_table boxes;
     contact_memory_table memory;
     load_window_table load_window;
+    recorded_table recorded;
 
     /* Scratch: written anew each step. */
     struct {
@@ -74,7 +79,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 12 };
+enum { WORLD_TABLE_COUNT = 13 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -1,6 +1,6 @@
-/* Numbers as text and back, the same in every locale and to the bit.  Knows nothing of files. */
-#ifndef IO_NUMBER_TEXT_H
-#define IO_NUMBER_TEXT_H
+/* Numbers as text and back, the same in every locale and to the bit. */
+#ifndef BASE_NUMBER_TEXT_H
+#define BASE_NUMBER_TEXT_H
 
 #include <stdbool.h>
 #include <stdint.h>

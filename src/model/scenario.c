@@ -1,0 +1,97 @@
+/* Defaults, places and paths of a scenario. */
+#include "model/scenario_schema.h"
+#include <stdio.h>
+#include <string.h>
+
+/* The longest full name of a key with its list indices. */
+enum { PATH_SIZE = sizeof((scenario_place *)0)->key };
+
+void scenario_defaults(scenario *s, double scale)
+{
+    memset(s, 0, sizeof *s);
+    section_defaults(&scenario_schema, s, scale);
+    s->run.scale = scale;
+}
+
+void scenario_floe_defaults(scenario_floe *floe, double scale)
+{
+    const scenario_key *ice = &scenario_schema.keys[section_find(&scenario_schema, "ice")];
+    const scenario_key *floes = &ice->section->keys[section_find(ice->section, "floes")];
+    memset(floe, 0, sizeof *floe);
+    section_defaults(floes->section, floe, scale);
+}
+
+static void section_free(context *ctx, const scenario_section *section, void *data)
+{
+    for (int32_t k = 0; k < section->key_count; k++) {
+        const scenario_key *key = &section->keys[k];
+        void *member = key_member(key, data);
+        if (key->kind == KEY_SECTION)
+            section_free(ctx, key->section, member);
+        if (key->kind == KEY_LIST) {
+            for (int32_t i = 0; i < list_count(member); i++)
+                section_free(ctx, key->section, list_element(key, member, i));
+            list_free(ctx, member);
+        }
+    }
+}
+
+void scenario_free(context *ctx, scenario *s)
+{
+    section_free(ctx, &scenario_schema, s);
+    array_free(ctx, &s->places);
+}
+
+static fram_status section_walk(const scenario_section *section, const void *data, const char *path, key_visit visit,
+                                void *user, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t k = 0; k < section->key_count && status == FRAM_OK; k++) {
+        const scenario_key *key = &section->keys[k];
+        const void *member = key_member_const(key, data);
+        char name[PATH_SIZE];
+        snprintf(name, sizeof name, "%s%s%s", path, *path ? "." : "", key->name);
+        if (key->kind == KEY_SECTION) {
+            status = section_walk(key->section, member, name, visit, user, error);
+        } else if (key->kind == KEY_LIST) {
+            for (int32_t i = 0; i < list_count(member) && status == FRAM_OK; i++) {
+                snprintf(name, sizeof name, "%s%s%s[%d]", path, *path ? "." : "", key->name, (int)i);
+                status = section_walk(key->section, list_element(key, member, i), name, visit, user, error);
+            }
+        } else {
+            status = visit(user, key, member, name, error);
+        }
+    }
+    return status;
+}
+
+fram_status scenario_walk(const scenario *s, key_visit visit, void *user, fram_error *error)
+{
+    return section_walk(&scenario_schema, s, "", visit, user, error);
+}
+
+void scenario_locate(const scenario *s, fram_error *error)
+{
+    if (!error)
+        return;
+    snprintf(error->file, sizeof error->file, "%.*s", (int)sizeof error->file - 1, s->file);
+    error->line = error->column = 0;
+    for (int32_t i = 0; i < s->places.count; i++) {
+        const scenario_place *place = &s->places.data[i];
+        if (strcmp(place->key, error->key) != 0)
+            continue;
+        if (place->override)
+            snprintf(error->file, sizeof error->file, "--set");
+        error->line = place->line;
+        error->column = place->column;
+        return;
+    }
+}
+
+bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size)
+{
+    const char *slash = strrchr(s->file, '/');
+    int folder = path[0] == '/' || !slash ? 0 : (int)(slash - s->file) + 1;
+    int length = snprintf(out, size, "%.*s%s", folder, s->file, path);
+    return length >= 0 && (size_t)length < size;
+}

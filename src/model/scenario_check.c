@@ -1,0 +1,189 @@
+/* What a scenario must satisfy: the range of every key, and that keys go together.  All rules between keys stand here. */
+#include "base/number_text.h"
+#include "model/scenario_schema.h"
+#include <stdio.h>
+#include <string.h>
+
+static fram_status fault(const scenario *s, fram_error *error, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+static fram_status fault(const scenario *s, fram_error *error, const char *key, const char *format, ...)
+{
+    char message[sizeof error->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s", message);
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
+}
+
+/* ---- ranges ---- */
+
+static const char *unit_text(const scenario_key *key)
+{
+    return strcmp(key->unit, "1") == 0 ? "" : key->unit;
+}
+
+static fram_status check_number(const scenario *s, const scenario_key *key, const void *member, const char *path,
+                                fram_error *error)
+{
+    double value = key_number(key, member);
+    if (key->automatic && is_automatic(value))
+        return FRAM_OK;
+    if (value >= key->lo && value <= key->hi)
+        return FRAM_OK;
+    char lo[NUMBER_TEXT_SIZE], hi[NUMBER_TEXT_SIZE], found[NUMBER_TEXT_SIZE];
+    real_to_text(key->lo, lo);
+    real_to_text(key->hi, hi);
+    real_to_text(value, found);
+    const char *unit = unit_text(key);
+    return fault(s, error, path, "expected %s%s from %s to %s%s%s, found %s", key->automatic ? "auto or " : "",
+                 key->kind == KEY_INTEGER ? "an integer" : "a number", lo, hi, *unit ? " " : "", unit, found);
+}
+
+static fram_status check_range(void *user, const scenario_key *key, const void *member, const char *path,
+                               fram_error *error)
+{
+    const scenario *s = user;
+    size_t size;
+    if (key->kind == KEY_REAL || key->kind == KEY_INTEGER)
+        return check_number(s, key, member, path, error);
+    if (key->kind == KEY_CHOICE && !choice_name(key, choice_value(member), &size))
+        return fault(s, error, path, "expected one of %s, found value %d", key->text, (int)choice_value(member));
+    return FRAM_OK;
+}
+
+/* ---- keys that must go together ---- */
+
+/* Two numbers of which the first must not exceed the second. */
+static fram_status check_order(const scenario *s, const char *key, double value, const char *bound_key, double bound,
+                               fram_error *error)
+{
+    if (value <= bound)
+        return FRAM_OK;
+    char found[NUMBER_TEXT_SIZE], limit[NUMBER_TEXT_SIZE];
+    real_to_text(value, found);
+    real_to_text(bound, limit);
+    return fault(s, error, key, "expected at most %s, which is %s, found %s", bound_key, limit, found);
+}
+
+static fram_status check_run(const scenario *s, fram_error *error)
+{
+    const scenario_run *run = &s->run;
+    fram_status status = check_order(s, "run.time_step", run->time_step, "run.duration", run->duration, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "run.transient", run->transient, "run.duration", run->duration, error);
+    return status;
+}
+
+static fram_status check_domain(const scenario *s, fram_error *error)
+{
+    const scenario_domain *d = &s->domain;
+    if (d->x_min == d->x_max)
+        return fault(s, error, "domain.x_max", "expected more than domain.x_min, found the same value");
+    if (d->y_min == d->y_max)
+        return fault(s, error, "domain.y_max", "expected more than domain.y_min, found the same value");
+    fram_status status = check_order(s, "domain.x_min", d->x_min, "domain.x_max", d->x_max, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "domain.y_min", d->y_min, "domain.y_max", d->y_max, error);
+    return status;
+}
+
+static bool inside_domain(const scenario *s, double x, double y)
+{
+    return x >= s->domain.x_min && x <= s->domain.x_max && y >= s->domain.y_min && y <= s->domain.y_max;
+}
+
+static fram_status check_vessel(const scenario *s, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    if (!v->present)
+        return FRAM_OK;
+    if (v->hull.form == HULL_MESH && !v->hull.file[0])
+        return fault(s, error, "vessel.hull.file", "expected the path of a mesh, since vessel.hull.form is file, found nothing");
+    if (v->hull.form != HULL_MESH && v->hull.file[0])
+        return fault(s, error, "vessel.hull.file", "expected nothing, since vessel.hull.form is not file, found \"%s\"",
+                     v->hull.file);
+    if (s->domain.boundary == DOMAIN_WALLS && !inside_domain(s, v->x, v->y))
+        return fault(s, error, "vessel.x", "expected vessel.x and vessel.y inside the walls of the domain, found a place outside");
+    return FRAM_OK;
+}
+
+static fram_status check_friction(const scenario *s, fram_error *error)
+{
+    const scenario_friction *f = &s->ice.friction;
+    fram_status status = check_order(s, "ice.friction.ice_ice_kinetic", f->ice_ice_kinetic,
+                                     "ice.friction.ice_ice_static", f->ice_ice_static, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "ice.friction.ice_hull_kinetic", f->ice_hull_kinetic, "ice.friction.ice_hull_static",
+                             f->ice_hull_static, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "ice.friction.ice_wall_kinetic", f->ice_wall_kinetic, "ice.friction.ice_wall_static",
+                             f->ice_wall_static, error);
+    return status;
+}
+
+static fram_status check_field(const scenario *s, fram_error *error)
+{
+    const scenario_ice *ice = &s->ice;
+    const scenario_domain *d = &s->domain;
+    double area = (d->x_max - d->x_min) * (d->y_max - d->y_min);
+    fram_status status = check_order(s, "ice.mean_floe_area", ice->mean_floe_area, "the area of the domain", area, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "ice.smallest_floe_area", ice->smallest_floe_area, "ice.mean_floe_area",
+                             ice->mean_floe_area, error);
+    return status;
+}
+
+static fram_status check_floes(const scenario *s, fram_error *error)
+{
+    for (int32_t i = 0; i < s->ice.floes.count; i++) {
+        const scenario_floe *floe = &s->ice.floes.data[i];
+        if (inside_domain(s, floe->x, floe->y))
+            continue;
+        char key[32];
+        snprintf(key, sizeof key, "ice.floes[%d].x", (int)i);
+        return fault(s, error, key, "expected the centre (x, y) of the floe inside the domain, found a place outside");
+    }
+    return FRAM_OK;
+}
+
+static fram_status check_ice(const scenario *s, fram_error *error)
+{
+    const scenario_ice *ice = &s->ice;
+    bool listed = ice->source == ICE_FLOES;
+    if (listed && ice->floes.count == 0)
+        return fault(s, error, "ice.floes", "expected at least one floe, since ice.source is floes, found none");
+    if (!listed && ice->floes.count > 0)
+        return fault(s, error, "ice.floes", "expected no floes, since ice.source is not floes, found %d",
+                     (int)ice->floes.count);
+    fram_status status = check_friction(s, error);
+    if (status == FRAM_OK && ice->source == ICE_VORONOI)
+        status = check_field(s, error);
+    if (status == FRAM_OK)
+        status = check_floes(s, error);
+    if (status != FRAM_OK || ice->source == ICE_NONE || !s->environment.water)
+        return status;
+    if (ice->density < s->environment.water_density)
+        return FRAM_OK;
+    char found[NUMBER_TEXT_SIZE];
+    real_to_text(ice->density, found);
+    return fault(s, error, "ice.density", "expected less than environment.water_density, so that ice floats, found %s",
+                 found);
+}
+
+fram_status scenario_check(const scenario *s, fram_error *error)
+{
+    fram_status status = scenario_walk(s, check_range, (void *)s, error);
+    if (status == FRAM_OK)
+        status = check_run(s, error);
+    if (status == FRAM_OK)
+        status = check_domain(s, error);
+    if (status == FRAM_OK)
+        status = check_vessel(s, error);
+    if (status == FRAM_OK)
+        status = check_ice(s, error);
+    return status;
+}

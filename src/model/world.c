@@ -1,0 +1,163 @@
+/* The life of a world: its tables are made, copied, compared and hashed by walking world_tables(). */
+#include "model/world.h"
+#include "base/number_text.h"
+#include <stdio.h>
+#include <string.h>
+
+#define TABLE_SELF clock_table
+TABLE_DEFINE(clock, CLOCK_FIELDS)
+#undef TABLE_SELF
+#define TABLE_SELF load_window_table
+TABLE_DEFINE(load_window, LOAD_WINDOW_FIELDS)
+#undef TABLE_SELF
+#define TABLE_SELF recorded_table
+TABLE_DEFINE(recorded, RECORDED_FIELDS)
+#undef TABLE_SELF
+
+/* A list of tables says nothing about who may change them: the const of the world is the caller's to keep. */
+#define STATE(noun, member) {&noun##_table_info, (void *)&w->member}
+
+void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
+{
+    const world_table list[WORLD_TABLE_COUNT] = {
+        STATE(clock, clock),
+        STATE(body, bodies),
+        STATE(shape, shapes.shapes),
+        STATE(piece, shapes.pieces),
+        STATE(shape_vertex, shapes.vertices),
+        STATE(floe, floes),
+        STATE(vessel, vessels),
+        STATE(joint, joints),
+        STATE(pair, pairs),
+        STATE(broad, boxes),
+        STATE(contact_memory, memory),
+        STATE(load_window, load_window),
+        STATE(recorded, recorded),
+    };
+    memcpy(out, list, sizeof list);
+}
+
+fram_status world_init(context *ctx, world *w, fram_error *error)
+{
+    memset(w, 0, sizeof *w);
+    w->scratch.collision = collision_scratch_create(ctx);
+    w->scratch.crushing = crushing_scratch_create(ctx);
+    w->scratch.solve = solver_create(ctx);
+    w->scratch.plane = overlay_create(ctx);
+    bool made = w->scratch.collision && w->scratch.crushing && w->scratch.solve && w->scratch.plane;
+    if (made && table_resize(ctx, &w->clock, &clock_table_info, 1))
+        return FRAM_OK;
+    world_free(ctx, w);
+    return error_memory(error);
+}
+
+static void scratch_free(context *ctx, world *w)
+{
+    array_free(ctx, &w->scratch.loads);
+    array_free(ctx, &w->scratch.outside);
+    array_free(ctx, &w->scratch.fluid);
+    array_free(ctx, &w->scratch.contacts);
+    array_free(ctx, &w->scratch.patch_pairs);
+    array_free(ctx, &w->scratch.patches);
+    array_free(ctx, &w->scratch.ice_loads);
+    if (w->scratch.collision)
+        collision_scratch_free(ctx, w->scratch.collision);
+    if (w->scratch.crushing)
+        crushing_scratch_free(ctx, w->scratch.crushing);
+    if (w->scratch.solve)
+        solver_free(ctx, w->scratch.solve);
+    if (w->scratch.plane)
+        overlay_free(w->scratch.plane);
+}
+
+void world_free(context *ctx, world *w)
+{
+    world_table tables[WORLD_TABLE_COUNT];
+    world_tables(w, tables);
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++)
+        table_free(ctx, tables[t].table, tables[t].info);
+    shape_store_free(ctx, &w->shapes);
+    scratch_free(ctx, w);
+    memset(w, 0, sizeof *w);
+}
+
+uint64_t world_hash(const world *w)
+{
+    world_table tables[WORLD_TABLE_COUNT];
+    world_tables(w, tables);
+    uint64_t hash = WORLD_TABLE_COUNT;
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++)
+        hash = table_hash(tables[t].table, tables[t].info, hash);
+    return hash;
+}
+
+fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error)
+{
+    world_table to[WORLD_TABLE_COUNT], from[WORLD_TABLE_COUNT];
+    world_tables(dst, to);
+    world_tables(src, from);
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++)
+        if (!table_copy(ctx, to[t].table, from[t].table, to[t].info))
+            return error_memory(error);
+    return FRAM_OK;
+}
+
+/* One number of a column as text. */
+static void number_print(const void *data, field_kind kind, size_t index, char out[NUMBER_TEXT_SIZE])
+{
+    switch (kind) {
+    case FIELD_F64: real_to_text(((const double *)data)[index], out); break;
+    case FIELD_I32: snprintf(out, NUMBER_TEXT_SIZE, "%lld", (long long)((const int32_t *)data)[index]); break;
+    case FIELD_U32: snprintf(out, NUMBER_TEXT_SIZE, "%llu", (unsigned long long)((const uint32_t *)data)[index]); break;
+    case FIELD_I64: snprintf(out, NUMBER_TEXT_SIZE, "%lld", (long long)((const int64_t *)data)[index]); break;
+    case FIELD_U64: snprintf(out, NUMBER_TEXT_SIZE, "%llu", (unsigned long long)((const uint64_t *)data)[index]); break;
+    case FIELD_U8: snprintf(out, NUMBER_TEXT_SIZE, "%u", (unsigned)((const uint8_t *)data)[index]); break;
+    }
+}
+
+/* The first number of two columns that differs in its bits, as text. */
+static bool column_difference(const char *table, const field_info *field, const void *a, const void *b, int32_t rows,
+                              char text[200])
+{
+    size_t number = field_kind_size(field->kind), count = (size_t)rows * (size_t)field->components;
+    for (size_t i = 0; i < count; i++) {
+        if (memcmp((const char *)a + i * number, (const char *)b + i * number, number) == 0)
+            continue;
+        char first[NUMBER_TEXT_SIZE], second[NUMBER_TEXT_SIZE];
+        number_print(a, field->kind, i, first);
+        number_print(b, field->kind, i, second);
+        size_t components = (size_t)field->components;
+        snprintf(text, 200, "%s[%zu].%s[%zu]: %s and %s", table, i / components, field->name, i % components, first,
+                 second);
+        return true;
+    }
+    return false;
+}
+
+static bool table_difference(const world_table *a, const world_table *b, char text[200])
+{
+    const table_head *head_a = a->table, *head_b = b->table;
+    if (head_a->count != head_b->count) {
+        snprintf(text, 200, "%s: %d and %d rows", a->info->name, (int)head_a->count, (int)head_b->count);
+        return true;
+    }
+    for (int f = 0; f < a->info->field_count; f++) {
+        const field_info *field = &a->info->fields[f];
+        if (column_difference(a->info->name, field, table_field(a->table, field), table_field(b->table, field),
+                              head_a->count, text))
+            return true;
+    }
+    return false;
+}
+
+bool world_difference(const world *a, const world *b, char text[200])
+{
+    world_table of_a[WORLD_TABLE_COUNT], of_b[WORLD_TABLE_COUNT];
+    world_tables(a, of_a);
+    world_tables(b, of_b);
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++)
+        if (table_difference(&of_a[t], &of_b[t], text))
+            return true;
+    text[0] = '\0';
+    return false;
+}
