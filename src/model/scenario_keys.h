@@ -37,6 +37,7 @@
     X(transient, REAL(0, 0, 1e7), "s", "time at the start that statistics leave out")                              \
     X(collision_margin, SCALED(0.3, 30, 1, 0, 1e3), "m", "margin by which bounding boxes are enlarged so that "    \
       "pairs last for several steps; changes speed only")                                                          \
+    X(speed_limit, SCALED(100, 30, 0.5, 1e-6, 1e9), "m/s", "a body that moves faster means that the run went wrong")   \
     X(solver, SECTION(solver), "", "the multibody solver")
 
 #define SCENARIO_SOLVER_KEYS(X)                                                                                    \

@@ -136,7 +136,7 @@ static fram_status add_wall(context *ctx, const scenario *s, world *w, box2 plan
 
 static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_error *error)
 {
-    if (s->domain.boundary != BOUNDARY_WALLS) return FRAM_OK;
+    if (s->domain.boundary != DOMAIN_WALLS) return FRAM_OK;
     const scenario_domain *d = &s->domain;
     double t = d->wall_thickness;
     const box2 plans[4] = {{{d->x_min - t, d->y_min - t}, {d->x_min, d->y_max + t}},
@@ -152,13 +152,11 @@ static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_err
 
 /* ------------------------------------------------------------------------------------------------------------- world */
 
-static fram_status start_clock(context *ctx, const scenario *s, world *w, fram_error *error)
+static fram_status start_load_window(context *ctx, const scenario *s, world *w, fram_error *error)
 {
     double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
     int32_t window = steps < 1 ? 1 : steps > 1e6 ? 1000000 : (int32_t)steps;
-    if (!table_resize(ctx, &w->clock, &clock_table_info, 1) ||
-        !table_resize(ctx, &w->load_window, &load_window_table_info, s->vessel.present ? window : 0))
-        return error_memory(error);
+    if (!table_resize(ctx, &w->load_window, &load_window_table_info, s->vessel.present ? window : 0)) return error_memory(error);
     return FRAM_OK;
 }
 
@@ -167,7 +165,7 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     *report = (build_report){0};
     fram_status status = world_init(ctx, w, error);
     if (status != FRAM_OK) return status;
-    status = start_clock(ctx, s, w, error);
+    status = start_load_window(ctx, s, w, error);
     made_hull hull = {0};
     if (status == FRAM_OK && s->vessel.present) {
         status = make_hull(ctx, s, w, &hull, error);

@@ -64,7 +64,7 @@ static fram_status integrate(context *ctx, const step_settings *s, world *w, fra
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked. */
 static fram_status remove_strays(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
-    if (s->boundary != BOUNDARY_OPEN) return FRAM_OK;
+    if (s->boundary != DOMAIN_OPEN) return FRAM_OK;
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
         if (body < 0) continue;

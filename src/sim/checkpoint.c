@@ -1,0 +1,162 @@
+#include "sim/checkpoint.h"
+
+#include "fram/version.h"
+#include "io/table_file.h"
+
+#include <dirent.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_HASH, NUMBER_COUNT };
+enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_COUNT };
+enum { PATH_SIZE = 1024, CHECKPOINTS_KEPT = 2 };
+
+/* ------------------------------------------------------------------------------------------------------------- names */
+
+/* The step in "checkpoint-000000001234.fram", or -1. */
+static int64_t step_of_name(const char *name)
+{
+    int64_t step = -1;
+    int end = 0;
+    if (sscanf(name, "checkpoint-%" SCNd64 ".fram%n", &step, &end) != 1 || end == 0 || name[end] != '\0') return -1;
+    return step;
+}
+
+static bool checkpoint_path(const char *folder, int64_t step, char out[PATH_SIZE])
+{
+    int n = snprintf(out, PATH_SIZE, "%s/checkpoint-%012" PRId64 ".fram", folder, step);
+    return n > 0 && n < PATH_SIZE;
+}
+
+typedef ARRAY(int64_t) step_array;
+
+static int newest_first(const void *a, const void *b)
+{
+    int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+    return x < y ? 1 : x > y ? -1 : 0;
+}
+
+/* Steps of all checkpoints of a folder, newest first. */
+static bool list_steps(context *ctx, const char *folder, step_array *steps)
+{
+    DIR *dir = opendir(folder);
+    if (!dir) return true;
+    bool good = true;
+    for (struct dirent *e = readdir(dir); e && good; e = readdir(dir)) {
+        int64_t step = step_of_name(e->d_name);
+        if (step >= 0) good = array_push(ctx, steps, step);
+    }
+    closedir(dir);
+    if (steps->count > 1) qsort(steps->data, (size_t)steps->count, sizeof *steps->data, newest_first);
+    return good;
+}
+
+static void remove_from(context *ctx, const char *folder, int32_t keep)
+{
+    step_array steps = {0};
+    char path[PATH_SIZE];
+    if (list_steps(ctx, folder, &steps)) {
+        for (int32_t i = keep; i < steps.count; i++) {
+            if (checkpoint_path(folder, steps.data[i], path)) (void)unlink(path);
+        }
+    }
+    array_free(ctx, &steps);
+}
+
+void checkpoint_remove_all(context *ctx, const char *folder) { remove_from(ctx, folder, 0); }
+
+/* ----------------------------------------------------------------------------------------------------------- writing */
+
+static fram_status write_to(context *ctx, const char *path, const world *w, const checkpoint_note *note, fram_error *error)
+{
+    world_table tables[WORLD_TABLE_COUNT];
+    world_tables(w, tables);
+    /* Writing only reads; the container's one struct for both ways has no const. */
+    table_file_number numbers[NUMBER_COUNT] = {{"series_length", note->series_length},
+                                               {"record_length", note->record_length},
+                                               {"state_hash", world_hash(w)}};
+    table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
+                                           {"inputs", (void *)note->inputs, strlen(note->inputs)},
+                                           {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
+    table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
+    return table_file_write(ctx, path, &content, error);
+}
+
+fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note, fram_error *error)
+{
+    char path[PATH_SIZE];
+    if (!checkpoint_path(folder, w->clock.step[0], path))
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    fram_status status = write_to(ctx, path, w, note, error);
+    if (status == FRAM_OK) remove_from(ctx, folder, CHECKPOINTS_KEPT);
+    return status;
+}
+
+fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
+                                    fram_error *error)
+{
+    char path[PATH_SIZE];
+    int n = snprintf(path, PATH_SIZE, "%s/failed.fram", folder);
+    if (n < 0 || n >= PATH_SIZE) return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    return write_to(ctx, path, w, note, error);
+}
+
+/* ----------------------------------------------------------------------------------------------------------- reading */
+
+static bool same_text(const table_file_bytes *bytes, const char *text)
+{
+    return bytes->size == strlen(text) && memcmp(bytes->data, text, bytes->size) == 0;
+}
+
+/* Read one file; `other` is true when it is sound but belongs to something else. */
+static fram_status read_one(context *ctx, const char *path, world *w, checkpoint_note *note, bool *other, fram_error *error)
+{
+    world_table tables[WORLD_TABLE_COUNT];
+    world_tables(w, tables);
+    table_file_number numbers[NUMBER_COUNT] = {{"series_length", 0}, {"record_length", 0}, {"state_hash", 0}};
+    table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}};
+    table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
+    *other = false;
+    fram_status status = table_file_read(ctx, path, &content, error);
+    if (status != FRAM_OK) return status;
+    if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
+        *other = true;
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                           "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
+    } else if (!same_text(&bytes[BYTES_INPUTS], note->inputs)) {
+        *other = true;
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                           "a file that the run was started with was changed since; restore it or start a new run");
+    } else if (world_hash(w) != numbers[NUMBER_HASH].value) {
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
+    }
+    note->series_length = numbers[NUMBER_SERIES].value;
+    note->record_length = numbers[NUMBER_RECORD].value;
+    table_file_free_bytes(ctx, &content);
+    return status;
+}
+
+fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, checkpoint_note *note, fram_error *error)
+{
+    step_array steps = {0};
+    if (!list_steps(ctx, folder, &steps)) {
+        array_free(ctx, &steps);
+        return error_memory(error);
+    }
+    fram_status status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
+    for (int32_t i = 0; i < steps.count; i++) {
+        char path[PATH_SIZE];
+        bool other = false;
+        fram_error reason = {0};
+        if (!checkpoint_path(folder, steps.data[i], path)) continue;
+        status = read_one(ctx, path, w, note, &other, &reason);
+        if (error && status != FRAM_OK) *error = reason;
+        if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || other) break;
+        log_write(ctx, LOG_WARNING, "%s: %s; trying the one before", path, reason.message);
+    }
+    array_free(ctx, &steps);
+    return status;
+}

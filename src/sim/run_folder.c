@@ -1,0 +1,163 @@
+#include "sim/run_folder.h"
+
+#include "base/build.h"
+#include "base/hash.h"
+#include "fram/version.h"
+#include "io/atomic_file.h"
+#include "model/scenario_schema.h"
+#include "sim/checkpoint.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH_SIZE = 1024, INPUT_LIMIT = 1 << 30 };
+
+/* ------------------------------------------------------------------------------------------------------------ folder */
+
+/* mkdir -p */
+static fram_status make_folders(const char *folder, fram_error *error)
+{
+    char path[PATH_SIZE];
+    size_t length = strlen(folder);
+    if (length == 0 || length >= sizeof path)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is empty or too long");
+    memcpy(path, folder, length + 1);
+    for (size_t i = 1; i <= length; i++) {
+        if (path[i] != '/' && path[i] != '\0') continue;
+        char keep = path[i];
+        path[i] = '\0';
+        if (mkdir(path, 0777) != 0 && errno != EEXIST) return file_error(error, path, "make the folder", errno);
+        path[i] = keep;
+    }
+    return FRAM_OK;
+}
+
+static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
+{
+    DIR *dir = opendir(folder);
+    if (!dir) return file_error(error, folder, "open the folder", errno);
+    *empty = true;
+    for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
+        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) *empty = false;
+    }
+    closedir(dir);
+    return FRAM_OK;
+}
+
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error)
+{
+    bool empty = true;
+    fram_status status = make_folders(folder, error);
+    if (status == FRAM_OK) status = is_empty(folder, &empty, error);
+    if (status != FRAM_OK) return status;
+    if (!empty && !force)
+        return error_set(error, FRAM_ERROR_USAGE, folder, 0, "--output",
+                         "the folder is not empty; name another one, or give --force to overwrite the results in it");
+    checkpoint_remove_all(ctx, folder);
+    return FRAM_OK;
+}
+
+/* ------------------------------------------------------------------------------------------------------------ inputs */
+
+typedef struct input_list {
+    context *ctx;
+    const scenario *s;
+    text_buffer *out;
+} input_list;
+
+static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name, fram_error *error)
+{
+    (void)name;
+    input_list *list = user;
+    const char *given = member;
+    if (key->kind != KEY_PATH || !*given) return FRAM_OK;
+    char path[PATH_SIZE], digest[65];
+    char *data = NULL;
+    size_t size = 0;
+    if (!scenario_resolve_path(list->s, given, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, given, 0, NULL, "the path is too long");
+    fram_status status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
+    if (status != FRAM_OK) return status;
+    sha256_text(data, size, digest);
+    memory_free(list->ctx, data);
+    text_format(list->ctx, list->out, "%s  %s\n", digest, path);
+    return FRAM_OK;
+}
+
+fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out, fram_error *error)
+{
+    input_list list = {ctx, s, out};
+    text_add(ctx, out, "");
+    fram_status status = scenario_walk(s, add_input, &list, error);
+    return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
+}
+
+/* ----------------------------------------------------------------------------------------------------------- summary */
+
+/* A JSON string. */
+static void add_quoted(context *ctx, text_buffer *b, const char *text)
+{
+    text_add(ctx, b, "\"");
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\') text_format(ctx, b, "\\%c", *text);
+        else if ((unsigned char)*text < 0x20) text_format(ctx, b, "\\u%04x", (unsigned)*text);
+        else text_format(ctx, b, "%c", *text);
+    }
+    text_add(ctx, b, "\"");
+}
+
+static void add_text_member(context *ctx, text_buffer *b, const char *key, const char *value)
+{
+    text_format(ctx, b, "  \"%s\": ", key);
+    add_quoted(ctx, b, value);
+    text_add(ctx, b, ",\n");
+}
+
+static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
+{
+    text_add(ctx, b, "  \"inputs\": [");
+    const char *comma = "";
+    for (const char *line = inputs; *line;) {
+        const char *end = strchr(line, '\n');
+        char path[PATH_SIZE];
+        int length = (int)(end - line) - 66;
+        snprintf(path, sizeof path, "%.*s", length, line + 66);
+        text_format(ctx, b, "%s{\"sha256\": \"%.64s\", \"file\": ", comma, line);
+        add_quoted(ctx, b, path);
+        text_add(ctx, b, "}");
+        comma = ", ";
+        line = end + 1;
+    }
+    text_add(ctx, b, "],\n");
+}
+
+fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
+                                     const run_summary *summary, fram_error *error)
+{
+    char path[PATH_SIZE];
+    int n = snprintf(path, sizeof path, "%s/run.json", folder);
+    if (n < 0 || n >= PATH_SIZE) return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    text_buffer b = {0};
+    text_add(ctx, &b, "{\n");
+    add_text_member(ctx, &b, "fram_version", FRAM_VERSION);
+    add_text_member(ctx, &b, "compiler", build_compiler());
+    add_text_member(ctx, &b, "libraries", build_parts());
+    add_text_member(ctx, &b, "isa", isa_name(ctx->isa));
+    text_format(ctx, &b, "  \"threads\": %d,\n", summary->threads);
+    add_text_member(ctx, &b, "title", s->title);
+    text_format(ctx, &b, "  \"seed\": %" PRId64 ",\n", s->run.seed);
+    add_text_member(ctx, &b, "scenario_hash", summary->scenario_hash);
+    add_inputs(ctx, &b, summary->inputs);
+    add_text_member(ctx, &b, "status", summary->status);
+    if (summary->message) add_text_member(ctx, &b, "message", summary->message);
+    text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
+    text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->wall, summary->state_hash);
+    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    text_free(ctx, &b);
+    return status;
+}

@@ -1,0 +1,30 @@
+/* The folder of a run: scenario.yaml (the effective scenario), run.json (what ran, and how it ended), series.csv, record.fram,
+   checkpoints and pictures. */
+#ifndef SIM_RUN_FOLDER_H
+#define SIM_RUN_FOLDER_H
+
+#include "io/text_buffer.h"
+#include "model/scenario.h"
+#include "model/world.h"
+
+/* Make the folder and those above it.  One that is not empty is refused without `force`;
+   with it, the checkpoints of an earlier run are removed, so that they are never mixed with the new one's. */
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error);
+
+/* "sha256  path" of every file the scenario names, a line each. */
+fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out, fram_error *error);
+
+/* How a run stands, for run.json. */
+typedef struct run_summary {
+    const char *status; /* "running", "stopped", "finished", "interrupted", "failed" */
+    const char *message; /* of a failure, or NULL */
+    char scenario_hash[65];
+    const char *inputs;
+    int threads;
+    double wall; /* of the last call [s] */
+    uint64_t state_hash;
+} run_summary;
+fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
+                                     const run_summary *summary, fram_error *error);
+
+#endif
