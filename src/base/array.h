@@ -18,9 +18,9 @@ typedef ARRAY(int32_t) int32_array;
 #define array_reserve(ctx, a, wanted) \
     array_reserve_raw((ctx), (void **)&(a)->data, &(a)->capacity, (wanted), sizeof *(a)->data)
 /* Append one element; false when there is no memory. */
-#define array_push(ctx, a, ...)                                                                          \
+#define array_push(ctx, a, ...)                                                                              \
     ((((a)->count < (a)->capacity) || ((a)->count < INT32_MAX && array_reserve((ctx), (a), (a)->count + 1))) \
-         ? ((a)->data[(a)->count++] = (__VA_ARGS__), true)                                               \
+         ? ((a)->data[(a)->count++] = (__VA_ARGS__), true)                                                   \
          : false)
 /* Set the count, new elements undefined; false when there is no memory. */
 #define array_resize(ctx, a, n) (array_reserve((ctx), (a), (n)) ? ((a)->count = (n), true) : false)

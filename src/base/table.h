@@ -44,11 +44,11 @@ typedef struct table_head {
 } table_head;
 
 #define TABLE_FIELD_POINTER(name, ctype, kind, components, unit, meaning) ctype *name;
-#define TABLE_DECLARE(noun, FIELDS)              \
-    typedef struct noun##_table {                \
-        int32_t count, capacity;                 \
-        FIELDS(TABLE_FIELD_POINTER)              \
-    } noun##_table;                              \
+#define TABLE_DECLARE(noun, FIELDS) \
+    typedef struct noun##_table {   \
+        int32_t count, capacity;    \
+        FIELDS(TABLE_FIELD_POINTER) \
+    } noun##_table;                 \
     extern const table_info noun##_table_info;
 
 /* TABLE_DEFINE needs the struct's own name inside the field list, hence TABLE_SELF:
@@ -58,10 +58,10 @@ typedef struct table_head {
 #define TABLE_FIELD_INFO(name, ctype, kind, components, unit, meaning) \
     {#name, unit, meaning, kind, components, sizeof(ctype), offsetof(TABLE_SELF, name)},
 #define TABLE_FIELD_CHECK(name, ctype, kind, components, unit, meaning) \
-    _Static_assert(sizeof(ctype) == (components) * FIELD_KIND_SIZE(kind), "kind and components of " #name);
-#define TABLE_DEFINE(noun, FIELDS)                                                                       \
-    FIELDS(TABLE_FIELD_CHECK)                                                                            \
-    static const field_info noun##_field_list[] = {FIELDS(TABLE_FIELD_INFO)};                            \
+    _Static_assert(sizeof(ctype) == (components)*FIELD_KIND_SIZE(kind), "kind and components of " #name);
+#define TABLE_DEFINE(noun, FIELDS)                                                                            \
+    FIELDS(TABLE_FIELD_CHECK)                                                                                 \
+    static const field_info noun##_field_list[] = {FIELDS(TABLE_FIELD_INFO)};                                 \
     const table_info noun##_table_info = {#noun, (int)(sizeof noun##_field_list / sizeof *noun##_field_list), \
                                           noun##_field_list};
 
