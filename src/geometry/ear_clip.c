@@ -1,7 +1,10 @@
 /* Ear clipping (Meisters 1975); see ear_clip.h.
 
    The ring that is left is a doubly linked list of vertex numbers.  It stays simple and keeps every straight vertex,
-   because an ear is cut only when no other vertex touches its closed triangle; then two ears always exist. */
+   because an ear is cut only when no other vertex touches its closed triangle; then two ears always exist.
+
+   Where the ring touches itself, several vertices are at one place, each with its own wedge of the interior.  Wedges do
+   not overlap, so an ear that keeps to the wedges of its three vertices has nothing to fear from their doubles. */
 #include "geometry/ear_clip.h"
 #include "geometry/predicate.h"
 
@@ -47,12 +50,22 @@ static bool in_triangle(vec2 a, vec2 b, vec2 c, vec2 p)
     return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
 }
 
-/* The tip i is strictly convex and no other vertex touches its triangle.  Only vertices that are not strictly convex
-   can be the first to do so. */
+/* The diagonal over the tip i, which is strictly convex, runs inside the wedges of the interior at both its ends. */
+static bool diagonal_in_wedges(const ring *r, int32_t i)
+{
+    const ring_node *node = r->node;
+    int32_t before = node[i].previous, after = node[i].next;
+    vec2 a = r->vertex[before], c = r->vertex[after];
+    return (!node[before].convex || orientation(r->vertex[node[before].previous], a, c) > 0) &&
+           (!node[after].convex || orientation(c, r->vertex[node[after].next], a) > 0);
+}
+
+/* The tip i is strictly convex, and no vertex elsewhere touches its triangle.  Only vertices that are not strictly
+   convex can be the first to do so. */
 static bool is_ear(const ring *r, int32_t i)
 {
     const ring_node *node = r->node;
-    if (!node[i].convex)
+    if (!node[i].convex || !diagonal_in_wedges(r, i))
         return false;
     int32_t before = node[i].previous, after = node[i].next;
     vec2 a = r->vertex[before], b = r->vertex[i], c = r->vertex[after];
@@ -60,7 +73,8 @@ static bool is_ear(const ring *r, int32_t i)
     double lo_y = real_min(real_min(a.y, b.y), c.y), hi_y = real_max(real_max(a.y, b.y), c.y);
     for (int32_t k = node[after].next; k != before; k = node[k].next) {
         vec2 p = r->vertex[k];
-        if (!node[k].convex && p.x >= lo_x && p.x <= hi_x && p.y >= lo_y && p.y <= hi_y && in_triangle(a, b, c, p))
+        bool near = !node[k].convex && p.x >= lo_x && p.x <= hi_x && p.y >= lo_y && p.y <= hi_y;
+        if (near && in_triangle(a, b, c, p) && !vec2_equal(p, a) && !vec2_equal(p, b) && !vec2_equal(p, c))
             return false;
     }
     return true;

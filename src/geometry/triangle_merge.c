@@ -1,0 +1,178 @@
+/* Merging of triangles into larger pieces, over half edges; see polygon_pieces.h.
+
+   A half edge runs from `vertex` to the vertex of its `next`, with its piece to the left.  Taking the two halves of
+   a common edge out joins two rings into one.  The vertices of the region are all on its outline, so that two
+   pieces never have a chain of edges in common that leaves a simple ring when it is taken out: one edge, or the
+   union is not simple. */
+#include "geometry/polygon_pieces.h"
+#include "geometry/predicate.h"
+#include <stdlib.h>
+
+typedef struct half_edge {
+    int32_t vertex, next, previous;
+    bool removed;
+} half_edge;
+
+/* A pair of half edges between the same vertices, or a single one before it is matched. */
+typedef struct common_edge {
+    int32_t lo, hi; /* vertices */
+    int32_t half, other;
+    double square; /* of its length */
+} common_edge;
+
+typedef struct merging {
+    context *ctx;
+    const vec2 *vertex;
+    half_edge *half;
+    common_edge *edge;
+    int32_t *seen; /* per vertex: the last round in which it was met */
+    int32_t half_count, edge_count, round;
+    double rounding;
+} merging;
+
+static int compare_ends(const void *a, const void *b)
+{
+    const common_edge *e = a, *f = b;
+    if (e->lo != f->lo)
+        return e->lo < f->lo ? -1 : 1;
+    if (e->hi != f->hi)
+        return e->hi < f->hi ? -1 : 1;
+    return (e->half > f->half) - (e->half < f->half);
+}
+
+static int compare_lengths(const void *a, const void *b)
+{
+    const common_edge *e = a, *f = b;
+    if (e->square != f->square)
+        return e->square > f->square ? -1 : 1;
+    return compare_ends(a, b);
+}
+
+static void make_half_edges(merging *m, const index_array *t)
+{
+    m->half_count = t->count;
+    for (int32_t i = 0; i < t->count; i++) {
+        int32_t first = i - i % 3, next = first + (i + 1) % 3, previous = first + (i + 2) % 3;
+        int32_t from = t->data[i], to = t->data[next];
+        vec2 d = vec2_sub(m->vertex[to], m->vertex[from]);
+        m->half[i] = (half_edge){from, next, previous, false};
+        m->edge[i] = (common_edge){from < to ? from : to, from < to ? to : from, i, -1, vec2_dot(d, d)};
+    }
+}
+
+/* Keep the edges that have two halves, longest first. */
+static void match_half_edges(merging *m)
+{
+    common_edge *e = m->edge;
+    qsort(e, (size_t)m->half_count, sizeof *e, compare_ends);
+    for (int32_t i = 0; i + 1 < m->half_count; i++) {
+        if (e[i].lo != e[i + 1].lo || e[i].hi != e[i + 1].hi)
+            continue;
+        common_edge pair = e[i];
+        pair.other = e[i + 1].half;
+        e[m->edge_count++] = pair;
+        i++;
+    }
+    qsort(e, (size_t)m->edge_count, sizeof *e, compare_lengths);
+}
+
+static vec2 at(const merging *m, int32_t half) { return m->vertex[m->half[half].vertex]; }
+
+/* The turn where the ring of `half` goes over into that of `other` when their common edge is taken out. */
+static int joint_turn(const merging *m, int32_t half, int32_t other)
+{
+    const half_edge *h = m->half;
+    return turn_sign(at(m, h[half].previous), at(m, half), at(m, h[h[other].next].next), m->rounding);
+}
+
+static int32_t piece_count(const merging *m, int32_t half)
+{
+    int32_t n = 0, i = half;
+    do {
+        n++;
+        i = m->half[i].next;
+    } while (i != half);
+    return n;
+}
+
+static bool union_is_convex(const merging *m, int32_t half, int32_t other, int32_t most)
+{
+    return joint_turn(m, half, other) >= 0 && joint_turn(m, other, half) >= 0 &&
+           piece_count(m, half) + piece_count(m, other) - 2 <= most;
+}
+
+/* The two rings have no vertex in common but the ends of the edge. */
+static bool union_is_simple(merging *m, int32_t half, int32_t other)
+{
+    int32_t common = 0, i = half;
+    m->round++;
+    do {
+        m->seen[m->half[i].vertex] = m->round;
+        i = m->half[i].next;
+    } while (i != half);
+    i = other;
+    do {
+        common += m->seen[m->half[i].vertex] == m->round;
+        i = m->half[i].next;
+    } while (i != other);
+    return common == 2;
+}
+
+static void join(merging *m, int32_t a, int32_t b)
+{
+    m->half[a].next = b;
+    m->half[b].previous = a;
+}
+
+static void remove_edge(merging *m, int32_t half, int32_t other)
+{
+    half_edge *h = m->half;
+    join(m, h[half].previous, h[other].next);
+    join(m, h[other].previous, h[half].next);
+    h[half].removed = h[other].removed = true;
+}
+
+static bool push_pieces(merging *m, polygon_list *out)
+{
+    vec2_array ring = {0};
+    bool done = true;
+    for (int32_t i = 0; done && i < m->half_count; i++) {
+        array_clear(&ring);
+        for (int32_t k = i; done && !m->half[k].removed; k = m->half[k].next) {
+            m->half[k].removed = true;
+            done = array_push(m->ctx, &ring, at(m, k));
+        }
+        int32_t n = ring_normal_form(ring.data, ring.count);
+        done = done && (n < 3 || polygon_list_push(m->ctx, out, (polygon){ring.data, n}));
+    }
+    array_free(m->ctx, &ring);
+    return done;
+}
+
+bool triangles_merge(context *ctx, const vec2 *vertex, int32_t vertex_count, const index_array *t, merge_rule rule,
+                     int32_t most, polygon_list *out)
+{
+    if (t->count == 0)
+        return true;
+    merging m = {.ctx = ctx, .vertex = vertex, .rounding = polygon_rounding((polygon){vertex, vertex_count})};
+    m.half = memory_array(ctx, (size_t)t->count, sizeof *m.half);
+    m.edge = memory_array(ctx, (size_t)t->count, sizeof *m.edge);
+    m.seen = memory_array(ctx, (size_t)vertex_count, sizeof *m.seen);
+    bool done = m.half && m.edge && m.seen;
+    if (done) {
+        make_half_edges(&m, t);
+        match_half_edges(&m);
+        for (int32_t i = 0; i < m.edge_count; i++) {
+            int32_t half = m.edge[i].half, other = m.edge[i].other;
+            bool fits = rule == MERGE_CONVEX ? union_is_convex(&m, half, other, most)
+                                             : union_is_simple(&m, half, other);
+            if (fits)
+                remove_edge(&m, half, other);
+        }
+        done = push_pieces(&m, out);
+    }
+    memory_free(ctx, m.half);
+    memory_free(ctx, m.edge);
+    memory_free(ctx, m.seen);
+    return done;
+}
