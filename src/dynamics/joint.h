@@ -11,7 +11,8 @@ enum {
     JOINT_BALL = 0x07,
     JOINT_HINGE_Z = 0x1f,     /* free to turn about z */
     JOINT_PRISMATIC_Z = 0x3b, /* free to move along z */
-    JOINT_SPRING = 0x40       /* no locked row: spring and damper along the line between the anchors */
+    JOINT_SPRING = 0x40       /* no locked row (lower bits are then ignored): spring and damper along the line
+                                 between the anchors */
 };
 
 #define JOINT_FIELDS(X)                                                                                     \
@@ -37,5 +38,7 @@ TABLE_DECLARE(joint, JOINT_FIELDS)
    Returns the row, -1 without memory. */
 int32_t joint_create(context *ctx, joint_table *joints, const body_table *bodies, int32_t a, int32_t b, uint32_t locked,
                      vec3 point, quat axes);
+/* Frees the row. */
+void joint_remove(joint_table *joints, int32_t row);
 
 #endif

@@ -1,0 +1,174 @@
+/* The multibody solve of one step and the position correction, told in their order. */
+#include "dynamics/solver.h"
+
+#include "dynamics/motion.h"
+#include "dynamics/solver_rows.h"
+
+#include <string.h>
+
+solver *solver_create(context *ctx)
+{
+    solver *s = memory_array(ctx, 1, sizeof *s);
+    if (s)
+        s->ctx = ctx;
+    return s;
+}
+
+void solver_free(context *ctx, solver *s)
+{
+    if (!s)
+        return;
+    array_free(ctx, &s->bodies);
+    array_free(ctx, &s->place);
+    array_free(ctx, &s->contacts);
+    array_free(ctx, &s->joints);
+    array_free(ctx, &s->before);
+    array_free(ctx, &s->direction);
+    memory_free(ctx, s->entries);
+    memory_free(ctx, s);
+}
+
+/* ---- velocities ---- */
+
+static fram_status iterate(solver *s, const solver_settings *settings, int32_t *iterations, fram_error *error)
+{
+    *iterations = 0;
+    if (s->contacts.count == 0 && s->joints.count == 0)
+        return FRAM_OK;
+    if (settings->kind == SOLVER_ACCURATE)
+        return solver_iterate_accurately(s, settings, iterations) == FRAM_OK ? FRAM_OK : error_memory(error);
+    for (; *iterations < settings->iterations; ++*iterations) {
+        joint_row_sweep(s);
+        contact_row_sweep(s);
+    }
+    return FRAM_OK;
+}
+
+static void write_velocities(const solver *s, body_table *bodies)
+{
+    for (int32_t i = 0; i < s->bodies.count; i++) {
+        const solver_body *b = &s->bodies.data[i];
+        if (b->slot < 0 || !body_is_dynamic(bodies, b->slot))
+            continue;
+        bodies->velocity[b->slot] = b->velocity;
+        bodies->angular_velocity[b->slot] = b->angular_velocity;
+    }
+}
+
+static solver_report report_of(const solver *s, const contact_array *contacts, int32_t iterations)
+{
+    solver_report r = {.iterations = iterations};
+    for (int32_t i = 0; i < s->contacts.count; i++)
+        r.residual = fmax(r.residual, contact_row_residual(s, &s->contacts.data[i]));
+    for (int32_t i = 0; i < contacts->count; i++) {
+        r.mean_depth += contacts->data[i].depth;
+        r.max_depth = fmax(r.max_depth, contacts->data[i].depth);
+    }
+    if (contacts->count > 0)
+        r.mean_depth /= contacts->count;
+    return r;
+}
+
+fram_status solver_solve(context *ctx, solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                         const wrench *loads, joint_table *joints, contact_array *contacts,
+                         contact_memory_table *memory, solver_report *report, fram_error *error)
+{
+    s->ctx = ctx;
+    if (settings->kind != SOLVER_SEQUENTIAL && settings->kind != SOLVER_ACCURATE)
+        return error_set(error, FRAM_ERROR_UNSUPPORTED, NULL, 0, NULL,
+                         "this build has the sequential and the accurate solver, not number %d", (int)settings->kind);
+    fram_status status = bodies_move_freely(bodies, loads, dt, error);
+    if (status == FRAM_OK && !solver_bodies_begin(s, bodies))
+        status = error_memory(error);
+    if (status == FRAM_OK)
+        status = joint_rows_make(s, dt, bodies, joints, error);
+    if (status == FRAM_OK)
+        status = contact_rows_make(s, settings, dt, bodies, contacts, error);
+    if (status != FRAM_OK)
+        return status;
+    if (settings->warm_start) {
+        joint_rows_warm_start(s, joints);
+        contact_rows_warm_start(s, contacts, memory);
+    }
+    int32_t iterations;
+    status = iterate(s, settings, &iterations, error);
+    if (status != FRAM_OK)
+        return status;
+    write_velocities(s, bodies);
+    joint_rows_finish(s, dt, joints);
+    if (report)
+        *report = report_of(s, contacts, iterations);
+    return contact_rows_finish(s, contacts, memory, error);
+}
+
+/* ---- positions ---- */
+
+/* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
+static double correction_share(const contact *c, double rate)
+{
+    double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
+    double share = fmin(rate, 1 - carried);
+    return share > 0 ? share : 0;
+}
+
+/* Normal rows only, wanting the speed that takes away its share of the overlap within the step. */
+static bool make_correction_rows(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
+                                 const contact_array *contacts)
+{
+    array_clear(&s->contacts);
+    if (!array_reserve(s->ctx, &s->contacts, contacts->count))
+        return false;
+    for (int32_t i = 0; i < contacts->count && !settings->baumgarte; i++) {
+        const contact *c = &contacts->data[i];
+        if (!c->correct || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
+            continue;
+        contact_row *row = &s->contacts.data[s->contacts.count++];
+        memset(row, 0, sizeof *row);
+        row->contact = i;
+        row->a = solver_body_place(s, bodies, c->a);
+        row->b = solver_body_place(s, bodies, c->b);
+        if (row->a < 0 || row->b < 0)
+            return false;
+        vec3 arm_a = vec3_sub(c->point, bodies->position[c->a]), arm_b = vec3_sub(c->point, bodies->position[c->b]);
+        row->axis[0] = row_axis_make(&s->bodies.data[row->a], &s->bodies.data[row->b], c->normal,
+                                     vec3_cross(arm_a, c->normal), vec3_cross(arm_b, c->normal));
+        row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
+        row->limit = HUGE_VAL;
+        row->bias = correction_share(c, settings->correction_rate) * c->depth / dt;
+    }
+    return true;
+}
+
+fram_status solver_correct_positions(context *ctx, solver *s, const solver_settings *settings, double dt,
+                                     body_table *bodies, const joint_table *joints, const contact_array *contacts,
+                                     fram_error *error)
+{
+    s->ctx = ctx;
+    if (!solver_bodies_begin(s, bodies))
+        return error_memory(error);
+    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    if (status != FRAM_OK)
+        return status;
+    if (!make_correction_rows(s, settings, dt, bodies, contacts))
+        return error_memory(error);
+    for (int32_t i = 0; i < s->joints.count; i++) {
+        joint_block *j = &s->joints.data[i];
+        if (j->softness > 0) /* springs hold no position */
+            j->count = 0;
+        for (int r = 0; r < j->count; r++)
+            j->bias[r] = settings->correction_rate * j->error[r] / dt;
+    }
+    /* Pseudo velocities start from rest and are forgotten: no kinetic energy is added. */
+    for (int32_t i = 0; i < s->bodies.count; i++)
+        s->bodies.data[i].velocity = s->bodies.data[i].angular_velocity = vec3_make(0, 0, 0);
+    for (int32_t i = 0; i < settings->position_iterations; i++) {
+        joint_row_sweep(s);
+        contact_row_sweep(s);
+    }
+    for (int32_t i = 0; i < s->bodies.count; i++) {
+        const solver_body *b = &s->bodies.data[i];
+        if (b->slot >= 0 && body_is_dynamic(bodies, b->slot))
+            body_move(bodies, b->slot, b->velocity, b->angular_velocity, dt);
+    }
+    return FRAM_OK;
+}

@@ -1,0 +1,235 @@
+/* Contact rows: made, warm started, swept, judged and written back (SPEC 6, 7). */
+#include "dynamics/solver_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A contact between two bodies that nothing can move: a hull driven against static ice takes its cap while they approach,
+   and kinetic friction against the sliding; all others carry nothing. */
+static void load_immovable(const body_table *bodies, contact *c)
+{
+    memset(c->impulse, 0, sizeof c->impulse);
+    if (!c->crush_infinite || !isfinite(c->impulse_limit))
+        return;
+    vec3 t1, t2, u = vec3_sub(body_point_velocity(bodies, c->a, c->point), body_point_velocity(bodies, c->b, c->point));
+    contact_tangents(c->normal, &t1, &t2);
+    if (vec3_dot(u, c->normal) >= 0)
+        return;
+    double u1 = vec3_dot(u, t1), u2 = vec3_dot(u, t2), speed = sqrt(u1 * u1 + u2 * u2);
+    c->impulse[0] = c->impulse_limit;
+    if (speed > 0) {
+        c->impulse[1] = -c->friction_kinetic * c->impulse_limit * u1 / speed;
+        c->impulse[2] = -c->friction_kinetic * c->impulse_limit * u2 / speed;
+    }
+}
+
+static void fill_row(contact_row *row, const solver_body *a, const solver_body *b, const contact *c, vec3 arm_a,
+                     vec3 arm_b)
+{
+    vec3 direction[3] = {c->normal};
+    contact_tangents(c->normal, &direction[1], &direction[2]);
+    for (int i = 0; i < 3; i++)
+        row->axis[i] = row_axis_make(a, b, direction[i], vec3_cross(arm_a, direction[i]), vec3_cross(arm_b, direction[i]));
+    row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
+    double k11 = row_axis_coupling(&row->axis[1], &row->axis[1]), k12 = row_axis_coupling(&row->axis[1], &row->axis[2]);
+    double k22 = row_axis_coupling(&row->axis[2], &row->axis[2]), scale = 1 / (k11 * k22 - k12 * k12);
+    row->stick[0] = k22 * scale;
+    row->stick[1] = -k12 * scale;
+    row->stick[2] = k11 * scale;
+    row->slide = 2 / (k11 + k22);
+    row->limit = c->impulse_limit;
+    row->friction_kinetic = c->friction_kinetic;
+    row->friction_static = c->friction_static > c->friction_kinetic ? c->friction_static : c->friction_kinetic;
+}
+
+fram_status contact_rows_make(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
+                              contact_array *contacts, fram_error *error)
+{
+    array_clear(&s->contacts);
+    if (!array_reserve(s->ctx, &s->contacts, contacts->count))
+        return error_memory(error);
+    for (int32_t i = 0; i < contacts->count; i++) {
+        contact *c = &contacts->data[i];
+        if (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)) {
+            load_immovable(bodies, c);
+            continue;
+        }
+        contact_row *row = &s->contacts.data[s->contacts.count++];
+        memset(row, 0, sizeof *row);
+        row->contact = i;
+        row->a = solver_body_place(s, bodies, c->a);
+        row->b = solver_body_place(s, bodies, c->b);
+        if (row->a < 0 || row->b < 0)
+            return error_memory(error);
+        fill_row(row, &s->bodies.data[row->a], &s->bodies.data[row->b], c, vec3_sub(c->point, bodies->position[c->a]),
+                 vec3_sub(c->point, bodies->position[c->b]));
+        if (settings->baumgarte && c->correct)
+            row->bias = settings->correction_rate * c->depth / dt;
+    }
+    return FRAM_OK;
+}
+
+/* ---- warm start ---- */
+
+/* Keys mostly come in the order of the memory: look at the next entry first, then search all. */
+static int32_t memory_find(const contact_memory_table *memory, uint64_t key, int32_t next)
+{
+    if (next < memory->count && memory->key[next] == key)
+        return next;
+    int32_t low = 0, high = memory->count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (memory->key[middle] < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < memory->count && memory->key[low] == key ? low : -1;
+}
+
+/* Into the friction cone of the row's normal impulse: sticking inside mu_s p_n, otherwise on mu_k p_n. */
+static void project_friction(const contact_row *row, double *p1, double *p2)
+{
+    double length = sqrt(*p1 * *p1 + *p2 * *p2);
+    if (length <= row->friction_static * row->impulse[0])
+        return;
+    double scale = row->friction_kinetic * row->impulse[0] / length;
+    *p1 *= scale;
+    *p2 *= scale;
+}
+
+void contact_rows_warm_start(solver *s, const contact_array *contacts, const contact_memory_table *memory)
+{
+    int32_t next = 0;
+    for (int32_t i = 0; i < s->contacts.count; i++) {
+        contact_row *row = &s->contacts.data[i];
+        int32_t at = memory_find(memory, contacts->data[row->contact].key, next);
+        if (at < 0)
+            continue;
+        next = at + 1;
+        solver_body *a = &s->bodies.data[row->a], *b = &s->bodies.data[row->b];
+        double p[3];
+        for (int k = 0; k < 3; k++)
+            p[k] = vec3_dot(row->axis[k].direction, memory->impulse[at]);
+        row->impulse[0] = fmin(fmax(p[0], 0), row->limit);
+        project_friction(row, &p[1], &p[2]);
+        row->impulse[1] = p[1];
+        row->impulse[2] = p[2];
+        for (int k = 0; k < 3; k++)
+            row_axis_push(&row->axis[k], a, b, row->impulse[k]);
+    }
+}
+
+/* ---- one sweep ---- */
+
+/* Sticking impulse by the exact 2 x 2 block; once that leaves the static cone, a projected step of the sliding one, whose
+   rest point opposes the sliding velocity.  Both are free of the choice of tangents: friction is isotropic. */
+static void solve_friction(contact_row *row, solver_body *a, solver_body *b)
+{
+    double u1 = row_axis_velocity(&row->axis[1], a, b), u2 = row_axis_velocity(&row->axis[2], a, b);
+    double p1 = row->impulse[1] - (row->stick[0] * u1 + row->stick[1] * u2);
+    double p2 = row->impulse[2] - (row->stick[1] * u1 + row->stick[2] * u2);
+    double most = row->friction_static * row->impulse[0];
+    if (p1 * p1 + p2 * p2 > most * most) {
+        p1 = row->impulse[1] - row->slide * u1;
+        p2 = row->impulse[2] - row->slide * u2;
+        double length = sqrt(p1 * p1 + p2 * p2), radius = row->friction_kinetic * row->impulse[0];
+        if (length > radius) {
+            p1 *= radius / length;
+            p2 *= radius / length;
+        }
+    }
+    row_axis_push(&row->axis[1], a, b, p1 - row->impulse[1]);
+    row_axis_push(&row->axis[2], a, b, p2 - row->impulse[2]);
+    row->impulse[1] = p1;
+    row->impulse[2] = p2;
+}
+
+void contact_row_sweep(solver *s)
+{
+    for (int32_t i = 0; i < s->contacts.count; i++) {
+        contact_row *row = &s->contacts.data[i];
+        solver_body *a = &s->bodies.data[row->a], *b = &s->bodies.data[row->b];
+        double u = row_axis_velocity(&row->axis[0], a, b);
+        double p = row->impulse[0] - (u - row->bias) * row->normal_mass;
+        p = p > 0 ? p : 0;
+        p = p < row->limit ? p : row->limit;
+        row_axis_push(&row->axis[0], a, b, p - row->impulse[0]);
+        row->impulse[0] = p;
+        if (row->friction_static > 0)
+            solve_friction(row, a, b);
+    }
+}
+
+double contact_row_residual(const solver *s, const contact_row *row)
+{
+    double u = row_axis_velocity(&row->axis[0], &s->bodies.data[row->a], &s->bodies.data[row->b]) - row->bias;
+    double residual = fabs(u);
+    if (row->impulse[0] <= 0)
+        residual = u < 0 ? -u : 0;
+    if (row->impulse[0] >= row->limit)
+        residual = row->limit > 0 && u > 0 ? u : 0;
+    return residual;
+}
+
+double contact_row_slip_residual(const solver *s, const contact_row *row)
+{
+    if (row->friction_static <= 0)
+        return 0;
+    /* What one more solve of this contact alone would change, as a velocity. */
+    contact_row again = *row;
+    solver_body a = s->bodies.data[row->a], b = s->bodies.data[row->b];
+    solve_friction(&again, &a, &b);
+    double d1 = again.impulse[1] - row->impulse[1], d2 = again.impulse[2] - row->impulse[2];
+    return sqrt(d1 * d1 + d2 * d2) / row->slide;
+}
+
+/* ---- write back ---- */
+
+typedef struct memory_entry {
+    uint64_t key;
+    int32_t contact;
+} memory_entry;
+
+static int compare_entries(const void *a, const void *b)
+{
+    const memory_entry *x = a, *y = b;
+    if (x->key != y->key)
+        return x->key < y->key ? -1 : 1;
+    return (x->contact > y->contact) - (x->contact < y->contact);
+}
+
+/* Contacts that carry something, by ascending keys. */
+static fram_status remember(solver *s, const contact_array *contacts, contact_memory_table *memory, fram_error *error)
+{
+    if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, contacts->count, sizeof *s->entries) ||
+        !table_reserve(s->ctx, memory, &contact_memory_table_info, contacts->count))
+        return error_memory(error);
+    int32_t count = 0;
+    bool sorted = true;
+    for (int32_t i = 0; i < s->contacts.count; i++) {
+        int32_t row = s->contacts.data[i].contact;
+        if (contacts->data[row].impulse[0] <= 0)
+            continue;
+        s->entries[count] = (memory_entry){contacts->data[row].key, row};
+        sorted = sorted && (count == 0 || s->entries[count - 1].key < s->entries[count].key);
+        count++;
+    }
+    if (!sorted)
+        qsort(s->entries, (size_t)count, sizeof *s->entries, compare_entries);
+    memory->count = count;
+    for (int32_t i = 0; i < count; i++) {
+        memory->key[i] = s->entries[i].key;
+        memory->impulse[i] = contact_impulse(&contacts->data[s->entries[i].contact]);
+    }
+    return FRAM_OK;
+}
+
+fram_status contact_rows_finish(solver *s, contact_array *contacts, contact_memory_table *memory, fram_error *error)
+{
+    for (int32_t i = 0; i < s->contacts.count; i++) {
+        const contact_row *row = &s->contacts.data[i];
+        memcpy(contacts->data[row->contact].impulse, row->impulse, sizeof row->impulse);
+    }
+    return remember(s, contacts, memory, error);
+}

@@ -1,0 +1,142 @@
+/* The rows that all solvers work on, made anew each step: bodies that are touched, contact rows, joint blocks.
+   Inside dynamics; solver.h is the interface.
+
+   A direction of a contact or a joint between bodies a and b acts with +impulse on one and -impulse on the other.  Contacts
+   push a along +normal; joints push b along +direction. */
+#ifndef DYNAMICS_SOLVER_ROWS_H
+#define DYNAMICS_SOLVER_ROWS_H
+
+#include "dynamics/joint.h"
+#include "dynamics/solver.h"
+
+/* A body that a contact or joint touches.  Inverse tensors are in the global frame, added mass included, zero for static
+   and prescribed bodies. */
+typedef struct solver_body {
+    vec3 velocity, angular_velocity;
+    sym3 inverse_mass, inverse_inertia;
+    int32_t slot; /* -1: the world */
+} solver_body;
+
+/* One direction at a point: relative velocity = direction . (v_a - v_b) + arm_a . w_a - arm_b . w_b. */
+typedef struct row_axis {
+    vec3 direction, arm_a, arm_b;
+    vec3 push_a, push_b; /* velocity change of a (and minus that of b) per impulse */
+    vec3 turn_a, turn_b;
+} row_axis;
+
+typedef struct contact_row {
+    int32_t a, b;            /* places in the body array */
+    int32_t contact;         /* row of the contact array */
+    row_axis axis[3];        /* normal, two tangents */
+    double normal_mass;      /* 1 / (n . K n) */
+    double bias;             /* least relative normal velocity after the step, 0 but for Baumgarte [m/s] */
+    double limit;            /* cap of the normal impulse */
+    double friction_static, friction_kinetic;
+    double stick[3];         /* inverse of the 2 x 2 tangent block: 11, 12, 22 */
+    double slide;            /* step of the projected tangent impulse, 2 / trace of the tangent block */
+    double impulse[3];
+} contact_row;
+
+enum { JOINT_MOST_ROWS = 6 };
+
+/* A joint's rows, solved together. */
+typedef struct joint_block {
+    int32_t body, base;                       /* places of the joint's b, which is pushed, and a */
+    int32_t joint;
+    int32_t count;                            /* of rows */
+    int32_t motion[JOINT_MOST_ROWS];          /* row i locks this motion (bit of the mask); spring: 0 */
+    row_axis axis[JOINT_MOST_ROWS];
+    double factor[JOINT_MOST_ROWS][JOINT_MOST_ROWS]; /* L below, 1/D on the diagonal of K + softness = L D L^T */
+    double error[JOINT_MOST_ROWS];            /* of position [m], [rad]; 0 for a spring */
+    double bias[JOINT_MOST_ROWS];             /* wanted: relative velocity = -bias - softness impulse */
+    double softness;
+    double impulse[JOINT_MOST_ROWS];
+} joint_block;
+
+struct solver {
+    context *ctx;
+    ARRAY(solver_body) bodies;
+    int32_array place; /* of each body slot in `bodies`, -1: not touched */
+    ARRAY(contact_row) contacts;
+    ARRAY(joint_block) joints;
+    ARRAY(double) before;    /* accurate solver: multipliers before a sweep */
+    ARRAY(double) direction; /* accurate solver: search direction */
+    struct memory_entry *entries;
+    int32_t entry_capacity;
+};
+
+/* ---- solver_bodies.c ---- */
+
+/* Inverse tensors of a dynamic body in the global frame; zero for others. */
+void body_inverse_tensors(const body_table *bodies, int32_t slot, sym3 *inverse_mass, sym3 *inverse_inertia);
+/* Starts the list of touched bodies afresh. */
+bool solver_bodies_begin(solver *s, const body_table *bodies);
+/* The place of a slot (-1: the world), taken into the list when it is new; -1 without memory. */
+int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot);
+/* Velocities of all dynamic bodies after dt under the loads and the gyroscopic moment alone. */
+fram_status bodies_move_freely(body_table *bodies, const wrench *loads, double dt, fram_error *error);
+
+/* ---- solver_contacts.c ---- */
+
+/* Rows of all contacts of bodies that can be moved; impulses of the others are set here (SPEC 6: two driven bodies). */
+fram_status contact_rows_make(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
+                              contact_array *contacts, fram_error *error);
+void contact_rows_warm_start(solver *s, const contact_array *contacts, const contact_memory_table *memory);
+/* Impulses back into the contacts, and the memory of this step. */
+fram_status contact_rows_finish(solver *s, contact_array *contacts, contact_memory_table *memory, fram_error *error);
+void contact_row_sweep(solver *s);
+/* Complementarity residual of the normal row [m/s]. */
+double contact_row_residual(const solver *s, const contact_row *row);
+/* The same of the tangent rows. */
+double contact_row_slip_residual(const solver *s, const contact_row *row);
+
+/* ---- joint.c ---- */
+
+fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, const joint_table *joints,
+                            fram_error *error);
+void joint_rows_warm_start(solver *s, const joint_table *joints);
+void joint_rows_finish(solver *s, double dt, joint_table *joints);
+void joint_row_sweep(solver *s);
+/* Largest unmet velocity of the block [m/s]; turning is taken at the radius of gyration. */
+double joint_row_residual(const solver *s, const joint_block *block);
+
+/* ---- solver_accurate.c ---- */
+
+/* Sweeps until the largest residual of all rows is below the tolerance; returns the number of sweeps. */
+fram_status solver_iterate_accurately(solver *s, const solver_settings *settings, int32_t *sweeps);
+
+/* ---- shared by all ---- */
+
+static inline row_axis row_axis_make(const solver_body *a, const solver_body *b, vec3 direction, vec3 arm_a, vec3 arm_b)
+{
+    return (row_axis){.direction = direction,
+                      .arm_a = arm_a,
+                      .arm_b = arm_b,
+                      .push_a = sym3_mul_vec(a->inverse_mass, direction),
+                      .push_b = sym3_mul_vec(b->inverse_mass, direction),
+                      .turn_a = sym3_mul_vec(a->inverse_inertia, arm_a),
+                      .turn_b = sym3_mul_vec(b->inverse_inertia, arm_b)};
+}
+
+static inline double row_axis_velocity(const row_axis *x, const solver_body *a, const solver_body *b)
+{
+    return vec3_dot(x->direction, vec3_sub(a->velocity, b->velocity)) + vec3_dot(x->arm_a, a->angular_velocity) -
+           vec3_dot(x->arm_b, b->angular_velocity);
+}
+
+/* Change of the velocity along x per impulse along y. */
+static inline double row_axis_coupling(const row_axis *x, const row_axis *y)
+{
+    return vec3_dot(x->direction, vec3_add(y->push_a, y->push_b)) + vec3_dot(x->arm_a, y->turn_a) +
+           vec3_dot(x->arm_b, y->turn_b);
+}
+
+static inline void row_axis_push(const row_axis *x, solver_body *a, solver_body *b, double impulse)
+{
+    a->velocity = vec3_mad(a->velocity, x->push_a, impulse);
+    a->angular_velocity = vec3_mad(a->angular_velocity, x->turn_a, impulse);
+    b->velocity = vec3_mad(b->velocity, x->push_b, -impulse);
+    b->angular_velocity = vec3_mad(b->angular_velocity, x->turn_b, -impulse);
+}
+
+#endif
