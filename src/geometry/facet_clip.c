@@ -1,8 +1,8 @@
 /* Cutting one facet by one plane: the kernels of buoyancy, drag and crushing patches.  Knows no mesh. */
 #include "geometry/mesh.h"
 
-/* Where the segment meets the plane, from its inner end (distance <= 0) to its outer one (distance > 0).  Always taken in
-   this direction, so that two triangles cut their common edge at the same point to the bit. */
+/* Where the segment meets the plane, from its inner end (distance <= 0) to its outer one (distance > 0).  Always taken
+   in this direction, so that two triangles cut their common edge at the same point to the bit. */
 static vec3 crossing(vec3 inner, double inner_distance, vec3 outer, double outer_distance)
 {
     double t = inner_distance / (inner_distance - outer_distance);

@@ -30,10 +30,7 @@ bool mesh_copy(context *ctx, mesh *dst, const mesh *src)
     return true;
 }
 
-bool mesh_add_vertex(context *ctx, mesh *m, vec3 v)
-{
-    return array_push(ctx, &m->vertex, v);
-}
+bool mesh_add_vertex(context *ctx, mesh *m, vec3 v) { return array_push(ctx, &m->vertex, v); }
 
 bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c)
 {
@@ -108,8 +105,8 @@ solid_properties mesh_solid_properties(const mesh *m)
     vec3 arm = vec3_scale(first, 1 / volume);
     add_second_moments(&second, -volume, arm);
     out.centre = vec3_add(origin, arm);
-    out.inertia = (sym3){second.yy + second.zz, second.xx + second.zz, second.xx + second.yy,
-                         -second.xy,            -second.xz,            -second.yz};
+    out.inertia =
+        (sym3){second.yy + second.zz, second.xx + second.zz, second.xx + second.yy, -second.xy, -second.xz, -second.yz};
     return out;
 }
 

@@ -19,6 +19,8 @@ void mesh_free(context *ctx, mesh *m);
 /* Empty, memory kept. */
 void mesh_clear(mesh *m);
 bool mesh_copy(context *ctx, mesh *dst, const mesh *src);
+/* Move every vertex; translate.c. */
+void mesh_translate(mesh *m, vec3 by);
 bool mesh_add_vertex(context *ctx, mesh *m, vec3 v);
 bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c);
 vec3 mesh_area_vector(const mesh *m, int32_t face);
@@ -33,8 +35,9 @@ static inline box3 box3_empty(void)
 }
 static inline box3 box3_union(box3 a, box3 b)
 {
-    return (box3){{a.lo.x < b.lo.x ? a.lo.x : b.lo.x, a.lo.y < b.lo.y ? a.lo.y : b.lo.y, a.lo.z < b.lo.z ? a.lo.z : b.lo.z},
-                  {a.hi.x > b.hi.x ? a.hi.x : b.hi.x, a.hi.y > b.hi.y ? a.hi.y : b.hi.y, a.hi.z > b.hi.z ? a.hi.z : b.hi.z}};
+    return (box3){
+        {a.lo.x < b.lo.x ? a.lo.x : b.lo.x, a.lo.y < b.lo.y ? a.lo.y : b.lo.y, a.lo.z < b.lo.z ? a.lo.z : b.lo.z},
+        {a.hi.x > b.hi.x ? a.hi.x : b.hi.x, a.hi.y > b.hi.y ? a.hi.y : b.hi.y, a.hi.z > b.hi.z ? a.hi.z : b.hi.z}};
 }
 static inline box3 box3_add(box3 b, vec3 p) { return box3_union(b, (box3){p, p}); }
 static inline bool box3_meet(box3 a, box3 b)
@@ -45,10 +48,15 @@ static inline bool box3_meet(box3 a, box3 b)
 /* All vertices; a point at the origin for a mesh without any. */
 box3 mesh_bounds(const mesh *m);
 box3 mesh_face_bounds(const mesh *m, int32_t face);
+static inline void mesh_face_points(const mesh *m, int32_t face, vec3 out[3])
+{
+    for (int k = 0; k < 3; k++)
+        out[k] = m->vertex.data[m->face.data[face].v[k]];
+}
 
-/* Which triangle lies across which edge: neighbour[3 f + k] is the face that shares the edge of face f from its vertex k to
-   its vertex k + 1 (mod 3), whichever way it turns; -1 where the surface is open and where more than two faces meet.
-   Made in linear time.  Face indices must be valid. */
+/* Which triangle lies across which edge: neighbour[3 f + k] is the face that shares the edge of face f from its vertex
+   k to its vertex k + 1 (mod 3), whichever way it turns; -1 where the surface is open and where more than two faces
+   meet.  Made in linear time.  Face indices must be valid. */
 typedef struct mesh_adjacency {
     ARRAY(int32_t) neighbour;
 } mesh_adjacency;
@@ -57,16 +65,16 @@ void mesh_adjacency_free(context *ctx, mesh_adjacency *a);
 /* The edge (0 to 2) of `face` that leads to `neighbour`, or -1. */
 int mesh_edge_to(const mesh_adjacency *a, int32_t face, int32_t neighbour);
 
-/* Volume [m3], centre [m] and inertia tensor about that centre of unit density [m5] (xy, xz, yz are the products with the
-   minus sign of an inertia tensor already in), from signed tetrahedra (Eberly 2002).  Exact for a closed mesh. */
+/* Volume [m3], centre [m] and inertia tensor about that centre of unit density [m5] (xy, xz, yz are the products with
+   the minus sign of an inertia tensor already in), from signed tetrahedra (Eberly 2002).  Exact for a closed mesh. */
 typedef struct solid_properties {
     double volume;
     vec3 centre;
     sym3 inertia;
 } solid_properties;
 solid_properties mesh_solid_properties(const mesh *m);
-/* The three volume integrals of x n_x, y n_y, z n_z dS [m3], about the origin of the mesh's own frame: equal for a closed mesh
-   (and the third is the volume also for one that is open at z = 0 only). */
+/* The three volume integrals of x n_x, y n_y, z n_z dS [m3], about the origin of the mesh's own frame: equal for a
+   closed mesh (and the third is the volume also for one that is open at z = 0 only). */
 vec3 mesh_volume_integrals(const mesh *m);
 
 /* What is wrong with a surface, in the order in which it is looked for. */
@@ -79,8 +87,8 @@ typedef enum mesh_defect {
     MESH_OPEN,             /* an edge with one triangle */
     MESH_NOT_MANIFOLD,     /* an edge with more than two triangles */
     MESH_INCONSISTENT,     /* two neighbours turn opposite ways */
-    MESH_INSIDE_OUT,       /* negative volume */
-    MESH_SELF_INTERSECTING /* two triangles cross */
+    MESH_INSIDE_OUT,       /* a connected part is turned the wrong way: inward in the open, outward inside another */
+    MESH_SELF_INTERSECTING /* two triangles cross, or touch off their common vertices */
 } mesh_defect;
 typedef struct mesh_report {
     mesh_defect defect;
@@ -89,23 +97,28 @@ typedef struct mesh_report {
     int32_t open_edges;
     char text[200]; /* "edge between vertices 3 (x, y, z) and 7 (...) has one triangle (12)" */
 } mesh_report;
-/* self_intersection: look for crossing triangles too (a sweep over boxes; n log n for real hulls). */
+/* Finds the first defect in the order of mesh_defect and, of its kind, the one of the least triangle;
+   report->open_edges counts all open edges when that is the defect.  A mesh may have several closed parts, cavities
+   among them (turned inward).  self_intersection: look for crossing triangles too (exact tests on a box hierarchy;
+   n log n for real hulls), and then for bodies inside bodies.  FRAM_OK whatever is found, or FRAM_ERROR_MEMORY. */
 fram_status mesh_check(context *ctx, const mesh *m, bool self_intersection, mesh_report *report);
 
-/* Join vertices closer than `distance` [m] (grid hash, lowest index wins), drop triangles that lose their area. */
+/* Join vertices at most `distance` [m] apart (0: equal ones).  In the order of vertices, each becomes the first kept
+   one within reach or is kept itself, so that chains do not creep; kept vertices stay in order and in place, triangles
+   that name one of them twice are dropped.  joined gets the number of vertices that went.  Indices must be valid. */
 fram_status mesh_weld(context *ctx, mesh *m, double distance, int32_t *joined);
 
-/* The polygon extruded along z from `bottom` to `top`: outer faces only (bottom, top, sides), closed.  Vertices repeated in a
-   row are taken once; of the n that are left, vertex i is at the bottom, n + i at the top.  Lids are fans where that is a
-   triangulation (convex outlines), ears otherwise.  What out held is dropped; it is empty on failure.
+/* The polygon extruded along z from `bottom` to `top`: outer faces only (bottom, top, sides), closed.  Vertices
+   repeated in a row are taken once; of the n that are left, vertex i is at the bottom, n + i at the top.  Lids are fans
+   where that is a triangulation (convex outlines), ears otherwise.  What out held is dropped; it is empty on failure.
    FRAM_ERROR_INPUT: outline not simple, not counter-clockwise, or bottom >= top. */
 fram_status mesh_make_prism(context *ctx, polygon outline, double bottom, double top, mesh *out, fram_error *error);
 /* Axis-aligned box; what out held is dropped.  false: no memory. */
 bool mesh_make_box(context *ctx, vec3 lo, vec3 hi, mesh *out);
 
-/* The part of one triangle below the plane z <= level, as a convex polygon of at most 4 vertices; returns the count, which is 1
-   or 2 where the triangle only touches the plane from above.  Vertices exactly on the plane belong to both sides; neighbours
-   are cut at the same points to the bit, and new points have z = level. */
+/* The part of one triangle below the plane z <= level, as a convex polygon of at most 4 vertices; returns the count,
+   which is 1 or 2 where the triangle only touches the plane from above.  Vertices exactly on the plane belong to both
+   sides; neighbours are cut at the same points to the bit, and new points have z = level. */
 int triangle_clip_below(const vec3 in[3], double level, vec3 out[4]);
 /* The part of a convex polygon of n vertices with dot(normal, x) <= d; out has room for n + 1 and may
    not be `in`; returns the count (1 or 2 where the polygon only touches). */

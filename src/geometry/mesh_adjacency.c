@@ -45,23 +45,29 @@ int32_t mesh_edges_end(const mesh *m, const int32_array *sorted, int32_t first)
     return end;
 }
 
+fram_status mesh_adjacency_from_edges(context *ctx, const mesh *m, const int32_array *sorted, mesh_adjacency *out)
+{
+    if (!array_resize(ctx, &out->neighbour, sorted->count))
+        return FRAM_ERROR_MEMORY;
+    for (int32_t i = 0, end; i < sorted->count; i = end) {
+        end = mesh_edges_end(m, sorted, i);
+        for (int32_t j = i; j < end; j++)
+            out->neighbour.data[sorted->data[j]] = end - i == 2 ? sorted->data[j == i ? i + 1 : i] / 3 : -1;
+    }
+    return FRAM_OK;
+}
+
 fram_status mesh_adjacency_build(context *ctx, const mesh *m, mesh_adjacency *out)
 {
     int32_array sorted = {0};
-    bool done = mesh_edges_sort(ctx, m, &sorted) && array_resize(ctx, &out->neighbour, 3 * m->face.count);
-    for (int32_t i = 0, end; done && i < sorted.count; i = end) {
-        end = mesh_edges_end(m, &sorted, i);
-        for (int32_t j = i; j < end; j++)
-            out->neighbour.data[sorted.data[j]] = end - i == 2 ? sorted.data[j == i ? i + 1 : i] / 3 : -1;
-    }
+    fram_status status = FRAM_ERROR_MEMORY;
+    if (mesh_edges_sort(ctx, m, &sorted))
+        status = mesh_adjacency_from_edges(ctx, m, &sorted, out);
     array_free(ctx, &sorted);
-    return done ? FRAM_OK : FRAM_ERROR_MEMORY;
+    return status;
 }
 
-void mesh_adjacency_free(context *ctx, mesh_adjacency *a)
-{
-    array_free(ctx, &a->neighbour);
-}
+void mesh_adjacency_free(context *ctx, mesh_adjacency *a) { array_free(ctx, &a->neighbour); }
 
 int mesh_edge_to(const mesh_adjacency *a, int32_t face, int32_t neighbour)
 {

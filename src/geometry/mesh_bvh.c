@@ -12,10 +12,7 @@ typedef struct build_item {
     int32_t face;
 } build_item;
 
-static double component(vec3 v, int axis)
-{
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
+static double component(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 static int longest_axis(box3 b)
 {
@@ -25,10 +22,7 @@ static int longest_axis(box3 b)
     return d.y >= d.z ? 1 : 2;
 }
 
-static bool item_before(build_item a, build_item b)
-{
-    return a.key < b.key || (a.key == b.key && a.face < b.face);
-}
+static bool item_before(build_item a, build_item b) { return a.key < b.key || (a.key == b.key && a.face < b.face); }
 
 static build_item median_of_three(build_item a, build_item b, build_item c)
 {

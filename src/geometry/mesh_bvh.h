@@ -1,5 +1,5 @@
-/* A hierarchy of boxes over the triangles of a mesh, to find those near a box or a plate without walking them all.  It keeps
-   boxes and face numbers, not the mesh: build it anew when the mesh changes.  The same mesh gives the same tree.
+/* A hierarchy of boxes over the triangles of a mesh, to find those near a box or a plate without walking them all.  It
+   keeps boxes and face numbers, not the mesh: build it anew when the mesh changes.  The same mesh gives the same tree.
    Queries change nothing but their output and may run on several threads at once. */
 #ifndef GEOMETRY_MESH_BVH_H
 #define GEOMETRY_MESH_BVH_H

@@ -1,6 +1,6 @@
-/* The edges of a mesh as sorted half-edges, inside geometry: half-edge h = 3 f + k runs from vertex k of face f to its vertex
-   k + 1 (mod 3).  The half-edges of one undirected edge stand together, ascending; edges ascend by their lower vertex,
-   then by their higher one.  Sorted by two counting passes: linear whatever the mesh. */
+/* The edges of a mesh as sorted half-edges, inside geometry: half-edge h = 3 f + k runs from vertex k of face f to its
+   vertex k + 1 (mod 3).  The half-edges of one undirected edge stand together, ascending; edges ascend by their lower
+   vertex, then by their higher one.  Sorted by two counting passes: linear whatever the mesh. */
 #ifndef GEOMETRY_MESH_EDGES_H
 #define GEOMETRY_MESH_EDGES_H
 
@@ -18,5 +18,7 @@ static inline bool same_edge(const mesh *m, int32_t g, int32_t h)
 bool mesh_edges_sort(context *ctx, const mesh *m, int32_array *sorted);
 /* One past the last half-edge of the edge that begins at `first`. */
 int32_t mesh_edges_end(const mesh *m, const int32_array *sorted, int32_t first);
+/* mesh_adjacency_build for edges that are sorted already. */
+fram_status mesh_adjacency_from_edges(context *ctx, const mesh *m, const int32_array *sorted, mesh_adjacency *out);
 
 #endif

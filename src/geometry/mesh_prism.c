@@ -81,7 +81,8 @@ fram_status mesh_make_prism(context *ctx, polygon outline, double bottom, double
 {
     mesh_clear(out);
     if (!(bottom < top))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "a prism from z = %g to %g m has no height", bottom, top);
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "a prism from z = %g to %g m has no height", bottom,
+                         top);
     if (outline.count > INT32_MAX / 4)
         return error_memory(error);
     vec2_array plan = {0};
