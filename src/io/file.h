@@ -12,21 +12,26 @@ fram_status file_error(fram_error *error, const char *path, const char *attempt,
    file, or is longer than `limit` bytes. */
 fram_status file_read(context *ctx, const char *path, uint64_t limit, char **data, size_t *size, fram_error *error);
 
-/* A buffered writer of one open file. */
+/* `size` bytes at `offset` of an open file; FRAM_ERROR_INPUT when it ends before. */
+fram_status file_read_at(int descriptor, const char *path, uint64_t offset, void *data, size_t size, fram_error *error);
+
+/* A buffered writer of one open file.  After a failed write every later call fails too. */
 typedef struct file_writer {
     context *ctx;
     char *path;
-    int descriptor; /* -1: closed */
-    char *buffer;
+    int descriptor; /* of an open writer: also readable */
+    char *buffer;   /* NULL: closed */
     size_t filled;
     uint64_t length; /* of the file, once the buffer is written */
-    fram_status failed; /* of the first write that failed: later calls answer the same */
+    int failed;      /* errno of the first write that failed, 0 */
 } file_writer;
 
-/* An empty file, whatever was there. */
+/* An empty file, whatever was there.  When this or file_open fails, nothing is left to close. */
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error);
-/* An existing file, cut to `length` and continued; FRAM_ERROR_INPUT when it is shorter. */
-fram_status file_continue(context *ctx, const char *path, uint64_t length, file_writer *w, fram_error *error);
+/* An existing file, to be continued at its end; FRAM_ERROR_INPUT when it is not there. */
+fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error *error);
+/* Forget what stands after `length`; FRAM_ERROR_INPUT when the file is shorter. */
+fram_status file_cut(file_writer *w, uint64_t length, fram_error *error);
 fram_status file_write(file_writer *w, const void *data, size_t size, fram_error *error);
 /* The buffer to the system; with `sync` on to the disk. */
 fram_status file_flush(file_writer *w, bool sync, fram_error *error);

@@ -1,0 +1,96 @@
+/* Replacing a file in one go: the rename of POSIX is atomic, and data are on the disk before it. */
+#include "io/atomic_file.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char suffix[] = ".new";
+
+fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error)
+{
+    memset(a, 0, sizeof *a);
+    size_t length = strlen(path);
+    char *temporary = memory_resize(ctx, NULL, length + sizeof suffix);
+    a->path = memory_string(ctx, path);
+    fram_status status = FRAM_OK;
+    if (!temporary || !a->path) {
+        status = error_memory(error);
+    } else {
+        memcpy(temporary, path, length);
+        memcpy(temporary + length, suffix, sizeof suffix);
+        status = file_create(ctx, temporary, &a->writer, error);
+    }
+    memory_free(ctx, temporary);
+    if (status != FRAM_OK) {
+        memory_free(ctx, a->path);
+        a->path = NULL;
+    }
+    return status;
+}
+
+/* The rename itself reaches the disk with the folder. */
+static fram_status sync_folder(context *ctx, const char *path, fram_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    size_t length = slash ? (size_t)(slash - path) + 1 : 1;
+    char *folder = memory_resize(ctx, NULL, length + 1);
+    if (!folder)
+        return error_memory(error);
+    memcpy(folder, slash ? path : ".", length);
+    folder[length] = '\0';
+    fram_status status = FRAM_OK;
+    int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0 || (fsync(descriptor) != 0 && errno != EINVAL && errno != EROFS))
+        status = file_error(error, folder, "write to the disk", errno);
+    if (descriptor >= 0)
+        close(descriptor);
+    memory_free(ctx, folder);
+    return status;
+}
+
+fram_status atomic_file_commit(atomic_file *a, fram_error *error)
+{
+    context *ctx = a->writer.ctx;
+    char *temporary = a->writer.path;
+    fram_status status = file_flush(&a->writer, true, error);
+    a->writer.path = NULL; /* outlives the writer */
+    fram_status closed = file_close(&a->writer, status == FRAM_OK ? error : NULL);
+    if (status == FRAM_OK)
+        status = closed;
+    if (status == FRAM_OK && rename(temporary, a->path) != 0)
+        status = file_error(error, a->path, "replace", errno);
+    if (status == FRAM_OK)
+        status = sync_folder(ctx, a->path, error);
+    else
+        unlink(temporary);
+    memory_free(ctx, temporary);
+    memory_free(ctx, a->path);
+    a->path = NULL;
+    return status;
+}
+
+void atomic_file_abandon(atomic_file *a)
+{
+    if (!a->path)
+        return;
+    context *ctx = a->writer.ctx;
+    unlink(a->writer.path);
+    file_abandon(&a->writer);
+    memory_free(ctx, a->path);
+    a->path = NULL;
+}
+
+fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error)
+{
+    atomic_file a;
+    fram_status status = atomic_file_begin(ctx, path, &a, error);
+    if (status != FRAM_OK)
+        return status;
+    status = file_write(&a.writer, data, size, error);
+    if (status == FRAM_OK)
+        return atomic_file_commit(&a, error);
+    atomic_file_abandon(&a);
+    return status;
+}

@@ -1,0 +1,96 @@
+/* Rows of numbers as text. */
+#include "io/csv.h"
+#include "base/number_text.h"
+#include "io/text_buffer.h"
+#include <string.h>
+
+/* "time[s],x[m]\n" */
+static void header_text(context *ctx, const csv_column *columns, int32_t count, text_buffer *out)
+{
+    for (int32_t c = 0; c < count; c++) {
+        const char *unit = columns[c].unit;
+        bool bare = !unit || !*unit;
+        text_format(ctx, out, "%s%s%s%s%s", columns[c].name, bare ? "" : "[", bare ? "" : unit, bare ? "" : "]",
+                    c + 1 < count ? "," : "\n");
+    }
+}
+
+fram_status csv_create(context *ctx, const char *path, const csv_column *columns, int32_t count, csv_writer *w,
+                       fram_error *error)
+{
+    memset(w, 0, sizeof *w);
+    text_buffer header = {0};
+    header_text(ctx, columns, count, &header);
+    fram_status status = header.failed ? error_memory(error) : file_create(ctx, path, &w->file, error);
+    if (status == FRAM_OK) {
+        w->column_count = count;
+        status = file_write(&w->file, header.data, (size_t)header.count, error);
+        if (status != FRAM_OK)
+            file_abandon(&w->file);
+    }
+    text_free(ctx, &header);
+    return status;
+}
+
+/* That the open file begins with this header and has the end of a row before `length`. */
+static fram_status check_file(csv_writer *w, const text_buffer *header, uint64_t length, fram_error *error)
+{
+    file_writer *file = &w->file;
+    size_t size = (size_t)header->count;
+    if (length < size || length > file->length)
+        return error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL,
+                         "expected from %zu to %llu bytes to continue after, found %llu", size,
+                         (unsigned long long)file->length, (unsigned long long)length);
+    char *found = memory_resize(file->ctx, NULL, size);
+    if (!found)
+        return error_memory(error);
+    fram_status status = file_read_at(file->descriptor, file->path, 0, found, size, error);
+    if (status == FRAM_OK && memcmp(found, header->data, size) != 0)
+        status = error_set(error, FRAM_ERROR_INPUT, file->path, 1, NULL,
+                           "expected the columns that this run writes, found others");
+    char last = 0;
+    if (status == FRAM_OK)
+        status = file_read_at(file->descriptor, file->path, length - 1, &last, 1, error);
+    if (status == FRAM_OK && last != '\n')
+        status = error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL,
+                           "expected the end of a row at byte %llu, found its middle", (unsigned long long)length);
+    memory_free(file->ctx, found);
+    return status;
+}
+
+fram_status csv_continue(context *ctx, const char *path, uint64_t length, const csv_column *columns, int32_t count,
+                         csv_writer *w, fram_error *error)
+{
+    memset(w, 0, sizeof *w);
+    text_buffer header = {0};
+    header_text(ctx, columns, count, &header);
+    fram_status status = header.failed ? error_memory(error) : file_open(ctx, path, &w->file, error);
+    if (status == FRAM_OK) {
+        w->column_count = count;
+        status = check_file(w, &header, length, error);
+        if (status == FRAM_OK)
+            status = file_cut(&w->file, length, error);
+        if (status != FRAM_OK)
+            file_abandon(&w->file);
+    }
+    text_free(ctx, &header);
+    return status;
+}
+
+fram_status csv_append(csv_writer *w, const double *row, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t c = 0; c < w->column_count && status == FRAM_OK; c++) {
+        char text[NUMBER_TEXT_SIZE + 1];
+        int length = real_to_text(row[c], text);
+        text[length] = c + 1 < w->column_count ? ',' : '\n';
+        status = file_write(&w->file, text, (size_t)length + 1, error);
+    }
+    return status;
+}
+
+fram_status csv_flush(csv_writer *w, bool sync, fram_error *error) { return file_flush(&w->file, sync, error); }
+
+uint64_t csv_length(const csv_writer *w) { return w->file.length; }
+
+fram_status csv_close(csv_writer *w, fram_error *error) { return file_close(&w->file, error); }

@@ -1,0 +1,210 @@
+/* Files through the calls of POSIX, so that every failure is seen where it happens. */
+#include "io/file.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { BUFFER_SIZE = 1 << 16 };
+
+fram_status file_error(fram_error *error, const char *path, const char *attempt, int number)
+{
+    char text[128];
+    if (strerror_r(number, text, sizeof text) != 0)
+        text[0] = '\0';
+    bool missing = number == ENOENT || number == ENOTDIR;
+    return error_set(error, missing ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
+}
+
+/* open() again when a signal came between. */
+static int open_file(const char *path, int flags)
+{
+    int descriptor;
+    do
+        descriptor = open(path, flags | O_CLOEXEC, 0666);
+    while (descriptor < 0 && errno == EINTR);
+    return descriptor;
+}
+
+fram_status file_read_at(int descriptor, const char *path, uint64_t offset, void *data, size_t size, fram_error *error)
+{
+    char *to = data;
+    for (size_t done = 0; done < size;) {
+        ssize_t got = pread(descriptor, to + done, size - done, (off_t)(offset + done));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return file_error(error, path, "read", errno);
+        if (got == 0)
+            return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected %zu bytes at offset %llu, found the end",
+                             size, (unsigned long long)offset);
+        done += (size_t)got;
+    }
+    return FRAM_OK;
+}
+
+static fram_status read_regular(context *ctx, int descriptor, const char *path, uint64_t limit, char **data,
+                                size_t *size, fram_error *error)
+{
+    struct stat about;
+    if (fstat(descriptor, &about) != 0)
+        return file_error(error, path, "read", errno);
+    if (!S_ISREG(about.st_mode))
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found a folder or device");
+    uint64_t length = (uint64_t)about.st_size;
+    if (length > limit)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected at most %llu bytes, found %llu",
+                         (unsigned long long)limit, (unsigned long long)length);
+    char *text = length < SIZE_MAX ? memory_resize(ctx, NULL, (size_t)length + 1) : NULL;
+    if (!text)
+        return error_memory(error);
+    fram_status status = file_read_at(descriptor, path, 0, text, (size_t)length, error);
+    if (status != FRAM_OK) {
+        memory_free(ctx, text);
+        return status;
+    }
+    text[length] = '\0';
+    *data = text;
+    *size = (size_t)length;
+    return FRAM_OK;
+}
+
+fram_status file_read(context *ctx, const char *path, uint64_t limit, char **data, size_t *size, fram_error *error)
+{
+    int descriptor = open_file(path, O_RDONLY | O_NONBLOCK); /* opening a pipe must not wait for its writer */
+    if (descriptor < 0)
+        return file_error(error, path, "read", errno);
+    fram_status status = read_regular(ctx, descriptor, path, limit, data, size, error);
+    close(descriptor);
+    return status;
+}
+
+/* ---- writing ---- */
+
+static fram_status begin(context *ctx, const char *path, int flags, file_writer *w, fram_error *error)
+{
+    memset(w, 0, sizeof *w);
+    w->ctx = ctx;
+    w->descriptor = -1;
+    w->path = memory_string(ctx, path);
+    w->buffer = memory_resize(ctx, NULL, BUFFER_SIZE);
+    fram_status status = w->path && w->buffer ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK) {
+        w->descriptor = open_file(path, flags);
+        if (w->descriptor < 0)
+            status = file_error(error, path, "open for writing", errno);
+    }
+    if (status != FRAM_OK)
+        file_abandon(w);
+    return status;
+}
+
+fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error)
+{
+    return begin(ctx, path, O_RDWR | O_CREAT | O_TRUNC, w, error);
+}
+
+fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error *error)
+{
+    fram_status status = begin(ctx, path, O_RDWR, w, error);
+    if (status != FRAM_OK)
+        return status;
+    off_t end = lseek(w->descriptor, 0, SEEK_END);
+    if (end < 0) {
+        status = file_error(error, path, "find the end", errno);
+        file_abandon(w);
+        return status;
+    }
+    w->length = (uint64_t)end;
+    return FRAM_OK;
+}
+
+/* Bytes to the system; remembers the first failure. */
+static fram_status put(file_writer *w, const char *data, size_t size, fram_error *error)
+{
+    for (size_t done = 0; done < size && !w->failed;) {
+        ssize_t put_now = write(w->descriptor, data + done, size - done);
+        if (put_now > 0)
+            done += (size_t)put_now;
+        else if (put_now == 0)
+            w->failed = EIO;
+        else if (errno != EINTR)
+            w->failed = errno;
+    }
+    return w->failed ? file_error(error, w->path, "write", w->failed) : FRAM_OK;
+}
+
+fram_status file_cut(file_writer *w, uint64_t length, fram_error *error)
+{
+    if (length > w->length)
+        return error_set(error, FRAM_ERROR_INPUT, w->path, 0, NULL, "expected at least %llu bytes, found %llu",
+                         (unsigned long long)length, (unsigned long long)w->length);
+    fram_status status = file_flush(w, false, error);
+    if (status != FRAM_OK)
+        return status;
+    if (ftruncate(w->descriptor, (off_t)length) != 0 || lseek(w->descriptor, (off_t)length, SEEK_SET) < 0)
+        return file_error(error, w->path, "cut", errno);
+    w->length = length;
+    return FRAM_OK;
+}
+
+fram_status file_write(file_writer *w, const void *data, size_t size, fram_error *error)
+{
+    if (w->failed)
+        return file_error(error, w->path, "write", w->failed);
+    if (size == 0)
+        return FRAM_OK;
+    if (size > BUFFER_SIZE - w->filled) {
+        fram_status status = file_flush(w, false, error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    w->length += size;
+    if (size > BUFFER_SIZE)
+        return put(w, data, size, error);
+    memcpy(w->buffer + w->filled, data, size);
+    w->filled += size;
+    return FRAM_OK;
+}
+
+fram_status file_flush(file_writer *w, bool sync, fram_error *error)
+{
+    size_t filled = w->filled;
+    w->filled = 0;
+    fram_status status = put(w, w->buffer, filled, error);
+    if (status != FRAM_OK || !sync)
+        return status;
+    /* A device or a pipe has no disk below it. */
+    if (fsync(w->descriptor) != 0 && errno != EINVAL && errno != EROFS) {
+        w->failed = errno;
+        return file_error(error, w->path, "write to the disk", w->failed);
+    }
+    return FRAM_OK;
+}
+
+fram_status file_close(file_writer *w, fram_error *error)
+{
+    if (!w->buffer)
+        return FRAM_OK;
+    fram_status status = file_flush(w, false, error);
+    int descriptor = w->descriptor;
+    w->descriptor = -1;
+    /* After EINTR the descriptor is gone all the same; the data were handed over by write. */
+    if (close(descriptor) != 0 && errno != EINTR && status == FRAM_OK)
+        status = file_error(error, w->path, "close", errno);
+    file_abandon(w);
+    return status;
+}
+
+void file_abandon(file_writer *w)
+{
+    if (!w->ctx)
+        return;
+    if (w->descriptor >= 0)
+        close(w->descriptor);
+    memory_free(w->ctx, w->path);
+    memory_free(w->ctx, w->buffer);
+    memset(w, 0, sizeof *w);
+    w->descriptor = -1;
+}

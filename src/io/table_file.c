@@ -1,0 +1,326 @@
+/* The container of checkpoints.  Writing walks the content twice with the same code, once for size and checksum, once for the
+   bytes; reading walks the file twice, once to check all of it and once to take it over, so that a bad file changes nothing. */
+#include "io/table_file.h"
+#include "io/atomic_file.h"
+#include <string.h>
+#include <zlib.h>
+
+#define BYTE_ORDER_MARK 0x01020304u
+#define BYTE_ORDER_SWAPPED 0x04030201u
+
+typedef struct table_file_head {
+    char magic[8];
+    uint32_t version, byte_order;
+    uint64_t size;
+    uint32_t body_crc, crc;
+} table_file_head;
+
+_Static_assert(sizeof(table_file_head) == 32, "the layout of table_file.h, without padding");
+
+static const char file_magic[8] = {'F', 'R', 'A', 'M', 'T', 'A', 'B', '\n'};
+
+static uint32_t crc_of(uint32_t crc, const void *data, size_t size)
+{
+    return size > 0 ? (uint32_t)crc32_z(crc, data, size) : crc;
+}
+
+static uint32_t head_crc(const table_file_head *h) { return crc_of(0, h, offsetof(table_file_head, crc)); }
+
+/* ---- writing ---- */
+
+/* Where the body goes: into a file, or (NULL) only into size and checksum. */
+typedef struct body_sink {
+    file_writer *file;
+    uint64_t size;
+    uint32_t crc;
+    fram_status status;
+    fram_error *error;
+} body_sink;
+
+static void put(body_sink *s, const void *data, size_t size)
+{
+    s->size += size;
+    if (!s->file)
+        s->crc = crc_of(s->crc, data, size);
+    else if (s->status == FRAM_OK)
+        s->status = file_write(s->file, data, size, s->error);
+}
+
+static void put_u32(body_sink *s, uint32_t value) { put(s, &value, sizeof value); }
+
+static void put_u64(body_sink *s, uint64_t value) { put(s, &value, sizeof value); }
+
+static void put_name(body_sink *s, const char *name)
+{
+    size_t length = strlen(name);
+    put_u32(s, (uint32_t)length);
+    put(s, name, length);
+}
+
+static void put_table(body_sink *s, const world_table *t)
+{
+    const table_head *rows = t->table;
+    put_name(s, t->info->name);
+    put_u32(s, (uint32_t)t->info->field_count);
+    for (int f = 0; f < t->info->field_count; f++) {
+        put_name(s, t->info->fields[f].name);
+        put_u32(s, (uint32_t)t->info->fields[f].kind);
+        put_u32(s, (uint32_t)t->info->fields[f].components);
+    }
+    put(s, &rows->count, sizeof rows->count);
+    for (int f = 0; f < t->info->field_count; f++)
+        put(s, table_field(t->table, &t->info->fields[f]), (size_t)rows->count * t->info->fields[f].size);
+}
+
+static void put_body(body_sink *s, const table_file *content)
+{
+    put_u32(s, (uint32_t)content->number_count);
+    for (int32_t i = 0; i < content->number_count; i++) {
+        put_name(s, content->numbers[i].name);
+        put_u64(s, content->numbers[i].value);
+    }
+    put_u32(s, (uint32_t)content->bytes_count);
+    for (int32_t i = 0; i < content->bytes_count; i++) {
+        put_name(s, content->bytes[i].name);
+        put_u64(s, content->bytes[i].size);
+        put(s, content->bytes[i].data, content->bytes[i].size);
+    }
+    put_u32(s, (uint32_t)content->table_count);
+    for (int32_t i = 0; i < content->table_count; i++)
+        put_table(s, &content->tables[i]);
+}
+
+fram_status table_file_write(context *ctx, const char *path, const table_file *content, fram_error *error)
+{
+    body_sink measure = {.status = FRAM_OK};
+    put_body(&measure, content);
+    table_file_head head = {.version = TABLE_FILE_VERSION, .byte_order = BYTE_ORDER_MARK};
+    memcpy(head.magic, file_magic, sizeof file_magic);
+    head.size = sizeof head + measure.size;
+    head.body_crc = measure.crc;
+    head.crc = head_crc(&head);
+
+    atomic_file file;
+    fram_status status = atomic_file_begin(ctx, path, &file, error);
+    if (status != FRAM_OK)
+        return status;
+    body_sink body = {.file = &file.writer, .status = FRAM_OK, .error = error};
+    put(&body, &head, sizeof head);
+    put_body(&body, content);
+    if (body.status == FRAM_OK)
+        return atomic_file_commit(&file, error);
+    atomic_file_abandon(&file);
+    return body.status;
+}
+
+/* ---- reading ---- */
+
+/* What is left of the body.  Every take fails for good once one did. */
+typedef struct body_source {
+    context *ctx;
+    const char *file;
+    const unsigned char *at;
+    size_t left;
+    bool apply; /* second walk: write into the content */
+    fram_status status;
+    fram_error *error;
+} body_source;
+
+static void refuse(body_source *s, const char *what, const char *name)
+{
+    if (s->status == FRAM_OK)
+        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected %s%s%s, found something else", what,
+                              *name ? " " : "", name);
+}
+
+/* Bytes of the body, NULL when there are not so many. */
+static const void *take(body_source *s, uint64_t size)
+{
+    if (s->status != FRAM_OK)
+        return NULL;
+    if (size > s->left) {
+        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected more bytes, found the end of the file");
+        return NULL;
+    }
+    const void *data = s->at;
+    s->at += size;
+    s->left -= (size_t)size;
+    return data;
+}
+
+static uint32_t take_u32(body_source *s)
+{
+    uint32_t value = 0;
+    const void *data = take(s, sizeof value);
+    if (data)
+        memcpy(&value, data, sizeof value);
+    return value;
+}
+
+static uint64_t take_u64(body_source *s)
+{
+    uint64_t value = 0;
+    const void *data = take(s, sizeof value);
+    if (data)
+        memcpy(&value, data, sizeof value);
+    return value;
+}
+
+static void take_name(body_source *s, const char *what, const char *name)
+{
+    uint32_t length = take_u32(s);
+    const void *data = take(s, length);
+    if (data && (length != strlen(name) || memcmp(data, name, length) != 0))
+        refuse(s, what, name);
+}
+
+static void take_count(body_source *s, const char *what, int32_t count)
+{
+    if (take_u32(s) != (uint32_t)count)
+        refuse(s, what, "");
+}
+
+static void take_bytes(body_source *s, table_file_bytes *bytes)
+{
+    take_name(s, "the byte string", bytes->name);
+    uint64_t size = take_u64(s);
+    const void *data = take(s, size);
+    if (!data || !s->apply || size == 0)
+        return;
+    bytes->data = memory_resize(s->ctx, NULL, (size_t)size);
+    if (!bytes->data) {
+        s->status = error_memory(s->error);
+        return;
+    }
+    bytes->size = (size_t)size;
+    memcpy(bytes->data, data, bytes->size);
+}
+
+static void take_fields(body_source *s, const table_info *info)
+{
+    take_name(s, "the table", info->name);
+    take_count(s, "the number of fields of this version in the table", info->field_count);
+    for (int f = 0; f < info->field_count; f++) {
+        take_name(s, "the field", info->fields[f].name);
+        uint32_t kind = take_u32(s), components = take_u32(s);
+        if (kind != (uint32_t)info->fields[f].kind || components != (uint32_t)info->fields[f].components)
+            refuse(s, "the type of this version for the field", info->fields[f].name);
+    }
+}
+
+static void take_table(body_source *s, const world_table *t)
+{
+    take_fields(s, t->info);
+    int32_t rows = 0;
+    const void *count = take(s, sizeof rows);
+    if (count)
+        memcpy(&rows, count, sizeof rows);
+    if (rows < 0)
+        refuse(s, "the number of rows of the table", t->info->name);
+    /* The rows fit the file, as the first walk has seen: a hostile count cannot ask for more memory than that. */
+    if (s->status == FRAM_OK && s->apply && !table_resize(s->ctx, t->table, t->info, rows))
+        s->status = error_memory(s->error);
+    for (int f = 0; f < t->info->field_count && s->status == FRAM_OK; f++) {
+        uint64_t size = (uint64_t)rows * t->info->fields[f].size;
+        const void *data = take(s, size);
+        if (data && s->apply && size > 0)
+            memcpy(table_field(t->table, &t->info->fields[f]), data, (size_t)size);
+    }
+}
+
+static fram_status take_body(body_source s, table_file *content)
+{
+    take_count(&s, "the count of numbers", content->number_count);
+    for (int32_t i = 0; i < content->number_count; i++) {
+        take_name(&s, "the number", content->numbers[i].name);
+        uint64_t value = take_u64(&s);
+        if (s.status == FRAM_OK && s.apply)
+            content->numbers[i].value = value;
+    }
+    take_count(&s, "the count of byte strings", content->bytes_count);
+    for (int32_t i = 0; i < content->bytes_count; i++)
+        take_bytes(&s, &content->bytes[i]);
+    take_count(&s, "the count of tables", content->table_count);
+    for (int32_t i = 0; i < content->table_count; i++)
+        take_table(&s, &content->tables[i]);
+    if (s.left > 0)
+        refuse(&s, "the end of the file", "");
+    return s.status;
+}
+
+static fram_status check_head(const char *name, const void *data, size_t size, fram_error *error)
+{
+    table_file_head head;
+    if (size < sizeof head)
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found a file that is too short");
+    memcpy(&head, data, sizeof head);
+    if (memcmp(head.magic, file_magic, sizeof file_magic) != 0)
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found another kind of file");
+    if (head.byte_order == BYTE_ORDER_SWAPPED)
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
+                         "expected a checkpoint of this machine's byte order, found the other");
+    if (head.byte_order != BYTE_ORDER_MARK || head.crc != head_crc(&head))
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found one with a damaged head");
+    if (head.version != TABLE_FILE_VERSION)
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint of version %d, found version %u",
+                         TABLE_FILE_VERSION, head.version);
+    if (head.size != size)
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint of %llu bytes, found %zu",
+                         (unsigned long long)head.size, size);
+    if (head.body_crc != crc_of(0, (const char *)data + sizeof head, size - sizeof head))
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
+                         "expected a checkpoint, found a damaged one: its checksum does not fit");
+    return FRAM_OK;
+}
+
+/* What a caller may have left in the place of the results. */
+static void forget_bytes(table_file *content)
+{
+    for (int32_t i = 0; i < content->bytes_count; i++) {
+        content->bytes[i].data = NULL;
+        content->bytes[i].size = 0;
+    }
+}
+
+fram_status table_file_decode(context *ctx, const char *name, const void *data, size_t size, table_file *content,
+                              fram_error *error)
+{
+    forget_bytes(content);
+    fram_status status = check_head(name, data, size, error);
+    if (status != FRAM_OK)
+        return status;
+    body_source body = {.ctx = ctx,
+                        .file = name,
+                        .at = (const unsigned char *)data + sizeof(table_file_head),
+                        .left = size - sizeof(table_file_head),
+                        .status = FRAM_OK,
+                        .error = error};
+    status = take_body(body, content);
+    if (status != FRAM_OK)
+        return status;
+    body.apply = true;
+    status = take_body(body, content);
+    if (status != FRAM_OK)
+        table_file_free_bytes(ctx, content);
+    return status;
+}
+
+fram_status table_file_read(context *ctx, const char *path, table_file *content, fram_error *error)
+{
+    char *data;
+    size_t size;
+    forget_bytes(content);
+    fram_status status = file_read(ctx, path, UINT64_MAX, &data, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    status = table_file_decode(ctx, path, data, size, content, error);
+    memory_free(ctx, data);
+    return status;
+}
+
+void table_file_free_bytes(context *ctx, table_file *content)
+{
+    for (int32_t i = 0; i < content->bytes_count; i++)
+        memory_free(ctx, content->bytes[i].data);
+    forget_bytes(content);
+}
