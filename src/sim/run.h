@@ -1,0 +1,35 @@
+/* A run: the loop around world_step with its outputs, its checkpoints and its ends. */
+#ifndef SIM_RUN_H
+#define SIM_RUN_H
+
+#include "model/scenario.h"
+
+typedef struct run_progress {
+    double time, end; /* simulated [s] */
+    double wall, eta; /* [s] */
+    double real_time_factor;
+} run_progress;
+
+typedef struct run_options {
+    const char *folder;
+    bool force;
+    double until; /* stop there with a checkpoint; <= 0: the scenario's end [s] */
+    void (*progress)(void *user, const run_progress *p); /* may be NULL */
+    void *progress_user;
+    const volatile int *stop; /* may be NULL */
+} run_options;
+
+typedef struct run_result {
+    uint64_t state_hash;
+    int64_t steps;
+    double time, wall, real_time_factor;
+    int32_t bodies, floes;
+    bool finished;
+} run_result;
+
+/* From the start into an empty folder (or any with force). */
+fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result, fram_error *error);
+/* From the newest good checkpoint of options->folder on. */
+fram_status run_resume(context *ctx, const run_options *options, run_result *result, fram_error *error);
+
+#endif
