@@ -1,0 +1,64 @@
+/* Scenarios of the public API. */
+#include "api/handles.h"
+
+#include "io/scenario_file.h"
+#include "sim/notes.h"
+
+static fram_status fill(context *ctx, fram_scenario *s, fram_error *error)
+{
+    fram_status status = scenario_print(ctx, &s->inner, NULL, &s->text, error);
+    if (status == FRAM_OK) status = scenario_hash(ctx, &s->inner, s->hash, error);
+    if (status != FRAM_OK) return status;
+    scenario_notes(ctx, &s->inner, &s->notes);
+    return s->text.failed || s->notes.failed ? error_memory(error) : FRAM_OK;
+}
+
+fram_status fram_scenario_load(fram_context *c, const char *path, const char *const *overrides, int override_count,
+                               fram_scenario **out, fram_error *error)
+{
+    context *ctx = &c->inner;
+    fram_scenario *s = memory_array(ctx, 1, sizeof *s);
+    if (!s) return error_memory(error);
+    s->context = c;
+    const scenario_overrides list = {overrides, override_count};
+    fram_status status = scenario_read(ctx, path, &list, &s->inner, error);
+    if (status != FRAM_OK) {
+        memory_free(ctx, s);
+        return status;
+    }
+    status = fill(ctx, s, error);
+    if (status != FRAM_OK) {
+        fram_scenario_destroy(s);
+        return status;
+    }
+    *out = s;
+    return FRAM_OK;
+}
+
+const char *fram_scenario_text(const fram_scenario *s) { return s->text.data; }
+const char *fram_scenario_notes(const fram_scenario *s) { return s->notes.data ? s->notes.data : ""; }
+const char *fram_scenario_hash(const fram_scenario *s) { return s->hash; }
+double fram_scenario_duration(const fram_scenario *s) { return s->inner.run.duration; }
+double fram_scenario_time_step(const fram_scenario *s) { return s->inner.run.time_step; }
+
+void fram_scenario_destroy(fram_scenario *s)
+{
+    if (!s) return;
+    context *ctx = &s->context->inner;
+    scenario_free(ctx, &s->inner);
+    text_free(ctx, &s->text);
+    text_free(ctx, &s->notes);
+    memory_free(ctx, s);
+}
+
+fram_status fram_scenario_reference(fram_context *c, char **markdown, fram_error *error)
+{
+    text_buffer text = {0};
+    fram_status status = scenario_reference(&c->inner, &text, error);
+    if (status != FRAM_OK) {
+        text_free(&c->inner, &text);
+        return status;
+    }
+    *markdown = text.data;
+    return FRAM_OK;
+}
