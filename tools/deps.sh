@@ -30,6 +30,7 @@ dev  llvm               cmd:llvm-symbolizer
 dev  libasan8           deb:libasan8
 dev  libubsan1          deb:libubsan1
 dev  libtsan2           deb:libtsan2
+dev  shellcheck         cmd:shellcheck
 dev  gcovr              cmd:gcovr
 dev  valgrind           cmd:valgrind
 dev  util-linux         cmd:setarch

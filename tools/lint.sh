@@ -1,17 +1,24 @@
 #!/bin/sh
 # Everything about form:  tools/lint.sh [FILE...]     (needs a configured and built build/release)
-# 1 form by clang-format, 2 the house by check_rooms.py, 3 the objects by check_objects.py, 4 clang-tidy.  Given files,
-# only those are formatted-checked and analysed.
+# 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py, 4 the objects by check_objects.py,
+# 5 clang-tidy.  Given C files, 1 and 5 look at those only.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/release}
 jobs=${JOBS:-2}
 bad=0
 
-sources=$([ $# -gt 0 ] && printf '%s\n' "$@" || tools/sources.sh '*.c' '*.h')
+if [ $# -gt 0 ]; then
+    sources=$(printf '%s\n' "$@")
+else
+    sources=$(tools/sources.sh '*.c' '*.h')
+fi
 
 echo "lint: form (clang-format)"
 echo "$sources" | xargs clang-format --dry-run -Werror || bad=1
+
+echo "lint: scripts (shellcheck)"
+tools/sources.sh '*.sh' '.ci/run' | xargs shellcheck || bad=1
 
 echo "lint: rooms (tools/check_rooms.py)"
 python3 tools/check_rooms.py || bad=1
