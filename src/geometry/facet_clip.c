@@ -1,14 +1,6 @@
 /* Cutting one facet by one plane: the kernels of buoyancy, drag and crushing patches.  Knows no mesh. */
 #include "geometry/mesh.h"
 
-/* Where the segment meets the plane, from its inner end (distance <= 0) to its outer one (distance > 0).  Always taken
-   in this direction, so that two triangles cut their common edge at the same point to the bit. */
-static vec3 crossing(vec3 inner, double inner_distance, vec3 outer, double outer_distance)
-{
-    double t = inner_distance / (inner_distance - outer_distance);
-    return vec3_mad(inner, vec3_sub(outer, inner), t);
-}
-
 int triangle_clip_below(const vec3 in[3], double level, vec3 out[4])
 {
     int count = 0;
@@ -19,7 +11,7 @@ int triangle_clip_below(const vec3 in[3], double level, vec3 out[4])
             out[count++] = a;
         /* A vertex on the plane is its own crossing: it is there already. */
         if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
-            out[count] = da < 0 ? crossing(a, da, b, db) : crossing(b, db, a, da);
+            out[count] = da < 0 ? segment_crossing(a, da, b, db) : segment_crossing(b, db, a, da);
             out[count++].z = level;
         }
     }
@@ -38,7 +30,7 @@ int facet_clip(const vec3 *in, int n, vec3 normal, double d, vec3 *out)
         double db = vec3_dot(normal, b) - d;
         /* A convex facet is entered and left once; rounding may pretend more, and out has room for n + 1 only. */
         if (((da < 0 && db > 0) || (da > 0 && db < 0)) && count <= n)
-            out[count++] = da < 0 ? crossing(a, da, b, db) : crossing(b, db, a, da);
+            out[count++] = da < 0 ? segment_crossing(a, da, b, db) : segment_crossing(b, db, a, da);
         if (db <= 0 && count <= n)
             out[count++] = b;
         a = b;

@@ -124,7 +124,23 @@ int triangle_clip_below(const vec3 in[3], double level, vec3 out[4]);
    not be `in`; returns the count (1 or 2 where the polygon only touches). */
 int facet_clip(const vec3 *in, int n, vec3 normal, double d, vec3 *out);
 
-/* Plan outline of the section z = level: closed rings, counter-clockwise around solid. */
+/* Where a segment meets a plane, from its inner end (distance < 0) to its outer one (distance >= 0).  Always asked in
+   this direction, so that two triangles cut their common edge at the same point to the bit. */
+static inline vec3 segment_crossing(vec3 inner, double inner_distance, vec3 outer, double outer_distance)
+{
+    if (outer_distance == 0)
+        return outer;
+    return vec3_mad(inner, vec3_sub(outer, inner), inner_distance / (inner_distance - outer_distance));
+}
+
+/* Plan outline of the section z = level: appends closed rings, counter-clockwise around solid (a hole is clockwise), in
+   the order of their least triangles.  The level is taken as just below its number: vertices on it count as above it,
+   so a box has a section at its top and none at its bottom, and a point or line of contact gives nothing.  Repeated
+   points are taken once.  FRAM_ERROR_INPUT where the surface is open, FRAM_ERROR_MEMORY; rings may have been appended
+   in the latter case. */
 fram_status mesh_section(context *ctx, const mesh *m, double level, polygon_list *out, fram_error *error);
+/* The same for a surface whose adjacency is known; it may have been moved since. */
+fram_status mesh_section_along(context *ctx, const mesh *m, const mesh_adjacency *adjacency, double level,
+                               polygon_list *out, fram_error *error);
 
 #endif
