@@ -13,6 +13,12 @@ void scenario_defaults(scenario *s, double scale)
     s->run.scale = scale;
 }
 
+double scenario_default_scale(void)
+{
+    const scenario_section *run = scenario_schema.keys[section_find(&scenario_schema, "run")].section;
+    return run->keys[section_find(run, "scale")].value;
+}
+
 void scenario_floe_defaults(scenario_floe *floe, double scale)
 {
     const scenario_key *ice = &scenario_schema.keys[section_find(&scenario_schema, "ice")];
@@ -70,22 +76,30 @@ fram_status scenario_walk(const scenario *s, key_visit visit, void *user, fram_e
     return section_walk(&scenario_schema, s, "", visit, user, error);
 }
 
+/* From the last one, since an override stands behind the key it overrides. */
+const scenario_place *scenario_given(const scenario *s, const char *key)
+{
+    for (int32_t i = s->places.count - 1; i >= 0; i--)
+        if (strcmp(s->places.data[i].key, key) == 0)
+            return &s->places.data[i];
+    return NULL;
+}
+
 void scenario_locate(const scenario *s, fram_error *error)
 {
     if (!error)
         return;
-    snprintf(error->file, sizeof error->file, "%.*s", (int)sizeof error->file - 1, s->file);
-    error->line = error->column = 0;
-    for (int32_t i = 0; i < s->places.count; i++) {
-        const scenario_place *place = &s->places.data[i];
-        if (strcmp(place->key, error->key) != 0)
-            continue;
-        if (place->override)
-            snprintf(error->file, sizeof error->file, "--set");
-        error->line = place->line;
-        error->column = place->column;
-        return;
+    char key[sizeof error->key];
+    memcpy(key, error->key, sizeof key);
+    const scenario_place *place = scenario_given(s, key);
+    for (char *end = strrchr(key, '.'); end && !place; end = strrchr(key, '.')) {
+        *end = '\0';
+        place = scenario_given(s, key);
     }
+    const char *file = place && place->override ? "--set" : s->file;
+    snprintf(error->file, sizeof error->file, "%.*s", (int)sizeof error->file - 1, file);
+    error->line = place ? place->line : 0;
+    error->column = place ? place->column : 0;
 }
 
 bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size)

@@ -60,6 +60,8 @@ static inline bool is_automatic(double value) { return value != value; }
 /* The value, or `otherwise` when it was left to Fram. */
 static inline double automatic_or(double value, double otherwise) { return is_automatic(value) ? otherwise : value; }
 
+/* The default of run.scale. */
+double scenario_default_scale(void);
 /* Every key at its default for a scaling factor, lists empty.  Allocates nothing. */
 void scenario_defaults(scenario *s, double scale);
 /* A list element at its defaults. */
@@ -70,9 +72,11 @@ void scenario_free(context *ctx, scenario *s);
    key at fault, and its place when the scenario came from a file. */
 fram_status scenario_check(const scenario *s, fram_error *error);
 
-/* Fill file, line and column of an error that names a key, when the file gave that key; otherwise only the file.  For errors
-   found while a world is made from the scenario. */
+/* Fill file, line and column of an error that names a key: where the key was given, or else the innermost section around it
+   that was; otherwise only the file.  For errors found while a world is made from the scenario. */
 void scenario_locate(const scenario *s, fram_error *error);
+/* Where a key, section or list was given; NULL when it was not. */
+const scenario_place *scenario_given(const scenario *s, const char *key);
 
 /* A path of the scenario, which is relative to the scenario's own folder, as one that can be opened.  false when it does
    not fit. */

@@ -57,7 +57,7 @@ static fram_status check_range(void *user, const scenario_key *key, const void *
 
 /* ---- keys that must go together ---- */
 
-/* Two numbers of which the first must not exceed the second. */
+/* Two numbers of which the first must not exceed the second.  At fault is the one that was given, the first if both were. */
 static fram_status check_order(const scenario *s, const char *key, double value, const char *bound_key, double bound,
                                fram_error *error)
 {
@@ -66,6 +66,8 @@ static fram_status check_order(const scenario *s, const char *key, double value,
     char found[NUMBER_TEXT_SIZE], limit[NUMBER_TEXT_SIZE];
     real_to_text(value, found);
     real_to_text(bound, limit);
+    if (!scenario_given(s, key) && scenario_given(s, bound_key))
+        return fault(s, error, bound_key, "expected at least %s, which is %s, found %s", key, found, limit);
     return fault(s, error, key, "expected at most %s, which is %s, found %s", bound_key, limit, found);
 }
 

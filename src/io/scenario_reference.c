@@ -1,0 +1,129 @@
+/* The input reference, written from the schema. */
+#include "base/number_text.h"
+#include "io/scenario_file.h"
+#include "model/scenario_schema.h"
+#include <stdio.h>
+#include <string.h>
+
+typedef struct reference {
+    context *ctx;
+    text_buffer *out;
+} reference;
+
+static void add(const reference *r, const char *text) { text_add(r->ctx, r->out, text); }
+
+static void add_real(const reference *r, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    add(r, text);
+}
+
+/* "sequential, fast or accurate" */
+static void add_choices(const reference *r, const scenario_key *key)
+{
+    size_t size, ignored;
+    const char *name;
+    for (int32_t i = 0; (name = choice_name(key, i, &size)) != NULL; i++) {
+        bool last = !choice_name(key, i + 1, &ignored);
+        add(r, i == 0 ? "`" : last ? " or `" : ", `");
+        text_add_bytes(r->ctx, r->out, name, size);
+        add(r, "`");
+    }
+}
+
+static void add_type(const reference *r, const scenario_key *key)
+{
+    switch (key->kind) {
+    case KEY_REAL: add(r, key->automatic ? "number or `auto`" : "number"); break;
+    case KEY_INTEGER: add(r, "integer"); break;
+    case KEY_BOOLEAN: add(r, "`true` or `false`"); break;
+    case KEY_CHOICE: add_choices(r, key); break;
+    case KEY_TEXT: add(r, "text"); break;
+    case KEY_PATH: add(r, "path"); break;
+    case KEY_SECTION: add(r, "section"); break;
+    case KEY_LIST: add(r, "list"); break;
+    }
+}
+
+static void add_default(const reference *r, const scenario_key *key)
+{
+    size_t size;
+    if (key->kind == KEY_TEXT || key->kind == KEY_PATH) {
+        text_format(r->ctx, r->out, "`\"%s\"`", key->text);
+    } else if (key->kind == KEY_CHOICE) {
+        const char *name = choice_name(key, (int32_t)key->value, &size);
+        text_format(r->ctx, r->out, "`%.*s`", (int)size, name);
+    } else if (key->kind == KEY_BOOLEAN) {
+        add(r, key->value != 0 ? "`true`" : "`false`");
+    } else if (key->automatic) {
+        add(r, "`auto`");
+    } else {
+        add_real(r, key->value);
+        if (key->power == 0)
+            return;
+        add(r, key->at == 1 ? " scale" : " (scale / ");
+        if (key->at != 1) {
+            add_real(r, key->at);
+            add(r, ")");
+        }
+        if (key->power != 1) {
+            add(r, "^");
+            add_real(r, key->power);
+        }
+    }
+}
+
+static void add_range(const reference *r, const scenario_key *key)
+{
+    if (key->kind != KEY_REAL && key->kind != KEY_INTEGER)
+        return;
+    add_real(r, key->lo);
+    add(r, " to ");
+    add_real(r, key->hi);
+}
+
+static void add_row(const reference *r, const scenario_key *key)
+{
+    text_format(r->ctx, r->out, "| `%s` | ", key->name);
+    add_type(r, key);
+    text_format(r->ctx, r->out, " | %s | ", strcmp(key->unit, "1") == 0 ? "" : key->unit);
+    add_default(r, key);
+    add(r, " | ");
+    add_range(r, key);
+    text_format(r->ctx, r->out, " | %s |\n", key->meaning);
+}
+
+/* The keys of a section as one table, then the sections inside it. */
+static void add_section(const reference *r, const scenario_section *section, const char *path)
+{
+    add(r, "| key | type | unit | default | range | meaning |\n| --- | --- | --- | --- | --- | --- |\n");
+    for (int32_t k = 0; k < section->key_count; k++)
+        if (!section->keys[k].section)
+            add_row(r, &section->keys[k]);
+    for (int32_t k = 0; k < section->key_count; k++) {
+        const scenario_key *key = &section->keys[k];
+        if (!key->section)
+            continue;
+        char name[sizeof((scenario_place *)0)->key];
+        snprintf(name, sizeof name, "%s%s%s%s", path, *path ? "." : "", key->name, key->kind == KEY_LIST ? "[]" : "");
+        text_format(r->ctx, r->out, "\n## %s\n\n%c%s%s.\n\n", name, key->meaning[0] - ('a' <= key->meaning[0] ? 32 : 0),
+                    key->meaning + 1, key->kind == KEY_LIST ? "; a list of mappings" : "");
+        add_section(r, key->section, name);
+    }
+}
+
+fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error)
+{
+    reference r = {ctx, out};
+    add(&r, "# Input reference\n\n"
+            "Every key that a scenario file may hold. This page is written by `fram` from the table that the reader itself uses.\n\n"
+            "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold degrees.\n"
+            "Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths are relative to the\n"
+            "folder of the scenario. Where a default holds `scale`, that is `run.scale`. `--set run.seed=7` or\n"
+            "`--set ice.floes[0].x=3` on the command line overrides a value.\n\n"
+            "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed here.\n\n"
+            "## Top level\n\n");
+    add_section(&r, &scenario_schema, "");
+    return out->failed ? error_memory(error) : FRAM_OK;
+}

@@ -1,0 +1,35 @@
+/* Decoding by the table of well-formed sequences (Unicode 15, table 3-7). */
+#include "io/utf8.h"
+#include <stddef.h>
+
+int32_t utf8_next(const char **at, const char *end)
+{
+    const unsigned char *bytes = (const unsigned char *)*at;
+    ptrdiff_t left = end - *at;
+    int32_t code = bytes[0];
+    if (code < 0x80) {
+        *at += 1;
+        return code;
+    }
+    int more = code >= 0xf0 ? 3 : code >= 0xe0 ? 2 : 1;
+    if (code < 0xc2 || code > 0xf4 || left <= more)
+        return -1;
+    code &= 0x3f >> more;
+    for (int i = 1; i <= more; i++) {
+        if ((bytes[i] & 0xc0) != 0x80)
+            return -1;
+        code = code << 6 | (bytes[i] & 0x3f);
+    }
+    static const int32_t least[4] = {0, 0x80, 0x800, 0x10000};
+    if (code < least[more] || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff))
+        return -1;
+    *at += more + 1;
+    return code;
+}
+
+bool utf8_is_printable(int32_t code)
+{
+    if (code < 0x20 || (code >= 0x7f && code < 0xa0))
+        return false;
+    return code != 0x2028 && code != 0x2029 && code != 0xfeff && (code & 0xfffe) != 0xfffe;
+}

@@ -1,0 +1,14 @@
+/* UTF-8, one code point at a time. */
+#ifndef IO_UTF8_H
+#define IO_UTF8_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* The code point at *at, which moves behind it; -1 when the bytes are not UTF-8 (also overlong forms, surrogates and values
+   over 0x10ffff), *at is then not moved.  *at < end. */
+int32_t utf8_next(const char **at, const char *end);
+/* Neither a control character nor a line break, byte order mark or non-character. */
+bool utf8_is_printable(int32_t code);
+
+#endif
