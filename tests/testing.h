@@ -17,14 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Seconds after which a test counts as hung: generous, since no test may depend on the clock. */
-#define TEST_TIMEOUT 120
+/* Seconds after which a test counts as hung (check's own 4 are too few for a sanitizer on a busy machine). */
+#define TEST_TIMEOUT 300
 
-#define TEST_MAIN(name, ...)                                                           \
-    int main(void)                                                                     \
-    {                                                                                  \
-        const TTest *const list[] = {__VA_ARGS__};                                     \
-        return testing_run((name), list, (int)(sizeof list / sizeof *list));           \
+#define TEST_MAIN(name, ...)                                                 \
+    int main(void)                                                           \
+    {                                                                        \
+        const TTest *const list[] = {__VA_ARGS__};                           \
+        return testing_run((name), list, (int)(sizeof list / sizeof *list)); \
     }
 
 static inline int testing_run(const char *name, const TTest *const *tests, int count)
@@ -49,10 +49,7 @@ static inline bool testing_close(double actual, double expected, double toleranc
     return actual == expected || fabs(actual - expected) <= tolerance;
 }
 
-static inline bool testing_same_bits(double a, double b)
-{
-    return memcmp(&a, &b, sizeof a) == 0;
-}
+static inline bool testing_same_bits(double a, double b) { return memcmp(&a, &b, sizeof a) == 0; }
 
 /* Kinds of comparison of testing_first_apart. */
 enum { TESTING_ABSOLUTE, TESTING_RELATIVE, TESTING_BITS };
@@ -70,22 +67,22 @@ static inline long testing_first_apart(const double *actual, const double *expec
     return -1;
 }
 
-#define TESTING_ARRAY(actual, expected, n, kind, tolerance)                                                            \
-    do {                                                                                                               \
-        const double *actual_values_ = (actual), *expected_values_ = (expected);                                       \
-        double bound_ = (tolerance);                                                                                   \
-        long apart_ = testing_first_apart(actual_values_, expected_values_, (long)(n), (kind), bound_);                \
-        ck_assert_msg(apart_ < 0, "%s[%ld] is %.17g (%a), expected %.17g (%a), tolerance %g", #actual, apart_,         \
-                      actual_values_[apart_ < 0 ? 0 : apart_], actual_values_[apart_ < 0 ? 0 : apart_],                \
-                      expected_values_[apart_ < 0 ? 0 : apart_], expected_values_[apart_ < 0 ? 0 : apart_], bound_);   \
+#define TESTING_ARRAY(actual, expected, n, kind, tolerance)                                                          \
+    do {                                                                                                             \
+        const double *actual_values_ = (actual), *expected_values_ = (expected);                                     \
+        double bound_ = (tolerance);                                                                                 \
+        long apart_ = testing_first_apart(actual_values_, expected_values_, (long)(n), (kind), bound_);              \
+        ck_assert_msg(apart_ < 0, "%s[%ld] is %.17g (%a), expected %.17g (%a), tolerance %g", #actual, apart_,       \
+                      actual_values_[apart_ < 0 ? 0 : apart_], actual_values_[apart_ < 0 ? 0 : apart_],              \
+                      expected_values_[apart_ < 0 ? 0 : apart_], expected_values_[apart_ < 0 ? 0 : apart_], bound_); \
     } while (0)
 
-#define TESTING_DOUBLE(actual, expected, kind, tolerance)                                                              \
-    do {                                                                                                               \
-        double actual_value_ = (actual), expected_value_ = (expected), bound_ = (tolerance);                           \
-        ck_assert_msg(testing_first_apart(&actual_value_, &expected_value_, 1, (kind), bound_) < 0,                    \
-                      "%s is %.17g (%a), expected %.17g (%a), tolerance %g", #actual, actual_value_, actual_value_,    \
-                      expected_value_, expected_value_, bound_);                                                       \
+#define TESTING_DOUBLE(actual, expected, kind, tolerance)                                                           \
+    do {                                                                                                            \
+        double actual_value_ = (actual), expected_value_ = (expected), bound_ = (tolerance);                        \
+        ck_assert_msg(testing_first_apart(&actual_value_, &expected_value_, 1, (kind), bound_) < 0,                 \
+                      "%s is %.17g (%a), expected %.17g (%a), tolerance %g", #actual, actual_value_, actual_value_, \
+                      expected_value_, expected_value_, bound_);                                                    \
     } while (0)
 
 /* |actual - expected| <= tolerance */
@@ -103,46 +100,46 @@ static inline long testing_first_apart(const double *actual, const double *expec
 #define assert_array_bits(actual, expected, n) TESTING_ARRAY(actual, expected, n, TESTING_BITS, 0)
 
 /* Every component within the absolute tolerance. */
-#define assert_vec2_close(actual, expected, tolerance)                                                         \
-    do {                                                                                                       \
-        vec2 actual_vec_ = (actual), expected_vec_ = (expected);                                               \
-        double tolerance_ = (tolerance);                                                                       \
-        ck_assert_msg(testing_close(actual_vec_.x, expected_vec_.x, tolerance_) &&                             \
-                          testing_close(actual_vec_.y, expected_vec_.y, tolerance_),                           \
-                      "%s is (%.17g, %.17g), expected (%.17g, %.17g), tolerance %g", #actual, actual_vec_.x,   \
-                      actual_vec_.y, expected_vec_.x, expected_vec_.y, tolerance_);                            \
+#define assert_vec2_close(actual, expected, tolerance)                                                       \
+    do {                                                                                                     \
+        vec2 actual_vec_ = (actual), expected_vec_ = (expected);                                             \
+        double tolerance_ = (tolerance);                                                                     \
+        ck_assert_msg(testing_close(actual_vec_.x, expected_vec_.x, tolerance_) &&                           \
+                          testing_close(actual_vec_.y, expected_vec_.y, tolerance_),                         \
+                      "%s is (%.17g, %.17g), expected (%.17g, %.17g), tolerance %g", #actual, actual_vec_.x, \
+                      actual_vec_.y, expected_vec_.x, expected_vec_.y, tolerance_);                          \
     } while (0)
 
-#define assert_vec3_close(actual, expected, tolerance)                                                                 \
-    do {                                                                                                               \
-        vec3 actual_vec_ = (actual), expected_vec_ = (expected);                                                       \
-        double tolerance_ = (tolerance);                                                                               \
-        ck_assert_msg(testing_close(actual_vec_.x, expected_vec_.x, tolerance_) &&                                     \
-                          testing_close(actual_vec_.y, expected_vec_.y, tolerance_) &&                                 \
-                          testing_close(actual_vec_.z, expected_vec_.z, tolerance_),                                   \
-                      "%s is (%.17g, %.17g, %.17g), expected (%.17g, %.17g, %.17g), tolerance %g", #actual,            \
-                      actual_vec_.x, actual_vec_.y, actual_vec_.z, expected_vec_.x, expected_vec_.y, expected_vec_.z,  \
-                      tolerance_);                                                                                     \
+#define assert_vec3_close(actual, expected, tolerance)                                                                \
+    do {                                                                                                              \
+        vec3 actual_vec_ = (actual), expected_vec_ = (expected);                                                      \
+        double tolerance_ = (tolerance);                                                                              \
+        ck_assert_msg(testing_close(actual_vec_.x, expected_vec_.x, tolerance_) &&                                    \
+                          testing_close(actual_vec_.y, expected_vec_.y, tolerance_) &&                                \
+                          testing_close(actual_vec_.z, expected_vec_.z, tolerance_),                                  \
+                      "%s is (%.17g, %.17g, %.17g), expected (%.17g, %.17g, %.17g), tolerance %g", #actual,           \
+                      actual_vec_.x, actual_vec_.y, actual_vec_.z, expected_vec_.x, expected_vec_.y, expected_vec_.z, \
+                      tolerance_);                                                                                    \
     } while (0)
 
 /* ---- statuses ---- */
 
 /* The call returned FRAM_OK; otherwise shows what `error` (a fram_error, not a pointer) says. */
-#define assert_ok(call, error)                                                                                     \
-    do {                                                                                                           \
-        fram_status status_ = (call);                                                                              \
-        ck_assert_msg(status_ == FRAM_OK, "%s returned %d: %s:%d: %s: %s", #call, (int)status_, (error).file,      \
-                      (error).line, (error).key, (error).message);                                                 \
+#define assert_ok(call, error)                                                                                \
+    do {                                                                                                      \
+        fram_status status_ = (call);                                                                         \
+        ck_assert_msg(status_ == FRAM_OK, "%s returned %d: %s:%d: %s: %s", #call, (int)status_, (error).file, \
+                      (error).line, (error).key, (error).message);                                            \
     } while (0)
 
 /* The call returned `expected` and the error's message contains `part`. */
-#define assert_fails(call, error, expected, part)                                                                  \
-    do {                                                                                                           \
-        fram_status status_ = (call);                                                                              \
-        ck_assert_msg(status_ == (expected) && (error).status == status_, "%s returned %d (error says %d): %s",    \
-                      #call, (int)status_, (int)(error).status, (error).message);                                  \
-        ck_assert_msg(strstr((error).message, (part)) != NULL, "%s: message '%s' lacks '%s'", #call,               \
-                      (error).message, (part));                                                                    \
+#define assert_fails(call, error, expected, part)                                                                      \
+    do {                                                                                                               \
+        fram_status status_ = (call);                                                                                  \
+        ck_assert_msg(status_ == (expected) && (error).status == status_, "%s returned %d (error says %d): %s", #call, \
+                      (int)status_, (int)(error).status, (error).message);                                             \
+        ck_assert_msg(strstr((error).message, (part)) != NULL, "%s: message '%s' lacks '%s'", #call, (error).message,  \
+                      (part));                                                                                         \
     } while (0)
 
 /* ---- a context whose n-th request for memory fails.  Every function that allocates is tested by

@@ -1,0 +1,215 @@
+/* The thread pool: every block once, whatever the threads do. */
+#include "base/pool.h"
+#include "testing.h"
+#include <pthread.h>
+#include <sched.h>
+#include <stdio.h>
+#include <sys/resource.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BLOCKS = 1000 };
+
+typedef struct job {
+    int times[BLOCKS]; /* plain: a block taken twice is also a data race */
+    double value[BLOCKS];
+    atomic_int per_thread[64];
+    int32_t threads;
+    int slow; /* the block that takes long, or -1 */
+} job;
+
+static void pause_for(long microseconds)
+{
+    nanosleep(&(struct timespec){.tv_sec = 0, .tv_nsec = microseconds * 1000}, NULL);
+}
+
+static void count_block(void *arg, int32_t block, int32_t thread)
+{
+    job *j = arg;
+    if (thread < 0 || thread >= j->threads)
+        abort();
+    if (block == j->slow)
+        pause_for(3000);
+    j->times[block]++;
+    double x = block;
+    for (int i = 0; i < 20; i++)
+        x = x * 0.75 + 1 / (1 + x);
+    j->value[block] = x;
+    atomic_fetch_add(&j->per_thread[thread], 1);
+}
+
+static context pool_context(int threads)
+{
+    context ctx;
+    context_init(&ctx);
+    ctx.threads = pool_create(&ctx, threads);
+    ck_assert_ptr_nonnull(ctx.threads);
+    ck_assert_int_eq(pool_threads(ctx.threads), threads);
+    ck_assert_int_eq(context_threads(&ctx), threads);
+    return ctx;
+}
+
+static void run_and_check(context *ctx, int32_t blocks, int slow)
+{
+    job j = {.threads = context_threads(ctx), .slow = slow};
+    pool_run(ctx, count_block, &j, blocks);
+    int sum = 0;
+    for (int i = 0; i < 64; i++)
+        sum += atomic_load(&j.per_thread[i]);
+    ck_assert_int_eq(sum, blocks);
+    for (int32_t i = 0; i < BLOCKS; i++)
+        ck_assert_int_eq(j.times[i], i < blocks ? 1 : 0);
+}
+
+START_TEST(every_block_runs_once)
+{
+    static const int thread_counts[] = {1, 2, 3, 8, 16}; /* more than there are cores, too */
+    for (size_t t = 0; t < sizeof thread_counts / sizeof *thread_counts; t++) {
+        context ctx = pool_context(thread_counts[t]);
+        for (int32_t blocks = 0; blocks < 40; blocks++)
+            run_and_check(&ctx, blocks, -1);
+        for (int i = 0; i < 20; i++)
+            run_and_check(&ctx, BLOCKS, -1);
+        pool_free(&ctx, ctx.threads);
+    }
+}
+END_TEST
+
+START_TEST(many_small_jobs_follow_each_other)
+{
+    context ctx = pool_context(4);
+    job j = {.threads = 4, .slow = -1};
+    for (int i = 0; i < 5000; i++)
+        pool_run(&ctx, count_block, &j, 5);
+    for (int i = 0; i < 5; i++)
+        ck_assert_int_eq(j.times[i], 5000);
+    pool_free(&ctx, ctx.threads);
+}
+END_TEST
+
+START_TEST(sleepers_wake_and_the_caller_waits)
+{
+    static const int thread_counts[] = {2, 6};
+    for (size_t t = 0; t < 2; t++) {
+        context ctx = pool_context(thread_counts[t]);
+        for (int i = 0; i < 10; i++) {
+            pause_for(2000); /* long enough for workers to fall asleep; nothing depends on whether they do */
+            run_and_check(&ctx, i + 2, i % 3); /* the slow block is now the caller's, now another's */
+        }
+        pause_for(2000);
+        pool_free(&ctx, ctx.threads); /* while they sleep */
+    }
+}
+END_TEST
+
+START_TEST(results_do_not_depend_on_threads)
+{
+    job expected = {.threads = 1, .slow = -1};
+    context alone;
+    context_init(&alone);
+    ck_assert_int_eq(context_threads(&alone), 1);
+    pool_run(&alone, count_block, &expected, BLOCKS);
+    for (int threads = 1; threads <= 5; threads++) {
+        context ctx = pool_context(threads);
+        job j = {.threads = threads, .slow = -1};
+        pool_run(&ctx, count_block, &j, BLOCKS);
+        assert_array_bits(j.value, expected.value, BLOCKS);
+        pool_free(&ctx, ctx.threads);
+    }
+}
+END_TEST
+
+typedef struct where {
+    pthread_t thread;
+    int32_t number;
+} where;
+
+static void note_thread(void *arg, int32_t block, int32_t thread)
+{
+    ((where *)arg)[block] = (where){pthread_self(), thread};
+}
+
+START_TEST(a_single_block_runs_on_the_caller)
+{
+    context ctx = pool_context(3);
+    for (int i = 0; i < 100; i++) {
+        where w[1];
+        pool_run(&ctx, note_thread, w, 1);
+        ck_assert(pthread_equal(w[0].thread, pthread_self()));
+        ck_assert_int_eq(w[0].number, 0);
+    }
+    where w[BLOCKS];
+    pool_run(&ctx, note_thread, w, BLOCKS);
+    for (int i = 0; i < BLOCKS; i++) /* number 0 is the caller and nobody else */
+        ck_assert_int_eq(w[i].number == 0, pthread_equal(w[i].thread, pthread_self()) != 0);
+    pool_free(&ctx, ctx.threads);
+}
+END_TEST
+
+START_TEST(a_pool_without_memory_is_null)
+{
+    for (long n = 1;; n++) {
+        failing_memory m;
+        context ctx = failing_context(&m, n);
+        pool *p = pool_create(&ctx, 3);
+        ck_assert_int_eq(p == NULL, m.failed);
+        pool_free(&ctx, p);
+        ck_assert_int_eq(m.live, 0);
+        if (!m.failed)
+            break;
+    }
+    context ctx;
+    context_init(&ctx);
+    pool *p = pool_create(&ctx, 0); /* the caller is always there */
+    ck_assert_int_eq(pool_threads(p), 1);
+    pool_free(&ctx, p);
+    pool_free(&ctx, NULL);
+}
+END_TEST
+
+/* Leaves this process `bytes` of address space for thread stacks; false where that cannot be told. */
+static bool address_space_limit(size_t bytes)
+{
+    FILE *f = fopen("/proc/self/statm", "r");
+    unsigned long pages = 0;
+    if (!f || getenv("FRAM_TEST_SANITIZE")) { /* sanitizers map terabytes */
+        if (f)
+            fclose(f);
+        return false;
+    }
+    bool known = fscanf(f, "%lu", &pages) == 1;
+    fclose(f);
+    size_t used = (size_t)pages * (size_t)sysconf(_SC_PAGESIZE);
+    struct rlimit limit = {used + bytes, used + bytes};
+    return known && setrlimit(RLIMIT_AS, &limit) == 0;
+}
+
+START_TEST(a_pool_makes_do_with_the_threads_there_are)
+{
+    context ctx;
+    context_init(&ctx);
+    if (!address_space_limit(40 << 20))
+        return;
+    ctx.threads = pool_create(&ctx, 64); /* stacks of 2 or 8 MB: some fit, not all */
+    ck_assert_ptr_nonnull(ctx.threads);
+    ck_assert_int_gt(pool_threads(ctx.threads), 1);
+    ck_assert_int_lt(pool_threads(ctx.threads), 64);
+    run_and_check(&ctx, BLOCKS, -1);
+    pool_free(&ctx, ctx.threads);
+}
+END_TEST
+
+START_TEST(a_pool_without_any_thread_is_null)
+{
+    failing_memory m;
+    context ctx = failing_context(&m, 0);
+    if (!address_space_limit(0))
+        return;
+    ck_assert_ptr_null(pool_create(&ctx, 2));
+    ck_assert_int_eq(m.live, 0);
+}
+END_TEST
+
+TEST_MAIN("pool", every_block_runs_once, many_small_jobs_follow_each_other, sleepers_wake_and_the_caller_waits,
+          results_do_not_depend_on_threads, a_single_block_runs_on_the_caller, a_pool_without_memory_is_null,
+          a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)
