@@ -22,7 +22,7 @@ static fluid_load load_of_body(const fluid_work *w, int32_t slot)
     if (shape < 0)
         return load;
     fluid_motion state = {b->position[slot], quat_matrix(b->orientation[slot]), b->velocity[slot],
-                           b->angular_velocity[slot]};
+                          b->angular_velocity[slot]};
     const drag_coefficients *c = &w->coefficients[b->material[slot]];
     if (w->shapes->shapes.kind[shape] == SHAPE_PRISM)
         fluid_load_prism(w->media, c, shape_outline(w->shapes, shape), w->shapes->shapes.half_height[shape], &state,

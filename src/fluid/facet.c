@@ -14,10 +14,7 @@ stream stream_of_air(const media *m, const drag_coefficients *c, vec3 velocity, 
 }
 
 /* Twice the area vector of a triangle. */
-static vec3 double_area(vec3 a, vec3 b, vec3 c)
-{
-    return vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-}
+static vec3 double_area(vec3 a, vec3 b, vec3 c) { return vec3_cross(vec3_sub(b, a), vec3_sub(c, a)); }
 
 void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double height)
 {
@@ -31,10 +28,7 @@ void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double hei
     }
 }
 
-static vec3 velocity_at(const stream *s, vec3 point)
-{
-    return vec3_add(s->velocity, vec3_cross(s->spin, point));
-}
+static vec3 velocity_at(const stream *s, vec3 point) { return vec3_add(s->velocity, vec3_cross(s->spin, point)); }
 
 static void add_at(wrench *load, vec3 force, vec3 point)
 {
@@ -42,8 +36,9 @@ static void add_at(wrench *load, vec3 force, vec3 point)
     load->moment = vec3_add(load->moment, vec3_cross(point, force));
 }
 
-/* -form int vn^2 n dS over the part with vn > 0.  With f = vn at the corners of a triangle, S = sum f, Q = sum f^2, and A its area:
-   int f^2 = A/12 (S^2 + Q), int f^2 r = A/60 sum r_k (S^2 + Q + 2 f_k (S + f_k)), from int of barycentric monomials. */
+/* -form int vn^2 n dS over the part with vn > 0.  With f = vn at the corners of a triangle, S = sum f, Q = sum f^2, and
+   A its area: int f^2 = A/12 (S^2 + Q), int f^2 r = A/60 sum r_k (S^2 + Q + 2 f_k (S + f_k)), from int of barycentric
+   monomials. */
 static void add_form(wrench *load, const stream *s, const vec3 *vertex, int n, vec3 normal)
 {
     /* vn(r) = n . v + (n x spin) . r */

@@ -1,14 +1,15 @@
-/* Integrals of pressure and drag over one plane facet that lies wholly in one medium: what meshes and prisms are both made of.
-   All points are relative to the body's centre of mass, axes of the global frame.  A facet is a convex polygon with its unit
-   normal, outward; vertices that run clockwise about the normal make a facet of negative area, so that signed fans add up
-   to concave faces.  Knows no bodies and no shapes. */
+/* Integrals of pressure and drag over one plane facet that lies wholly in one medium: what meshes and prisms are both
+   made of. All points are relative to the body's centre of mass, axes of the global frame.  A facet is a convex polygon
+   with its unit normal, outward; vertices that run clockwise about the normal make a facet of negative area, so that
+   signed fans add up to concave faces.  Knows no bodies and no shapes. */
 #ifndef FLUID_FACET_H
 #define FLUID_FACET_H
 
 #include "bodies/body.h"
 #include "fluid/media.h"
 
-/* Most vertices of a facet: a quadrilateral cut by the water plane and by the line where it stops moving into the medium. */
+/* Most vertices of a facet: a quadrilateral cut by the water plane and by the line where it stops moving into the
+ * medium. */
 enum { FACET_VERTICES = 8 };
 
 /* Integrals over the wet facets: of z n dS [m3] and of r x z n dS [m4], z the height over still water. */
@@ -37,8 +38,8 @@ void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double hei
 
 /* Adds form and skin drag of a facet, n <= FACET_VERTICES - 1, with the velocity of each of its points (SPEC 5).
    Form drag is exact: the part that moves into the medium is cut out, and |vn| vn is a polynomial there.
-   Skin drag is a quadrature: 6 points of degree 4 on a triangle (Dunavant 1985, table II, p = 4), 2 x 2 Gauss points on a
-   quadrilateral, triangles about the mean vertex beyond.  It is exact while the body does not turn. */
+   Skin drag is a quadrature: 6 points of degree 4 on a triangle (Dunavant 1985, table II, p = 4), 2 x 2 Gauss points on
+   a quadrilateral, triangles about the mean vertex beyond.  It is exact while the body does not turn. */
 void facet_add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, vec3 normal);
 
 #endif

@@ -1,6 +1,6 @@
 /* Fluid forces on bodies: hydrostatics and drag integrated over the fluid surface, clipped at the water plane.
-   Sign and frame: force [N] on the body, moment [N m] about its centre of mass, both in the global frame.  Gravity is not
-   included. */
+   Sign and frame: force [N] on the body, moment [N m] about its centre of mass, both in the global frame.  Gravity is
+   not included. */
 #ifndef FLUID_FLUID_H
 #define FLUID_FLUID_H
 
@@ -25,23 +25,24 @@ typedef struct fluid_motion {
 /* Hydrostatic wrench of a closed mesh: exact pressure integral over each triangle clipped at z = 0 (oracles section 5):
    F = rho g zbar N, torque = rho g (int z r dS) x n.  Writes the whole load; drag is zero. */
 void hydrostatics_mesh(const media *m, const mesh *surface, const fluid_motion *state, fluid_load *load);
-/* Drag on the wet (dry) part of each triangle with the velocity of each of its points (SPEC 5): form drag exactly, skin drag by
-   quadrature (fluid/facet.h); adds to load. */
+/* Drag on the wet (dry) part of each triangle with the velocity of each of its points (SPEC 5): form drag exactly, skin
+   drag by quadrature (fluid/facet.h); adds to load. */
 void drag_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                fluid_load *load);
 /* Both in one walk; writes the whole load. */
 void fluid_load_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                      fluid_load *load);
 
-/* The same on a prism (outline, simple, extruded over +-half_height), without building its mesh: hydrostatics and form drag
-   equal those of the mesh to rounding, the first in closed form while no corner cuts the water plane through a cap; skin drag equals
-   it but for the quadrature (none without rotation; a disc that spins in its plane: 2e-5).  Writes the whole load. */
+/* The same on a prism (outline, simple, extruded over +-half_height), without building its mesh: hydrostatics and form
+   drag equal those of the mesh to rounding, the first in closed form while no corner cuts the water plane through a
+   cap; skin drag equals it but for the quadrature: none without rotation; spinning in its plane, a disc 1e-5 and a
+   square 1e-3; any motion of a floe 3e-3 of the drag at its largest speed (concave: 1e-2). Writes the whole load. */
 void fluid_load_prism(const media *m, const drag_coefficients *c, polygon outline, double half_height,
                       const fluid_motion *state, fluid_load *load);
 
-/* Wrench of fluid and gravity on every dynamic body (gravity alone on one without a shape) and zero on every other slot, written
-   (not added) to loads[slot]; parallel over blocks of slots.  coefficients[material].  detail (may be NULL) gets the split per
-   slot, without gravity. */
+/* Wrench of fluid and gravity on every dynamic body (gravity alone on one without a shape) and zero on every other
+   slot, written (not added) to loads[slot]; parallel over blocks of slots.  coefficients[material].  detail (may be
+   NULL) gets the split per slot, without gravity. */
 fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
                         const body_table *bodies, const shape_store *shapes, wrench *loads, fluid_load *detail,
                         fram_error *error);

@@ -5,10 +5,10 @@
 
 /* How the water plane meets the prism. */
 typedef enum immersion {
-    IMMERSION_DRY,       /* above it */
-    IMMERSION_FLOATING,  /* it cuts the sides only: one cap wholly wet, the other wholly dry */
-    IMMERSION_CUT,       /* it cuts a cap */
-    IMMERSION_SUBMERGED  /* below it */
+    IMMERSION_DRY,      /* above it */
+    IMMERSION_FLOATING, /* it cuts the sides only: one cap wholly wet, the other wholly dry */
+    IMMERSION_CUT,      /* it cuts a cap */
+    IMMERSION_SUBMERGED /* below it */
 } immersion;
 
 typedef struct prism_walk {
@@ -53,8 +53,8 @@ typedef struct volume_moments {
     vec3 first;    /* [m4] */
 } volume_moments;
 
-/* The columns over the outline reach from the wet cap to the water plane at h + s x + t y of the body's z, x and y from the
-   centroid: integrals of their length, of x and y times it, and of half the difference of squares of their ends. */
+/* The columns over the outline reach from the wet cap to the water plane at h + s x + t y of the body's z, x and y from
+   the centroid: integrals of their length, of x and y times it, and of half the difference of squares of their ends. */
 static volume_moments floating_volume(const prism_walk *w)
 {
     const polygon_moments *m = &w->moments;
@@ -64,10 +64,9 @@ static volume_moments floating_volume(const prism_walk *w)
     double s = -row[0] / row[2], t = -row[1] / row[2];
     double volume = m->area * (w->half_height + side * h);
     double x = side * (s * m->yy + t * m->xy), y = side * (s * m->xy + t * m->xx);
-    double squares = m->area * (h * h - w->half_height * w->half_height) + s * (s * m->yy + t * m->xy) +
-                     t * (s * m->xy + t * m->xx);
-    return (volume_moments){volume,
-                            {m->centroid.x * volume + x, m->centroid.y * volume + y, 0.5 * side * squares}};
+    double squares =
+        m->area * (h * h - w->half_height * w->half_height) + s * (s * m->yy + t * m->xy) + t * (s * m->xy + t * m->xx);
+    return (volume_moments){volume, {m->centroid.x * volume + x, m->centroid.y * volume + y, 0.5 * side * squares}};
 }
 
 static volume_moments whole_volume(const prism_walk *w)
@@ -109,8 +108,8 @@ static void add_facet(prism_walk *w, const vec3 *vertex, int n, vec3 normal)
         if (w->pressure || w->wet)
             add_wet_part(w, part, facet_clip(vertex, n, vec3_make(0, 0, 1), -w->height, part), normal);
         if (w->dry)
-            facet_add_drag(&w->air_drag, &w->air, part,
-                           facet_clip(vertex, n, vec3_make(0, 0, -1), w->height, part), normal);
+            facet_add_drag(&w->air_drag, &w->air, part, facet_clip(vertex, n, vec3_make(0, 0, -1), w->height, part),
+                           normal);
     }
 }
 
