@@ -79,4 +79,24 @@ static inline void sample_sphere_mesh(context *ctx, int32_t stations, int32_t ar
     sample_surface(ctx, stations, around, sample_sphere_point, &s, out);
 }
 
+/* A square ring (a moonpool platform): the square of half side 2 without that of half side 1, from z = 0 to 1. */
+static inline void sample_frame_mesh(context *ctx, mesh *out)
+{
+    for (int i = 0; i < 16; i++) {
+        static const double x[4] = {-1, 1, 1, -1}, y[4] = {-1, -1, 1, 1};
+        double side = i / 4 % 2 ? 1 : 2;
+        mesh_add_vertex(ctx, out, (vec3){side * x[i % 4], side * y[i % 4], i / 8});
+    }
+    for (int i = 0; i < 4; i++) {
+        int32_t j = (i + 1) % 4;
+        /* Quadrilaterals, counter-clockwise from outside: bottom, top, outer and inner side. */
+        const int32_t quad[4][4] = {
+            {i, i + 4, j + 4, j}, {i + 8, j + 8, j + 12, i + 12}, {i, j, j + 8, i + 8}, {i + 4, i + 12, j + 12, j + 4}};
+        for (int k = 0; k < 4; k++) {
+            mesh_add_triangle(ctx, out, quad[k][0], quad[k][1], quad[k][2]);
+            mesh_add_triangle(ctx, out, quad[k][0], quad[k][2], quad[k][3]);
+        }
+    }
+}
+
 #endif
