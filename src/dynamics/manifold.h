@@ -1,0 +1,45 @@
+/* Contact points of two convex bodies once their contact plane is known.  Inside dynamics. */
+#ifndef DYNAMICS_MANIFOLD_H
+#define DYNAMICS_MANIFOLD_H
+
+#include "dynamics/collision.h"
+
+/* Largest polygon that is clipped; faces with more than half as many vertices are thinned. */
+enum { CLIP_MOST = 128 };
+
+/* A vertex of a polygon that is being clipped, and a name of the edge that starts there. */
+typedef struct clip_vertex {
+    vec3 point;
+    uint32_t edge;
+} clip_vertex;
+
+/* A flat face in some frame: vertices counter-clockwise seen from outside, unit outward normal. */
+typedef struct flat_face {
+    vec3 point[CLIP_MOST / 2];
+    int32_t count;
+    vec3 normal;
+    uint32_t name;
+} flat_face;
+
+/* The incident face clipped by the sides of the reference face; points with depth > -slack under the reference plane, at
+   most 4 (depths below 0 are reported as 0).  swapped goes into the features, for the case that b holds the reference. */
+int face_manifold(const flat_face *reference, const flat_face *incident, double slack, bool swapped,
+                  manifold_point out[4]);
+
+/* Faces that are seams inside a compound: they part pieces, but no contact may take their normal. */
+typedef struct seam_masks {
+    uint64_t a, b;
+} seam_masks;
+
+/* An outer face may stand in for a nearer seam only while it is not much deeper than that: beyond this ratio it is the far side
+   of the piece.  The sharpest corner that still finds its face has a half angle of atan(1/8). */
+#define SEAM_DEPTH_RATIO 8.0
+/* An edge pair or another body's face is taken only when it is less deep than the first choice by this factor, so that the choice does
+   not waver between equals. */
+#define PREFERENCE 0.95
+
+/* polyhedra_manifold with seams and slack. */
+int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, double slack, vec3 *normal,
+                              manifold_point out[4], vec3 *axis);
+
+#endif

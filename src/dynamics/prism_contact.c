@@ -1,0 +1,252 @@
+#include "dynamics/prism_contact.h"
+
+/* cos of the angle between the axes of two prisms under which sides are clipped against sides: within it a side is always more opposed
+   to a side than to top or bottom, and edge pairs add nothing that clipping does not find (their axes differ from a side's
+   normal by the tilt, the depths by its product with the freeboard). */
+#define NEARLY_LEVEL 0.98
+
+/* A direction of a plan view counts as lying in the cone of normals of a corner up to this sine. */
+#define CORNER_SLACK 0.05
+
+static vec2 side_normal(const prism *p, int32_t k)
+{
+    vec2 e = vec2_sub(p->vertex[k + 1 < p->count ? k + 1 : 0], p->vertex[k]);
+    double scale = 1 / vec2_length(e);
+    return vec2_make(e.y * scale, -e.x * scale);
+}
+
+/* ---- support of a compound's piece ---- */
+
+static vec2 unit2(vec2 v)
+{
+    double l = vec2_length(v);
+    return l > 0 ? vec2_scale(v, 1 / l) : v;
+}
+
+/* Whether a contact may push the piece at its vertex k against `direction` (unit, plan view, out of the piece): across an outer side
+   that faces this way, or at a convex corner of the whole outline.  Points of the seams are no corners. */
+static bool may_be_pushed(const prism *p, int32_t k, vec2 direction)
+{
+    if (p->seams == 0)
+        return true;
+    int32_t before = k > 0 ? k - 1 : p->count - 1;
+    bool outer_before = !(p->seams >> before & 1u), outer_after = !(p->seams >> k & 1u);
+    double flat = sqrt(1 - CORNER_SLACK * CORNER_SLACK);
+    if ((outer_before && vec2_dot(side_normal(p, before), direction) > flat) ||
+        (outer_after && vec2_dot(side_normal(p, k), direction) > flat))
+        return true;
+    int32_t c = p->corner[k], n = p->outline.count;
+    if (c < 0)
+        return false;
+    vec2 here = p->outline.vertex[c];
+    vec2 into = unit2(vec2_sub(here, p->outline.vertex[c > 0 ? c - 1 : n - 1]));
+    vec2 away = unit2(vec2_sub(p->outline.vertex[c + 1 < n ? c + 1 : 0], here));
+    return vec2_cross(into, away) > -CORNER_SLACK && vec2_dot(direction, into) >= -CORNER_SLACK &&
+           vec2_dot(direction, away) <= CORNER_SLACK;
+}
+
+/* ---- axes ---- */
+
+/* b's frame seen from a's, or the other way round. */
+typedef struct relative_pose {
+    mat3 r;
+    vec3 t;
+} relative_pose;
+
+static relative_pose pose_from(const prism *from, const prism *to)
+{
+    relative_pose p = {.t = mat3_tmul_vec(from->rotation, vec3_sub(to->centre, from->centre))};
+    p.r = mat3_mul(mat3_transpose(from->rotation), to->rotation);
+    return p;
+}
+
+typedef struct best_side {
+    int32_t side; /* -1: none */
+    double depth;
+    double barred; /* least depth along axes that no contact may take */
+} best_side;
+
+/* Sides of p as axes; `other` stands at `pose` in p's frame.  false: side *parting parts them. */
+static bool search_sides(const prism *p, const prism *other, const relative_pose *pose, double slack, best_side *best,
+                         int32_t *parting)
+{
+    *best = (best_side){-1, HUGE_VAL, HUGE_VAL};
+    for (int32_t k = 0; k < p->count; k++) {
+        vec2 n = side_normal(p, k);
+        /* The normal in the other's frame. */
+        const double(*r)[3] = pose->r.m;
+        vec3 m = {r[0][0] * n.x + r[1][0] * n.y, r[0][1] * n.x + r[1][1] * n.y, r[0][2] * n.x + r[1][2] * n.y};
+        double low = HUGE_VAL;
+        int32_t at = 0;
+        for (int32_t i = 0; i < other->count; i++) {
+            double d = m.x * other->vertex[i].x + m.y * other->vertex[i].y;
+            if (d < low) {
+                low = d;
+                at = i;
+            }
+        }
+        low += n.x * pose->t.x + n.y * pose->t.y - other->half_height * fabs(m.z);
+        double depth = vec2_dot(n, p->vertex[k]) - low;
+        if (depth < -slack) {
+            *parting = k;
+            return false;
+        }
+        if ((p->seams >> k & 1u) || !may_be_pushed(other, at, unit2(vec2_make(-m.x, -m.y)))) {
+            best->barred = fmin(best->barred, depth);
+        } else if (depth < best->depth) {
+            best->depth = depth;
+            best->side = k;
+        }
+    }
+    return true;
+}
+
+/* Overlap along p's own axis. */
+static double vertical_depth(const prism *p, const prism *other, const relative_pose *pose)
+{
+    const double *z = pose->r.m[2];
+    double low = HUGE_VAL, high = -HUGE_VAL, rise = other->half_height * fabs(z[2]);
+    for (int32_t i = 0; i < other->count; i++) {
+        double d = z[0] * other->vertex[i].x + z[1] * other->vertex[i].y;
+        low = d < low ? d : low;
+        high = d > high ? d : high;
+    }
+    return pose->t.z > 0 ? p->half_height - (pose->t.z + low - rise) : (pose->t.z + high + rise) + p->half_height;
+}
+
+static vec3 global_normal(const prism *p, int32_t side)
+{
+    vec2 n = side_normal(p, side);
+    return mat3_mul_vec(p->rotation, vec3_make(n.x, n.y, 0));
+}
+
+static vec3 place_vertex(const prism *p, int32_t k, double z)
+{
+    return vec3_add(p->centre, mat3_mul_vec(p->rotation, vec3_make(p->vertex[k].x, p->vertex[k].y, z)));
+}
+
+/* ---- contact of two sides ---- */
+
+static void take_side(const prism *p, int32_t k, flat_face *out)
+{
+    int32_t next = k + 1 < p->count ? k + 1 : 0;
+    out->point[0] = place_vertex(p, k, -p->half_height);
+    out->point[1] = place_vertex(p, next, -p->half_height);
+    out->point[2] = place_vertex(p, next, p->half_height);
+    out->point[3] = place_vertex(p, k, p->half_height);
+    out->count = 4;
+    out->normal = global_normal(p, k);
+    out->name = (uint32_t)k;
+}
+
+static int contact_at_side(const prism *holder, int32_t side, const prism *other, double slack, bool swapped,
+                           vec3 *outward, manifold_point out[4])
+{
+    flat_face reference, incident;
+    take_side(holder, side, &reference);
+    vec3 seen = mat3_tmul_vec(other->rotation, reference.normal);
+    int32_t opposed = 0;
+    double least = HUGE_VAL;
+    for (int32_t k = 0; k < other->count; k++) {
+        double d = vec2_dot(side_normal(other, k), vec2_make(seen.x, seen.y));
+        if (d < least) {
+            least = d;
+            opposed = k;
+        }
+    }
+    take_side(other, opposed, &incident);
+    *outward = reference.normal;
+    return face_manifold(&reference, &incident, slack, swapped, out);
+}
+
+/* ---- the general way ---- */
+
+bool prism_polyhedron_reserve(context *ctx, polyhedron *room)
+{
+    enum { MOST = PIECE_MOST_VERTICES };
+    return array_reserve(ctx, &room->vertex, 2 * MOST) && array_reserve(ctx, &room->face, MOST + 2) &&
+           array_reserve(ctx, &room->loop, 6 * MOST) && array_reserve(ctx, &room->edge_direction, MOST + 1);
+}
+
+static void add_face(polyhedron *room, vec3 normal, vec3 on, int32_t count)
+{
+    int32_t first = room->loop.count;
+    room->loop.count += count;
+    room->face.data[room->face.count++] = (polyhedron_face){normal, vec3_dot(normal, on), first, count};
+}
+
+void prism_polyhedron(const prism *p, polyhedron *room)
+{
+    int32_t n = p->count;
+    vec3 z = mat3_column(p->rotation, 2);
+    room->vertex.count = room->face.count = room->loop.count = room->edge_direction.count = 0;
+    room->centre = vec3_make(0, 0, 0);
+    for (int32_t k = 0; k < n; k++)
+        room->vertex.data[room->vertex.count++] = place_vertex(p, k, -p->half_height);
+    for (int32_t k = 0; k < n; k++)
+        room->vertex.data[room->vertex.count++] = place_vertex(p, k, p->half_height);
+    for (int32_t k = 0; k < 2 * n; k++)
+        room->centre = vec3_mad(room->centre, room->vertex.data[k], 1 / (2.0 * n));
+    for (int32_t k = 0; k < n; k++) {
+        int32_t next = k + 1 < n ? k + 1 : 0, *loop = room->loop.data + room->loop.count;
+        loop[0] = k;
+        loop[1] = next;
+        loop[2] = n + next;
+        loop[3] = n + k;
+        vec3 normal = global_normal(p, k), along = vec3_cross(z, normal);
+        add_face(room, normal, room->vertex.data[k], 4);
+        room->edge_direction.data[room->edge_direction.count++] = along;
+    }
+    room->edge_direction.data[room->edge_direction.count++] = z;
+    int32_t *top = room->loop.data + room->loop.count, *bottom = top + n;
+    for (int32_t k = 0; k < n; k++) {
+        top[k] = n + k;
+        bottom[k] = n - 1 - k;
+    }
+    add_face(room, z, room->vertex.data[n], n);
+    add_face(room, vec3_neg(z), room->vertex.data[0], n);
+    double square = 0;
+    for (int32_t k = 0; k < 2 * n; k++) {
+        vec3 d = vec3_sub(room->vertex.data[k], room->centre);
+        square = fmax(square, vec3_dot(d, d));
+    }
+    room->radius = sqrt(square);
+}
+
+int prism_manifold(const prism *a, const prism *b, double slack, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
+                   manifold_point out[4], vec3 *axis)
+{
+    relative_pose b_in_a = pose_from(a, b), a_in_b = pose_from(b, a);
+    best_side in_a, in_b;
+    int32_t parting;
+    if (!search_sides(a, b, &b_in_a, slack, &in_a, &parting)) {
+        *axis = vec3_neg(global_normal(a, parting));
+        return 0;
+    }
+    if (!search_sides(b, a, &a_in_b, slack, &in_b, &parting)) {
+        *axis = global_normal(b, parting);
+        return 0;
+    }
+    double rise_a = vertical_depth(a, b, &b_in_a), rise_b = vertical_depth(b, a, &a_in_b);
+    if (rise_a < -slack || rise_b < -slack) {
+        vec3 up = mat3_column((rise_a < -slack ? a : b)->rotation, 2);
+        *axis = vec3_scale(up, vec3_dot(up, vec3_sub(a->centre, b->centre)) < 0 ? -1 : 1);
+        return 0;
+    }
+    *axis = vec3_make(0, 0, 0);
+    bool of_b = in_b.side >= 0 && (in_a.side < 0 || in_b.depth < PREFERENCE * in_a.depth);
+    const best_side *best = of_b ? &in_b : &in_a;
+    bool upright = fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && fmin(rise_a, rise_b) >= PREFERENCE * best->depth;
+    if (!upright) {
+        prism_polyhedron(a, a_room);
+        prism_polyhedron(b, b_room);
+        return polyhedra_manifold_masked(a_room, b_room, (seam_masks){a->seams, b->seams}, slack, normal, out, axis);
+    }
+    if (best->depth > SEAM_DEPTH_RATIO * fmin(in_a.barred, in_b.barred))
+        return 0;
+    vec3 outward;
+    int count = of_b ? contact_at_side(b, best->side, a, slack, true, &outward, out)
+                     : contact_at_side(a, best->side, b, slack, false, &outward, out);
+    *normal = of_b ? outward : vec3_neg(outward);
+    return count;
+}

@@ -1,0 +1,222 @@
+/* The general narrow phase: separating axes of two convex polyhedra over face normals and edge pairs. */
+#include "dynamics/manifold.h"
+
+typedef struct span {
+    double low, high;
+} span;
+
+static span project(const polyhedron *p, vec3 axis)
+{
+    span s = {HUGE_VAL, -HUGE_VAL};
+    for (int32_t i = 0; i < p->vertex.count; i++) {
+        double d = vec3_dot(axis, p->vertex.data[i]);
+        s.low = d < s.low ? d : s.low;
+        s.high = d > s.high ? d : s.high;
+    }
+    return s;
+}
+
+static double lowest(const polyhedron *p, vec3 axis)
+{
+    double low = HUGE_VAL;
+    for (int32_t i = 0; i < p->vertex.count; i++) {
+        double d = vec3_dot(axis, p->vertex.data[i]);
+        low = d < low ? d : low;
+    }
+    return low;
+}
+
+/* Best candidate so far; depth is how far the bodies overlap along it. */
+typedef struct best_face {
+    int32_t face; /* -1: none */
+    double depth;
+    double seam_depth; /* least depth along a seam, which bounds what an outer face may stand for */
+} best_face;
+
+/* false: some face of p parts the bodies, and *axis is its normal. */
+static bool search_faces(const polyhedron *p, const polyhedron *other, uint64_t seams, double slack, best_face *best,
+                         vec3 *axis)
+{
+    *best = (best_face){-1, HUGE_VAL, HUGE_VAL};
+    for (int32_t i = 0; i < p->face.count; i++) {
+        const polyhedron_face *f = &p->face.data[i];
+        double depth = f->offset - lowest(other, f->normal);
+        if (depth < -slack) {
+            *axis = f->normal;
+            return false;
+        }
+        bool seam = i < 64 && (seams >> i & 1u);
+        if (seam) {
+            best->seam_depth = fmin(best->seam_depth, depth);
+        } else if (depth < best->depth) {
+            best->depth = depth;
+            best->face = i;
+        }
+    }
+    return true;
+}
+
+typedef struct best_edges {
+    int32_t a, b; /* edge directions; -1: none */
+    double depth;
+    vec3 axis; /* from b to a */
+} best_edges;
+
+/* Edge pairs nearer to parallel than this give no axis that a face does not give. */
+#define PARALLEL_SINE 1e-6
+
+static bool search_edges(const polyhedron *a, const polyhedron *b, double slack, best_edges *best)
+{
+    *best = (best_edges){-1, -1, HUGE_VAL, {0, 0, 0}};
+    vec3 apart = vec3_sub(a->centre, b->centre);
+    for (int32_t i = 0; i < a->edge_direction.count; i++) {
+        for (int32_t j = 0; j < b->edge_direction.count; j++) {
+            vec3 axis = vec3_cross(a->edge_direction.data[i], b->edge_direction.data[j]);
+            double length = vec3_length(axis);
+            if (length < PARALLEL_SINE)
+                continue;
+            axis = vec3_scale(axis, (vec3_dot(axis, apart) < 0 ? -1 : 1) / length);
+            double depth = project(b, axis).high - project(a, axis).low;
+            if (depth < best->depth)
+                *best = (best_edges){i, j, depth, axis};
+            if (depth < -slack)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* ---- contact at a face ---- */
+
+static void take_face(const polyhedron *p, int32_t face, flat_face *out)
+{
+    const polyhedron_face *f = &p->face.data[face];
+    int32_t step = f->count / (CLIP_MOST / 2) + 1;
+    out->count = 0;
+    for (int32_t i = 0; i < f->count; i += step)
+        out->point[out->count++] = p->vertex.data[p->loop.data[f->first + i]];
+    out->normal = f->normal;
+    out->name = (uint32_t)face;
+}
+
+static int32_t most_opposed(const polyhedron *p, vec3 normal)
+{
+    int32_t best = 0;
+    double least = HUGE_VAL;
+    for (int32_t i = 0; i < p->face.count; i++) {
+        double d = vec3_dot(p->face.data[i].normal, normal);
+        if (d < least) {
+            least = d;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static int contact_at_face(const polyhedron *holder, int32_t face, const polyhedron *other, double slack, bool swapped,
+                           manifold_point out[4])
+{
+    flat_face reference, incident;
+    take_face(holder, face, &reference);
+    take_face(other, most_opposed(other, reference.normal), &incident);
+    return face_manifold(&reference, &incident, slack, swapped, out);
+}
+
+/* ---- contact of two edges ---- */
+
+typedef struct edge_found {
+    vec3 from, to;
+    uint32_t name;
+} edge_found;
+
+/* The edge parallel to `direction` that lies farthest along `axis`. */
+static edge_found extreme_edge(const polyhedron *p, vec3 direction, vec3 axis)
+{
+    edge_found found = {{0, 0, 0}, {0, 0, 0}, 0};
+    double most = -HUGE_VAL;
+    for (int32_t i = 0; i < p->face.count; i++) {
+        const polyhedron_face *f = &p->face.data[i];
+        for (int32_t k = 0; k < f->count; k++) {
+            vec3 from = p->vertex.data[p->loop.data[f->first + k]];
+            vec3 to = p->vertex.data[p->loop.data[f->first + (k + 1 < f->count ? k + 1 : 0)]];
+            vec3 e = vec3_sub(to, from), skew = vec3_cross(e, direction);
+            double reach = vec3_dot(axis, vec3_add(from, to));
+            if (vec3_dot(skew, skew) <= 1e-8 * vec3_dot(e, e) && reach > most) {
+                most = reach;
+                found = (edge_found){from, to, (uint32_t)(f->first + k)};
+            }
+        }
+    }
+    return found;
+}
+
+static double clamp_unit(double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
+
+/* Midway between the nearest points of two segments that are not parallel. */
+static vec3 between_edges(edge_found a, edge_found b)
+{
+    vec3 d = vec3_sub(a.to, a.from), e = vec3_sub(b.to, b.from), r = vec3_sub(a.from, b.from);
+    double dd = vec3_dot(d, d), ee = vec3_dot(e, e), de = vec3_dot(d, e), dr = vec3_dot(d, r), er = vec3_dot(e, r);
+    double s = clamp_unit((de * er - dr * ee) / (dd * ee - de * de));
+    double t = clamp_unit((de * s + er) / ee);
+    return vec3_scale(vec3_add(vec3_mad(a.from, d, s), vec3_mad(b.from, e, t)), 0.5);
+}
+
+static int contact_at_edges(const polyhedron *a, const polyhedron *b, const best_edges *edges, manifold_point out[4])
+{
+    edge_found ea = extreme_edge(a, a->edge_direction.data[edges->a], vec3_neg(edges->axis));
+    edge_found eb = extreme_edge(b, b->edge_direction.data[edges->b], edges->axis);
+    uint32_t feature = 1u << 31 | (ea.name & 0x7fffu) << 15 | (eb.name & 0x7fffu);
+    out[0] = (manifold_point){between_edges(ea, eb), edges->depth > 0 ? edges->depth : 0, feature};
+    return 1;
+}
+
+/* ---- both ---- */
+
+static bool parted_along(const polyhedron *a, const polyhedron *b, vec3 axis, double slack)
+{
+    return vec3_dot(axis, axis) > 0 && project(a, axis).low - project(b, axis).high > slack;
+}
+
+int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, double slack, vec3 *normal,
+                              manifold_point out[4], vec3 *axis)
+{
+    if (parted_along(a, b, *axis, slack))
+        return 0;
+    best_face in_a, in_b;
+    best_edges edges;
+    if (!search_faces(a, b, seams.a, slack, &in_a, axis)) {
+        *axis = vec3_neg(*axis);
+        return 0;
+    }
+    if (!search_faces(b, a, seams.b, slack, &in_b, axis))
+        return 0;
+    if (!search_edges(a, b, slack, &edges)) {
+        *axis = edges.axis;
+        return 0;
+    }
+    *axis = vec3_make(0, 0, 0);
+    bool of_b = in_b.face >= 0 && (in_a.face < 0 || in_b.depth < PREFERENCE * in_a.depth);
+    const best_face *best = of_b ? &in_b : &in_a;
+    double seam_depth = fmin(in_a.seam_depth, in_b.seam_depth);
+    if (best->face < 0 || best->depth > SEAM_DEPTH_RATIO * seam_depth)
+        return 0;
+    if (!seams.a && !seams.b && edges.a >= 0 && edges.depth < PREFERENCE * best->depth) {
+        *normal = edges.axis;
+        return contact_at_edges(a, b, &edges, out);
+    }
+    vec3 n = of_b ? b->face.data[best->face].normal : a->face.data[best->face].normal;
+    *normal = of_b ? n : vec3_neg(n);
+    return of_b ? contact_at_face(b, best->face, a, slack, true, out)
+                : contact_at_face(a, best->face, b, slack, false, out);
+}
+
+/* Rounding only: what just touches may or may not be reported. */
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, vec3 *normal, manifold_point out[4], vec3 *axis)
+{
+    int n = polyhedra_manifold_masked(a, b, (seam_masks){0, 0}, 0, normal, out, axis), kept = 0;
+    for (int i = 0; i < n; i++)
+        if (out[i].depth > 0)
+            out[kept++] = out[i];
+    return kept;
+}
