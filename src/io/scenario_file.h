@@ -34,7 +34,8 @@ typedef struct scenario_print_options {
    options NULL: comments, paths as given. */
 fram_status scenario_print(context *ctx, const scenario *s, const scenario_print_options *options, text_buffer *out,
                            fram_error *error);
-/* SHA-256 of the effective scenario without comments, hexadecimal. */
+/* SHA-256 of the effective scenario without comments and with files by their name alone, hexadecimal: the same wherever the
+   files lie.  Their contents are to be hashed on their own. */
 fram_status scenario_hash(context *ctx, const scenario *s, char out[65], fram_error *error);
 
 /* The input reference, every key with type, unit, default, range and meaning, as Markdown. */

@@ -5,16 +5,24 @@
 #include "model/scenario_schema.h"
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
+
+/* How paths are written: as given; so that they hold in any folder; or without folders, for the hash, which must be the same
+   wherever the files lie (their contents are hashed on their own). */
+typedef enum path_style { PATH_GIVEN, PATH_ABSOLUTE, PATH_NAME } path_style;
 
 typedef struct printer {
     context *ctx;
     text_buffer *out;
     const scenario *scenario;
-    scenario_print_options options;
+    bool comments;
+    path_style paths;
+    fram_status status;
+    fram_error *error;
 } printer;
 
 /* Between double quotes.  The text is printable (io/scenario_file.c): only the quote and the backslash need an escape. */
-static void print_quoted(const printer *p, const char *text)
+static void print_quoted(printer *p, const char *text)
 {
     text_add(p->ctx, p->out, "\"");
     for (; *text; text++) {
@@ -25,14 +33,42 @@ static void print_quoted(const printer *p, const char *text)
     text_add(p->ctx, p->out, "\"");
 }
 
-static void print_path(const printer *p, const char *path)
+/* The working folder and a slash, when the path needs them to be absolute; false when it does not fit. */
+static bool working_folder(const char *path, char *out, size_t size)
 {
-    char absolute[4 * SCENARIO_TEXT_SIZE];
-    bool fits = p->options.absolute_paths && *path && scenario_resolve_path(p->scenario, path, absolute, sizeof absolute);
-    print_quoted(p, fits ? absolute : path);
+    out[0] = '\0';
+    if (path[0] == '/')
+        return true;
+    if (!getcwd(out, size - 1))
+        return false;
+    size_t length = strlen(out);
+    memcpy(out + length, "/", length > 1 ? 2 : 1);
+    return true;
 }
 
-static void print_value(const printer *p, const scenario_key *key, const void *member)
+static void print_absolute(printer *p, const char *key, const char *path)
+{
+    char folder[SCENARIO_TEXT_SIZE], inside[2 * SCENARIO_TEXT_SIZE], absolute[3 * SCENARIO_TEXT_SIZE];
+    bool fits = scenario_resolve_path(p->scenario, path, inside, sizeof inside) &&
+                working_folder(inside, folder, sizeof folder);
+    int length = fits ? snprintf(absolute, sizeof absolute, "%s%s", folder, inside) : -1;
+    if (length >= 0 && length < SCENARIO_TEXT_SIZE)
+        print_quoted(p, absolute);
+    else if (p->status == FRAM_OK)
+        p->status = error_set(p->error, FRAM_ERROR_INPUT, p->scenario->file, 0, key,
+                              "expected a path of at most %d bytes together with its folder", SCENARIO_TEXT_SIZE - 1);
+}
+
+static void print_path(printer *p, const char *key, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    if (p->paths == PATH_ABSOLUTE && *path)
+        print_absolute(p, key, path);
+    else
+        print_quoted(p, p->paths == PATH_NAME && slash ? slash + 1 : path);
+}
+
+static void print_value(printer *p, const scenario_key *key, const void *member)
 {
     char number[NUMBER_TEXT_SIZE];
     size_t size;
@@ -50,43 +86,47 @@ static void print_value(const printer *p, const scenario_key *key, const void *m
         break;
     }
     case KEY_TEXT: print_quoted(p, member); break;
-    case KEY_PATH: print_path(p, member); break;
+    case KEY_PATH: print_path(p, key->name, member); break;
     case KEY_SECTION:
     case KEY_LIST: break;
     }
 }
 
 /* Two blanks a level. */
-static void print_indent(const printer *p, int depth)
+static void print_indent(printer *p, int depth)
 {
     for (int i = 0; i < depth; i++)
         text_add(p->ctx, p->out, "  ");
 }
 
-static void print_comment(const printer *p, const scenario_key *key)
+static void print_comment(printer *p, const scenario_key *key)
 {
-    if (!p->options.comments)
+    if (!p->comments)
         return;
     bool bare = !*key->unit || strcmp(key->unit, "1") == 0;
     text_format(p->ctx, p->out, "  # %s%s%s%s", bare ? "" : "[", bare ? "" : key->unit, bare ? "" : "] ", key->meaning);
 }
 
-static void print_section(const printer *p, const scenario_section *section, const void *data, int depth,
+static void print_section(printer *p, const scenario_section *section, const void *data, int depth,
                           const char *first);
 
-static void print_list(const printer *p, const scenario_key *key, const void *member, int depth)
+static void print_list(printer *p, const scenario_key *key, const void *member, int depth)
 {
     int32_t count = list_count(member);
     if (count == 0)
         text_add(p->ctx, p->out, " []");
     print_comment(p, key);
     text_add(p->ctx, p->out, "\n");
-    for (int32_t i = 0; i < count; i++)
+    bool comments = p->comments;
+    for (int32_t i = 0; i < count; i++) {
         print_section(p, key->section, list_element(key, member, i), depth + 2, "- ");
+        p->comments = false; /* the first item explains them all */
+    }
+    p->comments = comments;
 }
 
 /* first, when it is not NULL, takes the place of the first key's last two blanks. */
-static void print_section(const printer *p, const scenario_section *section, const void *data, int depth,
+static void print_section(printer *p, const scenario_section *section, const void *data, int depth,
                           const char *first)
 {
     for (int32_t k = 0; k < section->key_count; k++) {
@@ -111,19 +151,30 @@ static void print_section(const printer *p, const scenario_section *section, con
     }
 }
 
+static fram_status print(printer *p)
+{
+    p->status = FRAM_OK;
+    print_section(p, &scenario_schema, p->scenario, 0, NULL);
+    return p->out->failed ? error_memory(p->error) : p->status;
+}
+
 fram_status scenario_print(context *ctx, const scenario *s, const scenario_print_options *options, text_buffer *out,
                            fram_error *error)
 {
-    printer p = {ctx, out, s, options ? *options : (scenario_print_options){.comments = true}};
-    print_section(&p, &scenario_schema, s, 0, NULL);
-    return out->failed ? error_memory(error) : FRAM_OK;
+    printer p = {.ctx = ctx,
+                 .out = out,
+                 .scenario = s,
+                 .comments = !options || options->comments,
+                 .paths = options && options->absolute_paths ? PATH_ABSOLUTE : PATH_GIVEN,
+                 .error = error};
+    return print(&p);
 }
 
 fram_status scenario_hash(context *ctx, const scenario *s, char out[65], fram_error *error)
 {
-    static const scenario_print_options bare = {0};
     text_buffer text = {0};
-    fram_status status = scenario_print(ctx, s, &bare, &text, error);
+    printer p = {.ctx = ctx, .out = &text, .scenario = s, .paths = PATH_NAME, .error = error};
+    fram_status status = print(&p);
     if (status == FRAM_OK)
         sha256_text(text.data, (size_t)text.count, out);
     text_free(ctx, &text);

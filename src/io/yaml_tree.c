@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "io/utf8.h"
 #include <libfyaml.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Deeper nesting than any reader asks for. */
@@ -13,6 +14,7 @@ typedef struct open_node {
     int32_t node;
     int32_t last; /* its latest child, -1 */
     int32_t key;  /* in the text: the key that waits for its value, -1 */
+    int32_t name; /* the key of its latest child */
     int32_t key_line, key_column;
 } open_node;
 
@@ -24,16 +26,45 @@ typedef struct yaml_builder {
     int32_t depth, depth_limit;
     open_node open[STACK_SIZE];
     int32_t documents;
+    int32_t line, column; /* of the latest event that has a place */
     ARRAY(int32_t) names; /* hash table of the nodes that have a key, -1: free slot; the size is a power of two */
     int32_t name_count;
 } yaml_builder;
 
-static fram_status refuse(yaml_builder *b, int32_t line, int32_t column, const char *key, const char *message)
+/* Full name of what is being read, "ice.floes[2].x": the keys of the open nodes and the key that waits. */
+static void current_path(const yaml_builder *b, char out[128])
 {
-    error_set(b->error, FRAM_ERROR_INPUT, b->name, line, key, "%s", message);
+    size_t used = 0;
+    out[0] = '\0';
+    for (int32_t i = 0; i < b->depth && used < 127; i++) {
+        const open_node *open = &b->open[i];
+        const yaml_node *node = &b->tree->nodes.data[open->node];
+        int length = 0;
+        if (node->kind == YAML_SEQUENCE)
+            length = snprintf(out + used, 128 - used, "[%d]", (int)node->count - (i + 1 < b->depth ? 1 : 0));
+        else if (open->key >= 0 || i + 1 < b->depth)
+            length = snprintf(out + used, 128 - used, "%s%s", used > 0 ? "." : "",
+                              yaml_text(b->tree, open->key >= 0 ? open->key : open->name));
+        used += length > 0 ? (size_t)length : 0;
+    }
+}
+
+static fram_status refuse(yaml_builder *b, const char *message)
+{
+    char path[128];
+    current_path(b, path);
+    error_set(b->error, FRAM_ERROR_INPUT, b->name, b->line, path, "%s", message);
     if (b->error)
-        b->error->column = column;
+        b->error->column = b->column;
     return FRAM_ERROR_INPUT;
+}
+
+static void move_to(yaml_builder *b, const struct fy_mark *mark)
+{
+    if (!mark)
+        return;
+    b->line = mark->line + 1;
+    b->column = mark->column + 1;
 }
 
 /* ---- duplicate keys: a hash table, since a file may hold very many keys ---- */
@@ -74,14 +105,14 @@ static bool names_grow(yaml_builder *b)
 /* ---- building ---- */
 
 /* Text of a scalar, appended; its offset goes to *at. */
-static fram_status add_text(yaml_builder *b, struct fy_token *token, int32_t line, int32_t column, int32_t *at)
+static fram_status add_text(yaml_builder *b, struct fy_token *token, int32_t *at)
 {
     size_t size = 0;
     const char *text = token ? fy_token_get_text(token, &size) : "";
     if (!text)
         return error_memory(b->error);
     if (size > 0 && memchr(text, '\0', size))
-        return refuse(b, line, column, NULL, "expected text, found a NUL character in it");
+        return refuse(b, "expected text, found a NUL character in it");
     yaml_tree *tree = b->tree;
     if (size >= (size_t)(INT32_MAX - tree->text.count - 1) ||
         !array_reserve(b->ctx, &tree->text, tree->text.count + (int32_t)size + 1))
@@ -102,6 +133,8 @@ static fram_status add_node(yaml_builder *b, yaml_node node, int32_t *index)
     node.key = open ? open->key : -1;
     node.key_line = open ? open->key_line : 0;
     node.key_column = open ? open->key_column : 0;
+    node.line = b->line;
+    node.column = b->column;
     node.parent = open ? open->node : -1;
     node.first = node.next = -1;
     if (!names_grow(b))
@@ -110,8 +143,11 @@ static fram_status add_node(yaml_builder *b, yaml_node node, int32_t *index)
     if (node.key >= 0) {
         const char *key = yaml_text(tree, node.key);
         slot = name_slot(b, node.parent, key);
-        if (b->names.data[slot] >= 0)
-            return refuse(b, node.key_line, node.key_column, key, "expected each key once, found it again");
+        if (b->names.data[slot] >= 0) {
+            b->line = node.key_line;
+            b->column = node.key_column;
+            return refuse(b, "expected each key once, found it again");
+        }
     }
     if (!array_push(b->ctx, &tree->nodes, node))
         return error_memory(b->error);
@@ -141,60 +177,70 @@ static bool awaits_key(const yaml_builder *b)
     return b->tree->nodes.data[open->node].kind == YAML_MAPPING && open->key < 0;
 }
 
-static fram_status open_container(yaml_builder *b, yaml_kind kind, int32_t line, int32_t column)
+static fram_status open_container(yaml_builder *b, yaml_kind kind)
 {
     if (awaits_key(b))
-        return refuse(b, line, column, NULL, "expected a name as key, found a mapping or list");
+        return refuse(b, "expected a name as key, found a mapping or list");
     if (b->depth >= b->depth_limit || b->depth >= STACK_SIZE)
-        return refuse(b, line, column, NULL, "expected less nesting");
+        return refuse(b, "expected less nesting");
     int32_t index;
-    fram_status status = add_node(b, (yaml_node){.kind = kind, .line = line, .column = column, .value = -1}, &index);
+    fram_status status = add_node(b, (yaml_node){.kind = kind, .value = -1}, &index);
     if (status == FRAM_OK)
-        b->open[b->depth++] = (open_node){.node = index, .last = -1, .key = -1};
+        b->open[b->depth++] = (open_node){.node = index, .last = -1, .key = -1, .name = -1};
     return status;
 }
 
-static fram_status add_scalar(yaml_builder *b, struct fy_token *token, int32_t line, int32_t column)
+static fram_status take_key(yaml_builder *b, int32_t text, bool quoted)
+{
+    if (!quoted && strcmp(yaml_text(b->tree, text), "<<") == 0)
+        return refuse(b, "expected a key, found a merge key (<<), which is not allowed");
+    if (*yaml_text(b->tree, text) == '\0')
+        return refuse(b, "expected a name as key, found nothing");
+    open_node *open = &b->open[b->depth - 1];
+    open->key = open->name = text;
+    open->key_line = b->line;
+    open->key_column = b->column;
+    return FRAM_OK;
+}
+
+static fram_status add_scalar(yaml_builder *b, struct fy_token *token)
 {
     bool quoted = token && fy_token_scalar_style(token) != FYSS_PLAIN;
     int32_t text = -1, index;
-    fram_status status = add_text(b, token, line, column, &text);
+    fram_status status = add_text(b, token, &text);
     if (status != FRAM_OK)
         return status;
-    if (!awaits_key(b))
-        return add_node(
-            b, (yaml_node){.kind = YAML_SCALAR, .quoted = quoted, .line = line, .column = column, .value = text}, &index);
-    if (!quoted && strcmp(yaml_text(b->tree, text), "<<") == 0)
-        return refuse(b, line, column, "<<", "expected a key, found a merge key, which is not allowed");
-    if (*yaml_text(b->tree, text) == '\0')
-        return refuse(b, line, column, NULL, "expected a name as key, found nothing");
-    open_node *open = &b->open[b->depth - 1];
-    open->key = text;
-    open->key_line = line;
-    open->key_column = column;
-    return FRAM_OK;
+    if (awaits_key(b))
+        return take_key(b, text, quoted);
+    return add_node(b, (yaml_node){.kind = YAML_SCALAR, .quoted = quoted, .value = text}, &index);
+}
+
+/* Anchors and tags stand before the value they belong to. */
+static fram_status check_decoration(yaml_builder *b, struct fy_event *event)
+{
+    if (event->type != FYET_SCALAR && event->type != FYET_MAPPING_START && event->type != FYET_SEQUENCE_START)
+        return FRAM_OK;
+    struct fy_token *anchor = fy_event_get_anchor_token(event), *tag = fy_event_get_tag_token(event);
+    if (!anchor && !tag)
+        return FRAM_OK;
+    move_to(b, fy_token_start_mark(anchor ? anchor : tag));
+    return refuse(b, anchor ? "expected a plain value, found an anchor (&), which is not allowed"
+                            : "expected a plain value, found a tag (!), which is not allowed");
 }
 
 static fram_status take_event(yaml_builder *b, struct fy_event *event)
 {
-    const struct fy_mark *mark = fy_event_start_mark(event);
-    const open_node *open = b->depth > 0 ? &b->open[b->depth - 1] : NULL;
-    int32_t line = mark ? mark->line + 1 : open ? open->key_line : 1;
-    int32_t column = mark ? mark->column + 1 : open ? open->key_column : 1;
-    bool content = event->type == FYET_SCALAR || event->type == FYET_MAPPING_START || event->type == FYET_SEQUENCE_START;
-    if (content && fy_event_get_anchor_token(event))
-        return refuse(b, line, column, NULL, "expected a plain value, found an anchor (&), which is not allowed");
-    if (content && fy_event_get_tag_token(event))
-        return refuse(b, line, column, NULL, "expected a plain value, found a tag (!), which is not allowed");
+    move_to(b, fy_event_start_mark(event));
+    fram_status status = check_decoration(b, event);
+    if (status != FRAM_OK)
+        return status;
     switch (event->type) {
     case FYET_DOCUMENT_START:
-        if (b->documents++ > 0)
-            return refuse(b, line, column, NULL, "expected one document, found a second one");
-        return FRAM_OK;
-    case FYET_ALIAS: return refuse(b, line, column, NULL, "expected a plain value, found an alias (*), which is not allowed");
-    case FYET_SCALAR: return add_scalar(b, event->scalar.value, line, column);
-    case FYET_MAPPING_START: return open_container(b, YAML_MAPPING, line, column);
-    case FYET_SEQUENCE_START: return open_container(b, YAML_SEQUENCE, line, column);
+        return b->documents++ == 0 ? FRAM_OK : refuse(b, "expected one document, found a second one");
+    case FYET_ALIAS: return refuse(b, "expected a plain value, found an alias (*), which is not allowed");
+    case FYET_SCALAR: return add_scalar(b, event->scalar.value);
+    case FYET_MAPPING_START: return open_container(b, YAML_MAPPING);
+    case FYET_SEQUENCE_START: return open_container(b, YAML_SEQUENCE);
     case FYET_MAPPING_END:
     case FYET_SEQUENCE_END: b->depth--; return FRAM_OK;
     default: return FRAM_OK;
@@ -202,32 +248,27 @@ static fram_status take_event(yaml_builder *b, struct fy_event *event)
 }
 
 /* Why the parser gave no event: the end of the text, or the first error it collected. */
-static fram_status parser_end(yaml_builder *b, struct fy_parser *parser)
+static fram_status parser_end(yaml_builder *b, struct fy_parser *parser, struct fy_diag *diagnosis)
 {
     if (!fy_parser_get_stream_error(parser))
         return FRAM_OK;
     void *previous = NULL;
-    struct fy_diag *diagnosis = fy_parser_get_diag(parser);
-    struct fy_diag_error *first = diagnosis ? fy_diag_errors_iterate(diagnosis, &previous) : NULL;
-    fram_status status;
-    if (first && first->msg) {
-        error_set(b->error, FRAM_ERROR_INPUT, b->name, first->line, NULL, "not valid YAML: %s", first->msg);
-        if (b->error)
-            b->error->column = first->column;
-        status = FRAM_ERROR_INPUT;
-    } else {
-        status = refuse(b, 0, 0, NULL, "not valid YAML");
-    }
-    fy_diag_unref(diagnosis);
-    return status;
+    const struct fy_diag_error *first = fy_diag_errors_iterate(diagnosis, &previous);
+    if (!first || !first->msg)
+        return refuse(b, "not valid YAML");
+    char message[200];
+    snprintf(message, sizeof message, "not valid YAML: %s", first->msg);
+    b->line = first->line;
+    b->column = first->column;
+    return refuse(b, message);
 }
 
-static fram_status build(yaml_builder *b, struct fy_parser *parser)
+static fram_status build(yaml_builder *b, struct fy_parser *parser, struct fy_diag *diagnosis)
 {
     for (;;) {
         struct fy_event *event = fy_parser_parse(parser);
         if (!event)
-            return parser_end(b, parser);
+            return parser_end(b, parser, diagnosis);
         bool last = event->type == FYET_STREAM_END;
         fram_status status = take_event(b, event);
         fy_parser_event_free(parser, event);
@@ -240,21 +281,56 @@ static fram_status build(yaml_builder *b, struct fy_parser *parser)
 static fram_status check_text(yaml_builder *b, const char *data, size_t size)
 {
     const char *at = data, *end = data + size, *line_start = data;
-    int32_t line = 1;
+    b->line = 1;
     while (at < end) {
         const char *here = at;
         int32_t code = utf8_next(&at, end);
-        int32_t column = (int32_t)(here - line_start) + 1;
+        b->column = (int32_t)(here - line_start) + 1;
         if (code < 0)
-            return refuse(b, line, column, NULL, "expected UTF-8 text, found other bytes");
+            return refuse(b, "expected UTF-8 text, found other bytes");
         if ((code < 0x20 && code != '\t' && code != '\n' && code != '\r') || code == 0x7f)
-            return refuse(b, line, column, NULL, "expected text, found a control character");
+            return refuse(b, "expected text, found a control character");
         if (code == '\n') {
-            line++;
+            b->line++;
             line_start = at;
         }
     }
+    b->line = b->column = 1;
     return FRAM_OK;
+}
+
+/* libfyaml would print its messages; they are collected instead. */
+static void print_nothing(struct fy_diag *diagnosis, void *user, const char *text, size_t size)
+{
+    (void)diagnosis;
+    (void)user;
+    (void)text;
+    (void)size;
+}
+
+static fram_status parse(yaml_builder *b, const char *data, size_t size)
+{
+    struct fy_diag_cfg quiet;
+    fy_diag_cfg_default(&quiet);
+    quiet.fp = NULL;
+    quiet.output_fn = print_nothing;
+    quiet.colorize = false;
+    struct fy_diag *diagnosis = fy_diag_create(&quiet);
+    if (!diagnosis)
+        return error_memory(b->error);
+    fy_diag_set_collect_errors(diagnosis, true);
+    struct fy_parse_cfg configuration = {
+        .search_path = "", .flags = FYPCF_QUIET | FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE, .diag = diagnosis};
+    struct fy_parser *parser = fy_parser_create(&configuration);
+    fram_status status = FRAM_OK;
+    if (!parser || fy_parser_set_string(parser, data, size) != 0)
+        status = error_memory(b->error);
+    else
+        status = build(b, parser, diagnosis);
+    if (parser)
+        fy_parser_destroy(parser);
+    fy_diag_destroy(diagnosis);
+    return status;
 }
 
 fram_status yaml_tree_parse(context *ctx, const char *name, const char *data, size_t size, int32_t depth_limit,
@@ -263,15 +339,8 @@ fram_status yaml_tree_parse(context *ctx, const char *name, const char *data, si
     memset(tree, 0, sizeof *tree);
     yaml_builder b = {.ctx = ctx, .name = name, .error = error, .tree = tree, .depth_limit = depth_limit};
     fram_status status = check_text(&b, data, size);
-    if (status != FRAM_OK || size == 0)
-        return status;
-    struct fy_parse_cfg configuration = {
-        .search_path = "", .flags = FYPCF_QUIET | FYPCF_COLLECT_DIAG | FYPCF_DEFAULT_VERSION_1_2 | FYPCF_JSON_NONE};
-    struct fy_parser *parser = fy_parser_create(&configuration);
-    if (!parser)
-        return error_memory(error);
-    status = fy_parser_set_string(parser, data, size) == 0 ? build(&b, parser) : error_memory(error);
-    fy_parser_destroy(parser);
+    if (status == FRAM_OK && size > 0)
+        status = parse(&b, data, size);
     array_free(ctx, &b.names);
     if (status != FRAM_OK)
         yaml_tree_free(ctx, tree);

@@ -47,7 +47,7 @@
     X(iterations, INTEGER(30, 1, 1000000), "1", "velocity sweeps of a step")                                       \
     X(position_iterations, INTEGER(10, 0, 1000000), "1", "position correction sweeps of a step")                   \
     X(warm_start, BOOLEAN(true), "", "begin from the impulses of the last step")                                   \
-    X(correction_rate, REAL(0.8, 0, 1), "1", "part of an overlap that a step corrects, beta of SPEC 9")            \
+    X(correction_rate, REAL(0.8, 0, 1), "1", "largest part of an overlap that a step corrects")                    \
     X(baumgarte, BOOLEAN(false), "", "comparison switch: correct overlaps through velocities; makes ice explode")  \
     X(tolerance, SCALED(1e-6, 30, 0.5, 0, 1e3), "m/s", "accurate: largest residual to stop at")                    \
     X(most_iterations, INTEGER(10000, 1, 100000000), "1", "accurate: upper bound of the sweeps of a step")

@@ -1,0 +1,105 @@
+/* base/number_text: round trips to the bit, strict reading, any locale. */
+#include "base/number_text.h"
+#include "base/random.h"
+#include "testing.h"
+#include <locale.h>
+#include <stdio.h>
+
+static const char *text_of(double value)
+{
+    static char text[NUMBER_TEXT_SIZE];
+    int length = real_to_text(value, text);
+    ck_assert_int_eq(length, (int)strlen(text));
+    return text;
+}
+
+START_TEST(reals_print_as_the_shortest_text)
+{
+    ck_assert_str_eq(text_of(0), "0");
+    ck_assert_str_eq(text_of(-0.0), "-0");
+    ck_assert_str_eq(text_of(0.1), "0.1");
+    ck_assert_str_eq(text_of(1 / 3.0), "0.3333333333333333");
+    ck_assert_str_eq(text_of(0.1 + 0.2), "0.30000000000000004");
+    ck_assert_str_eq(text_of(1e300), "1e+300");
+    ck_assert_str_eq(text_of(5e-324), "4.94065645841247e-324");
+    ck_assert_str_eq(text_of(1e6), "1000000");
+    ck_assert_str_eq(text_of((double)NAN), "nan");
+    ck_assert_str_eq(text_of((double)INFINITY), "inf");
+    ck_assert_str_eq(text_of(-(double)INFINITY), "-inf");
+}
+END_TEST
+
+START_TEST(reals_of_any_bits_come_back)
+{
+    random_stream random = random_begin(1, 0, 0);
+    for (int i = 0; i < 20000; i++) {
+        uint64_t bits = random_bits(&random);
+        double value, again;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        ck_assert_int_eq(real_from_text(text_of(value), &again), NUMBER_GOOD);
+        assert_bits(again, value);
+    }
+}
+END_TEST
+
+START_TEST(reals_are_read_strictly)
+{
+    static const char *const good[] = {"1", "+1", "-1", "1.", ".5", "1.5e3", "1E+3", "1e-3", "007", "-0", "1e-400"};
+    static const double values[] = {1, 1, -1, 1, 0.5, 1500, 1000, 0.001, 7, -0.0, 0};
+    static const char *const bad[] = {"",     " 1",   "1 ",   "1,5",  "nan",  "inf", "-inf", "0x10", "1e",   "e5",
+                                      ".",    "+",    "--1",  "1.2.3", "1_0", "1e+", "true", "1d5",  "1f",   "infinity",
+                                      "1e5x", "\t1",  "1\n",  "+-1",  ".e1",  "0b1", "1 000"};
+    double value;
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        ck_assert_msg(real_from_text(good[i], &value) == NUMBER_GOOD, "%s", good[i]);
+        assert_bits(value, values[i]);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        ck_assert_msg(real_from_text(bad[i], &value) == NUMBER_NOT_A_NUMBER, "%s", bad[i]);
+    ck_assert_int_eq(real_from_text("1e400", &value), NUMBER_TOO_LARGE);
+    ck_assert_int_eq(real_from_text("-1e999999999999", &value), NUMBER_TOO_LARGE);
+    char long_text[600];
+    memset(long_text, '1', sizeof long_text - 1);
+    long_text[sizeof long_text - 1] = '\0';
+    ck_assert_int_eq(real_from_text(long_text, &value), NUMBER_NOT_A_NUMBER);
+}
+END_TEST
+
+START_TEST(integers_are_read_strictly)
+{
+    int64_t value;
+    ck_assert_int_eq(integer_from_text("9223372036854775807", &value), NUMBER_GOOD);
+    ck_assert(value == INT64_MAX);
+    ck_assert_int_eq(integer_from_text("-9223372036854775808", &value), NUMBER_GOOD);
+    ck_assert(value == INT64_MIN);
+    ck_assert_int_eq(integer_from_text("+12", &value), NUMBER_GOOD);
+    ck_assert(value == 12);
+    ck_assert_int_eq(integer_from_text("9223372036854775808", &value), NUMBER_TOO_LARGE);
+    static const char *const bad[] = {"", " 1", "1 ", "1.0", "1e3", "0x1", "-", "one", "1,000"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        ck_assert_msg(integer_from_text(bad[i], &value) == NUMBER_NOT_A_NUMBER, "%s", bad[i]);
+}
+END_TEST
+
+/* Locales with another decimal point; those that this machine lacks are passed over. */
+START_TEST(locales_change_nothing)
+{
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "ps_AF.UTF-8", "C"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        double value;
+        if (!setlocale(LC_ALL, names[i]))
+            continue;
+        ck_assert_str_eq(text_of(-1.5), "-1.5");
+        ck_assert_str_eq(text_of(1.25e-30), "1.25e-30");
+        ck_assert_int_eq(real_from_text("-1.5e2", &value), NUMBER_GOOD);
+        assert_bits(value, -150.0);
+        ck_assert_int_eq(real_from_text("1,5", &value), NUMBER_NOT_A_NUMBER);
+    }
+    setlocale(LC_ALL, "C");
+}
+END_TEST
+
+TEST_MAIN("number_text", reals_print_as_the_shortest_text, reals_of_any_bits_come_back, reals_are_read_strictly,
+          integers_are_read_strictly, locales_change_nothing)

@@ -1,0 +1,302 @@
+/* model/scenario and its schema: defaults, scaling, names, places, rules. */
+#include "model/scenario_schema.h"
+#include "testing.h"
+
+static fram_error error;
+
+/* A default scenario that passes all checks, with a place for the given key. */
+static scenario good(void)
+{
+    scenario s;
+    scenario_defaults(&s, scenario_default_scale());
+    return s;
+}
+
+START_TEST(defaults_pass_their_own_checks)
+{
+    static const double scales[] = {1, 30, 100};
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        scenario s;
+        scenario_defaults(&s, scales[i]);
+        assert_ok(scenario_check(&s, &error), error);
+        assert_bits(s.run.scale, scales[i]);
+    }
+}
+END_TEST
+
+/* SPEC 1: the paper's thresholds are tank lengths, areas go with the square of the scale. */
+START_TEST(thresholds_follow_the_scale)
+{
+    scenario tank, full;
+    scenario_defaults(&tank, 1);
+    scenario_defaults(&full, 30);
+    assert_bits(tank.ice.smallest_floe_area, 2e-4);
+    assert_bits(tank.ice.smallest_piece_area, 1e-5);
+    assert_bits(tank.ice.edge_threshold, 5e-3);
+    assert_relative(full.ice.smallest_floe_area, 2e-4 * 900, 1e-15);
+    assert_relative(full.ice.smallest_piece_area, 1e-5 * 900, 1e-15);
+    assert_relative(full.ice.edge_threshold, 5e-3 * 30, 1e-15);
+    assert_bits(full.output.averaging_window, 0.5);
+    assert_relative(tank.output.averaging_window, 0.5 / sqrt(30), 1e-15);
+    assert_bits(tank.ice.thickness, full.ice.thickness);
+}
+END_TEST
+
+START_TEST(defaults_of_the_specification)
+{
+    scenario s = good();
+    assert_bits(s.run.solver.correction_rate, 0.8);
+    assert_bits(s.ice.friction.ice_hull_static, 0.1);
+    assert_bits(s.ice.friction.ice_hull_kinetic, 0.1);
+    assert_bits(s.ice.friction.ice_ice_static, 0.3);
+    assert_bits(s.ice.friction.ice_ice_kinetic, 0.3);
+    assert_bits(s.environment.ice_drag.water_form, 1.0);
+    assert_bits(s.ice.crushing_exponent, 0.0);
+    ck_assert_int_eq(s.run.solver.baumgarte, false);
+    ck_assert_int_eq(s.run.solver.kind, SOLVER_SEQUENTIAL);
+    ck_assert(is_automatic(s.vessel.mass));
+    assert_bits(automatic_or(s.vessel.mass, 7), 7.0);
+    assert_bits(automatic_or(3, 7), 3.0);
+}
+END_TEST
+
+static int32_t section_keys(const scenario_section *section)
+{
+    int32_t count = 0;
+    for (int32_t k = 0; k < section->key_count; k++)
+        count += section->keys[k].section ? section_keys(section->keys[k].section) : 1;
+    return count;
+}
+
+/* Every key has what a person needs to know, and a default inside its range. */
+static void inspect_section(const scenario_section *section)
+{
+    for (int32_t k = 0; k < section->key_count; k++) {
+        const scenario_key *key = &section->keys[k];
+        ck_assert_msg(strlen(key->meaning) >= 4, "%s has no meaning", key->name);
+        ck_assert_int_eq(section_find(section, key->name), k);
+        ck_assert_str_eq(section_nearest(section, key->name), key->name);
+        bool degrees_name = strlen(key->name) > 4 && strcmp(key->name + strlen(key->name) - 4, "_deg") == 0;
+        ck_assert_msg(degrees_name == (strcmp(key->unit, "deg") == 0), "%s [%s]", key->name, key->unit);
+        if (key->kind == KEY_REAL || key->kind == KEY_INTEGER) {
+            ck_assert_msg(*key->unit != '\0', "%s has no unit", key->name);
+            ck_assert_msg(key->automatic || (key->value >= key->lo && key->value <= key->hi), "%s", key->name);
+        }
+        if (key->kind == KEY_CHOICE) {
+            size_t size;
+            ck_assert(choice_name(key, (int32_t)key->value, &size) != NULL);
+            ck_assert(choice_name(key, 99, &size) == NULL);
+            ck_assert(choice_name(key, -1, &size) == NULL);
+            ck_assert_int_eq(choice_find(key, "no such name"), -1);
+            ck_assert_int_eq(choice_find(key, ""), -1);
+        }
+        if (key->section)
+            inspect_section(key->section);
+    }
+}
+
+START_TEST(every_row_is_complete)
+{
+    inspect_section(&scenario_schema);
+    ck_assert_int_gt(section_keys(&scenario_schema), 100);
+}
+END_TEST
+
+START_TEST(choices_go_by_name)
+{
+    const scenario_section *vessel = scenario_schema.keys[section_find(&scenario_schema, "vessel")].section;
+    const scenario_key *mode = &vessel->keys[section_find(vessel, "mode")];
+    size_t size;
+    ck_assert_int_eq(choice_find(mode, "prescribed"), VESSEL_PRESCRIBED);
+    ck_assert_int_eq(choice_find(mode, "towed"), VESSEL_TOWED);
+    ck_assert_int_eq(choice_find(mode, "free"), VESSEL_FREE);
+    ck_assert_int_eq(choice_find(mode, "tow"), -1);
+    ck_assert_str_eq(choice_name(mode, VESSEL_FREE, &size), "free");
+    ck_assert_uint_eq(size, 4);
+}
+END_TEST
+
+START_TEST(misspelt_names_find_their_neighbour)
+{
+    const scenario_section *ice = scenario_schema.keys[section_find(&scenario_schema, "ice")].section;
+    ck_assert_str_eq(section_nearest(ice, "thicknes"), "thickness");
+    ck_assert_str_eq(section_nearest(ice, "thcikness"), "thickness");
+    ck_assert_str_eq(section_nearest(ice, "Density"), "density");
+    ck_assert_ptr_null(section_nearest(ice, "propeller"));
+    ck_assert_ptr_null(section_nearest(ice, "a_name_that_is_much_longer_than_any_key_can_ever_be"));
+    ck_assert_int_eq(section_find(ice, "thicknes"), -1);
+}
+END_TEST
+
+static int visits;
+static fram_status count_visit(void *user, const scenario_key *key, const void *member, const char *path, fram_error *e)
+{
+    (void)member;
+    (void)e;
+    ck_assert(key->section == NULL);
+    visits++;
+    return user && strcmp(path, user) == 0 ? FRAM_ERROR_INTERNAL : FRAM_OK;
+}
+
+START_TEST(walking_meets_every_key_once)
+{
+    context ctx;
+    context_init(&ctx);
+    scenario s = good();
+    visits = 0;
+    assert_ok(scenario_walk(&s, count_visit, NULL, &error), error);
+    int without = visits;
+    scenario_floe floe;
+    scenario_floe_defaults(&floe, 30);
+    ck_assert(array_push(&ctx, &s.ice.floes, floe) && array_push(&ctx, &s.ice.floes, floe));
+    visits = 0;
+    assert_ok(scenario_walk(&s, count_visit, NULL, &error), error);
+    const scenario_key *ice = &scenario_schema.keys[section_find(&scenario_schema, "ice")];
+    const scenario_key *floes = &ice->section->keys[section_find(ice->section, "floes")];
+    ck_assert_int_eq(visits, without + 2 * section_keys(floes->section));
+    ck_assert_int_eq(scenario_walk(&s, count_visit, "ice.floes[1].yaw_deg", &error), FRAM_ERROR_INTERNAL);
+    scenario_free(&ctx, &s);
+    ck_assert_int_eq(s.ice.floes.count, 0);
+}
+END_TEST
+
+/* ---- rules ---- */
+
+#define REFUSED(change, bad_key, part)                                       \
+    do {                                                                     \
+        scenario s = good();                                                 \
+        change;                                                              \
+        assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, part); \
+        ck_assert_str_eq(error.key, bad_key);                                \
+    } while (0)
+
+START_TEST(ranges_are_checked)
+{
+    REFUSED(s.ice.thickness = 0, "ice.thickness", "expected a number from 1e-06 to 100 m, found 0");
+    REFUSED(s.ice.thickness = (double)NAN, "ice.thickness", "found nan");
+    REFUSED(s.ice.thickness = (double)INFINITY, "ice.thickness", "found inf");
+    REFUSED(s.vessel.mass = -1, "vessel.mass", "auto or a number");
+    REFUSED(s.run.seed = -1, "run.seed", "an integer from 0");
+    REFUSED(choice_set(&s.vessel.mode, 3), "vessel.mode", "one of prescribed towed free");
+}
+END_TEST
+
+START_TEST(keys_must_go_together)
+{
+    REFUSED(s.run.time_step = 2; s.run.duration = 1, "run.time_step", "run.duration, which is 1");
+    REFUSED(s.run.transient = 61, "run.transient", "run.duration");
+    REFUSED(s.domain.x_min = 400, "domain.x_min", "domain.x_max");
+    REFUSED(s.domain.y_min = s.domain.y_max, "domain.y_max", "same value");
+    REFUSED(s.domain.x_min = s.domain.x_max, "domain.x_max", "same value");
+    REFUSED(s.domain.y_min = 101, "domain.y_min", "domain.y_max");
+    REFUSED(s.vessel.hull.form = HULL_MESH, "vessel.hull.file", "path of a mesh");
+    REFUSED(strcpy(s.vessel.hull.file, "a.stl"), "vessel.hull.file", "a.stl");
+    REFUSED(s.vessel.y = 101, "vessel.x", "inside the walls");
+    REFUSED(s.ice.source = ICE_FLOES, "ice.floes", "at least one");
+    REFUSED(s.ice.friction.ice_wall_kinetic = 0.4, "ice.friction.ice_wall_kinetic", "ice_wall_static");
+    REFUSED(s.ice.density = 1025, "ice.density", "floats");
+    REFUSED(s.ice.mean_floe_area = 1e5, "ice.mean_floe_area", "80000");
+    REFUSED(s.ice.smallest_floe_area = 500, "ice.smallest_floe_area", "ice.mean_floe_area");
+}
+END_TEST
+
+START_TEST(what_is_absent_is_not_checked)
+{
+    scenario s = good();
+    s.vessel.present = false;
+    s.vessel.x = 1e6;
+    s.vessel.hull.form = HULL_MESH;
+    s.ice.source = ICE_NONE;
+    s.ice.mean_floe_area = 1e8;
+    s.ice.density = 1500;
+    assert_ok(scenario_check(&s, &error), error);
+    s = good();
+    s.domain.boundary = DOMAIN_OPEN;
+    s.vessel.x = 1e6;
+    assert_ok(scenario_check(&s, &error), error);
+    s = good();
+    s.environment.water = false;
+    s.ice.density = 1500;
+    assert_ok(scenario_check(&s, &error), error);
+}
+END_TEST
+
+START_TEST(floes_stay_in_the_domain)
+{
+    context ctx;
+    context_init(&ctx);
+    scenario s = good();
+    scenario_floe floe;
+    scenario_floe_defaults(&floe, 30);
+    ck_assert(array_push(&ctx, &s.ice.floes, floe));
+    assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, "expected no floes");
+    s.ice.source = ICE_FLOES;
+    assert_ok(scenario_check(&s, &error), error);
+    floe.y = -101;
+    ck_assert(array_push(&ctx, &s.ice.floes, floe));
+    assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, "inside the domain");
+    ck_assert_str_eq(error.key, "ice.floes[1].x");
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+/* ---- places and paths ---- */
+
+static void put(context *ctx, scenario *s, const char *key, int line, bool override)
+{
+    scenario_place place = {.line = line, .column = 5, .override = override};
+    strcpy(place.key, key);
+    ck_assert(array_push(ctx, &s->places, place));
+}
+
+START_TEST(errors_find_their_place)
+{
+    context ctx;
+    context_init(&ctx);
+    scenario s = good();
+    strcpy(s.file, "dir/a.yaml");
+    put(&ctx, &s, "vessel", 3, false);
+    put(&ctx, &s, "vessel.hull", 4, false);
+    put(&ctx, &s, "vessel.hull.beam", 6, false);
+    error_set(&error, FRAM_ERROR_INPUT, NULL, 0, "vessel.hull.beam", "too wide");
+    scenario_locate(&s, &error);
+    ck_assert_str_eq(error.file, "dir/a.yaml");
+    ck_assert_int_eq(error.line, 6);
+    ck_assert_int_eq(error.column, 5);
+    error_set(&error, FRAM_ERROR_INPUT, NULL, 0, "vessel.hull.length", "not given: the section stands for it");
+    scenario_locate(&s, &error);
+    ck_assert_int_eq(error.line, 4);
+    ck_assert_str_eq(error.key, "vessel.hull.length");
+    error_set(&error, FRAM_ERROR_INPUT, NULL, 0, "ice.thickness", "not given at all");
+    scenario_locate(&s, &error);
+    ck_assert_str_eq(error.file, "dir/a.yaml");
+    ck_assert_int_eq(error.line, 0);
+    put(&ctx, &s, "vessel.hull.beam", 0, true);
+    error_set(&error, FRAM_ERROR_INPUT, NULL, 0, "vessel.hull.beam", "overridden");
+    scenario_locate(&s, &error);
+    ck_assert_str_eq(error.file, "--set");
+    scenario_locate(&s, NULL);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(paths_are_relative_to_the_scenario)
+{
+    scenario s = good();
+    char out[64];
+    strcpy(s.file, "scenes/ship/a.yaml");
+    ck_assert(scenario_resolve_path(&s, "hull.stl", out, sizeof out));
+    ck_assert_str_eq(out, "scenes/ship/hull.stl");
+    ck_assert(scenario_resolve_path(&s, "/data/hull.stl", out, sizeof out));
+    ck_assert_str_eq(out, "/data/hull.stl");
+    strcpy(s.file, "a.yaml");
+    ck_assert(scenario_resolve_path(&s, "../hull.stl", out, sizeof out));
+    ck_assert_str_eq(out, "../hull.stl");
+    ck_assert(!scenario_resolve_path(&s, "hull.stl", out, 4));
+}
+END_TEST
+
+TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, defaults_of_the_specification,
+          every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once,
+          ranges_are_checked, keys_must_go_together, what_is_absent_is_not_checked, floes_stay_in_the_domain,
+          errors_find_their_place, paths_are_relative_to_the_scenario)
