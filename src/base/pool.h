@@ -8,8 +8,10 @@
 
 typedef void (*block_function)(void *arg, int32_t block, int32_t thread);
 
-/* threads >= 1 counts the caller; NULL when there is no memory or no thread could be started. */
+/* threads >= 1 counts the caller.  Fewer when the system gives no more (see pool_threads); NULL when there is no memory or
+   no thread could be started.  Idle threads sleep; signals are left to the threads of the host program. */
 pool *pool_create(context *ctx, int threads);
+/* No job may be running; p may be NULL. */
 void pool_free(context *ctx, pool *p);
 int pool_threads(const pool *p);
 /* Run fn for block 0..blocks-1 and wait.  thread is 0..pool_threads-1 (for per-thread scratch).  With
