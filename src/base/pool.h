@@ -8,8 +8,8 @@
 
 typedef void (*block_function)(void *arg, int32_t block, int32_t thread);
 
-/* threads >= 1 counts the caller.  Fewer when the system gives no more (see pool_threads); NULL when there is no memory or
-   no thread could be started.  Idle threads sleep; signals are left to the threads of the host program. */
+/* threads >= 1 counts the caller.  Fewer when the system gives no more (see pool_threads); NULL when there is no memory
+   or no thread could be started.  Idle threads sleep; signals are left to the threads of the host program. */
 pool *pool_create(context *ctx, int threads);
 /* No job may be running; p may be NULL. */
 void pool_free(context *ctx, pool *p);

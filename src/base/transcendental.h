@@ -15,8 +15,8 @@ double real_tan(double x);
 
 double real_exp(double x);
 double real_log(double x); /* NaN for x < 0 */
-/* base >= 0; a negative base gives NaN.  Exactly 1 for exponent 0, base for exponent 1, and exact whenever the result is
-   a double. */
+/* base >= 0; a negative base gives NaN.  Exactly 1 for exponent 0, base for exponent 1, and exact whenever the result
+   is a double. */
 double real_pow(double base, double exponent);
 double real_cbrt(double x);
 double real_tanh(double x);
