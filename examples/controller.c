@@ -1,5 +1,5 @@
-/* A controller of one's own in 60 lines: a free vessel is held on its station in drifting ice by a PD law on its position, which
-   Fram sees as an external wrench.   cc controller.c $(pkg-config --cflags --libs fram) -o controller
+/* A controller of one's own in 60 lines: a free vessel is held on its station in drifting ice by a PD law on its
+   position, which Fram sees as an external wrench.   cc controller.c $(pkg-config --cflags --libs fram) -o controller
    usage: controller SCENARIO [SECONDS]      (scenes/free_vessel.yaml fits) */
 #include <fram/fram.h>
 #include <stdio.h>
@@ -24,7 +24,8 @@ static int fail(const fram_error *error)
 
 int main(int argc, char **argv)
 {
-    if (argc < 2) return fprintf(stderr, "usage: controller SCENARIO [SECONDS]\n"), EXIT_FAILURE;
+    if (argc < 2)
+        return fprintf(stderr, "usage: controller SCENARIO [SECONDS]\n"), EXIT_FAILURE;
     double seconds = argc > 2 ? strtod(argv[2], NULL) : 10;
     fram_context *context = NULL;
     fram_scenario *scenario = NULL;
@@ -32,11 +33,13 @@ int main(int argc, char **argv)
     fram_error error;
     fram_body_id vessel;
     fram_body_state now;
-    if (fram_context_create(NULL, &context, &error) || fram_scenario_load(context, argv[1], NULL, 0, &scenario, &error) ||
-        fram_world_create(scenario, &world, &error))
+    if (fram_context_create(NULL, &context, &error) ||
+        fram_scenario_load(context, argv[1], NULL, 0, &scenario, &error) || fram_world_create(scenario, &world, &error))
         return fail(&error);
-    if (!fram_world_vessel(world, &vessel)) return fprintf(stderr, "the scenario has no vessel\n"), EXIT_FAILURE;
-    if (fram_body_state_get(world, vessel, &now, &error)) return fail(&error);
+    if (!fram_world_vessel(world, &vessel))
+        return fprintf(stderr, "the scenario has no vessel\n"), EXIT_FAILURE;
+    if (fram_body_state_get(world, vessel, &now, &error))
+        return fail(&error);
     const double start[AXES] = {now.position[0], now.position[1], now.position[2]}, no_moment[AXES] = {0};
 
     printf("time[s],x[m],y[m],ice_force_x[N],ice_force_y[N]\n");
@@ -47,7 +50,8 @@ int main(int argc, char **argv)
         if (fram_body_apply_wrench(world, vessel, force, no_moment, &error) || fram_world_step(world, &error) ||
             fram_body_state_get(world, vessel, &now, &error) || fram_world_ice_load(world, vessel, &ice, &error))
             return fail(&error);
-        printf("%g,%g,%g,%g,%g\n", fram_world_time(world), now.position[0], now.position[1], ice.force[0], ice.force[1]);
+        printf("%g,%g,%g,%g,%g\n", fram_world_time(world), now.position[0], now.position[1], ice.force[0],
+               ice.force[1]);
     }
     fram_world_destroy(world);
     fram_scenario_destroy(scenario);

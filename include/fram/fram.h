@@ -1,7 +1,7 @@
 /* Fram: vessels in sea ice.  The public C API.
 
-   A context holds what a program lends to Fram (memory, log, threads).  A scenario is read once and never changes; a world
-   is everything that moves.  Step a world yourself, or let fram_run drive it and write results:
+   A context holds what a program lends to Fram (memory, log, threads).  A scenario is read once and never changes; a
+   world is everything that moves.  Step a world yourself, or let fram_run drive it and write results:
 
        fram_context *context;
        fram_scenario *scenario;
@@ -14,11 +14,11 @@
            fram_world_step(world, &error);
 
    Every call that can fail returns a fram_status and fills the caller's fram_error (which may be NULL).  On failure the
-   out-pointers are left alone.  Objects are not locked: use one world from one thread at a time; worlds of different contexts are
-   independent.  A context must outlive its scenarios, a scenario its worlds.
+   out-pointers are left alone.  Objects are not locked: use one world from one thread at a time; worlds of different
+   contexts are independent.  A context must outlive its scenarios, a scenario its worlds.
 
-   Units are SI.  Global frame: X, Y horizontal, Z up, still water at z = 0.  Body frame of a vessel: x forward, y to port,
-   z up, origin at the centre of mass.  Quaternions are w, x, y, z and turn body coordinates into global ones. */
+   Units are SI.  Global frame: X, Y horizontal, Z up, still water at z = 0.  Body frame of a vessel: x forward, y to
+   port, z up, origin at the centre of mass.  Quaternions are w, x, y, z and turn body coordinates into global ones. */
 #ifndef FRAM_FRAM_H
 #define FRAM_FRAM_H
 
@@ -37,7 +37,9 @@
 extern "C" {
 #endif
 
-/* --- Version ------------------------------------------------------------------------------------------------------------------- */
+/* --- Version
+ * -------------------------------------------------------------------------------------------------------------------
+ */
 
 /* "0.1.0" */
 FRAM_API const char *fram_version(void);
@@ -46,7 +48,9 @@ FRAM_API const char *fram_features(void);
 /* One word for a status: "ok", "usage", "input", ... */
 FRAM_API const char *fram_status_name(fram_status status);
 
-/* --- Context -------------------------------------------------------------------------------------------------------------------- */
+/* --- Context
+ * --------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct fram_context fram_context;
 
@@ -69,10 +73,13 @@ typedef struct fram_context_definition {
 
 FRAM_API void fram_context_default(fram_context_definition *definition);
 /* definition NULL: the defaults (one thread, no log). */
-FRAM_API fram_status fram_context_create(const fram_context_definition *definition, fram_context **context, fram_error *error);
+FRAM_API fram_status fram_context_create(const fram_context_definition *definition, fram_context **context,
+                                         fram_error *error);
 FRAM_API void fram_context_destroy(fram_context *context);
 
-/* --- Scenario ------------------------------------------------------------------------------------------------------------------- */
+/* --- Scenario
+ * -------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct fram_scenario fram_scenario;
 
@@ -92,7 +99,9 @@ FRAM_API void fram_scenario_destroy(fram_scenario *scenario);
 FRAM_API fram_status fram_scenario_reference(fram_context *context, char **markdown, fram_error *error);
 FRAM_API void fram_text_free(fram_context *context, char *text);
 
-/* --- World ---------------------------------------------------------------------------------------------------------------------- */
+/* --- World
+ * ----------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct fram_world fram_world;
 
@@ -114,7 +123,8 @@ typedef struct fram_body_state {
     double angular_velocity[3]; /* global [rad/s] */
 } fram_body_state;
 
-/* Means over the last step of what the ice does to a vessel: forces [N], moments [N m] about its centre of mass, global frame. */
+/* Means over the last step of what the ice does to a vessel: forces [N], moments [N m] about its centre of mass, global
+ * frame. */
 typedef struct fram_ice_load {
     double force[3], moment[3];
     double capped[3];   /* part of force: normal contact at the crushing limit */
@@ -139,18 +149,22 @@ FRAM_API bool fram_world_body(const fram_world *world, int slot, fram_body_id *i
 /* The first vessel; false without one. */
 FRAM_API bool fram_world_vessel(const fram_world *world, fram_body_id *id);
 /* FRAM_ERROR_USAGE when the body lives no more. */
-FRAM_API fram_status fram_body_state_get(const fram_world *world, fram_body_id body, fram_body_state *state, fram_error *error);
-/* Plan outline of a floe or wall: its number of vertices, and up to `room` of them in global coordinates (x, y pairs); 0 for
-   other bodies. */
+FRAM_API fram_status fram_body_state_get(const fram_world *world, fram_body_id body, fram_body_state *state,
+                                         fram_error *error);
+/* Plan outline of a floe or wall: its number of vertices, and up to `room` of them in global coordinates (x, y pairs);
+   0 for other bodies. */
 FRAM_API int fram_body_outline(const fram_world *world, fram_body_id body, double *xy, int room);
 /* An extra force [N] and moment [N m] about the centre of mass, global frame, on a dynamic body in the next step only;
    calls add up. */
 FRAM_API fram_status fram_body_apply_wrench(fram_world *world, fram_body_id body, const double force[3],
                                             const double moment[3], fram_error *error);
 /* FRAM_ERROR_USAGE when the body is no vessel. */
-FRAM_API fram_status fram_world_ice_load(const fram_world *world, fram_body_id vessel, fram_ice_load *load, fram_error *error);
+FRAM_API fram_status fram_world_ice_load(const fram_world *world, fram_body_id vessel, fram_ice_load *load,
+                                         fram_error *error);
 
-/* --- Runs ------------------------------------------------------------------------------------------------------------------------ */
+/* --- Runs
+ * ------------------------------------------------------------------------------------------------------------------------
+ */
 
 typedef struct fram_progress {
     double time, end;        /* simulated [s] */
@@ -188,7 +202,8 @@ FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_defi
 FRAM_API fram_status fram_resume(fram_context *context, const fram_run_definition *definition, fram_run_result *result,
                                  fram_error *error);
 
-/* --- Benchmark ------------------------------------------------------------------------------------------------------------------ */
+/* --- Benchmark
+ * ------------------------------------------------------------------------------------------------------------------ */
 
 typedef struct fram_bench_result {
     int64_t steps;
@@ -197,12 +212,12 @@ typedef struct fram_bench_result {
     double ms_wall_median;     /* [ms] */
     double us_per_floe_step;   /* [us] */
     double real_time_factor;
-    double contact_points;     /* mean per step */
-    double pairs;              /* mean number of touching pairs per step */
+    double contact_points; /* mean per step */
+    double pairs;          /* mean number of touching pairs per step */
     double mean_penetration_m, max_penetration_m;
-    double ship_force_kN;      /* mean ice load against the ship's x axis */
+    double ship_force_kN; /* mean ice load against the ship's x axis */
     double kinetic_energy_J;
-    double solver_residual;    /* mean over the steps [m/s] */
+    double solver_residual; /* mean over the steps [m/s] */
     uint64_t state_hash;
 } fram_bench_result;
 

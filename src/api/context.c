@@ -49,16 +49,19 @@ static void forward_log(void *user, log_level level, const char *text)
 
 static fram_status choose_isa(context *inner, const char *name, fram_error *error)
 {
-    if (!name) return FRAM_OK;
+    if (!name)
+        return FRAM_OK;
     for (isa i = ISA_BASELINE; i <= ISA_AVX512; i++) {
-        if (strcmp(name, isa_name(i)) != 0) continue;
+        if (strcmp(name, isa_name(i)) != 0)
+            continue;
         if (i > isa_best())
-            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--isa", "%s is not available on this processor; it has up to %s", name,
-                             isa_name(isa_best()));
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--isa",
+                             "%s is not available on this processor; it has up to %s", name, isa_name(isa_best()));
         inner->isa = i;
         return FRAM_OK;
     }
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--isa", "expected baseline, avx2 or avx512, found \"%s\"", name);
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--isa", "expected baseline, avx2 or avx512, found \"%s\"",
+                     name);
 }
 
 fram_status fram_context_create(const fram_context_definition *definition, fram_context **out, fram_error *error)
@@ -81,9 +84,11 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
     }
     inner.verbosity = (log_level)d.verbosity;
     fram_status status = choose_isa(&inner, d.isa, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     fram_context *made = memory_array(&inner, 1, sizeof *made);
-    if (!made) return error_memory(error);
+    if (!made)
+        return error_memory(error);
     *made = (fram_context){inner, d.log, d.log_user};
     if (d.log) {
         made->inner.log = forward_log;
@@ -93,7 +98,8 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
         made->inner.threads = pool_create(&made->inner, d.threads);
         if (!made->inner.threads) {
             memory_free(&inner, made);
-            return error_set(error, FRAM_ERROR_MEMORY, NULL, 0, "threads", "%d threads could not be started", d.threads);
+            return error_set(error, FRAM_ERROR_MEMORY, NULL, 0, "threads", "%d threads could not be started",
+                             d.threads);
         }
     }
     *out = made;
@@ -102,10 +108,12 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
 
 void fram_context_destroy(fram_context *c)
 {
-    if (!c) return;
+    if (!c)
+        return;
     pool *threads = c->inner.threads;
     c->inner.threads = NULL;
-    if (threads) pool_free(&c->inner, threads);
+    if (threads)
+        pool_free(&c->inner, threads);
     context inner = c->inner;
     memory_free(&inner, c);
 }

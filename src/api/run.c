@@ -29,7 +29,8 @@ static fram_status check_definition(const fram_run_definition *d, fram_error *er
                          "the definition was not filled by fram_run_default of this version");
     if (!d->folder || !*d->folder)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
-    if (!(d->until < 1e300)) return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "until", "expected a finite time");
+    if (!(d->until < 1e300))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "until", "expected a finite time");
     return FRAM_OK;
 }
 
@@ -46,7 +47,8 @@ static run_options options_of(const fram_run_definition *d, progress_bridge *bri
 
 static void copy_result(const run_result *from, fram_run_result *to)
 {
-    if (!to) return;
+    if (!to)
+        return;
     *to = (fram_run_result){.state_hash = from->state_hash,
                             .steps = from->steps,
                             .time = from->time,
@@ -57,10 +59,12 @@ static void copy_result(const run_result *from, fram_run_result *to)
                             .finished = from->finished};
 }
 
-fram_status fram_run(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result, fram_error *error)
+fram_status fram_run(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
+                     fram_error *error)
 {
     fram_status status = check_definition(definition, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     progress_bridge bridge;
     run_options options = options_of(definition, &bridge);
     run_result inner = {0};
@@ -69,10 +73,12 @@ fram_status fram_run(const fram_scenario *s, const fram_run_definition *definiti
     return status;
 }
 
-fram_status fram_resume(fram_context *c, const fram_run_definition *definition, fram_run_result *result, fram_error *error)
+fram_status fram_resume(fram_context *c, const fram_run_definition *definition, fram_run_result *result,
+                        fram_error *error)
 {
     fram_status status = check_definition(definition, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     progress_bridge bridge;
     run_options options = options_of(definition, &bridge);
     run_result inner = {0};
@@ -85,7 +91,8 @@ fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_be
 {
     bench_result r;
     fram_status status = bench_scenario(&s->context->inner, &s->inner, warm, time, &r, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     *result = (fram_bench_result){.steps = r.steps,
                                   .floes = r.floes,
                                   .ms_per_step_median = r.cpu_median * 1e3,

@@ -7,8 +7,10 @@
 static fram_status fill(context *ctx, fram_scenario *s, fram_error *error)
 {
     fram_status status = scenario_print(ctx, &s->inner, NULL, &s->text, error);
-    if (status == FRAM_OK) status = scenario_hash(ctx, &s->inner, s->hash, error);
-    if (status != FRAM_OK) return status;
+    if (status == FRAM_OK)
+        status = scenario_hash(ctx, &s->inner, s->hash, error);
+    if (status != FRAM_OK)
+        return status;
     scenario_notes(ctx, &s->inner, &s->notes);
     return s->text.failed || s->notes.failed ? error_memory(error) : FRAM_OK;
 }
@@ -18,7 +20,8 @@ fram_status fram_scenario_load(fram_context *c, const char *path, const char *co
 {
     context *ctx = &c->inner;
     fram_scenario *s = memory_array(ctx, 1, sizeof *s);
-    if (!s) return error_memory(error);
+    if (!s)
+        return error_memory(error);
     s->context = c;
     const scenario_overrides list = {overrides, override_count};
     fram_status status = scenario_read(ctx, path, &list, &s->inner, error);
@@ -43,7 +46,8 @@ double fram_scenario_time_step(const fram_scenario *s) { return s->inner.run.tim
 
 void fram_scenario_destroy(fram_scenario *s)
 {
-    if (!s) return;
+    if (!s)
+        return;
     context *ctx = &s->context->inner;
     scenario_free(ctx, &s->inner);
     text_free(ctx, &s->text);

@@ -7,7 +7,8 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
 {
     context *ctx = &s->context->inner;
     fram_world *w = memory_array(ctx, 1, sizeof *w);
-    if (!w) return error_memory(error);
+    if (!w)
+        return error_memory(error);
     w->scenario = s;
     w->settings = build_settings(&s->inner);
     build_report report;
@@ -22,7 +23,8 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
 
 void fram_world_destroy(fram_world *w)
 {
-    if (!w) return;
+    if (!w)
+        return;
     context *ctx = &w->scenario->context->inner;
     world_free(ctx, &w->inner);
     memory_free(ctx, w);
@@ -41,7 +43,8 @@ int fram_world_slots(const fram_world *w) { return w->inner.bodies.count; }
 bool fram_world_body(const fram_world *w, int slot, fram_body_id *id)
 {
     const body_table *b = &w->inner.bodies;
-    if (slot < 0 || slot >= b->count || !body_is_alive(b, slot)) return false;
+    if (slot < 0 || slot >= b->count || !body_is_alive(b, slot))
+        return false;
     *id = (fram_body_id){slot, b->generation[slot]};
     return true;
 }
@@ -58,13 +61,14 @@ static bool lives(const body_table *b, fram_body_id id)
 
 static fram_status no_such_body(fram_body_id id, fram_error *error)
 {
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "there is no living body %d of generation %u", (int)id.slot,
-                     (unsigned)id.generation);
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "there is no living body %d of generation %u",
+                     (int)id.slot, (unsigned)id.generation);
 }
 
 static fram_body_kind kind_of(const body_table *b, int32_t slot)
 {
-    if (b->shape[slot] < 0) return FRAM_BODY_OTHER;
+    if (b->shape[slot] < 0)
+        return FRAM_BODY_OTHER;
     switch ((material)b->material[slot]) {
     case MATERIAL_ICE:
         return FRAM_BODY_FLOE;
@@ -83,7 +87,8 @@ static void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = 
 fram_status fram_body_state_get(const fram_world *w, fram_body_id id, fram_body_state *state, fram_error *error)
 {
     const body_table *b = &w->inner.bodies;
-    if (!lives(b, id)) return no_such_body(id, error);
+    if (!lives(b, id))
+        return no_such_body(id, error);
     quat q = b->orientation[id.slot];
     state->kind = kind_of(b, id.slot);
     state->dynamic = body_is_dynamic(b, id.slot);
@@ -99,7 +104,8 @@ int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room
 {
     const body_table *b = &w->inner.bodies;
     const shape_store *s = &w->inner.shapes;
-    if (!lives(b, id) || b->shape[id.slot] < 0 || s->shapes.kind[b->shape[id.slot]] != SHAPE_PRISM) return 0;
+    if (!lives(b, id) || b->shape[id.slot] < 0 || s->shapes.kind[b->shape[id.slot]] != SHAPE_PRISM)
+        return 0;
     polygon outline = shape_outline(s, b->shape[id.slot]);
     for (int32_t i = 0; i < outline.count && i < room; i++) {
         vec3 p = body_to_global(b, id.slot, vec3_make(outline.vertex[i].x, outline.vertex[i].y, 0));
@@ -111,21 +117,26 @@ int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room
 fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double force[3], const double moment[3],
                                    fram_error *error)
 {
-    if (!lives(&w->inner.bodies, id)) return no_such_body(id, error);
+    if (!lives(&w->inner.bodies, id))
+        return no_such_body(id, error);
     if (!body_is_dynamic(&w->inner.bodies, id.slot))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "body %d is static or driven: forces do not move it", (int)id.slot);
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "body %d is static or driven: forces do not move it",
+                         (int)id.slot);
     wrench load = {{force[0], force[1], force[2]}, {moment[0], moment[1], moment[2]}};
     double sum = load.force.x + load.force.y + load.force.z + load.moment.x + load.moment.y + load.moment.z;
-    if (!isfinite(sum)) return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "force", "a force or moment is not finite");
+    if (!isfinite(sum))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "force", "a force or moment is not finite");
     return world_add_wrench(&w->scenario->context->inner, &w->inner, id.slot, load, error);
 }
 
 fram_status fram_world_ice_load(const fram_world *w, fram_body_id id, fram_ice_load *load, fram_error *error)
 {
     const world *in = &w->inner;
-    if (!lives(&in->bodies, id)) return no_such_body(id, error);
+    if (!lives(&in->bodies, id))
+        return no_such_body(id, error);
     for (int32_t v = 0; v < in->vessels.count; v++) {
-        if (in->vessels.body[v] != id.slot) continue;
+        if (in->vessels.body[v] != id.slot)
+            continue;
         ice_load now = in->scratch.ice_loads.count > v ? in->scratch.ice_loads.data[v] : (ice_load){0};
         copy3(load->force, now.total.force);
         copy3(load->moment, now.total.moment);

@@ -26,11 +26,14 @@ static void print_error_for_people(const fram_error *e)
     fputs("fram: ", stderr);
     if (e->file[0]) {
         fputs(e->file, stderr);
-        if (e->line > 0) fprintf(stderr, ":%d", e->line);
-        if (e->line > 0 && e->column > 0) fprintf(stderr, ":%d", e->column);
+        if (e->line > 0)
+            fprintf(stderr, ":%d", e->line);
+        if (e->line > 0 && e->column > 0)
+            fprintf(stderr, ":%d", e->column);
         fputs(": ", stderr);
     }
-    if (e->key[0]) fprintf(stderr, "%s: ", e->key);
+    if (e->key[0])
+        fprintf(stderr, "%s: ", e->key);
     fprintf(stderr, "%s\n", e->message);
 }
 
@@ -76,17 +79,22 @@ static void quoted(FILE *file, const char *text)
 {
     fputc('"', file);
     for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\') fprintf(file, "\\%c", *c);
-        else if (*c == '\n') fputs("\\n", file);
-        else if (*c < 0x20) fprintf(file, "\\u%04x", *c);
-        else fputc(*c, file);
+        if (*c == '"' || *c == '\\')
+            fprintf(file, "\\%c", *c);
+        else if (*c == '\n')
+            fputs("\\n", file);
+        else if (*c < 0x20)
+            fprintf(file, "\\u%04x", *c);
+        else
+            fputc(*c, file);
     }
     fputc('"', file);
 }
 
 static void member(json *j, const char *key)
 {
-    if (!j->first) fputc(',', j->file);
+    if (!j->first)
+        fputc(',', j->file);
     j->first = false;
     quoted(j->file, key);
     fputc(':', j->file);
@@ -101,7 +109,8 @@ static void number(FILE *file, double value)
     char text[40];
     for (int digits = 15; digits <= 17; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, value);
-        if (strtod(text, NULL) == value) break;
+        if (strtod(text, NULL) == value)
+            break;
     }
     fputs(text, file);
 }
@@ -141,7 +150,8 @@ void json_reals(json *j, const char *key, const double *values, int count)
     member(j, key);
     fputc('[', j->file);
     for (int i = 0; i < count; i++) {
-        if (i) fputc(',', j->file);
+        if (i)
+            fputc(',', j->file);
         number(j->file, values[i]);
     }
     fputc(']', j->file);

@@ -46,8 +46,8 @@ typedef struct command_row {
 /* --- options.c --- */
 
 /* Read a command's words: options by the table, everything else into positional[0..positional_count), which must
-   hold exactly `positional_count` words.  Returns -1 to go on, or an exit code: help was asked for and printed, or a usage
-   error was reported. */
+   hold exactly `positional_count` words.  Returns -1 to go on, or an exit code: help was asked for and printed, or a
+   usage error was reported. */
 int options_read(const command_row *command, const option_row *rows, int row_count, common_options *common, int argc,
                  char **argv, const char **positional, int positional_count);
 
@@ -67,7 +67,8 @@ typedef struct json {
 json json_begin(void);
 void json_end(json *j);
 void json_text(json *j, const char *key, const char *value);
-void json_real(json *j, const char *key, double value); /* null when not finite; shortest text that reads back the same */
+void json_real(json *j, const char *key,
+               double value); /* null when not finite; shortest text that reads back the same */
 void json_integer(json *j, const char *key, long long value);
 void json_boolean(json *j, const char *key, bool value);
 void json_hash(json *j, const char *key, uint64_t value); /* 16 hexadecimal digits */
@@ -78,7 +79,8 @@ void json_close(json *j);
 
 /* --- session.c --- */
 
-/* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1. */
+/* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.
+ */
 int session_open(const common_options *common, fram_context **context);
 /* A flag that Ctrl-C and SIGTERM set; the first signal asks for a checkpoint, the second ends the process. */
 const volatile int *session_stop_flag(void);

@@ -4,12 +4,14 @@
 static void print_result(const common_options *common, const fram_bench_result *r)
 {
     if (!common->quiet) {
-        fprintf(stderr, "%d floes, %lld steps: %.3f ms CPU a step (median), %.3f ms wall, %.3f us per floe and step\n", r->floes,
-                (long long)r->steps, r->ms_per_step_median, r->ms_wall_median, r->us_per_floe_step);
-        fprintf(stderr, "real-time factor %.2f; %.0f contact points in %.0f pairs; overlap mean %.3g m, largest %.3g m\n",
+        fprintf(stderr, "%d floes, %lld steps: %.3f ms CPU a step (median), %.3f ms wall, %.3f us per floe and step\n",
+                r->floes, (long long)r->steps, r->ms_per_step_median, r->ms_wall_median, r->us_per_floe_step);
+        fprintf(stderr,
+                "real-time factor %.2f; %.0f contact points in %.0f pairs; overlap mean %.3g m, largest %.3g m\n",
                 r->real_time_factor, r->contact_points, r->pairs, r->mean_penetration_m, r->max_penetration_m);
     }
-    if (!common->json) return;
+    if (!common->json)
+        return;
     json j = json_begin();
     json_integer(&j, "floes", r->floes);
     json_integer(&j, "steps", r->steps);
@@ -40,18 +42,23 @@ int command_bench(const command_row *self, int argc, char **argv)
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
-    if (code >= 0) return code;
-    if (!(warm >= 0 && warm <= 1e6)) return answer_usage(&common, "--warm", "must lie between 0 and 1e6 s");
-    if (!(time > 0 && time <= 1e6)) return answer_usage(&common, "--time", "must be positive and at most 1e6 s");
+    if (code >= 0)
+        return code;
+    if (!(warm >= 0 && warm <= 1e6))
+        return answer_usage(&common, "--warm", "must lie between 0 and 1e6 s");
+    if (!(time > 0 && time <= 1e6))
+        return answer_usage(&common, "--time", "must be positive and at most 1e6 s");
     fram_context *context = NULL;
     code = session_open(&common, &context);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
 
     fram_scenario *scenario = NULL;
     fram_error error = {0};
     fram_bench_result result = {0};
     fram_status status = fram_scenario_load(context, path, overrides.value, overrides.count, &scenario, &error);
-    if (status == FRAM_OK) status = fram_bench(scenario, warm, time, &result, &error);
+    if (status == FRAM_OK)
+        status = fram_bench(scenario, warm, time, &result, &error);
     if (status != FRAM_OK) {
         code = answer_error(&common, &error);
     } else {

@@ -10,10 +10,12 @@ int command_check(const command_row *self, int argc, char **argv)
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
 
     fram_scenario *scenario = NULL;
     fram_error error = {0};
@@ -23,7 +25,8 @@ int command_check(const command_row *self, int argc, char **argv)
     } else {
         code = EXIT_GOOD;
         fputs(fram_scenario_text(scenario), stdout);
-        if (!common.quiet) fputs(fram_scenario_notes(scenario), stderr);
+        if (!common.quiet)
+            fputs(fram_scenario_notes(scenario), stderr);
         if (common.json) {
             json j = json_begin();
             json_text(&j, "scenario", path);
@@ -42,10 +45,12 @@ int command_keys(const command_row *self, int argc, char **argv)
 {
     common_options common;
     int code = options_read(self, NULL, 0, &common, argc, argv, NULL, 0);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
     char *text = NULL;
     fram_error error = {0};
     if (fram_scenario_reference(context, &text, &error) != FRAM_OK) {

@@ -5,10 +5,12 @@ static void print_result(const common_options *common, const char *folder, const
 {
     if (!common->quiet) {
         fprintf(stderr, "%s at t = %g s after %lld steps: %d floes, wall-clock %.1f s, real-time factor %.2f\n",
-                r->finished ? "finished" : "stopped", r->time, (long long)r->steps, r->floes, r->wall, r->real_time_factor);
+                r->finished ? "finished" : "stopped", r->time, (long long)r->steps, r->floes, r->wall,
+                r->real_time_factor);
         fprintf(stderr, "results are in %s\n", folder);
     }
-    if (!common->json) return;
+    if (!common->json)
+        return;
     json j = json_begin();
     json_hash(&j, "state_hash", r->state_hash);
     json_integer(&j, "steps", r->steps);
@@ -25,7 +27,8 @@ static void print_result(const common_options *common, const char *folder, const
 static int finish(const common_options *common, fram_status status, const fram_error *error, const char *folder,
                   const fram_run_result *result)
 {
-    if (status != FRAM_OK) return answer_error(common, error);
+    if (status != FRAM_OK)
+        return answer_error(common, error);
     print_result(common, folder, result);
     return EXIT_GOOD;
 }
@@ -44,12 +47,15 @@ int command_run(const command_row *self, int argc, char **argv)
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
-    if (code >= 0) return code;
-    if (!definition.folder) return answer_usage(&common, "--output", "is missing: name a folder for the results, -o DIR");
+    if (code >= 0)
+        return code;
+    if (!definition.folder)
+        return answer_usage(&common, "--output", "is missing: name a folder for the results, -o DIR");
 
     fram_context *context = NULL;
     code = session_open(&common, &context);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
     progress_view view;
     progress_begin(&view);
     definition.progress = common.quiet ? NULL : progress_show;
@@ -60,7 +66,8 @@ int command_run(const command_row *self, int argc, char **argv)
     fram_error error = {0};
     fram_run_result result = {0};
     fram_status status = fram_scenario_load(context, path, overrides.value, overrides.count, &scenario, &error);
-    if (status == FRAM_OK) status = fram_run(scenario, &definition, &result, &error);
+    if (status == FRAM_OK)
+        status = fram_run(scenario, &definition, &result, &error);
     progress_end(&view);
     code = finish(&common, status, &error, definition.folder, &result);
     fram_scenario_destroy(scenario);
@@ -77,11 +84,13 @@ int command_resume(const command_row *self, int argc, char **argv)
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &definition.folder, 1);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
 
     fram_context *context = NULL;
     code = session_open(&common, &context);
-    if (code >= 0) return code;
+    if (code >= 0)
+        return code;
     progress_view view;
     progress_begin(&view);
     definition.progress = common.quiet ? NULL : progress_show;

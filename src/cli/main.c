@@ -29,10 +29,12 @@ enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
 static void print_help(FILE *file)
 {
-    fputs("fram simulates a vessel in broken sea ice: the loads the ice puts on it, and whether it stays on station.\n\n"
-          "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n",
-          file);
-    for (int i = 0; i < COMMAND_COUNT; i++) fprintf(file, "  %-8s %-18s %s\n", commands[i].name, commands[i].arguments, commands[i].summary);
+    fputs(
+        "fram simulates a vessel in broken sea ice: the loads the ice puts on it, and whether it stays on station.\n\n"
+        "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n",
+        file);
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        fprintf(file, "  %-8s %-18s %s\n", commands[i].name, commands[i].arguments, commands[i].summary);
     fputs("\nA first run, from the folder of the sources:\n"
           "  fram check scenes/demo.yaml                what will be simulated\n"
           "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"
@@ -64,11 +66,14 @@ int main(int argc, char **argv)
         print_help(stdout);
         return EXIT_GOOD;
     }
-    if (strcmp(word, "--version") == 0) return print_version();
+    if (strcmp(word, "--version") == 0)
+        return print_version();
     for (int i = 0; i < COMMAND_COUNT; i++) {
-        if (strcmp(word, commands[i].name) == 0) return commands[i].run(&commands[i], argc - 2, argv + 2);
+        if (strcmp(word, commands[i].name) == 0)
+            return commands[i].run(&commands[i], argc - 2, argv + 2);
     }
     common_options common = {0};
-    for (int i = 2; i < argc; i++) common.json = common.json || strcmp(argv[i], "--json") == 0;
+    for (int i = 2; i < argc; i++)
+        common.json = common.json || strcmp(argv[i], "--json") == 0;
     return answer_usage(&common, word, "is not a command; fram --help lists them");
 }

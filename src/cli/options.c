@@ -12,8 +12,10 @@ enum { COMMON_ROWS = 6 };
 static void common_rows(common_options *c, option_row rows[COMMON_ROWS])
 {
     rows[0] = (option_row){"--json", NULL, OPTION_FLAG, &c->json, NULL, "end with one JSON object on standard output"};
-    rows[1] = (option_row){"--threads", NULL, OPTION_INTEGER, &c->threads, "N", "threads to use; results never depend on it"};
-    rows[2] = (option_row){"--isa", NULL, OPTION_TEXT, &c->isa, "NAME", "baseline, avx2 or avx512; results never depend on it"};
+    rows[1] =
+        (option_row){"--threads", NULL, OPTION_INTEGER, &c->threads, "N", "threads to use; results never depend on it"};
+    rows[2] = (option_row){"--isa", NULL,   OPTION_TEXT,
+                           &c->isa, "NAME", "baseline, avx2 or avx512; results never depend on it"};
     rows[3] = (option_row){"--quiet", "-q", OPTION_FLAG, &c->quiet, NULL, "errors only on standard error"};
     rows[4] = (option_row){"--verbose", "-v", OPTION_FLAG, &c->verbose, NULL, "more on standard error"};
     rows[5] = (option_row){"--help", "-h", OPTION_FLAG, &c->help, NULL, "this text"};
@@ -23,13 +25,15 @@ static void print_rows(const option_row *rows, int count)
 {
     for (int i = 0; i < count; i++) {
         char name[64];
-        snprintf(name, sizeof name, "%s%s%s%s%s", rows[i].short_name ? rows[i].short_name : "", rows[i].short_name ? ", " : "",
-                 rows[i].name, rows[i].argument ? " " : "", rows[i].argument ? rows[i].argument : "");
+        snprintf(name, sizeof name, "%s%s%s%s%s", rows[i].short_name ? rows[i].short_name : "",
+                 rows[i].short_name ? ", " : "", rows[i].name, rows[i].argument ? " " : "",
+                 rows[i].argument ? rows[i].argument : "");
         printf("  %-24s %s\n", name, rows[i].meaning);
     }
 }
 
-static void print_command_help(const command_row *command, const option_row *rows, int row_count, const option_row *common)
+static void print_command_help(const command_row *command, const option_row *rows, int row_count,
+                               const option_row *common)
 {
     printf("fram %s %s\n  %s\n\n", command->name, command->arguments, command->summary);
     printf("Examples:\n%s\nOptions:\n", command->examples);
@@ -41,8 +45,10 @@ static const option_row *find_row(const option_row *rows, int count, const char 
 {
     for (int i = 0; i < count; i++) {
         const option_row *r = &rows[i];
-        if (strlen(r->name) == length && strncmp(r->name, word, length) == 0) return r;
-        if (r->short_name && strlen(r->short_name) == length && strncmp(r->short_name, word, length) == 0) return r;
+        if (strlen(r->name) == length && strncmp(r->name, word, length) == 0)
+            return r;
+        if (r->short_name && strlen(r->short_name) == length && strncmp(r->short_name, word, length) == 0)
+            return r;
     }
     return NULL;
 }
@@ -52,7 +58,8 @@ static bool store_real(const char *text, double *out)
     char *end;
     errno = 0;
     double value = strtod(text, &end);
-    if (end == text || *end || errno == ERANGE || !isfinite(value)) return false;
+    if (end == text || *end || errno == ERANGE || !isfinite(value))
+        return false;
     *out = value;
     return true;
 }
@@ -62,7 +69,8 @@ static bool store_integer(const char *text, int *out)
     char *end;
     errno = 0;
     long value = strtol(text, &end, 10);
-    if (end == text || *end || errno == ERANGE || value < INT_MIN || value > INT_MAX) return false;
+    if (end == text || *end || errno == ERANGE || value < INT_MIN || value > INT_MAX)
+        return false;
     *out = (int)value;
     return true;
 }
@@ -80,7 +88,8 @@ static const char *store_value(const option_row *row, const char *text)
         return store_integer(text, row->value) ? NULL : "needs a whole number";
     case OPTION_LIST: {
         option_list *list = row->value;
-        if (list->count == OPTION_LIST_ROOM) return "is given more often than 64 times";
+        if (list->count == OPTION_LIST_ROOM)
+            return "is given more often than 64 times";
         list->value[list->count++] = text;
         return NULL;
     }
@@ -95,7 +104,8 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
 {
     *common = (common_options){.threads = 1};
     /* --json anywhere, so that a usage error before it is JSON too. */
-    for (int i = 0; i < argc; i++) common->json = common->json || strcmp(argv[i], "--json") == 0;
+    for (int i = 0; i < argc; i++)
+        common->json = common->json || strcmp(argv[i], "--json") == 0;
     option_row shared[COMMON_ROWS];
     common_rows(common, shared);
     int found = 0;
@@ -107,30 +117,37 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
             continue;
         }
         if (only_positional || word[0] != '-' || word[1] == '\0') {
-            if (found == positional_count) return answer_usage(common, word, "is one word too many; see --help");
+            if (found == positional_count)
+                return answer_usage(common, word, "is one word too many; see --help");
             positional[found++] = word;
             continue;
         }
         const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
         size_t length = equals ? (size_t)(equals - word) : strlen(word);
         const option_row *row = find_row(rows, row_count, word, length);
-        if (!row) row = find_row(shared, COMMON_ROWS, word, length);
-        if (!row) return answer_usage(common, word, "is no option of this command; see --help");
+        if (!row)
+            row = find_row(shared, COMMON_ROWS, word, length);
+        if (!row)
+            return answer_usage(common, word, "is no option of this command; see --help");
         if (row->kind == OPTION_FLAG) {
-            if (equals) return answer_usage(common, row->name, "takes no value");
+            if (equals)
+                return answer_usage(common, row->name, "takes no value");
             *(bool *)row->value = true;
             continue;
         }
         const char *text = equals ? equals + 1 : (i + 1 < argc ? argv[++i] : NULL);
-        if (!text) return answer_usage(common, row->name, "needs a value");
+        if (!text)
+            return answer_usage(common, row->name, "needs a value");
         const char *wrong = store_value(row, text);
-        if (wrong) return answer_usage(common, row->name, wrong);
+        if (wrong)
+            return answer_usage(common, row->name, wrong);
     }
     if (common->help) {
         print_command_help(command, rows, row_count, shared);
         return EXIT_GOOD;
     }
-    if (common->threads < 1 || common->threads > 256) return answer_usage(common, "--threads", "must lie between 1 and 256");
+    if (common->threads < 1 || common->threads > 256)
+        return answer_usage(common, "--threads", "must lie between 1 and 256");
     if (found < positional_count) {
         char message[160];
         snprintf(message, sizeof message, "misses an argument: fram %s %s", command->name, command->arguments);

@@ -20,7 +20,8 @@ int session_open(const common_options *common, fram_context **context)
     definition.threads = common->threads;
     definition.isa = common->isa;
     fram_error error;
-    if (fram_context_create(&definition, context, &error) != FRAM_OK) return answer_error(common, &error);
+    if (fram_context_create(&definition, context, &error) != FRAM_OK)
+        return answer_error(common, &error);
     return -1;
 }
 
@@ -30,7 +31,8 @@ static volatile int stop_flag;
 
 static void on_signal(int number)
 {
-    if (stop_asked) _exit(128 + number);
+    if (stop_asked)
+        _exit(128 + number);
     stop_asked = 1;
     stop_flag = 1;
 }
@@ -52,9 +54,12 @@ void progress_begin(progress_view *view)
 static void print_eta(double seconds)
 {
     long s = (long)(seconds + 0.5);
-    if (s >= 3600) fprintf(stderr, "%ld h %02ld min", s / 3600, s / 60 % 60);
-    else if (s >= 60) fprintf(stderr, "%ld min %02ld s", s / 60, s % 60);
-    else fprintf(stderr, "%ld s", s);
+    if (s >= 3600)
+        fprintf(stderr, "%ld h %02ld min", s / 3600, s / 60 % 60);
+    else if (s >= 60)
+        fprintf(stderr, "%ld min %02ld s", s / 60, s % 60);
+    else
+        fprintf(stderr, "%ld s", s);
 }
 
 void progress_show(void *user, const fram_progress *p)
@@ -62,17 +67,22 @@ void progress_show(void *user, const fram_progress *p)
     progress_view *view = user;
     double percent = p->end > 0 ? 100 * p->time / p->end : 100;
     int tenth = (int)(percent / 10);
-    if (!view->terminal && tenth == view->last_tenth) return;
+    if (!view->terminal && tenth == view->last_tenth)
+        return;
     view->last_tenth = tenth;
-    if (view->terminal) fputs("\r\033[K", stderr);
-    fprintf(stderr, "%5.1f %%  t = %.2f of %g s  real-time factor %.2f  left ", percent, p->time, p->end, p->real_time_factor);
+    if (view->terminal)
+        fputs("\r\033[K", stderr);
+    fprintf(stderr, "%5.1f %%  t = %.2f of %g s  real-time factor %.2f  left ", percent, p->time, p->end,
+            p->real_time_factor);
     print_eta(p->eta);
-    if (!view->terminal) fputc('\n', stderr);
+    if (!view->terminal)
+        fputc('\n', stderr);
     view->drawn = view->terminal;
     fflush(stderr);
 }
 
 void progress_end(progress_view *view)
 {
-    if (view->drawn) fputc('\n', stderr);
+    if (view->drawn)
+        fputc('\n', stderr);
 }

@@ -19,7 +19,10 @@ typedef struct frame {
 } frame;
 
 static double to_px(const frame *f, double x) { return f->left + (x - f->x0) / (f->x1 - f->x0) * (f->right - f->left); }
-static double to_py(const frame *f, double y) { return f->bottom - (y - f->y0) / (f->y1 - f->y0) * (f->bottom - f->top); }
+static double to_py(const frame *f, double y)
+{
+    return f->bottom - (y - f->y0) / (f->y1 - f->y0) * (f->bottom - f->top);
+}
 
 /* Data range of all lines, never empty, zero included on the y axis. */
 static void find_range(const chart *c, frame *f)
@@ -28,16 +31,20 @@ static void find_range(const chart *c, frame *f)
     for (int32_t k = 0; k < c->line_count; k++) {
         for (int32_t i = 0; i < c->lines[k].count; i++) {
             double x = c->lines[k].x[i], y = c->lines[k].y[i];
-            if (!isfinite(x) || !isfinite(y)) continue;
+            if (!isfinite(x) || !isfinite(y))
+                continue;
             f->x0 = fmin(f->x0, x), f->x1 = fmax(f->x1, x);
             f->y0 = fmin(f->y0, y), f->y1 = fmax(f->y1, y);
         }
     }
-    if (!(f->x1 > f->x0)) f->x0 = f->x0 > DBL_MAX / 2 ? 0 : f->x0 - 0.5, f->x1 = f->x0 + 1;
-    if (!(f->y1 > f->y0)) f->y1 = f->y0 + 1;
+    if (!(f->x1 > f->x0))
+        f->x0 = f->x0 > DBL_MAX / 2 ? 0 : f->x0 - 0.5, f->x1 = f->x0 + 1;
+    if (!(f->y1 > f->y0))
+        f->y1 = f->y0 + 1;
     double pad = 0.05 * (f->y1 - f->y0);
     f->y1 += pad;
-    if (f->y0 < 0) f->y0 -= pad;
+    if (f->y0 < 0)
+        f->y0 -= pad;
 }
 
 static void format_tick(char text[32], double value, double step)
@@ -69,7 +76,8 @@ static void draw_axes(cairo_t *page, const chart *c, const frame *f)
         format_tick(text, x, step);
         image_text(page, px, f->bottom + 19, 12, ALIGN_CENTRE, false, text);
     }
-    cairo_rectangle(page, floor(f->left) + 0.5, floor(f->top) + 0.5, floor(f->right - f->left), floor(f->bottom - f->top));
+    cairo_rectangle(page, floor(f->left) + 0.5, floor(f->top) + 0.5, floor(f->right - f->left),
+                    floor(f->bottom - f->top));
     cairo_stroke(page);
     image_text(page, (f->left + f->right) / 2, f->bottom + 40, 13, ALIGN_CENTRE, false, c->x_label);
     cairo_save(page);
@@ -94,12 +102,15 @@ static void draw_line(cairo_t *page, const frame *f, const chart_line *line, ima
         }
         double px = to_px(f, line->x[i]), column = floor(px);
         double first = line->y[i], least = first, greatest = first, last = first;
-        for (; i < line->count && isfinite(line->x[i]) && isfinite(line->y[i]) && floor(to_px(f, line->x[i])) == column; i++) {
+        for (; i < line->count && isfinite(line->x[i]) && isfinite(line->y[i]) && floor(to_px(f, line->x[i])) == column;
+             i++) {
             last = line->y[i];
             least = fmin(least, last), greatest = fmax(greatest, last);
         }
-        if (pen_down) cairo_line_to(page, px, to_py(f, first));
-        else cairo_move_to(page, px, to_py(f, first));
+        if (pen_down)
+            cairo_line_to(page, px, to_py(f, first));
+        else
+            cairo_move_to(page, px, to_py(f, first));
         if (greatest > least) {
             cairo_line_to(page, px, to_py(f, least));
             cairo_line_to(page, px, to_py(f, greatest));
@@ -130,7 +141,8 @@ fram_status chart_write(context *ctx, const chart *c, const char *path, int widt
 {
     cairo_t *page = NULL;
     fram_status status = image_begin(width, height, &page, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     frame f = {.left = 86, .right = width - 22, .top = 78, .bottom = height - 58};
     find_range(c, &f);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
@@ -141,7 +153,8 @@ fram_status chart_write(context *ctx, const chart *c, const char *path, int widt
     cairo_rectangle(page, f.left, f.top, f.right - f.left, f.bottom - f.top);
     cairo_clip(page);
     cairo_set_line_join(page, CAIRO_LINE_JOIN_ROUND);
-    for (int32_t k = 0; k < c->line_count; k++) draw_line(page, &f, &c->lines[k], palette[k % PALETTE_SIZE]);
+    for (int32_t k = 0; k < c->line_count; k++)
+        draw_line(page, &f, &c->lines[k], palette[k % PALETTE_SIZE]);
     cairo_restore(page);
     draw_legend(page, c, &f);
     return image_write(ctx, page, path, error);

@@ -4,12 +4,17 @@
 
 double image_round_step(double span, int parts)
 {
-    if (!(span > 0) || !isfinite(span) || parts < 1) return 1;
+    if (!(span > 0) || !isfinite(span) || parts < 1)
+        return 1;
     double raw = span / parts, power = 1;
-    while (power * 10 <= raw) power *= 10;
-    while (power > raw) power /= 10;
-    if (raw <= power) return power;
-    if (raw <= 2 * power) return 2 * power;
+    while (power * 10 <= raw)
+        power *= 10;
+    while (power > raw)
+        power /= 10;
+    if (raw <= power)
+        return power;
+    if (raw <= 2 * power)
+        return 2 * power;
     return raw <= 5 * power ? 5 * power : 10 * power;
 }
 
@@ -47,7 +52,8 @@ static cairo_status_t collect(void *closure, const unsigned char *data, unsigned
     int32_t at = sink->bytes.count;
     if (length > (unsigned)(INT32_MAX - at) || !array_resize(sink->ctx, &sink->bytes, at + (int32_t)length))
         return CAIRO_STATUS_NO_MEMORY;
-    for (unsigned i = 0; i < length; i++) sink->bytes.data[at + (int32_t)i] = data[i];
+    for (unsigned i = 0; i < length; i++)
+        sink->bytes.data[at + (int32_t)i] = data[i];
     return CAIRO_STATUS_SUCCESS;
 }
 

@@ -1,5 +1,5 @@
-/* Raster images of drawings: a cairo surface, written as PNG through a temporary file.  Without cairo in the build every call
-   returns FRAM_ERROR_UNSUPPORTED. */
+/* Raster images of drawings: a cairo surface, written as PNG through a temporary file.  Without cairo in the build
+   every call returns FRAM_ERROR_UNSUPPORTED. */
 #ifndef IO_IMAGE_H
 #define IO_IMAGE_H
 

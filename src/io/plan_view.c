@@ -31,7 +31,8 @@ static double map_y(const map *m, vec2 p) { return m->top + (m->window.hi.y - p.
 
 static void trace(cairo_t *page, const map *m, polygon p)
 {
-    for (int32_t i = 0; i < p.count; i++) cairo_line_to(page, map_x(m, p.vertex[i]), map_y(m, p.vertex[i]));
+    for (int32_t i = 0; i < p.count; i++)
+        cairo_line_to(page, map_x(m, p.vertex[i]), map_y(m, p.vertex[i]));
     cairo_close_path(page);
 }
 
@@ -47,8 +48,10 @@ static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool
         cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
         cairo_stroke(page);
     }
-    if (view->track_count < 2) return;
-    for (int32_t i = 0; i < view->track_count; i++) cairo_line_to(page, map_x(m, view->track[i]), map_y(m, view->track[i]));
+    if (view->track_count < 2)
+        return;
+    for (int32_t i = 0; i < view->track_count; i++)
+        cairo_line_to(page, map_x(m, view->track[i]), map_y(m, view->track[i]));
     cairo_set_source_rgba(page, 0.85, 0.1, 0.1, 0.8);
     cairo_set_line_width(page, 1.2);
     cairo_stroke(page);
@@ -85,7 +88,8 @@ static void draw_axes(cairo_t *page, double x, double y)
 static void draw_legend(cairo_t *page, const bool used[PLAN_STYLE_COUNT], double right, double y)
 {
     for (int s = PLAN_STYLE_COUNT - 1; s >= 0; s--) {
-        if (!used[s]) continue;
+        if (!used[s])
+            continue;
         right -= image_text_width(page, 12, false, looks[s].name);
         image_set_colour(page, ink);
         image_text(page, right, y, 12, ALIGN_LEFT, false, looks[s].name);
@@ -102,13 +106,15 @@ static void draw_legend(cairo_t *page, const bool used[PLAN_STYLE_COUNT], double
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
 {
     double w = view->window.hi.x - view->window.lo.x, h = view->window.hi.y - view->window.lo.y;
-    if (!(w > 0 && h > 0)) return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "the plan view's window is empty");
+    if (!(w > 0 && h > 0))
+        return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "the plan view's window is empty");
     map m = {.left = 14, .top = 64, .scale = longest / fmax(w, h), .window = view->window};
     int width = (int)fmax(w * m.scale + 28, 720), height = (int)(h * m.scale + 64 + 44);
     m.left = (width - w * m.scale) / 2;
     cairo_t *page = NULL;
     fram_status status = image_begin(width, height, &page, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
 
     bool used[PLAN_STYLE_COUNT] = {false};
     cairo_save(page);
@@ -134,7 +140,8 @@ fram_status plan_view_write(context *ctx, const plan_view *view, const char *pat
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
 {
     (void)ctx, (void)view, (void)longest;
-    return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL, "this build has no cairo, so it draws no plan views");
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL,
+                     "this build has no cairo, so it draws no plan views");
 }
 
 #endif

@@ -1,10 +1,18 @@
-/* Plan views: polygons seen from above with water, scale bar, north of the global frame (Y up) and a caption, as PNG. */
+/* Plan views: polygons seen from above with water, scale bar, north of the global frame (Y up) and a caption, as PNG.
+ */
 #ifndef IO_PLAN_VIEW_H
 #define IO_PLAN_VIEW_H
 
 #include "geometry/polygon.h"
 
-typedef enum plan_style { PLAN_FLOE = 0, PLAN_FIXED_ICE, PLAN_WALL, PLAN_DECK, PLAN_WATERLINE, PLAN_STYLE_COUNT } plan_style;
+typedef enum plan_style {
+    PLAN_FLOE = 0,
+    PLAN_FIXED_ICE,
+    PLAN_WALL,
+    PLAN_DECK,
+    PLAN_WATERLINE,
+    PLAN_STYLE_COUNT
+} plan_style;
 
 typedef struct plan_shape {
     polygon outline; /* global plan coordinates [m] */
@@ -14,7 +22,7 @@ typedef struct plan_shape {
 typedef struct plan_view {
     box2 window; /* shown part [m] */
     const char *title;
-    const char *caption; /* second line: time, counts */
+    const char *caption;      /* second line: time, counts */
     const plan_shape *shapes; /* drawn in order */
     int32_t shape_count;
     const vec2 *track; /* path of the vessel [m] */

@@ -46,14 +46,15 @@ static void add_step(const world *w, bench_result *r)
     }
 }
 
-static fram_status measure(context *ctx, const step_settings *settings, world *w, int64_t steps, double *cpu, double *wall,
-                           bench_result *r, fram_error *error)
+static fram_status measure(context *ctx, const step_settings *settings, world *w, int64_t steps, double *cpu,
+                           double *wall, bench_result *r, fram_error *error)
 {
     double begun = seconds(CLOCK_MONOTONIC);
     for (int64_t k = 0; k < steps; k++) {
         double c = seconds(CLOCK_PROCESS_CPUTIME_ID), t = seconds(CLOCK_MONOTONIC);
         fram_status status = world_step(ctx, settings, w, error);
-        if (status != FRAM_OK) return status;
+        if (status != FRAM_OK)
+            return status;
         cpu[k] = seconds(CLOCK_PROCESS_CPUTIME_ID) - c;
         wall[k] = seconds(CLOCK_MONOTONIC) - t;
         add_step(w, r);
@@ -67,21 +68,29 @@ static fram_status measure(context *ctx, const step_settings *settings, world *w
     return FRAM_OK;
 }
 
-fram_status bench_scenario(context *ctx, const scenario *s, double warm, double time, bench_result *out, fram_error *error)
+fram_status bench_scenario(context *ctx, const scenario *s, double warm, double time, bench_result *out,
+                           fram_error *error)
 {
     *out = (bench_result){0};
     step_settings settings = build_settings(s);
-    int64_t warm_steps = (int64_t)floor(warm / settings.time_step + 0.5), steps = (int64_t)floor(time / settings.time_step + 0.5);
-    if (steps < 1) steps = 1;
+    int64_t warm_steps = (int64_t)floor(warm / settings.time_step + 0.5),
+            steps = (int64_t)floor(time / settings.time_step + 0.5);
+    if (steps < 1)
+        steps = 1;
     world w;
     build_report report;
     fram_status status = build_world(ctx, s, &w, &report, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     double *times = memory_array(ctx, 2 * (size_t)steps, sizeof *times);
-    if (!times) status = error_memory(error);
-    for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++) status = world_step(ctx, &settings, &w, error);
-    if (status == FRAM_OK) status = measure(ctx, &settings, &w, steps, times, times + steps, out, error);
-    for (int32_t i = 0; i < w.floes.count; i++) out->floes += w.floes.body[i] >= 0;
+    if (!times)
+        status = error_memory(error);
+    for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++)
+        status = world_step(ctx, &settings, &w, error);
+    if (status == FRAM_OK)
+        status = measure(ctx, &settings, &w, steps, times, times + steps, out, error);
+    for (int32_t i = 0; i < w.floes.count; i++)
+        out->floes += w.floes.body[i] >= 0;
     out->kinetic_energy = body_books_of(&w.bodies).kinetic_energy;
     out->state_hash = world_hash(&w);
     memory_free(ctx, times);

@@ -44,7 +44,8 @@ step_settings build_settings(const scenario *s)
     return out;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ vessel */
+/* ------------------------------------------------------------------------------------------------------------ vessel
+ */
 
 static hull_particulars particulars_of(const scenario_hull *h)
 {
@@ -83,14 +84,16 @@ static fram_status make_hull(context *ctx, const scenario *s, world *w, made_hul
     hull_particulars particulars = particulars_of(&s->vessel.hull);
     hull_hydrostatics floats = {0};
     fram_status status = hull_make(ctx, &particulars, &surface, &pieces, error);
-    if (status == FRAM_OK) status = hull_hydrostatics_at(ctx, &surface, 0, &floats, error);
+    if (status == FRAM_OK)
+        status = hull_hydrostatics_at(ctx, &surface, 0, &floats, error);
     if (status == FRAM_OK) {
         out->displaced_mass = floats.volume * s->environment.water_density;
         out->centre = vec3_make(automatic_or(s->vessel.centre_of_gravity_x, floats.centre_of_buoyancy.x),
                                 automatic_or(s->vessel.centre_of_gravity_y, floats.centre_of_buoyancy.y),
                                 automatic_or(s->vessel.centre_of_gravity_z, 0));
         mesh_translate(&surface, vec3_neg(out->centre));
-        for (int32_t i = 0; i < pieces.count; i++) polyhedron_translate(&pieces.data[i], vec3_neg(out->centre));
+        for (int32_t i = 0; i < pieces.count; i++)
+            polyhedron_translate(&pieces.data[i], vec3_neg(out->centre));
         status = solid_add(ctx, &w->shapes, &surface, &pieces, 0, &out->solid, error);
     }
     mesh_free(ctx, &surface);
@@ -105,7 +108,8 @@ static fram_status add_vessel(context *ctx, const scenario *s, world *w, const m
         .solid = hull->solid,
         .centre = hull->centre,
         .mass = automatic_or(v->mass, hull->displaced_mass),
-        .gyration = {automatic_or(v->gyration_roll, 0.35 * v->hull.beam), automatic_or(v->gyration_pitch, 0.25 * v->hull.length),
+        .gyration = {automatic_or(v->gyration_roll, 0.35 * v->hull.beam),
+                     automatic_or(v->gyration_pitch, 0.25 * v->hull.length),
                      automatic_or(v->gyration_yaw, 0.25 * v->hull.length)},
         .particulars = particulars_of(&v->hull),
         .mode = v->mode,
@@ -118,17 +122,21 @@ static fram_status add_vessel(context *ctx, const scenario *s, world *w, const m
     return vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
 }
 
-/* ------------------------------------------------------------------------------------------------------------- walls */
+/* ------------------------------------------------------------------------------------------------------------- walls
+ */
 
 static fram_status add_wall(context *ctx, const scenario *s, world *w, box2 plan, fram_error *error)
 {
     vec2 centre = vec2_scale(vec2_add(plan.lo, plan.hi), 0.5), half = vec2_scale(vec2_sub(plan.hi, plan.lo), 0.5);
     vec2 corner[4] = {{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
     int32_t shape = -1;
-    fram_status status = shape_add_prism(ctx, &w->shapes, NULL, (polygon){corner, 4}, s->domain.wall_height / 2, 0, &shape, error);
-    if (status != FRAM_OK) return status;
+    fram_status status =
+        shape_add_prism(ctx, &w->shapes, NULL, (polygon){corner, 4}, s->domain.wall_height / 2, 0, &shape, error);
+    if (status != FRAM_OK)
+        return status;
     int32_t slot = body_create(ctx, &w->bodies, MOTION_STATIC, MATERIAL_WALL);
-    if (slot < 0) return error_memory(error);
+    if (slot < 0)
+        return error_memory(error);
     w->bodies.position[slot] = vec3_make(centre.x, centre.y, 0);
     w->bodies.shape[slot] = shape;
     return FRAM_OK;
@@ -136,7 +144,8 @@ static fram_status add_wall(context *ctx, const scenario *s, world *w, box2 plan
 
 static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_error *error)
 {
-    if (s->domain.boundary != DOMAIN_WALLS) return FRAM_OK;
+    if (s->domain.boundary != DOMAIN_WALLS)
+        return FRAM_OK;
     const scenario_domain *d = &s->domain;
     double t = d->wall_thickness;
     const box2 plans[4] = {{{d->x_min - t, d->y_min - t}, {d->x_min, d->y_max + t}},
@@ -145,18 +154,21 @@ static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_err
                            {{d->x_min, d->y_max}, {d->x_max, d->y_max + t}}};
     for (int i = 0; i < 4; i++) {
         fram_status status = add_wall(ctx, s, w, plans[i], error);
-        if (status != FRAM_OK) return status;
+        if (status != FRAM_OK)
+            return status;
     }
     return FRAM_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------------------- world */
+/* ------------------------------------------------------------------------------------------------------------- world
+ */
 
 static fram_status start_load_window(context *ctx, const scenario *s, world *w, fram_error *error)
 {
     double steps = floor(s->output.averaging_window / s->run.time_step + 0.5);
     int32_t window = steps < 1 ? 1 : steps > 1e6 ? 1000000 : (int32_t)steps;
-    if (!table_resize(ctx, &w->load_window, &load_window_table_info, s->vessel.present ? window : 0)) return error_memory(error);
+    if (!table_resize(ctx, &w->load_window, &load_window_table_info, s->vessel.present ? window : 0))
+        return error_memory(error);
     return FRAM_OK;
 }
 
@@ -164,26 +176,34 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
 {
     *report = (build_report){0};
     fram_status status = world_init(ctx, w, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     status = start_load_window(ctx, s, w, error);
     made_hull hull = {0};
     if (status == FRAM_OK && s->vessel.present) {
         status = make_hull(ctx, s, w, &hull, error);
-        if (status == FRAM_OK) status = add_vessel(ctx, s, w, &hull, error);
+        if (status == FRAM_OK)
+            status = add_vessel(ctx, s, w, &hull, error);
         report->displaced_mass = hull.displaced_mass;
     }
-    if (status == FRAM_OK) status = add_walls(ctx, s, w, error);
-    if (status == FRAM_OK) status = name_key(s, build_ice(ctx, s, w, &report->field, error), "ice", error);
-    if (status != FRAM_OK) world_free(ctx, w);
+    if (status == FRAM_OK)
+        status = add_walls(ctx, s, w, error);
+    if (status == FRAM_OK)
+        status = name_key(s, build_ice(ctx, s, w, &report->field, error), "ice", error);
+    if (status != FRAM_OK)
+        world_free(ctx, w);
     return status;
 }
 
 fram_status build_empty_world(context *ctx, const scenario *s, world *w, fram_error *error)
 {
     fram_status status = world_init(ctx, w, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     made_hull hull;
-    if (s->vessel.present) status = make_hull(ctx, s, w, &hull, error);
-    if (status != FRAM_OK) world_free(ctx, w);
+    if (s->vessel.present)
+        status = make_hull(ctx, s, w, &hull, error);
+    if (status != FRAM_OK)
+        world_free(ctx, w);
     return status;
 }

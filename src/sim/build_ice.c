@@ -18,21 +18,24 @@ static double floating_elevation(const scenario *s, double thickness)
     return s->environment.water ? floe_floating_elevation(thickness, s->ice.density, s->environment.water_density) : 0;
 }
 
-fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out, fram_error *error)
+fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
+                            fram_error *error)
 {
     const mesh *m = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[body]]].surface;
     vec2_array points = {0};
     bool good = true;
     for (int32_t i = 0; good && i < m->vertex.count; i++) {
         vec3 p = body_to_global(&w->bodies, body, m->vertex.data[i]);
-        if (!below_water || p.z <= 1e-9) good = array_push(ctx, &points, vec2_make(p.x, p.y));
+        if (!below_water || p.z <= 1e-9)
+            good = array_push(ctx, &points, vec2_make(p.x, p.y));
     }
     good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, out);
     array_free(ctx, &points);
     return good ? FRAM_OK : error_memory(error);
 }
 
-static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines, fram_error *error)
+static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines,
+                                   fram_error *error)
 {
     floe_definition d = {.thickness = s->ice.thickness,
                          .material = material_of(s),
@@ -43,9 +46,10 @@ static fram_status add_field_floes(context *ctx, const scenario *s, world *w, co
     for (int32_t i = 0; i < polygon_list_count(outlines); i++) {
         int32_t row;
         d.outline = polygon_list_get(outlines, i);
-        fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
-                                         &w->clock.next_floe[0], &row, error);
-        if (status != FRAM_OK) return status;
+        fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes,
+                                         &w->floes, &w->clock.next_floe[0], &row, error);
+        if (status != FRAM_OK)
+            return status;
     }
     return FRAM_OK;
 }
@@ -69,15 +73,18 @@ static fram_status build_voronoi(context *ctx, const scenario *s, world *w, fiel
                              .smallest_area = s->ice.smallest_floe_area,
                              .keep_out = &keep_out,
                              .keep_out_margin = s->ice.keep_out_margin};
-    if (status == FRAM_OK) status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
-    if (status == FRAM_OK) status = add_field_floes(ctx, s, w, &outlines, error);
+    if (status == FRAM_OK)
+        status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
+    if (status == FRAM_OK)
+        status = add_field_floes(ctx, s, w, &outlines, error);
     array_free(ctx, &footprint);
     polygon_list_free(ctx, &keep_out);
     polygon_list_free(ctx, &outlines);
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------------- single floes */
+/* ------------------------------------------------------------------------------------------------------- single floes
+ */
 
 enum { SINGLE_FLOE_VERTICES = 64 };
 
@@ -114,12 +121,14 @@ static fram_status add_single_floe(context *ctx, const scenario *s, world *w, co
                          .elevation = automatic_or(f->elevation, floating_elevation(s, thickness)),
                          .yaw = yaw,
                          .parent = -1};
-    fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
-                                     &w->clock.next_floe[0], &row, error);
-    if (status != FRAM_OK) return status;
+    fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes,
+                                     &w->floes, &w->clock.next_floe[0], &row, error);
+    if (status != FRAM_OK)
+        return status;
     int32_t body = w->floes.body[row];
     w->bodies.orientation[body] = quat_from_roll_pitch_yaw(radians(f->roll_deg), radians(f->pitch_deg), yaw);
-    if (f->fixed) return FRAM_OK;
+    if (f->fixed)
+        return FRAM_OK;
     w->bodies.velocity[body] = vec3_make(f->velocity_x, f->velocity_y, f->velocity_z);
     w->bodies.angular_velocity[body] = vec3_make(0, 0, f->spin);
     return FRAM_OK;
@@ -127,11 +136,14 @@ static fram_status add_single_floe(context *ctx, const scenario *s, world *w, co
 
 fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
 {
-    if (s->ice.source == ICE_VORONOI) return build_voronoi(ctx, s, w, report, error);
-    if (s->ice.source == ICE_NONE) return FRAM_OK;
+    if (s->ice.source == ICE_VORONOI)
+        return build_voronoi(ctx, s, w, report, error);
+    if (s->ice.source == ICE_NONE)
+        return FRAM_OK;
     for (int32_t i = 0; i < s->ice.floes.count; i++) {
         fram_status status = add_single_floe(ctx, s, w, &s->ice.floes.data[i], error);
-        if (status != FRAM_OK) return status;
+        if (status != FRAM_OK)
+            return status;
     }
     report->floes = s->ice.floes.count;
     return FRAM_OK;

@@ -14,14 +14,16 @@ enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_HASH, NUMBER_COUNT };
 enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_COUNT };
 enum { PATH_SIZE = 1024, CHECKPOINTS_KEPT = 2 };
 
-/* ------------------------------------------------------------------------------------------------------------- names */
+/* ------------------------------------------------------------------------------------------------------------- names
+ */
 
 /* The step in "checkpoint-000000001234.fram", or -1. */
 static int64_t step_of_name(const char *name)
 {
     int64_t step = -1;
     int end = 0;
-    if (sscanf(name, "checkpoint-%" SCNd64 ".fram%n", &step, &end) != 1 || end == 0 || name[end] != '\0') return -1;
+    if (sscanf(name, "checkpoint-%" SCNd64 ".fram%n", &step, &end) != 1 || end == 0 || name[end] != '\0')
+        return -1;
     return step;
 }
 
@@ -43,14 +45,17 @@ static int newest_first(const void *a, const void *b)
 static bool list_steps(context *ctx, const char *folder, step_array *steps)
 {
     DIR *dir = opendir(folder);
-    if (!dir) return true;
+    if (!dir)
+        return true;
     bool good = true;
     for (struct dirent *e = readdir(dir); e && good; e = readdir(dir)) {
         int64_t step = step_of_name(e->d_name);
-        if (step >= 0) good = array_push(ctx, steps, step);
+        if (step >= 0)
+            good = array_push(ctx, steps, step);
     }
     closedir(dir);
-    if (steps->count > 1) qsort(steps->data, (size_t)steps->count, sizeof *steps->data, newest_first);
+    if (steps->count > 1)
+        qsort(steps->data, (size_t)steps->count, sizeof *steps->data, newest_first);
     return good;
 }
 
@@ -60,7 +65,8 @@ static void remove_from(context *ctx, const char *folder, int32_t keep)
     char path[PATH_SIZE];
     if (list_steps(ctx, folder, &steps)) {
         for (int32_t i = keep; i < steps.count; i++) {
-            if (checkpoint_path(folder, steps.data[i], path)) (void)unlink(path);
+            if (checkpoint_path(folder, steps.data[i], path))
+                (void)unlink(path);
         }
     }
     array_free(ctx, &steps);
@@ -68,16 +74,17 @@ static void remove_from(context *ctx, const char *folder, int32_t keep)
 
 void checkpoint_remove_all(context *ctx, const char *folder) { remove_from(ctx, folder, 0); }
 
-/* ----------------------------------------------------------------------------------------------------------- writing */
+/* ----------------------------------------------------------------------------------------------------------- writing
+ */
 
-static fram_status write_to(context *ctx, const char *path, const world *w, const checkpoint_note *note, fram_error *error)
+static fram_status write_to(context *ctx, const char *path, const world *w, const checkpoint_note *note,
+                            fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
     /* Writing only reads; the container's one struct for both ways has no const. */
-    table_file_number numbers[NUMBER_COUNT] = {{"series_length", note->series_length},
-                                               {"record_length", note->record_length},
-                                               {"state_hash", world_hash(w)}};
+    table_file_number numbers[NUMBER_COUNT] = {
+        {"series_length", note->series_length}, {"record_length", note->record_length}, {"state_hash", world_hash(w)}};
     table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
                                            {"inputs", (void *)note->inputs, strlen(note->inputs)},
                                            {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
@@ -85,13 +92,15 @@ static fram_status write_to(context *ctx, const char *path, const world *w, cons
     return table_file_write(ctx, path, &content, error);
 }
 
-fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note, fram_error *error)
+fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
+                             fram_error *error)
 {
     char path[PATH_SIZE];
     if (!checkpoint_path(folder, w->clock.step[0], path))
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     fram_status status = write_to(ctx, path, w, note, error);
-    if (status == FRAM_OK) remove_from(ctx, folder, CHECKPOINTS_KEPT);
+    if (status == FRAM_OK)
+        remove_from(ctx, folder, CHECKPOINTS_KEPT);
     return status;
 }
 
@@ -100,11 +109,13 @@ fram_status checkpoint_write_failed(context *ctx, const char *folder, const worl
 {
     char path[PATH_SIZE];
     int n = snprintf(path, PATH_SIZE, "%s/failed.fram", folder);
-    if (n < 0 || n >= PATH_SIZE) return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (n < 0 || n >= PATH_SIZE)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     return write_to(ctx, path, w, note, error);
 }
 
-/* ----------------------------------------------------------------------------------------------------------- reading */
+/* ----------------------------------------------------------------------------------------------------------- reading
+ */
 
 static bool same_text(const table_file_bytes *bytes, const char *text)
 {
@@ -112,7 +123,8 @@ static bool same_text(const table_file_bytes *bytes, const char *text)
 }
 
 /* Read one file; `other` is true when it is sound but belongs to something else. */
-static fram_status read_one(context *ctx, const char *path, world *w, checkpoint_note *note, bool *other, fram_error *error)
+static fram_status read_one(context *ctx, const char *path, world *w, checkpoint_note *note, bool *other,
+                            fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
@@ -121,7 +133,8 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
     *other = false;
     fram_status status = table_file_read(ctx, path, &content, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
         *other = true;
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
@@ -146,15 +159,19 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, c
         array_free(ctx, &steps);
         return error_memory(error);
     }
-    fram_status status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
+    fram_status status =
+        error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
     for (int32_t i = 0; i < steps.count; i++) {
         char path[PATH_SIZE];
         bool other = false;
         fram_error reason = {0};
-        if (!checkpoint_path(folder, steps.data[i], path)) continue;
+        if (!checkpoint_path(folder, steps.data[i], path))
+            continue;
         status = read_one(ctx, path, w, note, &other, &reason);
-        if (error && status != FRAM_OK) *error = reason;
-        if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || other) break;
+        if (error && status != FRAM_OK)
+            *error = reason;
+        if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || other)
+            break;
         log_write(ctx, LOG_WARNING, "%s: %s; trying the one before", path, reason.message);
     }
     array_free(ctx, &steps);

@@ -1,4 +1,5 @@
-/* Checkpoints: the whole state, the lengths of the streams at that moment, and what the run was made of.  Two are kept. */
+/* Checkpoints: the whole state, the lengths of the streams at that moment, and what the run was made of.  Two are kept.
+ */
 #ifndef SIM_CHECKPOINT_H
 #define SIM_CHECKPOINT_H
 
@@ -13,14 +14,16 @@ typedef struct checkpoint_note {
 } checkpoint_note;
 
 /* Write FOLDER/checkpoint-STEP.fram, then remove all but the newest two. */
-fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note, fram_error *error);
+fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
+                             fram_error *error);
 /* The state of a run that went wrong, for a look at it: FOLDER/failed.fram.  Never resumed from. */
 fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                                     fram_error *error);
-/* Read the newest good checkpoint of a folder into a world made by build_empty_world.  A damaged one is passed over with a
-   warning in the log.  FRAM_ERROR_INPUT when there is none, or when it belongs to another scenario or to other inputs.
-   note->scenario_hash and inputs say what is expected; the lengths are filled. */
-fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, checkpoint_note *note, fram_error *error);
+/* Read the newest good checkpoint of a folder into a world made by build_empty_world.  A damaged one is passed over
+   with a warning in the log.  FRAM_ERROR_INPUT when there is none, or when it belongs to another scenario or to other
+   inputs. note->scenario_hash and inputs say what is expected; the lengths are filled. */
+fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, checkpoint_note *note,
+                                   fram_error *error);
 /* Remove every checkpoint of a folder. */
 void checkpoint_remove_all(context *ctx, const char *folder);
 

@@ -15,7 +15,8 @@ static void add_contact(const world *w, const contact *c, int32_t vessel, double
     vec3 centre = w->bodies.position[w->vessels.body[vessel]];
     vec3 all = vec3_scale(contact_impulse(c), sign * per_time);
     vec3 normal = vec3_scale(c->normal, sign * per_time * c->impulse[0]);
-    hull_zone zone = vessel_zone(&w->vessels, vessel, vessel_ship_coordinates(&w->vessels, &w->bodies, vessel, c->point));
+    hull_zone zone =
+        vessel_zone(&w->vessels, vessel, vessel_ship_coordinates(&w->vessels, &w->bodies, vessel, c->point));
     wrench_add(&load->total, centre, all, c->point);
     wrench_add(&load->friction, centre, vec3_sub(all, normal), c->point);
     wrench_add(is_capped(c) ? &load->capped : &load->elastic, centre, normal, c->point);
@@ -34,15 +35,20 @@ static double crushing_work(const world *w, const contact *c)
 fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w, fram_error *error)
 {
     int32_t vessels = w->vessels.count;
-    if (!array_resize(ctx, &w->scratch.ice_loads, vessels)) return error_memory(error);
+    if (!array_resize(ctx, &w->scratch.ice_loads, vessels))
+        return error_memory(error);
     ice_load *loads = w->scratch.ice_loads.data;
-    if (vessels > 0) memset(loads, 0, (size_t)vessels * sizeof *loads);
+    if (vessels > 0)
+        memset(loads, 0, (size_t)vessels * sizeof *loads);
     for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
         const contact *c = &w->scratch.contacts.data[i];
-        if (isfinite(c->impulse_limit) && is_capped(c)) w->clock.work_crushed[0] += crushing_work(w, c);
+        if (isfinite(c->impulse_limit) && is_capped(c))
+            w->clock.work_crushed[0] += crushing_work(w, c);
         int32_t va = vessel_of(w, c->a), vb = vessel_of(w, c->b);
-        if (va >= 0) add_contact(w, c, va, 1, 1 / settings->time_step, &loads[va]);
-        if (vb >= 0) add_contact(w, c, vb, -1, 1 / settings->time_step, &loads[vb]);
+        if (va >= 0)
+            add_contact(w, c, va, 1, 1 / settings->time_step, &loads[va]);
+        if (vb >= 0)
+            add_contact(w, c, vb, -1, 1 / settings->time_step, &loads[vb]);
     }
     if (w->load_window.count > 0) {
         int64_t row = w->clock.step[0] % w->load_window.count;
@@ -57,11 +63,13 @@ wrench load_window_average(const world *w)
 {
     wrench sum = {0};
     int64_t rows = w->load_window.count;
-    if (w->clock.step[0] < rows) rows = w->clock.step[0];
+    if (w->clock.step[0] < rows)
+        rows = w->clock.step[0];
     for (int64_t i = 0; i < rows; i++) {
         sum.force = vec3_add(sum.force, w->load_window.force[i]);
         sum.moment = vec3_add(sum.moment, w->load_window.moment[i]);
     }
-    if (rows == 0) return sum;
+    if (rows == 0)
+        return sum;
     return (wrench){vec3_scale(sum.force, 1 / (double)rows), vec3_scale(sum.moment, 1 / (double)rows)};
 }

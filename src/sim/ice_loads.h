@@ -4,8 +4,8 @@
 
 #include "sim/step.h"
 
-/* Fills scratch.ice_loads, one per vessel, books the energy dissipated at the crushing limit, and writes the load window's row
-   of this step. */
+/* Fills scratch.ice_loads, one per vessel, books the energy dissipated at the crushing limit, and writes the load
+   window's row of this step. */
 fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w, fram_error *error);
 
 /* Average of the load window [N], [N m] over the steps done so far in it, at most its whole length. */

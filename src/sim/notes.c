@@ -7,7 +7,8 @@ static void note_ice(context *ctx, const scenario *s, text_buffer *out)
 {
     const scenario_ice *i = &s->ice;
     const scenario_environment *e = &s->environment;
-    if (i->source == ICE_NONE) return;
+    if (i->source == ICE_NONE)
+        return;
     ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
                       i->flexural_strength, i->crushing_strength, i->crushing_exponent};
     double area = (s->domain.x_max - s->domain.x_min) * (s->domain.y_max - s->domain.y_min);
@@ -17,8 +18,8 @@ static void note_ice(context *ctx, const scenario *s, text_buffer *out)
     text_format(ctx, out, "ice: crushing pressure %.4g Pa on 1 m2; a vertical face loads %.4g kN per metre of width\n",
                 ice_crushing_pressure(&m, 1), ice_crushing_pressure(&m, i->thickness) * i->thickness * 1e-3);
     if (i->source == ICE_VORONOI)
-        text_format(ctx, out, "ice: about %.0f cells of %.4g m2 in a domain of %.4g m2\n", area / i->mean_floe_area, i->mean_floe_area,
-                    area);
+        text_format(ctx, out, "ice: about %.0f cells of %.4g m2 in a domain of %.4g m2\n", area / i->mean_floe_area,
+                    i->mean_floe_area, area);
     text_format(ctx, out, "thresholds: floe %.4g m2, piece %.4g m2, edge %.4g m (scale %g)\n", i->smallest_floe_area,
                 i->smallest_piece_area, i->edge_threshold, s->run.scale);
 }
@@ -26,7 +27,8 @@ static void note_ice(context *ctx, const scenario *s, text_buffer *out)
 static void note_vessel(context *ctx, const scenario *s, text_buffer *out)
 {
     const scenario_vessel *v = &s->vessel;
-    if (!v->present) return;
+    if (!v->present)
+        return;
     double way = v->speed * s->run.time_step;
     text_format(ctx, out, "vessel: moves %.4g m in a step, %.4g m in the run\n", way, v->speed * s->run.duration);
     if (s->ice.source != ICE_NONE && way > 0.1 * s->ice.thickness)
@@ -43,9 +45,11 @@ static void note_vessel(context *ctx, const scenario *s, text_buffer *out)
 
 void scenario_notes(context *ctx, const scenario *s, text_buffer *out)
 {
-    text_format(ctx, out, "run: %.0f steps of %g s\n", floor(s->run.duration / s->run.time_step + 0.5), s->run.time_step);
+    text_format(ctx, out, "run: %.0f steps of %g s\n", floor(s->run.duration / s->run.time_step + 0.5),
+                s->run.time_step);
     note_ice(ctx, s, out);
     note_vessel(ctx, s, out);
     if (s->run.solver.baumgarte)
-        text_add(ctx, out, "warning: run.solver.baumgarte is a comparison switch; it is known to make the ice explode\n");
+        text_add(ctx, out,
+                 "warning: run.solver.baumgarte is a comparison switch; it is known to make the ice explode\n");
 }

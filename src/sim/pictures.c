@@ -28,9 +28,9 @@ static void plan_store_free(context *ctx, plan_store *p)
 static bool add_prism(context *ctx, plan_store *p, const world *w, int32_t body)
 {
     polygon outline = shape_outline(&w->shapes, w->bodies.shape[body]);
-    uint8_t style = w->bodies.material[body] == MATERIAL_WALL                                   ? PLAN_WALL
+    uint8_t style = w->bodies.material[body] == MATERIAL_WALL ? PLAN_WALL
                     : w->bodies.motion[body] == MOTION_STATIC ? PLAN_FIXED_ICE
-                                                                                                : PLAN_FLOE;
+                                                              : PLAN_FLOE;
     bool good = array_push(ctx, &p->start, p->vertex.count) && array_push(ctx, &p->style, style);
     for (int32_t i = 0; good && i < outline.count; i++) {
         vec3 g = body_to_global(&w->bodies, body, vec3_make(outline.vertex[i].x, outline.vertex[i].y, 0));
@@ -46,10 +46,13 @@ static fram_status add_hull(context *ctx, plan_store *p, const world *w, int32_t
         fram_status status = build_footprint(ctx, w, body, below == 1, &outline, error);
         bool good = status == FRAM_OK && array_push(ctx, &p->start, p->vertex.count) &&
                     array_push(ctx, &p->style, (uint8_t)(below ? PLAN_WATERLINE : PLAN_DECK));
-        for (int32_t i = 0; good && i < outline.count; i++) good = array_push(ctx, &p->vertex, outline.data[i]);
+        for (int32_t i = 0; good && i < outline.count; i++)
+            good = array_push(ctx, &p->vertex, outline.data[i]);
         array_free(ctx, &outline);
-        if (status != FRAM_OK) return status;
-        if (!good) return error_memory(error);
+        if (status != FRAM_OK)
+            return status;
+        if (!good)
+            return error_memory(error);
     }
     return FRAM_OK;
 }
@@ -63,17 +66,21 @@ static bool is_kind(const world *w, int32_t body, shape_kind kind)
 static fram_status collect(context *ctx, plan_store *p, const world *w, fram_error *error)
 {
     for (int32_t i = 0; i < w->bodies.count; i++) {
-        if (is_kind(w, i, SHAPE_PRISM) && !add_prism(ctx, p, w, i)) return error_memory(error);
+        if (is_kind(w, i, SHAPE_PRISM) && !add_prism(ctx, p, w, i))
+            return error_memory(error);
     }
     for (int32_t i = 0; i < w->bodies.count; i++) {
-        if (!is_kind(w, i, SHAPE_SOLID)) continue;
+        if (!is_kind(w, i, SHAPE_SOLID))
+            continue;
         fram_status status = add_hull(ctx, p, w, i, error);
-        if (status != FRAM_OK) return status;
+        if (status != FRAM_OK)
+            return status;
     }
     for (int32_t k = 0; k < p->start.count; k++) {
         int32_t first = p->start.data[k], end = k + 1 < p->start.count ? p->start.data[k + 1] : p->vertex.count;
         plan_shape shape = {{p->vertex.data + first, end - first}, (plan_style)p->style.data[k]};
-        if (!array_push(ctx, &p->shape, shape)) return error_memory(error);
+        if (!array_push(ctx, &p->shape, shape))
+            return error_memory(error);
     }
     return FRAM_OK;
 }
@@ -84,7 +91,8 @@ fram_status picture_plan(context *ctx, const scenario *s, const world *w, const 
     fram_status status = collect(ctx, &p, w, error);
     char caption[256];
     int32_t floes = 0;
-    for (int32_t i = 0; i < w->floes.count; i++) floes += w->floes.body[i] >= 0;
+    for (int32_t i = 0; i < w->floes.count; i++)
+        floes += w->floes.body[i] >= 0;
     snprintf(caption, sizeof caption, "t = %.2f s, %d floes", w->clock.time[0], (int)floes);
     double border = s->domain.boundary == DOMAIN_WALLS ? s->domain.wall_thickness : 0;
     plan_view view = {.window = {{s->domain.x_min - border, s->domain.y_min - border},
@@ -93,7 +101,8 @@ fram_status picture_plan(context *ctx, const scenario *s, const world *w, const 
                       .caption = caption,
                       .shapes = p.shape.data,
                       .shape_count = p.shape.count};
-    if (status == FRAM_OK) status = plan_view_write(ctx, &view, path, PLAN_PIXELS, error);
+    if (status == FRAM_OK)
+        status = plan_view_write(ctx, &view, path, PLAN_PIXELS, error);
     plan_store_free(ctx, &p);
     return status;
 }
@@ -103,7 +112,8 @@ static double mean_after(const double_array *time, const double_array *value, do
     double sum = 0;
     int32_t n = 0;
     for (int32_t i = 0; i < value->count; i++) {
-        if (time->data[i] < transient) continue;
+        if (time->data[i] < transient)
+            continue;
         sum += value->data[i];
         n++;
     }
@@ -124,7 +134,8 @@ fram_status picture_loads(context *ctx, const scenario *s, const char *folder, f
     if (status == FRAM_OK) {
         double mean = mean_after(&column[TIME], &column[RAW_X], s->run.transient);
         for (int k = RAW_X; k < COUNT; k++) {
-            for (int32_t i = 0; i < column[k].count; i++) column[k].data[i] *= 1e-3;
+            for (int32_t i = 0; i < column[k].count; i++)
+                column[k].data[i] *= 1e-3;
         }
         int32_t rows = column[TIME].count;
         const chart_line lines[] = {
@@ -133,12 +144,14 @@ fram_status picture_loads(context *ctx, const scenario *s, const char *folder, f
             {"along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true},
         };
         char subtitle[256];
-        snprintf(subtitle, sizeof subtitle,
-                 "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s; a resisting load is negative",
-                 s->output.averaging_window, mean * 1e-3, s->run.transient);
+        snprintf(
+            subtitle, sizeof subtitle,
+            "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s; a resisting load is negative",
+            s->output.averaging_window, mean * 1e-3, s->run.transient);
         chart c = {"Ice load on the vessel", subtitle, "time [s]", "force [kN]", lines, 3};
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }
-    for (int k = 0; k < COUNT; k++) array_free(ctx, &column[k]);
+    for (int k = 0; k < COUNT; k++)
+        array_free(ctx, &column[k]);
     return status;
 }

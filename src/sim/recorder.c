@@ -8,7 +8,8 @@
 
 int64_t interval_steps(double interval, double time_step)
 {
-    if (interval <= 0) return 0;
+    if (interval <= 0)
+        return 0;
     double steps = floor(interval / time_step + 0.5);
     return steps < 1 ? 1 : (int64_t)steps;
 }
@@ -16,14 +17,16 @@ int64_t interval_steps(double interval, double time_step)
 static void set_intervals(recorder *r, const scenario *s)
 {
     r->series_every = interval_steps(s->output.csv_interval, s->run.time_step);
-    if (r->series_every == 0) r->series_every = 1;
+    if (r->series_every == 0)
+        r->series_every = 1;
     r->frame_every = interval_steps(s->output.frame_interval, s->run.time_step);
 }
 
 static fram_status stream_path(const char *folder, const char *name, char out[1024], fram_error *error)
 {
     int n = snprintf(out, 1024, "%s/%s", folder, name);
-    if (n < 0 || n >= 1024) return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (n < 0 || n >= 1024)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     return FRAM_OK;
 }
 
@@ -36,15 +39,19 @@ fram_status recorder_create(context *ctx, const scenario *s, const char *folder,
     int32_t count;
     const csv_column *columns = series_columns(&count);
     fram_status status = stream_path(folder, "series.csv", path, error);
-    if (status == FRAM_OK) status = csv_create(ctx, path, columns, count, &r->series, error);
-    if (status != FRAM_OK) return status;
+    if (status == FRAM_OK)
+        status = csv_create(ctx, path, columns, count, &r->series, error);
+    if (status != FRAM_OK)
+        return status;
     status = stream_path(folder, "record.fram", path, error);
-    if (status == FRAM_OK) status = record_create(ctx, path, &r->record, error);
+    if (status == FRAM_OK)
+        status = record_create(ctx, path, &r->record, error);
     if (status == FRAM_OK) {
         record_part part = {text, strlen(text)};
         status = record_append(&r->record, BLOCK_SCENARIO, &part, 1, error);
     }
-    if (status != FRAM_OK) recorder_close(r, NULL);
+    if (status != FRAM_OK)
+        recorder_close(r, NULL);
     return status;
 }
 
@@ -57,20 +64,26 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     int32_t count;
     const csv_column *columns = series_columns(&count);
     fram_status status = stream_path(folder, "series.csv", path, error);
-    if (status == FRAM_OK) status = csv_continue(ctx, path, series_length, columns, count, &r->series, error);
-    if (status != FRAM_OK) return status;
+    if (status == FRAM_OK)
+        status = csv_continue(ctx, path, series_length, columns, count, &r->series, error);
+    if (status != FRAM_OK)
+        return status;
     status = stream_path(folder, "record.fram", path, error);
-    if (status == FRAM_OK) status = record_continue(ctx, path, record_length, &r->record, error);
-    if (status != FRAM_OK) recorder_close(r, NULL);
+    if (status == FRAM_OK)
+        status = record_continue(ctx, path, record_length, &r->record, error);
+    if (status != FRAM_OK)
+        recorder_close(r, NULL);
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ blocks */
+/* ------------------------------------------------------------------------------------------------------------ blocks
+ */
 
 static bool put(recorder *r, const void *data, size_t size)
 {
     int32_t at = r->block.count;
-    if (size > (size_t)(INT32_MAX - at) || !array_resize(r->ctx, &r->block, at + (int32_t)size)) return false;
+    if (size > (size_t)(INT32_MAX - at) || !array_resize(r->ctx, &r->block, at + (int32_t)size))
+        return false;
     memcpy(r->block.data + at, data, size);
     return true;
 }
@@ -90,7 +103,8 @@ static bool put_pose(recorder *r, const world *w, int32_t slot)
     quat q = w->bodies.orientation[slot];
     const double part[4] = {q.w, q.x, q.y, q.z};
     int16_t packed[4];
-    for (int i = 0; i < 4; i++) packed[i] = (int16_t)floor(part[i] * 32767 + 0.5);
+    for (int i = 0; i < 4; i++)
+        packed[i] = (int16_t)floor(part[i] * 32767 + 0.5);
     return put_f32(r, p.x) && put_f32(r, p.y) && put_f32(r, p.z) && put(r, packed, sizeof packed);
 }
 
@@ -125,14 +139,17 @@ static fram_status write_deaths(recorder *r, world *w, fram_error *error)
     bool good = put_i32(r, 0);
     for (int32_t i = 0; i < w->recorded.count && good; i++) {
         uint32_t known = w->recorded.generation[i];
-        if (known == 0 || (body_is_alive(&w->bodies, i) && w->bodies.generation[i] == known)) continue;
+        if (known == 0 || (body_is_alive(&w->bodies, i) && w->bodies.generation[i] == known))
+            continue;
         good = put_i32(r, i);
         w->recorded.generation[i] = 0;
         count++;
     }
-    if (!good) return error_memory(error);
+    if (!good)
+        return error_memory(error);
     set_i32(r, 0, count);
-    if (count > 0) return append(r, BLOCK_DEATHS, error);
+    if (count > 0)
+        return append(r, BLOCK_DEATHS, error);
     array_clear(&r->block);
     return FRAM_OK;
 }
@@ -143,7 +160,8 @@ static bool put_birth(recorder *r, const world *w, int32_t slot)
     const unsigned char kind[4] = {w->bodies.material[slot], moves(w, slot), 0, 0};
     bool good = put_i32(r, slot) && put_u32(r, w->bodies.generation[slot]) && put(r, kind, 4) &&
                 put_f32(r, 2 * w->shapes.shapes.half_height[w->bodies.shape[slot]]) && put_i32(r, outline.count);
-    for (int32_t i = 0; i < outline.count && good; i++) good = put_f32(r, outline.vertex[i].x) && put_f32(r, outline.vertex[i].y);
+    for (int32_t i = 0; i < outline.count && good; i++)
+        good = put_f32(r, outline.vertex[i].x) && put_f32(r, outline.vertex[i].y);
     return good && (moves(w, slot) || put_pose(r, w, slot));
 }
 
@@ -152,14 +170,17 @@ static fram_status write_births(recorder *r, world *w, fram_error *error)
     int32_t count = 0;
     bool good = put_i32(r, 0);
     for (int32_t i = 0; i < w->bodies.count && good; i++) {
-        if (!is_new(w, i) || is_solid(w, i)) continue;
+        if (!is_new(w, i) || is_solid(w, i))
+            continue;
         good = put_birth(r, w, i);
         w->recorded.generation[i] = w->bodies.generation[i];
         count++;
     }
-    if (!good) return error_memory(error);
+    if (!good)
+        return error_memory(error);
     set_i32(r, 0, count);
-    if (count > 0) return append(r, BLOCK_BIRTHS, error);
+    if (count > 0)
+        return append(r, BLOCK_BIRTHS, error);
     array_clear(&r->block);
     return FRAM_OK;
 }
@@ -174,7 +195,8 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
         good = put_f32(r, v.x) && put_f32(r, v.y) && put_f32(r, v.z);
     }
     good = good && put(r, m->face.data, (size_t)m->face.count * sizeof *m->face.data);
-    if (!good) return error_memory(error);
+    if (!good)
+        return error_memory(error);
     w->recorded.generation[slot] = w->bodies.generation[slot];
     return append(r, BLOCK_SOLID, error);
 }
@@ -182,13 +204,17 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
 /* Deaths, births and solids since the last frame, then the poses of all that move. */
 static fram_status write_frame(recorder *r, world *w, fram_error *error)
 {
-    if (!table_resize(r->ctx, &w->recorded, &recorded_table_info, w->bodies.count)) return error_memory(error);
+    if (!table_resize(r->ctx, &w->recorded, &recorded_table_info, w->bodies.count))
+        return error_memory(error);
     fram_status status = write_deaths(r, w, error);
     for (int32_t i = 0; i < w->bodies.count && status == FRAM_OK; i++) {
-        if (is_new(w, i) && is_solid(w, i)) status = write_solid(r, w, i, error);
+        if (is_new(w, i) && is_solid(w, i))
+            status = write_solid(r, w, i, error);
     }
-    if (status == FRAM_OK) status = write_births(r, w, error);
-    if (status != FRAM_OK) return status;
+    if (status == FRAM_OK)
+        status = write_births(r, w, error);
+    if (status != FRAM_OK)
+        return status;
 
     vec3 force = load_window_average(w).force;
     bool good = put(r, &w->clock.step[0], sizeof(int64_t)) && put_f64(r, w->clock.time[0]) && put_f64(r, force.x) &&
@@ -196,11 +222,13 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     int32_t at = r->block.count, count = 0;
     good = good && put_i32(r, 0) && put_i32(r, 0);
     for (int32_t i = 0; i < w->bodies.count && good; i++) {
-        if (!body_is_alive(&w->bodies, i) || w->bodies.shape[i] < 0 || !moves(w, i)) continue;
+        if (!body_is_alive(&w->bodies, i) || w->bodies.shape[i] < 0 || !moves(w, i))
+            continue;
         good = put_pose(r, w, i);
         count++;
     }
-    if (!good) return error_memory(error);
+    if (!good)
+        return error_memory(error);
     set_i32(r, at, count);
     return append(r, BLOCK_FRAME, error);
 }
@@ -214,7 +242,8 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
         series_row(w, wall, row);
         status = csv_append(&r->series, row, error);
     }
-    if (status == FRAM_OK && r->frame_every > 0 && step % r->frame_every == 0) status = write_frame(r, w, error);
+    if (status == FRAM_OK && r->frame_every > 0 && step % r->frame_every == 0)
+        status = write_frame(r, w, error);
     return status;
 }
 

@@ -44,7 +44,8 @@ static double wall_clock(void)
 static fram_status join_path(const char *folder, const char *name, char out[PATH_SIZE], fram_error *error)
 {
     int n = snprintf(out, PATH_SIZE, "%s/%s", folder, name);
-    if (n < 0 || n >= PATH_SIZE) return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (n < 0 || n >= PATH_SIZE)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     return FRAM_OK;
 }
 
@@ -56,7 +57,8 @@ static void set_schedule(run *r)
     double dt = r->s->run.time_step;
     r->end_step = step_at(r->s->run.duration, dt);
     r->stop_step = r->end_step;
-    if (r->options->until > 0 && step_at(r->options->until, dt) < r->end_step) r->stop_step = step_at(r->options->until, dt);
+    if (r->options->until > 0 && step_at(r->options->until, dt) < r->end_step)
+        r->stop_step = step_at(r->options->until, dt);
     r->checkpoint_every = interval_steps(r->s->output.checkpoint_interval, dt);
     r->picture_every = interval_steps(r->s->output.picture_interval, dt);
 }
@@ -64,7 +66,8 @@ static void set_schedule(run *r)
 static fram_status write_checkpoint(run *r, fram_error *error)
 {
     fram_status status = recorder_flush(&r->recorder, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     checkpoint_note note = {.series_length = csv_length(&r->recorder.series),
                             .record_length = record_length(&r->recorder.record),
                             .inputs = r->inputs.data};
@@ -85,7 +88,8 @@ static fram_status write_summary(run *r, const char *state, const char *message,
 }
 
 /* Pictures are a service: a build without cairo says so once and goes on. */
-static fram_status draw(run *r, const char *name, fram_status (*picture)(run *, const char *, fram_error *), fram_error *error)
+static fram_status draw(run *r, const char *name, fram_status (*picture)(run *, const char *, fram_error *),
+                        fram_error *error)
 {
     fram_error reason = {0};
     fram_status status = picture(r, name, &reason);
@@ -93,7 +97,8 @@ static fram_status draw(run *r, const char *name, fram_status (*picture)(run *, 
         log_write(r->ctx, LOG_WARNING, "%s is skipped: %s", name, reason.message);
         return FRAM_OK;
     }
-    if (status != FRAM_OK && error) *error = reason;
+    if (status != FRAM_OK && error)
+        *error = reason;
     return status;
 }
 
@@ -114,8 +119,10 @@ static fram_status draw_numbered_plan(run *r, fram_error *error)
 {
     char name[64], folder[PATH_SIZE];
     fram_status status = join_path(r->options->folder, "pictures", folder, error);
-    if (status != FRAM_OK) return status;
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST) return file_error(error, folder, "make the folder", errno);
+    if (status != FRAM_OK)
+        return status;
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return file_error(error, folder, "make the folder", errno);
     snprintf(name, sizeof name, "pictures/plan-%09.2f.png", r->world.clock.time[0]);
     return draw(r, name, draw_plan, error);
 }
@@ -123,7 +130,8 @@ static fram_status draw_numbered_plan(run *r, fram_error *error)
 static void show_progress(run *r, bool last)
 {
     double now = wall_clock();
-    if (!r->options->progress || (!last && now - r->drawn < 0.2)) return;
+    if (!r->options->progress || (!last && now - r->drawn < 0.2))
+        return;
     r->drawn = now;
     double time = r->world.clock.time[0], done = time - r->start_time, wall = now - r->started;
     run_progress p = {.time = time, .end = (double)r->end_step * r->s->run.time_step, .wall = wall};
@@ -138,7 +146,8 @@ static fram_status after_step(run *r, double step_wall, fram_error *error)
 {
     int64_t step = r->world.clock.step[0];
     fram_status status = recorder_step(&r->recorder, &r->world, step_wall, error);
-    if (status == FRAM_OK && r->picture_every > 0 && step % r->picture_every == 0) status = draw_numbered_plan(r, error);
+    if (status == FRAM_OK && r->picture_every > 0 && step % r->picture_every == 0)
+        status = draw_numbered_plan(r, error);
     if (status == FRAM_OK && r->checkpoint_every > 0 && step % r->checkpoint_every == 0 && step < r->stop_step)
         status = write_checkpoint(r, error);
     show_progress(r, false);
@@ -153,7 +162,8 @@ static fram_status step_loop(run *r, fram_error *error)
     while (status == FRAM_OK && r->world.clock.step[0] < r->stop_step && !asked_to_stop(r)) {
         double before = wall_clock();
         status = world_step(r->ctx, &r->settings, &r->world, error);
-        if (status == FRAM_OK) status = after_step(r, wall_clock() - before, error);
+        if (status == FRAM_OK)
+            status = after_step(r, wall_clock() - before, error);
     }
     show_progress(r, true);
     return status;
@@ -178,8 +188,10 @@ static void fill_result(run *r, run_result *result)
     result->wall = wall_clock() - r->started;
     result->real_time_factor = result->wall > 0 ? (result->time - r->start_time) / result->wall : 0;
     result->bodies = result->floes = 0;
-    for (int32_t i = 0; i < w->bodies.count; i++) result->bodies += body_is_alive(&w->bodies, i);
-    for (int32_t i = 0; i < w->floes.count; i++) result->floes += w->floes.body[i] >= 0;
+    for (int32_t i = 0; i < w->bodies.count; i++)
+        result->bodies += body_is_alive(&w->bodies, i);
+    for (int32_t i = 0; i < w->floes.count; i++)
+        result->floes += w->floes.body[i] >= 0;
     result->finished = result->steps >= r->end_step;
 }
 
@@ -189,11 +201,14 @@ static fram_status conclude(run *r, run_result *result, fram_error *error)
     fill_result(r, result);
     bool interrupted = asked_to_stop(r) && r->world.clock.step[0] < r->stop_step;
     fram_status status = write_checkpoint(r, error);
-    if (status == FRAM_OK) status = draw(r, "plan.png", draw_plan, error);
-    if (status == FRAM_OK && r->s->vessel.present) status = draw(r, "loads.png", draw_loads, error);
+    if (status == FRAM_OK)
+        status = draw(r, "plan.png", draw_plan, error);
+    if (status == FRAM_OK && r->s->vessel.present)
+        status = draw(r, "loads.png", draw_loads, error);
     if (status == FRAM_OK)
         status = write_summary(r, result->finished ? "finished" : interrupted ? "interrupted" : "stopped", NULL, error);
-    if (status != FRAM_OK || !interrupted) return status;
+    if (status != FRAM_OK || !interrupted)
+        return status;
     return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
                      "interrupted at t = %g s; a checkpoint was written, continue with: fram resume %s", result->time,
                      r->options->folder);
@@ -206,12 +221,16 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
     r->drawn = 0;
     fram_error local = {0};
     fram_status status = step_loop(r, &local);
-    if (status == FRAM_OK) status = conclude(r, result, &local);
-    else leave_diagnosis(r, &local);
+    if (status == FRAM_OK)
+        status = conclude(r, result, &local);
+    else
+        leave_diagnosis(r, &local);
     fram_status closed = recorder_close(&r->recorder, status == FRAM_OK ? &local : NULL);
     r->recording = false;
-    if (status == FRAM_OK) status = closed;
-    if (status != FRAM_OK && error) *error = local;
+    if (status == FRAM_OK)
+        status = closed;
+    if (status != FRAM_OK && error)
+        *error = local;
     return status;
 }
 
@@ -223,38 +242,45 @@ static fram_status identify(run *r, fram_error *error)
 
 static void run_free(run *r)
 {
-    if (r->recording) recorder_close(&r->recorder, NULL);
+    if (r->recording)
+        recorder_close(&r->recorder, NULL);
     text_free(r->ctx, &r->inputs);
 }
 
-/* ------------------------------------------------------------------------------------------------------------- start */
+/* ------------------------------------------------------------------------------------------------------------- start
+ */
 
 static fram_status write_scenario(run *r, text_buffer *text, fram_error *error)
 {
     const scenario_print_options options = {.comments = true, .absolute_paths = true};
     char path[PATH_SIZE];
     fram_status status = join_path(r->options->folder, "scenario.yaml", path, error);
-    if (status == FRAM_OK) status = scenario_print(r->ctx, r->s, &options, text, error);
+    if (status == FRAM_OK)
+        status = scenario_print(r->ctx, r->s, &options, text, error);
     return status == FRAM_OK ? atomic_file_write(r->ctx, path, text->data, (size_t)text->count, error) : status;
 }
 
 static void log_start(const run *r, const build_report *report)
 {
     if (report->field.floes > 0)
-        log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->field.floes, report->field.concentration);
-    if (report->displaced_mass > 0) log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", report->displaced_mass * 1e-3);
+        log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->field.floes,
+                  report->field.concentration);
+    if (report->displaced_mass > 0)
+        log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", report->displaced_mass * 1e-3);
 }
 
 static fram_status start_streams(run *r, const char *text, fram_error *error)
 {
     fram_status status = recorder_create(r->ctx, r->s, r->options->folder, text, &r->recorder, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     r->recording = true;
     status = recorder_step(&r->recorder, &r->world, 0, error);
     return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
 }
 
-fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result, fram_error *error)
+fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
+                      fram_error *error)
 {
     run r = {.ctx = ctx, .s = s, .options = options, .settings = build_settings(s), .started = wall_clock()};
     text_buffer text = {0};
@@ -262,32 +288,39 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     set_schedule(&r);
     fram_status status = identify(&r, error);
     /* The world first: a scenario that cannot be made leaves the folder as it was. */
-    if (status == FRAM_OK) status = build_world(ctx, s, &r.world, &report, error);
+    if (status == FRAM_OK)
+        status = build_world(ctx, s, &r.world, &report, error);
     if (status != FRAM_OK) {
         run_free(&r);
         return status;
     }
     log_start(&r, &report);
     status = run_folder_prepare(ctx, options->folder, options->force, error);
-    if (status == FRAM_OK) status = write_scenario(&r, &text, error);
-    if (status == FRAM_OK) status = start_streams(&r, text.data, error);
-    if (status == FRAM_OK) status = drive(&r, result, error);
+    if (status == FRAM_OK)
+        status = write_scenario(&r, &text, error);
+    if (status == FRAM_OK)
+        status = start_streams(&r, text.data, error);
+    if (status == FRAM_OK)
+        status = drive(&r, result, error);
     text_free(ctx, &text);
     world_free(ctx, &r.world);
     run_free(&r);
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ resume */
+/* ------------------------------------------------------------------------------------------------------------ resume
+ */
 
 static fram_status resume_world(run *r, run_result *result, fram_error *error)
 {
     checkpoint_note note = {.inputs = r->inputs.data};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     fram_status status = checkpoint_read_newest(r->ctx, r->options->folder, &r->world, &note, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);
-    status = recorder_continue(r->ctx, r->s, r->options->folder, note.series_length, note.record_length, &r->recorder, error);
+    status = recorder_continue(r->ctx, r->s, r->options->folder, note.series_length, note.record_length, &r->recorder,
+                               error);
     return status == FRAM_OK ? drive(r, result, error) : status;
 }
 
@@ -296,12 +329,15 @@ fram_status run_resume(context *ctx, const run_options *options, run_result *res
     char path[PATH_SIZE];
     scenario s = {0};
     fram_status status = join_path(options->folder, "scenario.yaml", path, error);
-    if (status == FRAM_OK) status = scenario_read(ctx, path, NULL, &s, error);
-    if (status != FRAM_OK) return status;
+    if (status == FRAM_OK)
+        status = scenario_read(ctx, path, NULL, &s, error);
+    if (status != FRAM_OK)
+        return status;
     run r = {.ctx = ctx, .s = &s, .options = options, .settings = build_settings(&s), .started = wall_clock()};
     set_schedule(&r);
     status = identify(&r, error);
-    if (status == FRAM_OK) status = build_empty_world(ctx, &s, &r.world, error);
+    if (status == FRAM_OK)
+        status = build_empty_world(ctx, &s, &r.world, error);
     if (status == FRAM_OK) {
         status = resume_world(&r, result, error);
         world_free(ctx, &r.world);

@@ -28,7 +28,8 @@ typedef struct run_result {
 } run_result;
 
 /* From the start into an empty folder (or any with force). */
-fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result, fram_error *error);
+fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
+                      fram_error *error);
 /* From the newest good checkpoint of options->folder on. */
 fram_status run_resume(context *ctx, const run_options *options, run_result *result, fram_error *error);
 

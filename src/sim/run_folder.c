@@ -17,7 +17,8 @@
 
 enum { PATH_SIZE = 1024, INPUT_LIMIT = 1 << 30 };
 
-/* ------------------------------------------------------------------------------------------------------------ folder */
+/* ------------------------------------------------------------------------------------------------------------ folder
+ */
 
 /* mkdir -p */
 static fram_status make_folders(const char *folder, fram_error *error)
@@ -28,10 +29,12 @@ static fram_status make_folders(const char *folder, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is empty or too long");
     memcpy(path, folder, length + 1);
     for (size_t i = 1; i <= length; i++) {
-        if (path[i] != '/' && path[i] != '\0') continue;
+        if (path[i] != '/' && path[i] != '\0')
+            continue;
         char keep = path[i];
         path[i] = '\0';
-        if (mkdir(path, 0777) != 0 && errno != EEXIST) return file_error(error, path, "make the folder", errno);
+        if (mkdir(path, 0777) != 0 && errno != EEXIST)
+            return file_error(error, path, "make the folder", errno);
         path[i] = keep;
     }
     return FRAM_OK;
@@ -40,10 +43,12 @@ static fram_status make_folders(const char *folder, fram_error *error)
 static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
 {
     DIR *dir = opendir(folder);
-    if (!dir) return file_error(error, folder, "open the folder", errno);
+    if (!dir)
+        return file_error(error, folder, "open the folder", errno);
     *empty = true;
     for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
-        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0) *empty = false;
+        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
+            *empty = false;
     }
     closedir(dir);
     return FRAM_OK;
@@ -53,8 +58,10 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fra
 {
     bool empty = true;
     fram_status status = make_folders(folder, error);
-    if (status == FRAM_OK) status = is_empty(folder, &empty, error);
-    if (status != FRAM_OK) return status;
+    if (status == FRAM_OK)
+        status = is_empty(folder, &empty, error);
+    if (status != FRAM_OK)
+        return status;
     if (!empty && !force)
         return error_set(error, FRAM_ERROR_USAGE, folder, 0, "--output",
                          "the folder is not empty; name another one, or give --force to overwrite the results in it");
@@ -62,7 +69,8 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fra
     return FRAM_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ inputs */
+/* ------------------------------------------------------------------------------------------------------------ inputs
+ */
 
 typedef struct input_list {
     context *ctx;
@@ -70,19 +78,22 @@ typedef struct input_list {
     text_buffer *out;
 } input_list;
 
-static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name, fram_error *error)
+static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name,
+                             fram_error *error)
 {
     (void)name;
     input_list *list = user;
     const char *given = member;
-    if (key->kind != KEY_PATH || !*given) return FRAM_OK;
+    if (key->kind != KEY_PATH || !*given)
+        return FRAM_OK;
     char path[PATH_SIZE], digest[65];
     char *data = NULL;
     size_t size = 0;
     if (!scenario_resolve_path(list->s, given, path, sizeof path))
         return error_set(error, FRAM_ERROR_INPUT, given, 0, NULL, "the path is too long");
     fram_status status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     sha256_text(data, size, digest);
     memory_free(list->ctx, data);
     text_format(list->ctx, list->out, "%s  %s\n", digest, path);
@@ -97,16 +108,20 @@ fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out,
     return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- summary */
+/* ----------------------------------------------------------------------------------------------------------- summary
+ */
 
 /* A JSON string. */
 static void add_quoted(context *ctx, text_buffer *b, const char *text)
 {
     text_add(ctx, b, "\"");
     for (; *text; text++) {
-        if (*text == '"' || *text == '\\') text_format(ctx, b, "\\%c", *text);
-        else if ((unsigned char)*text < 0x20) text_format(ctx, b, "\\u%04x", (unsigned)*text);
-        else text_format(ctx, b, "%c", *text);
+        if (*text == '"' || *text == '\\')
+            text_format(ctx, b, "\\%c", *text);
+        else if ((unsigned char)*text < 0x20)
+            text_format(ctx, b, "\\u%04x", (unsigned)*text);
+        else
+            text_format(ctx, b, "%c", *text);
     }
     text_add(ctx, b, "\"");
 }
@@ -141,7 +156,8 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
 {
     char path[PATH_SIZE];
     int n = snprintf(path, sizeof path, "%s/run.json", folder);
-    if (n < 0 || n >= PATH_SIZE) return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (n < 0 || n >= PATH_SIZE)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     text_buffer b = {0};
     text_add(ctx, &b, "{\n");
     add_text_member(ctx, &b, "fram_version", FRAM_VERSION);
@@ -154,9 +170,11 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     add_text_member(ctx, &b, "scenario_hash", summary->scenario_hash);
     add_inputs(ctx, &b, summary->inputs);
     add_text_member(ctx, &b, "status", summary->status);
-    if (summary->message) add_text_member(ctx, &b, "message", summary->message);
+    if (summary->message)
+        add_text_member(ctx, &b, "message", summary->message);
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
-    text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->wall, summary->state_hash);
+    text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->wall,
+                summary->state_hash);
     fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);
     return status;

@@ -1,5 +1,5 @@
-/* The folder of a run: scenario.yaml (the effective scenario), run.json (what ran, and how it ended), series.csv, record.fram,
-   checkpoints and pictures. */
+/* The folder of a run: scenario.yaml (the effective scenario), run.json (what ran, and how it ended), series.csv,
+   record.fram, checkpoints and pictures. */
 #ifndef SIM_RUN_FOLDER_H
 #define SIM_RUN_FOLDER_H
 
@@ -16,7 +16,7 @@ fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out,
 
 /* How a run stands, for run.json. */
 typedef struct run_summary {
-    const char *status; /* "running", "stopped", "finished", "interrupted", "failed" */
+    const char *status;  /* "running", "stopped", "finished", "interrupted", "failed" */
     const char *message; /* of a failure, or NULL */
     char scenario_hash[65];
     const char *inputs;

@@ -16,7 +16,8 @@ typedef struct vessel_channels {
 static vessel_channels vessel_channels_of(const world *w)
 {
     vessel_channels c = {0};
-    if (w->vessels.count == 0) return c;
+    if (w->vessels.count == 0)
+        return c;
     int32_t body = w->vessels.body[0], joint = w->vessels.joint[0];
     vec3 rpy = quat_roll_pitch_yaw(w->bodies.orientation[body]);
     mat3 r = quat_matrix(w->bodies.orientation[body]);
@@ -24,7 +25,8 @@ static vessel_channels vessel_channels_of(const world *w)
     c.velocity = w->bodies.velocity[body];
     c.angular_velocity = w->bodies.angular_velocity[body];
     c.attitude_deg = vec3_make(degrees(rpy.x), degrees(rpy.y), degrees(rpy.z));
-    if (w->scratch.ice_loads.count > 0) c.ice = w->scratch.ice_loads.data[0];
+    if (w->scratch.ice_loads.count > 0)
+        c.ice = w->scratch.ice_loads.data[0];
     c.ice_force_body = mat3_tmul_vec(r, c.ice.total.force);
     c.ice_moment_body = mat3_tmul_vec(r, c.ice.total.moment);
     c.averaged = load_window_average(w);
@@ -47,52 +49,54 @@ typedef struct count_channels {
 static count_channels counts_of(const world *w)
 {
     count_channels n = {0};
-    for (int32_t i = 0; i < w->bodies.count; i++) n.bodies += body_is_alive(&w->bodies, i);
-    for (int32_t i = 0; i < w->floes.count; i++) n.floes += w->floes.body[i] >= 0;
+    for (int32_t i = 0; i < w->bodies.count; i++)
+        n.bodies += body_is_alive(&w->bodies, i);
+    for (int32_t i = 0; i < w->floes.count; i++)
+        n.floes += w->floes.body[i] >= 0;
     return n;
 }
 
-/* Every column once: name, unit, value.  Forces are on the vessel, global frame unless the name says body; moments are about
-   its centre of mass. */
+/* Every column once: name, unit, value.  Forces are on the vessel, global frame unless the name says body; moments are
+   about its centre of mass. */
 #define V3(X, name, unit, v) X(name "_x", unit, (v).x) X(name "_y", unit, (v).y) X(name "_z", unit, (v).z)
-#define SERIES(X)                                                           \
-    X("time", "s", w->clock.time[0])                                        \
-    V3(X, "position", "m", c.position)                                      \
-    X("roll", "deg", c.attitude_deg.x)                                      \
-    X("pitch", "deg", c.attitude_deg.y)                                     \
-    X("yaw", "deg", c.attitude_deg.z)                                       \
-    V3(X, "velocity", "m/s", c.velocity)                                    \
-    V3(X, "angular_velocity", "rad/s", c.angular_velocity)                  \
-    V3(X, "ice_force", "N", c.ice.total.force)                              \
-    V3(X, "ice_moment", "N m", c.ice.total.moment)                          \
-    V3(X, "ice_force_body", "N", c.ice_force_body)                          \
-    V3(X, "ice_moment_body", "N m", c.ice_moment_body)                      \
-    V3(X, "ice_force_averaged", "N", c.averaged.force)                      \
-    V3(X, "ice_moment_averaged", "N m", c.averaged.moment)                  \
-    V3(X, "ice_force_capped", "N", c.ice.capped.force)                      \
-    V3(X, "ice_force_elastic", "N", c.ice.elastic.force)                    \
-    V3(X, "ice_force_friction", "N", c.ice.friction.force)                  \
-    V3(X, "ice_force_bow", "N", c.ice.zone[ZONE_BOW].force)                 \
-    V3(X, "ice_force_shoulder", "N", c.ice.zone[ZONE_SHOULDER].force)       \
-    V3(X, "ice_force_midbody", "N", c.ice.zone[ZONE_MIDBODY].force)         \
-    V3(X, "ice_force_stern", "N", c.ice.zone[ZONE_STERN].force)             \
-    V3(X, "ice_force_bottom", "N", c.ice.zone[ZONE_BOTTOM].force)           \
-    V3(X, "tow_force", "N", c.joint_force)                                  \
-    V3(X, "tow_moment", "N m", c.joint_moment)                              \
-    V3(X, "fluid_force", "N", c.fluid.force)                                \
-    V3(X, "fluid_moment", "N m", c.fluid.moment)                            \
-    X("bodies", "1", n.bodies)                                              \
-    X("floes", "1", n.floes)                                                \
-    X("contacts", "1", w->scratch.contacts.count)                           \
-    X("vessel_contacts", "1", c.ice.contacts)                               \
-    X("crushing_patches", "1", w->scratch.patches.count)                    \
-    X("ice_mass_left", "kg", w->clock.ice_left[0])                          \
-    X("ice_mass_lost", "kg", w->clock.ice_lost[0])                          \
-    X("crushing_work", "J", w->clock.work_crushed[0])                       \
-    X("kinetic_energy", "J", books.kinetic_energy)                          \
-    X("solver_residual", "m/s", w->scratch.solver.residual)                 \
-    X("overlap_mean", "m", w->scratch.solver.mean_depth)                    \
-    X("overlap_max", "m", w->scratch.solver.max_depth)                      \
+#define SERIES(X)                                                     \
+    X("time", "s", w->clock.time[0])                                  \
+    V3(X, "position", "m", c.position)                                \
+    X("roll", "deg", c.attitude_deg.x)                                \
+    X("pitch", "deg", c.attitude_deg.y)                               \
+    X("yaw", "deg", c.attitude_deg.z)                                 \
+    V3(X, "velocity", "m/s", c.velocity)                              \
+    V3(X, "angular_velocity", "rad/s", c.angular_velocity)            \
+    V3(X, "ice_force", "N", c.ice.total.force)                        \
+    V3(X, "ice_moment", "N m", c.ice.total.moment)                    \
+    V3(X, "ice_force_body", "N", c.ice_force_body)                    \
+    V3(X, "ice_moment_body", "N m", c.ice_moment_body)                \
+    V3(X, "ice_force_averaged", "N", c.averaged.force)                \
+    V3(X, "ice_moment_averaged", "N m", c.averaged.moment)            \
+    V3(X, "ice_force_capped", "N", c.ice.capped.force)                \
+    V3(X, "ice_force_elastic", "N", c.ice.elastic.force)              \
+    V3(X, "ice_force_friction", "N", c.ice.friction.force)            \
+    V3(X, "ice_force_bow", "N", c.ice.zone[ZONE_BOW].force)           \
+    V3(X, "ice_force_shoulder", "N", c.ice.zone[ZONE_SHOULDER].force) \
+    V3(X, "ice_force_midbody", "N", c.ice.zone[ZONE_MIDBODY].force)   \
+    V3(X, "ice_force_stern", "N", c.ice.zone[ZONE_STERN].force)       \
+    V3(X, "ice_force_bottom", "N", c.ice.zone[ZONE_BOTTOM].force)     \
+    V3(X, "tow_force", "N", c.joint_force)                            \
+    V3(X, "tow_moment", "N m", c.joint_moment)                        \
+    V3(X, "fluid_force", "N", c.fluid.force)                          \
+    V3(X, "fluid_moment", "N m", c.fluid.moment)                      \
+    X("bodies", "1", n.bodies)                                        \
+    X("floes", "1", n.floes)                                          \
+    X("contacts", "1", w->scratch.contacts.count)                     \
+    X("vessel_contacts", "1", c.ice.contacts)                         \
+    X("crushing_patches", "1", w->scratch.patches.count)              \
+    X("ice_mass_left", "kg", w->clock.ice_left[0])                    \
+    X("ice_mass_lost", "kg", w->clock.ice_lost[0])                    \
+    X("crushing_work", "J", w->clock.work_crushed[0])                 \
+    X("kinetic_energy", "J", books.kinetic_energy)                    \
+    X("solver_residual", "m/s", w->scratch.solver.residual)           \
+    X("overlap_mean", "m", w->scratch.solver.mean_depth)              \
+    X("overlap_max", "m", w->scratch.solver.max_depth)                \
     X("step_wall_time", "s", wall)
 
 #define COLUMN(name, unit, value) {name, unit},

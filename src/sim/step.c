@@ -8,13 +8,16 @@
 static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
     int32_t slots = w->bodies.count;
-    if (!array_resize(ctx, &w->scratch.loads, slots) || !array_resize(ctx, &w->scratch.fluid, slots)) return error_memory(error);
+    if (!array_resize(ctx, &w->scratch.loads, slots) || !array_resize(ctx, &w->scratch.fluid, slots))
+        return error_memory(error);
     wrench *loads = w->scratch.loads.data;
     memset(loads, 0, (size_t)slots * sizeof *loads);
     memset(w->scratch.fluid.data, 0, (size_t)slots * sizeof *w->scratch.fluid.data);
     if (s->fluid) {
-        fram_status status = fluid_apply(ctx, &s->media, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
-        if (status != FRAM_OK) return status;
+        fram_status status =
+            fluid_apply(ctx, &s->media, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
+        if (status != FRAM_OK)
+            return status;
     }
     for (int32_t i = 0; i < w->scratch.outside.count; i++) {
         const wrench *extra = &w->scratch.outside.data[i];
@@ -31,7 +34,8 @@ static fram_status detect_contacts(context *ctx, const step_settings *s, world *
 {
     fram_status status = broad_phase_update(ctx, &w->bodies, &w->shapes, &s->collision, &w->boxes, &w->pairs,
                                             w->scratch.collision, error);
-    if (status != FRAM_OK) return status;
+    if (status != FRAM_OK)
+        return status;
     array_clear(&w->scratch.contacts);
     array_clear(&w->scratch.patch_pairs);
     return narrow_phase_run(ctx, &w->bodies, &w->shapes, &s->policies, &w->pairs, &w->scratch.contacts,
@@ -64,10 +68,12 @@ static fram_status integrate(context *ctx, const step_settings *s, world *w, fra
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked. */
 static fram_status remove_strays(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
-    if (s->boundary != DOMAIN_OPEN) return FRAM_OK;
+    if (s->boundary != DOMAIN_OPEN)
+        return FRAM_OK;
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
-        if (body < 0) continue;
+        if (body < 0)
+            continue;
         vec3 r = w->bodies.position[body];
         double reach = w->shapes.shapes.radius[w->bodies.shape[body]];
         if (r.x + reach >= s->domain.lo.x && r.x - reach <= s->domain.hi.x && r.y + reach >= s->domain.lo.y &&
@@ -79,24 +85,27 @@ static fram_status remove_strays(context *ctx, const step_settings *s, world *w,
     return shape_compact(ctx, &w->shapes) == FRAM_OK ? FRAM_OK : error_memory(error);
 }
 
-/* A run that goes wrong stops with a diagnosis, never with silent nonsense.  Comparisons are written so that a value that is
-   no number fails them. */
+/* A run that goes wrong stops with a diagnosis, never with silent nonsense.  Comparisons are written so that a value
+   that is no number fails them. */
 static fram_status check_state(const step_settings *s, const world *w, fram_error *error)
 {
     double limit = s->speed_limit * s->speed_limit;
     for (int32_t i = 0; i < w->bodies.count; i++) {
-        if (w->bodies.motion[i] == MOTION_NONE) continue;
+        if (w->bodies.motion[i] == MOTION_NONE)
+            continue;
         vec3 r = w->bodies.position[i], v = w->bodies.velocity[i], o = w->bodies.angular_velocity[i];
         double reach = w->bodies.shape[i] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[i]] : 0;
         bool slow = vec3_dot(v, v) <= limit && vec3_dot(o, o) * reach * reach <= limit;
         bool finite = isfinite(r.x) && isfinite(r.y) && isfinite(r.z);
-        if (slow && finite) continue;
-        return error_set(error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
-                         "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m moves at (%g, %g, %g) "
-                         "m/s, (%g, %g, %g) rad/s; the limit run.speed_limit is %g m/s. A smaller run.time_step may help",
-                         (long long)w->clock.step[0], w->clock.time[0], (int)i,
-                         w->bodies.material[i] == MATERIAL_ICE ? "floe" : "vessel or wall", w->bodies.mass[i], r.x, r.y, r.z,
-                         v.x, v.y, v.z, o.x, o.y, o.z, s->speed_limit);
+        if (slow && finite)
+            continue;
+        return error_set(
+            error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
+            "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m moves at (%g, %g, %g) "
+            "m/s, (%g, %g, %g) rad/s; the limit run.speed_limit is %g m/s. A smaller run.time_step may help",
+            (long long)w->clock.step[0], w->clock.time[0], (int)i,
+            w->bodies.material[i] == MATERIAL_ICE ? "floe" : "vessel or wall", w->bodies.mass[i], r.x, r.y, r.z, v.x,
+            v.y, v.z, o.x, o.y, o.z, s->speed_limit);
     }
     return FRAM_OK;
 }
@@ -105,11 +114,12 @@ fram_status world_step(context *ctx, const step_settings *s, world *w, fram_erro
 {
     typedef fram_status (*stage)(context *, const step_settings *, world *, fram_error *);
     /* The order of SPEC 4; 5 (fracture) comes between the solve and the integration. */
-    static const stage stages[] = {external_forces, detect_contacts, limit_crushing, solve_velocities, sum_ice_loads,
-                                   integrate,       remove_strays};
+    static const stage stages[] = {external_forces, detect_contacts, limit_crushing, solve_velocities,
+                                   sum_ice_loads,   integrate,       remove_strays};
     for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
         fram_status status = stages[i](ctx, s, w, error);
-        if (status != FRAM_OK) return status;
+        if (status != FRAM_OK)
+            return status;
     }
     w->clock.step[0]++;
     w->clock.time[0] = (double)w->clock.step[0] * s->time_step;
@@ -120,7 +130,8 @@ fram_status world_add_wrench(context *ctx, world *w, int32_t slot, wrench load, 
 {
     int32_t had = w->scratch.outside.count;
     if (had <= slot) {
-        if (!array_resize(ctx, &w->scratch.outside, w->bodies.count)) return error_memory(error);
+        if (!array_resize(ctx, &w->scratch.outside, w->bodies.count))
+            return error_memory(error);
         memset(w->scratch.outside.data + had, 0, (size_t)(w->bodies.count - had) * sizeof *w->scratch.outside.data);
     }
     wrench *sum = &w->scratch.outside.data[slot];

@@ -1,0 +1,46 @@
+/* Scenes for tests of sim: a scenario from text, a world made from it and stepped. */
+#ifndef TEST_SIM_SCENE_H
+#define TEST_SIM_SCENE_H
+
+#include "io/scenario_file.h"
+#include "sim/build.h"
+#include "sim/step.h"
+#include "testing.h"
+
+typedef struct scene {
+    context ctx;
+    scenario s;
+    step_settings settings;
+    world w;
+} scene;
+
+static inline void scene_open_with(scene *k, const char *text, const char *const *overrides, int count)
+{
+    fram_error error = {0};
+    const scenario_overrides list = {overrides, count};
+    context_init(&k->ctx);
+    assert_ok(scenario_parse(&k->ctx, "scene.yaml", text, strlen(text), &list, &k->s, &error), error);
+    k->settings = build_settings(&k->s);
+    build_report report;
+    assert_ok(build_world(&k->ctx, &k->s, &k->w, &report, &error), error);
+}
+
+static inline void scene_open(scene *k, const char *text) { scene_open_with(k, text, NULL, 0); }
+
+static inline void scene_steps(scene *k, int64_t steps)
+{
+    fram_error error = {0};
+    for (int64_t i = 0; i < steps; i++)
+        assert_ok(world_step(&k->ctx, &k->settings, &k->w, &error), error);
+}
+
+static inline void scene_close(scene *k)
+{
+    world_free(&k->ctx, &k->w);
+    scenario_free(&k->ctx, &k->s);
+}
+
+/* Body slot of the n-th floe. */
+static inline int32_t scene_floe(const scene *k, int32_t n) { return k->w.floes.body[n]; }
+
+#endif

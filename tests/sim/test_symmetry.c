@@ -1,0 +1,159 @@
+/* Symmetries of oracles section 6: a scaled, moving, mirrored or turned scene gives the scaled, moved, mirrored or
+   turned result.  They find every hidden dimensional constant, frame and sign. */
+#include "scene.h"
+
+#include <stdio.h>
+
+enum { TEXT_SIZE = 4096 };
+
+/* ------------------------------------------------------------------------------------------------------------ scaling
+ */
+
+/* A towed hull in a managed field with crushing, friction, current and wind, all lengths times lambda (Froude). */
+static void scaled_text(char out[TEXT_SIZE], double lambda, double root)
+{
+    snprintf(out, TEXT_SIZE,
+             "run:\n  duration: %.17g\n  time_step: %.17g\n  seed: 5\n  scale: %.17g\n"
+             "vessel:\n  mode: towed\n  x: %.17g\n  speed: %.17g\n"
+             "  hull:\n    length: %.17g\n    beam: %.17g\n    draught: %.17g\n    freeboard: %.17g\n"
+             "ice:\n  concentration: 0.85\n  mean_floe_area: %.17g\n  thickness: %.17g\n"
+             "  crushing_strength: %.17g\n  elastic_modulus: %.17g\n  flexural_strength: %.17g\n"
+             "domain:\n  x_min: %.17g\n  x_max: %.17g\n  y_min: %.17g\n  y_max: %.17g\n"
+             "environment:\n  current_speed: %.17g\n  current_direction_deg: 90\n  wind_speed: %.17g\n",
+             100 * root, 0.015625 * root, 30 * lambda, -30 * lambda, 2 * root, 48 * lambda, 12 * lambda, 4 * lambda,
+             2 * lambda, 64 * lambda * lambda, 1 * lambda, 2e6 * lambda, 5e9 * lambda, 5e5 * lambda, -64 * lambda,
+             64 * lambda, -40 * lambda, 40 * lambda, 0.25 * root, 8 * root);
+}
+
+static void check_scaled(double lambda, double root)
+{
+    scene small, large;
+    char text[TEXT_SIZE];
+    scaled_text(text, 1, 1);
+    scene_open(&small, text);
+    scaled_text(text, lambda, root);
+    scene_open(&large, text);
+    ck_assert_int_eq(small.w.bodies.count, large.w.bodies.count);
+    ck_assert_int_gt(small.w.floes.count, 50);
+    double load = 0;
+    for (int i = 0; i < 100; i++) {
+        scene_steps(&small, 1);
+        scene_steps(&large, 1);
+        load = fmax(load, vec3_length(small.w.scratch.ice_loads.data[0].total.force));
+    }
+    ck_assert_msg(load > 1e3, "the hull met no ice (%g N)", load);
+    for (int32_t b = 0; b < small.w.bodies.count; b++) {
+        assert_vec3_close(vec3_scale(large.w.bodies.position[b], 1 / lambda), small.w.bodies.position[b], 1e-12 * 64);
+        assert_vec3_close(vec3_scale(large.w.bodies.velocity[b], 1 / root), small.w.bodies.velocity[b], 1e-12);
+    }
+    assert_vec3_close(vec3_scale(large.w.scratch.ice_loads.data[0].total.force, 1 / (lambda * lambda * lambda)),
+                      small.w.scratch.ice_loads.data[0].total.force, 1e-12 * load);
+    scene_close(&small);
+    scene_close(&large);
+}
+
+START_TEST(scaling_by_four) { check_scaled(4, 2); }
+END_TEST
+START_TEST(scaling_by_sixteen) { check_scaled(16, 4); }
+END_TEST
+
+/* ----------------------------------------------------------------------------------------------------------- Galileo
+ */
+
+/* A driven hull meets four floes; everything also moves with (shift, 0) m/s. */
+static void moving_text(char out[TEXT_SIZE], double hull_speed, double shift)
+{
+    int n = snprintf(out, TEXT_SIZE,
+                     "run:\n  duration: 10\n  time_step: 0.02\n"
+                     "vessel:\n  mode: prescribed\n  x: 0\n  speed: %.17g\n  course_deg: %d\n"
+                     "  hull:\n    length: 60\n    beam: 14\n    draught: 5\n    freeboard: 3\n"
+                     "ice:\n  source: floes\n  crushing_strength: 1e6\n  floes:\n",
+                     fabs(hull_speed), hull_speed < 0 ? 180 : 0);
+    for (int i = 0; i < 4; i++)
+        n += snprintf(out + n, (size_t)(TEXT_SIZE - n),
+                      "    - shape: regular\n      sides: %d\n      radius: 5\n      x: %.17g\n      y: %.17g\n"
+                      "      yaw_deg: %d\n      velocity_x: %.17g\n",
+                      5 + i, 35.2 + 9.5 * (i / 2), -4.9 + 9.9 * (i % 2), 7 * i, shift);
+    snprintf(
+        out + n, (size_t)(TEXT_SIZE - n),
+        "domain:\n  x_min: -500\n  x_max: 500\n  boundary: open\n"
+        "environment:\n  current_speed: %.17g\n  current_direction_deg: %d\n  wind_speed: %.17g\n  wind_direction_deg: %d\n",
+        fabs(shift), shift < 0 ? 180 : 0, fabs(shift), shift < 0 ? 180 : 0);
+}
+
+START_TEST(moving_hull_equals_moving_ice)
+{
+    scene still, moving;
+    char text[TEXT_SIZE];
+    moving_text(text, 1.5, 0);
+    scene_open(&still, text);
+    moving_text(text, 0, -1.5);
+    scene_open(&moving, text);
+    double peak = 0, apart = 0;
+    for (int i = 0; i < 50; i++) {
+        scene_steps(&still, 1);
+        scene_steps(&moving, 1);
+        vec3 a = still.w.scratch.ice_loads.data[0].total.force, b = moving.w.scratch.ice_loads.data[0].total.force;
+        peak = fmax(peak, vec3_length(a));
+        apart = fmax(apart, vec3_length(vec3_sub(a, b)));
+    }
+    ck_assert_msg(peak > 1e4, "the hull met no ice (%g N)", peak);
+    ck_assert_msg(apart <= 1e-9 * peak, "loads differ by %g of %g N", apart, peak);
+    scene_close(&still);
+    scene_close(&moving);
+}
+END_TEST
+
+/* --------------------------------------------------------------------------------------------------- mirror and turn
+ */
+
+/* One hull, two floes off the centre line, in a frame turned by `turn` degrees and mirrored in the hull's own plane. */
+static void placed_text(char out[TEXT_SIZE], int turn, int mirror)
+{
+    double c = turn == 90 ? 0 : 1, s = turn == 90 ? 1 : 0;
+    const double floe[2][3] = {{36, 3.5, 20}, {37.5, -6.5, -35}};
+    int n = snprintf(out, TEXT_SIZE,
+                     "run:\n  duration: 10\n  time_step: 0.02\n  solver:\n    kind: accurate\n    tolerance: 1e-13\n"
+                     "vessel:\n  mode: prescribed\n  heading_deg: %d\n  speed: 1.5\n"
+                     "  hull:\n    length: 60\n    beam: 14\n    draught: 5\n    freeboard: 3\n"
+                     "ice:\n  source: floes\n  floes:\n",
+                     turn);
+    for (int i = 0; i < 2; i++) {
+        double x = floe[i][0], y = mirror * floe[i][1];
+        n += snprintf(
+            out + n, (size_t)(TEXT_SIZE - n),
+            "    - shape: rectangle\n      length: 12\n      width: 6\n      x: %.17g\n      y: %.17g\n      yaw_deg: %.17g\n",
+            c * x - s * y, s * x + c * y, turn + mirror * floe[i][2]);
+    }
+    snprintf(out + n, (size_t)(TEXT_SIZE - n),
+             "domain:\n  x_min: -500\n  x_max: 500\n  y_min: -500\n  y_max: 500\n  boundary: open\n");
+}
+
+static void check_placed(int turn, int mirror)
+{
+    scene plain, placed;
+    char text[TEXT_SIZE];
+    placed_text(text, 0, 1);
+    scene_open(&plain, text);
+    placed_text(text, turn, mirror);
+    scene_open(&placed, text);
+    double peak = 0;
+    for (int i = 0; i < 150; i++) {
+        scene_steps(&plain, 1);
+        scene_steps(&placed, 1);
+        vec3 a = plain.w.scratch.ice_loads.data[0].total.force, b = placed.w.scratch.ice_loads.data[0].total.force;
+        vec3 back = turn == 90 ? vec3_make(b.y, -b.x, b.z) : vec3_make(b.x, mirror * b.y, b.z);
+        peak = fmax(peak, vec3_length(a));
+        assert_vec3_close(back, a, 1e-6 * peak + 1e-6);
+    }
+    ck_assert_msg(peak > 1e4, "the hull met no ice (%g N)", peak);
+    scene_close(&plain);
+    scene_close(&placed);
+}
+
+START_TEST(mirrored_scene) { check_placed(0, -1); }
+END_TEST
+START_TEST(turned_scene) { check_placed(90, 1); }
+END_TEST
+
+TEST_MAIN("symmetry", scaling_by_four, scaling_by_sixteen, moving_hull_equals_moving_ice, mirrored_scene, turned_scene)
