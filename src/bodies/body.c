@@ -64,8 +64,8 @@ body_books body_books_of(const body_table *b)
         sum.mass += b->mass[i];
         sum.kinetic_energy += 0.5 * (vec3_dot(momentum, b->velocity[i]) + vec3_dot(spin_momentum, spin));
         sum.momentum = vec3_add(sum.momentum, momentum);
-        sum.angular_momentum = vec3_add(sum.angular_momentum, vec3_add(vec3_cross(b->position[i], momentum),
-                                                                       mat3_mul_vec(r, spin_momentum)));
+        sum.angular_momentum = vec3_add(sum.angular_momentum,
+                                        vec3_add(vec3_cross(b->position[i], momentum), mat3_mul_vec(r, spin_momentum)));
     }
     return sum;
 }

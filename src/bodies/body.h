@@ -18,19 +18,19 @@ typedef enum motion {
 /* Selects friction and contact treatment of a pair; see dynamics/contact.h. */
 typedef enum material { MATERIAL_ICE = 0, MATERIAL_HULL, MATERIAL_WALL, MATERIAL_COUNT } material;
 
-#define BODY_FIELDS(X)                                                                                           \
-    X(position, vec3, FIELD_F64, 3, "m", "centre of mass, global frame")                                         \
-    X(orientation, quat, FIELD_F64, 4, "1", "body to global, unit quaternion w x y z")                           \
-    X(velocity, vec3, FIELD_F64, 3, "m/s", "of the centre of mass, global frame")                                \
-    X(angular_velocity, vec3, FIELD_F64, 3, "rad/s", "global frame")                                             \
-    X(mass, double, FIELD_F64, 1, "kg", "rigid mass")                                                            \
-    X(inertia, sym3, FIELD_F64, 6, "kg m2", "inertia tensor about the centre of mass, body frame")               \
-    X(added_mass, vec3, FIELD_F64, 3, "kg", "added mass in surge, sway, heave, body frame; 0 without")           \
-    X(added_inertia, vec3, FIELD_F64, 3, "kg m2", "added inertia in roll, pitch, yaw, body frame; 0 without")    \
-    X(shape, int32_t, FIELD_I32, 1, "1", "row of the shape table, -1 without a shape")                           \
-    X(owner, int32_t, FIELD_I32, 1, "1", "row of the owning room's table (floe, vessel), -1 without")            \
-    X(generation, uint32_t, FIELD_U32, 1, "1", "how often this slot was used; id = slot + generation")           \
-    X(motion, uint8_t, FIELD_U8, 1, "1", "enum motion")                                                          \
+#define BODY_FIELDS(X)                                                                                        \
+    X(position, vec3, FIELD_F64, 3, "m", "centre of mass, global frame")                                      \
+    X(orientation, quat, FIELD_F64, 4, "1", "body to global, unit quaternion w x y z")                        \
+    X(velocity, vec3, FIELD_F64, 3, "m/s", "of the centre of mass, global frame")                             \
+    X(angular_velocity, vec3, FIELD_F64, 3, "rad/s", "global frame")                                          \
+    X(mass, double, FIELD_F64, 1, "kg", "rigid mass")                                                         \
+    X(inertia, sym3, FIELD_F64, 6, "kg m2", "inertia tensor about the centre of mass, body frame")            \
+    X(added_mass, vec3, FIELD_F64, 3, "kg", "added mass in surge, sway, heave, body frame; 0 without")        \
+    X(added_inertia, vec3, FIELD_F64, 3, "kg m2", "added inertia in roll, pitch, yaw, body frame; 0 without") \
+    X(shape, int32_t, FIELD_I32, 1, "1", "row of the shape table, -1 without a shape")                        \
+    X(owner, int32_t, FIELD_I32, 1, "1", "row of the owning room's table (floe, vessel), -1 without")         \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "how often this slot was used; id = slot + generation")        \
+    X(motion, uint8_t, FIELD_U8, 1, "1", "enum motion")                                                       \
     X(material, uint8_t, FIELD_U8, 1, "1", "enum material")
 
 TABLE_DECLARE(body, BODY_FIELDS)
@@ -61,7 +61,8 @@ static inline void wrench_add(wrench *w, vec3 centre, vec3 force, vec3 point)
     w->moment = vec3_add(w->moment, vec3_cross(vec3_sub(point, centre), force));
 }
 
-/* Books over all dynamic bodies: kinetic energy [J], momentum [N s], angular momentum about the global origin [N m s]. */
+/* Books over all dynamic bodies: kinetic energy [J], momentum [N s], angular momentum about the global origin [N m s].
+ */
 typedef struct body_books {
     double kinetic_energy;
     vec3 momentum, angular_momentum;

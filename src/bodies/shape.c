@@ -164,7 +164,8 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
     int32_t extra = piece_count > 1 ? pieces->vertex.count : 0;
     uint64_t *inner = memory_array(ctx, (size_t)piece_count, sizeof *inner);
     int32_t *corner = memory_array(ctx, (size_t)pieces->vertex.count, sizeof *corner);
-    bool ok = inner && corner && find_seams(ctx, pieces, inner) && find_corners(ctx, outline, &pieces->vertex, corner) &&
+    bool ok = inner && corner && find_seams(ctx, pieces, inner) &&
+              find_corners(ctx, outline, &pieces->vertex, corner) &&
               table_reserve(ctx, &s->vertices, &shape_vertex_table_info, first + outline.count + extra) &&
               table_reserve(ctx, &s->pieces, &piece_table_info, piece_first + piece_count);
     *row = ok ? shape_row(ctx, s) : -1;

@@ -1,8 +1,7 @@
 /* Shapes of bodies.  A prism (floe, wall, box ship in benchmarks) is an outline extruded over
-   -half_height <= z <= half_height about the centre of mass, cut into convex pieces; a solid (hull) is a closed mesh with
-   convex pieces.  The body frame's origin is the centre of mass in both.
-   Prisms are state (fracture makes and removes them) and live in tables; solids never change during a run and are made again from
-   the scenario on resume. */
+   -half_height <= z <= half_height about the centre of mass, cut into convex pieces; a solid (hull) is a closed mesh
+   with convex pieces.  The body frame's origin is the centre of mass in both. Prisms are state (fracture makes and
+   removes them) and live in tables; solids never change during a run and are made again from the scenario on resume. */
 #ifndef BODIES_SHAPE_H
 #define BODIES_SHAPE_H
 
@@ -14,27 +13,27 @@
 
 typedef enum shape_kind { SHAPE_NONE = 0, SHAPE_PRISM, SHAPE_SOLID } shape_kind;
 
-#define SHAPE_FIELDS(X)                                                                                          \
-    X(kind, uint8_t, FIELD_U8, 1, "1", "enum shape_kind; none: free row")                                        \
-    X(half_height, double, FIELD_F64, 1, "m", "prism: half its thickness")                                       \
-    X(radius, double, FIELD_F64, 1, "m", "bounding radius about the centre of mass")                             \
-    X(plan_radius, double, FIELD_F64, 1, "m", "prism: largest distance of an outline vertex from the axis")      \
-    X(area, double, FIELD_F64, 1, "m2", "prism: area of the outline")                                            \
-    X(outline_first, int32_t, FIELD_I32, 1, "1", "prism: first vertex of the outline in the vertex pool")        \
-    X(outline_count, int32_t, FIELD_I32, 1, "1", "prism: vertices of the outline")                               \
-    X(piece_first, int32_t, FIELD_I32, 1, "1", "prism: first row of its convex pieces in the piece table")       \
-    X(piece_count, int32_t, FIELD_I32, 1, "1", "prism: number of convex pieces, 1 when convex")                  \
+#define SHAPE_FIELDS(X)                                                                                     \
+    X(kind, uint8_t, FIELD_U8, 1, "1", "enum shape_kind; none: free row")                                   \
+    X(half_height, double, FIELD_F64, 1, "m", "prism: half its thickness")                                  \
+    X(radius, double, FIELD_F64, 1, "m", "bounding radius about the centre of mass")                        \
+    X(plan_radius, double, FIELD_F64, 1, "m", "prism: largest distance of an outline vertex from the axis") \
+    X(area, double, FIELD_F64, 1, "m2", "prism: area of the outline")                                       \
+    X(outline_first, int32_t, FIELD_I32, 1, "1", "prism: first vertex of the outline in the vertex pool")   \
+    X(outline_count, int32_t, FIELD_I32, 1, "1", "prism: vertices of the outline")                          \
+    X(piece_first, int32_t, FIELD_I32, 1, "1", "prism: first row of its convex pieces in the piece table")  \
+    X(piece_count, int32_t, FIELD_I32, 1, "1", "prism: number of convex pieces, 1 when convex")             \
     X(solid, int32_t, FIELD_I32, 1, "1", "solid: index of the solid, -1 otherwise")
 TABLE_DECLARE(shape, SHAPE_FIELDS)
 
 /* The outline is itself piece 0 when it is convex; pieces then share its vertices. */
-#define PIECE_FIELDS(X)                                                                    \
-    X(first, int32_t, FIELD_I32, 1, "1", "first vertex in the vertex pool")                \
-    X(size, int32_t, FIELD_I32, 1, "1", "number of vertices, counter-clockwise")                  \
+#define PIECE_FIELDS(X)                                                          \
+    X(first, int32_t, FIELD_I32, 1, "1", "first vertex in the vertex pool")      \
+    X(size, int32_t, FIELD_I32, 1, "1", "number of vertices, counter-clockwise") \
     X(inner_edges, uint64_t, FIELD_U64, 1, "1", "bit k: edge k is a seam inside the compound, not a face")
 TABLE_DECLARE(piece, PIECE_FIELDS)
 
-#define SHAPE_VERTEX_FIELDS(X)                               \
+#define SHAPE_VERTEX_FIELDS(X)                                 \
     X(point, vec2, FIELD_F64, 2, "m", "body frame, plan view") \
     X(corner, int32_t, FIELD_I32, 1, "1", "index in the shape's outline; -1: a point that the outline does not have")
 TABLE_DECLARE(shape_vertex, SHAPE_VERTEX_FIELDS)
@@ -69,8 +68,8 @@ fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon ou
                             double piece_area_limit, int32_t *row, fram_error *error);
 /* A shape that refers to a solid already in the store; FRAM_ERROR_USAGE when it is not there. */
 fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error);
-/* Builds tree, adjacency, radius and takes over surface and pieces (moved out of the caller's objects, which are then empty;
-   left to the caller on failure).  FRAM_ERROR_INPUT for a mesh without triangles. */
+/* Builds tree, adjacency, radius and takes over surface and pieces (moved out of the caller's objects, which are then
+   empty; left to the caller on failure).  FRAM_ERROR_INPUT for a mesh without triangles. */
 fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
                       int32_t *index, fram_error *error);
 void shape_remove(shape_store *s, int32_t row);

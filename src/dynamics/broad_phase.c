@@ -1,7 +1,7 @@
-/* Which bodies may touch.  Every body has a fat box, renewed only when the body leaves it; pairs of overlapping fat boxes are
-   kept until they part.  New pairs are looked for around renewed boxes only, in grids of the plane: one grid for each
-   power of two of box size, so that a hull of 200 m and walls of a kilometre stand in coarse grids of their own and cost the
-   floes nothing. */
+/* Which bodies may touch.  Every body has a fat box, renewed only when the body leaves it; pairs of overlapping fat
+   boxes are kept until they part.  New pairs are looked for around renewed boxes only, in grids of the plane: one grid
+   for each power of two of box size, so that a hull of 200 m and walls of a kilometre stand in coarse grids of their
+   own and cost the floes nothing. */
 #include "dynamics/collision_scratch.h"
 
 #include <stdlib.h>
@@ -132,8 +132,8 @@ static uint32_t hash_cell(int level, int64_t column, int64_t row)
 
 typedef struct grid {
     const collision_scratch *scratch;
-    uint32_t mask;                                    /* buckets - 1 */
-    int32_t in_level[LEVEL_MOST - LEVEL_LEAST + 1];   /* bodies of each level */
+    uint32_t mask;                                  /* buckets - 1 */
+    int32_t in_level[LEVEL_MOST - LEVEL_LEAST + 1]; /* bodies of each level */
 } grid;
 
 static grid_entry entry_of(const broad_table *boxes, int32_t slot)
@@ -197,7 +197,8 @@ static bool search_cell(context *ctx, const grid *g, const broad_table *boxes, c
     return true;
 }
 
-/* Bodies whose middle lies within half a cell of the box; a box with more cells than the level has bodies walks those. */
+/* Bodies whose middle lies within half a cell of the box; a box with more cells than the level has bodies walks those.
+ */
 static bool search_level(context *ctx, const grid *g, const broad_table *boxes, collision_scratch *s, int32_t slot,
                          int level)
 {

@@ -16,23 +16,23 @@ typedef struct collision_scratch collision_scratch;
 collision_scratch *collision_scratch_create(context *ctx);
 void collision_scratch_free(context *ctx, collision_scratch *s);
 
-/* Bring the kept pairs up to date.  Fat boxes are renewed only when a body's box leaves them, so the list depends on the
-   state alone.  Pairs of two bodies that cannot move, and of removed bodies, are not kept. */
+/* Bring the kept pairs up to date.  Fat boxes are renewed only when a body's box leaves them, so the list depends on
+   the state alone.  Pairs of two bodies that cannot move, and of removed bodies, are not kept. */
 fram_status broad_phase_update(context *ctx, const body_table *bodies, const shape_store *shapes,
                                const collision_settings *settings, broad_table *boxes, pair_table *pairs,
                                collision_scratch *scratch, fram_error *error);
 
-/* Contacts of all kept pairs that really overlap (depth > 0), in pair order, at most 4 points per pair of convex pieces.
-   Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs) instead.  impulse_limit is INFINITY, correct is
-   true, patch -1; friction from the policies.  Contacts whose normal is that of an inner seam of a compound are discarded.
-   Remembers separating axes in pairs. */
+/* Contacts of all kept pairs that really overlap (depth > 0), in pair order, at most 4 points per pair of convex
+   pieces. Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs) instead.  impulse_limit is
+   INFINITY, correct is true, patch -1; friction from the policies.  Contacts whose normal is that of an inner seam of a
+   compound are discarded. Remembers separating axes in pairs. */
 fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape_store *shapes,
                              const pair_policies *policies, pair_table *pairs, contact_array *contacts,
                              index_array *patch_pairs, collision_scratch *scratch, fram_error *error);
 
-/* Manifold of two convex polyhedra given in a common frame: up to 4 points with depth > 0; normal from b to a.  Returns the
-   number of points; axis in: remembered separating axis or zero, out: new one when separated. feature gets a small integer per
-   point that names the features met. */
+/* Manifold of two convex polyhedra given in a common frame: up to 4 points with depth > 0; normal from b to a.  Returns
+   the number of points; axis in: remembered separating axis or zero, out: new one when separated. feature gets a small
+   integer per point that names the features met. */
 typedef struct manifold_point {
     vec3 point; /* midway between the two surfaces */
     double depth;

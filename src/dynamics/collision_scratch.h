@@ -14,11 +14,11 @@ typedef struct grid_entry {
 enum { BOX_KEPT = 0, BOX_MOVED, BOX_NEW };
 
 struct collision_scratch {
-    ARRAY(uint8_t) change;      /* of each slot, BOX_... */
-    ARRAY(grid_entry) entries;  /* in the order of their buckets */
-    int32_array bucket;         /* of each slot */
+    ARRAY(uint8_t) change;     /* of each slot, BOX_... */
+    ARRAY(grid_entry) entries; /* in the order of their buckets */
+    int32_array bucket;        /* of each slot */
     int32_array bucket_start;
-    ARRAY(uint64_t) fresh;      /* new pairs, a << 32 | b */
+    ARRAY(uint64_t) fresh; /* new pairs, a << 32 | b */
     pair_table merged;
     polyhedron piece_a, piece_b; /* convex pieces in the global axes, about body a's centre of mass */
     int32_array near_a, near_b;  /* pieces that reach into the common part of two boxes */

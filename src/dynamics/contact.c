@@ -39,8 +39,7 @@ static uint64_t mix(uint64_t h)
     return h ^ (h >> 33);
 }
 
-uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b,
-                     uint32_t feature)
+uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b, uint32_t feature)
 {
     int32_t low = a < b ? a : b, high = a < b ? b : a;
     uint64_t h = mix(((uint64_t)bodies->generation[a] << 32) | bodies->generation[b]);

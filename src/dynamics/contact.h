@@ -1,5 +1,5 @@
-/* Contacts: what the narrow phase finds, what others write on it as data, what the solver returns.  Dynamics knows nothing of ice
-   or vessels; what they have to say stands in impulse_limit, friction, correction and rate. */
+/* Contacts: what the narrow phase finds, what others write on it as data, what the solver returns.  Dynamics knows
+   nothing of ice or vessels; what they have to say stands in impulse_limit, friction, correction and rate. */
 #ifndef DYNAMICS_CONTACT_H
 #define DYNAMICS_CONTACT_H
 
@@ -16,11 +16,11 @@ typedef struct contact {
     double depth;         /* overlap along the normal, > 0 [m] */
     double impulse_limit; /* largest normal impulse of this step [N s], INFINITY without crushing */
     double friction_static, friction_kinetic;
-    bool correct;       /* false: no position correction at all (SPEC 9) */
+    bool correct;        /* false: no position correction at all (SPEC 9) */
     bool crush_infinite; /* between two bodies of infinite mass: takes impulse_limit while approaching (SPEC 6) */
-    int32_t patch;        /* row of the crushing patch, -1 without */
-    uint64_t key;         /* names the same geometric feature from step to step, unique within a step; warm start */
-    double impulse[3];    /* result: normal, tangent 1, tangent 2 [N s] */
+    int32_t patch;       /* row of the crushing patch, -1 without */
+    uint64_t key;        /* names the same geometric feature from step to step, unique within a step; warm start */
+    double impulse[3];   /* result: normal, tangent 1, tangent 2 [N s] */
 } contact;
 typedef ARRAY(contact) contact_array;
 
@@ -29,9 +29,10 @@ void contact_tangents(vec3 normal, vec3 *t1, vec3 *t2);
 /* Impulse on body a, global frame [N s]. */
 vec3 contact_impulse(const contact *c);
 
-/* The name of a feature where two bodies meet, for contact.key: the same from step to step while both bodies live, another one
-   after a slot was used again.  Ascending with (lower slot, higher slot); within a pair the lower bits are a hash of the
-   rest, so call contact_keys_part on the contacts of each pair.  Slots must be under CONTACT_MOST_BODIES. */
+/* The name of a feature where two bodies meet, for contact.key: the same from step to step while both bodies live,
+   another one after a slot was used again.  Ascending with (lower slot, higher slot); within a pair the lower bits are
+   a hash of the rest, so call contact_keys_part on the contacts of each pair.  Slots must be under CONTACT_MOST_BODIES.
+ */
 enum { CONTACT_MOST_BODIES = 1 << 22 };
 uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b,
                      uint32_t feature);
@@ -48,23 +49,23 @@ typedef struct pair_policies {
 } pair_policies;
 
 /* Warm start: what each contact carried in the last step, ascending keys. */
-#define CONTACT_MEMORY_FIELDS(X)                                                  \
-    X(key, uint64_t, FIELD_U64, 1, "1", "contact key")                            \
+#define CONTACT_MEMORY_FIELDS(X)                       \
+    X(key, uint64_t, FIELD_U64, 1, "1", "contact key") \
     X(impulse, vec3, FIELD_F64, 3, "N s", "impulse on body a, global frame")
 TABLE_DECLARE(contact_memory, CONTACT_MEMORY_FIELDS)
 
 /* Pairs of bodies whose margins overlap, kept until they part; ascending (a, b), a < b. */
-#define PAIR_FIELDS(X)                                                                                \
-    X(a, int32_t, FIELD_I32, 1, "1", "lower body slot")                                               \
-    X(b, int32_t, FIELD_I32, 1, "1", "higher body slot")                                              \
+#define PAIR_FIELDS(X)                                   \
+    X(a, int32_t, FIELD_I32, 1, "1", "lower body slot")  \
+    X(b, int32_t, FIELD_I32, 1, "1", "higher body slot") \
     X(axis, vec3, FIELD_F64, 3, "1", "separating axis remembered from the last test; zero without")
 TABLE_DECLARE(pair, PAIR_FIELDS)
 
 /* What the broad phase remembers of each body slot: the box it was last paired with. */
-#define BROAD_FIELDS(X)                                                                   \
-    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that was boxed; 0: none")     \
-    X(fixed, uint8_t, FIELD_U8, 1, "1", "1: that body was static")                        \
-    X(lo, vec3, FIELD_F64, 3, "m", "lower corner of the fat box, global frame")           \
+#define BROAD_FIELDS(X)                                                               \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that was boxed; 0: none") \
+    X(fixed, uint8_t, FIELD_U8, 1, "1", "1: that body was static")                    \
+    X(lo, vec3, FIELD_F64, 3, "m", "lower corner of the fat box, global frame")       \
     X(hi, vec3, FIELD_F64, 3, "m", "upper corner of the fat box")
 TABLE_DECLARE(broad, BROAD_FIELDS)
 

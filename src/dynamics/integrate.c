@@ -1,6 +1,16 @@
-/* Poses from velocities, and the free turning of a rigid body. */
+/* Poses from velocities, and the free turning of rigid bodies. */
 #include "dynamics/motion.h"
 #include "dynamics/solver.h"
+
+sym3 body_total_inertia(const body_table *bodies, int32_t slot)
+{
+    sym3 inertia = bodies->inertia[slot];
+    vec3 added = bodies->added_inertia[slot];
+    inertia.xx += added.x;
+    inertia.yy += added.y;
+    inertia.zz += added.z;
+    return inertia;
+}
 
 void body_move(body_table *bodies, int32_t slot, vec3 velocity, vec3 angular_velocity, double dt)
 {
@@ -12,44 +22,73 @@ void body_move(body_table *bodies, int32_t slot, vec3 velocity, vec3 angular_vel
         quat_unit((quat){q.w + half * rate.w, q.x + half * rate.x, q.y + half * rate.y, q.z + half * rate.z});
 }
 
-void integrate_poses(context *ctx, body_table *bodies, double dt)
+/* ---- gyroscopic term ---- */
+
+/* I (w' - w) + dt m x (I m) with m = (w + w') / 2: Euler's equations over a step by the midpoint rule, body frame. */
+static vec3 spin_error(sym3 inertia, vec3 w, vec3 next, double dt)
 {
-    (void)ctx;
-    for (int32_t i = 0; i < bodies->count; i++)
-        if (bodies->motion[i] == MOTION_DYNAMIC || bodies->motion[i] == MOTION_PRESCRIBED)
-            body_move(bodies, i, bodies->velocity[i], bodies->angular_velocity[i], dt);
+    vec3 m = vec3_scale(vec3_add(w, next), 0.5);
+    return vec3_mad(sym3_mul_vec(inertia, vec3_sub(next, w)), vec3_cross(m, sym3_mul_vec(inertia, m)), dt);
 }
 
-/* Solves a x = b by cofactors; a is near the identity times a positive inertia. */
-static vec3 solve3(mat3 a, vec3 b) { return mat3_mul_vec(mat3_inverse(a), b); }
+/* Its derivative by w': I + dt/2 ([m] I - [I m]), with [v] x = v x x. */
+static mat3 spin_slope(sym3 i, vec3 w, vec3 next, double dt)
+{
+    vec3 m = vec3_scale(vec3_add(w, next), 0.5), l = sym3_mul_vec(i, m);
+    double h = 0.5 * dt;
+    mat3 s = {{{i.xx, i.xy, i.xz}, {i.xy, i.yy, i.yz}, {i.xz, i.yz, i.zz}}};
+    mat3 turned = mat3_mul((mat3){{{0, -m.z, m.y}, {m.z, 0, -m.x}, {-m.y, m.x, 0}}}, s);
+    mat3 cross = {{{0, -l.z, l.y}, {l.z, 0, -l.x}, {-l.y, l.x, 0}}};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            s.m[r][c] += h * (turned.m[r][c] - cross.m[r][c]);
+    return s;
+}
 
-/* Implicit midpoint rule on Euler's equations in the body frame: I (w' - w) + dt m x (I m) = 0 with m = (w + w')/2.  It keeps
-   the energy w.I w / 2 and |I w|, both quadratic, for any time step; Newton iterations, the first of which is enough
-   while |w| dt is small. */
-enum { SPIN_ITERATIONS = 6 };
+/* Newton iterations; one is enough while |w| dt is small, as it is for ships and ice. */
+enum { SPIN_ITERATIONS = 8 };
 #define SPIN_TOLERANCE 1e-15
 
-vec3 spin_freely(sym3 inertia, vec3 w, double dt)
+/* Angular velocity after a step without moment, body frame. */
+static vec3 spin_freely(sym3 inertia, vec3 w, double dt)
 {
     vec3 next = w;
     for (int i = 0; i < SPIN_ITERATIONS; i++) {
-        vec3 m = vec3_scale(vec3_add(w, next), 0.5), l = sym3_mul_vec(inertia, m);
-        vec3 error = vec3_mad(sym3_mul_vec(inertia, vec3_sub(next, w)), vec3_cross(m, l), dt);
-        /* d error / d next = I + dt/2 ([m] I - [I m]) */
-        double h = 0.5 * dt;
-        mat3 s = {{{inertia.xx, inertia.xy, inertia.xz},
-                   {inertia.xy, inertia.yy, inertia.yz},
-                   {inertia.xz, inertia.yz, inertia.zz}}};
-        mat3 cross_m = {{{0, -m.z, m.y}, {m.z, 0, -m.x}, {-m.y, m.x, 0}}};
-        mat3 cross_l = {{{0, -l.z, l.y}, {l.z, 0, -l.x}, {-l.y, l.x, 0}}};
-        mat3 turned = mat3_mul(cross_m, s), slope;
-        for (int r = 0; r < 3; r++)
-            for (int c = 0; c < 3; c++)
-                slope.m[r][c] = s.m[r][c] + h * (turned.m[r][c] - cross_l.m[r][c]);
-        vec3 step = solve3(slope, error);
+        vec3 error = spin_error(inertia, w, next, dt);
+        if (vec3_dot(error, error) == 0)
+            break;
+        vec3 step = mat3_mul_vec(mat3_inverse(spin_slope(inertia, w, next, dt)), error);
         next = vec3_sub(next, step);
         if (vec3_dot(step, step) <= SPIN_TOLERANCE * SPIN_TOLERANCE * vec3_dot(next, next))
             break;
     }
     return next;
+}
+
+/* The free motion of a rigid body over dt: turned by dt m with SPEC 9's quaternion step, which is the Cayley map, and
+   with the midpoint rule for m; energy and the vector of angular momentum are kept to rounding for any dt (Simo and
+   Wong 1991, algorithm C; Lewis and Simo 1994). */
+static void move_freely(body_table *bodies, int32_t slot, double dt)
+{
+    mat3 r = quat_matrix(bodies->orientation[slot]);
+    vec3 spin = bodies->angular_velocity[slot], w = mat3_tmul_vec(r, spin);
+    vec3 next = spin_freely(body_total_inertia(bodies, slot), w, dt);
+    vec3 change = vec3_sub(next, w);
+    bool steady = vec3_dot(change, change) == 0;
+    if (!steady)
+        spin = mat3_mul_vec(r, vec3_mad(w, change, 0.5));
+    body_move(bodies, slot, bodies->velocity[slot], spin, dt);
+    if (!steady)
+        bodies->angular_velocity[slot] = mat3_mul_vec(quat_matrix(bodies->orientation[slot]), next);
+}
+
+void integrate_poses(context *ctx, body_table *bodies, double dt)
+{
+    (void)ctx;
+    for (int32_t i = 0; i < bodies->count; i++) {
+        if (bodies->motion[i] == MOTION_DYNAMIC)
+            move_freely(bodies, i, dt);
+        else if (bodies->motion[i] == MOTION_PRESCRIBED)
+            body_move(bodies, i, bodies->velocity[i], bodies->angular_velocity[i], dt);
+    }
 }

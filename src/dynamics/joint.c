@@ -73,8 +73,8 @@ static joint_pose pose_of(const body_table *bodies, const joint_table *joints, i
     return p;
 }
 
-/* How far the locked turn about axis k has slipped [rad].  With one free axis f the misalignment of that axis is meant, which
-   holds for any angle of the hinge; otherwise the rotation vector. */
+/* How far the locked turn about axis k has slipped [rad].  With one free axis f the misalignment of that axis is meant,
+   which holds for any angle of the hinge; otherwise the rotation vector. */
 static double turn_error(const joint_pose *p, uint32_t locked, int k)
 {
     uint32_t free_turns = ~(locked >> 3) & 7u;
@@ -132,7 +132,8 @@ static void add_spring_row(solver *s, joint_block *j, const joint_pose *p, const
 static void factorise(joint_block *j)
 {
     for (int r = 0; r < j->count; r++) {
-        double diagonal = row_axis_coupling(&j->axis[r], &j->axis[r]) + j->softness, pivot = diagonal, *l = j->factor[r];
+        double diagonal = row_axis_coupling(&j->axis[r], &j->axis[r]) + j->softness, pivot = diagonal,
+               *l = j->factor[r];
         for (int c = 0; c < r; c++) {
             double sum = row_axis_coupling(&j->axis[r], &j->axis[c]);
             for (int k = 0; k < c; k++)
@@ -161,7 +162,10 @@ static void block_solve(const joint_block *j, double x[JOINT_MOST_ROWS])
     }
 }
 
-static bool is_live(const body_table *bodies, int32_t slot) { return slot < bodies->count && (slot < 0 || body_is_alive(bodies, slot)); }
+static bool is_live(const body_table *bodies, int32_t slot)
+{
+    return slot < bodies->count && (slot < 0 || body_is_alive(bodies, slot));
+}
 
 fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, const joint_table *joints,
                             fram_error *error)

@@ -1,5 +1,5 @@
-/* Clipping of an incident face by a reference face, and the choice of at most four points (Gregorius 2013, The separating axis
-   test between convex polyhedra; Ericson 2004, Real-time collision detection, section 5.1). */
+/* Clipping of an incident face by a reference face, and the choice of at most four points (Gregorius 2013, The
+   separating axis test between convex polyhedra; Ericson 2004, Real-time collision detection, section 5.1). */
 #include "dynamics/manifold.h"
 
 /* The part of the polygon with dot(side, x) <= offset; new edges along the plane are called `name`. */
@@ -20,8 +20,9 @@ static int clip(const clip_vertex *in, int n, vec3 side, double offset, uint32_t
     return count;
 }
 
-/* Keeps four of n points: the deepest, the one farthest from it, and on either side of the line through both the one that spans the
-   largest triangle, so that the patch keeps its extent in both directions and with it the moments it can carry. */
+/* Keeps four of n points: the deepest, the one farthest from it, and on either side of the line through both the one
+   that spans the largest triangle, so that the patch keeps its extent in both directions and with it the moments it can
+   carry. */
 static int choose_four(manifold_point *p, int n, vec3 normal, manifold_point out[4])
 {
     int chosen[4] = {0, 0, -1, -1};

@@ -21,8 +21,9 @@ typedef struct flat_face {
     uint32_t name;
 } flat_face;
 
-/* The incident face clipped by the sides of the reference face; points with depth > -slack under the reference plane, at
-   most 4 (depths below 0 are reported as 0).  swapped goes into the features, for the case that b holds the reference. */
+/* The incident face clipped by the sides of the reference face; points with depth > -slack under the reference plane,
+   at most 4 (depths below 0 are reported as 0).  swapped goes into the features, for the case that b holds the
+   reference. */
 int face_manifold(const flat_face *reference, const flat_face *incident, double slack, bool swapped,
                   manifold_point out[4]);
 
@@ -31,11 +32,11 @@ typedef struct seam_masks {
     uint64_t a, b;
 } seam_masks;
 
-/* An outer face may stand in for a nearer seam only while it is not much deeper than that: beyond this ratio it is the far side
-   of the piece.  The sharpest corner that still finds its face has a half angle of atan(1/8). */
+/* An outer face may stand in for a nearer seam only while it is not much deeper than that: beyond this ratio it is the
+   far side of the piece.  The sharpest corner that still finds its face has a half angle of atan(1/8). */
 #define SEAM_DEPTH_RATIO 8.0
-/* An edge pair or another body's face is taken only when it is less deep than the first choice by this factor, so that the choice does
-   not waver between equals. */
+/* An edge pair or another body's face is taken only when it is less deep than the first choice by this factor, so that
+   the choice does not waver between equals. */
 #define PREFERENCE 0.95
 
 /* polyhedra_manifold with seams and slack. */

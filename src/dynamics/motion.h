@@ -4,9 +4,9 @@
 
 #include "bodies/body.h"
 
+/* Rigid and added inertia, body frame [kg m2]. */
+sym3 body_total_inertia(const body_table *bodies, int32_t slot);
 /* r += dt v, Q += dt/2 (0, Omega) Q, normalised; velocities in the global frame. */
 void body_move(body_table *bodies, int32_t slot, vec3 velocity, vec3 angular_velocity, double dt);
-/* Angular velocity after dt without moment; inertia and velocities in the body frame. */
-vec3 spin_freely(sym3 inertia, vec3 angular_velocity, double dt);
 
 #endif

@@ -1,10 +1,10 @@
-/* Contacts of the kept pairs: quick way out by the remembered axis, then piece against piece.  All geometry of a pair is taken about
-   the first body's centre of mass, so that nothing is lost far from the origin. */
+/* Contacts of the kept pairs: quick way out by the remembered axis, then piece against piece.  All geometry of a pair
+   is taken about the first body's centre of mass, so that nothing is lost far from the origin. */
 #include "dynamics/collision_scratch.h"
 #include "dynamics/prism_contact.h"
 
-/* Overlaps down to minus this share of the bodies' radii count as touching, so that a body at rest keeps its contact when rounding
-   lifts it by a last digit: far above rounding, far below any motion of interest. */
+/* Overlaps down to minus this share of the bodies' radii count as touching, so that a body at rest keeps its contact
+   when rounding lifts it by a last digit: far above rounding, far below any motion of interest. */
 #define TOUCHING 1e-11
 
 /* One body of a pair. */
@@ -138,8 +138,8 @@ static box3 box3_grown(box3 b, double by)
 
 static bool reserve_polyhedron(context *ctx, polyhedron *room, const polyhedron *model)
 {
-    return array_reserve(ctx, &room->vertex, model->vertex.count) && array_reserve(ctx, &room->face, model->face.count) &&
-           array_reserve(ctx, &room->loop, model->loop.count) &&
+    return array_reserve(ctx, &room->vertex, model->vertex.count) &&
+           array_reserve(ctx, &room->face, model->face.count) && array_reserve(ctx, &room->loop, model->loop.count) &&
            array_reserve(ctx, &room->edge_direction, model->edge_direction.count);
 }
 
@@ -248,8 +248,7 @@ static bool touch_bodies(context *ctx, collision_scratch *s, const body_table *b
             manifold_point point[4];
             int32_t piece_a = s->near_a.data[i], piece_b = s->near_b.data[j];
             int count = touch_pieces(ctx, s, a, b, piece_a, piece_b, slack, &normal, point, &parting);
-            if (count < 0 ||
-                !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, policy, contacts))
+            if (count < 0 || !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, policy, contacts))
                 return false;
             if (vec3_dot(parting, parting) > 0)
                 last = parting;

@@ -1,8 +1,8 @@
 #include "dynamics/prism_contact.h"
 
-/* cos of the angle between the axes of two prisms under which sides are clipped against sides: within it a side is always more opposed
-   to a side than to top or bottom, and edge pairs add nothing that clipping does not find (their axes differ from a side's
-   normal by the tilt, the depths by its product with the freeboard). */
+/* cos of the angle between the axes of two prisms under which sides are clipped against sides: within it a side is
+   always more opposed to a side than to top or bottom, and edge pairs add nothing that clipping does not find (their
+   axes differ from a side's normal by the tilt, the depths by its product with the freeboard). */
 #define NEARLY_LEVEL 0.98
 
 /* A direction of a plan view counts as lying in the cone of normals of a corner up to this sine. */
@@ -23,8 +23,9 @@ static vec2 unit2(vec2 v)
     return l > 0 ? vec2_scale(v, 1 / l) : v;
 }
 
-/* Whether a contact may push the piece at its vertex k against `direction` (unit, plan view, out of the piece): across an outer side
-   that faces this way, or at a convex corner of the whole outline.  Points of the seams are no corners. */
+/* Whether a contact may push the piece at its vertex k against `direction` (unit, plan view, out of the piece): across
+   an outer side that faces this way, or at a convex corner of the whole outline.  Points of the seams are no corners.
+ */
 static bool may_be_pushed(const prism *p, int32_t k, vec2 direction)
 {
     if (p->seams == 0)

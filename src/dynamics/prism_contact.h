@@ -1,5 +1,5 @@
-/* Contact of two prisms: separating axes in plan view with the exact heights, clipping of the side faces while the two are nearly
-   level to one another, and the general way otherwise.  Inside dynamics. */
+/* Contact of two prisms: separating axes in plan view with the exact heights, clipping of the side faces while the two
+   are nearly level to one another, and the general way otherwise.  Inside dynamics. */
 #ifndef DYNAMICS_PRISM_CONTACT_H
 #define DYNAMICS_PRISM_CONTACT_H
 
@@ -12,17 +12,17 @@ typedef struct prism {
     polygon outline;       /* of the whole shape */
     int32_t count;
     double half_height;
-    uint64_t seams;        /* bit k: side k is inside the compound */
+    uint64_t seams; /* bit k: side k is inside the compound */
     mat3 rotation;
-    vec3 centre;           /* of the shape's frame, in the common axes */
+    vec3 centre; /* of the shape's frame, in the common axes */
 } prism;
 
 /* Like polyhedra_manifold_masked; a_room, b_room: scratch with room for a piece of PIECE_MOST_VERTICES vertices. */
 int prism_manifold(const prism *a, const prism *b, double slack, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
                    manifold_point out[4], vec3 *axis);
 
-/* The prism as a polyhedron in the common axes; room must have been reserved by prism_polyhedron_reserve. Sides are faces
-   0 to n - 1, then top and bottom. */
+/* The prism as a polyhedron in the common axes; room must have been reserved by prism_polyhedron_reserve. Sides are
+   faces 0 to n - 1, then top and bottom. */
 void prism_polyhedron(const prism *p, polyhedron *room);
 bool prism_polyhedron_reserve(context *ctx, polyhedron *room);
 

@@ -2,17 +2,6 @@
 #include "dynamics/motion.h"
 #include "dynamics/solver_rows.h"
 
-/* Rigid and added inertia, body frame. */
-static sym3 total_inertia(const body_table *bodies, int32_t slot)
-{
-    sym3 inertia = bodies->inertia[slot];
-    vec3 added = bodies->added_inertia[slot];
-    inertia.xx += added.x;
-    inertia.yy += added.y;
-    inertia.zz += added.z;
-    return inertia;
-}
-
 static sym3 inverse_mass_of(const body_table *bodies, int32_t slot, mat3 r)
 {
     double m = bodies->mass[slot];
@@ -30,7 +19,7 @@ void body_inverse_tensors(const body_table *bodies, int32_t slot, sym3 *inverse_
         return;
     mat3 r = quat_matrix(bodies->orientation[slot]);
     *inverse_mass = inverse_mass_of(bodies, slot, r);
-    *inverse_inertia = sym3_rotate(sym3_inverse(total_inertia(bodies, slot)), r);
+    *inverse_inertia = sym3_rotate(sym3_inverse(body_total_inertia(bodies, slot)), r);
 }
 
 bool solver_bodies_begin(solver *s, const body_table *bodies)
@@ -60,22 +49,21 @@ int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot)
     return s->bodies.count - 1;
 }
 
-fram_status bodies_move_freely(body_table *bodies, const wrench *loads, double dt, fram_error *error)
+fram_status bodies_accelerate(body_table *bodies, const wrench *loads, double dt, fram_error *error)
 {
     for (int32_t i = 0; i < bodies->count; i++) {
         if (!body_is_dynamic(bodies, i))
             continue;
-        sym3 inertia = total_inertia(bodies, i);
+        sym3 inertia = body_total_inertia(bodies, i);
         if (!(bodies->mass[i] > 0) || !(inertia.xx > 0 && inertia.yy > 0 && inertia.zz > 0))
             return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL,
-                             "dynamic body %d needs a positive mass and inertia; found %g kg, (%g, %g, %g) kg m2", (int)i,
-                             bodies->mass[i], inertia.xx, inertia.yy, inertia.zz);
+                             "dynamic body %d needs a positive mass and inertia; found %g kg, (%g, %g, %g) kg m2",
+                             (int)i, bodies->mass[i], inertia.xx, inertia.yy, inertia.zz);
         mat3 r = quat_matrix(bodies->orientation[i]);
         vec3 push = sym3_mul_vec(inverse_mass_of(bodies, i, r), loads[i].force);
         bodies->velocity[i] = vec3_mad(bodies->velocity[i], push, dt);
-        vec3 spin = spin_freely(inertia, mat3_tmul_vec(r, bodies->angular_velocity[i]), dt);
         vec3 turn = sym3_mul_vec(sym3_inverse(inertia), mat3_tmul_vec(r, loads[i].moment));
-        bodies->angular_velocity[i] = mat3_mul_vec(r, vec3_mad(spin, turn, dt));
+        bodies->angular_velocity[i] = vec3_mad(bodies->angular_velocity[i], mat3_mul_vec(r, turn), dt);
     }
     return FRAM_OK;
 }

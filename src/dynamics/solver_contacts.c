@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A contact between two bodies that nothing can move: a hull driven against static ice takes its cap while they approach,
-   and kinetic friction against the sliding; all others carry nothing. */
+/* A contact between two bodies that nothing can move: a hull driven against static ice takes its cap while they
+   approach, and kinetic friction against the sliding; all others carry nothing. */
 static void load_immovable(const body_table *bodies, contact *c)
 {
     memset(c->impulse, 0, sizeof c->impulse);
@@ -29,7 +29,8 @@ static void fill_row(contact_row *row, const solver_body *a, const solver_body *
     vec3 direction[3] = {c->normal};
     contact_tangents(c->normal, &direction[1], &direction[2]);
     for (int i = 0; i < 3; i++)
-        row->axis[i] = row_axis_make(a, b, direction[i], vec3_cross(arm_a, direction[i]), vec3_cross(arm_b, direction[i]));
+        row->axis[i] =
+            row_axis_make(a, b, direction[i], vec3_cross(arm_a, direction[i]), vec3_cross(arm_b, direction[i]));
     row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
     double k11 = row_axis_coupling(&row->axis[1], &row->axis[1]), k12 = row_axis_coupling(&row->axis[1], &row->axis[2]);
     double k22 = row_axis_coupling(&row->axis[2], &row->axis[2]), scale = 1 / (k11 * k22 - k12 * k12);
@@ -122,8 +123,8 @@ void contact_rows_warm_start(solver *s, const contact_array *contacts, const con
 
 /* ---- one sweep ---- */
 
-/* Sticking impulse by the exact 2 x 2 block; once that leaves the static cone, a projected step of the sliding one, whose
-   rest point opposes the sliding velocity.  Both are free of the choice of tangents: friction is isotropic. */
+/* Sticking impulse by the exact 2 x 2 block; once that leaves the static cone, a projected step of the sliding one,
+   whose rest point opposes the sliding velocity.  Both are free of the choice of tangents: friction is isotropic. */
 static void solve_friction(contact_row *row, solver_body *a, solver_body *b)
 {
     double u1 = row_axis_velocity(&row->axis[1], a, b), u2 = row_axis_velocity(&row->axis[2], a, b);

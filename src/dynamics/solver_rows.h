@@ -1,16 +1,16 @@
 /* The rows that all solvers work on, made anew each step: bodies that are touched, contact rows, joint blocks.
    Inside dynamics; solver.h is the interface.
 
-   A direction of a contact or a joint between bodies a and b acts with +impulse on one and -impulse on the other.  Contacts
-   push a along +normal; joints push b along +direction. */
+   A direction of a contact or a joint between bodies a and b acts with +impulse on one and -impulse on the other.
+   Contacts push a along +normal; joints push b along +direction. */
 #ifndef DYNAMICS_SOLVER_ROWS_H
 #define DYNAMICS_SOLVER_ROWS_H
 
 #include "dynamics/joint.h"
 #include "dynamics/solver.h"
 
-/* A body that a contact or joint touches.  Inverse tensors are in the global frame, added mass included, zero for static
-   and prescribed bodies. */
+/* A body that a contact or joint touches.  Inverse tensors are in the global frame, added mass included, zero for
+   static and prescribed bodies. */
 typedef struct solver_body {
     vec3 velocity, angular_velocity;
     sym3 inverse_mass, inverse_inertia;
@@ -25,15 +25,15 @@ typedef struct row_axis {
 } row_axis;
 
 typedef struct contact_row {
-    int32_t a, b;            /* places in the body array */
-    int32_t contact;         /* row of the contact array */
-    row_axis axis[3];        /* normal, two tangents */
-    double normal_mass;      /* 1 / (n . K n) */
-    double bias;             /* least relative normal velocity after the step, 0 but for Baumgarte [m/s] */
-    double limit;            /* cap of the normal impulse */
+    int32_t a, b;       /* places in the body array */
+    int32_t contact;    /* row of the contact array */
+    row_axis axis[3];   /* normal, two tangents */
+    double normal_mass; /* 1 / (n . K n) */
+    double bias;        /* least relative normal velocity after the step, 0 but for Baumgarte [m/s] */
+    double limit;       /* cap of the normal impulse */
     double friction_static, friction_kinetic;
-    double stick[3];         /* inverse of the 2 x 2 tangent block: 11, 12, 22 */
-    double slide;            /* step of the projected tangent impulse, 2 / trace of the tangent block */
+    double stick[3]; /* inverse of the 2 x 2 tangent block: 11, 12, 22 */
+    double slide;    /* step of the projected tangent impulse, 2 / trace of the tangent block */
     double impulse[3];
 } contact_row;
 
@@ -41,14 +41,14 @@ enum { JOINT_MOST_ROWS = 6 };
 
 /* A joint's rows, solved together. */
 typedef struct joint_block {
-    int32_t body, base;                       /* places of the joint's b, which is pushed, and a */
+    int32_t body, base; /* places of the joint's b, which is pushed, and a */
     int32_t joint;
-    int32_t count;                            /* of rows */
-    int32_t motion[JOINT_MOST_ROWS];          /* row i locks this motion (bit of the mask); spring: 0 */
+    int32_t count;                   /* of rows */
+    int32_t motion[JOINT_MOST_ROWS]; /* row i locks this motion (bit of the mask); spring: 0 */
     row_axis axis[JOINT_MOST_ROWS];
     double factor[JOINT_MOST_ROWS][JOINT_MOST_ROWS]; /* L below, 1/D on the diagonal of K + softness = L D L^T */
-    double error[JOINT_MOST_ROWS];            /* of position [m], [rad]; 0 for a spring */
-    double bias[JOINT_MOST_ROWS];             /* wanted: relative velocity = -bias - softness impulse */
+    double error[JOINT_MOST_ROWS];                   /* of position [m], [rad]; 0 for a spring */
+    double bias[JOINT_MOST_ROWS];                    /* wanted: relative velocity = -bias - softness impulse */
     double softness;
     double impulse[JOINT_MOST_ROWS];
 } joint_block;
@@ -73,8 +73,8 @@ void body_inverse_tensors(const body_table *bodies, int32_t slot, sym3 *inverse_
 bool solver_bodies_begin(solver *s, const body_table *bodies);
 /* The place of a slot (-1: the world), taken into the list when it is new; -1 without memory. */
 int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot);
-/* Velocities of all dynamic bodies after dt under the loads and the gyroscopic moment alone. */
-fram_status bodies_move_freely(body_table *bodies, const wrench *loads, double dt, fram_error *error);
+/* Velocities of all dynamic bodies after dt under the loads alone; the gyroscopic moment acts in integrate_poses. */
+fram_status bodies_accelerate(body_table *bodies, const wrench *loads, double dt, fram_error *error);
 
 /* ---- solver_contacts.c ---- */
 
