@@ -151,18 +151,26 @@ static fram_status set_value(const reader *r, const scenario_key *key, void *mem
     return FRAM_ERROR_INTERNAL;
 }
 
-static bool is_null(const char *text)
+/* The null of YAML: nothing written, or one of its names (YAML 1.2, 10.3.2). */
+static bool is_empty(const yaml_tree *tree, int32_t index)
 {
-    return *text == '\0' || strcmp(text, "~") == 0 || strcmp(text, "null") == 0 || strcmp(text, "Null") == 0 ||
-           strcmp(text, "NULL") == 0;
+    static const char *const nulls[] = {"", "~", "null", "Null", "NULL"};
+    const yaml_node *node = &tree->nodes.data[index];
+    if (node->kind != YAML_SCALAR || node->quoted)
+        return false;
+    for (size_t i = 0; i < sizeof nulls / sizeof *nulls; i++)
+        if (strcmp(yaml_text(tree, node->value), nulls[i]) == 0)
+            return true;
+    return false;
 }
 
 /* A scalar of the file.  Quotes say that text is meant. */
-static fram_status read_scalar(const reader *r, const scenario_key *key, void *member, const yaml_node *node,
+static fram_status read_scalar(const reader *r, const scenario_key *key, void *member, int32_t index,
                                const value_place *place)
 {
+    const yaml_node *node = &r->tree->nodes.data[index];
     const char *text = yaml_text(r->tree, node->value);
-    if (!node->quoted && is_null(text))
+    if (is_empty(r->tree, index))
         return refuse(r, place, "expected a value, found nothing: leave the key out to take its default");
     if (node->quoted && (key->kind == KEY_REAL || key->kind == KEY_INTEGER || key->kind == KEY_BOOLEAN))
         return refuse(r, place, "expected %s without quotes, found the text %s",
@@ -242,18 +250,16 @@ static fram_status read_value(const reader *r, const scenario_key *key, void *me
         return read_list(r, key, member, node, place);
     if (node->kind != YAML_SCALAR)
         return refuse(r, place, "expected a single value, found %s", kind_text(node));
-    return read_scalar(r, key, member, node, place);
+    return read_scalar(r, key, member, index, place);
 }
 
 static fram_status read_section(const reader *r, const scenario_section *section, void *data, int32_t index,
                                 const value_place *place)
 {
     const yaml_node *node = &r->tree->nodes.data[index];
-    if (node->kind != YAML_MAPPING) {
-        bool empty = node->kind == YAML_SCALAR && !node->quoted && is_null(yaml_text(r->tree, node->value));
+    if (node->kind != YAML_MAPPING)
         return refuse(r, place, "expected keys, each on its own line with \": \" and a value, found %s",
-                      empty ? "nothing" : kind_text(node));
-    }
+                      is_empty(r->tree, index) ? "nothing" : kind_text(node));
     fram_status status = *place->key ? remember(r, place) : FRAM_OK;
     for (int32_t i = node->first; i >= 0 && status == FRAM_OK; i = r->tree->nodes.data[i].next) {
         const yaml_node *child = &r->tree->nodes.data[i];
@@ -354,7 +360,7 @@ static fram_status read_all(reader *r, const scenario_overrides *overrides)
     snprintf(r->scenario->file, sizeof r->scenario->file, "%s", r->file);
     value_place root = {.line = 1, .column = 1};
     fram_status status = FRAM_OK;
-    if (r->tree->nodes.count > 0)
+    if (r->tree->nodes.count > 0 && !is_empty(r->tree, 0))
         status = read_section(r, &scenario_schema, r->scenario, 0, &root);
     for (int32_t i = 0; overrides && i < overrides->count && status == FRAM_OK; i++)
         status = apply_override(r, overrides->items[i]);
