@@ -52,8 +52,7 @@ static int32_t create_hull(context *ctx, const vessel_definition *d, body_table 
         return slot;
     bodies->orientation[slot] = quat_from_roll_pitch_yaw(0, 0, d->heading);
     bodies->position[slot] = vec3_add(d->position, mat3_mul_vec(quat_matrix(bodies->orientation[slot]), d->centre));
-    if (d->mode != VESSEL_FREE)
-        bodies->velocity[slot] = tow_velocity_at(d->tow_velocity, d->tow_ramp, 0);
+    bodies->velocity[slot] = tow_velocity_at(d->tow_velocity, d->mode == VESSEL_FREE ? 0 : d->tow_ramp, 0);
     vec3 k = d->gyration;
     bodies->mass[slot] = d->mass;
     bodies->inertia[slot] = (sym3){.xx = d->mass * k.x * k.x, .yy = d->mass * k.y * k.y, .zz = d->mass * k.z * k.z};

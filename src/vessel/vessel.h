@@ -36,14 +36,14 @@ typedef struct vessel_definition {
     vessel_mode mode;
     vec3 position;     /* of the ship's origin (amidships, waterline), global [m] */
     double heading;    /* [rad], counter-clockwise from X */
-    vec3 tow_velocity; /* [m/s] */
+    vec3 tow_velocity; /* of the carriage or the driven hull; free: at the start [m/s] */
     double tow_ramp;   /* [s] */
 } vessel_definition;
 
 /* Hull, and carriage and joint when towed.  The hull's body has the ship's axes and its origin in the centre of mass;
    inertia is mass times the squared radii of gyration.  A towed hull and its carriage start with the velocity at time
-   0; the joint runs along the global Z through the centre of mass.  FRAM_ERROR_INPUT names the member that does not
-   fit; after a failure nothing was made. */
+   0, a free one with all of tow_velocity; the joint runs along the global Z through the centre of mass.
+   FRAM_ERROR_INPUT names the member that does not fit; after a failure nothing was made. */
 fram_status vessel_create(context *ctx, const vessel_definition *d, body_table *bodies, shape_store *shapes,
                           joint_table *joints, vessel_table *vessels, int32_t *row, fram_error *error);
 /* Set the velocity of prescribed bodies (carriage or driven hull) for the step that ends at `time`: tow_velocity times
