@@ -79,21 +79,30 @@ static fram_status check_angles(const hull_particulars *p, fram_error *error)
     return FRAM_OK;
 }
 
-/* Whether the lines make a body at this level. */
-static fram_status check_level(const hull_particulars *p, const hull_lines *l, double z, const char *level,
-                               fram_error *error)
+/* One end of the lines: what is straight in z holds between them if it holds at both. */
+typedef struct hull_end {
+    const char *name;
+    double z;
+} hull_end;
+
+static fram_status check_breadth(const hull_particulars *p, const hull_lines *l, hull_end end, fram_error *error)
 {
-    double half_beam = half_beam_at(l, z), fore = fore_at(l, z), aft = aft_at(l, z);
-    if (!(half_beam > LEAST_PARALLEL * p->beam))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "flare_angle",
-                         "with flare_angle %g degrees and a beam of %g m no breadth is left at the %s (z = %g m)",
-                         degrees(p->flare_angle), p->beam, level, z);
-    if (!(fore - aft > LEAST_PARALLEL * p->length))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
-                         "no parallel body is left at the %s (z = %g m): the bow reaches aft to x = %g m, the stern "
-                         "forward to x = %g m; enlarge parallel_midbody (%g), stem_angle or stern_angle",
-                         level, z, fore, aft, p->parallel_midbody);
-    return FRAM_OK;
+    if (half_beam_at(l, end.z) > LEAST_PARALLEL * p->beam)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "flare_angle",
+                     "with flare_angle %g degrees and a beam of %g m no breadth is left at the %s (z = %g m)",
+                     degrees(p->flare_angle), p->beam, end.name, end.z);
+}
+
+static fram_status check_parallel(const hull_particulars *p, const hull_lines *l, hull_end end, fram_error *error)
+{
+    double fore = fore_at(l, end.z), aft = aft_at(l, end.z);
+    if (fore - aft > LEAST_PARALLEL * p->length)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "parallel_midbody",
+                     "no parallel body is left at the %s (z = %g m): the bow reaches aft to x = %g m, the stern "
+                     "forward to x = %g m; enlarge parallel_midbody (%g), stem_angle or stern_angle",
+                     end.name, end.z, fore, aft, p->parallel_midbody);
 }
 
 fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
@@ -112,8 +121,12 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
             "length of %g m; enlarge entrance_angle or length, or reduce parallel_midbody",
             entrance, degrees(p->entrance_angle), parallel, p->length);
     hull_lines lines = lines_of(p);
-    status = check_level(p, &lines, -p->draught, "keel", error);
-    return status != FRAM_OK ? status : check_level(p, &lines, p->freeboard, "deck", error);
+    const hull_end ends[2] = {{"keel", -p->draught}, {"deck", p->freeboard}};
+    for (int i = 0; i < 2 && status == FRAM_OK; i++)
+        status = check_breadth(p, &lines, ends[i], error);
+    for (int i = 0; i < 2 && status == FRAM_OK; i++)
+        status = check_parallel(p, &lines, ends[i], error);
+    return status;
 }
 
 /* ---- surfaces ---- */
