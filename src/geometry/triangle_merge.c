@@ -26,7 +26,8 @@ typedef struct merging {
     half_edge *half;
     common_edge *edge;
     int32_t *seen; /* per vertex: the last round in which it was met */
-    int32_t half_count, edge_count, round;
+    vec2 *ring;    /* one union on trial */
+    int32_t half_count, edge_count, ring_count, round;
     double rounding;
 } merging;
 
@@ -85,20 +86,24 @@ static int joint_turn(const merging *m, int32_t half, int32_t other)
     return turn_sign(at(m, h[half].previous), at(m, half), at(m, h[h[other].next].next), m->rounding);
 }
 
-static int32_t piece_count(const merging *m, int32_t half)
+static bool gather(merging *m, int32_t half, int32_t most)
 {
-    int32_t n = 0, i = half;
-    do {
-        n++;
-        i = m->half[i].next;
-    } while (i != half);
-    return n;
+    for (int32_t i = m->half[half].next; i != half; i = m->half[i].next) {
+        if (m->ring_count == most)
+            return false;
+        m->ring[m->ring_count++] = at(m, i);
+    }
+    return true;
 }
 
-static bool union_is_convex(const merging *m, int32_t half, int32_t other, int32_t most)
+/* The turns at the joints rule most unions out; those that rounding calls straight may add up, so the whole ring is judged
+   by the same test that is applied to a piece later. */
+static bool union_is_convex(merging *m, int32_t half, int32_t other, int32_t most)
 {
-    return joint_turn(m, half, other) >= 0 && joint_turn(m, other, half) >= 0 &&
-           piece_count(m, half) + piece_count(m, other) - 2 <= most;
+    if (joint_turn(m, half, other) < 0 || joint_turn(m, other, half) < 0)
+        return false;
+    m->ring_count = 0;
+    return gather(m, half, most) && gather(m, other, most) && polygon_is_convex((polygon){m->ring, m->ring_count});
 }
 
 /* The two rings have no vertex in common but the ends of the edge. */
@@ -134,19 +139,17 @@ static void remove_edge(merging *m, int32_t half, int32_t other)
 
 static bool push_pieces(merging *m, polygon_list *out)
 {
-    vec2_array ring = {0};
-    bool done = true;
-    for (int32_t i = 0; done && i < m->half_count; i++) {
-        array_clear(&ring);
-        for (int32_t k = i; done && !m->half[k].removed; k = m->half[k].next) {
+    for (int32_t i = 0; i < m->half_count; i++) {
+        m->ring_count = 0;
+        for (int32_t k = i; !m->half[k].removed; k = m->half[k].next) {
             m->half[k].removed = true;
-            done = array_push(m->ctx, &ring, at(m, k));
+            m->ring[m->ring_count++] = at(m, k);
         }
-        int32_t n = ring_normal_form(ring.data, ring.count);
-        done = done && (n < 3 || polygon_list_push(m->ctx, out, (polygon){ring.data, n}));
+        int32_t n = ring_normal_form(m->ring, m->ring_count);
+        if (n >= 3 && !polygon_list_push(m->ctx, out, (polygon){m->ring, n}))
+            return false;
     }
-    array_free(m->ctx, &ring);
-    return done;
+    return true;
 }
 
 bool triangles_merge(context *ctx, const vec2 *vertex, int32_t vertex_count, const index_array *t, merge_rule rule,
@@ -158,7 +161,8 @@ bool triangles_merge(context *ctx, const vec2 *vertex, int32_t vertex_count, con
     m.half = memory_array(ctx, (size_t)t->count, sizeof *m.half);
     m.edge = memory_array(ctx, (size_t)t->count, sizeof *m.edge);
     m.seen = memory_array(ctx, (size_t)vertex_count, sizeof *m.seen);
-    bool done = m.half && m.edge && m.seen;
+    m.ring = memory_array(ctx, (size_t)t->count, sizeof *m.ring); /* a piece has no more corners than its triangles */
+    bool done = m.half && m.edge && m.seen && m.ring;
     if (done) {
         make_half_edges(&m, t);
         match_half_edges(&m);
@@ -174,5 +178,6 @@ bool triangles_merge(context *ctx, const vec2 *vertex, int32_t vertex_count, con
     memory_free(ctx, m.half);
     memory_free(ctx, m.edge);
     memory_free(ctx, m.seen);
+    memory_free(ctx, m.ring);
     return done;
 }
