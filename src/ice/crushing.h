@@ -1,9 +1,16 @@
-/* Crushing patches (SPEC 6): where a surface cuts into a floe, how large the contact is, and the contacts with their cap.
-   A patch is computed from a plain triangle mesh, a pose and a floe; whose mesh it is, this room does not know.
+/* Crushing patches (SPEC 6): where a surface cuts into a floe, how large the contact is, and the contacts with their
+   cap.  A patch is computed from a plain triangle mesh, a pose and a floe; whose mesh it is, this room does not know.
 
    A patch is one connected component of the surface inside the floe's prism, in the floe's own tilted frame:
-   N = sum of the area vectors of the clipped triangles, A_c = |N|, A_h = |N . z_floe|, normal = N/|N| (outward of the surface), centre = area-weighted centroid.  This holds while the plate leaves through the side, for downward and upward breaking,
-   vertical sides (length x thickness), tilted floes and floes held under the bottom. */
+   N = sum of the area vectors of the clipped triangles, A_c = |N|, A_h = |N . z_floe|, normal = N/|N| (outward of the
+   surface), centre = area-weighted centroid.  This holds while the plate leaves through the side, for downward and
+   upward breaking, vertical sides (length x thickness), tilted floes and floes held under the bottom.
+
+   Components whose area vectors cancel (a corner of the hull or a pile wholly inside the floe) push nowhere and make no
+   patch.  A floe that lies wholly inside the surface without meeting it (a small piece that slipped through a thin
+   plate) gets a patch of its whole side area (perimeter x thickness, A_h = 0) with one contact at its middle, along the
+   shortest way to the surface; that contact is position-corrected whatever the materials, by a thickness a step at
+   most, since nothing else would ever free the floe. */
 #ifndef ICE_CRUSHING_H
 #define ICE_CRUSHING_H
 
@@ -13,32 +20,36 @@
 
 /* Scratch row, made anew each step. */
 typedef struct crushing_patch {
-    int32_t floe;         /* row of the floe table */
+    int32_t floe; /* row of the floe table */
     int32_t floe_body, surface_body;
-    vec3 normal;          /* unit, from the surface body towards the floe: the force on the floe is along +normal */
-    vec3 centre;          /* centroid of the patch, global [m] */
-    double area;          /* A_c [m2] */
+    vec3 normal;            /* unit, from the surface body towards the floe: the force on the floe is along +normal */
+    vec3 centre;            /* centroid of the patch, global [m] */
+    double area;            /* A_c [m2] */
     double horizontal_area; /* A_h [m2], in the floe's plane */
-    double pressure;      /* sigma_c(A_c) [Pa] */
+    double pressure;        /* sigma_c(A_c) [Pa] */
     int32_t contact_first, contact_count; /* rows of the contact array */
-    int32_t component;    /* number of the component inside its pair, by least triangle */
+    int32_t component;                    /* number of the component inside its pair, by least triangle */
 } crushing_patch;
 typedef ARRAY(crushing_patch) crushing_patch_array;
 
 typedef struct crushing_settings {
-    double time_step;
-    double smallest_area;       /* patches under it are dropped [m2] */
-    bool top_plane_area;        /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
+    double time_step;     /* [s] */
+    double smallest_area; /* patches under it are dropped [m2] */
+    bool top_plane_area;  /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
 } crushing_settings;
 
 typedef struct crushing_scratch crushing_scratch;
 crushing_scratch *crushing_scratch_create(context *ctx);
 void crushing_scratch_free(context *ctx, crushing_scratch *s);
 
-/* Patches of the given pairs (floe against a body with a solid or a prism shape), appended in pair order together with their
-   contacts: up to 4 points a patch that keep its force centre, with tributary weights that sum to 1, each capped by
-   weight * sigma_c A_c dt; depth of a point = way along the normal out of the floe.  correct is false for breakable floes against a hull
-   (SPEC 9).  Independent of how hull and floe are cut into convex pieces. */
+/* Patches of the given pairs (a floe against a body with a solid or a prism shape, which may be another floe), appended
+   in pair order together with their contacts, floe first: 1, 2 or 4 points a patch, in the plane through its centroid,
+   of equal weight, with the centroid and the second moments of the patch, so that force and moment are those of the
+   patch; each capped by weight * sigma_c A_c dt.  Between two floes the lower slot counts as the floe, and the weaker
+   one's pressure holds.  depth of a point = way along -normal out of the floe, 0 where the patch's plane has left it.
+   correct is false for breakable floes against a hull (SPEC 9).  Independent of how hull and floe are cut into convex
+   pieces, to rounding.
+   FRAM_ERROR_USAGE for a pair without ice; without memory the arrays may hold a part of the patches. */
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
                               const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,

@@ -1,5 +1,5 @@
-/* Generation of ice fields (SPEC 3): outlines in the plane, seeded, the same to the bit for the same seed on any number of
-   threads.  Knows outlines only: thickness, strength and bodies come later (ice/floe.h). */
+/* Generation of ice fields (SPEC 3): outlines in the plane, seeded, the same to the bit for the same seed on any number
+   of threads.  Knows outlines only: thickness, strength and bodies come later (ice/floe.h). */
 #ifndef ICE_FIELD_H
 #define ICE_FIELD_H
 
@@ -9,15 +9,16 @@
 enum { ICE_STREAM_VORONOI_SITE = 0x1ce00 };
 
 typedef struct field_request {
-    box2 domain;              /* [m] */
-    double concentration;     /* target, ice area / free area, over 0 and under 1 */
-    double mean_area;         /* Voronoi: mean cell area before shrinking [m2] */
-    double size_deviation;    /* Voronoi: relative scatter of sites, 0 regular (hexagons) .. 1 anywhere in their grid cell */
-    double roundness;         /* Voronoi: 0 sharp corners .. 1 corners cut as far as the concentration allows */
+    box2 domain;          /* [m] */
+    double concentration; /* target, ice area / free area, over 0 and under 1 */
+    double mean_area;     /* Voronoi: mean cell area before shrinking [m2] */
+    double
+        size_deviation; /* Voronoi: relative scatter of sites, 0 regular (hexagons) .. 1 anywhere in their grid cell */
+    double roundness;   /* Voronoi: 0 sharp corners .. 1 corners cut as far as the concentration allows */
     uint64_t seed;
-    double smallest_area;     /* floes under it are not made [m2] */
+    double smallest_area;         /* floes under it are not made [m2] */
     const polygon_list *keep_out; /* convex zones that stay free of ice; may be NULL */
-    double keep_out_margin;   /* the zones are grown by it all around [m] */
+    double keep_out_margin;       /* the zones are grown by it all around [m] */
 } field_request;
 
 typedef struct field_report {
@@ -28,12 +29,12 @@ typedef struct field_report {
     double gap;             /* width of the open water between neighbours [m] */
 } field_report;
 
-/* Managed ice: Voronoi cells, cut by the keep-out zones, every edge moved inwards by half the same gap until the summed area
-   meets the target (to rounding).  A gap of one width is how broken ice drifts apart; shrinking towards centroids would put
-   wide water around large floes and leave small ones stuck together.  All outlines are convex and counter-clockwise, stay clear
-   of each other, of the domain's edge (by half a gap) and of the zones; floes come in the order of their sites.
-   Appends to outlines, which is unchanged on failure.  o may be NULL: convex zones need no general overlay.
-   FRAM_ERROR_INPUT when the target cannot be reached, saying what was reached and why. */
+/* Managed ice: Voronoi cells, cut by the keep-out zones, every edge moved inwards by half the same gap until the summed
+   area meets the target (to rounding).  A gap of one width is how broken ice drifts apart; shrinking towards centroids
+   would put wide water around large floes and leave small ones stuck together.  All outlines are convex and
+   counter-clockwise, stay clear of each other, of the domain's edge (by half a gap) and of the zones; floes come in the
+   order of their sites. Appends to outlines, which is unchanged on failure.  o may be NULL: convex zones need no
+   general overlay. FRAM_ERROR_INPUT when the target cannot be reached, saying what was reached and why. */
 fram_status field_voronoi(context *ctx, overlay *o, const field_request *request, polygon_list *outlines,
                           field_report *report, fram_error *error);
 

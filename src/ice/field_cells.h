@@ -1,5 +1,5 @@
-/* Work on lists of convex cells: cutting them by zones, cutting corners, moving edges inwards.  Knows polygons only; all
-   cells are convex and counter-clockwise, in metres.  Every function that returns bool is false without memory. */
+/* Work on lists of convex cells: cutting them by zones, cutting corners, moving edges inwards.  Knows polygons only;
+   all cells are convex and counter-clockwise, in metres.  Every function that returns bool is false without memory. */
 #ifndef ICE_FIELD_CELLS_H
 #define ICE_FIELD_CELLS_H
 
@@ -10,12 +10,12 @@ typedef struct cells_scratch {
 } cells_scratch;
 void cells_scratch_free(context *ctx, cells_scratch *s);
 
-/* Convex zones, grown by a margin all around: edges move outwards, corners become arcs of short tangents, so that nothing
-   within the margin is left outside.  Appends one ring per zone. */
+/* Convex zones, grown by a margin all around: edges move outwards, corners become arcs of short tangents, so that
+   nothing within the margin is left outside.  Appends one ring per zone. */
 bool zones_grow(context *ctx, const polygon_list *zones, double margin, polygon_list *out);
 
-/* What lies outside all zones, cut into convex parts; the largest part of a cell comes off first.  Together the parts have
-   exactly the area of the cells less the zones. */
+/* What lies outside all zones, cut into convex parts; the largest part of a cell comes off first.  Together the parts
+   have exactly the area of the cells less the zones. */
 bool cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_list *zones, cells_scratch *s,
                          polygon_list *out);
 
@@ -27,8 +27,8 @@ double cells_corner_area(const polygon_list *cells);
 /* The cells with their corners cut so; one ring per cell. */
 bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out);
 
-/* Every edge of every cell moved inwards by the one distance `inset` [m] that leaves `target` area [m2], at most the area there
-   is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */
+/* Every edge of every cell moved inwards by the one distance `inset` [m] that leaves `target` area [m2], at most the
+   area there is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */
 bool cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s, polygon_list *out,
                          double *inset);
 

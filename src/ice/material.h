@@ -16,8 +16,8 @@ typedef struct ice_material {
 double ice_plate_stiffness(const ice_material *m, double thickness);
 /* Characteristic length of that plate on water, l = (D / (rho_w g))^(1/4) [m] (Hertz 1884; oracles section 1). */
 double ice_characteristic_length(const ice_material *m, double thickness, double water_density, double gravity);
-/* Crushing pressure sigma(A) [Pa] on a contact area A [m2]; 0 on no area when the law has an exponent (there A^e would be
-   infinite for e < 0, but the force A sigma goes to 0 for e > -1). */
+/* Crushing pressure sigma(A) [Pa] on a contact area A [m2]; 0 on no area when the law has an exponent (there A^e would
+   be infinite for e < 0, but the force A sigma goes to 0 for e > -1). */
 double ice_crushing_pressure(const ice_material *m, double area);
 
 #endif

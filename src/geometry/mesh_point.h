@@ -1,0 +1,15 @@
+/* A point and a closed surface: inside or not, and the nearest place.  Both walk all triangles: for questions that are
+   asked now and then. */
+#ifndef GEOMETRY_MESH_POINT_H
+#define GEOMETRY_MESH_POINT_H
+
+#include "geometry/mesh.h"
+
+/* Winding number of a closed mesh about a point: 1 inside, 0 outside, halfway between on the surface.  Sum of the solid
+   angles of all triangles (Van Oosterom and Strackee 1983, eq. 8) over 4 pi; right beside edges and vertices too. */
+double mesh_winding(const mesh *m, vec3 point);
+
+/* The point of the surface nearest to `point`, on the lowest such face (may be NULL).  The mesh has triangles. */
+vec3 mesh_nearest_point(const mesh *m, vec3 point, int32_t *face);
+
+#endif

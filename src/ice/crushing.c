@@ -1,0 +1,346 @@
+/* Crushing patches and their contacts; see crushing.h. */
+#include "ice/crushing.h"
+
+#include "geometry/mesh_point.h"
+#include "ice/patch.h"
+
+/* A component whose area vectors cancel to less than this part of its area closes round inside the floe (a hull's
+   corner, a pile): what is left is rounding and has no direction. */
+static const double CLOSED_PATCH = 1e-9;
+
+/* Patches narrower than this part of their length get two points instead of four. */
+static const double NARROW_PATCH = 0.01;
+
+/* The comparison switch: under this |normal . z| the reference's A_I / cos(gamma) has no meaning (a vertical side has
+   no section area at all), and the patch's own area is kept. */
+static const double VERTICAL_SIDE = 0.02;
+
+enum { MOST_POINTS = 4 };
+
+struct crushing_scratch {
+    patch_scratch *patch;
+    mesh prism; /* the surface of a prism body, made for the shape row below, -1: none */
+    mesh_adjacency prism_adjacency;
+    mesh_bvh prism_tree;
+    int32_t prism_row;
+};
+
+crushing_scratch *crushing_scratch_create(context *ctx)
+{
+    crushing_scratch *s = memory_array(ctx, 1, sizeof *s);
+    if (!s)
+        return NULL;
+    s->patch = patch_scratch_create(ctx);
+    if (!s->patch) {
+        memory_free(ctx, s);
+        return NULL;
+    }
+    s->prism_row = -1;
+    return s;
+}
+
+void crushing_scratch_free(context *ctx, crushing_scratch *s)
+{
+    if (!s)
+        return;
+    patch_scratch_free(ctx, s->patch);
+    mesh_free(ctx, &s->prism);
+    mesh_adjacency_free(ctx, &s->prism_adjacency);
+    mesh_bvh_free(ctx, &s->prism_tree);
+    memory_free(ctx, s);
+}
+
+/* What one call works on. */
+typedef struct job {
+    context *ctx;
+    crushing_scratch *scratch;
+    const crushing_settings *settings;
+    const body_table *bodies;
+    const shape_store *shapes;
+    const floe_table *floes;
+    crushing_patch_array *patches;
+    contact_array *contacts;
+    fram_error *error;
+} job;
+
+/* One pair, seen from its floe. */
+typedef struct crushing_pair {
+    int32_t floe, floe_body, surface_body;
+    const pair_policy *policy;
+    patch_floe prism;
+    patch_surface surface;
+    mat3 rotation; /* floe to global */
+    vec3 position;
+} crushing_pair;
+
+/* ---- the surface of a body ---- */
+
+static fram_status prism_surface(const job *j, int32_t row)
+{
+    crushing_scratch *s = j->scratch;
+    if (s->prism_row == row)
+        return FRAM_OK;
+    s->prism_row = -1;
+    mesh_clear(&s->prism);
+    double half_height = j->shapes->shapes.half_height[row];
+    fram_status status =
+        mesh_make_prism(j->ctx, shape_outline(j->shapes, row), -half_height, half_height, &s->prism, j->error);
+    if (status != FRAM_OK)
+        return status;
+    if (mesh_adjacency_build(j->ctx, &s->prism, &s->prism_adjacency) != FRAM_OK ||
+        mesh_bvh_build(j->ctx, &s->prism, &s->prism_tree) != FRAM_OK)
+        return error_memory(j->error);
+    s->prism_row = row;
+    return FRAM_OK;
+}
+
+static fram_status set_surface(const job *j, crushing_pair *p)
+{
+    int32_t row = j->bodies->shape[p->surface_body];
+    if (j->shapes->shapes.kind[row] == SHAPE_SOLID) {
+        const solid *body = &j->shapes->solids.data[j->shapes->shapes.solid[row]];
+        p->surface.surface = &body->surface;
+        p->surface.adjacency = &body->adjacency;
+        p->surface.tree = &body->tree;
+    } else {
+        fram_status status = prism_surface(j, row);
+        if (status != FRAM_OK)
+            return status;
+        p->surface.surface = &j->scratch->prism;
+        p->surface.adjacency = &j->scratch->prism_adjacency;
+        p->surface.tree = &j->scratch->prism_tree;
+    }
+    mat3 to_global = quat_matrix(j->bodies->orientation[p->surface_body]);
+    p->surface.rotation = mat3_mul(mat3_transpose(p->rotation), to_global);
+    p->surface.offset = mat3_tmul_vec(p->rotation, vec3_sub(j->bodies->position[p->surface_body], p->position));
+    return FRAM_OK;
+}
+
+/* Which of both is the floe: the one of ice, of two floes the lower slot (their patches are equal and opposite, since
+   the parts of both surfaces inside the other body together are closed). */
+static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_policies *policies, crushing_pair *p)
+{
+    const body_table *bodies = j->bodies;
+    bool first = bodies->material[a] == MATERIAL_ICE;
+    p->floe_body = first ? a : b;
+    p->surface_body = first ? b : a;
+    p->floe = bodies->owner[p->floe_body];
+    if (bodies->material[p->floe_body] != MATERIAL_ICE || p->floe < 0)
+        return error_set(j->error, FRAM_ERROR_USAGE, NULL, 0, NULL,
+                         "bodies %d and %d are to crush, and neither is a floe", a, b);
+    p->policy = &policies->of[bodies->material[a]][bodies->material[b]];
+    p->prism = (patch_floe){j->shapes, bodies->shape[p->floe_body]};
+    p->rotation = quat_matrix(bodies->orientation[p->floe_body]);
+    p->position = bodies->position[p->floe_body];
+    return set_surface(j, p);
+}
+
+/* Pressure on an area; between two floes that of the weaker one. */
+static double pair_pressure(const job *j, const crushing_pair *p, double area)
+{
+    double pressure = ice_crushing_pressure(&j->floes->material[p->floe], area);
+    if (j->bodies->material[p->surface_body] != MATERIAL_ICE)
+        return pressure;
+    const ice_material *other = &j->floes->material[j->bodies->owner[p->surface_body]];
+    return fmin(pressure, ice_crushing_pressure(other, area));
+}
+
+/* ---- points ---- */
+
+/* Unit vectors that span the plane of a patch, floe frame: the first one level as long as the patch is not, so that
+   points keep their places while the normal wavers about any direction but one. */
+static void patch_axes(vec3 normal, vec3 *t1, vec3 *t2)
+{
+    vec3 up = fabs(normal.z) < 0.9 ? (vec3){0, 0, 1} : (vec3){1, 0, 0};
+    *t1 = vec3_unit(vec3_cross(up, normal));
+    *t2 = vec3_cross(normal, *t1);
+}
+
+static double spread_along(sym3 c, vec3 a, vec3 b) { return vec3_dot(a, sym3_mul_vec(c, b)); }
+
+/* Points of equal weight with the centroid and the second moments of the patch in its plane: centre +- s1 +- s2, with
+   s1 and s2 the columns of the symmetric root of its covariance.  On a rectangle they are the points of Gauss's rule.
+   Two points for a patch that is nearly a line, one for a point. */
+static int patch_points(const patch_component *c, vec3 normal, vec3 out[MOST_POINTS])
+{
+    vec3 t1, t2;
+    patch_axes(normal, &t1, &t2);
+    double xx = spread_along(c->spread, t1, t1), yy = spread_along(c->spread, t2, t2),
+           xy = spread_along(c->spread, t1, t2);
+    double root = sqrt(fmax(xx * yy - xy * xy, 0)), trace = sqrt(fmax(xx + yy + 2 * root, 0));
+    if (!(trace > 0)) {
+        out[0] = c->centre;
+        return 1;
+    }
+    vec3 s1 = vec3_add(vec3_scale(t1, (xx + root) / trace), vec3_scale(t2, xy / trace));
+    vec3 s2 = vec3_add(vec3_scale(t1, xy / trace), vec3_scale(t2, (yy + root) / trace));
+    if (root < NARROW_PATCH * (xx + yy)) {
+        vec3 along = xx >= yy ? s1 : s2;
+        along = vec3_scale(vec3_unit(along), sqrt(xx + yy));
+        out[0] = vec3_add(c->centre, along);
+        out[1] = vec3_sub(c->centre, along);
+        return 2;
+    }
+    for (int i = 0; i < 4; i++)
+        out[i] = vec3_add(c->centre, vec3_add(vec3_scale(s1, i & 1 ? -1 : 1), vec3_scale(s2, i & 2 ? -1 : 1)));
+    return 4;
+}
+
+/* A hull never pushes a breakable floe out of itself (SPEC 9): the overlap is ice that is crushed or about to break. */
+static bool pair_corrects(const job *j, const crushing_pair *p)
+{
+    return !(j->bodies->material[p->surface_body] == MATERIAL_HULL && j->floes->breakable[p->floe]);
+}
+
+static bool push_contact(const job *j, const crushing_pair *p, const crushing_patch *patch, int point, vec3 place,
+                         double depth, double weight, bool correct)
+{
+    contact c = {.a = p->floe_body,
+                 .b = p->surface_body,
+                 .point = vec3_add(p->position, mat3_mul_vec(p->rotation, place)),
+                 .normal = patch->normal,
+                 .depth = depth,
+                 .impulse_limit = weight * patch->pressure * patch->area * j->settings->time_step,
+                 .friction_static = p->policy->friction_static,
+                 .friction_kinetic = p->policy->friction_kinetic,
+                 .correct = correct,
+                 .crush_infinite =
+                     !body_is_dynamic(j->bodies, p->floe_body) && !body_is_dynamic(j->bodies, p->surface_body),
+                 .patch = j->patches->count,
+                 .key = contact_key(j->bodies, p->floe_body, p->surface_body, patch->component, -1, (uint32_t)point)};
+    return array_push(j->ctx, j->contacts, c);
+}
+
+/* ---- patches ---- */
+
+static bool push_patch(const job *j, const crushing_pair *p, const patch_component *c, int32_t number, double area)
+{
+    vec3 normal = vec3_unit(c->area), point[MOST_POINTS];
+    crushing_patch patch = {.floe = p->floe,
+                            .floe_body = p->floe_body,
+                            .surface_body = p->surface_body,
+                            .normal = mat3_mul_vec(p->rotation, normal),
+                            .centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre)),
+                            .area = area,
+                            .horizontal_area = fabs(c->area.z),
+                            .pressure = pair_pressure(j, p, area),
+                            .contact_first = j->contacts->count,
+                            .component = number};
+    patch.contact_count = patch_points(c, normal, point);
+    for (int i = 0; i < patch.contact_count; i++) {
+        double depth = patch_way_out(&p->prism, point[i], vec3_neg(normal));
+        if (!push_contact(j, p, &patch, i, point[i], depth, 1.0 / patch.contact_count, pair_corrects(j, p)))
+            return false;
+    }
+    return array_push(j->ctx, j->patches, patch);
+}
+
+/* The reference's area for one component: the section area of the pair is shared by horizontal area. */
+static double top_plane_share(const patch_component *c, double section_area, double horizontal_sum)
+{
+    double area = vec3_length(c->area), cosine = fabs(c->area.z) / area;
+    return cosine < VERTICAL_SIDE ? area : section_area * (fabs(c->area.z) / horizontal_sum) / cosine;
+}
+
+static fram_status push_patches(const job *j, const crushing_pair *p, const patch_component_array *found)
+{
+    double section_area = 0, horizontal_sum = 0;
+    if (j->settings->top_plane_area) {
+        fram_status status = patch_top_area(j->ctx, j->scratch->patch, &p->surface, &p->prism, &section_area, j->error);
+        if (status != FRAM_OK)
+            return status;
+        for (int32_t i = 0; i < found->count; i++)
+            horizontal_sum += fabs(found->data[i].area.z);
+    }
+    for (int32_t i = 0; i < found->count; i++) {
+        const patch_component *c = &found->data[i];
+        double area = vec3_length(c->area);
+        if (!(area > CLOSED_PATCH * c->surface))
+            continue;
+        if (j->settings->top_plane_area)
+            area = top_plane_share(c, section_area, horizontal_sum);
+        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, c, i, area))
+            return error_memory(j->error);
+    }
+    return FRAM_OK;
+}
+
+/* ---- a floe that has slipped inside ---- */
+
+static bool surface_holds(const job *j, const crushing_pair *p, vec3 point)
+{
+    int32_t row = j->bodies->shape[p->surface_body];
+    const shape_table *shapes = &j->shapes->shapes;
+    if (vec3_length(point) > shapes->radius[row])
+        return false;
+    if (shapes->kind[row] == SHAPE_PRISM)
+        return fabs(point.z) < shapes->half_height[row] &&
+               polygon_contains(shape_outline(j->shapes, row), (vec2){point.x, point.y});
+    const solid *body = &j->shapes->solids.data[shapes->solid[row]];
+    bool near = false;
+    for (int32_t i = 0; i < body->pieces.count && !near; i++)
+        near = polyhedron_contains(&body->pieces.data[i], point, 0);
+    /* Pieces may bulge over a hollow of the surface, which decides. */
+    return near && mesh_winding(&body->surface, point) > 0.5;
+}
+
+/* A floe without any patch lies outside the surface or wholly inside; inside, one contact at the floe's middle holds it
+   against the nearest way out. */
+static fram_status push_buried(const job *j, const crushing_pair *p)
+{
+    vec3 inner = patch_inner_point(&p->prism);
+    vec3 point = mat3_tmul_vec(p->surface.rotation, vec3_sub(inner, p->surface.offset));
+    if (!surface_holds(j, p, point))
+        return FRAM_OK;
+    int32_t face = 0;
+    vec3 way = vec3_sub(mesh_nearest_point(p->surface.surface, point, &face), point);
+    double distance = vec3_length(way);
+    vec3 out = distance > 0 ? way : mesh_area_vector(p->surface.surface, face);
+    vec3 normal = vec3_unit(mat3_mul_vec(p->surface.rotation, out));
+    double thickness = j->floes->thickness[p->floe];
+    double area = polygon_perimeter(shape_outline(j->shapes, p->prism.shape)) * thickness;
+    crushing_patch patch = {.floe = p->floe,
+                            .floe_body = p->floe_body,
+                            .surface_body = p->surface_body,
+                            .normal = mat3_mul_vec(p->rotation, normal),
+                            .centre = vec3_add(p->position, mat3_mul_vec(p->rotation, inner)),
+                            .area = area,
+                            .pressure = pair_pressure(j, p, area),
+                            .contact_first = j->contacts->count,
+                            .contact_count = 1};
+    double depth = fmin(distance + patch_way_out(&p->prism, inner, vec3_neg(normal)), thickness);
+    if (!push_contact(j, p, &patch, 0, inner, depth, 1, true) || !array_push(j->ctx, j->patches, patch))
+        return error_memory(j->error);
+    return FRAM_OK;
+}
+
+static fram_status crush_pair(const job *j, int32_t a, int32_t b, const pair_policies *policies)
+{
+    crushing_pair p;
+    fram_status status = set_pair(j, a, b, policies, &p);
+    if (status != FRAM_OK)
+        return status;
+    const patch_component_array *found;
+    if (!patch_components(j->ctx, j->scratch->patch, &p.surface, &p.prism, &found))
+        return error_memory(j->error);
+    int32_t first = j->contacts->count;
+    status = found->count > 0 ? push_patches(j, &p, found) : push_buried(j, &p);
+    contact_keys_part(j->contacts->data + first, j->contacts->count - first);
+    return status;
+}
+
+fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
+                              const body_table *bodies, const shape_store *shapes, const floe_table *floes,
+                              const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,
+                              crushing_patch_array *patches, contact_array *contacts, fram_error *error)
+{
+    job j = {ctx, scratch, settings, bodies, shapes, floes, patches, contacts, error};
+    scratch->prism_row = -1; /* shapes may have changed since the last call */
+    for (int32_t i = 0; i < patch_pairs->count; i++) {
+        int32_t row = patch_pairs->data[i];
+        fram_status status = crush_pair(&j, pairs->a[row], pairs->b[row], policies);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return FRAM_OK;
+}

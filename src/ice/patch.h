@@ -1,0 +1,56 @@
+/* The geometry of crushing patches (SPEC 6): the connected components of a triangle surface inside a floe's prism, all
+   in the floe's own frame.  Knows no bodies, no materials and no forces. */
+#ifndef ICE_PATCH_H
+#define ICE_PATCH_H
+
+#include "bodies/shape.h"
+
+/* A closed surface in the coordinates of its body, and the way from there into the floe's frame:
+   r_floe = rotation r_surface + offset. */
+typedef struct patch_surface {
+    const mesh *surface;
+    const mesh_adjacency *adjacency;
+    const mesh_bvh *tree;
+    mat3 rotation;
+    vec3 offset;
+} patch_surface;
+
+/* The floe: a prism shape of the store, about its centre of mass. */
+typedef struct patch_floe {
+    const shape_store *shapes;
+    int32_t shape;
+} patch_floe;
+
+/* One connected component of the surface inside the floe, floe frame. */
+typedef struct patch_component {
+    vec3 area;      /* sum of area vectors N, outward of the surface [m2] */
+    double surface; /* sum of areas, at least |N| [m2] */
+    vec3 centre;    /* area-weighted centroid [m] */
+    sym3 spread;    /* mean of (r - centre)(r - centre)^T over the area [m2] */
+} patch_component;
+typedef ARRAY(patch_component) patch_component_array;
+
+typedef struct patch_scratch patch_scratch;
+patch_scratch *patch_scratch_create(context *ctx);
+void patch_scratch_free(context *ctx, patch_scratch *s);
+
+/* The components, ordered by their least triangle, made anew in *out (which lives in the scratch).  Triangles are
+   clipped by every convex piece of the floe; a triangle that lies in a face of a piece belongs to the piece in front of
+   it, so that a surface on a seam counts once and one that just touches the floe counts as touching.  Clipped parts are
+   connected through a seam that one triangle crosses, and through a mesh edge inside a piece.  The result does not
+   depend on how floe or surface are cut, to rounding.  false: no memory. */
+bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
+                      const patch_component_array **out);
+
+/* Length of the way from `point` along the unit `direction` (floe frame) out of the floe, across seams; 0 for a point
+   outside [m]. */
+double patch_way_out(const patch_floe *floe, vec3 point, vec3 direction);
+
+/* A point inside the floe, in its frame. */
+vec3 patch_inner_point(const patch_floe *floe);
+
+/* Area of the section of the surface with the floe's top plane inside the floe's outline [m2] (the reference's A_I). */
+fram_status patch_top_area(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
+                           double *area, fram_error *error);
+
+#endif
