@@ -1,0 +1,235 @@
+/* io/file and io/atomic_file: buffering, continuing, replacing, and what the operating system refuses. */
+#include "io/atomic_file.h"
+#include "scratch.h"
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+static context ctx;
+static fram_error error;
+
+static void assert_content(const char *path, const char *expected)
+{
+    size_t size;
+    char *data = scratch_read(path, &size);
+    ck_assert_uint_eq(size, strlen(expected));
+    ck_assert_int_eq(memcmp(data, expected, size), 0);
+    free(data);
+}
+
+START_TEST(what_is_written_is_read)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer w;
+    /* Parts smaller and larger than the buffer, in an order that crosses its end. */
+    static const size_t parts[] = {1, 65535, 1, 70000, 65536, 3, 0, 200000, 65537};
+    static char pattern[200000];
+    for (size_t i = 0; i < sizeof pattern; i++)
+        pattern[i] = (char)(i * 7 + i / 251);
+    assert_ok(file_create(&ctx, scratch_path(&s, "a"), &w, &error), error);
+    size_t total = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        assert_ok(file_write(&w, pattern, parts[i], &error), error);
+        total += parts[i];
+        ck_assert_uint_eq(w.length, total);
+    }
+    assert_ok(file_flush(&w, true, &error), error);
+    assert_ok(file_close(&w, &error), error);
+    assert_ok(file_close(&w, &error), error);
+    char *data;
+    size_t size;
+    assert_fails(file_read(&ctx, s.path, total - 1, &data, &size, &error), error, FRAM_ERROR_INPUT, "at most");
+    assert_ok(file_read(&ctx, s.path, total, &data, &size, &error), error);
+    ck_assert_uint_eq(size, total);
+    ck_assert_int_eq(data[size], '\0');
+    size_t at = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; at += parts[i++])
+        ck_assert_int_eq(memcmp(data + at, pattern, parts[i]), 0);
+    memory_free(&ctx, data);
+    scratch_remove(&s, "a");
+}
+END_TEST
+
+START_TEST(a_file_is_continued_after_a_cut)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer w;
+    scratch_write(scratch_path(&s, "a"), "0123456789", 10);
+    assert_ok(file_open(&ctx, s.path, &w, &error), error);
+    ck_assert_uint_eq(w.length, 10);
+    assert_ok(file_write(&w, "xyz", 3, &error), error);
+    assert_ok(file_cut(&w, 11, &error), error);
+    assert_ok(file_cut(&w, 4, &error), error);
+    assert_ok(file_write(&w, "ab", 2, &error), error);
+    assert_fails(file_cut(&w, 7, &error), error, FRAM_ERROR_INPUT, "at least 7 bytes, found 6");
+    char two[2];
+    assert_ok(file_flush(&w, false, &error), error);
+    assert_ok(file_read_at(w.descriptor, s.path, 3, two, 2, &error), error);
+    ck_assert_int_eq(memcmp(two, "3a", 2), 0);
+    assert_fails(file_read_at(w.descriptor, s.path, 5, two, 2, &error), error, FRAM_ERROR_INPUT, "the end");
+    assert_ok(file_close(&w, &error), error);
+    assert_content(s.path, "0123ab");
+    scratch_remove(&s, "a");
+}
+END_TEST
+
+START_TEST(missing_files_and_folders_are_named)
+{
+    context_init(&ctx);
+    file_writer w;
+    char *data;
+    size_t size;
+    assert_fails(file_open(&ctx, "/no/such/file", &w, &error), error, FRAM_ERROR_INPUT, "No such file");
+    ck_assert_str_eq(error.file, "/no/such/file");
+    assert_fails(file_create(&ctx, "/no/such/file", &w, &error), error, FRAM_ERROR_INPUT, "open for writing");
+    assert_fails(file_create(&ctx, "/dev/null/file", &w, &error), error, FRAM_ERROR_INPUT, "Not a directory");
+    assert_fails(file_create(&ctx, "/tmp", &w, &error), error, FRAM_ERROR_IO, "directory");
+    assert_fails(file_read(&ctx, "/no/such/file", 10, &data, &size, &error), error, FRAM_ERROR_INPUT, "cannot read");
+    assert_fails(file_read(&ctx, "/tmp", 10, &data, &size, &error), error, FRAM_ERROR_INPUT, "regular file");
+    ck_assert_int_eq(file_read(&ctx, "/no/such/file", 10, &data, &size, NULL), FRAM_ERROR_INPUT);
+    assert_ok(file_close(&w, &error), error);
+    file_abandon(&w);
+}
+END_TEST
+
+/* Opening a pipe without a writer must not hang. */
+START_TEST(a_pipe_is_not_waited_for)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    char *data;
+    size_t size;
+    ck_assert_int_eq(mkfifo(scratch_path(&s, "pipe"), 0600), 0);
+    assert_fails(file_read(&ctx, s.path, 10, &data, &size, &error), error, FRAM_ERROR_INPUT, "regular file");
+    scratch_remove(&s, "pipe");
+}
+END_TEST
+
+START_TEST(a_full_disk_is_seen_at_once)
+{
+    context_init(&ctx);
+    file_writer w;
+    if (access("/dev/full", W_OK) != 0)
+        return;
+    assert_ok(file_create(&ctx, "/dev/full", &w, &error), error);
+    assert_ok(file_write(&w, "a", 1, &error), error);
+    assert_fails(file_flush(&w, false, &error), error, FRAM_ERROR_IO, "cannot write: No space");
+    ck_assert_str_eq(error.file, "/dev/full");
+    /* And for good: nothing may be appended after a gap. */
+    assert_fails(file_write(&w, "b", 1, &error), error, FRAM_ERROR_IO, "No space");
+    assert_fails(file_close(&w, &error), error, FRAM_ERROR_IO, "No space");
+    assert_ok(file_create(&ctx, "/dev/full", &w, &error), error);
+    static const char large[100000];
+    assert_fails(file_write(&w, large, sizeof large, &error), error, FRAM_ERROR_IO, "No space");
+    file_abandon(&w);
+}
+END_TEST
+
+/* The system takes a part of the bytes, then refuses: the limit on the size of files does that. */
+START_TEST(a_partial_write_is_seen)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer w;
+    static char data[50000];
+    struct rlimit limit = {30000, RLIM_INFINITY}, unlimited;
+    ck_assert_int_eq(getrlimit(RLIMIT_FSIZE, &unlimited), 0);
+    signal(SIGXFSZ, SIG_IGN);
+    scratch_write(scratch_path(&s, "a"), "old", 3);
+    assert_ok(file_create(&ctx, scratch_path(&s, "b"), &w, &error), error);
+    assert_ok(file_write(&w, data, sizeof data, &error), error);
+    ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    assert_fails(file_flush(&w, true, &error), error, FRAM_ERROR_IO, "File too large");
+    file_abandon(&w);
+    fram_status status = atomic_file_write(&ctx, scratch_path(&s, "a"), data, sizeof data, &error);
+    ck_assert_int_eq(setrlimit(RLIMIT_FSIZE, &unlimited), 0);
+    ck_assert_int_eq(status, FRAM_ERROR_IO);
+    assert_content(s.path, "old");
+    ck_assert_int_eq(unlink(scratch_path(&s, "b")), 0);
+    scratch_remove(&s, "a");
+}
+END_TEST
+
+START_TEST(replacing_is_all_or_nothing)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    atomic_file a;
+    assert_ok(atomic_file_write(&ctx, scratch_path(&s, "a"), "first", 5, &error), error);
+    assert_content(s.path, "first");
+    assert_ok(atomic_file_write(&ctx, s.path, "second", 6, &error), error);
+    assert_content(s.path, "second");
+    assert_ok(atomic_file_begin(&ctx, s.path, &a, &error), error);
+    assert_ok(file_write(&a.writer, "third", 5, &error), error);
+    assert_content(s.path, "second");
+    atomic_file_abandon(&a);
+    atomic_file_abandon(&a);
+    assert_content(s.path, "second");
+    assert_ok(atomic_file_write(&ctx, s.path, NULL, 0, &error), error);
+    assert_content(s.path, "");
+    scratch_remove(&s, "a");
+}
+END_TEST
+
+START_TEST(replacing_a_folder_leaves_nothing_behind)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    ck_assert_int_eq(mkdir(scratch_path(&s, "a"), 0700), 0);
+    char inside[320];
+    snprintf(inside, sizeof inside, "%s/file", s.path);
+    scratch_write(inside, "x", 1);
+    assert_fails(atomic_file_write(&ctx, s.path, "y", 1, &error), error, FRAM_ERROR_IO, "cannot replace");
+    ck_assert_str_eq(error.file, s.path);
+    ck_assert_int_eq(unlink(inside), 0);
+    ck_assert_int_eq(rmdir(s.path), 0);
+    ck_assert_int_eq(rmdir(s.folder), 0);
+    assert_fails(atomic_file_write(&ctx, "/no/such/folder/a", "y", 1, &error), error, FRAM_ERROR_INPUT, "No such file");
+}
+END_TEST
+
+/* A name without a folder is in the working folder. */
+START_TEST(a_bare_name_is_here)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    char here[400];
+    ck_assert_ptr_nonnull(getcwd(here, sizeof here));
+    ck_assert_int_eq(chdir(s.folder), 0);
+    assert_ok(atomic_file_write(&ctx, "bare", "y", 1, &error), error);
+    ck_assert_int_eq(chdir(here), 0);
+    assert_content(scratch_path(&s, "bare"), "y");
+    scratch_remove(&s, "bare");
+}
+END_TEST
+
+START_TEST(no_memory_is_an_error)
+{
+    scratch s = scratch_make();
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context failing = failing_context(&memory, n);
+        char *data = NULL;
+        size_t size;
+        fram_status status = atomic_file_write(&failing, scratch_path(&s, "a"), "text", 4, &error);
+        if (status == FRAM_OK)
+            status = file_read(&failing, s.path, 100, &data, &size, &error);
+        if (status == FRAM_OK)
+            memory_free(&failing, data);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(status, FRAM_OK);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+    scratch_remove(&s, "a");
+}
+END_TEST
+
+TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
+          a_pipe_is_not_waited_for, a_full_disk_is_seen_at_once, a_partial_write_is_seen, replacing_is_all_or_nothing,
+          replacing_a_folder_leaves_nothing_behind, a_bare_name_is_here, no_memory_is_an_error)
