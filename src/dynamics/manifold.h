@@ -35,9 +35,13 @@ typedef struct seam_masks {
 /* An outer face may stand in for a nearer seam only while it is not much deeper than that: beyond this ratio it is the
    far side of the piece.  The sharpest corner that still finds its face has a half angle of atan(1/8). */
 #define SEAM_DEPTH_RATIO 8.0
-/* An edge pair or another body's face is taken only when it is less deep than the first choice by this factor, so that
-   the choice does not waver between equals. */
+/* An edge pair, another body's face or a lid is taken only when it is less deep than the first choice by this factor,
+   so that the choice does not waver between equals; the slack keeps it from wavering between roundings of zero. */
 #define PREFERENCE 0.95
+static inline bool clearly_less(double depth, double than, double slack)
+{
+    return depth + slack < PREFERENCE * (than + slack);
+}
 
 /* polyhedra_manifold with seams and slack. */
 int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, double slack, vec3 *normal,

@@ -235,9 +235,9 @@ int prism_manifold(const prism *a, const prism *b, double slack, polyhedron *a_r
         return 0;
     }
     *axis = vec3_make(0, 0, 0);
-    bool of_b = in_b.side >= 0 && (in_a.side < 0 || in_b.depth < PREFERENCE * in_a.depth);
+    bool of_b = in_b.side >= 0 && (in_a.side < 0 || clearly_less(in_b.depth, in_a.depth, slack));
     const best_side *best = of_b ? &in_b : &in_a;
-    bool upright = fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && fmin(rise_a, rise_b) >= PREFERENCE * best->depth;
+    bool upright = fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && !clearly_less(fmin(rise_a, rise_b), best->depth, slack);
     if (!upright) {
         prism_polyhedron(a, a_room);
         prism_polyhedron(b, b_room);

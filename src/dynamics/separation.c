@@ -196,12 +196,12 @@ int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_mas
         return 0;
     }
     *axis = vec3_make(0, 0, 0);
-    bool of_b = in_b.face >= 0 && (in_a.face < 0 || in_b.depth < PREFERENCE * in_a.depth);
+    bool of_b = in_b.face >= 0 && (in_a.face < 0 || clearly_less(in_b.depth, in_a.depth, slack));
     const best_face *best = of_b ? &in_b : &in_a;
     double seam_depth = fmin(in_a.seam_depth, in_b.seam_depth);
     if (best->face < 0 || best->depth > SEAM_DEPTH_RATIO * seam_depth)
         return 0;
-    if (!seams.a && !seams.b && edges.a >= 0 && edges.depth < PREFERENCE * best->depth) {
+    if (!seams.a && !seams.b && edges.a >= 0 && clearly_less(edges.depth, best->depth, slack)) {
         *normal = edges.axis;
         return contact_at_edges(a, b, &edges, out);
     }

@@ -77,7 +77,7 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
     if (settings->kind != SOLVER_SEQUENTIAL && settings->kind != SOLVER_ACCURATE)
         return error_set(error, FRAM_ERROR_UNSUPPORTED, NULL, 0, NULL,
                          "this build has the sequential and the accurate solver, not number %d", (int)settings->kind);
-    fram_status status = bodies_accelerate(bodies, loads, dt, error);
+    fram_status status = bodies_check(bodies, error);
     if (status == FRAM_OK && !solver_bodies_begin(s, bodies))
         status = error_memory(error);
     if (status == FRAM_OK)
@@ -86,6 +86,8 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
         status = contact_rows_make(s, settings, dt, bodies, contacts, error);
     if (status != FRAM_OK)
         return status;
+    bodies_accelerate(bodies, loads, dt);
+    solver_bodies_load(s, bodies);
     if (settings->warm_start) {
         joint_rows_warm_start(s, joints);
         contact_rows_warm_start(s, contacts, memory);

@@ -49,21 +49,39 @@ int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot)
     return s->bodies.count - 1;
 }
 
-fram_status bodies_accelerate(body_table *bodies, const wrench *loads, double dt, fram_error *error)
+fram_status bodies_check(const body_table *bodies, fram_error *error)
+{
+    for (int32_t i = 0; i < bodies->count; i++) {
+        sym3 inertia = body_total_inertia(bodies, i);
+        bool massive = bodies->mass[i] > 0 && inertia.xx > 0 && inertia.yy > 0 && inertia.zz > 0;
+        if (body_is_dynamic(bodies, i) && !massive)
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL,
+                             "dynamic body %d needs a positive mass and inertia; found %g kg, (%g, %g, %g) kg m2",
+                             (int)i, bodies->mass[i], inertia.xx, inertia.yy, inertia.zz);
+    }
+    return FRAM_OK;
+}
+
+void bodies_accelerate(body_table *bodies, const wrench *loads, double dt)
 {
     for (int32_t i = 0; i < bodies->count; i++) {
         if (!body_is_dynamic(bodies, i))
             continue;
-        sym3 inertia = body_total_inertia(bodies, i);
-        if (!(bodies->mass[i] > 0) || !(inertia.xx > 0 && inertia.yy > 0 && inertia.zz > 0))
-            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL,
-                             "dynamic body %d needs a positive mass and inertia; found %g kg, (%g, %g, %g) kg m2",
-                             (int)i, bodies->mass[i], inertia.xx, inertia.yy, inertia.zz);
         mat3 r = quat_matrix(bodies->orientation[i]);
         vec3 push = sym3_mul_vec(inverse_mass_of(bodies, i, r), loads[i].force);
+        vec3 turn = sym3_mul_vec(sym3_inverse(body_total_inertia(bodies, i)), mat3_tmul_vec(r, loads[i].moment));
         bodies->velocity[i] = vec3_mad(bodies->velocity[i], push, dt);
-        vec3 turn = sym3_mul_vec(sym3_inverse(inertia), mat3_tmul_vec(r, loads[i].moment));
         bodies->angular_velocity[i] = vec3_mad(bodies->angular_velocity[i], mat3_mul_vec(r, turn), dt);
     }
-    return FRAM_OK;
+}
+
+void solver_bodies_load(solver *s, const body_table *bodies)
+{
+    for (int32_t i = 0; i < s->bodies.count; i++) {
+        solver_body *b = &s->bodies.data[i];
+        if (b->slot < 0)
+            continue;
+        b->velocity = bodies->velocity[b->slot];
+        b->angular_velocity = bodies->angular_velocity[b->slot];
+    }
 }

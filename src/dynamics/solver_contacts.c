@@ -41,6 +41,8 @@ static void fill_row(contact_row *row, const solver_body *a, const solver_body *
     row->limit = c->impulse_limit;
     row->friction_kinetic = c->friction_kinetic;
     row->friction_static = c->friction_static > c->friction_kinetic ? c->friction_static : c->friction_kinetic;
+    double u1 = row_axis_velocity(&row->axis[1], a, b), u2 = row_axis_velocity(&row->axis[2], a, b);
+    row->slip = sqrt(u1 * u1 + u2 * u2);
 }
 
 fram_status contact_rows_make(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
@@ -88,13 +90,21 @@ static int32_t memory_find(const contact_memory_table *memory, uint64_t key, int
     return low < memory->count && memory->key[low] == key ? low : -1;
 }
 
-/* Into the friction cone of the row's normal impulse: sticking inside mu_s p_n, otherwise on mu_k p_n. */
+/* Largest friction impulse: mu_s p_n while sticking, mu_k p_n once sliding.  A contact slides when kinetic friction
+   could not stop it within this step; below that it counts as sticking, so that what a finite number of sweeps leaves
+   of a velocity does not free a body at rest. */
+static double friction_radius(const contact_row *row)
+{
+    double kinetic = row->friction_kinetic * row->impulse[0];
+    return row->slip * row->slide > kinetic ? kinetic : row->friction_static * row->impulse[0];
+}
+
 static void project_friction(const contact_row *row, double *p1, double *p2)
 {
-    double length = sqrt(*p1 * *p1 + *p2 * *p2);
-    if (length <= row->friction_static * row->impulse[0])
+    double square = *p1 * *p1 + *p2 * *p2, radius = friction_radius(row);
+    if (square <= radius * radius)
         return;
-    double scale = row->friction_kinetic * row->impulse[0] / length;
+    double scale = radius / sqrt(square);
     *p1 *= scale;
     *p2 *= scale;
 }
@@ -123,22 +133,18 @@ void contact_rows_warm_start(solver *s, const contact_array *contacts, const con
 
 /* ---- one sweep ---- */
 
-/* Sticking impulse by the exact 2 x 2 block; once that leaves the static cone, a projected step of the sliding one,
-   whose rest point opposes the sliding velocity.  Both are free of the choice of tangents: friction is isotropic. */
+/* Sticking impulse by the exact 2 x 2 block; when that leaves the cone, a projected step, whose rest point opposes the
+   sliding velocity.  Both are free of the choice of tangents: friction is isotropic. */
 static void solve_friction(contact_row *row, solver_body *a, solver_body *b)
 {
     double u1 = row_axis_velocity(&row->axis[1], a, b), u2 = row_axis_velocity(&row->axis[2], a, b);
     double p1 = row->impulse[1] - (row->stick[0] * u1 + row->stick[1] * u2);
     double p2 = row->impulse[2] - (row->stick[1] * u1 + row->stick[2] * u2);
-    double most = row->friction_static * row->impulse[0];
-    if (p1 * p1 + p2 * p2 > most * most) {
+    double radius = friction_radius(row);
+    if (p1 * p1 + p2 * p2 > radius * radius) {
         p1 = row->impulse[1] - row->slide * u1;
         p2 = row->impulse[2] - row->slide * u2;
-        double length = sqrt(p1 * p1 + p2 * p2), radius = row->friction_kinetic * row->impulse[0];
-        if (length > radius) {
-            p1 *= radius / length;
-            p2 *= radius / length;
-        }
+        project_friction(row, &p1, &p2);
     }
     row_axis_push(&row->axis[1], a, b, p1 - row->impulse[1]);
     row_axis_push(&row->axis[2], a, b, p2 - row->impulse[2]);

@@ -32,6 +32,7 @@ typedef struct contact_row {
     double bias;        /* least relative normal velocity after the step, 0 but for Baumgarte [m/s] */
     double limit;       /* cap of the normal impulse */
     double friction_static, friction_kinetic;
+    double slip;     /* speed of sliding before the step [m/s] */
     double stick[3]; /* inverse of the 2 x 2 tangent block: 11, 12, 22 */
     double slide;    /* step of the projected tangent impulse, 2 / trace of the tangent block */
     double impulse[3];
@@ -71,10 +72,15 @@ struct solver {
 void body_inverse_tensors(const body_table *bodies, int32_t slot, sym3 *inverse_mass, sym3 *inverse_inertia);
 /* Starts the list of touched bodies afresh. */
 bool solver_bodies_begin(solver *s, const body_table *bodies);
-/* The place of a slot (-1: the world), taken into the list when it is new; -1 without memory. */
+/* The place of a slot (-1: the world), taken into the list when it is new; -1 without memory.  Its velocity is the one
+   before the step until solver_bodies_load. */
 int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot);
+/* Refuses dynamic bodies without mass or inertia. */
+fram_status bodies_check(const body_table *bodies, fram_error *error);
 /* Velocities of all dynamic bodies after dt under the loads alone; the gyroscopic moment acts in integrate_poses. */
-fram_status bodies_accelerate(body_table *bodies, const wrench *loads, double dt, fram_error *error);
+void bodies_accelerate(body_table *bodies, const wrench *loads, double dt);
+/* Velocities of the table into the list. */
+void solver_bodies_load(solver *s, const body_table *bodies);
 
 /* ---- solver_contacts.c ---- */
 

@@ -1,0 +1,333 @@
+/* Caps, position correction, memory of impulses, mass ratios, agreement of the solvers, and what is refused. */
+#include "rig.h"
+
+/* Two equal boxes that overlap by 2 cm along x, at rest. */
+static rig overlapping(double dt)
+{
+    rig r = rig_make(dt);
+    r.gravity = vec3_make(0, 0, 0);
+    r.settings.position_iterations = 400;
+    rig_box(&r, MOTION_DYNAMIC, vec3_make(4, 4, 1), 900, vec3_make(-1.99, 0, 0));
+    rig_box(&r, MOTION_DYNAMIC, vec3_make(4, 4, 1), 900, vec3_make(1.99, 0, 0));
+    return r;
+}
+
+static double depth_of(rig *r) { return 4 - (r->bodies.position[1].x - r->bodies.position[0].x); }
+
+START_TEST(correction_leaves_a_fifth_of_the_depth)
+{
+    for (int halving = 0; halving < 2; halving++) {
+        rig r = overlapping(0.02 / (1 + halving));
+        double expected = 0.02;
+        for (int k = 0; k < 6; k++) {
+            rig_step(&r);
+            expected *= 0.2;
+            assert_relative(depth_of(&r), expected, 1e-6);
+            assert_bits(body_books_of(&r.bodies).kinetic_energy, 0);
+        }
+        rig_free(&r);
+    }
+}
+END_TEST
+
+/* Depth after one correction of contacts that carried `share` of their limit. */
+static double corrected(double share, double limit, bool correct)
+{
+    rig r = overlapping(0.02);
+    rig_detect(&r);
+    ck_assert_int_eq(r.contacts.count, 4);
+    for (int32_t i = 0; i < r.contacts.count; i++) {
+        r.contacts.data[i].impulse_limit = limit;
+        r.contacts.data[i].impulse[0] = share * limit;
+        r.contacts.data[i].correct = correct;
+    }
+    rig_correct(&r);
+    double depth = depth_of(&r);
+    rig_free(&r);
+    return depth;
+}
+
+START_TEST(correction_yields_to_crushing)
+{
+    assert_relative(corrected(0.5, 10, true), 0.5 * 0.02, 1e-9);
+    assert_relative(corrected(0.1, 10, true), 0.2 * 0.02, 1e-9); /* never more than beta_0 */
+    assert_relative(corrected(1, 10, true), 0.02, 1e-12);
+    assert_relative(corrected(0, 0, true), 0.02, 1e-12); /* a first touch */
+    assert_relative(corrected(0, 10, false), 0.02, 1e-12);
+}
+END_TEST
+
+START_TEST(baumgarte_corrects_through_velocity)
+{
+    rig r = overlapping(0.02);
+    r.settings.baumgarte = true;
+    r.settings.iterations = 400;
+    rig_step(&r);
+    assert_relative(depth_of(&r), 0.2 * 0.02, 1e-6);
+    ck_assert(body_books_of(&r.bodies).kinetic_energy > 1);
+    rig_free(&r);
+}
+END_TEST
+
+/* ---- caps ---- */
+
+static void constant_cap(rig *r)
+{
+    for (int32_t i = 0; i < r->contacts.count; i++)
+        r->contacts.data[i].impulse_limit = r->crushing * r->dt / r->contacts.count;
+}
+
+START_TEST(constant_cap_decelerates_as_told)
+{
+    /* 92 t at 0.5 m/s against 20 MN: stops in 2.3 ms after 0.575 mm. */
+    double way[2], time[2];
+    for (int halving = 0; halving < 2; halving++) {
+        rig r = rig_make(5e-5 / (1 + halving));
+        r.gravity = vec3_make(0, 0, 0);
+        r.cap = constant_cap;
+        r.crushing = 20e6;
+        r.settings.kind = SOLVER_ACCURATE;
+        rig_box(&r, MOTION_STATIC, vec3_make(2, 20, 4), 1, vec3_make(1, 0, 0));
+        int32_t floe = rig_box(&r, MOTION_DYNAMIC, vec3_make(10, 10, 1), 920, vec3_make(-5, 0, 0));
+        r.bodies.velocity[floe].x = 0.5;
+        double energy = body_books_of(&r.bodies).kinetic_energy;
+        time[halving] = 0;
+        while (time[halving] < 0.01 && r.bodies.velocity[floe].x > 1e-9) {
+            rig_step(&r);
+            double now = body_books_of(&r.bodies).kinetic_energy;
+            ck_assert(now <= energy * (1 + 1e-12));
+            energy = now;
+            time[halving] += r.dt;
+        }
+        way[halving] = r.bodies.position[floe].x + 5;
+        rig_free(&r);
+    }
+    assert_absolute(time[0], 2.3e-3, 1.1e-4);
+    assert_absolute(time[1], 2.3e-3, 5.5e-5);
+    double e1 = fabs(way[0] - 0.575e-3), e2 = fabs(way[1] - 0.575e-3);
+    ck_assert_msg(e1 < 3e-5 && e2 < 0.6 * e1, "penetration off by %g, %g", e1, e2);
+}
+END_TEST
+
+START_TEST(friction_is_bounded_by_the_capped_force)
+{
+    rig r = rig_make(0.01);
+    rig_friction(&r, 0.5, 0.5);
+    r.cap = constant_cap;
+    rig_box(&r, MOTION_STATIC, vec3_make(20, 20, 1), 1, vec3_make(0, 0, -0.5));
+    int32_t box = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 1), 250, vec3_make(0, 0, 0.499));
+    r.crushing = 0.4 * 1000 * GRAVITY;
+    r.bodies.velocity[box].x = 5;
+    rig_step(&r);
+    assert_relative(r.bodies.velocity[box].z, -0.6 * GRAVITY * r.dt, 1e-9);
+    assert_relative(r.bodies.velocity[box].x, 5 - 0.5 * 0.4 * GRAVITY * r.dt, 1e-6);
+    rig_free(&r);
+}
+END_TEST
+
+START_TEST(driven_bodies_take_the_cap_while_approaching)
+{
+    for (int away = 0; away < 2; away++) {
+        rig r = rig_make(0.01);
+        rig_friction(&r, 0.2, 0.1);
+        rig_box(&r, MOTION_STATIC, vec3_make(4, 4, 1), 900, vec3_make(-1.99, 0, 0));
+        int32_t hull = rig_box(&r, MOTION_PRESCRIBED, vec3_make(4, 4, 1), 900, vec3_make(1.99, 0, 0));
+        r.bodies.velocity[hull] = vec3_make(away ? 1 : -1, 0.5, 0);
+        rig_detect(&r);
+        ck_assert_int_eq(r.contacts.count, 4);
+        for (int32_t i = 0; i < 4; i++) {
+            r.contacts.data[i].impulse_limit = 100;
+            r.contacts.data[i].crush_infinite = i > 0;
+        }
+        rig_solve(&r);
+        for (int32_t i = 0; i < 4; i++) {
+            bool loaded = !away && i > 0;
+            /* a is the static sheet: pushed towards -x, dragged along +y. */
+            vec3 p = contact_impulse(&r.contacts.data[i]);
+            assert_vec3_close(p, loaded ? vec3_make(-100, 10, 0) : vec3_make(0, 0, 0), 1e-12);
+        }
+        assert_vec3_close(r.bodies.velocity[hull], vec3_make(away ? 1 : -1, 0.5, 0), 0);
+        rig_free(&r);
+    }
+}
+END_TEST
+
+/* ---- friction ---- */
+
+START_TEST(static_friction_holds_more_than_kinetic)
+{
+    /* Pushed by 0.25 m g with mu_s 0.3 and mu_k 0.2: holds from rest, goes on when moving. */
+    for (int moving = 0; moving < 2; moving++) {
+        rig r = rig_make(0.01);
+        rig_friction(&r, 0.3, 0.2);
+        rig_box(&r, MOTION_STATIC, vec3_make(200, 20, 1), 1, vec3_make(0, 0, -0.5));
+        int32_t box = rig_box(&r, MOTION_DYNAMIC, vec3_make(4, 4, 0.5), 125, vec3_make(0, 0, 0.2499));
+        r.loads.data[box].force.x = 0.25 * 1000 * GRAVITY;
+        r.bodies.velocity[box].x = moving ? 1 : 0;
+        rig_run(&r, 100);
+        double gained = r.bodies.velocity[box].x - (moving ? 1 : 0);
+        assert_absolute(gained, moving ? 0.05 * GRAVITY : 0, moving ? 0.005 : 1e-9);
+        rig_free(&r);
+    }
+}
+END_TEST
+
+/* ---- stacks, ratios, warm start ---- */
+
+START_TEST(light_floe_between_heavy_ones_stays)
+{
+    /* 1 t under 100,000 t: ratio 1e5, on ground. */
+    rig r = rig_make(0.01);
+    r.settings.iterations = 50;
+    rig_friction(&r, 0.3, 0.3);
+    rig_box(&r, MOTION_STATIC, vec3_make(60, 60, 1), 1, vec3_make(0, 0, -0.5));
+    int32_t floe = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 0.25), 1000, vec3_make(0, 0, 0.1249));
+    int32_t ship = rig_box(&r, MOTION_DYNAMIC, vec3_make(40, 40, 10), 6250, vec3_make(0, 0, 5.2497));
+    assert_relative(r.bodies.mass[ship] / r.bodies.mass[floe], 1e5, 1e-9);
+    double energy = 0;
+    for (int k = 0; k < 300; k++) {
+        rig_step(&r);
+        double now = body_books_of(&r.bodies).kinetic_energy;
+        energy = k > 150 ? fmax(energy, now) : 0;
+    }
+    /* An unmoved stack; a fall of a millimetre would be 1e6 J. */
+    ck_assert_msg(energy < 1e3, "kinetic energy %g J", energy);
+    ck_assert_msg(fabs(r.bodies.position[ship].z - 5.25) < 0.01, "ship at %g", r.bodies.position[ship].z);
+    ck_assert_msg(r.report.max_depth < 0.01, "depth %g", r.report.max_depth);
+    rig_free(&r);
+}
+END_TEST
+
+static rig pile(void)
+{
+    rig r = rig_make(0.01);
+    rig_friction(&r, 0.4, 0.3);
+    rig_box(&r, MOTION_STATIC, vec3_make(60, 60, 1), 1, vec3_make(0, 0, -0.5));
+    for (int i = 0; i < 8; i++)
+        rig_box(&r, MOTION_DYNAMIC, vec3_make(3 + 0.2 * (i % 3), 3, 0.5), 900,
+                vec3_make(0.3 * (i % 2), 0.1 * (i % 3), 0.25 + 0.4999 * i));
+    return r;
+}
+
+START_TEST(warm_start_helps)
+{
+    double residual[2];
+    for (int warm = 0; warm < 2; warm++) {
+        rig r = pile();
+        r.settings.iterations = 20;
+        r.settings.warm_start = warm;
+        rig_run(&r, 100);
+        residual[warm] = r.report.residual;
+        rig_free(&r);
+    }
+    ck_assert_msg(residual[1] < 0.1 * residual[0], "residual %g cold, %g warm", residual[0], residual[1]);
+}
+END_TEST
+
+START_TEST(solvers_agree)
+{
+    rig r = pile(), s = pile();
+    s.settings.kind = SOLVER_ACCURATE;
+    s.settings.tolerance = 1e-10;
+    r.settings.iterations = 20000;
+    rig_run(&r, 3);
+    rig_run(&s, 3);
+    ck_assert_msg(s.report.residual <= 1e-10, "residual %g", s.report.residual);
+    ck_assert_msg(s.report.iterations < s.settings.most_iterations, "%d sweeps", s.report.iterations);
+    for (int32_t i = 1; i < r.bodies.count; i++)
+        assert_vec3_close(r.bodies.velocity[i], s.bodies.velocity[i], 1e-6);
+    rig_free(&r);
+    rig_free(&s);
+}
+END_TEST
+
+START_TEST(memory_is_sorted_and_matches)
+{
+    rig r = pile();
+    rig_run(&r, 5);
+    ck_assert(r.memory.count > 20);
+    for (int32_t i = 1; i < r.memory.count; i++)
+        ck_assert(r.memory.key[i - 1] < r.memory.key[i]);
+    /* The next step finds nearly all of them again. */
+    rig_detect(&r);
+    int found = 0;
+    for (int32_t i = 0; i < r.contacts.count; i++)
+        for (int32_t k = 0; k < r.memory.count; k++)
+            found += r.memory.key[k] == r.contacts.data[i].key;
+    ck_assert_int_ge(found, r.memory.count - 1);
+    rig_free(&r);
+}
+END_TEST
+
+START_TEST(added_mass_makes_heavier_along_its_axis)
+{
+    rig r = rig_make(0.01);
+    r.gravity = vec3_make(0, 0, 0);
+    sym3 inertia = {.xx = 10, .yy = 10, .zz = 10};
+    int32_t p = rig_point(&r, MOTION_DYNAMIC, 100, inertia, vec3_make(0, 0, 0));
+    r.bodies.added_mass[p] = vec3_make(100, 300, 0);
+    r.bodies.added_inertia[p] = vec3_make(0, 0, 30);
+    r.bodies.orientation[p] = quat_from_roll_pitch_yaw(0, 0, 0.5 * 3.14159265358979323846);
+    r.loads.data[p] = (wrench){{400, 400, 400}, {40, 40, 40}};
+    rig_solve(&r);
+    /* A quarter turn: body x is global y. */
+    assert_vec3_close(r.bodies.velocity[p], vec3_make(0.01, 0.02, 0.04), 1e-15);
+    assert_vec3_close(r.bodies.angular_velocity[p], vec3_make(0.04, 0.04, 0.01), 1e-15);
+    rig_free(&r);
+}
+END_TEST
+
+START_TEST(refusals)
+{
+    rig r = pile();
+    fram_error e = {0};
+    solver_settings settings = r.settings;
+    settings.kind = (solver_kind)17;
+    assert_fails(solver_solve(&r.ctx, r.solve, &settings, 0.01, &r.bodies, r.loads.data, &r.joints, &r.contacts,
+                              &r.memory, NULL, &e),
+                 e, FRAM_ERROR_UNSUPPORTED, "solver");
+    r.bodies.mass[3] = 0;
+    assert_fails(solver_solve(&r.ctx, r.solve, &r.settings, 0.01, &r.bodies, r.loads.data, &r.joints, &r.contacts,
+                              &r.memory, NULL, &e),
+                 e, FRAM_ERROR_USAGE, "body 3");
+    rig_free(&r);
+}
+END_TEST
+
+START_TEST(memory_runs_out)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        rig r = pile();
+        rig_step(&r);
+        joint_create(&r.ctx, &r.joints, &r.bodies, 1, 2, JOINT_FIXED, vec3_make(0, 0, 0.5), quat_identity());
+        context failing = failing_context(&memory, n);
+        fram_error e = {0};
+        solver *s = solver_create(&failing);
+        contact_memory_table fresh = {0};
+        r.settings.kind = SOLVER_ACCURATE;
+        r.settings.most_iterations = 3;
+        fram_status status = s ? solver_solve(&failing, s, &r.settings, r.dt, &r.bodies, r.loads.data, &r.joints,
+                                              &r.contacts, &fresh, &r.report, &e)
+                               : FRAM_ERROR_MEMORY;
+        if (status == FRAM_OK)
+            status = solver_correct_positions(&failing, s, &r.settings, r.dt, &r.bodies, &r.joints, &r.contacts, &e);
+        solver_free(&failing, s);
+        table_free(&failing, &fresh, &contact_memory_table_info);
+        rig_free(&r);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(status, FRAM_OK);
+            ck_assert(n > 5);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+TEST_MAIN("solver", correction_leaves_a_fifth_of_the_depth, correction_yields_to_crushing,
+          baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told,
+          friction_is_bounded_by_the_capped_force, driven_bodies_take_the_cap_while_approaching,
+          static_friction_holds_more_than_kinetic, light_floe_between_heavy_ones_stays, warm_start_helps, solvers_agree,
+          memory_is_sorted_and_matches, added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)
