@@ -158,8 +158,8 @@ static fram_status read_polygon(overlay *o, const GEOSGeometry *shape, bool fill
     polygon_list_clear(&o->rings);
     for (int i = -1; i < holes; i++) {
         int32_t n = 0;
-        fram_status status = read_ring(o, i < 0 ? GEOSGetExteriorRing_r(o->geos, shape)
-                                                : GEOSGetInteriorRingN_r(o->geos, shape, i), &n, error);
+        fram_status status = read_ring(
+            o, i < 0 ? GEOSGetExteriorRing_r(o->geos, shape) : GEOSGetInteriorRingN_r(o->geos, shape, i), &n, error);
         if (status != FRAM_OK)
             return status;
         for (int32_t a = 0, b = n - 1; i >= 0 && a < b; a++, b--) { /* holes run clockwise */
@@ -326,7 +326,11 @@ static GEOSGeometry *collect(overlay *o, const polygon_list *parts, fram_status 
 {
     int32_t count = polygon_list_count(parts), made = 0;
     GEOSGeometry **shape = memory_array(o->ctx, (size_t)count, sizeof *shape), *all = NULL;
-    *status = shape ? FRAM_OK : error_memory(error);
+    if (!shape) {
+        *status = error_memory(error);
+        return NULL;
+    }
+    *status = FRAM_OK;
     while (*status == FRAM_OK && made < count) {
         shape[made] = to_geos(o, polygon_list_get(parts, made), status, error);
         made += *status == FRAM_OK;
@@ -441,8 +445,8 @@ fram_status overlay_triangulate(overlay *o, polygon p, polygon_list *out, fram_e
         return status;
     GEOSGeometry *shape = to_geos(o, p, &status, error);
     if (shape)
-        status = take_result(o, GEOSConstrainedDelaunayTriangulation_r(o->geos, shape), "triangulate a polygon", out,
-                             error);
+        status =
+            take_result(o, GEOSConstrainedDelaunayTriangulation_r(o->geos, shape), "triangulate a polygon", out, error);
     GEOSGeom_destroy_r(o->geos, shape);
     return status;
 }

@@ -76,7 +76,7 @@ bool polygon_self_intersects(context *ctx, polygon p, int32_t *edge_a, int32_t *
 /* Algorithm 9, repaired: the smallest-area box aligned with an edge of the convex hull; sides[0] >= sides[1] [m].
    Points on a line give sides[1] = 0.  FRAM_ERROR_INPUT for no vertices, FRAM_ERROR_MEMORY. */
 typedef struct oriented_box {
-    vec2 axis;   /* unit, along sides[0] */
+    vec2 axis; /* unit, along sides[0] */
     vec2 centre;
     double sides[2];
 } oriented_box;

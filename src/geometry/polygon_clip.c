@@ -44,7 +44,7 @@ static double right_of(vec2 a, vec2 b, const vec2 *vertex, int32_t n, double *si
 /* Cut the ring in `from` by every edge of q; from and to change roles.  Returns the ring's place, its count in *n. */
 static vec2 *cut_by_all(polygon q, double rounding, vec2 *from, vec2 *to, double *side, int32_t *n)
 {
-    for (int32_t i = 0; i < q.count && *n > 0; i++) {
+    for (int32_t i = 0; i<q.count && * n> 0; i++) {
         vec2 a = q.vertex[i], b = q.vertex[i + 1 < q.count ? i + 1 : 0];
         double slack = rounding * (fabs(b.x - a.x) + fabs(b.y - a.y));
         if (vec2_equal(a, b) || right_of(a, b, from, *n, side) <= slack)
@@ -67,7 +67,7 @@ bool polygon_clip_convex(context *ctx, polygon p, polygon q, vec2_array *out)
     if (p.count > INT32_MAX - q.count || !array_reserve(ctx, out, p.count + q.count))
         return false;
     if (p.count + q.count > CLIP_ROOM) {
-        spare = memory_array(ctx, (size_t)(p.count + q.count), sizeof *spare + sizeof *side);
+        spare = memory_array(ctx, (size_t)p.count + (size_t)q.count, sizeof *spare + sizeof *side);
         if (!spare)
             return false;
         side = (double *)(spare + p.count + q.count);

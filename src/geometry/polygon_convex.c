@@ -57,10 +57,7 @@ bool polygon_is_convex(polygon p)
     return sign != 0;
 }
 
-static int compare_points(const void *a, const void *b)
-{
-    return vec2_compare(*(const vec2 *)a, *(const vec2 *)b);
-}
+static int compare_points(const void *a, const void *b) { return vec2_compare(*(const vec2 *)a, *(const vec2 *)b); }
 
 /* One chain over the sorted points, from the first to the last in the direction of `step`, without its last point. */
 static int32_t hull_chain(const vec2 *point, int32_t n, bool backward, vec2 *out)
@@ -133,10 +130,9 @@ fram_status polygon_oriented_box(context *ctx, polygon p, oriented_box *box)
         return FRAM_ERROR_MEMORY;
     }
     polygon ring = {hull.data, hull.count};
-    *box = edge_box(ring, 0);
-    for (int32_t i = 1; i < ring.count; i++) {
+    for (int32_t i = 0; i < ring.count; i++) {
         oriented_box other = edge_box(ring, i);
-        if (other.sides[0] * other.sides[1] < box->sides[0] * box->sides[1])
+        if (i == 0 || other.sides[0] * other.sides[1] < box->sides[0] * box->sides[1])
             *box = other;
     }
     array_free(ctx, &hull);

@@ -1,52 +1,9 @@
-/* Exact sign of an orientation; see predicate.h.  Needs round to nearest and no fused multiply-add. */
+/* Exact sign of an orientation; see predicate.h. */
 #include "geometry/predicate.h"
+#include "geometry/expansion.h"
 
 /* Relative error of the plain determinant, (3 + 16 u) u with u = 2^-53 (Shewchuk 1997, section 4.2). */
 #define FILTER 3.3306690738754716e-16
-/* Splits a double into two halves of 26 bits: 2^27 + 1. */
-#define SPLITTER 134217729.0
-
-/* sum + tail = a + b exactly (Knuth). */
-static void exact_sum(double a, double b, double *sum, double *tail)
-{
-    double s = a + b, b_part = s - a, a_part = s - b_part;
-    *sum = s;
-    *tail = (a - a_part) + (b - b_part);
-}
-
-/* high + low = a exactly, each of 26 bits (Dekker). */
-static void split(double a, double *high, double *low)
-{
-    double c = SPLITTER * a;
-    *high = c - (c - a);
-    *low = a - *high;
-}
-
-/* product + tail = a b exactly (Dekker). */
-static void exact_product(double a, double b, double *product, double *tail)
-{
-    double p = a * b, a_high, a_low, b_high, b_low;
-    split(a, &a_high, &a_low);
-    split(b, &b_high, &b_low);
-    *product = p;
-    *tail = a_low * b_low - (((p - a_high * b_high) - a_low * b_high) - a_high * b_low);
-}
-
-/* Add b to the expansion e of n doubles, which stays exact and ordered by magnitude; returns the new n. */
-static int expansion_add(double *e, int n, double b)
-{
-    int kept = 0;
-    double sum = b;
-    for (int i = 0; i < n; i++) {
-        double tail;
-        exact_sum(sum, e[i], &sum, &tail);
-        if (tail != 0)
-            e[kept++] = tail;
-    }
-    if (sum != 0)
-        e[kept++] = sum;
-    return kept;
-}
 
 /* ax by - ax cy - cx by - ay bx + ay cx + cy bx: the determinant without differences, so without rounding. */
 static int exact_orientation(vec2 a, vec2 b, vec2 c)
@@ -54,13 +11,9 @@ static int exact_orientation(vec2 a, vec2 b, vec2 c)
     const double factor[6][2] = {{a.x, b.y}, {-a.x, c.y}, {-c.x, b.y}, {-a.y, b.x}, {a.y, c.x}, {c.y, b.x}};
     double e[12];
     int n = 0;
-    for (int i = 0; i < 6; i++) {
-        double product, tail;
-        exact_product(factor[i][0], factor[i][1], &product, &tail);
-        n = expansion_add(e, n, tail);
-        n = expansion_add(e, n, product);
-    }
-    return n == 0 ? 0 : e[n - 1] > 0 ? 1 : -1;
+    for (int i = 0; i < 6; i++)
+        n = expansion_add_product(e, n, factor[i][0], factor[i][1]);
+    return expansion_sign(e, n);
 }
 
 int orientation(vec2 a, vec2 b, vec2 c)
@@ -82,10 +35,7 @@ static bool in_box(vec2 a, vec2 b, vec2 p)
            p.y <= real_max(a.y, b.y);
 }
 
-bool segment_contains(vec2 a, vec2 b, vec2 p)
-{
-    return in_box(a, b, p) && orientation(a, b, p) == 0;
-}
+bool segment_contains(vec2 a, vec2 b, vec2 p) { return in_box(a, b, p) && orientation(a, b, p) == 0; }
 
 bool segments_touch(vec2 a, vec2 b, vec2 c, vec2 d)
 {

@@ -1,6 +1,6 @@
-/* Exact answers about points and segments of the plane: the sign is right for any doubles (no overflow), because the
-   last digits are computed when they matter.  Every yes-or-no question of the room about the outline of a polygon
-   goes through here, so that two functions never disagree about the same three points.
+/* Exact answers about points and segments of the plane: the sign is right for any doubles (coordinates from 1e-70
+   to 1e70 or 0), because the last digits are computed when they matter.  Every yes-or-no question of the room about
+   the outline of a polygon goes through here, so that two functions never disagree about the same three points.
    Knows nothing of polygons. */
 #ifndef GEOMETRY_PREDICATE_H
 #define GEOMETRY_PREDICATE_H

@@ -96,8 +96,8 @@ static bool gather(merging *m, int32_t half, int32_t most)
     return true;
 }
 
-/* The turns at the joints rule most unions out; those that rounding calls straight may add up, so the whole ring is judged
-   by the same test that is applied to a piece later. */
+/* The turns at the joints rule most unions out; those that rounding calls straight may add up, so the whole ring is
+   judged by the same test that is applied to a piece later. */
 static bool union_is_convex(merging *m, int32_t half, int32_t other, int32_t most)
 {
     if (joint_turn(m, half, other) < 0 || joint_turn(m, other, half) < 0)
@@ -168,8 +168,8 @@ bool triangles_merge(context *ctx, const vec2 *vertex, int32_t vertex_count, con
         match_half_edges(&m);
         for (int32_t i = 0; i < m.edge_count; i++) {
             int32_t half = m.edge[i].half, other = m.edge[i].other;
-            bool fits = rule == MERGE_CONVEX ? union_is_convex(&m, half, other, most)
-                                             : union_is_simple(&m, half, other);
+            bool fits =
+                rule == MERGE_CONVEX ? union_is_convex(&m, half, other, most) : union_is_simple(&m, half, other);
             if (fits)
                 remove_edge(&m, half, other);
         }
