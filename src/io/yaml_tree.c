@@ -205,7 +205,10 @@ static fram_status take_key(yaml_builder *b, int32_t text, bool quoted)
 
 static fram_status add_scalar(yaml_builder *b, struct fy_token *token)
 {
-    bool quoted = token && fy_token_scalar_style(token) != FYSS_PLAIN;
+    enum fy_scalar_style style = token ? fy_token_scalar_style(token) : FYSS_PLAIN;
+    bool quoted = style != FYSS_PLAIN;
+    if (style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED)
+        b->column--; /* libfyaml's mark stands behind the quote */
     int32_t text = -1, index;
     fram_status status = add_text(b, token, &text);
     if (status != FRAM_OK)
