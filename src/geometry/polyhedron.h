@@ -26,7 +26,8 @@ typedef ARRAY(polyhedron) polyhedron_array;
 
 void polyhedron_free(context *ctx, polyhedron *p);
 void polyhedron_array_free(context *ctx, polyhedron_array *a);
-/* Convex hull of points (incremental, coplanar faces merged within `tolerance` [m]).  FRAM_ERROR_INPUT for flat input. */
+/* Convex hull of points (incremental, coplanar faces merged within `tolerance` [m]).  FRAM_ERROR_INPUT for flat
+   input. */
 fram_status polyhedron_hull(context *ctx, const vec3 *point, int32_t count, double tolerance, polyhedron *out,
                             fram_error *error);
 /* The prism of a convex outline between two heights. */
@@ -38,8 +39,8 @@ double polyhedron_volume(const polyhedron *p);
 bool polyhedron_contains(const polyhedron *p, vec3 point, double margin);
 
 /* Cut a closed mesh into convex pieces: cuts by planes across the longest axis where the concavity (largest distance of
-   the mesh to the piece's hull) exceeds `tolerance` [m], until it does not or `most` pieces are reached.  concavity gets the largest
-   distance of the mesh's vertices to the union's surface that remains. */
+   the mesh to the piece's hull) exceeds `tolerance` [m], until it does not or `most` pieces are reached.  concavity
+   gets the largest distance of the mesh's vertices to the union's surface that remains. */
 fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
                                double *concavity, fram_error *error);
 

@@ -1,0 +1,166 @@
+/* Convex polyhedra: measures, and the prism.  Knows nothing of contact. */
+#include "geometry/polyhedron.h"
+
+#include "geometry/point_grid.h"
+#include "geometry/polyhedron_build.h"
+
+/* Directions closer than this [rad] are one: their difference moves no contact by a millionth of a body. */
+#define PARALLEL 1e-6
+
+void polyhedron_free(context *ctx, polyhedron *p)
+{
+    array_free(ctx, &p->vertex);
+    array_free(ctx, &p->face);
+    array_free(ctx, &p->loop);
+    array_free(ctx, &p->edge_direction);
+}
+
+void polyhedron_array_free(context *ctx, polyhedron_array *a)
+{
+    for (int32_t i = 0; i < a->count; i++)
+        polyhedron_free(ctx, &a->data[i]);
+    array_free(ctx, a);
+}
+
+static vec3 corner(const polyhedron *p, const polyhedron_face *f, int32_t i)
+{
+    return p->vertex.data[p->loop.data[f->first + i]];
+}
+
+/* Twice the area vector of a face (Newell 1972), about its first vertex. */
+static vec3 twice_area(const polyhedron *p, const polyhedron_face *f)
+{
+    vec3 origin = corner(p, f, 0), sum = {0, 0, 0};
+    for (int32_t i = 2; i < f->count; i++)
+        sum = vec3_add(sum, vec3_cross(vec3_sub(corner(p, f, i - 1), origin), vec3_sub(corner(p, f, i), origin)));
+    return sum;
+}
+
+/* Volume about `origin`; first (may be NULL) gets the first moment about it. */
+static double volume_about(const polyhedron *p, vec3 origin, vec3 *first)
+{
+    double volume = 0;
+    vec3 moment = {0, 0, 0};
+    for (int32_t k = 0; k < p->face.count; k++) {
+        const polyhedron_face *f = &p->face.data[k];
+        vec3 a = vec3_sub(corner(p, f, 0), origin);
+        for (int32_t i = 2; i < f->count; i++) {
+            vec3 b = vec3_sub(corner(p, f, i - 1), origin), c = vec3_sub(corner(p, f, i), origin);
+            double v = vec3_dot(a, vec3_cross(b, c)) / 6;
+            volume += v;
+            moment = vec3_mad(moment, vec3_add(vec3_add(a, b), c), v / 4);
+        }
+    }
+    if (first)
+        *first = moment;
+    return volume;
+}
+
+double polyhedron_volume(const polyhedron *p) { return p->vertex.count ? volume_about(p, p->vertex.data[0], NULL) : 0; }
+
+bool polyhedron_contains(const polyhedron *p, vec3 point, double margin)
+{
+    for (int32_t k = 0; k < p->face.count; k++)
+        if (vec3_dot(p->face.data[k].normal, point) - p->face.data[k].offset > margin)
+            return false;
+    return p->face.count > 0;
+}
+
+/* The plane through a face's loop; no vertex of the loop is outside it. */
+static void set_plane(const polyhedron *p, polyhedron_face *f)
+{
+    f->normal = vec3_unit(twice_area(p, f));
+    f->offset = vec3_dot(f->normal, corner(p, f, 0));
+    for (int32_t i = 1; i < f->count; i++)
+        f->offset = fmax(f->offset, vec3_dot(f->normal, corner(p, f, i)));
+}
+
+static bool add_directions(context *ctx, polyhedron *p)
+{
+    point_grid grid;
+    bool done = point_grid_init(ctx, &grid, (box3){{-1, -1, -1}, {1, 1, 1}}, PARALLEL, p->loop.count / 2);
+    for (int32_t k = 0; done && k < p->face.count; k++) {
+        const polyhedron_face *f = &p->face.data[k];
+        for (int32_t i = 0; done && i < f->count; i++) {
+            int32_t from = p->loop.data[f->first + i], to = p->loop.data[f->first + (i + 1) % f->count];
+            if (from > to)
+                continue; /* each edge once */
+            vec3 d = vec3_unit(vec3_sub(p->vertex.data[to], p->vertex.data[from]));
+            if (point_grid_find(&grid, d) < 0 && point_grid_find(&grid, vec3_neg(d)) < 0)
+                done = point_grid_add(ctx, &grid, d) && array_push(ctx, &p->edge_direction, d);
+        }
+    }
+    point_grid_free(ctx, &grid);
+    return done;
+}
+
+bool polyhedron_finish(context *ctx, polyhedron *p)
+{
+    for (int32_t k = 0; k < p->face.count; k++)
+        set_plane(p, &p->face.data[k]);
+    vec3 origin = p->vertex.data[0], first;
+    double volume = volume_about(p, origin, &first);
+    p->centre = vec3_add(origin, vec3_scale(first, 1 / volume));
+    p->radius = 0;
+    for (int32_t i = 0; i < p->vertex.count; i++)
+        p->radius = fmax(p->radius, vec3_length(vec3_sub(p->vertex.data[i], p->centre)));
+    array_clear(&p->edge_direction);
+    return add_directions(ctx, p);
+}
+
+/* Bottom, top, then the sides in the order of the outline's edges. */
+static void add_prism_faces(int32_t n, polyhedron *out)
+{
+    int32_t *loop = out->loop.data;
+    polyhedron_face *face = out->face.data;
+    for (int32_t i = 0; i < n; i++) {
+        int32_t j = i + 1 < n ? i + 1 : 0;
+        const int32_t side[4] = {i, j, n + j, n + i}, last[4] = {j, n + j, n + i, i};
+        loop[i] = i ? n - i : 0;
+        loop[n + i] = n + i;
+        for (int32_t k = 0; k < 4; k++)
+            loop[2 * n + 4 * i + k] = j ? side[k] : last[k]; /* loops begin at their least vertex */
+        face[2 + i] = (polyhedron_face){.first = 2 * n + 4 * i, .count = 4};
+    }
+    face[0] = (polyhedron_face){.first = 0, .count = n};
+    face[1] = (polyhedron_face){.first = n, .count = n};
+    out->loop.count = 6 * n;
+    out->face.count = 2 + n;
+}
+
+static bool make_prism(context *ctx, const vec2_array *plan, double bottom, double top, polyhedron *out)
+{
+    int32_t n = plan->count;
+    if (!array_resize(ctx, &out->vertex, 2 * n) || !array_reserve(ctx, &out->loop, 6 * n) ||
+        !array_reserve(ctx, &out->face, n + 2))
+        return false;
+    for (int32_t i = 0; i < n; i++) {
+        out->vertex.data[i] = (vec3){plan->data[i].x, plan->data[i].y, bottom};
+        out->vertex.data[n + i] = (vec3){plan->data[i].x, plan->data[i].y, top};
+    }
+    add_prism_faces(n, out);
+    return polyhedron_finish(ctx, out);
+}
+
+fram_status polyhedron_prism(context *ctx, polygon outline, double bottom, double top, polyhedron *out,
+                             fram_error *error)
+{
+    polyhedron_free(ctx, out);
+    if (!(bottom < top))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "a prism from z = %g to %g m has no height", bottom,
+                         top);
+    if (outline.count < 3 || !(polygon_area(outline) > 0) || !polygon_is_convex(outline))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                         "the outline of a convex prism (%d vertices) is not convex and counter-clockwise",
+                         outline.count);
+    if (outline.count > INT32_MAX / 8)
+        return error_memory(error);
+    vec2_array plan = {0};
+    /* Without straight and repeated vertices, whose sides would share a plane. */
+    bool done = polygon_convex_hull(ctx, outline, &plan) && make_prism(ctx, &plan, bottom, top, out);
+    array_free(ctx, &plan);
+    if (done)
+        return FRAM_OK;
+    polyhedron_free(ctx, out);
+    return error_memory(error);
+}
