@@ -225,6 +225,8 @@ static fram_status read_list(const reader *r, const scenario_key *key, void *mem
 {
     if (node->kind != YAML_SEQUENCE)
         return refuse(r, place, "expected a list, every item begun by \"- \", found %s", kind_text(node));
+    if (node->count > (int32_t)key->hi) /* before memory is spent on them */
+        return refuse(r, place, "expected at most %d items, found %d", (int)key->hi, (int)node->count);
     int32_t index = 0;
     fram_status status = FRAM_OK;
     for (int32_t i = node->first; i >= 0 && status == FRAM_OK; i = r->tree->nodes.data[i].next) {

@@ -107,8 +107,11 @@ static void add_section(const reference *r, const scenario_section *section, con
             continue;
         char name[sizeof((scenario_place *)0)->key];
         snprintf(name, sizeof name, "%s%s%s%s", path, *path ? "." : "", key->name, key->kind == KEY_LIST ? "[]" : "");
-        text_format(r->ctx, r->out, "\n## %s\n\n%c%s%s.\n\n", name, key->meaning[0] - ('a' <= key->meaning[0] ? 32 : 0),
-                    key->meaning + 1, key->kind == KEY_LIST ? "; a list of mappings" : "");
+        text_format(r->ctx, r->out, "\n## %s\n\n%c%s", name, key->meaning[0] - ('a' <= key->meaning[0] ? 32 : 0),
+                    key->meaning + 1);
+        if (key->kind == KEY_LIST)
+            text_format(r->ctx, r->out, "; a list of at most %d mappings", (int)key->hi);
+        add(r, ".\n\n");
         add_section(r, key->section, name);
     }
 }

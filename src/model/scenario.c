@@ -60,8 +60,11 @@ static fram_status section_walk(const scenario_section *section, const void *dat
         if (key->kind == KEY_SECTION) {
             status = section_walk(key->section, member, name, visit, user, error);
         } else if (key->kind == KEY_LIST) {
+            char list[PATH_SIZE];
+            memcpy(list, name, sizeof list);
+            status = visit(user, key, member, list, error);
             for (int32_t i = 0; i < list_count(member) && status == FRAM_OK; i++) {
-                snprintf(name, sizeof name, "%s%s%s[%d]", path, *path ? "." : "", key->name, (int)i);
+                snprintf(name, sizeof name, "%.80s[%d]", list, (int)i);
                 status = section_walk(key->section, list_element(key, member, i), name, visit, user, error);
             }
         } else {

@@ -29,7 +29,7 @@ typedef char scenario_text[SCENARIO_TEXT_SIZE];
 #define SCENARIO_TYPE_TEXT(value) scenario_text
 #define SCENARIO_TYPE_PATH(value) scenario_text
 #define SCENARIO_TYPE_SECTION(noun) scenario_##noun
-#define SCENARIO_TYPE_LIST(noun) scenario_##noun##_list
+#define SCENARIO_TYPE_LIST(noun, most) scenario_##noun##_list
 
 #define SCENARIO_MEMBER(name, spec, unit, meaning) SCENARIO_TYPE_##spec name;
 #define SCENARIO_STRUCT(noun, KEYS)         \

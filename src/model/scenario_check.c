@@ -52,6 +52,8 @@ static fram_status check_range(void *user, const scenario_key *key, const void *
         return check_number(s, key, member, path, error);
     if (key->kind == KEY_CHOICE && !choice_name(key, choice_value(member), &size))
         return fault(s, error, path, "expected one of %s, found value %d", key->text, (int)choice_value(member));
+    if (key->kind == KEY_LIST && list_count(member) > (int32_t)key->hi)
+        return fault(s, error, path, "expected at most %d items, found %d", (int)key->hi, (int)list_count(member));
     return FRAM_OK;
 }
 

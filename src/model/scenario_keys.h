@@ -12,7 +12,7 @@
        TEXT(value)                              scenario_text
        PATH(value)                              scenario_text, a file relative to the scenario's folder
        SECTION(noun)                            a nested scenario_<noun>, one key of a mapping
-       LIST(noun)                               an ARRAY of scenario_<noun>, written as a list of mappings
+       LIST(noun, most)                         an ARRAY of at most so many scenario_<noun>, written as a list of mappings
    Units are SI; only keys that end in _deg hold degrees.  Directions are towards, counter-clockwise from X.
 
    Knows the enums of lower rooms; must not know files. */
@@ -109,7 +109,7 @@
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")    \
     X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                  \
     X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                               \
-    X(floes, LIST(floe), "", "single floes, for source floes")
+    X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
 #define SCENARIO_FRICTION_KEYS(X)                                                                                  \
     X(ice_ice_static, REAL(0.3, 0, 10), "1", "ice on ice, sticking")                                               \

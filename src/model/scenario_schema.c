@@ -17,7 +17,7 @@ _Static_assert(sizeof(vessel_mode) == sizeof(int32_t), "an enum is 4 bytes");
 #define INFO_TEXT(v) .kind = KEY_TEXT, .text = (v)
 #define INFO_PATH(v) .kind = KEY_PATH, .text = (v)
 #define INFO_SECTION(noun) .kind = KEY_SECTION, .section = &noun##_section
-#define INFO_LIST(noun) .kind = KEY_LIST, .section = &noun##_section
+#define INFO_LIST(noun, most) .kind = KEY_LIST, .hi = (most), .section = &noun##_section
 
 /* A row needs the struct of its section, hence SELF. */
 #define ROW(k, spec, u, m) {.name = #k, .unit = (u), .meaning = (m), .offset = offsetof(SELF, k), INFO_##spec},

@@ -27,7 +27,7 @@ typedef struct scenario_key {
     size_t offset;                   /* in the struct of its section */
     double value;                    /* default of a real (at `at`), integer, boolean or choice */
     double at, power;                /* default of a real = value * (scale / at)^power; power 0: constant */
-    double lo, hi;                   /* closed range of a real or integer */
+    double lo, hi;                   /* closed range of a real or integer; hi of a list: its largest count */
     const char *text;                /* choice: the names, one blank between; text and path: the default */
     const scenario_section *section; /* of a section, of a list's elements */
 } scenario_key;
@@ -75,8 +75,8 @@ int32_t choice_find(const scenario_key *key, const char *name);
 /* Value of a real, integer or boolean member, as a double (exact: integers are below 2^53); 0 for the others. */
 double key_number(const scenario_key *key, const void *member);
 
-/* A function called for every key of a scenario that is no section and no list, in the order of the rows; path is its full
-   name, "ice.floes[2].x".  Walking ends with the first status that is not FRAM_OK. */
+/* A function called for every key of a scenario that is no section, in the order of the rows, for a list before its items;
+   path is its full name, "ice.floes[2].x".  Walking ends with the first status that is not FRAM_OK. */
 typedef fram_status (*key_visit)(void *user, const scenario_key *key, const void *member, const char *path,
                                  fram_error *error);
 fram_status scenario_walk(const scenario *s, key_visit visit, void *user, fram_error *error);

@@ -228,6 +228,40 @@ START_TEST(absolute_paths_hold_anywhere)
 }
 END_TEST
 
+/* A list that is full of the longest values still prints to a file that may be read. */
+START_TEST(the_largest_scenario_can_be_read_again)
+{
+    context_init(&ctx);
+    scenario s, again;
+    scenario_defaults(&s, 30);
+    s.ice.source = ICE_FLOES;
+    for (int i = 0; i < 1000; i++) {
+        scenario_floe floe;
+        scenario_floe_defaults(&floe, 30);
+        floe.length = floe.width = floe.radius = 1.0000000000000002e-05;
+        floe.thickness = 1.0000000000000002e-05;
+        floe.x = floe.y = floe.elevation = floe.yaw_deg = floe.pitch_deg = floe.roll_deg = -1.0000000000000002e-05;
+        floe.velocity_x = floe.velocity_y = floe.velocity_z = floe.spin = -1.0000000000000002e-05;
+        ck_assert(array_push(&ctx, &s.ice.floes, floe));
+    }
+    text_buffer text = {0};
+    assert_ok(scenario_print(&ctx, &s, NULL, &text, &error), error);
+    ck_assert_int_le(text.count, SCENARIO_FILE_LIMIT);
+    assert_ok(scenario_parse(&ctx, "again", text.data, (size_t)text.count, NULL, &again, &error), error);
+    ck_assert_int_eq(again.ice.floes.count, 1000);
+    assert_bits(again.ice.floes.data[999].spin, s.ice.floes.data[999].spin);
+    text_free(&ctx, &text);
+    scenario_free(&ctx, &again);
+    scenario_free(&ctx, &s);
+    text_add(&ctx, &text, "ice:\n  source: floes\n  floes:\n");
+    for (int i = 0; i < 1001; i++)
+        text_add(&ctx, &text, "    - {}\n");
+    assert_fails(scenario_parse(&ctx, "many", text.data, (size_t)text.count, NULL, &s, &error), error, FRAM_ERROR_INPUT,
+                 "expected at most 1000 items, found 1001");
+    text_free(&ctx, &text);
+}
+END_TEST
+
 /* ---- overrides ---- */
 
 START_TEST(overrides_win)
@@ -404,6 +438,7 @@ END_TEST
 
 TEST_MAIN("scenario_file", values_arrive, an_empty_file_is_all_defaults, other_ways_to_write_the_same,
           printing_and_reading_again_gives_the_same, random_scenarios_survive_printing,
-          the_hash_sees_every_value_and_no_comment, absolute_paths_hold_anywhere, overrides_win,
+          the_hash_sees_every_value_and_no_comment, absolute_paths_hold_anywhere,
+          the_largest_scenario_can_be_read_again, overrides_win,
           bad_overrides_are_refused, size_and_depth_are_limited, files_that_cannot_be_read,
           no_memory_is_an_error_everywhere, the_committed_reference_is_up_to_date)

@@ -133,7 +133,7 @@ static fram_status count_visit(void *user, const scenario_key *key, const void *
 {
     (void)member;
     (void)e;
-    ck_assert(key->section == NULL);
+    ck_assert(key->kind != KEY_SECTION);
     visits++;
     return user && strcmp(path, user) == 0 ? FRAM_ERROR_INTERNAL : FRAM_OK;
 }
@@ -155,6 +155,13 @@ START_TEST(walking_meets_every_key_once)
     const scenario_key *floes = &ice->section->keys[section_find(ice->section, "floes")];
     ck_assert_int_eq(visits, without + 2 * section_keys(floes->section));
     ck_assert_int_eq(scenario_walk(&s, count_visit, "ice.floes[1].yaw_deg", &error), FRAM_ERROR_INTERNAL);
+    s.ice.source = ICE_FLOES;
+    while (s.ice.floes.count < 1000)
+        ck_assert(array_push(&ctx, &s.ice.floes, floe));
+    assert_ok(scenario_check(&s, &error), error);
+    ck_assert(array_push(&ctx, &s.ice.floes, floe));
+    assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, "expected at most 1000 items, found 1001");
+    ck_assert_str_eq(error.key, "ice.floes");
     scenario_free(&ctx, &s);
     ck_assert_int_eq(s.ice.floes.count, 0);
 }
