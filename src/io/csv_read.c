@@ -47,6 +47,12 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
         }
         c = *end ? end + 1 : end;
     }
+    for (int32_t k = 0; k < count; k++) {
+        if (at[k] >= column)
+            return error_set(error, FRAM_ERROR_INPUT, path, line, NULL,
+                             "the row has %d values; the header names a column %d that is asked for", (int)column,
+                             (int)at[k] + 1);
+    }
     return FRAM_OK;
 }
 
@@ -68,6 +74,10 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
             break; /* cut short */
         line[length - 1] = '\0';
         number++;
+        if (strlen(line) + 1 != (size_t)length) {
+            status = error_set(error, FRAM_ERROR_INPUT, path, number, NULL, "expected text, found a NUL byte");
+            break;
+        }
         status = number == 1 ? find_columns(path, line, names, count, at, error)
                              : read_row(ctx, path, number, line, at, count, columns, error);
     }

@@ -211,9 +211,9 @@ static fram_status read_payload(record_reader *r, const block_head *head, fram_e
     if (status != FRAM_OK)
         return status;
     static const char zeros[8] = {0};
-    const char *end = (const char *)r->payload + length;
     bool sound = crc_of(0, r->payload, length) == head->payload_crc;
-    if (!sound || (padding > 0 && memcmp(end, zeros, padding) != 0))
+    /* An empty payload may be NULL, which has no place behind it. */
+    if (!sound || (padding > 0 && memcmp((const char *)r->payload + length, zeros, padding) != 0))
         snprintf(r->damage, sizeof r->damage, "damaged block at byte %llu: its checksum does not fit",
                  (unsigned long long)r->position);
     return FRAM_OK;

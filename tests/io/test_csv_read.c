@@ -1,0 +1,68 @@
+/* io/csv_read: columns by name, the end cut short, and what is refused, with its line. */
+#include "io/csv_read.h"
+#include "scratch.h"
+
+enum { COLUMNS = 2 };
+static const char *const names[COLUMNS] = {"time", "force"};
+
+static fram_status read_text(const char *text, size_t size, double_array *columns, fram_error *error)
+{
+    context ctx;
+    context_init(&ctx);
+    memset(error, 0, sizeof *error);
+    scratch place = scratch_make();
+    FILE *file = fopen(scratch_path(&place, "table.csv"), "wb");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_uint_eq(fwrite(text, 1, size, file), size);
+    ck_assert_int_eq(fclose(file), 0);
+    fram_status status = csv_read(&ctx, place.path, names, COLUMNS, columns, error);
+    scratch_remove(&place, "table.csv");
+    return status;
+}
+
+static void free_columns(double_array *columns)
+{
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < COLUMNS; i++)
+        array_free(&ctx, &columns[i]);
+}
+
+/* The text is refused, at this line, with these words. */
+static void assert_refused(const char *text, size_t size, int line, const char *words)
+{
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_int_eq(read_text(text, size, columns, &error), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(error.line, line);
+    ck_assert_msg(strstr(error.message, words) != NULL, "'%s' lacks '%s'", error.message, words);
+    free_columns(columns);
+}
+#define ASSERT_REFUSED(text, line, words) assert_refused((text), sizeof(text) - 1, (line), (words))
+
+START_TEST(columns_are_found_by_name_in_any_order)
+{
+    static const char text[] = "force[N],x[m],time[s]\n-2.5e3,7,0.25\n4,7,0.5\n9,9";
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_int_eq(read_text(text, sizeof text - 1, columns, &error), FRAM_OK);
+    ck_assert_int_eq(columns[0].count, 2);
+    ck_assert_int_eq(columns[1].count, 2);
+    assert_bits(columns[0].data[1], 0.5);
+    assert_bits(columns[1].data[0], -2500);
+    free_columns(columns);
+}
+END_TEST
+
+START_TEST(what_is_wrong_is_refused_at_its_line)
+{
+    ASSERT_REFUSED("", 1, "no header");
+    ASSERT_REFUSED("time[s],x[m]\n", 1, "no column");
+    ASSERT_REFUSED("time[s],force[N]\n1,2\n1,two\n", 3, "expected a number");
+    ASSERT_REFUSED("time[s],force[N]\n1\n1,2\n", 2, "has 1 values");
+    ASSERT_REFUSED("time[s],force[N]\n1,2\n\n", 3, "has 0 values");
+    ASSERT_REFUSED("time[s],force[N]\n1,2\0,3\n", 2, "NUL");
+}
+END_TEST
+
+TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, what_is_wrong_is_refused_at_its_line)
