@@ -2,6 +2,8 @@
 
 #include "base/transcendental.h"
 
+#include <string.h>
+
 static ice_material material_of(const scenario *s)
 {
     const scenario_ice *i = &s->ice;
@@ -18,16 +20,32 @@ static double floating_elevation(const scenario *s, double thickness)
     return s->environment.water ? floe_floating_elevation(thickness, s->ice.density, s->environment.water_density) : 0;
 }
 
+/* Plan points of one triangle, or of its part below still water. */
+static bool add_triangle(context *ctx, const vec3 corner[3], bool below_water, vec2_array *points)
+{
+    vec3 part[4];
+    int count = 3;
+    if (below_water)
+        count = triangle_clip_below(corner, 0, part);
+    else
+        memcpy(part, corner, 3 * sizeof *part);
+    bool good = true;
+    for (int i = 0; i < count && good; i++)
+        good = array_push(ctx, points, vec2_make(part[i].x, part[i].y));
+    return good;
+}
+
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
                             fram_error *error)
 {
     const mesh *m = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[body]]].surface;
     vec2_array points = {0};
     bool good = true;
-    for (int32_t i = 0; good && i < m->vertex.count; i++) {
-        vec3 p = body_to_global(&w->bodies, body, m->vertex.data[i]);
-        if (!below_water || p.z <= 1e-9)
-            good = array_push(ctx, &points, vec2_make(p.x, p.y));
+    for (int32_t i = 0; good && i < m->face.count; i++) {
+        vec3 corner[3];
+        for (int k = 0; k < 3; k++)
+            corner[k] = body_to_global(&w->bodies, body, m->vertex.data[m->face.data[i].v[k]]);
+        good = add_triangle(ctx, corner, below_water, &points);
     }
     good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, out);
     array_free(ctx, &points);
