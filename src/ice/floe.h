@@ -40,7 +40,7 @@ double floe_floating_elevation(double thickness, double density, double water_de
    not positive; whatever fails, the tables keep their meaning. */
 fram_status floe_create(context *ctx, const floe_definition *d, double piece_area_limit, overlay *o, body_table *bodies,
                         shape_store *shapes, floe_table *floes, int32_t *next_number, int32_t *row, fram_error *error);
-/* Removes body, shape and row; all three numbers may be used again by later floes. */
+/* Removes body, shape and row: slot and rows may be used again by later floes, the running number never is. */
 void floe_remove(body_table *bodies, shape_store *shapes, floe_table *floes, int32_t row);
 
 #endif

@@ -1,0 +1,231 @@
+/* A small world for the tests of ice: floes, walls and hulls, and the stages of a step without water and vessels. */
+#ifndef ICE_RIG_H
+#define ICE_RIG_H
+
+#include "dynamics/solver.h"
+#include "ice/crushing.h"
+#include "testing.h"
+
+typedef struct ice_rig {
+    context ctx;
+    body_table bodies;
+    shape_store shapes;
+    floe_table floes;
+    joint_table joints;
+    contact_memory_table memory;
+    pair_table pairs; /* kept by hand: see ice_rig_pair */
+    index_array patch_pairs;
+    pair_policies policies;
+    crushing_settings settings;
+    crushing_patch_array patches;
+    contact_array contacts;
+    crushing_scratch *scratch;
+    solver *solve;
+    solver_settings solver;
+    solver_report report;
+    overlay *plane;
+    int32_t next_number;
+} ice_rig;
+
+static const ice_material ICE_RIG_MATERIAL = {
+    .density = 920, .elastic_modulus = 5e9, .poisson_ratio = 0.3, .flexural_strength = 0.5e6, .crushing_strength = 2e6};
+
+/* With ctx as given, so that its memory may run out: false then. */
+static inline bool ice_rig_start(ice_rig *r, context ctx, double dt)
+{
+    *r = (ice_rig){.ctx = ctx, .settings = {.time_step = dt}};
+    for (int i = 0; i < MATERIAL_COUNT; i++)
+        for (int k = 0; k < MATERIAL_COUNT; k++)
+            r->policies.of[i][k] = (pair_policy){0, 0, true};
+    r->solver = (solver_settings){.kind = SOLVER_SEQUENTIAL,
+                                  .iterations = 60,
+                                  .position_iterations = 20,
+                                  .correction_rate = 0.8,
+                                  .warm_start = true};
+    r->scratch = crushing_scratch_create(&r->ctx);
+    r->solve = solver_create(&r->ctx);
+    r->plane = overlay_create(&r->ctx);
+    return r->scratch && r->solve && r->plane;
+}
+
+static inline void ice_rig_make(ice_rig *r, double dt)
+{
+    context ctx;
+    context_init(&ctx);
+    ck_assert(ice_rig_start(r, ctx, dt));
+}
+
+static inline void ice_rig_free(ice_rig *r)
+{
+    context *c = &r->ctx;
+    table_free(c, &r->bodies, &body_table_info);
+    shape_store_free(c, &r->shapes);
+    table_free(c, &r->floes, &floe_table_info);
+    table_free(c, &r->joints, &joint_table_info);
+    table_free(c, &r->memory, &contact_memory_table_info);
+    table_free(c, &r->pairs, &pair_table_info);
+    array_free(c, &r->patch_pairs);
+    array_free(c, &r->patches);
+    array_free(c, &r->contacts);
+    crushing_scratch_free(c, r->scratch);
+    if (r->solve)
+        solver_free(c, r->solve);
+    if (r->plane)
+        overlay_free(r->plane);
+}
+
+/* A floe of the outline about the global origin, centre at z = 0; returns its row. */
+static inline int32_t ice_rig_floe(ice_rig *r, polygon outline, double thickness, motion kind)
+{
+    fram_error e = {0};
+    int32_t row = -1;
+    floe_definition d = {.outline = outline,
+                         .thickness = thickness,
+                         .material = ICE_RIG_MATERIAL,
+                         .breakable = true,
+                         .motion = kind,
+                         .parent = -1};
+    assert_ok(floe_create(&r->ctx, &d, 0, r->plane, &r->bodies, &r->shapes, &r->floes, &r->next_number, &row, &e), e);
+    return row;
+}
+
+/* A rectangular floe about the origin; returns its row. */
+static inline int32_t ice_rig_plate(ice_rig *r, double length, double width, double thickness, motion kind)
+{
+    double x = length / 2, y = width / 2;
+    vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    return ice_rig_floe(r, (polygon){corner, 4}, thickness, kind);
+}
+
+/* Takes the mesh over. */
+static inline int32_t ice_rig_hull(ice_rig *r, mesh *surface, motion kind, material m)
+{
+    fram_error e = {0};
+    int32_t index, row, slot = body_create(&r->ctx, &r->bodies, kind, m);
+    ck_assert_int_ge(slot, 0);
+    polyhedron_array pieces = {0};
+    ck_assert(array_push(&r->ctx, &pieces, (polyhedron){.radius = 0}));
+    assert_ok(polyhedron_hull(&r->ctx, surface->vertex.data, surface->vertex.count, 1e-9, &pieces.data[0], &e), e);
+    assert_ok(solid_add(&r->ctx, &r->shapes, surface, &pieces, 0, &index, &e), e);
+    assert_ok(shape_add_solid(&r->ctx, &r->shapes, index, &row, &e), e);
+    r->bodies.shape[slot] = row;
+    r->bodies.mass[slot] = 1e6;
+    r->bodies.inertia[slot] = (sym3){1e6, 1e6, 1e6, 0, 0, 0};
+    return slot;
+}
+
+static inline int32_t ice_rig_box(ice_rig *r, vec3 lo, vec3 hi, motion kind, material m)
+{
+    mesh box = {0};
+    ck_assert(mesh_make_box(&r->ctx, lo, hi, &box));
+    return ice_rig_hull(r, &box, kind, m);
+}
+
+/* Every triangle becomes four, `times` times: the same surface. */
+static inline void ice_rig_refine(context *ctx, mesh *m, int times)
+{
+    for (int turn = 0; turn < times; turn++) {
+        mesh fine = {0};
+        for (int32_t f = 0; f < m->face.count; f++) {
+            vec3 v[6];
+            for (int k = 0; k < 3; k++)
+                v[k] = m->vertex.data[m->face.data[f].v[k]];
+            for (int k = 0; k < 3; k++)
+                v[3 + k] = vec3_scale(vec3_add(v[k], v[(k + 1) % 3]), 0.5);
+            for (int k = 0; k < 6; k++)
+                ck_assert(mesh_add_vertex(ctx, &fine, v[k]));
+            static const int32_t corner[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+            for (int k = 0; k < 4; k++)
+                ck_assert(
+                    mesh_add_triangle(ctx, &fine, 6 * f + corner[k][0], 6 * f + corner[k][1], 6 * f + corner[k][2]));
+        }
+        int32_t joined;
+        ck_assert_int_eq(mesh_weld(ctx, &fine, 1e-9, &joined), FRAM_OK);
+        mesh_free(ctx, m);
+        *m = fine;
+    }
+}
+
+/* Cuts the rectangular prism of a shape into n x n convex pieces. */
+static inline void ice_rig_cut(ice_rig *r, int32_t shape, int n)
+{
+    box2 b = polygon_bounds(shape_outline(&r->shapes, shape));
+    shape_vertex_table *v = &r->shapes.vertices;
+    piece_table *p = &r->shapes.pieces;
+    int32_t first = p->count;
+    ck_assert(table_reserve(&r->ctx, v, &shape_vertex_table_info, v->count + 4 * n * n));
+    ck_assert(table_reserve(&r->ctx, p, &piece_table_info, p->count + n * n));
+    vec2 step = {(b.hi.x - b.lo.x) / n, (b.hi.y - b.lo.y) / n};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++) {
+            p->first[p->count] = v->count;
+            p->size[p->count] = 4;
+            p->inner_edges[p->count++] = 0;
+            for (int c = 0; c < 4; c++) {
+                v->corner[v->count] = -1;
+                v->point[v->count++] =
+                    (vec2){b.lo.x + (i + (c == 1 || c == 2)) * step.x, b.lo.y + (k + c / 2) * step.y};
+            }
+        }
+    r->shapes.shapes.piece_first[shape] = first;
+    r->shapes.shapes.piece_count[shape] = n * n;
+}
+
+/* Keeps a pair of body slots. */
+static inline void ice_rig_pair(ice_rig *r, int32_t a, int32_t b)
+{
+    int32_t row = r->pairs.count;
+    ck_assert(table_resize(&r->ctx, &r->pairs, &pair_table_info, row + 1));
+    r->pairs.a[row] = a < b ? a : b;
+    r->pairs.b[row] = a < b ? b : a;
+    ck_assert(array_push(&r->ctx, &r->patch_pairs, row));
+}
+
+/* Moves a body; the rotation is about the z axis, then y, then x. */
+static inline void ice_rig_place(ice_rig *r, int32_t slot, vec3 position, double roll, double pitch, double yaw)
+{
+    r->bodies.position[slot] = position;
+    r->bodies.orientation[slot] = quat_from_roll_pitch_yaw(roll, pitch, yaw);
+}
+
+static inline fram_status ice_rig_try(ice_rig *r, fram_error *e)
+{
+    array_clear(&r->patches);
+    array_clear(&r->contacts);
+    return crushing_contacts(&r->ctx, r->scratch, &r->settings, &r->bodies, &r->shapes, &r->floes, &r->pairs,
+                             &r->patch_pairs, &r->policies, &r->patches, &r->contacts, e);
+}
+
+/* Patches and contacts of all pairs. */
+static inline void ice_rig_crush(ice_rig *r)
+{
+    fram_error e = {0};
+    assert_ok(ice_rig_try(r, &e), e);
+}
+
+/* One step without loads. */
+static inline void ice_rig_step(ice_rig *r)
+{
+    fram_error e = {0};
+    double dt = r->settings.time_step;
+    ice_rig_crush(r);
+    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
+    ck_assert(loads);
+    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, dt, &r->bodies, loads, &r->joints, &r->contacts, &r->memory,
+                           &r->report, &e),
+              e);
+    memory_free(&r->ctx, loads);
+    integrate_poses(&r->ctx, &r->bodies, dt);
+    assert_ok(solver_correct_positions(&r->ctx, r->solve, &r->solver, dt, &r->bodies, &r->joints, &r->contacts, &e), e);
+}
+
+/* Force on the floe of all contacts [N]. */
+static inline vec3 ice_rig_force(const ice_rig *r)
+{
+    vec3 sum = {0, 0, 0};
+    for (int32_t i = 0; i < r->contacts.count; i++)
+        sum = vec3_mad(sum, contact_impulse(&r->contacts.data[i]), 1 / r->settings.time_step);
+    return sum;
+}
+
+#endif
