@@ -59,6 +59,7 @@ coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by t
 
 install: build ## install under DESTDIR and PREFIX (/usr/local)
 	@DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
+	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ] && command -v ldconfig >/dev/null; then ldconfig; fi
 
 deps: ## install all that building and checking needs
 	@tools/deps.sh --install core dev
