@@ -66,7 +66,7 @@ static void assign_point(hull *h, int32_t p, int32_t first)
     for (int32_t i = first; i < h->face.count; i++) {
         work_face *f = &h->face.data[i];
         double d = height(h, f, p);
-        if (!(d > h->tolerance))
+        if (!(d > h->tolerance) || !sees(h, p, f)) /* a sliver's normal may raise points that are not above it */
             continue;
         h->next[p] = f->outside;
         f->outside = p;
@@ -209,31 +209,6 @@ static void bury_visible(hull *h, int32_t eye, int32_t first)
     }
 }
 
-/* The farthest point above a face.  A sliver's normal is poor and may raise points that are not above it at all: those
-   are dropped. */
-static int32_t take_farthest(hull *h, work_face *f)
-{
-    while (f->outside >= 0 && !sees(h, f->farthest, f)) {
-        int32_t left = -1, farthest = -1;
-        double distance = 0;
-        for (int32_t p = f->outside, after; p >= 0; p = after) {
-            after = h->next[p];
-            if (p == f->farthest)
-                continue;
-            double d = height(h, f, p);
-            h->next[p] = left;
-            left = p;
-            if (farthest < 0 || d > distance) {
-                farthest = p;
-                distance = d;
-            }
-        }
-        f->outside = left;
-        f->farthest = farthest;
-    }
-    return f->outside >= 0 ? f->farthest : -1;
-}
-
 static bool grow(context *ctx, hull *h)
 {
     int32_t corner[4];
@@ -242,10 +217,8 @@ static bool grow(context *ctx, hull *h)
     if (!add_first_faces(ctx, h, corner))
         return false;
     for (int32_t i = 0; i < h->face.count; i++) {
-        if (h->face.data[i].dead)
-            continue;
-        int32_t eye = take_farthest(h, &h->face.data[i]), first = h->face.count;
-        if (eye < 0)
+        int32_t eye = h->face.data[i].farthest, first = h->face.count;
+        if (eye < 0 || h->face.data[i].dead)
             continue;
         if (!find_visible(ctx, h, eye, i) || !add_cone(ctx, h, eye))
             return false;

@@ -3,15 +3,12 @@
    1. Triangles are grouped: the largest one left, with everything that hangs together with it within the tolerance of
    its
       plane, is a group.  Slivers, whose planes mean nothing, join the group across their longest side.
-   2. The rim of each group is traced.  A group with several rims encloses others: it swallows them. 3. A vertex between
-   only two groups is on their common edge: those within the tolerance of a straight line are left out. What comes out
-   with fewer than four faces was too thin for this, and keeps its triangles. */
+   2. The rim of each group is traced. 3. A vertex between only two groups is on their common edge: those within the
+   tolerance of a straight line are left out. A body hardly thicker than the tolerance may come out with fewer than four
+   faces, or with one that is no ring of three vertices: it keeps its triangles. */
 #include "geometry/polyhedron_build.h"
 
 #include <stdlib.h>
-
-/* Cosine of the largest angle between triangles of one face: planes that differ more have only slivers in common. */
-#define SAME_FACE_COSINE 0.9
 
 typedef struct facet {
     vec3 normal;   /* unit */
@@ -126,8 +123,8 @@ static bool is_sliver(const merge *m, int32_t i) { return m->facet[i].height <= 
 static bool in_plane_of(const merge *m, int32_t seed, int32_t i)
 {
     const facet *plane = &m->facet[seed];
-    if (!is_sliver(m, i) && vec3_dot(plane->normal, m->facet[i].normal) < SAME_FACE_COSINE)
-        return false;
+    if (!is_sliver(m, i) && !(vec3_dot(plane->normal, m->facet[i].normal) > 0))
+        return false; /* the far side of a thin body */
     for (int k = 0; k < 3; k++) {
         vec3 off = vec3_sub(m->point[m->t[i].v[k]], m->point[m->t[seed].v[0]]);
         if (!(fabs(vec3_dot(plane->normal, off)) <= m->tolerance))
@@ -228,59 +225,6 @@ static bool trace_rims(context *ctx, merge *m)
     return true;
 }
 
-static double rim_area(const merge *m, const rim *r)
-{
-    const int32_t *v = m->vertex.data + r->first;
-    vec3 sum = {0, 0, 0};
-    for (int32_t i = 2; i < r->count; i++) {
-        vec3 a = vec3_sub(m->point[v[i - 1]], m->point[v[0]]), b = vec3_sub(m->point[v[i]], m->point[v[0]]);
-        sum = vec3_add(sum, vec3_cross(a, b));
-    }
-    return vec3_length(sum);
-}
-
-/* Give every group that lies beyond a rim, up to the rim's own group, to the latter. */
-static void swallow(merge *m, const rim *r)
-{
-    int32_t waiting = 0;
-    for (int32_t i = 0; i < m->count; i++)
-        for (int32_t k = 0; k < r->count && m->group[i] != r->group; k++)
-            if (m->group[i] == m->beyond.data[r->first + k]) {
-                m->group[i] = r->group;
-                m->waiting[waiting++] = i;
-            }
-    while (waiting) {
-        int32_t i = m->waiting[--waiting];
-        for (int k = 0; k < 3; k++) {
-            int32_t g = m->t[i].neighbour[k];
-            if (m->group[g] != r->group) {
-                m->group[g] = r->group;
-                m->waiting[waiting++] = g;
-            }
-        }
-    }
-}
-
-/* Swallow what a group with several rims encloses: all beyond the smaller one of two.  Returns whether there was
-   any. */
-static bool swallow_enclosed(merge *m)
-{
-    int32_t *rim_of_group = m->waiting;
-    for (int32_t i = 0; i < m->groups; i++)
-        rim_of_group[i] = -1;
-    for (int32_t i = 0; i < m->rims.count; i++) {
-        const rim *r = &m->rims.data[i];
-        int32_t other = rim_of_group[r->group];
-        rim_of_group[r->group] = i;
-        if (other < 0)
-            continue;
-        const rim *before = &m->rims.data[other];
-        swallow(m, rim_area(m, before) < rim_area(m, r) ? before : r);
-        return true;
-    }
-    return false;
-}
-
 /* ---- 3. straight vertices ---- */
 
 static double distance_to_segment(vec3 p, vec3 a, vec3 b)
@@ -350,7 +294,7 @@ static void choose_vertices(merge *m)
 
 /* ---- the polyhedron ---- */
 
-/* Loops of kept vertices, still by point number; a loop of two is an edge that two others share, no face. */
+/* Loops of kept vertices, still by point number.  false: no memory. */
 static bool add_loops(context *ctx, const merge *m, polyhedron *out)
 {
     array_clear(&out->loop);
@@ -365,10 +309,7 @@ static bool add_loops(context *ctx, const merge *m, polyhedron *out)
         for (int32_t k = 0; k < r->count; k++)
             if (m->keep[v[(start + k) % r->count]] && !array_push(ctx, &out->loop, v[(start + k) % r->count]))
                 return false;
-        int32_t count = out->loop.count - first;
-        if (count < 3)
-            out->loop.count = first;
-        else if (!array_push(ctx, &out->face, (polyhedron_face){.first = first, .count = count}))
+        if (!array_push(ctx, &out->face, (polyhedron_face){.first = first, .count = out->loop.count - first}))
             return false;
     }
     return true;
@@ -394,12 +335,18 @@ static bool add_vertices(context *ctx, const merge *m, int32_t points, int32_t *
 
 static bool make_faces(context *ctx, merge *m, polyhedron *out)
 {
-    do {
-        if (!trace_rims(ctx, m))
-            return false;
-    } while (swallow_enclosed(m));
+    if (!trace_rims(ctx, m))
+        return false;
     choose_vertices(m);
     return add_loops(ctx, m, out);
+}
+
+static bool sound(const merge *m, const polyhedron *p)
+{
+    bool rings = p->face.count >= 4 && m->rims.count == m->groups;
+    for (int32_t i = 0; i < p->face.count; i++)
+        rings = rings && p->face.data[i].count >= 3;
+    return rings;
 }
 
 bool polyhedron_from_triangles(context *ctx, const vec3 *point, const hull_triangle_array *triangles, double tolerance,
@@ -416,7 +363,7 @@ bool polyhedron_from_triangles(context *ctx, const vec3 *point, const hull_trian
         make_groups(&m);
         done = make_faces(ctx, &m, out);
     }
-    if (done && out->face.count < 4) {
+    if (done && !sound(&m, out)) {
         every_triangle_a_group(&m);
         done = make_faces(ctx, &m, out);
     }
