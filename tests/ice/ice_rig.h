@@ -41,7 +41,9 @@ static inline bool ice_rig_start(ice_rig *r, context ctx, double dt)
                                   .iterations = 60,
                                   .position_iterations = 20,
                                   .correction_rate = 0.8,
-                                  .warm_start = true};
+                                  .warm_start = true,
+                                  .tolerance = 1e-12,
+                                  .most_iterations = 20000};
     r->scratch = crushing_scratch_create(&r->ctx);
     r->solve = solver_create(&r->ctx);
     r->plane = overlay_create(&r->ctx);
