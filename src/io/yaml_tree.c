@@ -104,25 +104,38 @@ static bool names_grow(yaml_builder *b)
 
 /* ---- building ---- */
 
-/* Text of a scalar, appended; its offset goes to *at. */
+static fram_status append_bytes(yaml_builder *b, const char *data, size_t size)
+{
+    yaml_tree *tree = b->tree;
+    if (size >= (size_t)(INT32_MAX - tree->text.count) ||
+        !array_reserve(b->ctx, &tree->text, tree->text.count + (int32_t)size))
+        return error_memory(b->error);
+    memcpy(tree->text.data + tree->text.count, data, size);
+    tree->text.count += (int32_t)size;
+    return FRAM_OK;
+}
+
+/* Text of a scalar, appended with a NUL; its offset goes to *at.  Chunk by chunk: fy_token_get_text of libfyaml 0.7.12 leaks
+   memory on text of many lines or escapes. */
 static fram_status add_text(yaml_builder *b, struct fy_token *token, int32_t *at)
 {
-    size_t size = 0;
-    const char *text = token ? fy_token_get_text(token, &size) : "";
-    if (!text)
+    fram_status status = FRAM_OK;
+    *at = b->tree->text.count;
+    struct fy_token_iter *iterator = token ? fy_token_iter_create(token) : NULL;
+    if (token && !iterator)
         return error_memory(b->error);
-    if (size > 0 && memchr(text, '\0', size))
-        return refuse(b, "expected text, found a NUL character in it");
-    yaml_tree *tree = b->tree;
-    if (size >= (size_t)(INT32_MAX - tree->text.count - 1) ||
-        !array_reserve(b->ctx, &tree->text, tree->text.count + (int32_t)size + 1))
-        return error_memory(b->error);
-    *at = tree->text.count;
-    if (size > 0)
-        memcpy(tree->text.data + *at, text, size);
-    tree->text.data[*at + (int32_t)size] = '\0';
-    tree->text.count += (int32_t)size + 1;
-    return FRAM_OK;
+    const struct fy_iter_chunk *chunk = NULL;
+    int failed = 0;
+    while (iterator && status == FRAM_OK && (chunk = fy_token_iter_chunk_next(iterator, chunk, &failed)) != NULL)
+        status = memchr(chunk->str, '\0', chunk->len) ? refuse(b, "expected text, found a NUL character in it")
+                                                      : append_bytes(b, chunk->str, chunk->len);
+    if (iterator)
+        fy_token_iter_destroy(iterator);
+    /* An empty block scalar is reported as a failure too. */
+    bool empty = b->tree->text.count == *at && token && fy_token_get_text0(token) && !*fy_token_get_text0(token);
+    if (status == FRAM_OK && failed && !empty)
+        status = error_memory(b->error);
+    return status == FRAM_OK ? append_bytes(b, "", 1) : status;
 }
 
 /* A new node under the innermost open one, with the key that waits there. */

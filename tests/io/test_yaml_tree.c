@@ -69,6 +69,23 @@ START_TEST(the_tree_mirrors_the_text)
 }
 END_TEST
 
+/* Text that libfyaml hands out in many pieces, and in none. */
+START_TEST(text_arrives_whole)
+{
+    assert_ok(parse("\"one\\ttwo\\u00e9\\\"\n\n  three\n  four\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n.\"", 16), error);
+    ck_assert_str_eq(yaml_text(&tree, tree.nodes.data[0].value), "one\ttwo\xc3\xa9\"\nthree four\n\n\n\n\n\n\n\n\n\n\n\n.");
+    yaml_tree_free(&ctx, &tree);
+    static const char *const empty[] = {"a: |\n", "a: |\n \n", "a: >-\n\nb: 1\n", "a: ''\n", "a: \"\"\n"};
+    for (size_t i = 0; i < sizeof empty / sizeof *empty; i++) {
+        assert_ok(parse(empty[i], 16), error);
+        ck_assert_uint_eq(strspn(yaml_text(&tree, tree.nodes.data[child(0, 0)].value), "\n"),
+                         strlen(yaml_text(&tree, tree.nodes.data[child(0, 0)].value)));
+        ck_assert(tree.nodes.data[child(0, 0)].quoted);
+        yaml_tree_free(&ctx, &tree);
+    }
+}
+END_TEST
+
 START_TEST(an_empty_text_has_no_nodes)
 {
     assert_ok(parse("", 16), error);
@@ -195,6 +212,6 @@ START_TEST(utf8_is_decoded_strictly)
 }
 END_TEST
 
-TEST_MAIN("yaml_tree", the_tree_mirrors_the_text, an_empty_text_has_no_nodes, nesting_is_limited,
+TEST_MAIN("yaml_tree", the_tree_mirrors_the_text, text_arrives_whole, an_empty_text_has_no_nodes, nesting_is_limited,
           duplicates_are_per_mapping, very_many_keys_are_told_apart, syntax_errors_have_a_place_and_print_nothing,
           no_memory_is_an_error, utf8_is_decoded_strictly)
