@@ -13,7 +13,7 @@ typedef struct contact {
     int32_t a, b;         /* body slots */
     vec3 point;           /* global [m] */
     vec3 normal;          /* unit, from b towards a */
-    double depth;         /* overlap along the normal, > 0 [m] */
+    double depth;         /* overlap along the normal; < 0: open by that much, may close but not cross [m] */
     double impulse_limit; /* largest normal impulse of this step [N s], INFINITY without crushing */
     double friction_static, friction_kinetic;
     bool correct;        /* false: no position correction at all (SPEC 9) */
@@ -21,6 +21,7 @@ typedef struct contact {
     int32_t patch;       /* row of the crushing patch, -1 without */
     uint64_t key;        /* names the same geometric feature from step to step, unique within a step; warm start */
     double impulse[3];   /* result: normal, tangent 1, tangent 2 [N s] */
+    vec3 arm_a, arm_b;   /* set by the solver: point from the centres of mass before they move, global frame [m] */
 } contact;
 typedef ARRAY(contact) contact_array;
 

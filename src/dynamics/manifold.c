@@ -55,7 +55,7 @@ static int choose_four(manifold_point *p, int n, vec3 normal, manifold_point out
     return count;
 }
 
-int face_manifold(const flat_face *reference, const flat_face *incident, double slack, bool swapped,
+int face_manifold(const flat_face *reference, const flat_face *incident, nearness near, bool swapped,
                   manifold_point out[4])
 {
     clip_vertex buffer[2][CLIP_MOST];
@@ -70,16 +70,19 @@ int face_manifold(const flat_face *reference, const flat_face *incident, double 
     manifold_point point[CLIP_MOST];
     int count = 0;
     uint32_t base = (swapped ? 1u << 30 : 0) | (reference->name & 255u) << 22 | (incident->name & 255u) << 14;
-    double offset = vec3_dot(reference->normal, reference->point[0]);
+    double offset = vec3_dot(reference->normal, reference->point[0]), deepest = -HUGE_VAL;
     for (int i = 0; i < n; i++) {
         const clip_vertex *v = &buffer[from][i], *before = &buffer[from][i > 0 ? i - 1 : n - 1];
         double depth = offset - vec3_dot(reference->normal, v->point);
-        if (!(depth > -slack))
+        deepest = depth > deepest ? depth : deepest;
+        if (!(depth > -near.reach))
             continue;
         vec3 middle = vec3_mad(v->point, reference->normal, 0.5 * depth);
         uint32_t feature = base | (before->edge & 127u) << 7 | (v->edge & 127u);
-        point[count++] = (manifold_point){middle, depth > 0 ? depth : 0, feature};
+        point[count++] = (manifold_point){middle, depth, feature};
     }
+    if (!(deepest > -near.slack))
+        return 0;
     if (count > 4)
         return choose_four(point, count, reference->normal, out);
     for (int i = 0; i < count; i++)

@@ -21,10 +21,15 @@ typedef struct flat_face {
     uint32_t name;
 } flat_face;
 
-/* The incident face clipped by the sides of the reference face; points with depth > -slack under the reference plane,
-   at most 4 (depths below 0 are reported as 0).  swapped goes into the features, for the case that b holds the
-   reference. */
-int face_manifold(const flat_face *reference, const flat_face *incident, double slack, bool swapped,
+/* How near surfaces count. */
+typedef struct nearness {
+    double slack; /* pieces farther apart than this do not touch [m] */
+    double reach; /* points of touching pieces that are open by less than this are reported too [m] */
+} nearness;
+
+/* The incident face clipped by the sides of the reference face; at most 4 points, none when all of them are open by
+   more than the slack.  swapped goes into the features, for the case that b holds the reference. */
+int face_manifold(const flat_face *reference, const flat_face *incident, nearness near, bool swapped,
                   manifold_point out[4]);
 
 /* Faces that are seams inside a compound: they part pieces, but no contact may take their normal. */
@@ -43,8 +48,8 @@ static inline bool clearly_less(double depth, double than, double slack)
     return depth + slack < PREFERENCE * (than + slack);
 }
 
-/* polyhedra_manifold with seams and slack. */
-int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, double slack, vec3 *normal,
+/* polyhedra_manifold with seams, slack and open points. */
+int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
                               manifold_point out[4], vec3 *axis);
 
 #endif

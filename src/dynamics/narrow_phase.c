@@ -3,9 +3,12 @@
 #include "dynamics/collision_scratch.h"
 #include "dynamics/prism_contact.h"
 
-/* Overlaps down to minus this share of the bodies' radii count as touching, so that a body at rest keeps its contact
-   when rounding lifts it by a last digit: far above rounding, far below any motion of interest. */
-#define TOUCHING 1e-11
+/* Pairs are contacts a little before they touch, and open points of touching faces stay in the manifold: the solver lets a gap
+   close within the step but not be crossed.  So a body at rest on four points neither rocks nor loses its contacts, and
+   what they carried, to the last digits of its position.  Both are shares of the smaller radius: gaps that a body of 5 m
+   closes in a step or two, and corners of faces that lie nearly flat. */
+#define PAIR_REACH 0.002
+#define POINT_REACH 0.02
 
 /* One body of a pair. */
 typedef struct party {
@@ -186,18 +189,18 @@ static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron 
 
 /* Points of two pieces, -1 without memory. */
 static int touch_pieces(context *ctx, collision_scratch *s, const party *a, const party *b, int32_t piece_a,
-                        int32_t piece_b, double slack, vec3 *normal, manifold_point out[4], vec3 *axis)
+                        int32_t piece_b, nearness near, vec3 *normal, manifold_point out[4], vec3 *axis)
 {
     if (a->is_prism && b->is_prism) {
         if (!prism_polyhedron_reserve(ctx, &s->piece_a) || !prism_polyhedron_reserve(ctx, &s->piece_b))
             return -1;
         prism p = prism_piece(a, piece_a), q = prism_piece(b, piece_b);
-        return prism_manifold(&p, &q, slack, &s->piece_a, &s->piece_b, normal, out, axis);
+        return prism_manifold(&p, &q, near, &s->piece_a, &s->piece_b, normal, out, axis);
     }
     seam_masks seams;
     if (!place_piece(ctx, a, piece_a, &s->piece_a, &seams.a) || !place_piece(ctx, b, piece_b, &s->piece_b, &seams.b))
         return -1;
-    return polyhedra_manifold_masked(&s->piece_a, &s->piece_b, seams, slack, normal, out, axis);
+    return polyhedra_manifold_masked(&s->piece_a, &s->piece_b, seams, near, normal, out, axis);
 }
 
 /* ---- pairs ---- */
@@ -229,14 +232,15 @@ static bool touch_bodies(context *ctx, collision_scratch *s, const body_table *b
                          const pair_policy *policy, vec3 *axis, contact_array *contacts)
 {
     const double *radius = a->shapes->shapes.radius;
-    double slack = TOUCHING * (radius[a->shape] + radius[b->shape]);
-    if (axis_parts(a, b, *axis, slack))
+    double smaller = fmin(radius[a->shape], radius[b->shape]);
+    nearness near = {.slack = PAIR_REACH * smaller, .reach = POINT_REACH * smaller};
+    if (axis_parts(a, b, *axis, near.slack))
         return true;
     bool compound = piece_count(a) > 1 || piece_count(b) > 1;
     box3 box_a = box3_empty(), box_b = box3_empty();
     if (compound) {
-        box_a = box3_grown(party_box(a), slack);
-        box_b = box3_grown(party_box(b), slack);
+        box_a = box3_grown(party_box(a), near.slack);
+        box_b = box3_grown(party_box(b), near.slack);
     }
     if (!gather_pieces(ctx, a, box_b, &s->near_a) || !gather_pieces(ctx, b, box_a, &s->near_b))
         return false;
@@ -247,7 +251,7 @@ static bool touch_bodies(context *ctx, collision_scratch *s, const body_table *b
             vec3 normal, parting = {0, 0, 0};
             manifold_point point[4];
             int32_t piece_a = s->near_a.data[i], piece_b = s->near_b.data[j];
-            int count = touch_pieces(ctx, s, a, b, piece_a, piece_b, slack, &normal, point, &parting);
+            int count = touch_pieces(ctx, s, a, b, piece_a, piece_b, near, &normal, point, &parting);
             if (count < 0 || !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, policy, contacts))
                 return false;
             if (vec3_dot(parting, parting) > 0)
@@ -255,7 +259,7 @@ static bool touch_bodies(context *ctx, collision_scratch *s, const body_table *b
         }
     }
     contact_keys_part(contacts->data + first, contacts->count - first);
-    bool remember = contacts->count == first && (!compound || axis_parts(a, b, last, slack));
+    bool remember = contacts->count == first && (!compound || axis_parts(a, b, last, near.slack));
     *axis = remember ? last : vec3_make(0, 0, 0);
     return true;
 }

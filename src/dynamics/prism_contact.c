@@ -140,7 +140,7 @@ static void take_side(const prism *p, int32_t k, flat_face *out)
     out->name = (uint32_t)k;
 }
 
-static int contact_at_side(const prism *holder, int32_t side, const prism *other, double slack, bool swapped,
+static int contact_at_side(const prism *holder, int32_t side, const prism *other, nearness near, bool swapped,
                            vec3 *outward, manifold_point out[4])
 {
     flat_face reference, incident;
@@ -157,7 +157,7 @@ static int contact_at_side(const prism *holder, int32_t side, const prism *other
     }
     take_side(other, opposed, &incident);
     *outward = reference.normal;
-    return face_manifold(&reference, &incident, slack, swapped, out);
+    return face_manifold(&reference, &incident, near, swapped, out);
 }
 
 /* ---- the general way ---- */
@@ -214,40 +214,41 @@ void prism_polyhedron(const prism *p, polyhedron *room)
     room->radius = sqrt(square);
 }
 
-int prism_manifold(const prism *a, const prism *b, double slack, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
+int prism_manifold(const prism *a, const prism *b, nearness near, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
                    manifold_point out[4], vec3 *axis)
 {
     relative_pose b_in_a = pose_from(a, b), a_in_b = pose_from(b, a);
     best_side in_a, in_b;
     int32_t parting;
-    if (!search_sides(a, b, &b_in_a, slack, &in_a, &parting)) {
+    if (!search_sides(a, b, &b_in_a, near.slack, &in_a, &parting)) {
         *axis = vec3_neg(global_normal(a, parting));
         return 0;
     }
-    if (!search_sides(b, a, &a_in_b, slack, &in_b, &parting)) {
+    if (!search_sides(b, a, &a_in_b, near.slack, &in_b, &parting)) {
         *axis = global_normal(b, parting);
         return 0;
     }
     double rise_a = vertical_depth(a, b, &b_in_a), rise_b = vertical_depth(b, a, &a_in_b);
-    if (rise_a < -slack || rise_b < -slack) {
-        vec3 up = mat3_column((rise_a < -slack ? a : b)->rotation, 2);
+    if (rise_a < -near.slack || rise_b < -near.slack) {
+        vec3 up = mat3_column((rise_a < -near.slack ? a : b)->rotation, 2);
         *axis = vec3_scale(up, vec3_dot(up, vec3_sub(a->centre, b->centre)) < 0 ? -1 : 1);
         return 0;
     }
     *axis = vec3_make(0, 0, 0);
-    bool of_b = in_b.side >= 0 && (in_a.side < 0 || clearly_less(in_b.depth, in_a.depth, slack));
+    bool of_b = in_b.side >= 0 && (in_a.side < 0 || clearly_less(in_b.depth, in_a.depth, near.slack));
     const best_side *best = of_b ? &in_b : &in_a;
-    bool upright = fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && !clearly_less(fmin(rise_a, rise_b), best->depth, slack);
+    bool upright =
+        fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && !clearly_less(fmin(rise_a, rise_b), best->depth, near.slack);
     if (!upright) {
         prism_polyhedron(a, a_room);
         prism_polyhedron(b, b_room);
-        return polyhedra_manifold_masked(a_room, b_room, (seam_masks){a->seams, b->seams}, slack, normal, out, axis);
+        return polyhedra_manifold_masked(a_room, b_room, (seam_masks){a->seams, b->seams}, near, normal, out, axis);
     }
     if (best->depth > SEAM_DEPTH_RATIO * fmin(in_a.barred, in_b.barred))
         return 0;
     vec3 outward;
-    int count = of_b ? contact_at_side(b, best->side, a, slack, true, &outward, out)
-                     : contact_at_side(a, best->side, b, slack, false, &outward, out);
+    int count = of_b ? contact_at_side(b, best->side, a, near, true, &outward, out)
+                     : contact_at_side(a, best->side, b, near, false, &outward, out);
     *normal = of_b ? outward : vec3_neg(outward);
     return count;
 }

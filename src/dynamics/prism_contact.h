@@ -18,7 +18,7 @@ typedef struct prism {
 } prism;
 
 /* Like polyhedra_manifold_masked; a_room, b_room: scratch with room for a piece of PIECE_MOST_VERTICES vertices. */
-int prism_manifold(const prism *a, const prism *b, double slack, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
+int prism_manifold(const prism *a, const prism *b, nearness near, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
                    manifold_point out[4], vec3 *axis);
 
 /* The prism as a polyhedron in the common axes; room must have been reserved by prism_polyhedron_reserve. Sides are

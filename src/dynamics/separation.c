@@ -113,13 +113,13 @@ static int32_t most_opposed(const polyhedron *p, vec3 normal)
     return best;
 }
 
-static int contact_at_face(const polyhedron *holder, int32_t face, const polyhedron *other, double slack, bool swapped,
+static int contact_at_face(const polyhedron *holder, int32_t face, const polyhedron *other, nearness near, bool swapped,
                            manifold_point out[4])
 {
     flat_face reference, incident;
     take_face(holder, face, &reference);
     take_face(other, most_opposed(other, reference.normal), &incident);
-    return face_manifold(&reference, &incident, slack, swapped, out);
+    return face_manifold(&reference, &incident, near, swapped, out);
 }
 
 /* ---- contact of two edges ---- */
@@ -167,7 +167,7 @@ static int contact_at_edges(const polyhedron *a, const polyhedron *b, const best
     edge_found ea = extreme_edge(a, a->edge_direction.data[edges->a], vec3_neg(edges->axis));
     edge_found eb = extreme_edge(b, b->edge_direction.data[edges->b], edges->axis);
     uint32_t feature = 1u << 31 | (ea.name & 0x7fffu) << 15 | (eb.name & 0x7fffu);
-    out[0] = (manifold_point){between_edges(ea, eb), edges->depth > 0 ? edges->depth : 0, feature};
+    out[0] = (manifold_point){between_edges(ea, eb), edges->depth, feature};
     return 1;
 }
 
@@ -178,43 +178,43 @@ static bool parted_along(const polyhedron *a, const polyhedron *b, vec3 axis, do
     return vec3_dot(axis, axis) > 0 && project(a, axis).low - project(b, axis).high > slack;
 }
 
-int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, double slack, vec3 *normal,
+int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
                               manifold_point out[4], vec3 *axis)
 {
-    if (parted_along(a, b, *axis, slack))
+    if (parted_along(a, b, *axis, near.slack))
         return 0;
     best_face in_a, in_b;
     best_edges edges;
-    if (!search_faces(a, b, seams.a, slack, &in_a, axis)) {
+    if (!search_faces(a, b, seams.a, near.slack, &in_a, axis)) {
         *axis = vec3_neg(*axis);
         return 0;
     }
-    if (!search_faces(b, a, seams.b, slack, &in_b, axis))
+    if (!search_faces(b, a, seams.b, near.slack, &in_b, axis))
         return 0;
-    if (!search_edges(a, b, slack, &edges)) {
+    if (!search_edges(a, b, near.slack, &edges)) {
         *axis = edges.axis;
         return 0;
     }
     *axis = vec3_make(0, 0, 0);
-    bool of_b = in_b.face >= 0 && (in_a.face < 0 || clearly_less(in_b.depth, in_a.depth, slack));
+    bool of_b = in_b.face >= 0 && (in_a.face < 0 || clearly_less(in_b.depth, in_a.depth, near.slack));
     const best_face *best = of_b ? &in_b : &in_a;
     double seam_depth = fmin(in_a.seam_depth, in_b.seam_depth);
     if (best->face < 0 || best->depth > SEAM_DEPTH_RATIO * seam_depth)
         return 0;
-    if (!seams.a && !seams.b && edges.a >= 0 && clearly_less(edges.depth, best->depth, slack)) {
+    if (!seams.a && !seams.b && edges.a >= 0 && clearly_less(edges.depth, best->depth, near.slack)) {
         *normal = edges.axis;
         return contact_at_edges(a, b, &edges, out);
     }
     vec3 n = of_b ? b->face.data[best->face].normal : a->face.data[best->face].normal;
     *normal = of_b ? n : vec3_neg(n);
-    return of_b ? contact_at_face(b, best->face, a, slack, true, out)
-                : contact_at_face(a, best->face, b, slack, false, out);
+    return of_b ? contact_at_face(b, best->face, a, near, true, out)
+                : contact_at_face(a, best->face, b, near, false, out);
 }
 
-/* Rounding only: what just touches may or may not be reported. */
+/* Overlap alone. */
 int polyhedra_manifold(const polyhedron *a, const polyhedron *b, vec3 *normal, manifold_point out[4], vec3 *axis)
 {
-    int n = polyhedra_manifold_masked(a, b, (seam_masks){0, 0}, 0, normal, out, axis), kept = 0;
+    int n = polyhedra_manifold_masked(a, b, (seam_masks){0, 0}, (nearness){0, 0}, normal, out, axis), kept = 0;
     for (int i = 0; i < n; i++)
         if (out[i].depth > 0)
             out[kept++] = out[i];

@@ -61,11 +61,14 @@ static solver_report report_of(const solver *s, const contact_array *contacts, i
     for (int32_t i = 0; i < s->contacts.count; i++)
         r.residual = fmax(r.residual, contact_row_residual(s, &s->contacts.data[i]));
     for (int32_t i = 0; i < contacts->count; i++) {
+        if (contacts->data[i].depth < 0)
+            continue;
+        r.overlapping++;
         r.mean_depth += contacts->data[i].depth;
         r.max_depth = fmax(r.max_depth, contacts->data[i].depth);
     }
-    if (contacts->count > 0)
-        r.mean_depth /= contacts->count;
+    if (r.overlapping > 0)
+        r.mean_depth /= r.overlapping;
     return r;
 }
 
@@ -131,12 +134,12 @@ static bool make_correction_rows(solver *s, const solver_settings *settings, dou
         row->b = solver_body_place(s, bodies, c->b);
         if (row->a < 0 || row->b < 0)
             return false;
-        vec3 arm_a = vec3_sub(c->point, bodies->position[c->a]), arm_b = vec3_sub(c->point, bodies->position[c->b]);
+        /* The arms of the solve: bodies have moved since, and not all by the same way (Galileo's symmetry). */
         row->axis[0] = row_axis_make(&s->bodies.data[row->a], &s->bodies.data[row->b], c->normal,
-                                     vec3_cross(arm_a, c->normal), vec3_cross(arm_b, c->normal));
+                                     vec3_cross(c->arm_a, c->normal), vec3_cross(c->arm_b, c->normal));
         row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
         row->limit = HUGE_VAL;
-        row->bias = correction_share(c, settings->correction_rate) * c->depth / dt;
+        row->bias = (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
     }
     return true;
 }

@@ -25,7 +25,8 @@ typedef struct solver_settings {
 
 typedef struct solver_report {
     double residual;              /* largest complementarity residual of the normal rows [m/s], after the last sweep */
-    double mean_depth, max_depth; /* [m], over the contacts given */
+    double mean_depth, max_depth; /* [m], over the contacts that overlap */
+    int32_t overlapping;          /* their number: contacts with depth >= 0 */
     int32_t iterations;
 } solver_report;
 

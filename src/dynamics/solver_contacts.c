@@ -64,9 +64,12 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
         row->b = solver_body_place(s, bodies, c->b);
         if (row->a < 0 || row->b < 0)
             return error_memory(error);
-        fill_row(row, &s->bodies.data[row->a], &s->bodies.data[row->b], c, vec3_sub(c->point, bodies->position[c->a]),
-                 vec3_sub(c->point, bodies->position[c->b]));
-        if (settings->baumgarte && c->correct)
+        c->arm_a = vec3_sub(c->point, bodies->position[c->a]);
+        c->arm_b = vec3_sub(c->point, bodies->position[c->b]);
+        fill_row(row, &s->bodies.data[row->a], &s->bodies.data[row->b], c, c->arm_a, c->arm_b);
+        if (c->depth < 0) /* an open point may close, no more */
+            row->bias = c->depth / dt;
+        else if (settings->baumgarte && c->correct)
             row->bias = settings->correction_rate * c->depth / dt;
     }
     return FRAM_OK;

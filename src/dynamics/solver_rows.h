@@ -29,7 +29,7 @@ typedef struct contact_row {
     int32_t contact;    /* row of the contact array */
     row_axis axis[3];   /* normal, two tangents */
     double normal_mass; /* 1 / (n . K n) */
-    double bias;        /* least relative normal velocity after the step, 0 but for Baumgarte [m/s] */
+    double bias;        /* least relative normal velocity after the step [m/s] */
     double limit;       /* cap of the normal impulse */
     double friction_static, friction_kinetic;
     double slip;     /* speed of sliding before the step [m/s] */

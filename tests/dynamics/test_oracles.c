@@ -122,8 +122,7 @@ START_TEST(corner_hit_turns_the_floe)
         int32_t floe = rig_box(&r, MOTION_DYNAMIC, vec3_make(10, 10, 1), 920, vec3_make(-5.0003, 0, 0));
         r.bodies.velocity[floe].x = 1;
         double before = body_books_of(&r.bodies).kinetic_energy;
-        while (r.contacts.count == 0)
-            rig_step(&r);
+        rig_run(&r, 4); /* the gap closes, and the blow ends in the step after */
         assert_absolute(r.bodies.velocity[floe].x, 0.6, 2e-4);
         assert_absolute(r.bodies.angular_velocity[floe].z, -0.12, 2e-4);
         assert_absolute(body_books_of(&r.bodies).kinetic_energy / before, 0.6, 2e-4);

@@ -174,26 +174,65 @@ END_TEST
 
 /* ---- stacks, ratios, warm start ---- */
 
-START_TEST(light_floe_between_heavy_ones_stays)
+START_TEST(heavy_body_under_a_light_one)
 {
-    /* 1 t under 100,000 t: ratio 1e5, on ground. */
+    /* 100,000 t with 1 t upon it. */
     rig r = rig_make(0.01);
-    r.settings.iterations = 50;
     rig_friction(&r, 0.3, 0.3);
     rig_box(&r, MOTION_STATIC, vec3_make(60, 60, 1), 1, vec3_make(0, 0, -0.5));
-    int32_t floe = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 0.25), 1000, vec3_make(0, 0, 0.1249));
-    int32_t ship = rig_box(&r, MOTION_DYNAMIC, vec3_make(40, 40, 10), 6250, vec3_make(0, 0, 5.2497));
+    int32_t ship = rig_box(&r, MOTION_DYNAMIC, vec3_make(40, 40, 10), 6250, vec3_make(0, 0, 5));
+    int32_t floe = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 0.25), 1000, vec3_make(3, -7, 10.1249));
     assert_relative(r.bodies.mass[ship] / r.bodies.mass[floe], 1e5, 1e-9);
-    double energy = 0;
-    for (int k = 0; k < 300; k++) {
+    rig_run(&r, 300);
+    assert_vec3_close(r.bodies.position[floe], vec3_make(3, -7, 10.125), 1e-3);
+    assert_vec3_close(r.bodies.velocity[floe], vec3_make(0, 0, 0), 1e-6);
+    assert_vec3_close(r.bodies.velocity[ship], vec3_make(0, 0, 0), 1e-6);
+    rig_free(&r);
+}
+END_TEST
+
+START_TEST(heavy_body_pushes_light_ones)
+{
+    /* 100,000 t at 1 m/s into a row of 1 t floes with gaps: they run ahead of the ship without overlap or gain of
+     * energy. */
+    enum { FLOES = 10 };
+    rig r = rig_make(0.02);
+    r.gravity = vec3_make(0, 0, 0);
+    rig_friction(&r, 0.1, 0.1);
+    int32_t ship = rig_box(&r, MOTION_DYNAMIC, vec3_make(100, 20, 10), 5000, vec3_make(-50.1, 0, 0));
+    for (int i = 0; i < FLOES; i++)
+        rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 0.25), 1000, vec3_make(1 + 2.05 * i, 0.1 * (i % 2), 0));
+    r.bodies.velocity[ship].x = 1;
+    double energy = body_books_of(&r.bodies).kinetic_energy, deepest = 0;
+    for (int k = 0; k < 200; k++) {
         rig_step(&r);
         double now = body_books_of(&r.bodies).kinetic_energy;
-        energy = k > 150 ? fmax(energy, now) : 0;
+        ck_assert_msg(now <= energy * (1 + 1e-12), "energy grew in step %d", k);
+        energy = now;
+        deepest = fmax(deepest, r.report.max_depth);
     }
-    /* An unmoved stack; a fall of a millimetre would be 1e6 J. */
-    ck_assert_msg(energy < 1e3, "kinetic energy %g J", energy);
-    ck_assert_msg(fabs(r.bodies.position[ship].z - 5.25) < 0.01, "ship at %g", r.bodies.position[ship].z);
-    ck_assert_msg(r.report.max_depth < 0.01, "depth %g", r.report.max_depth);
+    ck_assert_msg(deepest < 0.01, "overlap %g m", deepest);
+    for (int32_t i = 1; i <= FLOES; i++)
+        assert_absolute(r.bodies.velocity[i].x, 1, 0.02);
+    assert_absolute(r.bodies.velocity[ship].x, 1, 1e-3);
+    rig_free(&r);
+}
+END_TEST
+
+START_TEST(heavy_body_on_a_light_one_sinks_without_a_bang)
+{
+    /* The worst case of Gauss-Seidel: too few sweeps leave the contact soft, but never give energy. */
+    rig r = rig_make(0.01);
+    rig_friction(&r, 0.3, 0.3);
+    rig_box(&r, MOTION_STATIC, vec3_make(60, 60, 1), 1, vec3_make(0, 0, -0.5));
+    rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 0.25), 1000, vec3_make(0, 0, 0.125));
+    int32_t ship = rig_box(&r, MOTION_DYNAMIC, vec3_make(40, 40, 10), 6250, vec3_make(0, 0, 5.25));
+    double most = r.bodies.mass[ship] * GRAVITY * 0.25; /* what the fall through the floe gives */
+    for (int k = 0; k < 300; k++) {
+        rig_step(&r);
+        ck_assert(body_books_of(&r.bodies).kinetic_energy < most);
+        ck_assert(r.bodies.position[ship].z < 5.26 && r.bodies.position[ship].z > 4.9);
+    }
     rig_free(&r);
 }
 END_TEST
@@ -220,7 +259,7 @@ START_TEST(warm_start_helps)
         residual[warm] = r.report.residual;
         rig_free(&r);
     }
-    ck_assert_msg(residual[1] < 0.1 * residual[0], "residual %g cold, %g warm", residual[0], residual[1]);
+    ck_assert_msg(residual[1] < 0.01 * residual[0], "residual %g cold, %g warm", residual[0], residual[1]);
 }
 END_TEST
 
@@ -241,10 +280,21 @@ START_TEST(solvers_agree)
 }
 END_TEST
 
+START_TEST(pile_comes_to_rest)
+{
+    rig r = pile();
+    rig_run(&r, 300);
+    ck_assert(body_books_of(&r.bodies).kinetic_energy < 1e-6);
+    ck_assert(r.report.max_depth < 1e-6);
+    rig_free(&r);
+}
+END_TEST
+
 START_TEST(memory_is_sorted_and_matches)
 {
     rig r = pile();
     rig_run(&r, 5);
+    ck_assert_int_eq(r.contacts.count, 32);
     ck_assert(r.memory.count > 20);
     for (int32_t i = 1; i < r.memory.count; i++)
         ck_assert(r.memory.key[i - 1] < r.memory.key[i]);
@@ -329,5 +379,6 @@ END_TEST
 TEST_MAIN("solver", correction_leaves_a_fifth_of_the_depth, correction_yields_to_crushing,
           baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told,
           friction_is_bounded_by_the_capped_force, driven_bodies_take_the_cap_while_approaching,
-          static_friction_holds_more_than_kinetic, light_floe_between_heavy_ones_stays, warm_start_helps, solvers_agree,
+          static_friction_holds_more_than_kinetic, heavy_body_under_a_light_one, heavy_body_pushes_light_ones,
+          heavy_body_on_a_light_one_sinks_without_a_bang, warm_start_helps, solvers_agree, pile_comes_to_rest,
           memory_is_sorted_and_matches, added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)

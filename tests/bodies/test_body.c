@@ -1,0 +1,114 @@
+#include "bodies/body.h"
+#include "testing.h"
+
+START_TEST(slots_are_used_again_lowest_first)
+{
+    context ctx;
+    context_init(&ctx);
+    body_table b = {0};
+    for (int32_t i = 0; i < 20; i++)
+        ck_assert_int_eq(body_create(&ctx, &b, MOTION_DYNAMIC, MATERIAL_ICE), i);
+    ck_assert_uint_eq(b.generation[5], 1);
+    b.mass[5] = 7;
+    body_remove(&b, 11);
+    body_remove(&b, 5);
+    ck_assert(!body_is_alive(&b, 5) && body_is_alive(&b, 6));
+    assert_bits(b.mass[5], 0);
+    ck_assert_int_eq(body_create(&ctx, &b, MOTION_STATIC, MATERIAL_WALL), 5);
+    ck_assert_int_eq(body_create(&ctx, &b, MOTION_PRESCRIBED, MATERIAL_HULL), 11);
+    ck_assert_int_eq(body_create(&ctx, &b, MOTION_DYNAMIC, MATERIAL_ICE), 20);
+    ck_assert_uint_eq(b.generation[5], 2);
+    ck_assert_int_eq(b.material[5], MATERIAL_WALL);
+    ck_assert_int_eq(b.shape[5], -1);
+    ck_assert_int_eq(b.owner[5], -1);
+    assert_bits(b.orientation[5].w, 1);
+    ck_assert(!body_is_dynamic(&b, 5) && !body_is_dynamic(&b, 11) && body_is_dynamic(&b, 20));
+    table_free(&ctx, &b, &body_table_info);
+}
+END_TEST
+
+START_TEST(a_removed_body_leaves_no_trace_but_its_generation)
+{
+    context ctx;
+    context_init(&ctx);
+    body_table a = {0}, b = {0};
+    for (int i = 0; i < 2; i++) {
+        body_create(&ctx, &a, MOTION_DYNAMIC, MATERIAL_ICE);
+        body_create(&ctx, &b, MOTION_DYNAMIC, MATERIAL_ICE);
+    }
+    a.velocity[1] = vec3_make(1, 2, 3);
+    a.inertia[1].xy = 4;
+    body_remove(&a, 1);
+    body_remove(&b, 1);
+    ck_assert(table_hash(&a, &body_table_info, 1) == table_hash(&b, &body_table_info, 1));
+    table_free(&ctx, &a, &body_table_info);
+    table_free(&ctx, &b, &body_table_info);
+}
+END_TEST
+
+START_TEST(frames_and_velocities)
+{
+    context ctx;
+    context_init(&ctx);
+    body_table b = {0};
+    int32_t s = body_create(&ctx, &b, MOTION_DYNAMIC, MATERIAL_ICE);
+    b.position[s] = vec3_make(10, 20, 30);
+    b.orientation[s] = quat_from_roll_pitch_yaw(0, 0, 1.5707963267948966);
+    vec3 p = body_to_global(&b, s, vec3_make(1, 2, 3));
+    assert_vec3_close(p, vec3_make(8, 21, 33), 1e-14);
+    assert_vec3_close(body_to_local(&b, s, p), vec3_make(1, 2, 3), 1e-14);
+    b.velocity[s] = vec3_make(1, 0, 0);
+    b.angular_velocity[s] = vec3_make(0, 0, 2);
+    assert_vec3_close(body_point_velocity(&b, s, vec3_make(10, 21, 30)), vec3_make(-1, 0, 0), 1e-15);
+    wrench w = {{0, 0, 0}, {0, 0, 0}};
+    wrench_add(&w, b.position[s], vec3_make(0, 5, 0), vec3_make(12, 20, 30));
+    assert_vec3_close(w.moment, vec3_make(0, 0, 10), 1e-14);
+    table_free(&ctx, &b, &body_table_info);
+}
+END_TEST
+
+START_TEST(books_add_up)
+{
+    context ctx;
+    context_init(&ctx);
+    body_table b = {0};
+    for (int i = 0; i < 3; i++) {
+        int32_t s = body_create(&ctx, &b, i < 2 ? MOTION_DYNAMIC : MOTION_PRESCRIBED, MATERIAL_ICE);
+        b.mass[s] = 2 + i;
+        b.velocity[s] = vec3_make(3, 0, 0);
+    }
+    b.position[1] = vec3_make(0, 4, 0);
+    b.inertia[1] = (sym3){.xx = 1, .yy = 2, .zz = 5};
+    b.orientation[1] = quat_from_roll_pitch_yaw(1.5707963267948966, 0, 0); /* body z lies along -y */
+    b.angular_velocity[1] = vec3_make(0, 2, 0);
+    body_books sum = body_books_of(&b);
+    assert_absolute(sum.mass, 5, 0);
+    assert_absolute(sum.kinetic_energy, 0.5 * 5 * 9 + 0.5 * 5 * 4, 1e-13);
+    assert_vec3_close(sum.momentum, vec3_make(15, 0, 0), 1e-14);
+    assert_vec3_close(sum.angular_momentum, vec3_make(0, 10, -36), 1e-13);
+    table_free(&ctx, &b, &body_table_info);
+}
+END_TEST
+
+START_TEST(memory_runs_out)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        body_table b = {0};
+        int32_t slot = 0;
+        for (int i = 0; i < 100 && slot >= 0; i++)
+            slot = body_create(&ctx, &b, MOTION_DYNAMIC, MATERIAL_ICE);
+        table_free(&ctx, &b, &body_table_info);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(slot, 99);
+            break;
+        }
+        ck_assert_int_eq(slot, -1);
+    }
+}
+END_TEST
+
+TEST_MAIN("body", slots_are_used_again_lowest_first, a_removed_body_leaves_no_trace_but_its_generation,
+          frames_and_velocities, books_add_up, memory_runs_out)

@@ -1,0 +1,221 @@
+#include "base/transcendental.h"
+#include "bodies/shape.h"
+#include "testing.h"
+
+static const vec2 square[4] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+static const vec2 corner[6] = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};
+
+static int32_t add(context *ctx, shape_store *s, overlay *o, const vec2 *vertex, int32_t count)
+{
+    int32_t row;
+    fram_error e = {0};
+    assert_ok(shape_add_prism(ctx, s, o, (polygon){vertex, count}, 0.5, 0, &row, &e), e);
+    return row;
+}
+
+static double area_of_pieces(const shape_store *s, int32_t row)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < s->shapes.piece_count[row]; i++)
+        sum += polygon_area(shape_piece(s, row, i));
+    return sum;
+}
+
+START_TEST(a_convex_prism_is_its_own_piece)
+{
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    int32_t row = add(&ctx, &s, NULL, square, 4);
+    ck_assert_int_eq(s.shapes.kind[row], SHAPE_PRISM);
+    ck_assert_int_eq(s.shapes.piece_count[row], 1);
+    ck_assert_int_eq(s.vertices.count, 4);
+    ck_assert(shape_piece(&s, row, 0).vertex == shape_outline(&s, row).vertex);
+    ck_assert_uint_eq(s.pieces.inner_edges[s.shapes.piece_first[row]], 0);
+    assert_absolute(s.shapes.area[row], 4, 0);
+    assert_absolute(s.shapes.plan_radius[row], sqrt(2), 1e-15);
+    assert_absolute(s.shapes.radius[row], 1.5, 1e-15);
+    ck_assert_int_eq(s.shapes.solid[row], -1);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(many_corners_are_cut_into_small_pieces)
+{
+    enum { CORNERS = 50 };
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    vec2 round[CORNERS];
+    for (int i = 0; i < CORNERS; i++)
+        round[i] = vec2_make(5 * real_cos(2 * PI * i / CORNERS), 5 * real_sin(2 * PI * i / CORNERS));
+    int32_t row = add(&ctx, &s, NULL, round, CORNERS), outer = 0;
+    assert_relative(area_of_pieces(&s, row), s.shapes.area[row], 1e-14);
+    for (int32_t i = 0; i < s.shapes.piece_count[row]; i++) {
+        int32_t at = s.shapes.piece_first[row] + i;
+        ck_assert_int_le(s.pieces.size[at], PIECE_MOST_VERTICES);
+        ck_assert(polygon_is_convex(shape_piece(&s, row, i)));
+        for (int32_t k = 0; k < s.pieces.size[at]; k++)
+            outer += !(s.pieces.inner_edges[at] >> k & 1u);
+    }
+    ck_assert_int_eq(outer, CORNERS);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(a_concave_prism_knows_its_seams_and_corners)
+{
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    overlay *o = overlay_create(&ctx);
+    int32_t row = add(&ctx, &s, o, corner, 6), outer = 0, inner = 0;
+    ck_assert_int_gt(s.shapes.piece_count[row], 1);
+    assert_relative(area_of_pieces(&s, row), 64, 1e-14);
+    for (int32_t i = 0; i < s.shapes.piece_count[row]; i++) {
+        int32_t at = s.shapes.piece_first[row] + i;
+        polygon p = shape_piece(&s, row, i);
+        for (int32_t k = 0; k < p.count; k++) {
+            int32_t c = s.vertices.corner[s.pieces.first[at] + k];
+            int32_t next = s.vertices.corner[s.pieces.first[at] + (k + 1) % p.count];
+            ck_assert(c >= 0 && p.vertex[k].x == corner[c].x && p.vertex[k].y == corner[c].y);
+            bool seam = s.pieces.inner_edges[at] >> k & 1u;
+            ck_assert(seam == ((c + 1) % 6 != next));
+            *(seam ? &inner : &outer) += 1;
+        }
+    }
+    ck_assert_int_eq(outer, 6);
+    ck_assert_int_eq(inner, 2 * (s.shapes.piece_count[row] - 1));
+    overlay_free(o);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(wrong_outlines_are_refused)
+{
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    int32_t row;
+    fram_error e = {0};
+    vec2 back[4] = {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}};
+    assert_fails(shape_add_prism(&ctx, &s, NULL, (polygon){square, 2}, 1, 0, &row, &e), e, FRAM_ERROR_INPUT,
+                 "2 vertices");
+    assert_fails(shape_add_prism(&ctx, &s, NULL, (polygon){back, 4}, 1, 0, &row, &e), e, FRAM_ERROR_INPUT,
+                 "counter-clockwise");
+    assert_fails(shape_add_prism(&ctx, &s, NULL, (polygon){square, 4}, 0, 0, &row, &e), e, FRAM_ERROR_INPUT,
+                 "thickness");
+    assert_fails(shape_add_prism(&ctx, &s, NULL, (polygon){corner, 6}, 1, 0, &row, &e), e, FRAM_ERROR_INPUT, "concave");
+    assert_fails(shape_add_solid(&ctx, &s, 0, &row, &e), e, FRAM_ERROR_USAGE, "no solid 0");
+    mesh none = {0};
+    polyhedron_array pieces = {0};
+    assert_fails(solid_add(&ctx, &s, &none, &pieces, 0, &row, &e), e, FRAM_ERROR_INPUT, "empty");
+    ck_assert_int_eq(s.shapes.count, 0);
+    ck_assert_int_eq(s.vertices.count, 0);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(solids_take_over_their_mesh)
+{
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    mesh box = {0};
+    polyhedron_array pieces = {0};
+    int32_t index, row;
+    fram_error e = {0};
+    ck_assert(mesh_make_box(&ctx, vec3_make(-2, -3, -6), vec3_make(2, 3, 1), &box));
+    assert_ok(solid_add(&ctx, &s, &box, &pieces, 0.25, &index, &e), e);
+    ck_assert_int_eq(box.face.count, 0);
+    assert_ok(shape_add_solid(&ctx, &s, index, &row, &e), e);
+    assert_absolute(s.shapes.radius[row], 7, 1e-15);
+    ck_assert_int_eq(s.shapes.solid[row], index);
+    ck_assert_int_eq(s.solids.data[index].surface.face.count, 12);
+    ck_assert_int_eq(s.solids.data[index].tree.face.count, 12);
+    ck_assert_int_eq(s.solids.data[index].adjacency.neighbour.count, 36);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(rows_are_used_again_and_pools_squeezed)
+{
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    overlay *o = overlay_create(&ctx);
+    for (int i = 0; i < 30; i++)
+        add(&ctx, &s, o, i % 3 ? square : corner, i % 3 ? 4 : 6);
+    int32_t before = s.vertices.count;
+    for (int32_t i = 0; i < 30; i++)
+        if (i % 3 != 1 && i < 27)
+            shape_remove(&s, i);
+    ck_assert_int_eq(shape_compact(&ctx, &s), FRAM_OK);
+    ck_assert_int_lt(s.vertices.count, before / 2);
+    for (int32_t i = 0; i < 30; i++) {
+        bool live = i % 3 == 1 || i >= 27;
+        ck_assert_int_eq(s.shapes.kind[i], live ? SHAPE_PRISM : SHAPE_NONE);
+        if (!live)
+            continue;
+        polygon outline = shape_outline(&s, i);
+        const vec2 *expected = i % 3 ? square : corner;
+        ck_assert_int_eq(outline.count, i % 3 ? 4 : 6);
+        ck_assert(memcmp(outline.vertex, expected, (size_t)outline.count * sizeof *expected) == 0);
+        assert_relative(area_of_pieces(&s, i), s.shapes.area[i], 1e-14);
+    }
+    int32_t after = s.vertices.count;
+    ck_assert_int_eq(shape_compact(&ctx, &s), FRAM_OK);
+    ck_assert_int_eq(s.vertices.count, after);
+    ck_assert_int_eq(add(&ctx, &s, o, square, 4), 0);
+    /* An outline of the store itself, while its pool grows. */
+    fram_error e = {0};
+    for (int k = 0; k < 40; k++) {
+        int32_t row;
+        assert_ok(shape_add_prism(&ctx, &s, o, shape_outline(&s, 27), 0.5, 0, &row, &e), e);
+        assert_relative(s.shapes.area[row], 64, 1e-14);
+    }
+    overlay_free(o);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
+START_TEST(memory_runs_out)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        shape_store s = {0};
+        fram_error e = {0};
+        int32_t row;
+        overlay *o = overlay_create(&ctx);
+        fram_status status = o ? shape_add_prism(&ctx, &s, o, (polygon){corner, 6}, 1, 0, &row, &e) : FRAM_ERROR_MEMORY;
+        if (status == FRAM_OK)
+            status = shape_add_prism(&ctx, &s, o, (polygon){square, 4}, 1, 0, &row, &e);
+        if (status == FRAM_OK) {
+            shape_remove(&s, 0);
+            status = shape_compact(&ctx, &s);
+        }
+        mesh box = {0};
+        polyhedron_array pieces = {0};
+        if (status == FRAM_OK)
+            status = mesh_make_box(&ctx, vec3_make(0, 0, 0), vec3_make(1, 1, 1), &box) ? FRAM_OK : FRAM_ERROR_MEMORY;
+        if (status == FRAM_OK)
+            status = solid_add(&ctx, &s, &box, &pieces, 0, &row, &e);
+        mesh_free(&ctx, &box);
+        polyhedron_array_free(&ctx, &pieces);
+        shape_store_free(&ctx, &s);
+        if (o)
+            overlay_free(o);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(status, FRAM_OK);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+TEST_MAIN("shape", a_convex_prism_is_its_own_piece, many_corners_are_cut_into_small_pieces,
+          a_concave_prism_knows_its_seams_and_corners, wrong_outlines_are_refused, solids_take_over_their_mesh,
+          rows_are_used_again_and_pools_squeezed, memory_runs_out)
