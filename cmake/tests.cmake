@@ -17,6 +17,7 @@ if(FRAM_SANITIZE OR FRAM_COVERAGE OR FRAM_FUZZ)
 endif()
 if(FRAM_SANITIZE)
     list(APPEND test_environment "FRAM_TEST_SANITIZE=${FRAM_SANITIZE}"
+        "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tools/leaks.txt:print_suppressions=0"
         "UBSAN_OPTIONS=print_stacktrace=1" "TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1")
 endif()
 

@@ -119,7 +119,8 @@ fram_status checkpoint_write_failed(context *ctx, const char *folder, const worl
 
 static bool same_text(const table_file_bytes *bytes, const char *text)
 {
-    return bytes->size == strlen(text) && memcmp(bytes->data, text, bytes->size) == 0;
+    /* Empty bytes have no data to compare. */
+    return bytes->size == strlen(text) && (bytes->size == 0 || memcmp(bytes->data, text, bytes->size) == 0);
 }
 
 /* Read one file; `other` is true when it is sound but belongs to something else. */

@@ -25,6 +25,9 @@ static void lanes_draw(random_stream *r, double lane[8])
         }                                                                               \
     } while (0)
 
+/* Zeros are among the lanes, and the quotient by zero is compared too: the sanitizer need not warn of it. */
+__attribute__((no_sanitize("float-divide-by-zero"))) static double quotient(double a, double b) { return a / b; }
+
 START_TEST(arithmetic_is_that_of_single_lanes)
 {
     random_stream r = random_begin(1, 0, 0);
@@ -40,7 +43,7 @@ START_TEST(arithmetic_is_that_of_single_lanes)
         ASSERT_LANES(a + b, x[i] + y[i]);
         ASSERT_LANES(a - b, x[i] - y[i]);
         ASSERT_LANES(a * b, x[i] * y[i]);
-        ASSERT_LANES(a / b, x[i] / y[i]);
+        ASSERT_LANES(a / b, quotient(x[i], y[i]));
         ASSERT_LANES(2 * a, 2 * x[i]);
         ASSERT_LANES(-a, -x[i]);
         ASSERT_LANES(a * b + a, x[i] * y[i] + x[i]);
