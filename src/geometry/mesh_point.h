@@ -5,8 +5,9 @@
 
 #include "geometry/mesh.h"
 
-/* Winding number of a closed mesh about a point: 1 inside, 0 outside, halfway between on the surface.  Sum of the solid
-   angles of all triangles (Van Oosterom and Strackee 1983, eq. 8) over 4 pi; right beside edges and vertices too. */
+/* Winding number of a closed mesh about a point: 1 inside, 0 outside, anything between on the surface.  Sum of the
+   solid angles of all triangles (Van Oosterom and Strackee 1983, eq. 8) over 4 pi; right beside edges and vertices too.
+ */
 double mesh_winding(const mesh *m, vec3 point);
 
 /* The point of the surface nearest to `point`, on the lowest such face (may be NULL).  The mesh has triangles. */
