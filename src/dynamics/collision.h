@@ -22,9 +22,9 @@ fram_status broad_phase_update(context *ctx, const body_table *bodies, const sha
                                const collision_settings *settings, broad_table *boxes, pair_table *pairs,
                                collision_scratch *scratch, fram_error *error);
 
-/* Contacts of all kept pairs that touch, in pair order, at most 4 points per pair of convex pieces.  Points that are still
-   open by a small share of the bodies' size are listed too, with depth < 0: the solver lets them close, not cross.
-   Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs) instead.  impulse_limit is infinite,
+/* Contacts of all kept pairs that touch, in pair order, at most 4 points per pair of convex pieces.  Points that are
+   still open by a small share of the bodies' size are listed too, with depth < 0: the solver lets them close, not
+   cross. Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs) instead.  impulse_limit is infinite,
    correct is true, patch -1; friction from the policies.  No contact takes its normal from an inner seam of a compound.
    Remembers separating axes in pairs. */
 fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape_store *shapes,

@@ -198,14 +198,12 @@ fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, cons
     return FRAM_OK;
 }
 
-void joint_rows_warm_start(solver *s, const joint_table *joints)
+void joint_rows_recall(solver *s, const joint_table *joints)
 {
     for (int32_t i = 0; i < s->joints.count; i++) {
         joint_block *j = &s->joints.data[i];
-        for (int r = 0; r < j->count; r++) {
+        for (int r = 0; r < j->count; r++)
             j->impulse[r] = joints->impulse[j->joint].row[j->motion[r]];
-            row_axis_push(&j->axis[r], &s->bodies.data[j->body], &s->bodies.data[j->base], j->impulse[r]);
-        }
     }
 }
 

@@ -3,10 +3,10 @@
 #include "dynamics/collision_scratch.h"
 #include "dynamics/prism_contact.h"
 
-/* Pairs are contacts a little before they touch, and open points of touching faces stay in the manifold: the solver lets a gap
-   close within the step but not be crossed.  So a body at rest on four points neither rocks nor loses its contacts, and
-   what they carried, to the last digits of its position.  Both are shares of the smaller radius: gaps that a body of 5 m
-   closes in a step or two, and corners of faces that lie nearly flat. */
+/* Pairs are contacts a little before they touch, and open points of touching faces stay in the manifold: the solver
+   lets a gap close within the step but not be crossed.  So a body at rest on four points neither rocks nor loses its
+   contacts, and what they carried, to the last digits of its position.  Both are shares of the smaller radius: gaps
+   that a body of 5 m closes in a step or two, and corners of faces that lie nearly flat. */
 #define PAIR_REACH 0.002
 #define POINT_REACH 0.02
 

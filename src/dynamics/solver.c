@@ -24,6 +24,8 @@ void solver_free(context *ctx, solver *s)
     array_free(ctx, &s->joints);
     array_free(ctx, &s->before);
     array_free(ctx, &s->direction);
+    array_free(ctx, &s->island);
+    array_free(ctx, &s->gain);
     memory_free(ctx, s->entries);
     memory_free(ctx, s);
 }
@@ -92,8 +94,10 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
     bodies_accelerate(bodies, loads, dt);
     solver_bodies_load(s, bodies);
     if (settings->warm_start) {
-        joint_rows_warm_start(s, joints);
-        contact_rows_warm_start(s, contacts, memory);
+        joint_rows_recall(s, joints);
+        contact_rows_recall(s, contacts, memory);
+        if (!solver_warm_start(s))
+            return error_memory(error);
     }
     int32_t iterations;
     status = iterate(s, settings, &iterations, error);

@@ -112,7 +112,7 @@ static void project_friction(const contact_row *row, double *p1, double *p2)
     *p2 *= scale;
 }
 
-void contact_rows_warm_start(solver *s, const contact_array *contacts, const contact_memory_table *memory)
+void contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory)
 {
     int32_t next = 0;
     for (int32_t i = 0; i < s->contacts.count; i++) {
@@ -121,7 +121,6 @@ void contact_rows_warm_start(solver *s, const contact_array *contacts, const con
         if (at < 0)
             continue;
         next = at + 1;
-        solver_body *a = &s->bodies.data[row->a], *b = &s->bodies.data[row->b];
         double p[3];
         for (int k = 0; k < 3; k++)
             p[k] = vec3_dot(row->axis[k].direction, memory->impulse[at]);
@@ -129,8 +128,6 @@ void contact_rows_warm_start(solver *s, const contact_array *contacts, const con
         project_friction(row, &p[1], &p[2]);
         row->impulse[1] = p[1];
         row->impulse[2] = p[2];
-        for (int k = 0; k < 3; k++)
-            row_axis_push(&row->axis[k], a, b, row->impulse[k]);
     }
 }
 

@@ -54,6 +54,11 @@ typedef struct joint_block {
     double impulse[JOINT_MOST_ROWS];
 } joint_block;
 
+/* What the impulses of the last step would do to the energy of an island. */
+typedef struct energy_gain {
+    double linear, square;
+} energy_gain;
+
 struct solver {
     context *ctx;
     ARRAY(solver_body) bodies;
@@ -62,6 +67,8 @@ struct solver {
     ARRAY(joint_block) joints;
     ARRAY(double) before;    /* accurate solver: multipliers before a sweep */
     ARRAY(double) direction; /* accurate solver: search direction */
+    int32_array island;      /* of each touched body: one nearer to the island's leader, itself for the leader */
+    ARRAY(energy_gain) gain; /* of each leader */
     struct memory_entry *entries;
     int32_t entry_capacity;
 };
@@ -87,7 +94,8 @@ void solver_bodies_load(solver *s, const body_table *bodies);
 /* Rows of all contacts of bodies that can be moved; impulses of the others are set here (SPEC 6: two driven bodies). */
 fram_status contact_rows_make(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
                               contact_array *contacts, fram_error *error);
-void contact_rows_warm_start(solver *s, const contact_array *contacts, const contact_memory_table *memory);
+/* Impulses of the last step into the rows, within this step's bounds; solver_warm_start applies them. */
+void contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory);
 /* Impulses back into the contacts, and the memory of this step. */
 fram_status contact_rows_finish(solver *s, contact_array *contacts, contact_memory_table *memory, fram_error *error);
 void contact_row_sweep(solver *s);
@@ -100,11 +108,16 @@ double contact_row_slip_residual(const solver *s, const contact_row *row);
 
 fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, const joint_table *joints,
                             fram_error *error);
-void joint_rows_warm_start(solver *s, const joint_table *joints);
+void joint_rows_recall(solver *s, const joint_table *joints);
 void joint_rows_finish(solver *s, double dt, joint_table *joints);
 void joint_row_sweep(solver *s);
 /* Largest unmet velocity of the block [m/s]; turning is taken at the radius of gyration. */
 double joint_row_residual(const solver *s, const joint_block *block);
+
+/* ---- solver_warm.c ---- */
+
+/* Applies the impulses that the rows hold, as far as they give no energy.  false: no memory. */
+bool solver_warm_start(solver *s);
 
 /* ---- solver_accurate.c ---- */
 

@@ -211,7 +211,7 @@ START_TEST(heavy_body_pushes_light_ones)
         energy = now;
         deepest = fmax(deepest, r.report.max_depth);
     }
-    ck_assert_msg(deepest < 0.01, "overlap %g m", deepest);
+    ck_assert_msg(deepest < 0.02, "overlap %g m", deepest); /* less than the way of one step */
     for (int32_t i = 1; i <= FLOES; i++)
         assert_absolute(r.bodies.velocity[i].x, 1, 0.02);
     assert_absolute(r.bodies.velocity[ship].x, 1, 1e-3);
