@@ -1,5 +1,5 @@
-/* Conversion by the C library, whose printf and strtod are correctly rounded, with its locale worked around: the decimal point
-   of the locale in force is found by printing 0.5, so that no global locale is read or set. */
+/* Conversion by the C library, whose printf and strtod are correctly rounded, with its locale worked around: the
+   decimal point of the locale in force is found by printing 0.5, so that no global locale is read or set. */
 #include "base/number_text.h"
 #include <errno.h>
 #include <math.h>
@@ -12,10 +12,7 @@ enum { LONGEST_NUMBER = 400 };
 
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-static bool is_number_character(char c)
-{
-    return is_digit(c) || c == '+' || c == '-' || c == 'e';
-}
+static bool is_number_character(char c) { return is_digit(c) || c == '+' || c == '-' || c == 'e'; }
 
 /* Whatever stands for the decimal point becomes '.'. */
 static int put_point(char *text)

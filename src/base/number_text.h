@@ -7,9 +7,8 @@
 
 enum { NUMBER_TEXT_SIZE = 32 };
 
-/* The shortest decimal text that reads back as the same double, "0.1", "1e+300", "-0" (below 2^-1022 it may have more digits
-   than needed); "nan", "inf", "-inf" otherwise.
-   Returns its length. */
+/* The shortest decimal text that reads back as the same double, "0.1", "1e+300", "-0" (below 2^-1022 it may have more
+   digits than needed); "nan", "inf", "-inf" otherwise. Returns its length. */
 int real_to_text(double value, char out[NUMBER_TEXT_SIZE]);
 
 typedef enum number_fault {

@@ -1,5 +1,5 @@
-/* Comma-separated columns: one header row `name[unit]`, then rows of numbers, each the shortest text that reads back as the
-   same double.  Lines end in a newline.  Knows nothing of what the columns mean. */
+/* Comma-separated columns: one header row `name[unit]`, then rows of numbers, each the shortest text that reads back as
+   the same double.  Lines end in a newline.  Knows nothing of what the columns mean. */
 #ifndef IO_CSV_H
 #define IO_CSV_H
 
@@ -18,8 +18,8 @@ typedef struct csv_writer {
 /* A new file with its header row. */
 fram_status csv_create(context *ctx, const char *path, const csv_column *columns, int32_t count, csv_writer *w,
                        fram_error *error);
-/* Continue a file that is cut to `length` (a csv_length of before).  FRAM_ERROR_INPUT when it is shorter, its header row is
-   another or the cut is not after the end of a row. */
+/* Continue a file that is cut to `length` (a csv_length of before).  FRAM_ERROR_INPUT when it is shorter, its header
+   row is another or the cut is not after the end of a row. */
 fram_status csv_continue(context *ctx, const char *path, uint64_t length, const csv_column *columns, int32_t count,
                          csv_writer *w, fram_error *error);
 /* One value per column. */

@@ -8,8 +8,8 @@
 /* FRAM_ERROR_IO with the file's name, what was tried ("write") and the text of an errno value. */
 fram_status file_error(fram_error *error, const char *path, const char *attempt, int number);
 
-/* The whole of a regular file and a NUL after it, in memory of ctx.  FRAM_ERROR_INPUT when it is not there, is no regular
-   file, or is longer than `limit` bytes. */
+/* The whole of a regular file and a NUL after it, in memory of ctx.  FRAM_ERROR_INPUT when it is not there, is no
+   regular file, or is longer than `limit` bytes. */
 fram_status file_read(context *ctx, const char *path, uint64_t limit, char **data, size_t *size, fram_error *error);
 
 /* `size` bytes at `offset` of an open file; FRAM_ERROR_INPUT when it ends before. */

@@ -115,8 +115,8 @@ static fram_status check_length(const file_writer *file, uint64_t length, fram_e
     }
     if (at == length)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL, "expected the end of a block at byte %llu, found none",
-                     (unsigned long long)length);
+    return error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL,
+                     "expected the end of a block at byte %llu, found none", (unsigned long long)length);
 }
 
 fram_status record_continue(context *ctx, const char *path, uint64_t length, record_writer *w, fram_error *error)

@@ -1,10 +1,11 @@
-/* The record of a run: an append-only file of typed, checksummed blocks.  What the blocks hold is the recorder's business.
+/* The record of a run: an append-only file of typed, checksummed blocks.  What the blocks hold is the recorder's
+   business.
 
    Layout, all numbers in the byte order of the machine that wrote it:
      head    "FRAMREC\n", u32 version, u32 0x01020304, u32 0, u32 crc of the 20 bytes before
-     block   u32 'BLK\n', u32 type, u64 length, u32 crc of the payload, u32 crc of the 20 bytes before; payload; zeros up
-             to a multiple of 8
-   so that blocks begin at multiples of 8 and a length is trusted only after its checksum.  crc is that of zlib. */
+     block   u32 'BLK\n', u32 type, u64 length, u32 crc of the payload, u32 crc of the 20 bytes before; payload; zeros
+   up to a multiple of 8 so that blocks begin at multiples of 8 and a length is trusted only after its checksum.  crc is
+   that of zlib. */
 #ifndef IO_RECORD_H
 #define IO_RECORD_H
 
@@ -23,8 +24,8 @@ typedef struct record_part {
 } record_part;
 
 fram_status record_create(context *ctx, const char *path, record_writer *w, fram_error *error);
-/* Continue a record cut to `length` (a record_length of before); FRAM_ERROR_INPUT when the head is not that of a record of
-   this version and byte order, the file is shorter, or `length` is not the end of a block. */
+/* Continue a record cut to `length` (a record_length of before); FRAM_ERROR_INPUT when the head is not that of a record
+   of this version and byte order, the file is shorter, or `length` is not the end of a block. */
 fram_status record_continue(context *ctx, const char *path, uint64_t length, record_writer *w, fram_error *error);
 fram_status record_append(record_writer *w, uint32_t type, const record_part *parts, int32_t count, fram_error *error);
 fram_status record_flush(record_writer *w, bool sync, fram_error *error);
@@ -43,16 +44,16 @@ typedef struct record_reader {
     int descriptor;
     char *path;
     uint64_t file_size;
-    uint64_t position;  /* of the next block: everything before it is good */
+    uint64_t position; /* of the next block: everything before it is good */
     void *payload;
     size_t capacity;
-    char damage[160];   /* why reading stopped before the end of the file; empty otherwise */
+    char damage[160]; /* why reading stopped before the end of the file; empty otherwise */
 } record_reader;
 
 /* FRAM_ERROR_INPUT when it is not a record of this version and byte order. */
 fram_status record_open(context *ctx, const char *path, record_reader *r, fram_error *error);
-/* The next block.  found is false at the end of the file and at the first damaged or unfinished block: the reader's `damage`
-   then says which.  Statuses are for what is not the file's fault. */
+/* The next block.  found is false at the end of the file and at the first damaged or unfinished block: the reader's
+   `damage` then says which.  Statuses are for what is not the file's fault. */
 fram_status record_next(record_reader *r, record_block *block, bool *found, fram_error *error);
 /* Go to a block whose offset is known. */
 void record_seek(record_reader *r, uint64_t offset);

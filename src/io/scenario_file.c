@@ -1,5 +1,5 @@
-/* From text to a checked scenario: a YAML tree walked along the schema.  Types and names are judged here, with the place at
-   hand; ranges and rules between keys in model/scenario_check.c. */
+/* From text to a checked scenario: a YAML tree walked along the schema.  Types and names are judged here, with the
+   place at hand; ranges and rules between keys in model/scenario_check.c. */
 #include "io/scenario_file.h"
 #include "base/number_text.h"
 #include "io/file.h"
@@ -139,14 +139,21 @@ static fram_status set_value(const reader *r, const scenario_key *key, void *mem
                              const value_place *place)
 {
     switch (key->kind) {
-    case KEY_REAL: return set_real(r, key, member, text, place);
-    case KEY_INTEGER: return set_integer(r, member, text, place);
-    case KEY_BOOLEAN: return set_boolean(r, member, text, place);
-    case KEY_CHOICE: return set_choice(r, key, member, text, place);
+    case KEY_REAL:
+        return set_real(r, key, member, text, place);
+    case KEY_INTEGER:
+        return set_integer(r, member, text, place);
+    case KEY_BOOLEAN:
+        return set_boolean(r, member, text, place);
+    case KEY_CHOICE:
+        return set_choice(r, key, member, text, place);
     case KEY_TEXT:
-    case KEY_PATH: return set_text(r, member, text, place);
-    case KEY_SECTION: return refuse(r, place, "expected keys under %s, found %s", key->name, shown(text).text);
-    case KEY_LIST: return refuse(r, place, "expected a list, found %s", shown(text).text);
+    case KEY_PATH:
+        return set_text(r, member, text, place);
+    case KEY_SECTION:
+        return refuse(r, place, "expected keys under %s, found %s", key->name, shown(text).text);
+    case KEY_LIST:
+        return refuse(r, place, "expected a list, found %s", shown(text).text);
     }
     return FRAM_ERROR_INTERNAL;
 }
@@ -296,8 +303,8 @@ static fram_status step_into_list(const reader *r, const scenario_key *key, void
     if (text[length] != ']' || *digits == '+' || integer_from_text(digits, &index) != NUMBER_GOOD)
         return refuse(r, place, "expected the number of an item, %s[0], %s[1], ...", key->name, key->name);
     if (index < 0 || index >= count)
-        return refuse(r, place, "expected an item below %s[%d], since the file lists %d, found [%s]", key->name, (int)count,
-                      (int)count, digits);
+        return refuse(r, place, "expected an item below %s[%d], since the file lists %d, found [%s]", key->name,
+                      (int)count, (int)count, digits);
     *element = list_element(key, member, (int32_t)index);
     *at = text + length + 1;
     return FRAM_OK;

@@ -1,9 +1,9 @@
 /* Scenario files: block-style YAML to a checked scenario, and a scenario back to text.  All that the keys are is in
    model/scenario_keys.h.
 
-   Refused before any key is looked at: files over SCENARIO_FILE_LIMIT bytes, nesting deeper than SCENARIO_DEPTH_LIMIT, text
-   that is not UTF-8, anchors, aliases, tags, merge keys, duplicate keys, more than one document.  Every error is one fram_error
-   with file, line, column, key, and a message "expected ..., found ...". */
+   Refused before any key is looked at: files over SCENARIO_FILE_LIMIT bytes, nesting deeper than SCENARIO_DEPTH_LIMIT,
+   text that is not UTF-8, anchors, aliases, tags, merge keys, duplicate keys, more than one document.  Every error is
+   one fram_error with file, line, column, key, and a message "expected ..., found ...". */
 #ifndef IO_SCENARIO_FILE_H
 #define IO_SCENARIO_FILE_H
 
@@ -12,14 +12,15 @@
 
 enum { SCENARIO_FILE_LIMIT = 1 << 20, SCENARIO_DEPTH_LIMIT = 16 };
 
-/* Values given over those of the file, each "key=value" ("run.seed=7", "ice.floes[0].x=3"), the last one of a key wins.  In
-   errors their file is "--set". */
+/* Values given over those of the file, each "key=value" ("run.seed=7", "ice.floes[0].x=3"), the last one of a key wins.
+   In errors their file is "--set". */
 typedef struct scenario_overrides {
     const char *const *items;
     int32_t count;
 } scenario_overrides;
 
-/* Reads and checks a file.  overrides may be NULL.  On success free with scenario_free; on failure nothing is left to free. */
+/* Reads and checks a file.  overrides may be NULL.  On success free with scenario_free; on failure nothing is left to
+ * free. */
 fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
                           fram_error *error);
 /* The same from memory; `name` stands for the file in errors and for relative paths. */
@@ -30,12 +31,12 @@ typedef struct scenario_print_options {
     bool comments;       /* unit and meaning after every key */
     bool absolute_paths; /* so that the text can be used from another folder */
 } scenario_print_options;
-/* The effective scenario, every key with its value, appended to out.  Reading it again gives the same scenario to the bit.
-   options NULL: comments, paths as given. */
+/* The effective scenario, every key with its value, appended to out.  Reading it again gives the same scenario to the
+   bit. options NULL: comments, paths as given. */
 fram_status scenario_print(context *ctx, const scenario *s, const scenario_print_options *options, text_buffer *out,
                            fram_error *error);
-/* SHA-256 of the effective scenario without comments and with files by their name alone, hexadecimal: the same wherever the
-   files lie.  Their contents are to be hashed on their own. */
+/* SHA-256 of the effective scenario without comments and with files by their name alone, hexadecimal: the same wherever
+   the files lie.  Their contents are to be hashed on their own. */
 fram_status scenario_hash(context *ctx, const scenario *s, char out[65], fram_error *error);
 
 /* The input reference, every key with type, unit, default, range and meaning, as Markdown. */

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* How paths are written: as given; so that they hold in any folder; or without folders, for the hash, which must be the same
-   wherever the files lie (their contents are hashed on their own). */
+/* How paths are written: as given; so that they hold in any folder; or without folders, for the hash, which must be the
+   same wherever the files lie (their contents are hashed on their own). */
 typedef enum path_style { PATH_GIVEN, PATH_ABSOLUTE, PATH_NAME } path_style;
 
 typedef struct printer {
@@ -21,7 +21,8 @@ typedef struct printer {
     fram_error *error;
 } printer;
 
-/* Between double quotes.  The text is printable (io/scenario_file.c): only the quote and the backslash need an escape. */
+/* Between double quotes.  The text is printable (io/scenario_file.c): only the quote and the backslash need an escape.
+ */
 static void print_quoted(printer *p, const char *text)
 {
     text_add(p->ctx, p->out, "\"");
@@ -77,18 +78,27 @@ static void print_value(printer *p, const scenario_key *key, const void *member)
         real_to_text(*(const double *)member, number);
         text_add(p->ctx, p->out, key->automatic && is_automatic(*(const double *)member) ? "auto" : number);
         break;
-    case KEY_INTEGER: text_format(p->ctx, p->out, "%lld", (long long)*(const int64_t *)member); break;
-    case KEY_BOOLEAN: text_add(p->ctx, p->out, *(const bool *)member ? "true" : "false"); break;
+    case KEY_INTEGER:
+        text_format(p->ctx, p->out, "%lld", (long long)*(const int64_t *)member);
+        break;
+    case KEY_BOOLEAN:
+        text_add(p->ctx, p->out, *(const bool *)member ? "true" : "false");
+        break;
     case KEY_CHOICE: {
         const char *name = choice_name(key, choice_value(member), &size);
         if (name)
             text_add_bytes(p->ctx, p->out, name, size);
         break;
     }
-    case KEY_TEXT: print_quoted(p, member); break;
-    case KEY_PATH: print_path(p, key->name, member); break;
+    case KEY_TEXT:
+        print_quoted(p, member);
+        break;
+    case KEY_PATH:
+        print_path(p, key->name, member);
+        break;
     case KEY_SECTION:
-    case KEY_LIST: break;
+    case KEY_LIST:
+        break;
     }
 }
 
@@ -107,8 +117,7 @@ static void print_comment(printer *p, const scenario_key *key)
     text_format(p->ctx, p->out, "  # %s%s%s%s", bare ? "" : "[", bare ? "" : key->unit, bare ? "" : "] ", key->meaning);
 }
 
-static void print_section(printer *p, const scenario_section *section, const void *data, int depth,
-                          const char *first);
+static void print_section(printer *p, const scenario_section *section, const void *data, int depth, const char *first);
 
 static void print_list(printer *p, const scenario_key *key, const void *member, int depth)
 {
@@ -126,8 +135,7 @@ static void print_list(printer *p, const scenario_key *key, const void *member, 
 }
 
 /* first, when it is not NULL, takes the place of the first key's last two blanks. */
-static void print_section(printer *p, const scenario_section *section, const void *data, int depth,
-                          const char *first)
+static void print_section(printer *p, const scenario_section *section, const void *data, int depth, const char *first)
 {
     for (int32_t k = 0; k < section->key_count; k++) {
         const scenario_key *key = &section->keys[k];

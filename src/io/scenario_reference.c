@@ -35,14 +35,30 @@ static void add_choices(const reference *r, const scenario_key *key)
 static void add_type(const reference *r, const scenario_key *key)
 {
     switch (key->kind) {
-    case KEY_REAL: add(r, key->automatic ? "number or `auto`" : "number"); break;
-    case KEY_INTEGER: add(r, "integer"); break;
-    case KEY_BOOLEAN: add(r, "`true` or `false`"); break;
-    case KEY_CHOICE: add_choices(r, key); break;
-    case KEY_TEXT: add(r, "text"); break;
-    case KEY_PATH: add(r, "path"); break;
-    case KEY_SECTION: add(r, "section"); break;
-    case KEY_LIST: add(r, "list"); break;
+    case KEY_REAL:
+        add(r, key->automatic ? "number or `auto`" : "number");
+        break;
+    case KEY_INTEGER:
+        add(r, "integer");
+        break;
+    case KEY_BOOLEAN:
+        add(r, "`true` or `false`");
+        break;
+    case KEY_CHOICE:
+        add_choices(r, key);
+        break;
+    case KEY_TEXT:
+        add(r, "text");
+        break;
+    case KEY_PATH:
+        add(r, "path");
+        break;
+    case KEY_SECTION:
+        add(r, "section");
+        break;
+    case KEY_LIST:
+        add(r, "list");
+        break;
     }
 }
 
@@ -119,14 +135,16 @@ static void add_section(const reference *r, const scenario_section *section, con
 fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error)
 {
     reference r = {ctx, out};
-    add(&r, "# Input reference\n\n"
-            "Every key that a scenario file may hold. This page is written by `fram` from the table that the reader itself uses.\n\n"
-            "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold degrees.\n"
-            "Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths are relative to the\n"
-            "folder of the scenario. Where a default holds `scale`, that is `run.scale`. `--set run.seed=7` or\n"
-            "`--set ice.floes[0].x=3` on the command line overrides a value.\n\n"
-            "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed here.\n\n"
-            "## Top level\n\n");
+    add(&r,
+        "# Input reference\n\n"
+        "Every key that a scenario file may hold. This page is written from the table that the reader itself uses.\n\n"
+        "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold degrees.\n"
+        "Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths are relative\n"
+        "to the folder of the scenario. Where a default holds `scale`, that is `run.scale`. `--set run.seed=7` or\n"
+        "`--set ice.floes[0].x=3` on the command line overrides a value.\n\n"
+        "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed\n"
+        "here.\n\n"
+        "## Top level\n\n");
     add_section(&r, &scenario_schema, "");
     return out->failed ? error_memory(error) : FRAM_OK;
 }

@@ -1,5 +1,6 @@
-/* The container of checkpoints.  Writing walks the content twice with the same code, once for size and checksum, once for the
-   bytes; reading walks the file twice, once to check all of it and once to take it over, so that a bad file changes nothing. */
+/* The container of checkpoints.  Writing walks the content twice with the same code, once for size and checksum, once
+   for the bytes; reading walks the file twice, once to check all of it and once to take it over, so that a bad file
+   changes nothing. */
 #include "io/table_file.h"
 #include "io/atomic_file.h"
 #include <string.h>
@@ -129,8 +130,8 @@ typedef struct body_source {
 static void refuse(body_source *s, const char *what, const char *name)
 {
     if (s->status == FRAM_OK)
-        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected %s%s%s, found something else", what,
-                              *name ? " " : "", name);
+        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected %s%s%s, found something else",
+                              what, *name ? " " : "", name);
 }
 
 /* Bytes of the body, NULL when there are not so many. */
@@ -139,7 +140,8 @@ static const void *take(body_source *s, uint64_t size)
     if (s->status != FRAM_OK)
         return NULL;
     if (size > s->left) {
-        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected more bytes, found the end of the file");
+        s->status =
+            error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected more bytes, found the end of the file");
         return NULL;
     }
     const void *data = s->at;
@@ -252,7 +254,8 @@ static fram_status check_head(const char *name, const void *data, size_t size, f
 {
     table_file_head head;
     if (size < sizeof head)
-        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found a file that is too short");
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
+                         "expected a checkpoint, found a file that is too short");
     memcpy(&head, data, sizeof head);
     if (memcmp(head.magic, file_magic, sizeof file_magic) != 0)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found another kind of file");
@@ -260,10 +263,11 @@ static fram_status check_head(const char *name, const void *data, size_t size, f
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
                          "expected a checkpoint of this machine's byte order, found the other");
     if (head.byte_order != BYTE_ORDER_MARK || head.crc != head_crc(&head))
-        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint, found one with a damaged head");
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
+                         "expected a checkpoint, found one with a damaged head");
     if (head.version != TABLE_FILE_VERSION)
-        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint of version %d, found version %u",
-                         TABLE_FILE_VERSION, head.version);
+        return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL,
+                         "expected a checkpoint of version %d, found version %u", TABLE_FILE_VERSION, head.version);
     if (head.size != size)
         return error_set(error, FRAM_ERROR_INPUT, name, 0, NULL, "expected a checkpoint of %llu bytes, found %zu",
                          (unsigned long long)head.size, size);

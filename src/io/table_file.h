@@ -1,14 +1,13 @@
-/* The container of checkpoints: any list of state tables, named 64-bit numbers and named byte strings in one checksummed
-   file, which is read back only into tables of the same fields.
+/* The container of checkpoints: any list of state tables, named 64-bit numbers and named byte strings in one
+   checksummed file, which is read back only into tables of the same fields.
 
    Layout, numbers in the byte order of the machine that wrote it:
      head     "FRAMTAB\n", u32 version, u32 0x01020304, u64 size of the file, u32 crc of all that follows the head,
               u32 crc of the 28 bytes before
      body     u32 count of numbers, each: name, u64
               u32 count of byte strings, each: name, u64 size, bytes
-              u32 count of tables, each: name, u32 count of fields, each field: name, u32 kind, u32 components; i32 rows;
-              the fields' columns one after the other
-   A name is a u32 length and its bytes. */
+              u32 count of tables, each: name, u32 count of fields, each field: name, u32 kind, u32 components; i32
+   rows; the fields' columns one after the other A name is a u32 length and its bytes. */
 #ifndef IO_TABLE_FILE_H
 #define IO_TABLE_FILE_H
 
@@ -28,8 +27,8 @@ typedef struct table_file_bytes {
     size_t size;
 } table_file_bytes;
 
-/* What a file holds.  For writing, all of it; for reading, the names (and table descriptors) that are expected, in their
-   order: values, data and tables are filled. */
+/* What a file holds.  For writing, all of it; for reading, the names (and table descriptors) that are expected, in
+   their order: values, data and tables are filled. */
 typedef struct table_file {
     const world_table *tables;
     int32_t table_count;

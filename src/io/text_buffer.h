@@ -4,8 +4,8 @@
 
 #include "base/array.h"
 
-/* data holds count bytes and a NUL after them (NULL while nothing was added).  failed: an addition found no memory; all later
-   ones are ignored, so that it is enough to look at the end. */
+/* data holds count bytes and a NUL after them (NULL while nothing was added).  failed: an addition found no memory; all
+   later ones are ignored, so that it is enough to look at the end. */
 typedef struct text_buffer {
     char *data;
     int32_t count, capacity;

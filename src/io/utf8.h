@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The code point at *at, which moves behind it; -1 when the bytes are not UTF-8 (also overlong forms, surrogates and values
-   over 0x10ffff), *at is then not moved.  *at < end. */
+/* The code point at *at, which moves behind it; -1 when the bytes are not UTF-8 (also overlong forms, surrogates and
+   values over 0x10ffff), *at is then not moved.  *at < end. */
 int32_t utf8_next(const char **at, const char *end);
 /* Neither a control character nor a line break, byte order mark or non-character. */
 bool utf8_is_printable(int32_t code);

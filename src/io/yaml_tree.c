@@ -77,7 +77,8 @@ static int32_t name_slot(const yaml_builder *b, int32_t parent, const char *key)
     uint32_t slot = (uint32_t)hash_bytes(key, strlen(key), (uint64_t)parent) & mask;
     for (;; slot = (slot + 1) & mask) {
         int32_t i = b->names.data[slot];
-        if (i < 0 || (tree->nodes.data[i].parent == parent && strcmp(yaml_text(tree, tree->nodes.data[i].key), key) == 0))
+        if (i < 0 ||
+            (tree->nodes.data[i].parent == parent && strcmp(yaml_text(tree, tree->nodes.data[i].key), key) == 0))
             return (int32_t)slot;
     }
 }
@@ -115,8 +116,8 @@ static fram_status append_bytes(yaml_builder *b, const char *data, size_t size)
     return FRAM_OK;
 }
 
-/* Text of a scalar, appended with a NUL; its offset goes to *at.  Chunk by chunk: fy_token_get_text of libfyaml 0.7.12 leaks
-   memory on text of many lines or escapes. */
+/* Text of a scalar, appended with a NUL; its offset goes to *at.  Chunk by chunk: fy_token_get_text of libfyaml 0.7.12
+   leaks memory on text of many lines or escapes. */
 static fram_status add_text(yaml_builder *b, struct fy_token *token, int32_t *at)
 {
     fram_status status = FRAM_OK;
@@ -253,13 +254,20 @@ static fram_status take_event(yaml_builder *b, struct fy_event *event)
     switch (event->type) {
     case FYET_DOCUMENT_START:
         return b->documents++ == 0 ? FRAM_OK : refuse(b, "expected one document, found a second one");
-    case FYET_ALIAS: return refuse(b, "expected a plain value, found an alias (*), which is not allowed");
-    case FYET_SCALAR: return add_scalar(b, event->scalar.value);
-    case FYET_MAPPING_START: return open_container(b, YAML_MAPPING);
-    case FYET_SEQUENCE_START: return open_container(b, YAML_SEQUENCE);
+    case FYET_ALIAS:
+        return refuse(b, "expected a plain value, found an alias (*), which is not allowed");
+    case FYET_SCALAR:
+        return add_scalar(b, event->scalar.value);
+    case FYET_MAPPING_START:
+        return open_container(b, YAML_MAPPING);
+    case FYET_SEQUENCE_START:
+        return open_container(b, YAML_SEQUENCE);
     case FYET_MAPPING_END:
-    case FYET_SEQUENCE_END: b->depth--; return FRAM_OK;
-    default: return FRAM_OK;
+    case FYET_SEQUENCE_END:
+        b->depth--;
+        return FRAM_OK;
+    default:
+        return FRAM_OK;
     }
 }
 

@@ -1,6 +1,6 @@
 /* YAML (and JSON, which is YAML) as a flat tree of plain data with the place of every node, for readers that check what
-   they read.  Strict: one document, UTF-8 without control characters, no anchors, aliases, tags, merge keys or duplicate keys,
-   bounded depth. */
+   they read.  Strict: one document, UTF-8 without control characters, no anchors, aliases, tags, merge keys or
+   duplicate keys, bounded depth. */
 #ifndef IO_YAML_TREE_H
 #define IO_YAML_TREE_H
 
@@ -15,9 +15,9 @@ typedef struct yaml_node {
     int32_t line, column; /* from 1; of the value */
     int32_t key;          /* in `text`: the key it stands under, -1 in a sequence and at the root */
     int32_t key_line, key_column;
-    int32_t value;        /* scalar: in `text` */
+    int32_t value;               /* scalar: in `text` */
     int32_t parent, first, next; /* -1: none */
-    int32_t count;        /* children */
+    int32_t count;               /* children */
 } yaml_node;
 
 typedef struct yaml_tree {

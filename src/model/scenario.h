@@ -1,6 +1,6 @@
 /* The scenario: everything a run is told, as plain data.  Made once (by io/scenario_file.h, or by scenario_defaults and
-   assignments), checked, then never changed.  Its keys, units and defaults stand in scenario_keys.h; member names are the
-   keys: `run.solver.iterations` of the file is scenario.run.solver.iterations.  Knows neither files nor physics. */
+   assignments), checked, then never changed.  Its keys, units and defaults stand in scenario_keys.h; member names are
+   the keys: `run.solver.iterations` of the file is scenario.run.solver.iterations.  Knows neither files nor physics. */
 #ifndef MODEL_SCENARIO_H
 #define MODEL_SCENARIO_H
 
@@ -32,10 +32,10 @@ typedef char scenario_text[SCENARIO_TEXT_SIZE];
 #define SCENARIO_TYPE_LIST(noun, most) scenario_##noun##_list
 
 #define SCENARIO_MEMBER(name, spec, unit, meaning) SCENARIO_TYPE_##spec name;
-#define SCENARIO_STRUCT(noun, KEYS)         \
-    typedef struct scenario_##noun {        \
-        KEYS(SCENARIO_MEMBER)               \
-    } scenario_##noun;                      \
+#define SCENARIO_STRUCT(noun, KEYS)  \
+    typedef struct scenario_##noun { \
+        KEYS(SCENARIO_MEMBER)        \
+    } scenario_##noun;               \
     typedef ARRAY(scenario_##noun) scenario_##noun##_list;
 
 SCENARIO_SECTIONS(SCENARIO_STRUCT)
@@ -68,18 +68,18 @@ void scenario_defaults(scenario *s, double scale);
 void scenario_floe_defaults(scenario_floe *floe, double scale);
 void scenario_free(context *ctx, scenario *s);
 
-/* Range of every key, then that the keys go together (x_min < x_max, floes with a shape, ...).  FRAM_ERROR_INPUT with the
-   key at fault, and its place when the scenario came from a file. */
+/* Range of every key, then that the keys go together (x_min < x_max, floes with a shape, ...).  FRAM_ERROR_INPUT with
+   the key at fault, and its place when the scenario came from a file. */
 fram_status scenario_check(const scenario *s, fram_error *error);
 
-/* Fill file, line and column of an error that names a key: where the key was given, or else the innermost section around it
-   that was; otherwise only the file.  For errors found while a world is made from the scenario. */
+/* Fill file, line and column of an error that names a key: where the key was given, or else the innermost section
+   around it that was; otherwise only the file.  For errors found while a world is made from the scenario. */
 void scenario_locate(const scenario *s, fram_error *error);
 /* Where a key, section or list was given; NULL when it was not. */
 const scenario_place *scenario_given(const scenario *s, const char *key);
 
-/* A path of the scenario, which is relative to the scenario's own folder, as one that can be opened.  false when it does
-   not fit. */
+/* A path of the scenario, which is relative to the scenario's own folder, as one that can be opened.  false when it
+   does not fit. */
 bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_t size);
 
 #endif

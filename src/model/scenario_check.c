@@ -1,4 +1,5 @@
-/* What a scenario must satisfy: the range of every key, and that keys go together.  All rules between keys stand here. */
+/* What a scenario must satisfy: the range of every key, and that keys go together.  All rules between keys stand here.
+ */
 #include "base/number_text.h"
 #include "model/scenario_schema.h"
 #include <stdio.h>
@@ -21,10 +22,7 @@ static fram_status fault(const scenario *s, fram_error *error, const char *key, 
 
 /* ---- ranges ---- */
 
-static const char *unit_text(const scenario_key *key)
-{
-    return strcmp(key->unit, "1") == 0 ? "" : key->unit;
-}
+static const char *unit_text(const scenario_key *key) { return strcmp(key->unit, "1") == 0 ? "" : key->unit; }
 
 static fram_status check_number(const scenario *s, const scenario_key *key, const void *member, const char *path,
                                 fram_error *error)
@@ -59,7 +57,8 @@ static fram_status check_range(void *user, const scenario_key *key, const void *
 
 /* ---- keys that must go together ---- */
 
-/* Two numbers of which the first must not exceed the second.  At fault is the one that was given, the first if both were. */
+/* Two numbers of which the first must not exceed the second.  At fault is the one that was given, the first if both
+ * were. */
 static fram_status check_order(const scenario *s, const char *key, double value, const char *bound_key, double bound,
                                fram_error *error)
 {
@@ -106,12 +105,14 @@ static fram_status check_vessel(const scenario *s, fram_error *error)
     if (!v->present)
         return FRAM_OK;
     if (v->hull.form == HULL_MESH && !v->hull.file[0])
-        return fault(s, error, "vessel.hull.file", "expected the path of a mesh, since vessel.hull.form is file, found nothing");
+        return fault(s, error, "vessel.hull.file",
+                     "expected the path of a mesh, since vessel.hull.form is file, found nothing");
     if (v->hull.form != HULL_MESH && v->hull.file[0])
         return fault(s, error, "vessel.hull.file", "expected nothing, since vessel.hull.form is not file, found \"%s\"",
                      v->hull.file);
     if (s->domain.boundary == DOMAIN_WALLS && !inside_domain(s, v->x, v->y))
-        return fault(s, error, "vessel.x", "expected vessel.x and vessel.y inside the walls of the domain, found a place outside");
+        return fault(s, error, "vessel.x",
+                     "expected vessel.x and vessel.y inside the walls of the domain, found a place outside");
     return FRAM_OK;
 }
 
@@ -134,7 +135,8 @@ static fram_status check_field(const scenario *s, fram_error *error)
     const scenario_ice *ice = &s->ice;
     const scenario_domain *d = &s->domain;
     double area = (d->x_max - d->x_min) * (d->y_max - d->y_min);
-    fram_status status = check_order(s, "ice.mean_floe_area", ice->mean_floe_area, "the area of the domain", area, error);
+    fram_status status =
+        check_order(s, "ice.mean_floe_area", ice->mean_floe_area, "the area of the domain", area, error);
     if (status == FRAM_OK)
         status = check_order(s, "ice.smallest_floe_area", ice->smallest_floe_area, "ice.mean_floe_area",
                              ice->mean_floe_area, error);

@@ -1,5 +1,6 @@
-/* Every key of a scenario file, once.  The members of `scenario` (scenario.h), the schema that drives reading, defaults,
-   checks and printing (scenario_schema.h) and the input reference are all made from these rows: to add a key, add a row.
+/* Every key of a scenario file, once.  The members of `scenario` (scenario.h), the schema that drives reading,
+   defaults, checks and printing (scenario_schema.h) and the input reference are all made from these rows: to add a key,
+   add a row.
 
    A row is X(name, SPEC, unit, meaning), where SPEC is one of
        REAL(value, lo, hi)                      double; default value, closed range
@@ -12,171 +13,171 @@
        TEXT(value)                              scenario_text
        PATH(value)                              scenario_text, a file relative to the scenario's folder
        SECTION(noun)                            a nested scenario_<noun>, one key of a mapping
-       LIST(noun, most)                         an ARRAY of at most so many scenario_<noun>, written as a list of mappings
-   Units are SI; only keys that end in _deg hold degrees.  Directions are towards, counter-clockwise from X.
+       LIST(noun, most)                         an ARRAY of at most so many scenario_<noun>, written as a list of
+   mappings Units are SI; only keys that end in _deg hold degrees.  Directions are towards, counter-clockwise from X.
 
    Knows the enums of lower rooms; must not know files. */
 #ifndef MODEL_SCENARIO_KEYS_H
 #define MODEL_SCENARIO_KEYS_H
 
-#define SCENARIO_KEYS(X)                                                                                           \
-    X(title, TEXT(""), "", "what the scenario shows; goes into reports")                                           \
-    X(run, SECTION(run), "", "time, randomness and numerical method")                                              \
-    X(vessel, SECTION(vessel), "", "the vessel, and how it is held or moved")                                      \
-    X(ice, SECTION(ice), "", "the ice field and its material")                                                     \
-    X(domain, SECTION(domain), "", "the part of the sea that is simulated")                                        \
-    X(environment, SECTION(environment), "", "water, air and gravity")                                             \
+#define SCENARIO_KEYS(X)                                                      \
+    X(title, TEXT(""), "", "what the scenario shows; goes into reports")      \
+    X(run, SECTION(run), "", "time, randomness and numerical method")         \
+    X(vessel, SECTION(vessel), "", "the vessel, and how it is held or moved") \
+    X(ice, SECTION(ice), "", "the ice field and its material")                \
+    X(domain, SECTION(domain), "", "the part of the sea that is simulated")   \
+    X(environment, SECTION(environment), "", "water, air and gravity")        \
     X(output, SECTION(output), "", "what a run writes and how often, in simulated time")
 
-#define SCENARIO_RUN_KEYS(X)                                                                                       \
-    X(duration, REAL(60, 0, 1e7), "s", "simulated time")                                                           \
-    X(time_step, REAL(0.01, 1e-7, 10), "s", "fixed time step")                                                     \
-    X(seed, INTEGER(1, 0, 9007199254740991), "1", "seed of everything random; same scenario and seed, same bits")  \
-    X(scale, REAL(30, 1e-3, 1e4), "1", "scaling factor lambda of full size to ice tank; 1 is tank size. Sets the " \
-      "defaults of thresholds")                                                                                    \
-    X(transient, REAL(0, 0, 1e7), "s", "time at the start that statistics leave out")                              \
-    X(collision_margin, SCALED(0.3, 30, 1, 0, 1e3), "m", "margin by which bounding boxes are enlarged so that "    \
-      "pairs last for several steps; changes speed only")                                                          \
-    X(speed_limit, SCALED(100, 30, 0.5, 1e-6, 1e9), "m/s", "a body that moves faster means that the run went wrong")   \
+#define SCENARIO_RUN_KEYS(X)                                                                                         \
+    X(duration, REAL(60, 0, 1e7), "s", "simulated time")                                                             \
+    X(time_step, REAL(0.01, 1e-7, 10), "s", "fixed time step")                                                       \
+    X(seed, INTEGER(1, 0, 9007199254740991), "1", "seed of everything random; same scenario and seed, same bits")    \
+    X(scale, REAL(30, 1e-3, 1e4), "1",                                                                               \
+      "scaling factor lambda of full size to ice tank; 1 is tank size. Sets the defaults of thresholds")             \
+    X(transient, REAL(0, 0, 1e7), "s", "time at the start that statistics leave out")                                \
+    X(collision_margin, SCALED(0.3, 30, 1, 0, 1e3), "m",                                                             \
+      "margin by which bounding boxes are enlarged so that pairs last for several steps; changes speed "             \
+      "only")                                                                                                        \
+    X(speed_limit, SCALED(100, 30, 0.5, 1e-6, 1e9), "m/s", "a body that moves faster means that the run went wrong") \
     X(solver, SECTION(solver), "", "the multibody solver")
 
-#define SCENARIO_SOLVER_KEYS(X)                                                                                    \
-    X(kind, CHOICE(solver_kind, SOLVER_SEQUENTIAL, "sequential fast accurate"), "", "sequential: projected "       \
-      "Gauss-Seidel in contact order, the reference; fast: batched; accurate: run to the tolerance, to judge the " \
-      "others by")                                                                                                 \
-    X(iterations, INTEGER(30, 1, 1000000), "1", "velocity sweeps of a step")                                       \
-    X(position_iterations, INTEGER(10, 0, 1000000), "1", "position correction sweeps of a step")                   \
-    X(warm_start, BOOLEAN(true), "", "begin from the impulses of the last step")                                   \
-    X(correction_rate, REAL(0.8, 0, 1), "1", "largest part of an overlap that a step corrects")                    \
-    X(baumgarte, BOOLEAN(false), "", "comparison switch: correct overlaps through velocities; makes ice explode")  \
-    X(tolerance, SCALED(1e-6, 30, 0.5, 0, 1e3), "m/s", "accurate: largest residual to stop at")                    \
+#define SCENARIO_SOLVER_KEYS(X)                                                                                   \
+    X(kind, CHOICE(solver_kind, SOLVER_SEQUENTIAL, "sequential fast accurate"), "",                               \
+      "sequential: projected Gauss-Seidel in contact order, the reference; fast: batched; accurate: run to "      \
+      "the tolerance, to judge the others by")                                                                    \
+    X(iterations, INTEGER(30, 1, 1000000), "1", "velocity sweeps of a step")                                      \
+    X(position_iterations, INTEGER(10, 0, 1000000), "1", "position correction sweeps of a step")                  \
+    X(warm_start, BOOLEAN(true), "", "begin from the impulses of the last step")                                  \
+    X(correction_rate, REAL(0.8, 0, 1), "1", "largest part of an overlap that a step corrects")                   \
+    X(baumgarte, BOOLEAN(false), "", "comparison switch: correct overlaps through velocities; makes ice explode") \
+    X(tolerance, SCALED(1e-6, 30, 0.5, 0, 1e3), "m/s", "accurate: largest residual to stop at")                   \
     X(most_iterations, INTEGER(10000, 1, 100000000), "1", "accurate: upper bound of the sweeps of a step")
 
-#define SCENARIO_VESSEL_KEYS(X)                                                                                    \
-    X(present, BOOLEAN(true), "", "false: ice alone")                                                              \
-    X(mode, CHOICE(vessel_mode, VESSEL_TOWED, "prescribed towed free"), "", "prescribed: all motions given; "      \
-      "towed: by a carriage, free to heave; free: six degrees of freedom")                                         \
-    X(x, REAL(0, -1e7, 1e7), "m", "place of the ship's origin, amidships on the centre line")                      \
-    X(y, REAL(0, -1e7, 1e7), "m", "place of the ship's origin")                                                    \
-    X(heading_deg, REAL(0, -360, 360), "deg", "direction of the bow")                                              \
-    X(speed, REAL(0, 0, 100), "m/s", "speed of towing, of prescribed motion, or at the start of free motion")      \
-    X(course_deg, AUTOMATIC(-360, 360), "deg", "direction of the speed; auto: the heading")                        \
-    X(ramp, REAL(0, 0, 1e6), "s", "time over which the speed of towing grows from zero")                           \
-    X(mass, AUTOMATIC(1e-9, 1e12), "kg", "auto: the mass displaced at the draught")                                \
-    X(centre_of_gravity_x, AUTOMATIC(-1e4, 1e4), "m", "forward of amidships; auto: over the centre of buoyancy")   \
-    X(centre_of_gravity_y, AUTOMATIC(-1e4, 1e4), "m", "to port; auto: over the centre of buoyancy")                \
-    X(centre_of_gravity_z, AUTOMATIC(-1e4, 1e4), "m", "above the design waterline; auto: in it")                   \
-    X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                     \
-    X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                  \
-    X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                    \
+#define SCENARIO_VESSEL_KEYS(X)                                                                                  \
+    X(present, BOOLEAN(true), "", "false: ice alone")                                                            \
+    X(mode, CHOICE(vessel_mode, VESSEL_TOWED, "prescribed towed free"), "",                                      \
+      "prescribed: all motions given; towed: by a carriage, free to heave; free: six degrees of freedom")        \
+    X(x, REAL(0, -1e7, 1e7), "m", "place of the ship's origin, amidships on the centre line")                    \
+    X(y, REAL(0, -1e7, 1e7), "m", "place of the ship's origin")                                                  \
+    X(heading_deg, REAL(0, -360, 360), "deg", "direction of the bow")                                            \
+    X(speed, REAL(0, 0, 100), "m/s", "speed of towing, of prescribed motion, or at the start of free motion")    \
+    X(course_deg, AUTOMATIC(-360, 360), "deg", "direction of the speed; auto: the heading")                      \
+    X(ramp, REAL(0, 0, 1e6), "s", "time over which the speed of towing grows from zero")                         \
+    X(mass, AUTOMATIC(1e-9, 1e12), "kg", "auto: the mass displaced at the draught")                              \
+    X(centre_of_gravity_x, AUTOMATIC(-1e4, 1e4), "m", "forward of amidships; auto: over the centre of buoyancy") \
+    X(centre_of_gravity_y, AUTOMATIC(-1e4, 1e4), "m", "to port; auto: over the centre of buoyancy")              \
+    X(centre_of_gravity_z, AUTOMATIC(-1e4, 1e4), "m", "above the design waterline; auto: in it")                 \
+    X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                   \
+    X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                \
+    X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                  \
     X(hull, SECTION(hull), "", "the form of the hull")
 
-#define SCENARIO_HULL_KEYS(X)                                                                                      \
-    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file"), "", "box; icebreaker: wedge bow, flared "   \
-      "midbody and raked stern; file: a closed mesh")                                                              \
-    X(file, PATH(""), "", "mesh of the hull in ship coordinates, for form file")                                   \
-    X(length, REAL(100, 1e-3, 1e4), "m", "waterline length")                                                       \
-    X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                                            \
-    X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                                                 \
-    X(freeboard, REAL(4, 1e-4, 1e3), "m", "height of the deck above the waterline")                                \
-    X(stem_angle_deg, REAL(30, 5, 90), "deg", "stem against the water plane, at the waterline")                    \
-    X(entrance_angle_deg, REAL(30, 5, 90), "deg", "half entrance angle of the waterline")                          \
-    X(flare_angle_deg, REAL(8, 0, 80), "deg", "sides against the vertical")                                        \
-    X(stern_angle_deg, REAL(30, 5, 90), "deg", "run of the stern against the water plane")                         \
+#define SCENARIO_HULL_KEYS(X)                                                                   \
+    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file"), "",                      \
+      "box; icebreaker: wedge bow, flared midbody and raked stern; file: a closed mesh")        \
+    X(file, PATH(""), "", "mesh of the hull in ship coordinates, for form file")                \
+    X(length, REAL(100, 1e-3, 1e4), "m", "waterline length")                                    \
+    X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                         \
+    X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                              \
+    X(freeboard, REAL(4, 1e-4, 1e3), "m", "height of the deck above the waterline")             \
+    X(stem_angle_deg, REAL(30, 5, 90), "deg", "stem against the water plane, at the waterline") \
+    X(entrance_angle_deg, REAL(30, 5, 90), "deg", "half entrance angle of the waterline")       \
+    X(flare_angle_deg, REAL(8, 0, 80), "deg", "sides against the vertical")                     \
+    X(stern_angle_deg, REAL(30, 5, 90), "deg", "run of the stern against the water plane")      \
     X(parallel_midbody, REAL(0.4, 0, 1), "1", "length of the parallel middle body over the waterline length")
 
-#define SCENARIO_ICE_KEYS(X)                                                                                       \
-    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none"), "", "voronoi: managed ice, Voronoi cells; "   \
-      "floes: those listed under ice.floes; none: open water")                                                     \
-    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi: ice area over the area free for ice")                      \
-    X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")        \
-    X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                \
-    X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")   \
-    X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m", "clear distance between the vessel and the field")           \
-    X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                             \
-    X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                             \
-    X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                              \
-    X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                  \
-    X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                          \
-    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")         \
-    X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant") \
-    X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                           \
-    X(cap_ice_ice, BOOLEAN(false), "", "crushing limits contacts between floes too")                               \
-    X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                 \
-    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top "      \
-      "plane")                                                                                                     \
-    X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")           \
-    X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")    \
-    X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                  \
-    X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                               \
+#define SCENARIO_ICE_KEYS(X)                                                                                        \
+    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none"), "",                                            \
+      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water")                 \
+    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi: ice area over the area free for ice")                       \
+    X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")         \
+    X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                 \
+    X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")    \
+    X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m", "clear distance between the vessel and the field")            \
+    X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                              \
+    X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                              \
+    X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                               \
+    X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                   \
+    X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                           \
+    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")          \
+    X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")  \
+    X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                            \
+    X(cap_ice_ice, BOOLEAN(false), "", "crushing limits contacts between floes too")                                \
+    X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                  \
+    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane") \
+    X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")            \
+    X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")     \
+    X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                   \
+    X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
-#define SCENARIO_FRICTION_KEYS(X)                                                                                  \
-    X(ice_ice_static, REAL(0.3, 0, 10), "1", "ice on ice, sticking")                                               \
-    X(ice_ice_kinetic, REAL(0.3, 0, 10), "1", "ice on ice, sliding")                                               \
-    X(ice_hull_static, REAL(0.1, 0, 10), "1", "ice on hull, sticking")                                             \
-    X(ice_hull_kinetic, REAL(0.1, 0, 10), "1", "ice on hull, sliding")                                             \
-    X(ice_wall_static, REAL(0.3, 0, 10), "1", "ice on basin wall, sticking")                                       \
+#define SCENARIO_FRICTION_KEYS(X)                                            \
+    X(ice_ice_static, REAL(0.3, 0, 10), "1", "ice on ice, sticking")         \
+    X(ice_ice_kinetic, REAL(0.3, 0, 10), "1", "ice on ice, sliding")         \
+    X(ice_hull_static, REAL(0.1, 0, 10), "1", "ice on hull, sticking")       \
+    X(ice_hull_kinetic, REAL(0.1, 0, 10), "1", "ice on hull, sliding")       \
+    X(ice_wall_static, REAL(0.3, 0, 10), "1", "ice on basin wall, sticking") \
     X(ice_wall_kinetic, REAL(0.3, 0, 10), "1", "ice on basin wall, sliding")
 
-#define SCENARIO_FLOE_KEYS(X)                                                                                      \
-    X(shape, CHOICE(floe_shape, FLOE_RECTANGLE, "rectangle regular"), "", "rectangle, or regular polygon")         \
-    X(length, REAL(10, 1e-6, 1e6), "m", "rectangle: along the floe's x")                                           \
-    X(width, REAL(10, 1e-6, 1e6), "m", "rectangle: along the floe's y")                                            \
-    X(sides, INTEGER(6, 3, 64), "1", "regular: number of sides")                                                   \
-    X(radius, REAL(5, 1e-6, 1e6), "m", "regular: of the circle through the corners")                               \
-    X(thickness, AUTOMATIC(1e-6, 100), "m", "auto: ice.thickness")                                                 \
-    X(x, REAL(0, -1e7, 1e7), "m", "centre")                                                                        \
-    X(y, REAL(0, -1e7, 1e7), "m", "centre")                                                                        \
-    X(elevation, AUTOMATIC(-1e4, 1e4), "m", "centre above still water; auto: as it floats")                        \
-    X(yaw_deg, REAL(0, -360, 360), "deg", "turn about the vertical, done first")                                   \
-    X(pitch_deg, REAL(0, -90, 90), "deg", "then about the floe's y, positive nose down")                           \
-    X(roll_deg, REAL(0, -180, 180), "deg", "then about the floe's x")                                              \
-    X(velocity_x, REAL(0, -1e3, 1e3), "m/s", "at the start")                                                       \
-    X(velocity_y, REAL(0, -1e3, 1e3), "m/s", "at the start")                                                       \
-    X(velocity_z, REAL(0, -1e3, 1e3), "m/s", "at the start")                                                       \
-    X(spin, REAL(0, -1e3, 1e3), "rad/s", "about the vertical, at the start")                                       \
+#define SCENARIO_FLOE_KEYS(X)                                                                              \
+    X(shape, CHOICE(floe_shape, FLOE_RECTANGLE, "rectangle regular"), "", "rectangle, or regular polygon") \
+    X(length, REAL(10, 1e-6, 1e6), "m", "rectangle: along the floe's x")                                   \
+    X(width, REAL(10, 1e-6, 1e6), "m", "rectangle: along the floe's y")                                    \
+    X(sides, INTEGER(6, 3, 64), "1", "regular: number of sides")                                           \
+    X(radius, REAL(5, 1e-6, 1e6), "m", "regular: of the circle through the corners")                       \
+    X(thickness, AUTOMATIC(1e-6, 100), "m", "auto: ice.thickness")                                         \
+    X(x, REAL(0, -1e7, 1e7), "m", "centre")                                                                \
+    X(y, REAL(0, -1e7, 1e7), "m", "centre")                                                                \
+    X(elevation, AUTOMATIC(-1e4, 1e4), "m", "centre above still water; auto: as it floats")                \
+    X(yaw_deg, REAL(0, -360, 360), "deg", "turn about the vertical, done first")                           \
+    X(pitch_deg, REAL(0, -90, 90), "deg", "then about the floe's y, positive nose down")                   \
+    X(roll_deg, REAL(0, -180, 180), "deg", "then about the floe's x")                                      \
+    X(velocity_x, REAL(0, -1e3, 1e3), "m/s", "at the start")                                               \
+    X(velocity_y, REAL(0, -1e3, 1e3), "m/s", "at the start")                                               \
+    X(velocity_z, REAL(0, -1e3, 1e3), "m/s", "at the start")                                               \
+    X(spin, REAL(0, -1e3, 1e3), "rad/s", "about the vertical, at the start")                               \
     X(fixed, BOOLEAN(false), "", "never moves")
 
-#define SCENARIO_DOMAIN_KEYS(X)                                                                                    \
-    X(x_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                                   \
-    X(x_max, REAL(300, -1e7, 1e7), "m", "edge")                                                                    \
-    X(y_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                                   \
-    X(y_max, REAL(100, -1e7, 1e7), "m", "edge")                                                                    \
-    X(boundary, CHOICE(domain_boundary, DOMAIN_WALLS, "walls open"), "", "walls: a basin; open: ice that leaves "\
-      "is removed")                                                                                                \
-    X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water")               \
+#define SCENARIO_DOMAIN_KEYS(X)                                                                      \
+    X(x_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                     \
+    X(x_max, REAL(300, -1e7, 1e7), "m", "edge")                                                      \
+    X(y_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                     \
+    X(y_max, REAL(100, -1e7, 1e7), "m", "edge")                                                      \
+    X(boundary, CHOICE(domain_boundary, DOMAIN_WALLS, "walls open"), "",                             \
+      "walls: a basin; open: ice that leaves is removed")                                            \
+    X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water") \
     X(wall_thickness, SCALED(10, 30, 1, 1e-6, 1e4), "m", "thickness of the walls, outside the domain")
 
-#define SCENARIO_ENVIRONMENT_KEYS(X)                                                                               \
-    X(water, BOOLEAN(true), "", "false: neither fluid nor gravity, for tests of pure dynamics")                    \
-    X(gravity, REAL(9.81, 1e-3, 1e3), "m/s2", "acceleration of gravity, down")                                     \
-    X(water_density, REAL(1025, 1, 1e4), "kg/m3", "density of water")                                              \
-    X(air_density, REAL(1.225, 0, 1e3), "kg/m3", "density of air")                                                 \
-    X(current_speed, REAL(0, 0, 100), "m/s", "uniform current")                                                    \
-    X(current_direction_deg, REAL(0, -360, 360), "deg", "direction the current flows to")                          \
-    X(wind_speed, REAL(0, 0, 200), "m/s", "uniform wind")                                                          \
-    X(wind_direction_deg, REAL(0, -360, 360), "deg", "direction the wind blows to")                                \
-    X(ice_drag, SECTION(ice_drag), "", "drag coefficients of the floes")                                           \
+#define SCENARIO_ENVIRONMENT_KEYS(X)                                                            \
+    X(water, BOOLEAN(true), "", "false: neither fluid nor gravity, for tests of pure dynamics") \
+    X(gravity, REAL(9.81, 1e-3, 1e3), "m/s2", "acceleration of gravity, down")                  \
+    X(water_density, REAL(1025, 1, 1e4), "kg/m3", "density of water")                           \
+    X(air_density, REAL(1.225, 0, 1e3), "kg/m3", "density of air")                              \
+    X(current_speed, REAL(0, 0, 100), "m/s", "uniform current")                                 \
+    X(current_direction_deg, REAL(0, -360, 360), "deg", "direction the current flows to")       \
+    X(wind_speed, REAL(0, 0, 200), "m/s", "uniform wind")                                       \
+    X(wind_direction_deg, REAL(0, -360, 360), "deg", "direction the wind blows to")             \
+    X(ice_drag, SECTION(ice_drag), "", "drag coefficients of the floes")                        \
     X(hull_drag, SECTION(hull_drag), "", "drag coefficients of the vessel")
 
-#define SCENARIO_ICE_DRAG_KEYS(X)                                                                                  \
-    X(water_form, REAL(1, 0, 100), "1", "form drag of wet faces that move into the water")                         \
-    X(water_skin, REAL(0.01, 0, 100), "1", "skin drag of wet faces")                                               \
-    X(air_form, REAL(1, 0, 100), "1", "form drag of dry faces that move into the air")                             \
+#define SCENARIO_ICE_DRAG_KEYS(X)                                                          \
+    X(water_form, REAL(1, 0, 100), "1", "form drag of wet faces that move into the water") \
+    X(water_skin, REAL(0.01, 0, 100), "1", "skin drag of wet faces")                       \
+    X(air_form, REAL(1, 0, 100), "1", "form drag of dry faces that move into the air")     \
     X(air_skin, REAL(0.003, 0, 100), "1", "skin drag of dry faces")
 
-#define SCENARIO_HULL_DRAG_KEYS(X)                                                                                 \
-    X(water_form, REAL(0.1, 0, 100), "1", "form drag of wet faces that move into the water")                       \
-    X(water_skin, REAL(0.003, 0, 100), "1", "skin drag of wet faces")                                              \
-    X(air_form, REAL(0.8, 0, 100), "1", "form drag of dry faces that move into the air")                           \
+#define SCENARIO_HULL_DRAG_KEYS(X)                                                           \
+    X(water_form, REAL(0.1, 0, 100), "1", "form drag of wet faces that move into the water") \
+    X(water_skin, REAL(0.003, 0, 100), "1", "skin drag of wet faces")                        \
+    X(air_form, REAL(0.8, 0, 100), "1", "form drag of dry faces that move into the air")     \
     X(air_skin, REAL(0.003, 0, 100), "1", "skin drag of dry faces")
 
-#define SCENARIO_OUTPUT_KEYS(X)                                                                                    \
-    X(csv_interval, REAL(0, 0, 1e7), "s", "between rows of the CSV file; 0: every step")                           \
-    X(frame_interval, REAL(1, 0, 1e7), "s", "between frames of the record; 0: none")                               \
-    X(checkpoint_interval, REAL(60, 0, 1e7), "s", "between checkpoints; 0: only at the end")                       \
-    X(picture_interval, REAL(0, 0, 1e7), "s", "between plan-view pictures; 0: only at the end")                    \
+#define SCENARIO_OUTPUT_KEYS(X)                                                                 \
+    X(csv_interval, REAL(0, 0, 1e7), "s", "between rows of the CSV file; 0: every step")        \
+    X(frame_interval, REAL(1, 0, 1e7), "s", "between frames of the record; 0: none")            \
+    X(checkpoint_interval, REAL(60, 0, 1e7), "s", "between checkpoints; 0: only at the end")    \
+    X(picture_interval, REAL(0, 0, 1e7), "s", "between plan-view pictures; 0: only at the end") \
     X(averaging_window, SCALED(0.5, 30, 0.5, 0, 1e5), "s", "window over which loads are averaged for statistics")
 
 /* Every section, inner ones before those that hold them: S(noun, rows). */

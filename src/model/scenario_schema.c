@@ -21,10 +21,10 @@ _Static_assert(sizeof(vessel_mode) == sizeof(int32_t), "an enum is 4 bytes");
 
 /* A row needs the struct of its section, hence SELF. */
 #define ROW(k, spec, u, m) {.name = #k, .unit = (u), .meaning = (m), .offset = offsetof(SELF, k), INFO_##spec},
-#define SECTION_DEFINE(noun, KEYS)                                                                 \
-    static const scenario_key noun##_keys[] = {KEYS(ROW)};                                         \
-    static const scenario_section noun##_section = {                                               \
-        #noun, sizeof(SELF), (int32_t)(sizeof noun##_keys / sizeof *noun##_keys), noun##_keys};
+#define SECTION_DEFINE(noun, KEYS)                                       \
+    static const scenario_key noun##_keys[] = {KEYS(ROW)};               \
+    static const scenario_section noun##_section = {#noun, sizeof(SELF), \
+                                                    (int32_t)(sizeof noun##_keys / sizeof *noun##_keys), noun##_keys};
 
 #define SELF scenario_solver
 SECTION_DEFINE(solver, SCENARIO_SOLVER_KEYS)
@@ -66,11 +66,11 @@ SECTION_DEFINE(output, SCENARIO_OUTPUT_KEYS)
 #define SELF scenario
 static const scenario_key scenario_keys[] = {SCENARIO_KEYS(ROW)};
 #undef SELF
-const scenario_section scenario_schema = {
-    "scenario", sizeof(scenario), (int32_t)(sizeof scenario_keys / sizeof *scenario_keys), scenario_keys};
+const scenario_section scenario_schema = {"scenario", sizeof(scenario),
+                                          (int32_t)(sizeof scenario_keys / sizeof *scenario_keys), scenario_keys};
 
-/* What any ARRAY looks like.  The members are arrays of many types and are moved as bytes, so that no rule of aliasing is
-   bent. */
+/* What any ARRAY looks like.  The members are arrays of many types and are moved as bytes, so that no rule of aliasing
+   is bent. */
 typedef ARRAY(void) any_list;
 
 int32_t section_find(const scenario_section *section, const char *name)
@@ -149,17 +149,29 @@ double key_default(const scenario_key *key, double scale)
 static void key_set_default(const scenario_key *key, void *member, double scale)
 {
     switch (key->kind) {
-    case KEY_REAL: *(double *)member = key_default(key, scale); break;
-    case KEY_INTEGER: *(int64_t *)member = (int64_t)key->value; break;
-    case KEY_BOOLEAN: *(bool *)member = key->value != 0; break;
-    case KEY_CHOICE: choice_set(member, (int32_t)key->value); break;
+    case KEY_REAL:
+        *(double *)member = key_default(key, scale);
+        break;
+    case KEY_INTEGER:
+        *(int64_t *)member = (int64_t)key->value;
+        break;
+    case KEY_BOOLEAN:
+        *(bool *)member = key->value != 0;
+        break;
+    case KEY_CHOICE:
+        choice_set(member, (int32_t)key->value);
+        break;
     case KEY_TEXT:
     case KEY_PATH:
         memset(member, 0, SCENARIO_TEXT_SIZE);
         memcpy(member, key->text, strlen(key->text));
         break;
-    case KEY_SECTION: section_defaults(key->section, member, scale); break;
-    case KEY_LIST: memset(member, 0, sizeof(any_list)); break;
+    case KEY_SECTION:
+        section_defaults(key->section, member, scale);
+        break;
+    case KEY_LIST:
+        memset(member, 0, sizeof(any_list));
+        break;
     }
 }
 
@@ -236,9 +248,13 @@ int32_t choice_find(const scenario_key *key, const char *name)
 double key_number(const scenario_key *key, const void *member)
 {
     switch (key->kind) {
-    case KEY_REAL: return *(const double *)member;
-    case KEY_INTEGER: return (double)*(const int64_t *)member;
-    case KEY_BOOLEAN: return *(const bool *)member ? 1 : 0;
-    default: return 0;
+    case KEY_REAL:
+        return *(const double *)member;
+    case KEY_INTEGER:
+        return (double)*(const int64_t *)member;
+    case KEY_BOOLEAN:
+        return *(const bool *)member ? 1 : 0;
+    default:
+        return 0;
     }
 }

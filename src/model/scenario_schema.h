@@ -1,5 +1,5 @@
-/* The schema: scenario_keys.h as a tree of descriptors, for everything that walks a scenario (reader, printer, reference,
-   checks).  A section's keys are in the order of the rows. */
+/* The schema: scenario_keys.h as a tree of descriptors, for everything that walks a scenario (reader, printer,
+   reference, checks).  A section's keys are in the order of the rows. */
 #ifndef MODEL_SCENARIO_SCHEMA_H
 #define MODEL_SCENARIO_SCHEMA_H
 
@@ -75,8 +75,8 @@ int32_t choice_find(const scenario_key *key, const char *name);
 /* Value of a real, integer or boolean member, as a double (exact: integers are below 2^53); 0 for the others. */
 double key_number(const scenario_key *key, const void *member);
 
-/* A function called for every key of a scenario that is no section, in the order of the rows, for a list before its items;
-   path is its full name, "ice.floes[2].x".  Walking ends with the first status that is not FRAM_OK. */
+/* A function called for every key of a scenario that is no section, in the order of the rows, for a list before its
+   items; path is its full name, "ice.floes[2].x".  Walking ends with the first status that is not FRAM_OK. */
 typedef fram_status (*key_visit)(void *user, const scenario_key *key, const void *member, const char *path,
                                  fram_error *error);
 fram_status scenario_walk(const scenario *s, key_visit visit, void *user, fram_error *error);

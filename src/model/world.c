@@ -15,7 +15,10 @@ TABLE_DEFINE(recorded, RECORDED_FIELDS)
 #undef TABLE_SELF
 
 /* A list of tables says nothing about who may change them: the const of the world is the caller's to keep. */
-#define STATE(noun, member) {&noun##_table_info, (void *)&w->member}
+#define STATE(noun, member)                    \
+    {                                          \
+        &noun##_table_info, (void *)&w->member \
+    }
 
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
 {
@@ -106,12 +109,24 @@ fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_er
 static void number_print(const void *data, field_kind kind, size_t index, char out[NUMBER_TEXT_SIZE])
 {
     switch (kind) {
-    case FIELD_F64: real_to_text(((const double *)data)[index], out); break;
-    case FIELD_I32: snprintf(out, NUMBER_TEXT_SIZE, "%lld", (long long)((const int32_t *)data)[index]); break;
-    case FIELD_U32: snprintf(out, NUMBER_TEXT_SIZE, "%llu", (unsigned long long)((const uint32_t *)data)[index]); break;
-    case FIELD_I64: snprintf(out, NUMBER_TEXT_SIZE, "%lld", (long long)((const int64_t *)data)[index]); break;
-    case FIELD_U64: snprintf(out, NUMBER_TEXT_SIZE, "%llu", (unsigned long long)((const uint64_t *)data)[index]); break;
-    case FIELD_U8: snprintf(out, NUMBER_TEXT_SIZE, "%u", (unsigned)((const uint8_t *)data)[index]); break;
+    case FIELD_F64:
+        real_to_text(((const double *)data)[index], out);
+        break;
+    case FIELD_I32:
+        snprintf(out, NUMBER_TEXT_SIZE, "%lld", (long long)((const int32_t *)data)[index]);
+        break;
+    case FIELD_U32:
+        snprintf(out, NUMBER_TEXT_SIZE, "%llu", (unsigned long long)((const uint32_t *)data)[index]);
+        break;
+    case FIELD_I64:
+        snprintf(out, NUMBER_TEXT_SIZE, "%lld", (long long)((const int64_t *)data)[index]);
+        break;
+    case FIELD_U64:
+        snprintf(out, NUMBER_TEXT_SIZE, "%llu", (unsigned long long)((const uint64_t *)data)[index]);
+        break;
+    case FIELD_U8:
+        snprintf(out, NUMBER_TEXT_SIZE, "%u", (unsigned)((const uint8_t *)data)[index]);
+        break;
     }
 }
 

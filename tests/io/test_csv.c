@@ -1,6 +1,6 @@
 /* io/csv: header, full precision, continuing after a cut. */
-#include "io/csv.h"
 #include "base/number_text.h"
+#include "io/csv.h"
 #include "scratch.h"
 
 static context ctx;
@@ -29,7 +29,8 @@ START_TEST(rows_keep_every_bit)
     assert_ok(csv_flush(&w, true, &error), error);
     ck_assert_uint_eq(csv_length(&w), length);
     assert_ok(csv_close(&w, &error), error);
-    assert_content(s.path, "time[s],x[m],contacts,bare\n0,0.3333333333333333,12,-0\n0.1,1e-300,1e+22,0.30000000000000004\n");
+    assert_content(s.path,
+                   "time[s],x[m],contacts,bare\n0,0.3333333333333333,12,-0\n0.1,1e-300,1e+22,0.30000000000000004\n");
     size_t size;
     char *data = scratch_read(s.path, &size);
     ck_assert_uint_eq(size, length);
@@ -60,7 +61,8 @@ START_TEST(a_file_is_continued_where_a_checkpoint_says)
     assert_ok(csv_append(&w, row, &error), error);
     assert_ok(csv_close(&w, &error), error);
 
-    assert_fails(csv_continue(&ctx, s.path, length - 1, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "end of a row");
+    assert_fails(csv_continue(&ctx, s.path, length - 1, columns, 4, &w, &error), error, FRAM_ERROR_INPUT,
+                 "end of a row");
     assert_fails(csv_continue(&ctx, s.path, 5, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "to continue after");
     assert_fails(csv_continue(&ctx, s.path, 1000, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "found 1000");
     assert_fails(csv_continue(&ctx, s.path, length, columns, 3, &w, &error), error, FRAM_ERROR_INPUT, "columns");
@@ -68,7 +70,8 @@ START_TEST(a_file_is_continued_where_a_checkpoint_says)
     memcpy(renamed, columns, sizeof renamed);
     renamed[1].unit = "k";
     assert_fails(csv_continue(&ctx, s.path, length, renamed, 4, &w, &error), error, FRAM_ERROR_INPUT, "columns");
-    assert_fails(csv_continue(&ctx, "/no/such/file", length, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "No such");
+    assert_fails(csv_continue(&ctx, "/no/such/file", length, columns, 4, &w, &error), error, FRAM_ERROR_INPUT,
+                 "No such");
 
     /* None of the refusals has changed it. */
     assert_content(s.path, "time[s],x[m],contacts,bare\n1,2,3,4\n1,2,3,4\n1,2,3,4\n");

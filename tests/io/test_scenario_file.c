@@ -1,7 +1,7 @@
 /* io/scenario_file: reading, overrides, limits, printing and reading again, hash, reference. */
-#include "io/scenario_file.h"
 #include "base/random.h"
 #include "io/file.h"
+#include "io/scenario_file.h"
 #include "model/scenario_schema.h"
 #include "testing.h"
 #include <stdio.h>
@@ -99,8 +99,9 @@ END_TEST
 
 START_TEST(other_ways_to_write_the_same)
 {
-    static const char *const texts[] = {"run:\r\n  duration: 5\r\n  seed: 7\r\n", "{\"run\": {\"duration\": 5, \"seed\": 7}}",
-                                        "run: {duration: 5.0, seed: +7}", "---\n\"run\":\n    seed:  007 # comment\n    duration: 50e-1\n",
+    static const char *const texts[] = {"run:\r\n  duration: 5\r\n  seed: 7\r\n",
+                                        "{\"run\": {\"duration\": 5, \"seed\": 7}}", "run: {duration: 5.0, seed: +7}",
+                                        "---\n\"run\":\n    seed:  007 # comment\n    duration: 50e-1\n",
                                         "%YAML 1.2\n---\nrun:\n  seed: 7\n  duration: 5\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         scenario s;
@@ -221,7 +222,8 @@ START_TEST(absolute_paths_hold_anywhere)
     ck_assert_str_eq(hash, other);
     text_free(&ctx, &text);
     memset(s.vessel.hull.file, 'x', SCENARIO_TEXT_SIZE - 1);
-    assert_fails(scenario_print(&ctx, &s, &options, &text, &error), error, FRAM_ERROR_INPUT, "together with its folder");
+    assert_fails(scenario_print(&ctx, &s, &options, &text, &error), error, FRAM_ERROR_INPUT,
+                 "together with its folder");
     text_free(&ctx, &text);
     scenario_free(&ctx, &s);
     scenario_free(&ctx, &again);
@@ -266,8 +268,8 @@ END_TEST
 
 START_TEST(overrides_win)
 {
-    static const char *const items[] = {"run.seed=7", "run.seed=8", "ice.floes[1].x=3", "title=a = b", "vessel.mass=auto",
-                                        "run.scale=1"};
+    static const char *const items[] = {"run.seed=7",  "run.seed=8",       "ice.floes[1].x=3",
+                                        "title=a = b", "vessel.mass=auto", "run.scale=1"};
     const scenario_overrides overrides = {items, 6};
     scenario s;
     assert_ok(parse_text(example, &overrides, &s), error);
@@ -342,7 +344,8 @@ START_TEST(size_and_depth_are_limited)
     char *text = malloc(size + 1);
     memset(text, '\n', size);
     text[size] = '\0';
-    assert_fails(scenario_parse(&ctx, "a", text, size, NULL, &s, &error), error, FRAM_ERROR_INPUT, "at most 1048576 bytes");
+    assert_fails(scenario_parse(&ctx, "a", text, size, NULL, &s, &error), error, FRAM_ERROR_INPUT,
+                 "at most 1048576 bytes");
     assert_ok(scenario_parse(&ctx, "a", text, size - 1, NULL, &s, &error), error);
     scenario_free(&ctx, &s);
     /* As deep as the file is long: refused before any stack or memory is used up. */
@@ -439,6 +442,5 @@ END_TEST
 TEST_MAIN("scenario_file", values_arrive, an_empty_file_is_all_defaults, other_ways_to_write_the_same,
           printing_and_reading_again_gives_the_same, random_scenarios_survive_printing,
           the_hash_sees_every_value_and_no_comment, absolute_paths_hold_anywhere,
-          the_largest_scenario_can_be_read_again, overrides_win,
-          bad_overrides_are_refused, size_and_depth_are_limited, files_that_cannot_be_read,
-          no_memory_is_an_error_everywhere, the_committed_reference_is_up_to_date)
+          the_largest_scenario_can_be_read_again, overrides_win, bad_overrides_are_refused, size_and_depth_are_limited,
+          files_that_cannot_be_read, no_memory_is_an_error_everywhere, the_committed_reference_is_up_to_date)

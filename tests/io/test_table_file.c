@@ -6,10 +6,10 @@
 static context ctx;
 static fram_error error;
 
-#define SAMPLE_FIELDS(X)                                          \
-    X(place, vec3, FIELD_F64, 3, "m", "three doubles a row")      \
-    X(slot, int32_t, FIELD_I32, 1, "1", "an integer")             \
-    X(flag, uint8_t, FIELD_U8, 1, "1", "a byte")                  \
+#define SAMPLE_FIELDS(X)                                     \
+    X(place, vec3, FIELD_F64, 3, "m", "three doubles a row") \
+    X(slot, int32_t, FIELD_I32, 1, "1", "an integer")        \
+    X(flag, uint8_t, FIELD_U8, 1, "1", "a byte")             \
     X(key, uint64_t, FIELD_U64, 1, "1", "a long one")
 TABLE_DECLARE(sample, SAMPLE_FIELDS)
 #define TABLE_SELF sample_table
@@ -247,10 +247,10 @@ START_TEST(other_contents_are_refused_by_name)
     size_t size;
     char *data = example_file(&size);
     content b;
-#define EXPECT(change, part)                                                                                      \
-    do {                                                                                                          \
-        content_begin(&b);                                                                                        \
-        change;                                                                                                   \
+#define EXPECT(change, part)                                                                                       \
+    do {                                                                                                           \
+        content_begin(&b);                                                                                         \
+        change;                                                                                                    \
         assert_fails(table_file_decode(&ctx, "test", data, size, &b.file, &error), error, FRAM_ERROR_INPUT, part); \
     } while (0)
     EXPECT(b.numbers[1].name = "else", "the number else");

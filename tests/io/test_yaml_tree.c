@@ -1,6 +1,6 @@
 /* io/yaml_tree and io/utf8: structure, places, strictness. */
-#include "io/yaml_tree.h"
 #include "io/utf8.h"
+#include "io/yaml_tree.h"
 #include "testing.h"
 #include <stdio.h>
 
@@ -32,7 +32,9 @@ START_TEST(the_tree_mirrors_the_text)
                     "  - {c: [1, 2]}\n"
                     "d: |\n"
                     "  block\n"
-                    "e:\n", 16), error);
+                    "e:\n",
+                    16),
+              error);
     const yaml_node *root = &tree.nodes.data[0];
     ck_assert_int_eq(root->kind, YAML_MAPPING);
     ck_assert_int_eq(root->count, 4);
@@ -73,13 +75,14 @@ END_TEST
 START_TEST(text_arrives_whole)
 {
     assert_ok(parse("\"one\\ttwo\\u00e9\\\"\n\n  three\n  four\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n\\n.\"", 16), error);
-    ck_assert_str_eq(yaml_text(&tree, tree.nodes.data[0].value), "one\ttwo\xc3\xa9\"\nthree four\n\n\n\n\n\n\n\n\n\n\n\n.");
+    ck_assert_str_eq(yaml_text(&tree, tree.nodes.data[0].value),
+                     "one\ttwo\xc3\xa9\"\nthree four\n\n\n\n\n\n\n\n\n\n\n\n.");
     yaml_tree_free(&ctx, &tree);
     static const char *const empty[] = {"a: |\n", "a: |\n \n", "a: >-\n\nb: 1\n", "a: ''\n", "a: \"\"\n"};
     for (size_t i = 0; i < sizeof empty / sizeof *empty; i++) {
         assert_ok(parse(empty[i], 16), error);
         ck_assert_uint_eq(strspn(yaml_text(&tree, tree.nodes.data[child(0, 0)].value), "\n"),
-                         strlen(yaml_text(&tree, tree.nodes.data[child(0, 0)].value)));
+                          strlen(yaml_text(&tree, tree.nodes.data[child(0, 0)].value)));
         ck_assert(tree.nodes.data[child(0, 0)].quoted);
         yaml_tree_free(&ctx, &tree);
     }
@@ -190,12 +193,31 @@ START_TEST(utf8_is_decoded_strictly)
     static const struct {
         const char *bytes;
         int32_t code;
-    } good[] = {{"A", 'A'},          {"\x7f", 0x7f},         {"\xc2\x80", 0x80},         {"\xdf\xbf", 0x7ff},
-                {"\xe0\xa0\x80", 0x800}, {"\xed\x9f\xbf", 0xd7ff}, {"\xee\x80\x80", 0xe000},   {"\xef\xbf\xbf", 0xffff},
-                {"\xf0\x90\x80\x80", 0x10000}, {"\xf4\x8f\xbf\xbf", 0x10ffff}};
-    static const char *const bad[] = {"\x80",         "\xbf",         "\xc0\x80",         "\xc1\xbf",     "\xc2",
-                                      "\xc2\x41",     "\xe0\x9f\xbf", "\xed\xa0\x80",     "\xed\xbf\xbf", "\xe2\x82",
-                                      "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xf0\x9f\x98"};
+    } good[] = {{"A", 'A'},
+                {"\x7f", 0x7f},
+                {"\xc2\x80", 0x80},
+                {"\xdf\xbf", 0x7ff},
+                {"\xe0\xa0\x80", 0x800},
+                {"\xed\x9f\xbf", 0xd7ff},
+                {"\xee\x80\x80", 0xe000},
+                {"\xef\xbf\xbf", 0xffff},
+                {"\xf0\x90\x80\x80", 0x10000},
+                {"\xf4\x8f\xbf\xbf", 0x10ffff}};
+    static const char *const bad[] = {"\x80",
+                                      "\xbf",
+                                      "\xc0\x80",
+                                      "\xc1\xbf",
+                                      "\xc2",
+                                      "\xc2\x41",
+                                      "\xe0\x9f\xbf",
+                                      "\xed\xa0\x80",
+                                      "\xed\xbf\xbf",
+                                      "\xe2\x82",
+                                      "\xf0\x8f\xbf\xbf",
+                                      "\xf4\x90\x80\x80",
+                                      "\xf5\x80\x80\x80",
+                                      "\xff",
+                                      "\xf0\x9f\x98"};
     size_t used;
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         ck_assert_int_eq(first_of(good[i].bytes, strlen(good[i].bytes), &used), good[i].code);

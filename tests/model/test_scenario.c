@@ -169,12 +169,12 @@ END_TEST
 
 /* ---- rules ---- */
 
-#define REFUSED(change, bad_key, part)                                       \
-    do {                                                                     \
-        scenario s = good();                                                 \
-        change;                                                              \
+#define REFUSED(change, bad_key, part)                                           \
+    do {                                                                         \
+        scenario s = good();                                                     \
+        change;                                                                  \
         assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, part); \
-        ck_assert_str_eq(error.key, bad_key);                                \
+        ck_assert_str_eq(error.key, bad_key);                                    \
     } while (0)
 
 START_TEST(ranges_are_checked)
