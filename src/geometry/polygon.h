@@ -104,6 +104,11 @@ bool polygon_clip_half_plane(context *ctx, polygon p, vec2 n, double d, vec2_arr
    there is no memory. */
 bool polygon_clip_convex(context *ctx, polygon p, polygon q, vec2_array *out);
 
+/* Area [m2] common to two simple polygons, counter-clockwise, of any shape, without their intersection: a sum over all
+   pairs of edges, exact up to rounding of about 1e-15 of the area of their bounds.  No degenerate position disturbs it,
+   which is why overlays are checked by it. */
+double polygon_overlap_area(polygon a, polygon b);
+
 /* Overlap depth of two convex polygons by the separating axis test over the edge normals of both: the least way
    along one of them that parts the two; negative is the widest gap. axis (may be NULL): unit, pointing from a to b. */
 double polygon_convex_depth(polygon a, polygon b, vec2 *axis);
