@@ -202,6 +202,13 @@ FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_defi
 FRAM_API fram_status fram_resume(fram_context *context, const fram_run_definition *definition, fram_run_result *result,
                                  fram_error *error);
 
+/* --- Playback ----------------------------------------------------------------------------------------------------- */
+
+/* A page that plays the run in `folder` in a browser, from disk: the viewer's page with the run's record inside.  Of
+   long runs only every n-th frame goes in; frames and left_out (may be NULL) say how many do and do not. */
+FRAM_API fram_status fram_playback(fram_context *context, const char *folder, const char *viewer_page,
+                                   const char *output, int64_t *frames, int64_t *left_out, fram_error *error);
+
 /* --- Benchmark
  * ------------------------------------------------------------------------------------------------------------------ */
 

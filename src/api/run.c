@@ -2,6 +2,7 @@
 #include "api/handles.h"
 
 #include "sim/bench.h"
+#include "sim/playback.h"
 #include "sim/run.h"
 
 void fram_run_default(fram_run_definition *definition)
@@ -108,4 +109,16 @@ fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_be
                                   .solver_residual = r.residual,
                                   .state_hash = r.state_hash};
     return FRAM_OK;
+}
+
+fram_status fram_playback(fram_context *c, const char *folder, const char *viewer_page, const char *output,
+                          int64_t *frames, int64_t *left_out, fram_error *error)
+{
+    int64_t in = 0, out = 0;
+    fram_status status = playback_write(&c->inner, folder, viewer_page, output, &in, &out, error);
+    if (frames)
+        *frames = in;
+    if (left_out)
+        *left_out = out;
+    return status;
 }

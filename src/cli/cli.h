@@ -99,6 +99,7 @@ int command_run(const command_row *self, int argc, char **argv);
 int command_check(const command_row *self, int argc, char **argv);
 int command_resume(const command_row *self, int argc, char **argv);
 int command_bench(const command_row *self, int argc, char **argv);
+int command_view(const command_row *self, int argc, char **argv);
 int command_keys(const command_row *self, int argc, char **argv);
 
 #endif

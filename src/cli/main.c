@@ -22,6 +22,10 @@ static const command_row commands[] = {
      "  fram bench scenes/demo.yaml --warm 5 --time 10\n"
      "  fram bench scenes/demo.yaml --threads 2 --json\n",
      command_bench},
+    {"view", "RUN", "make a page that plays a run in a browser, from disk",
+     "  fram view out/demo                      writes out/demo/playback.html\n"
+     "  fram view out/demo -o demo.html\n",
+     command_view},
     {"keys", "", "list every scenario key with unit, default, range and meaning (Markdown)", "  fram keys | less\n",
      command_keys},
 };
