@@ -325,7 +325,8 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, const pair_pol
         return error_memory(j->error);
     int32_t first = j->contacts->count;
     status = found->count > 0 ? push_patches(j, &p, found) : push_buried(j, &p);
-    contact_keys_part(j->contacts->data + first, j->contacts->count - first);
+    if (j->contacts->count > first)
+        contact_keys_part(j->contacts->data + first, j->contacts->count - first);
     return status;
 }
 

@@ -193,7 +193,7 @@ START_TEST(wrong_definitions)
     d.thickness = 0;
     assert_fails(create(&r, &d, &row, &e), e, FRAM_ERROR_INPUT, "thickness");
     d = definition(RECTANGLE, 4);
-    d.thickness = NAN;
+    d.thickness = (double)NAN;
     assert_fails(create(&r, &d, &row, &e), e, FRAM_ERROR_INPUT, "thickness");
     d = definition(RECTANGLE, 4);
     d.material.density = -1;
