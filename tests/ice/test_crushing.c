@@ -1,4 +1,5 @@
 /* Crushing patches against areas known in closed form, and what their contacts carry. */
+#include "base/random.h"
 #include "base/transcendental.h"
 #include "ice_rig.h"
 
@@ -297,6 +298,69 @@ START_TEST(independent_of_cuts)
         assert_vec3_close(other_moment, moment, 1e-9 * vec3_length(moment));
         ck_assert_int_eq(q.contact_count, p.contact_count);
     }
+}
+END_TEST
+
+/* A box in any pose against a floe in any pose: cutting the floe and refining the box change nothing, and the two
+   surfaces inside each other close the common body: their area vectors cancel. */
+START_TEST(random_poses)
+{
+    int patches = 0;
+    for (uint32_t i = 0; i < 300; i++) {
+        random_stream s = random_begin(5, 0, i);
+        double angle[6];
+        for (int k = 0; k < 6; k++)
+            angle[k] = random_uniform(&s, -0.5, 0.5) * (k % 3 == 2 ? 6 : 1);
+        vec3 half = {random_uniform(&s, 0.3, 6), random_uniform(&s, 0.3, 6), random_uniform(&s, 0.3, 3)};
+        vec3 at = {random_uniform(&s, -7, 7), random_uniform(&s, -7, 7), random_uniform(&s, -2, 2)};
+        crushing_patch_array seen[3] = {{.count = 0}, {.count = 0}, {.count = 0}};
+        vec3 sum[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+        ice_rig r[3];
+        for (int turn = 0; turn < 3; turn++) {
+            ice_rig_make(&r[turn], 0.01);
+            int32_t row = ice_rig_plate(&r[turn], 10, 6, 1, MOTION_DYNAMIC), slot = r[turn].floes.body[row], other;
+            ice_rig_place(&r[turn], slot, (vec3){0, 0, 0}, angle[0], angle[1], angle[2]);
+            if (turn < 2) {
+                mesh m = {0};
+                ck_assert(mesh_make_box(&r[turn].ctx, vec3_neg(half), half, &m));
+                ice_rig_refine(&r[turn].ctx, &m, 2 * turn);
+                other = ice_rig_hull(&r[turn], &m, MOTION_STATIC, MATERIAL_HULL);
+                if (turn == 1)
+                    ice_rig_cut(&r[turn], r[turn].bodies.shape[slot], 3);
+            } else {
+                /* The box as the floe, the plate as what cuts into it. */
+                row = ice_rig_plate(&r[turn], 2 * half.x, 2 * half.y, 2 * half.z, MOTION_DYNAMIC);
+                other = r[turn].floes.body[row];
+                r[turn].bodies.material[slot] = MATERIAL_WALL;
+            }
+            ice_rig_place(&r[turn], other, at, angle[3], angle[4], angle[5]);
+            ice_rig_pair(&r[turn], slot, other);
+            ice_rig_crush(&r[turn]);
+            for (int32_t k = 0; k < r[turn].patches.count; k++) {
+                const crushing_patch *p = &r[turn].patches.data[k];
+                check_points(&r[turn], p);
+                sum[turn] = vec3_mad(sum[turn], p->normal, p->area);
+            }
+            seen[turn].count = r[turn].patches.count;
+            seen[turn].data = r[turn].patches.data;
+        }
+        patches += seen[0].count;
+        ck_assert_int_eq(seen[1].count, seen[0].count);
+        bool buried = seen[0].count == 1 && seen[0].data[0].contact_count == 1;
+        bool closed = seen[0].count == 0 || seen[2].count == 0;
+        for (int32_t k = 0; k < seen[0].count; k++) {
+            const crushing_patch *p = &seen[0].data[k], *q = &seen[1].data[k];
+            assert_relative(q->area, p->area, 1e-9);
+            assert_absolute(q->horizontal_area, p->horizontal_area, 1e-9);
+            assert_vec3_close(q->normal, p->normal, 1e-8);
+            assert_vec3_close(q->centre, p->centre, 1e-8);
+        }
+        if (!buried && !closed)
+            assert_vec3_close(sum[2], vec3_neg(sum[0]), 1e-9);
+        for (int turn = 0; turn < 3; turn++)
+            ice_rig_free(&r[turn]);
+    }
+    ck_assert_int_gt(patches, 100);
 }
 END_TEST
 
@@ -654,5 +718,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("crushing", vertical_wall, overlap_over_the_thickness, inclined_plate, corner, tilted_floe, flat_bottom,
-          independent_of_cuts, surface_on_a_seam, closed_patches, several_patches, slipped_inside, flags, keys,
-          pressure_area_law, top_plane_area, floe_against_floe, large_and_small, memory_runs_out)
+          independent_of_cuts, random_poses, surface_on_a_seam, closed_patches, several_patches, slipped_inside, flags,
+          keys, pressure_area_law, top_plane_area, floe_against_floe, large_and_small, memory_runs_out)
