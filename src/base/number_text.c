@@ -84,17 +84,12 @@ number_fault real_from_text(const char *text, double *value)
     size_t point = decimal_point(text), length = strlen(text);
     if (point == SIZE_MAX || length > LONGEST_NUMBER)
         return NUMBER_NOT_A_NUMBER;
-    char local[LONGEST_NUMBER + 16];
-    if (text[point] == '.') {
-        char half[16]; /* "0.5" with the point of the locale */
-        snprintf(half, sizeof half, "%.1f", 0.5);
-        size_t size = strlen(half) - 2;
-        memcpy(local, text, point);
-        memcpy(local + point, half + 1, size);
-        memcpy(local + point + size, text + point + 1, length - point);
-    } else {
-        memcpy(local, text, length + 1);
-    }
+    char local[LONGEST_NUMBER + 16], half[16]; /* half: "0.5" with the point of the locale */
+    int at = (int)point, size = snprintf(half, sizeof half, "%.1f", 0.5) - 2;
+    if (text[point] == '.')
+        snprintf(local, sizeof local, "%.*s%.*s%s", at, text, size, half + 1, text + point + 1);
+    else
+        snprintf(local, sizeof local, "%s", text);
     double read = strtod(local, NULL);
     if (!isfinite(read))
         return NUMBER_TOO_LARGE;

@@ -37,6 +37,7 @@ static fram_status check_file(csv_writer *w, const text_buffer *header, uint64_t
 {
     file_writer *file = &w->file;
     size_t size = (size_t)header->count;
+    const char *expected = header->data ? header->data : "";
     if (length < size || length > file->length)
         return error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL,
                          "expected from %zu to %llu bytes to continue after, found %llu", size,
@@ -45,7 +46,7 @@ static fram_status check_file(csv_writer *w, const text_buffer *header, uint64_t
     if (!found)
         return error_memory(error);
     fram_status status = file_read_at(file->descriptor, file->path, 0, found, size, error);
-    if (status == FRAM_OK && memcmp(found, header->data, size) != 0)
+    if (status == FRAM_OK && memcmp(found, expected, size) != 0)
         status = error_set(error, FRAM_ERROR_INPUT, file->path, 1, NULL,
                            "expected the columns that this run writes, found others");
     char last = 0;

@@ -131,7 +131,7 @@ static fram_status set_text(const reader *r, char *member, const char *text, con
             return refuse(r, place, "expected one line of printable text, found a control character or line break");
     }
     memset(member, 0, SCENARIO_TEXT_SIZE);
-    memcpy(member, text, size);
+    memcpy(member, text, size + 1);
     return FRAM_OK;
 }
 
@@ -219,7 +219,7 @@ static fram_status unknown_key(const reader *r, const scenario_section *section,
 
 /* ---- the file ---- */
 
-static fram_status read_section(const reader *r, const scenario_section *section, void *data, int32_t node,
+static fram_status read_section(const reader *r, const scenario_section *section, void *data, int32_t index,
                                 const value_place *place);
 
 static const char *kind_text(const yaml_node *node)

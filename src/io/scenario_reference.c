@@ -138,10 +138,10 @@ fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error
     add(&r,
         "# Input reference\n\n"
         "Every key that a scenario file may hold. This page is written from the table that the reader itself uses.\n\n"
-        "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold degrees.\n"
-        "Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths are relative\n"
-        "to the folder of the scenario. Where a default holds `scale`, that is `run.scale`. `--set run.seed=7` or\n"
-        "`--set ice.floes[0].x=3` on the command line overrides a value.\n\n"
+        "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold\n"
+        "degrees. Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths\n"
+        "are relative to the folder of the scenario. Where a default holds `scale`, that is `run.scale`.\n"
+        "`--set run.seed=7` or `--set ice.floes[0].x=3` on the command line overrides a value.\n\n"
         "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed\n"
         "here.\n\n"
         "## Top level\n\n");

@@ -12,18 +12,18 @@
 #include "vessel/vessel.h"
 
 /* One row. */
-#define CLOCK_FIELDS(X)                                                                     \
-    X(step, int64_t, FIELD_I64, 1, "1", "steps done")                                       \
-    X(time, double, FIELD_F64, 1, "s", "simulated time = step * time step")                 \
-    X(next_floe, int32_t, FIELD_I32, 1, "1", "next running number of a floe")               \
+#define CLOCK_FIELDS(X)                                                                       \
+    X(step, int64_t, FIELD_I64, 1, "1", "steps done")                                         \
+    X(time, double, FIELD_F64, 1, "s", "simulated time = step * time step")                   \
+    X(next_floe, int32_t, FIELD_I32, 1, "1", "next running number of a floe")                 \
     X(ice_left, double, FIELD_F64, 1, "kg", "mass of ice that left through an open boundary") \
-    X(ice_lost, double, FIELD_F64, 1, "kg", "mass of ice booked as lost in fracture")       \
+    X(ice_lost, double, FIELD_F64, 1, "kg", "mass of ice booked as lost in fracture")         \
     X(work_crushed, double, FIELD_F64, 1, "J", "energy dissipated by rows at their crushing limit")
 TABLE_DECLARE(clock, CLOCK_FIELDS)
 
-/* The recorder's moving average of the ice load on the first vessel: a ring of the last steps, oldest overwritten at row
-   (step mod count).  As many rows as steps in the averaging window. */
-#define LOAD_WINDOW_FIELDS(X)                                                                    \
+/* The recorder's moving average of the ice load on the first vessel: a ring of the last steps, oldest overwritten at
+   row (step mod count).  As many rows as steps in the averaging window. */
+#define LOAD_WINDOW_FIELDS(X)                                                                      \
     X(force, vec3, FIELD_F64, 3, "N", "ice force on the vessel, mean over the step, global frame") \
     X(moment, vec3, FIELD_F64, 3, "N m", "ice moment about its centre of mass, global frame")
 TABLE_DECLARE(load_window, LOAD_WINDOW_FIELDS)
@@ -32,8 +32,8 @@ TABLE_DECLARE(load_window, LOAD_WINDOW_FIELDS)
 #define RECORDED_FIELDS(X) X(generation, uint32_t, FIELD_U32, 1, "1", "generation in the record, 0: none")
 TABLE_DECLARE(recorded, RECORDED_FIELDS)
 
-/* What the ice does to one vessel in a step: means over the step, on the vessel, global frame, moments about its centre of
-   mass. Scratch. */
+/* What the ice does to one vessel in a step: means over the step, on the vessel, global frame, moments about its centre
+   of mass. Scratch. */
 typedef struct ice_load {
     wrench total;
     wrench capped;  /* normal forces of contacts at their crushing limit */
@@ -59,13 +59,13 @@ typedef struct world {
 
     /* Scratch: written anew each step. */
     struct {
-        ARRAY(wrench) loads;          /* one per body slot */
-        ARRAY(wrench) outside;        /* wrenches given from outside through the API, used once */
-        ARRAY(fluid_load) fluid;      /* one per body slot */
+        ARRAY(wrench) loads;     /* one per body slot */
+        ARRAY(wrench) outside;   /* wrenches given from outside through the API, used once */
+        ARRAY(fluid_load) fluid; /* one per body slot */
         contact_array contacts;
         index_array patch_pairs;
         crushing_patch_array patches;
-        ARRAY(ice_load) ice_loads;    /* one per vessel */
+        ARRAY(ice_load) ice_loads; /* one per vessel */
         solver_report solver;
         collision_scratch *collision;
         crushing_scratch *crushing;

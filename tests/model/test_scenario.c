@@ -1,10 +1,13 @@
 /* model/scenario and its schema: defaults, scaling, names, places, rules. */
 #include "model/scenario_schema.h"
 #include "testing.h"
+#include <stdio.h>
 
 static fram_error error;
 
-/* A default scenario that passes all checks, with a place for the given key. */
+static void set_text(char *out, size_t size, const char *text) { snprintf(out, size, "%s", text); }
+
+/* A default scenario, which passes all checks. */
 static scenario good(void)
 {
     scenario s;
@@ -197,7 +200,7 @@ START_TEST(keys_must_go_together)
     REFUSED(s.domain.x_min = s.domain.x_max, "domain.x_max", "same value");
     REFUSED(s.domain.y_min = 101, "domain.y_min", "domain.y_max");
     REFUSED(s.vessel.hull.form = HULL_MESH, "vessel.hull.file", "path of a mesh");
-    REFUSED(strcpy(s.vessel.hull.file, "a.stl"), "vessel.hull.file", "a.stl");
+    REFUSED(set_text(s.vessel.hull.file, sizeof s.vessel.hull.file, "a.stl"), "vessel.hull.file", "a.stl");
     REFUSED(s.vessel.y = 101, "vessel.x", "inside the walls");
     REFUSED(s.ice.source = ICE_FLOES, "ice.floes", "at least one");
     REFUSED(s.ice.friction.ice_wall_kinetic = 0.4, "ice.friction.ice_wall_kinetic", "ice_wall_static");
@@ -252,7 +255,7 @@ END_TEST
 static void put(context *ctx, scenario *s, const char *key, int line, bool override)
 {
     scenario_place place = {.line = line, .column = 5, .override = override};
-    strcpy(place.key, key);
+    set_text(place.key, sizeof place.key, key);
     ck_assert(array_push(ctx, &s->places, place));
 }
 
@@ -261,7 +264,7 @@ START_TEST(errors_find_their_place)
     context ctx;
     context_init(&ctx);
     scenario s = good();
-    strcpy(s.file, "dir/a.yaml");
+    set_text(s.file, sizeof s.file, "dir/a.yaml");
     put(&ctx, &s, "vessel", 3, false);
     put(&ctx, &s, "vessel.hull", 4, false);
     put(&ctx, &s, "vessel.hull.beam", 6, false);
@@ -291,12 +294,12 @@ START_TEST(paths_are_relative_to_the_scenario)
 {
     scenario s = good();
     char out[64];
-    strcpy(s.file, "scenes/ship/a.yaml");
+    set_text(s.file, sizeof s.file, "scenes/ship/a.yaml");
     ck_assert(scenario_resolve_path(&s, "hull.stl", out, sizeof out));
     ck_assert_str_eq(out, "scenes/ship/hull.stl");
     ck_assert(scenario_resolve_path(&s, "/data/hull.stl", out, sizeof out));
     ck_assert_str_eq(out, "/data/hull.stl");
-    strcpy(s.file, "a.yaml");
+    set_text(s.file, sizeof s.file, "a.yaml");
     ck_assert(scenario_resolve_path(&s, "../hull.stl", out, sizeof out));
     ck_assert_str_eq(out, "../hull.stl");
     ck_assert(!scenario_resolve_path(&s, "hull.stl", out, 4));
