@@ -11,12 +11,10 @@ enum { MOST_CELLS = 20000000 };
 /* Share of the open water that corners never take: with roundness 1 neighbours still stay apart. */
 static const double GAP_SHARE = 0.1;
 
-/* Longest cut along an edge, in halves of the shorter edge at a corner: under 1, so that something of every edge stays.
- */
+/* Longest cut along an edge, in halves of the shorter edge at a corner: under 1, so that a bit of every edge stays. */
 static const double LONGEST_CUT = 0.8;
 
-/* Pieces of cells beside a keep-out zone under this part of the mean cell are left as open water: they would be
- * slivers. */
+/* Pieces of cells beside a keep-out zone under this part of the mean cell are slivers, and left as open water. */
 static const double SMALLEST_PIECE = 0.02;
 
 static fram_status request_check(const field_request *r, fram_error *error)
@@ -56,7 +54,8 @@ static double reflect(double x, double lo, double hi) { return x < lo ? 2 * lo -
 static bool scatter_sites(context *ctx, const field_request *r, vec2_array *sites)
 {
     vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
-    double columns = floor(size.x / sqrt(2 * r->mean_area / sqrt(3)) + 0.5);
+    /* A domain narrower than a cell is one row: no more columns than cells. */
+    double columns = floor(fmin(size.x / sqrt(2 * r->mean_area / sqrt(3)), size.x * size.y / r->mean_area) + 0.5);
     int32_t nx = columns < 1 ? 1 : (int32_t)columns;
     double rows = floor(size.x * size.y / (r->mean_area * nx) + 0.5);
     int32_t ny = rows < 1 ? 1 : (int32_t)rows;
