@@ -15,15 +15,16 @@ static void print_and_read_again(context *ctx, const scenario *first)
     fram_error error = {0};
     char hash[65], hash_again[65];
     PROMISE(scenario_print(ctx, first, NULL, &text, &error) == FRAM_OK);
+    PROMISE(text.data);
     PROMISE(scenario_hash(ctx, first, hash, &error) == FRAM_OK);
-    fram_status status =
-        scenario_parse(ctx, "printed.yaml", text.data ? text.data : "", (size_t)text.count, NULL, &second, &error);
+    fram_status status = scenario_parse(ctx, "printed.yaml", text.data, (size_t)text.count, NULL, &second, &error);
     if (status)
         fprintf(stderr, "%s:%d: %s: %s\n%s\n", error.file, error.line, error.key, error.message, text.data);
     PROMISE(status == FRAM_OK);
     PROMISE(scenario_hash(ctx, &second, hash_again, &error) == FRAM_OK);
     PROMISE(strcmp(hash, hash_again) == 0);
     PROMISE(scenario_print(ctx, &second, NULL, &again, &error) == FRAM_OK);
+    PROMISE(again.data);
     PROMISE(text.count == again.count && memcmp(text.data, again.data, (size_t)text.count) == 0);
     scenario_free(ctx, &second);
     text_free(ctx, &text);

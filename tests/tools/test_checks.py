@@ -45,7 +45,8 @@ class House(unittest.TestCase):
         self.plant("src/base/vec.h", "#include <math.h>\nstatic inline double f(double x) { return sqrt(x); }\n")
         self.plant("src/ice/floe.c", '#include "ice/floe.h"\n#include "base/vec.h"\n#include "fram/error.h"\n')
         self.plant("src/cli/main.c", '#include "cli/options.h"\n#include "fram/fram.h"\n')
-        self.plant("src/base/words.c", '/* sin(x) in words */ const char *t = "cos(x)"; double a = w.sin(1) + c->log(1);\n')
+        self.plant("src/base/words.c",
+                   '/* sin(x) in words */ const char *t = "cos(x)"; double a = w.sin(1) + c->log(1);\n')
         self.plant("tests/testing.h", "")
         self.plant("tests/ice/test_floe.c", '#include "ice/floe.h"\n#include "testing.h"\n')
         self.assertEqual(self.rooms(), "")

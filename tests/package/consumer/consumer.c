@@ -6,20 +6,11 @@
 #include <string.h>
 
 double polygon_area(void);
-double polygon_area(void)
-{
-    return 0;
-}
+double polygon_area(void) { return 0; }
 int memory_free(void);
-int memory_free(void)
-{
-    return 0;
-}
+int memory_free(void) { return 0; }
 int error_set(void);
-int error_set(void)
-{
-    return 0;
-}
+int error_set(void) { return 0; }
 
 int main(void)
 {
