@@ -1,0 +1,163 @@
+#!/usr/bin/env bash
+# The command as a user meets it: exit codes, JSON, folders, stopping and resuming.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+
+# expect CODE COMMAND...: runs it, keeps its output in out and err.
+expect() {
+    local wanted=$1 code=0
+    shift
+    "$@" >out 2>err || code=$?
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
+}
+# The value of a JSON key on the last line of out.
+value() { tail -n 1 out | python3 -c 'import json, sys; print(json.load(sys.stdin)'"$1"')'; }
+same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
+says() { grep -q -- "$1" err || fail "standard error lacks '$1': $(cat err)"; }
+
+cat >scene.yaml <<'YAML'
+title: A small field
+run:
+  duration: 2
+  time_step: 0.02
+vessel:
+  mode: towed
+  x: -30
+  speed: 2
+  hull:
+    length: 48
+    beam: 12
+    draught: 4
+    freeboard: 2
+ice:
+  mean_floe_area: 64
+domain:
+  x_min: -64
+  x_max: 64
+  y_min: -40
+  y_max: 40
+YAML
+
+# Help and version.
+expect 0 "$FRAM" --help
+grep -q "fram run scenes/demo.yaml" out || fail "--help shows no example"
+expect 0 "$FRAM" --version
+grep -qE '^fram [0-9]+\.[0-9]+\.[0-9]+' out || fail "--version prints no version"
+for command in run resume check bench view keys; do
+    expect 0 "$FRAM" "$command" --help
+    grep -q "Examples:" out || fail "$command --help shows no example"
+done
+expect 2 "$FRAM"
+expect 2 "$FRAM" sail --json
+same "$(value '["error"]["key"]')" sail "key of an unknown command"
+
+# Usage errors.
+expect 2 "$FRAM" run scene.yaml --json
+same "$(value '["error"]["key"]')" --output "missing -o"
+expect 2 "$FRAM" run scene.yaml -o a --wrong
+expect 2 "$FRAM" run scene.yaml -o a --until soon
+expect 2 "$FRAM" run scene.yaml more words -o a
+expect 2 "$FRAM" run -o a
+expect 2 "$FRAM" run scene.yaml -o a --threads 0
+expect 2 "$FRAM" run scene.yaml -o a --isa sse9
+[ ! -e a ] || fail "a refused run left a folder"
+
+# Input errors name file, line and key.
+sed 's/speed: 2/sped: 2/' scene.yaml >wrong.yaml
+expect 2 "$FRAM" run wrong.yaml -o a --json
+same "$(value '["error"]["file"]')" wrong.yaml "file of an input error"
+same "$(value '["error"]["line"]')" 8 "line of an input error"
+same "$(value '["error"]["key"]')" vessel.sped "key of an input error"
+says "wrong.yaml:8"
+expect 2 "$FRAM" check missing.yaml
+expect 2 "$FRAM" check scene.yaml --set ice.thickness=-1 --json
+same "$(value '["error"]["key"]')" ice.thickness "key of a bad override"
+[ ! -e a ] || fail "a refused scenario left a folder"
+
+# check prints a scenario that reads back as itself.
+expect 0 "$FRAM" check scene.yaml --set run.seed=7
+cp out full.yaml
+expect 0 "$FRAM" check full.yaml
+cmp -s out full.yaml || fail "check is not its own fixed point"
+grep -q "seed: 7" out || fail "--set is not in what check prints"
+
+# A run, its files and its JSON.
+expect 0 "$FRAM" run scene.yaml -o straight --json
+hash=$(value '["state_hash"]')
+same "$(value '["steps"]')" 100 "steps"
+same "$(wc -l <out)" 1 "lines on standard output with --json"
+for key in wall_s real_time_factor; do value "[\"$key\"]" >/dev/null || fail "no $key"; done
+for file in scenario.yaml run.json series.csv record.fram; do [ -s "straight/$file" ] || fail "no $file"; done
+same "$(wc -l <straight/series.csv)" 101 "rows of the time series"
+head -n 1 straight/series.csv | grep -q '^time\[s\],position_x\[m\],' || fail "header of the time series"
+python3 -c 'import json; json.load(open("straight/run.json"))' || fail "run.json is no JSON"
+expect 0 "$FRAM" check straight/scenario.yaml
+
+# A folder that is not empty.
+expect 2 "$FRAM" run scene.yaml -o straight
+says "--force"
+expect 0 "$FRAM" run scene.yaml -o straight --force --json
+same "$(value '["state_hash"]')" "$hash" "hash of the second run"
+
+# Stop half way, resume, resume again; threads and instruction sets change nothing.
+expect 0 "$FRAM" run scene.yaml -o halves --until 1 --json
+same "$(value '["steps"]')" 50 "steps until 1 s"
+same "$(value '["finished"]')" False "finished at half time"
+expect 0 "$FRAM" resume halves --until 1.5 --threads 2 --json
+expect 0 "$FRAM" resume halves --json --isa baseline
+same "$(value '["state_hash"]')" "$hash" "hash of the resumed run"
+same "$(value '["finished"]')" True "finished"
+cmp -s straight/record.fram halves/record.fram || fail "the records of a straight and a resumed run differ"
+same "$(cut -d, -f1-70 straight/series.csv | md5sum)" "$(cut -d, -f1-70 halves/series.csv | md5sum)" "time series"
+
+# Resuming what cannot be resumed.
+expect 2 "$FRAM" resume nowhere
+mkdir empty
+expect 2 "$FRAM" resume empty
+cp -r halves changed
+sed -i 's/thickness: 1/thickness: 2/' changed/scenario.yaml
+expect 2 "$FRAM" resume changed
+says "another scenario"
+cp -r halves damaged
+for file in damaged/checkpoint-*.fram; do printf 'x' | dd of="$file" bs=1 seek=100 conv=notrunc status=none; done
+expect 2 "$FRAM" resume damaged
+
+# Ctrl-C leaves a checkpoint.
+"$FRAM" run scene.yaml -o long --set run.duration=10000 --set vessel.speed=0 --json >out 2>err &
+pid=$!
+for _ in $(seq 100); do
+    [ -s long/run.json ] && break
+    sleep 0.1
+done
+sleep 0.5
+kill -INT $pid
+code=0
+wait $pid || code=$?
+same "$code" 130 "exit code after Ctrl-C"
+says "fram resume long"
+ls long/checkpoint-*.fram >/dev/null || fail "no checkpoint after Ctrl-C"
+now=$(python3 -c 'import json; print(json.load(open("long/run.json"))["time_s"] + 0.1)')
+expect 0 "$FRAM" resume long --until "$now"
+
+# A run that goes wrong says so, and leaves its state.
+expect 1 "$FRAM" run scene.yaml -o broken --set run.speed_limit=0.5 --json
+same "$(value '["error"]["status"]')" simulation "status of a run that went wrong"
+[ -s broken/failed.fram ] || fail "no state of the run that went wrong"
+grep -q '"status": "failed"' broken/run.json || fail "run.json does not say that the run failed"
+
+# The benchmark.
+expect 0 "$FRAM" bench scene.yaml --warm 0.1 --time 0.2 --json
+for key in ms_per_step_median us_per_floe_step contact_points state_hash; do
+    value "[\"$key\"]" >/dev/null || fail "bench prints no $key"
+done
+expect 2 "$FRAM" bench scene.yaml --time -1
+
+[ $failures = 0 ] || exit 1
+echo "the command behaves"
