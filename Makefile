@@ -11,7 +11,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
+.PHONY: build test viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram
 	@cmake --build --preset release -j$(JOBS)
@@ -23,7 +23,12 @@ build/fuzz/build.ninja build/clang/build.ninja: | $(STAMPS)/dev
 test: build ## run every test
 	@cd build/release && $(CTEST) --output-junit tests.xml
 
-demo: build ## run scenes/demo.yaml and say which files to look at
+viewer: build/viewer/playback.html ## build the page that plays a run in a browser
+
+build/viewer/playback.html: $(wildcard viewer/*.json viewer/*.mjs viewer/.npmrc viewer/src/*) | $(STAMPS)/viewer
+	@tools/viewer.sh
+
+demo: build ## run scenes/demo.yaml with a playback page, and say which files to look at
 	@tools/demo.sh
 
 test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and the threaded rooms under TSan

@@ -1,8 +1,14 @@
 #!/bin/sh
-# Run the demo and name the files to look at.
+# Run the demo, make its playback page if that can be, and name the files to look at.
 set -eu
 cd "$(dirname "$0")/.."
 build/release/fram run scenes/demo.yaml -o out/demo --force
+
+# The page needs npm, which may be out of reach: everything else is worth having without it.
+page=no
+if make --no-print-directory viewer && build/release/fram view out/demo; then
+    page=yes
+fi
 echo
 echo "The demo is in out/demo. Look at:"
 for file in out/demo/*; do
@@ -16,3 +22,4 @@ for file in out/demo/*; do
     esac
     printf '  %-26s %s\n' "$file" "$meaning"
 done
+[ $page = yes ] || echo "The playback page was skipped: see the message about the viewer above."
