@@ -1,6 +1,6 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, peers
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
 #
@@ -37,6 +37,7 @@ dev  util-linux         cmd:setarch
 dev  g++                cmd:g++
 viewer nodejs           cmd:node
 viewer npm              cmd:npm
+views  chromium         cmd:chromium
 peers g++               cmd:g++
 peers libbullet-dev     pc:bullet-float64
 peers libode-dev        pc:ode
@@ -66,9 +67,9 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | peers) groups="$groups $word" ;;
+    core | dev | viewer | views | peers) groups="$groups $word" ;;
     *)
-        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [peers]" >&2
+        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers]" >&2
         exit 2
         ;;
     esac
