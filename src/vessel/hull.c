@@ -39,6 +39,100 @@ static double stern_at(const hull_lines *l, double z) { return -l->half_length -
 static double fore_at(const hull_lines *l, double z) { return stem_at(l, z) - l->entrance * half_beam_at(l, z); }
 static double aft_at(const hull_lines *l, double z) { return stern_at(l, z) + l->run * half_beam_at(l, z); }
 
+/* ---- sections ---- */
+
+/* Strips of a bilge; as many again change the volume by a thousandth. */
+enum { BILGE_STRIPS = 8, MOST_RINGS = BILGE_STRIPS + 2 };
+/* The bilge reaches this far towards keel and waterline at most, so that some flat keel and side are left. */
+#define BILGE_REACH 0.97
+/* The bilge is drawn this far from its corner towards the chord at most: there its strips would be one plane. */
+#define BILGE_FLATTENING 0.999
+/* A bilge smaller than this is none: its strips would have no breadth, and it takes 1e-9 of the volume. */
+#define LEAST_BILGE 1e-4
+enum { BLOCK_HALVINGS = 100 };
+
+/* Half the section amidships: half beam and height of each ring, from the keel to the deck. */
+typedef struct hull_section {
+    int count;
+    double half_beam[MOST_RINGS], z[MOST_RINGS];
+} hull_section;
+
+/* bilge 0: a corner between keel and side; to 1: an arc of a parabola, tangent to both, that grows; to 2: its control
+   point moves from the corner to the chord. */
+static hull_section section_of(const hull_particulars *p, const hull_lines *l, double bilge)
+{
+    double corner = half_beam_at(l, -p->draught);
+    hull_section s = {2, {corner, half_beam_at(l, p->freeboard)}, {-p->draught, p->freeboard}};
+    if (bilge < LEAST_BILGE)
+        return s;
+    double reach = BILGE_REACH * fmin(bilge, 1), flattening = BILGE_FLATTENING * fmax(bilge - 1, 0);
+    vec2 first = {(1 - reach) * corner, -p->draught}, last = {0, -p->draught * (1 - reach)};
+    last.x = half_beam_at(l, last.y);
+    vec2 control = vec2_make(corner, -p->draught), chord = vec2_scale(vec2_add(first, last), 0.5);
+    control = vec2_add(control, vec2_scale(vec2_sub(chord, control), flattening));
+    s.count = MOST_RINGS;
+    for (int i = 0; i <= BILGE_STRIPS; i++) {
+        double u = (double)i / BILGE_STRIPS, a = (1 - u) * (1 - u), b = 2 * u * (1 - u), c = u * u;
+        s.half_beam[i] = a * first.x + b * control.x + c * last.x;
+        s.z[i] = a * first.y + b * control.y + c * last.y;
+    }
+    s.half_beam[BILGE_STRIPS + 1] = half_beam_at(l, p->freeboard);
+    s.z[BILGE_STRIPS + 1] = p->freeboard;
+    return s;
+}
+
+/* Area of the water plane of a hexagon of half beam b at height z. */
+static double plane_area(const hull_lines *l, double b, double z)
+{
+    return b * (2 * (stem_at(l, z) - stern_at(l, z)) - (l->entrance + l->run) * b);
+}
+
+/* Volume under z = 0: areas are quadratic in z between rings, so that Simpson's rule is exact. */
+static double volume_of(const hull_lines *l, const hull_section *s)
+{
+    double volume = 0;
+    for (int i = 0; i + 1 < s->count; i++) {
+        double low = s->z[i], high = fmin(s->z[i + 1], 0), middle = 0.5 * (low + high), b = s->half_beam[i];
+        double slope = (s->half_beam[i + 1] - b) / (s->z[i + 1] - low);
+        volume += (high - low) / 6 *
+                  (plane_area(l, b, low) + 4 * plane_area(l, b + slope * (middle - low), middle) +
+                   plane_area(l, b + slope * (high - low), high));
+    }
+    return volume;
+}
+
+static double block_of(const hull_particulars *p, const hull_lines *l, double bilge)
+{
+    hull_section s = section_of(p, l, bilge);
+    return volume_of(l, &s) / (p->length * p->beam * p->draught);
+}
+
+void hull_block_range(const hull_particulars *p, double *least, double *most)
+{
+    *least = *most = 1;
+    if (p->form != HULL_ICEBREAKER)
+        return;
+    hull_lines l = lines_of(p);
+    *least = block_of(p, &l, 2);
+    *most = block_of(p, &l, 0);
+}
+
+/* The bilge of a block coefficient within reach: it falls as the bilge grows. */
+static double bilge_of(const hull_particulars *p, const hull_lines *l)
+{
+    double lo = 0, hi = 2;
+    if (p->block_coefficient == 0 || p->block_coefficient >= block_of(p, l, 0))
+        return 0;
+    for (int i = 0; i < BLOCK_HALVINGS; i++) {
+        double middle = 0.5 * (lo + hi);
+        if (block_of(p, l, middle) > p->block_coefficient)
+            lo = middle;
+        else
+            hi = middle;
+    }
+    return hi;
+}
+
 /* ---- particulars ---- */
 
 static fram_status refuse(fram_error *error, const char *key, const char *rule, double found)
@@ -105,9 +199,26 @@ static fram_status check_parallel(const hull_particulars *p, const hull_lines *l
                      end.name, end.z, fore, aft, p->parallel_midbody);
 }
 
+static fram_status check_block(const hull_particulars *p, fram_error *error)
+{
+    double least, most, asked = p->block_coefficient, slack = LEAST_BILGE * LEAST_BILGE;
+    if (asked == 0 || p->form == HULL_MESH)
+        return FRAM_OK;
+    hull_block_range(p, &least, &most);
+    if (asked >= least - slack && asked <= most + slack)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
+                     "with the other particulars the block coefficient can be %.4f to %.4f, found %g; a larger one takes "
+                     "steeper stem_angle or stern_angle, less flare_angle or more parallel_midbody, a smaller one the "
+                     "opposite",
+                     least, most, asked);
+}
+
 fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
 {
     fram_status status = check_lengths(p, error);
+    if (status == FRAM_OK && p->form == HULL_BOX)
+        status = check_block(p, error);
     if (status != FRAM_OK || p->form != HULL_ICEBREAKER)
         return status;
     status = check_angles(p, error);
@@ -126,18 +237,18 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
         status = check_breadth(p, &lines, ends[i], error);
     for (int i = 0; i < 2 && status == FRAM_OK; i++)
         status = check_parallel(p, &lines, ends[i], error);
-    return status;
+    return status == FRAM_OK ? check_block(p, error) : status;
 }
 
 /* ---- surfaces ---- */
 
-/* Rings of six at keel (0..5) and deck (6..11), counter-clockwise from above: stem, fore and aft shoulder to port,
-   stern, aft and fore shoulder to starboard. */
+/* Rings of six from the keel to the deck, counter-clockwise from above: stem, fore and aft shoulder to port, stern, aft and
+   fore shoulder to starboard. */
 enum { RING = 6 };
 
-static bool add_ring(context *ctx, mesh *m, const hull_lines *l, double z)
+static bool add_ring(context *ctx, mesh *m, const hull_lines *l, double b, double z)
 {
-    double b = half_beam_at(l, z), fore = fore_at(l, z), aft = aft_at(l, z);
+    double fore = stem_at(l, z) - l->entrance * b, aft = stern_at(l, z) + l->run * b;
     const vec3 ring[RING] = {{stem_at(l, z), 0, z},  {fore, b, z}, {aft, b, z},
                              {stern_at(l, z), 0, z}, {aft, -b, z}, {fore, -b, z}};
     for (int i = 0; i < RING; i++)
@@ -146,23 +257,35 @@ static bool add_ring(context *ctx, mesh *m, const hull_lines *l, double z)
     return true;
 }
 
-static bool make_icebreaker(context *ctx, const hull_particulars *p, mesh *m)
+/* The strip between the ring that begins at vertex `low` and the next one. */
+static bool add_strip(context *ctx, mesh *m, int32_t low)
 {
     /* Port side from stem to stern; its mirror image has the other turn. */
     static const int32_t port[][3] = {{0, 1, 7}, {0, 7, 6}, {1, 2, 8}, {1, 8, 7}, {2, 3, 9}, {2, 9, 8}};
     static const int32_t mirror[2 * RING] = {0, 5, 4, 3, 2, 1, 6, 11, 10, 9, 8, 7};
-    hull_lines lines = lines_of(p);
-    if (!add_ring(ctx, m, &lines, -p->draught) || !add_ring(ctx, m, &lines, p->freeboard))
-        return false;
     for (int i = 0; i < 6; i++) {
         const int32_t *t = port[i];
-        if (!mesh_add_triangle(ctx, m, t[0], t[1], t[2]) ||
-            !mesh_add_triangle(ctx, m, mirror[t[0]], mirror[t[2]], mirror[t[1]]))
+        if (!mesh_add_triangle(ctx, m, low + t[0], low + t[1], low + t[2]) ||
+            !mesh_add_triangle(ctx, m, low + mirror[t[0]], low + mirror[t[2]], low + mirror[t[1]]))
             return false;
     }
+    return true;
+}
+
+static bool make_icebreaker(context *ctx, const hull_particulars *p, mesh *m)
+{
+    hull_lines lines = lines_of(p);
+    hull_section section = section_of(p, &lines, bilge_of(p, &lines));
+    int32_t deck = RING * (section.count - 1);
+    for (int i = 0; i < section.count; i++)
+        if (!add_ring(ctx, m, &lines, section.half_beam[i], section.z[i]))
+            return false;
+    for (int32_t low = 0; low < deck; low += RING)
+        if (!add_strip(ctx, m, low))
+            return false;
     /* Keel and deck as fans from the stem: no triangle of them is flat, even with a transom or a blunt bow. */
     for (int32_t i = 1; i + 1 < RING; i++)
-        if (!mesh_add_triangle(ctx, m, 0, i + 1, i) || !mesh_add_triangle(ctx, m, RING, RING + i, RING + i + 1))
+        if (!mesh_add_triangle(ctx, m, 0, i + 1, i) || !mesh_add_triangle(ctx, m, deck, deck + i, deck + i + 1))
             return false;
     return true;
 }
@@ -215,8 +338,8 @@ hull_zones hull_zones_of(const hull_particulars *p)
     } else if (p->form == HULL_MESH) {
         bow = stern = p->length / 5;
     }
-    double end = 0.5 * p->length, fore = end - fmax(bow, least);
-    return (hull_zones){fore, fore - p->length / 10, -end + fmax(stern, least), -0.95 * p->draught};
+    double end = 0.5 * p->length, fore = p->midships + end - fmax(bow, least);
+    return (hull_zones){fore, fore - p->length / 10, p->midships - end + fmax(stern, least), -0.95 * p->draught};
 }
 
 hull_zone hull_zone_at(const hull_zones *zones, vec3 point)

@@ -15,6 +15,9 @@ typedef struct wet_sums {
     double plane;              /* -int n_z dS: area of the water plane */
     double plane_x, plane_y;   /* -int x n_z, y n_z dS */
     double plane_xx, plane_yy; /* -int x^2 n_z, y^2 n_z dS */
+    double plane_xy;           /* -int x y n_z dS */
+    double wetted;             /* int dS */
+    box2 line;                 /* around the points on the level */
 } wet_sums;
 
 static double sum3(const double f[3]) { return f[0] + f[1] + f[2]; }
@@ -41,11 +44,21 @@ static void add_triangle(wet_sums *s, vec3 a, vec3 b, vec3 c)
     s->plane_y -= sum3(y) * third;
     s->plane_xx -= product12(x, x) * twelfth;
     s->plane_yy -= product12(y, y) * twelfth;
+    s->plane_xy -= product12(x, y) * twelfth;
+    s->wetted += vec3_length(area);
+}
+
+static void add_line_point(wet_sums *s, vec3 p)
+{
+    if (p.z != 0)
+        return;
+    s->line.lo = vec2_make(fmin(s->line.lo.x, p.x), fmin(s->line.lo.y, p.y));
+    s->line.hi = vec2_make(fmax(s->line.hi.x, p.x), fmax(s->line.hi.y, p.y));
 }
 
 static wet_sums sum_wet(const mesh *m, double level)
 {
-    wet_sums sums = {0};
+    wet_sums sums = {.line = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}}};
     for (int32_t i = 0; i < m->face.count; i++) {
         vec3 corner[3], part[4];
         for (int k = 0; k < 3; k++) {
@@ -55,6 +68,8 @@ static wet_sums sum_wet(const mesh *m, double level)
         int n = triangle_clip_below(corner, 0, part);
         for (int k = 1; k + 1 < n; k++)
             add_triangle(&sums, part[0], part[k], part[k + 1]);
+        for (int k = 0; k < n && n > 2; k++)
+            add_line_point(&sums, part[k]);
     }
     return sums;
 }
@@ -87,6 +102,7 @@ fram_status hull_hydrostatics_at(context *ctx, const mesh *surface, double level
         out->volume = s.volume.z;
         out->centre_of_buoyancy = vec3_scale(vec3_make(s.first_x, s.first_y, s.first_z), 1 / s.volume.z);
         out->centre_of_buoyancy.z += level;
+        out->wetted_area = s.wetted;
     }
     /* A hull wholly under the level has no water plane but for rounding. */
     if (s.plane > 0 && mesh_bounds(surface).hi.z > level) {
@@ -95,6 +111,8 @@ fram_status hull_hydrostatics_at(context *ctx, const mesh *surface, double level
         out->centre_of_flotation = vec2_make(x, y);
         out->waterplane_xx = s.plane_yy - s.plane * y * y;
         out->waterplane_yy = s.plane_xx - s.plane * x * x;
+        out->waterplane_xy = s.plane_xy - s.plane * x * y;
+        out->waterline = s.line;
     }
     return FRAM_OK;
 }

@@ -1,0 +1,315 @@
+/* Sealing of cracks; see mesh_repair.h.  A pass finds the open edges, joins loose vertices that are each other's nearest,
+   then leads every open edge over the loose vertices that have it as their nearest; the next pass sees what that left. */
+#include "geometry/mesh_bvh.h"
+#include "geometry/mesh_edges.h"
+#include "geometry/mesh_repair.h"
+
+#include <stdlib.h>
+
+/* Passes after which what is left open stays open: real cracks take two or three. */
+enum { MOST_PASSES = 16 };
+/* A place this near to the end of an edge, as a part of its length, is the end. */
+#define LEAST_PART 1e-9
+
+/* A loose vertex that an open edge is led over. */
+typedef struct detour {
+    int32_t edge; /* half-edge */
+    double along; /* 0 to 1 from its beginning */
+    double distance;
+    int32_t vertex;
+} detour;
+
+typedef struct sealing {
+    mesh *m;
+    double width;
+    int32_array *source;
+    mesh_seal_report *report;
+    int32_array sorted; /* half-edges */
+    int32_array open;   /* open half-edges, ascending */
+    uint8_t *loose;     /* of each vertex: it ends an open edge */
+    mesh rims;          /* open edges as flat triangles, for the tree */
+    mesh_bvh tree;
+    int32_array near;
+    int32_t *nearest; /* of each loose vertex, or -1 */
+    ARRAY(detour) detours;
+} sealing;
+
+static void sealing_free(context *ctx, sealing *s)
+{
+    array_free(ctx, &s->sorted);
+    array_free(ctx, &s->open);
+    memory_free(ctx, s->loose);
+    memory_free(ctx, s->nearest);
+    s->rims.vertex.data = NULL; /* borrowed */
+    array_free(ctx, &s->rims.face);
+    mesh_bvh_free(ctx, &s->tree);
+    array_free(ctx, &s->near);
+    array_free(ctx, &s->detours);
+}
+
+static int compare_index(const void *a, const void *b)
+{
+    int32_t i = *(const int32_t *)a, j = *(const int32_t *)b;
+    return (i > j) - (i < j);
+}
+
+/* Open edges and loose vertices of the mesh as it is now. */
+static bool find_open(context *ctx, sealing *s)
+{
+    const mesh *m = s->m;
+    array_clear(&s->open);
+    if (!mesh_edges_sort(ctx, m, &s->sorted))
+        return false;
+    for (int32_t i = 0, end; i < s->sorted.count; i = end) {
+        end = mesh_edges_end(m, &s->sorted, i);
+        if (end - i == 1 && !array_push(ctx, &s->open, s->sorted.data[i]))
+            return false;
+    }
+    if (s->open.count)
+        qsort(s->open.data, (size_t)s->open.count, sizeof *s->open.data, compare_index);
+    return true;
+}
+
+/* The tree over the open edges. */
+static fram_status plant_tree(context *ctx, sealing *s)
+{
+    const mesh *m = s->m;
+    memory_free(ctx, s->loose);
+    memory_free(ctx, s->nearest);
+    s->loose = memory_array(ctx, (size_t)m->vertex.count, sizeof *s->loose);
+    s->nearest = memory_array(ctx, (size_t)m->vertex.count, sizeof *s->nearest);
+    if (!s->loose || !s->nearest || !array_resize(ctx, &s->rims.face, s->open.count))
+        return FRAM_ERROR_MEMORY;
+    s->rims.vertex.data = m->vertex.data;
+    s->rims.vertex.count = m->vertex.count;
+    for (int32_t i = 0; i < s->open.count; i++) {
+        int32_t a = half_edge_from(m, s->open.data[i]), b = half_edge_to(m, s->open.data[i]);
+        s->rims.face.data[i] = (triangle){{a, b, b}};
+        s->loose[a] = s->loose[b] = 1;
+    }
+    return mesh_bvh_build(ctx, &s->rims, &s->tree);
+}
+
+static bool find_near(context *ctx, sealing *s, vec3 p)
+{
+    vec3 reach = {s->width, s->width, s->width};
+    return mesh_bvh_query(ctx, &s->tree, (box3){vec3_sub(p, reach), vec3_add(p, reach)}, &s->near);
+}
+
+/* Whether an edge joins the two vertices: a search in the sorted half-edges. */
+static bool are_joined(const sealing *s, int32_t u, int32_t v)
+{
+    int32_t low = u < v ? u : v, high = u < v ? v : u, begin = 0, end = s->sorted.count;
+    while (begin < end) {
+        int32_t middle = begin + (end - begin) / 2, h = s->sorted.data[middle];
+        int32_t a = half_edge_from(s->m, h), b = half_edge_to(s->m, h), l = a < b ? a : b, k = a < b ? b : a;
+        if (l < low || (l == low && k < high))
+            begin = middle + 1;
+        else
+            end = middle;
+    }
+    if (begin == s->sorted.count)
+        return false;
+    int32_t a = half_edge_from(s->m, s->sorted.data[begin]), b = half_edge_to(s->m, s->sorted.data[begin]);
+    return (a == low && b == high) || (a == high && b == low);
+}
+
+static double distance_between(vec3 a, vec3 b) { return vec3_length(vec3_sub(a, b)); }
+
+/* ---- joining ---- */
+
+static bool find_nearest(context *ctx, sealing *s, int32_t v)
+{
+    vec3 p = s->m->vertex.data[v];
+    double least = s->width;
+    s->nearest[v] = -1;
+    if (!find_near(ctx, s, p))
+        return false;
+    for (int32_t i = 0; i < s->near.count; i++)
+        for (int k = 0; k < 2; k++) {
+            int32_t u = s->rims.face.data[s->near.data[i]].v[k];
+            double distance = distance_between(p, s->m->vertex.data[u]);
+            bool nearer = distance < least || (distance == least && (s->nearest[v] < 0 || u < s->nearest[v]));
+            if (u != v && nearer && !are_joined(s, u, v)) {
+                least = distance;
+                s->nearest[v] = u;
+            }
+        }
+    return true;
+}
+
+/* Pairs that are each other's nearest become the one of lower number. */
+static bool join_pairs(context *ctx, sealing *s, bool *changed)
+{
+    mesh *m = s->m;
+    for (int32_t v = 0; v < m->vertex.count; v++)
+        if (s->loose[v] && !find_nearest(ctx, s, v))
+            return false;
+    int32_t joined = 0;
+    for (int32_t v = 0; v < m->vertex.count; v++) {
+        int32_t u = s->loose[v] ? s->nearest[v] : -1;
+        if (u >= 0 && u < v && s->nearest[u] == v) {
+            s->report->width = fmax(s->report->width, distance_between(m->vertex.data[u], m->vertex.data[v]));
+            joined++;
+        }
+    }
+    s->report->joined += joined;
+    *changed = joined > 0;
+    for (int32_t f = 0; *changed && f < m->face.count; f++)
+        for (int k = 0; k < 3; k++) {
+            int32_t v = m->face.data[f].v[k], u = s->loose[v] ? s->nearest[v] : -1;
+            if (u >= 0 && u < v && s->nearest[u] == v)
+                m->face.data[f].v[k] = u;
+        }
+    return true;
+}
+
+/* ---- detours ---- */
+
+static bool has_vertex(const mesh *m, int32_t face, int32_t v)
+{
+    const int32_t *w = m->face.data[face].v;
+    return w[0] == v || w[1] == v || w[2] == v;
+}
+
+/* The open edge nearest to a loose vertex that it does not belong to. */
+static bool find_detour(context *ctx, sealing *s, int32_t v)
+{
+    const mesh *m = s->m;
+    vec3 p = m->vertex.data[v];
+    detour best = {-1, 0, HUGE_VAL, v};
+    if (!find_near(ctx, s, p))
+        return false;
+    for (int32_t i = 0; i < s->near.count; i++) {
+        int32_t h = s->open.data[s->near.data[i]];
+        if (has_vertex(m, h / 3, v))
+            continue;
+        vec3 a = m->vertex.data[half_edge_from(m, h)], ab = vec3_sub(m->vertex.data[half_edge_to(m, h)], a);
+        double square = vec3_dot(ab, ab), along = vec3_dot(ab, vec3_sub(p, a)) / square;
+        if (!(along > LEAST_PART && along < 1 - LEAST_PART))
+            continue;
+        double distance = distance_between(p, vec3_mad(a, ab, along));
+        if (distance <= s->width && distance < best.distance)
+            best = (detour){h, along, distance, v};
+    }
+    return best.edge < 0 || array_push(ctx, &s->detours, best);
+}
+
+static int compare_detour(const void *left, const void *right)
+{
+    const detour *a = left, *b = right;
+    if (a->edge != b->edge)
+        return a->edge < b->edge ? -1 : 1;
+    if (a->along != b->along)
+        return a->along < b->along ? -1 : 1;
+    return (a->vertex > b->vertex) - (a->vertex < b->vertex);
+}
+
+/* The piece of a triangle that owns the edge from a to b; pieces are `face` and all from `first` on. */
+static int32_t owner_of(const mesh *m, int32_t face, int32_t first, int32_t a, int32_t b, int *corner)
+{
+    for (int32_t f = face; f < m->face.count; f = f == face ? first : f + 1)
+        for (int k = 0; k < 3; k++)
+            if (m->face.data[f].v[k] == a && m->face.data[f].v[(k + 1) % 3] == b) {
+                *corner = k;
+                return f;
+            }
+    return -1;
+}
+
+/* Lead the edge from a to b of (a piece of) `face` over the vertex v. */
+static bool lead_over(context *ctx, sealing *s, int32_t face, int32_t first, int32_t a, int32_t b, const detour *d)
+{
+    mesh *m = s->m;
+    int corner = 0;
+    int32_t owner = owner_of(m, face, first, a, b, &corner);
+    int32_t apex = m->face.data[owner].v[(corner + 2) % 3], v = d->vertex;
+    vec3 to_v = vec3_sub(m->vertex.data[v], m->vertex.data[a]), to_b = vec3_sub(m->vertex.data[b], m->vertex.data[a]);
+    s->report->area += 0.5 * vec3_length(vec3_cross(to_v, to_b));
+    s->report->width = fmax(s->report->width, d->distance);
+    s->report->splits++;
+    m->face.data[owner].v[(corner + 1) % 3] = v;
+    return mesh_add_triangle(ctx, m, v, b, apex) && (!s->source || array_push(ctx, s->source, s->source->data[face]));
+}
+
+static bool lead_edges(context *ctx, sealing *s)
+{
+    mesh *m = s->m;
+    for (int32_t i = 0; i < s->detours.count;) {
+        int32_t face = s->detours.data[i].edge / 3, first = m->face.count;
+        const triangle whole = m->face.data[face];
+        for (; i < s->detours.count && s->detours.data[i].edge / 3 == face; i++) {
+            const detour *d = &s->detours.data[i];
+            bool begins = i == 0 || d[-1].edge != d->edge;
+            int k = d->edge % 3;
+            if (!lead_over(ctx, s, face, first, begins ? whole.v[k] : d[-1].vertex, whole.v[(k + 1) % 3], d))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool make_detours(context *ctx, sealing *s, bool *changed)
+{
+    array_clear(&s->detours);
+    for (int32_t v = 0; v < s->m->vertex.count; v++)
+        if (s->loose[v] && !find_detour(ctx, s, v))
+            return false;
+    *changed = s->detours.count > 0;
+    if (*changed)
+        qsort(s->detours.data, (size_t)s->detours.count, sizeof *s->detours.data, compare_detour);
+    return lead_edges(ctx, s);
+}
+
+/* ---- all of it ---- */
+
+/* One pass; first vertices alone, so that edges are led over what is left. */
+static fram_status seal_once(context *ctx, sealing *s, bool *changed)
+{
+    *changed = false;
+    if (!s->open.count)
+        return FRAM_OK;
+    fram_status status = plant_tree(ctx, s);
+    if (status == FRAM_OK && !join_pairs(ctx, s, changed))
+        status = FRAM_ERROR_MEMORY;
+    if (status == FRAM_OK && !*changed && !make_detours(ctx, s, changed))
+        status = FRAM_ERROR_MEMORY;
+    if (status == FRAM_OK && *changed && !find_open(ctx, s))
+        status = FRAM_ERROR_MEMORY;
+    return status;
+}
+
+static vec3 area_sum(const mesh *m)
+{
+    vec3 sum = {0, 0, 0};
+    for (int32_t f = 0; f < m->face.count; f++)
+        sum = vec3_add(sum, mesh_area_vector(m, f));
+    return sum;
+}
+
+static bool begin_source(context *ctx, const mesh *m, int32_array *source)
+{
+    if (!array_resize(ctx, source, m->face.count))
+        return false;
+    for (int32_t f = 0; f < m->face.count; f++)
+        source->data[f] = f;
+    return true;
+}
+
+fram_status mesh_seal(context *ctx, mesh *m, double width, int32_array *source, mesh_seal_report *report)
+{
+    *report = (mesh_seal_report){0};
+    sealing s = {.m = m, .width = width, .source = source, .report = report};
+    bool ready = (!source || begin_source(ctx, m, source)) && find_open(ctx, &s);
+    fram_status status = ready ? FRAM_OK : FRAM_ERROR_MEMORY;
+    report->open_before = s.open.count;
+    bool changed = width > 0;
+    vec3 area = area_sum(m), volume = mesh_volume_integrals(m);
+    for (int pass = 0; pass < MOST_PASSES && changed && status == FRAM_OK; pass++)
+        status = seal_once(ctx, &s, &changed);
+    report->open_after = s.open.count;
+    report->area_vector = vec3_sub(area_sum(m), area);
+    report->volume = vec3_sub(mesh_volume_integrals(m), volume);
+    sealing_free(ctx, &s);
+    return status;
+}

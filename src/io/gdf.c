@@ -1,0 +1,158 @@
+/* WAMIT's low-order geometric data file (WAMIT User Manual, version 7, section 6.1): a line of text, ULEN GRAV, ISX ISY,
+   NPAN, then four corners a panel, counter-clockwise seen from the water.  A corner given twice makes a triangle.
+   Coordinates are in metres: ULEN only scales WAMIT's results.  ISX = 1 (ISY = 1): the other half is the mirror image in
+   x = 0 (y = 0). */
+#include "io/mesh_reader.h"
+
+#include "base/number_text.h"
+
+#include <string.h>
+
+/* Gravity in feet per square second tells that lengths are in feet. */
+#define FEET_LEAST 31.0
+#define FEET_MOST 33.0
+
+static int shown(const word_reader *w) { return w->length < 40 ? (int)w->length : 40; }
+
+/* Commas separate numbers as blanks do, so that a word may hold several. */
+static bool next_number(word_reader *w, const char **rest, const char **rest_end)
+{
+    while (*rest < *rest_end && **rest == ',')
+        ++*rest;
+    if (*rest == *rest_end) {
+        do {
+            if (!word_next(w))
+                return false;
+            *rest = w->word;
+            *rest_end = w->word + w->length;
+            while (*rest < *rest_end && **rest == ',')
+                ++*rest;
+        } while (*rest == *rest_end);
+    }
+    w->word = *rest;
+    while (*rest < *rest_end && **rest != ',')
+        ++*rest;
+    w->length = (size_t)(*rest - w->word);
+    return true;
+}
+
+typedef struct gdf_words {
+    word_reader reader;
+    const char *rest, *rest_end;
+} gdf_words;
+
+static fram_status read_real(const mesh_reading *r, gdf_words *w, int32_t panel, const char *what, double *value)
+{
+    if (!next_number(&w->reader, &w->rest, &w->rest_end))
+        return mesh_refuse(r, w->reader.line, panel, "expected %s, found the end of the file", what);
+    return mesh_read_number(r, &w->reader, panel, what, value);
+}
+
+static fram_status read_integer(const mesh_reading *r, gdf_words *w, const char *what, int64_t lo, int64_t hi,
+                                int64_t *value)
+{
+    char text[32] = "";
+    word_reader *d = &w->reader;
+    if (!next_number(d, &w->rest, &w->rest_end))
+        return mesh_refuse(r, d->line, 0, "expected %s, found the end of the file", what);
+    if (d->length < sizeof text)
+        memcpy(text, d->word, d->length);
+    if (strlen(text) != d->length || integer_from_text(text, value) != NUMBER_GOOD || *value < lo || *value > hi)
+        return mesh_refuse(r, d->word_line, 0, "expected %s from %lld to %lld, found \"%.*s\"", what, (long long)lo,
+                           (long long)hi, shown(d), d->word);
+    return FRAM_OK;
+}
+
+static fram_status read_head(const mesh_reading *r, gdf_words *w, int32_t *panels)
+{
+    double length = 0, gravity = 0;
+    int64_t isx = 0, isy = 0, count = 0;
+    word_skip_line(&w->reader);
+    fram_status status = read_real(r, w, 0, "ULEN, the length scale", &length);
+    if (status == FRAM_OK)
+        status = read_real(r, w, 0, "GRAV, the acceleration of gravity", &gravity);
+    if (status == FRAM_OK && !(length > 0))
+        return mesh_refuse(r, 2, 0, "expected a positive ULEN, found %g; a control surface or force file is no hull",
+                           length);
+    if (status == FRAM_OK && !(gravity > 0))
+        return mesh_refuse(r, 2, 0, "expected a positive GRAV, found %g", gravity);
+    if (status == FRAM_OK && gravity > FEET_LEAST && gravity < FEET_MOST)
+        return mesh_refuse(r, 2, 0, "GRAV %g says that lengths are in feet; convert the file to metres, GRAV to 9.81",
+                           gravity);
+    if (status == FRAM_OK)
+        status = read_integer(r, w, "ISX", 0, 1, &isx);
+    if (status == FRAM_OK)
+        status = read_integer(r, w, "ISY", 0, 1, &isy);
+    if (status == FRAM_OK)
+        status = read_integer(r, w, "NPAN, the number of panels of a low-order file,", 1, MESH_FILE_TRIANGLES / 8,
+                              &count);
+    r->out->mirror_x = isx == 1;
+    r->out->mirror_y = isy == 1;
+    *panels = (int32_t)count;
+    return status;
+}
+
+/* A panel, and its mirror images, which are turned the other way. */
+static fram_status place_panel(const mesh_reading *r, const vec3 corner[4], int32_t panel, int32_t line)
+{
+    mesh *m = &r->out->surface;
+    for (int image = 0; image < 4; image++) {
+        bool x = image & 1, y = image & 2;
+        if ((x && !r->out->mirror_x) || (y && !r->out->mirror_y))
+            continue;
+        int32_t ring[4], first = m->vertex.count;
+        for (int k = 0; k < 4; k++) {
+            vec3 p = corner[x != y ? 3 - k : k];
+            /* Adding 0: a point on the plane is its own image, to the sign. */
+            if (!mesh_add_vertex(r->ctx, m, vec3_make((x ? -p.x : p.x) + 0.0, (y ? -p.y : p.y) + 0.0, p.z)))
+                return error_memory(r->error);
+            ring[k] = first + k;
+        }
+        fram_status status = mesh_place_polygon(r, ring, 4, panel, line);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return FRAM_OK;
+}
+
+fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
+{
+    gdf_words w = {.reader = word_reader_begin(data, size)};
+    int32_t panels = 0;
+    fram_status status = read_head(r, &w, &panels);
+    for (int32_t i = 1; i <= panels && status == FRAM_OK; i++) {
+        double c[12];
+        int32_t line = 0;
+        for (int k = 0; k < 12 && status == FRAM_OK; k++) {
+            status = read_real(r, &w, i, "a coordinate [m] of a panel's four corners", &c[k]);
+            line = k == 0 ? w.reader.word_line : line;
+        }
+        if (status != FRAM_OK)
+            return status;
+        vec3 corner[4];
+        for (int k = 0; k < 4; k++)
+            corner[k] = vec3_make(c[3 * k] + 0.0, c[3 * k + 1] + 0.0, c[3 * k + 2] + 0.0);
+        status = place_panel(r, corner, i, line);
+    }
+    if (status == FRAM_OK && next_number(&w.reader, &w.rest, &w.rest_end))
+        return mesh_refuse(r, w.reader.word_line, 0,
+                           "expected the end of the file after %d panels, found \"%.*s\"; NPAN may be too small", panels,
+                           shown(&w.reader), w.reader.word);
+    r->out->elements = panels;
+    return status;
+}
+
+void mesh_write_gdf(context *ctx, const mesh *m, text_buffer *out)
+{
+    text_add(ctx, out, "a hull, metres\n1 9.80665\n0 0\n");
+    text_format(ctx, out, "%d\n", m->face.count);
+    for (int32_t f = 0; f < m->face.count; f++)
+        for (int k = 0; k < 4; k++) {
+            vec3 p = m->vertex.data[m->face.data[f].v[k < 3 ? k : 2]];
+            char x[NUMBER_TEXT_SIZE], y[NUMBER_TEXT_SIZE], z[NUMBER_TEXT_SIZE];
+            real_to_text(p.x, x);
+            real_to_text(p.y, y);
+            real_to_text(p.z, z);
+            text_format(ctx, out, "%s %s %s\n", x, y, z);
+        }
+}

@@ -1,0 +1,329 @@
+/* Which reader a file is for, and what the readers share. */
+#include "io/mesh_file.h"
+
+#include "base/number_text.h"
+#include "geometry/mesh_repair.h"
+#include "io/atomic_file.h"
+#include "io/mesh_reader.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* ---- words ---- */
+
+static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+word_reader word_reader_begin(const char *data, size_t size)
+{
+    static const char byte_order_mark[] = "\xef\xbb\xbf";
+    if (size >= 3 && memcmp(data, byte_order_mark, 3) == 0) {
+        data += 3;
+        size -= 3;
+    }
+    return (word_reader){.at = data, .end = data + size, .line = 1, .word = data, .word_line = 1};
+}
+
+static bool continues(const word_reader *r)
+{
+    if (*r->at != '\\')
+        return false;
+    const char *next = r->at + 1;
+    while (next < r->end && *next == '\r')
+        next++;
+    return next < r->end && *next == '\n';
+}
+
+bool word_next_in_line(word_reader *r)
+{
+    while (r->at < r->end) {
+        if (continues(r)) {
+            r->at = memchr(r->at, '\n', (size_t)(r->end - r->at));
+            r->line++;
+        } else if (!is_blank(*r->at)) {
+            break;
+        }
+        r->at++;
+    }
+    r->word = r->at;
+    r->word_line = r->line;
+    while (r->at < r->end && !is_blank(*r->at) && *r->at != '\n' && !continues(r))
+        r->at++;
+    r->length = (size_t)(r->at - r->word);
+    return r->length > 0;
+}
+
+void word_skip_line(word_reader *r)
+{
+    while (word_next_in_line(r))
+        continue;
+    if (r->at < r->end) {
+        r->at++;
+        r->line++;
+    }
+}
+
+bool word_next(word_reader *r)
+{
+    while (!word_next_in_line(r)) {
+        if (r->at == r->end)
+            return false;
+        r->at++;
+        r->line++;
+    }
+    return true;
+}
+
+bool word_is(const word_reader *r, const char *text)
+{
+    return r->length == strlen(text) && strncasecmp(r->word, text, r->length) == 0;
+}
+
+/* ---- errors and numbers ---- */
+
+fram_status mesh_refuse(const mesh_reading *r, int32_t line, int32_t element, const char *format, ...)
+{
+    char key[64] = "", message[512];
+    if (element > 0)
+        snprintf(key, sizeof key, "%s %d", mesh_format_element(r->out->format), element);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return error_set(r->error, FRAM_ERROR_INPUT, r->name, line, key[0] ? key : NULL, "%s", message);
+}
+
+fram_status mesh_check_number(const mesh_reading *r, int32_t line, int32_t element, double value)
+{
+    if (fabs(value) <= MESH_FILE_REACH)
+        return FRAM_OK;
+    return mesh_refuse(r, line, element, "expected a coordinate of at most %g m, found %g; scale the mesh to metres",
+                       MESH_FILE_REACH, value);
+}
+
+fram_status mesh_read_number(const mesh_reading *r, const word_reader *w, int32_t element, const char *what,
+                             double *value)
+{
+    char text[64];
+    int shown = w->length < 40 ? (int)w->length : 40;
+    number_fault fault = NUMBER_NOT_A_NUMBER;
+    if (w->length < sizeof text) {
+        memcpy(text, w->word, w->length);
+        text[w->length] = '\0';
+        for (char *c = text; *c; c++)
+            if (*c == 'D' || *c == 'd')
+                *c = 'e';
+        if (strlen(text) == w->length)
+            fault = real_from_text(text, value);
+    }
+    if (fault == NUMBER_TOO_LARGE)
+        return mesh_refuse(r, w->word_line, element, "expected %s, found \"%.*s\", which is too large", what, shown,
+                           w->word);
+    if (fault != NUMBER_GOOD)
+        return mesh_refuse(r, w->word_line, element, "expected %s, found \"%.*s\"", what, shown, w->word);
+    return mesh_check_number(r, w->word_line, element, *value);
+}
+
+/* ---- triangles ---- */
+
+static bool push_place(const mesh_reading *r, int32_t element, int32_t line)
+{
+    return array_push(r->ctx, &r->out->element, element) && array_push(r->ctx, &r->out->line, line);
+}
+
+fram_status mesh_place_triangle(const mesh_reading *r, int32_t a, int32_t b, int32_t c, int32_t element, int32_t line)
+{
+    mesh *m = &r->out->surface;
+    const vec3 *p = m->vertex.data;
+    bool flat = memcmp(&p[a], &p[b], sizeof *p) == 0 || memcmp(&p[b], &p[c], sizeof *p) == 0 ||
+                memcmp(&p[c], &p[a], sizeof *p) == 0;
+    if (flat) {
+        r->out->dropped++;
+        return FRAM_OK;
+    }
+    if (m->face.count >= MESH_FILE_TRIANGLES)
+        return mesh_refuse(r, line, element, "the surface has more than %d triangles", MESH_FILE_TRIANGLES);
+    if (!mesh_add_triangle(r->ctx, m, a, b, c) || !push_place(r, element, line))
+        return error_memory(r->error);
+    return FRAM_OK;
+}
+
+fram_status mesh_place_polygon(const mesh_reading *r, int32_t *ring, int32_t count, int32_t element, int32_t line)
+{
+    mesh *m = &r->out->surface;
+    const vec3 *p = m->vertex.data;
+    int32_t n = 0;
+    for (int32_t i = 0; i < count; i++)
+        if (memcmp(&p[ring[i]], &p[ring[n ? n - 1 : count - 1]], sizeof *p) != 0)
+            ring[n++] = ring[i];
+    if (n < 3) {
+        r->out->dropped++;
+        return FRAM_OK;
+    }
+    if (n == 3)
+        return mesh_place_triangle(r, ring[0], ring[1], ring[2], element, line);
+    int32_t before = m->face.count;
+    fram_status status = mesh_add_polygon(r->ctx, m, ring, n);
+    if (status == FRAM_ERROR_INPUT)
+        return mesh_refuse(r, line, element, "its %d corners cross themselves or lie on a line; split it into triangles",
+                           n);
+    if (status != FRAM_OK)
+        return error_memory(r->error);
+    if (m->face.count > MESH_FILE_TRIANGLES)
+        return mesh_refuse(r, line, element, "the surface has more than %d triangles", MESH_FILE_TRIANGLES);
+    for (int32_t f = before; f < m->face.count; f++)
+        if (!push_place(r, element, line))
+            return error_memory(r->error);
+    return FRAM_OK;
+}
+
+/* ---- formats ---- */
+
+const char *mesh_format_name(mesh_format f)
+{
+    static const char *const names[MESH_FORMAT_COUNT] = {"STL (text)", "STL (binary)", "OBJ", "GDF"};
+    return (int)f >= 0 && f < MESH_FORMAT_COUNT ? names[f] : "unknown";
+}
+
+const char *mesh_format_element(mesh_format f)
+{
+    return f == MESH_OBJ ? "face" : f == MESH_GDF ? "panel" : "facet";
+}
+
+static bool ends_with(const char *name, const char *ending)
+{
+    size_t length = strlen(name), tail = strlen(ending);
+    return length > tail && strcasecmp(name + length - tail, ending) == 0;
+}
+
+/* The second line of a GDF file is two numbers, the third two integers. */
+static bool looks_like_gdf(const char *data, size_t size)
+{
+    word_reader w = word_reader_begin(data, size);
+    word_skip_line(&w);
+    for (int i = 0; i < 4; i++) {
+        char text[64];
+        double value;
+        if (!word_next(&w) || w.length >= sizeof text)
+            return false;
+        memcpy(text, w.word, w.length);
+        text[w.length] = '\0';
+        if (real_from_text(text, &value) != NUMBER_GOOD || w.word_line != 2 + i / 2)
+            return false;
+    }
+    return true;
+}
+
+static bool looks_like_obj(const char *data, size_t size)
+{
+    word_reader w = word_reader_begin(data, size);
+    while (word_next(&w)) {
+        if (word_is(&w, "v") || word_is(&w, "mtllib") || word_is(&w, "o") || word_is(&w, "g"))
+            return true;
+        if (w.word[0] != '#')
+            return false;
+        word_skip_line(&w);
+    }
+    return false;
+}
+
+static fram_status find_format(const mesh_reading *r, const char *data, size_t size)
+{
+    word_reader w = word_reader_begin(data, size);
+    mesh_format *f = &r->out->format;
+    if (size == 0)
+        return mesh_refuse(r, 0, 0, "the file is empty");
+    bool solid = word_next(&w) && word_is(&w, "solid");
+    if (ends_with(r->name, ".stl"))
+        *f = solid && !mesh_is_binary_stl(data, size) ? MESH_STL_TEXT : MESH_STL_BINARY;
+    else if (ends_with(r->name, ".obj"))
+        *f = MESH_OBJ;
+    else if (ends_with(r->name, ".gdf"))
+        *f = MESH_GDF;
+    else if (mesh_is_binary_stl(data, size))
+        *f = MESH_STL_BINARY;
+    else if (solid)
+        *f = MESH_STL_TEXT;
+    else if (looks_like_gdf(data, size))
+        *f = MESH_GDF;
+    else if (looks_like_obj(data, size))
+        *f = MESH_OBJ;
+    else
+        return mesh_refuse(r, 0, 0, "expected a mesh (STL, OBJ or GDF), found neither its ending nor its content");
+    return FRAM_OK;
+}
+
+void mesh_file_free(context *ctx, mesh_file *f)
+{
+    mesh_free(ctx, &f->surface);
+    array_free(ctx, &f->element);
+    array_free(ctx, &f->line);
+}
+
+/* Equal points become one.  No triangle names equal points, so none goes. */
+static fram_status finish(const mesh_reading *r)
+{
+    mesh *m = &r->out->surface;
+    if (m->face.count == 0)
+        return mesh_refuse(r, 0, 0, "the file has no triangles with an area");
+    int32_t joined = 0;
+    if (!mesh_drop_unused_vertices(r->ctx, m) || mesh_weld(r->ctx, m, 0, &joined) != FRAM_OK)
+        return error_memory(r->error);
+    return FRAM_OK;
+}
+
+fram_status mesh_file_parse(context *ctx, const char *name, const char *data, size_t size, mesh_file *out,
+                            fram_error *error)
+{
+    *out = (mesh_file){0};
+    const mesh_reading r = {ctx, name, out, error};
+    fram_status status = find_format(&r, data, size);
+    if (status == FRAM_OK)
+        status = out->format == MESH_OBJ   ? mesh_read_obj(&r, data, size)
+                 : out->format == MESH_GDF ? mesh_read_gdf(&r, data, size)
+                                           : mesh_read_stl(&r, data, size);
+    if (status == FRAM_OK)
+        status = finish(&r);
+    if (status != FRAM_OK) {
+        mesh_file_free(ctx, out);
+        *out = (mesh_file){0};
+    }
+    return status;
+}
+
+fram_status mesh_file_read(context *ctx, const char *path, mesh_file *out, fram_error *error)
+{
+    char *data = NULL;
+    size_t size = 0;
+    *out = (mesh_file){0};
+    fram_status status = file_read(ctx, path, MESH_FILE_BYTES, &data, &size, error);
+    if (status == FRAM_OK)
+        status = mesh_file_parse(ctx, path, data, size, out, error);
+    memory_free(ctx, data);
+    return status;
+}
+
+fram_status mesh_file_write_as(context *ctx, const char *path, mesh_format format, const mesh *m, fram_error *error)
+{
+    static void (*const write[MESH_FORMAT_COUNT])(context *, const mesh *, text_buffer *) = {
+        mesh_write_stl_text, mesh_write_stl_binary, mesh_write_obj, mesh_write_gdf};
+    text_buffer text = {0};
+    write[format](ctx, m, &text);
+    fram_status status =
+        text.failed ? error_memory(error) : atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
+    text_free(ctx, &text);
+    return status;
+}
+
+fram_status mesh_file_write(context *ctx, const char *path, const mesh *m, fram_error *error)
+{
+    if (ends_with(path, ".stl"))
+        return mesh_file_write_as(ctx, path, MESH_STL_BINARY, m, error);
+    if (ends_with(path, ".obj"))
+        return mesh_file_write_as(ctx, path, MESH_OBJ, m, error);
+    if (ends_with(path, ".gdf"))
+        return mesh_file_write_as(ctx, path, MESH_GDF, m, error);
+    return error_set(error, FRAM_ERROR_USAGE, path, 0, NULL,
+                     "expected a name that ends in .stl, .obj or .gdf for a mesh to be written");
+}
