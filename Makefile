@@ -11,7 +11,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
+.PHONY: build test test-views viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram
 	@cmake --build --preset release -j$(JOBS)
@@ -30,6 +30,9 @@ build/viewer/playback.html: $(wildcard viewer/*.json viewer/*.mjs viewer/.npmrc 
 
 demo: build ## run scenes/demo.yaml with a playback page, and say which files to look at
 	@tools/demo.sh
+
+test-views: viewer build | $(STAMPS)/views ## the playback page in headless Chromium
+	@cd build/release && $(CTEST) -L '^views$$'
 
 test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and the threaded rooms under TSan
 

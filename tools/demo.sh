@@ -3,12 +3,6 @@
 set -eu
 cd "$(dirname "$0")/.."
 build/release/fram run scenes/demo.yaml -o out/demo --force
-if [ -f build/viewer/playback.html ]; then
-    build/release/fram view out/demo --quiet
-else
-    rm -f out/demo/playback.html
-    echo "out/demo/playback.html is skipped: the viewer was not built (make viewer)"
-fi
 
 # The page needs npm, which may be out of reach: everything else is worth having without it.
 page=no
