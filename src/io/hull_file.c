@@ -1,0 +1,277 @@
+#include "io/hull_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Default width of cracks to seal, as a part of the longest side: 10 cm on a ship of 200 m. */
+#define DEFAULT_SEAL (1.0 / 2000)
+/* Default freeboard of topsides, as a part of the depth under them. */
+#define DEFAULT_FREEBOARD (1.0 / 3)
+/* Heights this near, relative to the longest side, are one: files hold six or seven digits. */
+#define LEVEL_TOLERANCE 1e-6
+
+hull_file_options hull_file_defaults(void) { return (hull_file_options){1, NAN, false, NAN}; }
+
+typedef struct hull_reading {
+    context *ctx;
+    const char *name;
+    mesh_file *file;
+    const hull_file_options *options;
+    hull_file_report *report;
+    fram_error *error;
+    int32_array source; /* face of the file that each face was cut from */
+    mesh_rims rims;
+    double longest, top, tolerance; /* [m] */
+} hull_reading;
+
+static double longest_side(const mesh *m)
+{
+    box3 box = mesh_bounds(m);
+    vec3 size = vec3_sub(box.hi, box.lo);
+    return fmax(size.x, fmax(size.y, size.z));
+}
+
+/* ---- errors ---- */
+
+/* An error at a face of the surface as it is now, named as in the file. */
+static fram_status refuse_face(const hull_reading *r, int32_t face, const char *text, const char *advice)
+{
+    char key[64] = "";
+    int32_t line = 0;
+    if (face >= 0 && face < r->source.count && r->source.data[face] < r->file->element.count) {
+        int32_t in_file = r->source.data[face];
+        line = r->file->line.data[in_file];
+        snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[in_file]);
+    }
+    return error_set(r->error, FRAM_ERROR_INPUT, r->name, line, key[0] ? key : "mesh", "%s; %s", text, advice);
+}
+
+static const char *advice_for(const hull_reading *r, mesh_defect defect)
+{
+    switch (defect) {
+    case MESH_OPEN:
+        return r->options->repair ? "the hole could not be filled: close it in the program that made the file"
+                                  : "raise the seal width if it is a crack, give a freeboard if it is an open top, or "
+                                    "have holes filled (repair)";
+    case MESH_INCONSISTENT:
+    case MESH_INSIDE_OUT:
+        return r->options->repair ? "this cannot be repaired: turn it in the program that made the file"
+                                  : "have it turned (repair), or swap two corners of each triangle concerned";
+    case MESH_DEGENERATE:
+        return "remove it or move a corner";
+    case MESH_NOT_MANIFOLD:
+        return "remove inner walls, decks and lids: a hull is one closed skin";
+    case MESH_SELF_INTERSECTING:
+        return "unite the parts that cross (a boolean union) in the program that made the file";
+    default:
+        return "correct the file";
+    }
+}
+
+static fram_status refuse_report(const hull_reading *r, const mesh_report *report)
+{
+    char text[256];
+    if (report->open_edges > 1)
+        snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
+    else
+        snprintf(text, sizeof text, "the %s", report->text);
+    return refuse_face(r, report->face, text, advice_for(r, report->defect));
+}
+
+/* ---- steps ---- */
+
+static void scale_surface(const hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    for (int32_t i = 0; i < m->vertex.count && r->options->scale != 1; i++)
+        m->vertex.data[i] = vec3_scale(m->vertex.data[i], r->options->scale);
+}
+
+/* Panels in z = 0 suppress WAMIT's irregular frequencies; they are no part of the wetted hull. */
+static void drop_lids(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    int32_t kept = 0;
+    for (int32_t f = 0; f < m->face.count; f++) {
+        vec3 p[3];
+        mesh_face_points(m, f, p);
+        if (fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= r->tolerance) {
+            r->report->lids++;
+            continue;
+        }
+        m->face.data[kept] = m->face.data[f];
+        r->file->element.data[kept] = r->file->element.data[f];
+        r->file->line.data[kept++] = r->file->line.data[f];
+    }
+    m->face.count = r->file->element.count = r->file->line.count = kept;
+}
+
+static fram_status seal(hull_reading *r)
+{
+    hull_file_report *report = r->report;
+    report->seal_width = isnan(r->options->seal_width) ? DEFAULT_SEAL * r->longest : r->options->seal_width;
+    if (mesh_seal(r->ctx, &r->file->surface, report->seal_width, &r->source, &report->seal) != FRAM_OK ||
+        !mesh_drop_unused_vertices(r->ctx, &r->file->surface))
+        return error_memory(r->error);
+    return FRAM_OK;
+}
+
+static fram_status orient(hull_reading *r)
+{
+    int32_t flipped = 0, face = -1;
+    if (!r->options->repair)
+        return FRAM_OK;
+    fram_status status = mesh_orient(r->ctx, &r->file->surface, &flipped, &face);
+    r->report->flipped += flipped;
+    if (status == FRAM_ERROR_INPUT)
+        return refuse_face(r, face, "the surface has only one side (a Moebius band) where this triangle is",
+                           "rebuild it in the program that made the file");
+    return status == FRAM_ERROR_MEMORY ? error_memory(r->error) : status;
+}
+
+/* Ring i of the rims lies in the height of the top. */
+static bool is_top(const hull_reading *r, int32_t i)
+{
+    for (int32_t k = r->rims.start.data[i]; k < r->rims.start.data[i + 1]; k++)
+        if (r->file->surface.vertex.data[r->rims.vertex.data[k]].z < r->top - r->tolerance)
+            return false;
+    return true;
+}
+
+static fram_status raise_top(hull_reading *r)
+{
+    double freeboard = r->options->freeboard;
+    if (isnan(freeboard) && r->file->format == MESH_GDF)
+        freeboard = DEFAULT_FREEBOARD * (r->top - mesh_bounds(&r->file->surface).lo.z);
+    if (isnan(freeboard))
+        return FRAM_OK;
+    mesh_rims top = {0};
+    fram_status status = array_push(r->ctx, &top.start, 0) ? FRAM_OK : error_memory(r->error);
+    for (int32_t i = 0; i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
+        bool done = true;
+        for (int32_t k = r->rims.start.data[i]; is_top(r, i) && done && k < r->rims.start.data[i + 1]; k++)
+            done = array_push(r->ctx, &top.vertex, r->rims.vertex.data[k]);
+        if (done && is_top(r, i))
+            done = array_push(r->ctx, &top.start, top.vertex.count);
+        if (!done)
+            status = error_memory(r->error);
+    }
+    if (status == FRAM_OK && mesh_rims_count(&top) > 0) {
+        r->report->freeboard = freeboard;
+        status = mesh_raise_top(r->ctx, &r->file->surface, &top, freeboard, r->error);
+        if (status == FRAM_ERROR_INPUT && r->error)
+            snprintf(r->error->file, sizeof r->error->file, "%s", r->name);
+    }
+    mesh_rims_free(r->ctx, &top);
+    return status;
+}
+
+static fram_status find_rims(hull_reading *r)
+{
+    int32_t edge = -1;
+    fram_status status = mesh_rims_find(r->ctx, &r->file->surface, &r->rims, &edge);
+    if (status == FRAM_ERROR_INPUT)
+        return refuse_face(r, edge / 3, "the rim of a hole cannot be followed: triangles at it turn opposite ways",
+                           advice_for(r, MESH_INCONSISTENT));
+    return status == FRAM_ERROR_MEMORY ? error_memory(r->error) : status;
+}
+
+static fram_status fill_holes(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    fram_status status = r->options->repair ? find_rims(r) : FRAM_OK;
+    for (int32_t i = 0; r->options->repair && i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
+        const int32_t *ring = r->rims.vertex.data + r->rims.start.data[i];
+        int32_t count = r->rims.start.data[i + 1] - r->rims.start.data[i];
+        status = mesh_add_polygon(r->ctx, m, ring, count);
+        if (status == FRAM_OK) {
+            r->report->holes++;
+            r->report->hole_area += vec3_length(mesh_ring_area(m, ring, count));
+        } else if (status == FRAM_ERROR_MEMORY) {
+            error_memory(r->error);
+        } else {
+            vec3 p = m->vertex.data[ring[0]];
+            error_set(r->error, status, r->name, 0, "mesh",
+                      "the hole of %d edges that begins at (%g, %g, %g) is too crooked to be filled; %s", count, p.x,
+                      p.y, p.z, advice_for(r, MESH_OPEN));
+        }
+    }
+    return status;
+}
+
+static fram_status check(hull_reading *r)
+{
+    mesh_report report;
+    if (mesh_check(r->ctx, &r->file->surface, true, &report) != FRAM_OK)
+        return error_memory(r->error);
+    return report.defect == MESH_CLOSED ? FRAM_OK : refuse_report(r, &report);
+}
+
+static fram_status check_options(const hull_reading *r)
+{
+    const hull_file_options *o = r->options;
+    if (!(o->scale > 0 && o->scale < HUGE_VAL))
+        return error_set(r->error, FRAM_ERROR_INPUT, NULL, 0, "scale", "expected a positive scale, found %g", o->scale);
+    if (!isnan(o->seal_width) && !(o->seal_width >= 0 && o->seal_width < HUGE_VAL))
+        return error_set(r->error, FRAM_ERROR_INPUT, NULL, 0, "seal_width", "expected a width in metres, found %g",
+                         o->seal_width);
+    if (!isnan(o->freeboard) && !(o->freeboard > 0 && o->freeboard < HUGE_VAL))
+        return error_set(r->error, FRAM_ERROR_INPUT, NULL, 0, "freeboard",
+                         "expected a positive height in metres, found %g", o->freeboard);
+    return FRAM_OK;
+}
+
+static fram_status finish(hull_reading *r)
+{
+    fram_status status = check_options(r);
+    if (status != FRAM_OK)
+        return status;
+    scale_surface(r);
+    r->longest = longest_side(&r->file->surface);
+    r->tolerance = LEVEL_TOLERANCE * r->longest;
+    if (r->file->format == MESH_GDF)
+        drop_lids(r);
+    status = seal(r);
+    if (status == FRAM_OK)
+        status = orient(r);
+    r->top = mesh_bounds(&r->file->surface).hi.z;
+    if (status == FRAM_OK && r->report->seal.open_after > 0) {
+        status = find_rims(r);
+        if (status == FRAM_OK)
+            status = raise_top(r);
+        if (status == FRAM_OK)
+            status = fill_holes(r);
+        if (status == FRAM_OK)
+            status = orient(r);
+    }
+    return status == FRAM_OK ? check(r) : status;
+}
+
+fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, const hull_file_options *options,
+                             mesh *surface, hull_file_report *report, fram_error *error)
+{
+    *report = (hull_file_report){.format = file->format,
+                                 .elements = file->elements,
+                                 .dropped = file->dropped,
+                                 .mirror_x = file->mirror_x,
+                                 .mirror_y = file->mirror_y};
+    hull_reading r = {
+        .ctx = ctx, .name = name, .file = file, .options = options, .report = report, .error = error};
+    fram_status status = finish(&r);
+    if (status == FRAM_OK) {
+        *surface = file->surface;
+        file->surface = (mesh){0};
+    }
+    array_free(ctx, &r.source);
+    mesh_rims_free(ctx, &r.rims);
+    mesh_file_free(ctx, file);
+    return status;
+}
+
+fram_status hull_file_read(context *ctx, const char *path, const hull_file_options *options, mesh *surface,
+                           hull_file_report *report, fram_error *error)
+{
+    mesh_file file;
+    fram_status status = mesh_file_read(ctx, path, &file, error);
+    return status == FRAM_OK ? hull_file_finish(ctx, path, &file, options, surface, report, error) : status;
+}

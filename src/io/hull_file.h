@@ -1,0 +1,41 @@
+/* Hulls from mesh files: read, sealed, given topsides, repaired if asked, and checked; what comes out is a sound solid in
+   the file's own frame, metres.  Knows the conventions of the formats; must not know how a hull is used. */
+#ifndef IO_HULL_FILE_H
+#define IO_HULL_FILE_H
+
+#include "geometry/mesh_repair.h"
+#include "io/mesh_file.h"
+
+/* What may be done to the surface.  A NaN leaves the number to Fram. */
+typedef struct hull_file_options {
+    double scale;      /* lengths of the file times this are metres; > 0 */
+    double seal_width; /* cracks up to this are sealed [m]; 0: none; NaN: a two-thousandth of the longest side */
+    bool repair;       /* fill holes, turn triangles */
+    double freeboard;  /* a level open top is raised by this and decked [m]; NaN: a third of the depth for GDF, which ends at
+                          the waterline by convention, otherwise it stays open */
+} hull_file_options;
+hull_file_options hull_file_defaults(void);
+
+/* What was found and done. */
+typedef struct hull_file_report {
+    mesh_format format;
+    int32_t elements, dropped; /* of the file; dropped: triangles without area */
+    bool mirror_x, mirror_y;
+    int32_t lids;              /* GDF: triangles in the water plane, which are left out */
+    double seal_width;
+    mesh_seal_report seal;
+    double freeboard; /* of the topsides that were added, 0 without [m] */
+    int32_t holes;    /* filled on request */
+    double hole_area; /* [m2] */
+    int32_t flipped;  /* triangles turned on request */
+} hull_file_report;
+
+/* FRAM_ERROR_INPUT with line and element of the file where the surface is no sound solid, and what would help;
+   FRAM_ERROR_IO, FRAM_ERROR_MEMORY.  surface must be empty; on failure it still is. */
+fram_status hull_file_read(context *ctx, const char *path, const hull_file_options *options, mesh *surface,
+                           hull_file_report *report, fram_error *error);
+/* The same for a file that is parsed already (it is emptied). */
+fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, const hull_file_options *options,
+                             mesh *surface, hull_file_report *report, fram_error *error);
+
+#endif
