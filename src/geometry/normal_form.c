@@ -21,10 +21,10 @@ int32_t ring_normal_form(vec2 *ring, int32_t n)
             ring[kept++] = ring[i];
     while (kept > 1 && vec2_equal(ring[kept - 1], ring[0]))
         kept--;
-    double area = polygon_area((polygon){ring, kept});
-    if (area == 0)
+    int turn = polygon_orientation((polygon){ring, kept});
+    if (turn == 0)
         return 0;
-    if (area < 0)
+    if (turn < 0)
         reverse(ring, kept);
     for (int32_t i = 1; i < kept; i++)
         least = vec2_compare(ring[i], ring[least]) < 0 ? i : least;

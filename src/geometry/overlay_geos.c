@@ -37,8 +37,6 @@ void overlay_free(overlay *o)
     memory_free(o->ctx, o);
 }
 
-context *overlay_context(const overlay *o) { return o->ctx; }
-
 fram_status geos_failed(overlay *o, const char *what, fram_error *error)
 {
     if (strstr(o->message, "bad_alloc"))
@@ -77,6 +75,12 @@ static fram_status read_ring(overlay *o, const GEOSGeometry *ring, int32_t *n, f
     return FRAM_OK;
 }
 
+/* Thinner than rounding: what is left over or missing between outlines that nearly coincide. */
+static bool is_noise(polygon p)
+{
+    return p.count < 3 || fabs(polygon_area(p)) <= polygon_rounding(p) * polygon_perimeter(p);
+}
+
 /* Add a polygon to the found rings; a hole is left out or cut open. */
 static fram_status read_polygon(overlay *o, const GEOSGeometry *shape, bool fill_holes, fram_error *error)
 {
@@ -94,7 +98,10 @@ static fram_status read_polygon(overlay *o, const GEOSGeometry *shape, bool fill
             o->ring.data[a] = o->ring.data[b];
             o->ring.data[b] = t;
         }
-        if (n >= 3 && !polygon_list_push(o->ctx, list, (polygon){o->ring.data, n}))
+        bool noise = is_noise((polygon){o->ring.data, n});
+        if (noise && i < 0)
+            return FRAM_OK;
+        if (!noise && !polygon_list_push(o->ctx, list, (polygon){o->ring.data, n}))
             return error_memory(error);
     }
     fram_status status = holes > 0 ? polygon_cut_holes(o->ctx, &o->rings, &o->found) : FRAM_OK;

@@ -1,4 +1,4 @@
-/* Repair, simplification and triangulation of one ring through GEOS; see overlay.h. */
+/* Repair and simplification of one ring through GEOS; see overlay.h. */
 #include "geometry/overlay_geos.h"
 #include "geometry/polygon_pieces.h"
 #include <string.h>
@@ -68,18 +68,5 @@ fram_status overlay_simplify(overlay *o, polygon p, double tolerance, vec2_array
         out->count = ring_normal_form(out->data, ring.count);
     }
     polygon_list_free(o->ctx, &simple);
-    return status;
-}
-
-fram_status overlay_triangulate(overlay *o, polygon p, polygon_list *out, fram_error *error)
-{
-    fram_status status = overlay_check(o, p, "the polygon", error);
-    if (status != FRAM_OK)
-        return status;
-    GEOSGeometry *shape = shape_of_ring(o, p, &status, error);
-    if (shape)
-        status =
-            take_shape(o, GEOSConstrainedDelaunayTriangulation_r(o->geos, shape), "triangulate a polygon", out, error);
-    GEOSGeom_destroy_r(o->geos, shape);
     return status;
 }

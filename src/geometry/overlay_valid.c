@@ -42,9 +42,9 @@ bool overlay_is_valid(overlay *o, polygon p, char reason[128], vec2 *place)
         snprintf(text, sizeof text, "edges %d and %d meet at (%.9g, %.9g)", (int)a, (int)b, where.x, where.y);
         return refuse(reason, place, where, text);
     }
-    double area = polygon_area(p);
-    if (!(area > 0))
-        return refuse(reason, place, p.vertex[0], area < 0 ? "the vertices run clockwise" : "no area");
+    int turn = polygon_orientation(p);
+    if (turn <= 0)
+        return refuse(reason, place, p.vertex[0], turn < 0 ? "the vertices run clockwise" : "no area");
     return true;
 }
 

@@ -31,6 +31,9 @@ void polygon_list_free(context *ctx, polygon_list *l);
 /* Signed area [m2], positive counter-clockwise. */
 double polygon_area(polygon p);
 double polygon_perimeter(polygon p);
+/* +1 when a simple ring runs counter-clockwise, -1 when clockwise, 0 when it has no area: exact, where the sign of the
+   computed area of a sliver may not be. */
+int polygon_orientation(polygon p);
 
 /* Area [m2], centroid [m] and second moments of area about the centroid [m4]:
    xx = integral of y^2, yy = integral of x^2, xy = integral of x y (product, not negated).  A clockwise ring has all of

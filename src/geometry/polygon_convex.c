@@ -28,6 +28,20 @@ static int32_t least_vertex(polygon p)
     return least;
 }
 
+int polygon_orientation(polygon p)
+{
+    if (p.count < 3)
+        return 0;
+    int32_t tip = least_vertex(p), before = tip, after = tip;
+    do
+        before = before > 0 ? before - 1 : p.count - 1;
+    while (before != tip && vec2_equal(p.vertex[before], p.vertex[tip]));
+    do
+        after = after + 1 < p.count ? after + 1 : 0;
+    while (after != tip && vec2_equal(p.vertex[after], p.vertex[tip]));
+    return orientation(p.vertex[before], p.vertex[tip], p.vertex[after]);
+}
+
 /* Turns of one sign alone allow a ring that winds twice (a pentagram). Seen from the least vertex, which has all
    others within half a turn, a convex ring goes round one way only, so the triangles of that fan have the same sign
    as well. */

@@ -5,13 +5,22 @@
 
 #include "geometry/ear_clip.h"
 
-/* The normal form of a ring of n vertices, in place: no vertex equal to the one before, counter-clockwise, least vertex
-   (x, then y) first.  Returns the count that is left; fewer than 3 when the ring has no area. */
+/* The normal form of a simple ring of n vertices, in place: no vertex equal to the one before, counter-clockwise,
+   least vertex (x, then y) first.  Returns the count that is left; fewer than 3 when the ring has no area. */
 int32_t ring_normal_form(vec2 *ring, int32_t n);
 
 /* Append the rings of `list`, which are in normal form, to out in ascending order (by their vertices in turn).
    false when there is no memory; out is then unchanged. */
 bool polygon_list_append_sorted(context *ctx, polygon_list *out, const polygon_list *list);
+
+/* Half edge 3 f + k of a triangulation runs from corner k of triangle f to the next; twin (resized to t's count)
+   gets the half edge that runs the other way, -1 on the outline.  false when there is no memory. */
+bool triangles_find_twins(context *ctx, const index_array *t, int32_t vertex_count, int32_array *twin);
+
+/* Flip edges of a triangulation until it is Delaunay, as far as its outline allows (Lawson 1977): no vertex of a
+   neighbour is inside a triangle's circle, but for rounding.  t as for triangles_merge.  false when there is no memory;
+   t is then a triangulation still. */
+bool triangles_make_delaunay(context *ctx, const vec2 *vertex, int32_t vertex_count, index_array *t);
 
 /* When two pieces may become one. */
 typedef enum merge_rule {

@@ -13,9 +13,8 @@ typedef struct half_edge {
     bool removed;
 } half_edge;
 
-/* A pair of half edges between the same vertices, or a single one before it is matched. */
+/* An edge between two triangles. */
 typedef struct common_edge {
-    int32_t lo, hi; /* vertices */
     int32_t half, other;
     double square; /* of its length */
 } common_edge;
@@ -31,50 +30,31 @@ typedef struct merging {
     double rounding;
 } merging;
 
-static int compare_ends(const void *a, const void *b)
-{
-    const common_edge *e = a, *f = b;
-    if (e->lo != f->lo)
-        return e->lo < f->lo ? -1 : 1;
-    if (e->hi != f->hi)
-        return e->hi < f->hi ? -1 : 1;
-    return (e->half > f->half) - (e->half < f->half);
-}
-
+/* Longest first.  The numbers of half edges settle ties: they follow from the triangles alone. */
 static int compare_lengths(const void *a, const void *b)
 {
     const common_edge *e = a, *f = b;
     if (e->square != f->square)
         return e->square > f->square ? -1 : 1;
-    return compare_ends(a, b);
+    return (e->half > f->half) - (e->half < f->half);
 }
 
-static void make_half_edges(merging *m, const index_array *t)
+static bool make_edges(merging *m, const index_array *t, int32_t vertex_count)
 {
+    int32_array twin = {0};
+    bool done = triangles_find_twins(m->ctx, t, vertex_count, &twin);
     m->half_count = t->count;
-    for (int32_t i = 0; i < t->count; i++) {
+    for (int32_t i = 0; done && i < t->count; i++) {
         int32_t first = i - i % 3, next = first + (i + 1) % 3, previous = first + (i + 2) % 3;
-        int32_t from = t->data[i], to = t->data[next];
-        vec2 d = vec2_sub(m->vertex[to], m->vertex[from]);
-        m->half[i] = (half_edge){from, next, previous, false};
-        m->edge[i] = (common_edge){from < to ? from : to, from < to ? to : from, i, -1, vec2_dot(d, d)};
+        vec2 d = vec2_sub(m->vertex[t->data[next]], m->vertex[t->data[i]]);
+        m->half[i] = (half_edge){t->data[i], next, previous, false};
+        if (i < twin.data[i])
+            m->edge[m->edge_count++] = (common_edge){i, twin.data[i], vec2_dot(d, d)};
     }
-}
-
-/* Keep the edges that have two halves, longest first. */
-static void match_half_edges(merging *m)
-{
-    common_edge *e = m->edge;
-    qsort(e, (size_t)m->half_count, sizeof *e, compare_ends);
-    for (int32_t i = 0; i + 1 < m->half_count; i++) {
-        if (e[i].lo != e[i + 1].lo || e[i].hi != e[i + 1].hi)
-            continue;
-        common_edge pair = e[i];
-        pair.other = e[i + 1].half;
-        e[m->edge_count++] = pair;
-        i++;
-    }
-    qsort(e, (size_t)m->edge_count, sizeof *e, compare_lengths);
+    array_free(m->ctx, &twin);
+    if (done)
+        qsort(m->edge, (size_t)m->edge_count, sizeof *m->edge, compare_lengths);
+    return done;
 }
 
 static vec2 at(const merging *m, int32_t half) { return m->vertex[m->half[half].vertex]; }
@@ -162,10 +142,8 @@ bool triangles_merge(context *ctx, const vec2 *vertex, int32_t vertex_count, con
     m.edge = memory_array(ctx, (size_t)t->count, sizeof *m.edge);
     m.seen = memory_array(ctx, (size_t)vertex_count, sizeof *m.seen);
     m.ring = memory_array(ctx, (size_t)t->count, sizeof *m.ring); /* a piece has no more corners than its triangles */
-    bool done = m.half && m.edge && m.seen && m.ring;
+    bool done = m.half && m.edge && m.seen && m.ring && make_edges(&m, t, vertex_count);
     if (done) {
-        make_half_edges(&m, t);
-        match_half_edges(&m);
         for (int32_t i = 0; i < m.edge_count; i++) {
             int32_t half = m.edge[i].half, other = m.edge[i].other;
             bool fits =
