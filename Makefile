@@ -13,14 +13,15 @@ STAMPS = build/stamps
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
 .PHONY: build test test-views viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
 
-build: build/release/build.ninja ## build the command, build/release/fram
-	@cmake --build --preset release -j$(JOBS)
+build: build/release/build.ninja ## build the command, build/release/fram, and the library
+	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
 
 build/%/build.ninja: CMakePresets.json | $(STAMPS)/core
 	@cmake --preset $* --log-level=WARNING
 build/fuzz/build.ninja build/clang/build.ninja: | $(STAMPS)/dev
 
-test: build ## run every test
+test: build/release/build.ninja ## run every test
+	@cmake --build --preset release -j$(JOBS)
 	@cd build/release && $(CTEST) --output-junit tests.xml
 
 viewer: build/viewer/playback.html ## build the page that plays a run in a browser
