@@ -8,10 +8,11 @@
 typedef int32_array index_array;
 
 /* Triangles of the interior of p into out (what it held is dropped): three vertex numbers of p each, counter-clockwise.
-   p is simple and counter-clockwise but may repeat a vertex several times in a row (the first one is used), may have
-   straight vertices, and may touch itself without crossing (a hole joined by a bridge): every edge between the
-   vertices used belongs to exactly one triangle, and no triangle is without area.  Orientations are exact, so that no
-   outline is too thin.  Time grows with vertices times those that are not convex.
+   p is simple and counter-clockwise, but may repeat a vertex several times in a row (the first one is used), may have
+   straight vertices, and may touch itself as a hole joined by a bridge does (not where two parts hang together by a
+   vertex).  Every edge between the vertices used belongs to exactly one triangle, a bridge to one on each side, and no
+   triangle is without area.  Orientations are exact, so that no outline is too thin.  Time grows with vertices times
+   those that are not convex.
    FRAM_ERROR_MEMORY, or FRAM_ERROR_INPUT when p is too small, clockwise or so far from simple that the ears run out. */
 fram_status polygon_triangulate_ears(context *ctx, polygon p, index_array *out);
 

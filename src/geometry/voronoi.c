@@ -97,7 +97,7 @@ static double reach_square(const diagram *d, int32_t i)
 static bool cut_by_bisector(diagram *d, int32_t i, int32_t j, double *reach)
 {
     vec2 s = d->site[i], e = vec2_sub(d->site[j], s);
-    double square = vec2_dot(e, e), offset = 0.5 * (square + weight_of(d, i) - weight_of(d, j)), most = -HUGE_VAL;
+    double square = vec2_dot(e, e), offset = 0.5 * (square + (weight_of(d, i) - weight_of(d, j))), most = -HUGE_VAL;
     if (offset > 0 && offset * offset >= *reach * square)
         return true; /* beyond the farthest vertex */
     int32_t n = d->cell.count;

@@ -134,6 +134,22 @@ START_TEST(staircase_of_lattice_points)
 }
 END_TEST
 
+/* A square with a hole that a bridge joins, and one with a hole that touches its corner: places with two vertices.  Two
+   squares that hang together by a corner have no triangulation without degenerate triangles. */
+START_TEST(outlines_that_touch_themselves)
+{
+    setup();
+    const vec2 keyhole[] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {3, 6}, {6, 6}, {6, 3}, {3, 3}};
+    check_outline(keyhole, 10, 8);
+    const vec2 touching[] = {{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 6}, {6, 3}};
+    check_outline(touching, 7, 5);
+    const vec2 hanging[] = {{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}};
+    index_array t = {0};
+    ck_assert_int_eq(polygon_triangulate_ears(&plain, (polygon){hanging, 8}, &t), FRAM_ERROR_INPUT);
+    array_free(&plain, &t);
+}
+END_TEST
+
 START_TEST(what_is_refused)
 {
     setup();
@@ -171,4 +187,5 @@ START_TEST(no_memory)
 END_TEST
 
 TEST_MAIN("ear_clip", convex_and_concave_outlines, straight_vertices_are_kept, repeated_vertices_are_skipped,
-          thin_outlines_are_exact, random_stars, staircase_of_lattice_points, what_is_refused, no_memory)
+          thin_outlines_are_exact, random_stars, staircase_of_lattice_points, outlines_that_touch_themselves,
+          what_is_refused, no_memory)

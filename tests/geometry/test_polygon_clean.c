@@ -97,8 +97,8 @@ START_TEST(a_fine_circle_keeps_its_shape)
 }
 END_TEST
 
-/* Stars with short edges strewn in: what is left is a part of the ring in order, has no short edge, and no vertex that was
-   dropped lies far from it, sharp ones apart. */
+/* Stars with short edges strewn in: what is left is a part of the ring in order, has no short edge, and no vertex that
+   was dropped lies far from it, sharp ones apart. */
 START_TEST(random_outlines)
 {
     random_stream r = random_begin(51, 0, 0);

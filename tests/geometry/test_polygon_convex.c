@@ -194,7 +194,8 @@ START_TEST(oriented_box_is_least)
             }
         assert_relative(area, pairs, 1e-12);
         for (int k = 0; k < 400; k++)
-            ck_assert_double_le(area, box_area(p, vec2_make(real_cos(PI * k / 800), real_sin(PI * k / 800))) * (1 + 1e-12));
+            ck_assert_double_le(area,
+                                box_area(p, vec2_make(real_cos(PI * k / 800), real_sin(PI * k / 800))) * (1 + 1e-12));
         worst_print = fmax(worst_print, edges / area);
         /* the box itself: unit axis, sides in order, everything inside */
         assert_relative(vec2_length(box.axis), 1, 1e-15);

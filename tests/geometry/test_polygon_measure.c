@@ -94,7 +94,8 @@ START_TEST(moments_add_up_over_triangles)
 }
 END_TEST
 
-/* 8.5e6 m from the origin a shoelace sum about the origin loses all digits; this one loses none that the coordinates have. */
+/* 8.5e6 m from the origin a shoelace sum about the origin loses all digits; this one loses none that the coordinates
+ * have. */
 START_TEST(far_from_the_origin)
 {
     random_stream r = random_begin(22, 0, 0);

@@ -4,8 +4,8 @@
 #include "base/random.h"
 #include "geometry/predicate.h"
 
-/* Points about (0.5, 0.5), one unit in the last place apart, against a far part of the diagonal: det = 12 (y - x).  The plain
-   determinant gets many of these signs wrong (Kettner et al. 2008). */
+/* Points about (0.5, 0.5), one unit in the last place apart, against a far part of the diagonal: det = 12 (y - x).  The
+   plain determinant gets many of these signs wrong (Kettner et al. 2008). */
 START_TEST(orientation_is_exact_near_a_line)
 {
     int plain_wrong = 0;
@@ -61,18 +61,18 @@ typedef struct segment_case {
 START_TEST(segments_that_touch_and_do_not)
 {
     static const segment_case list[] = {
-        {{0, 2, 0, 2}, {0, 2, 2, 0}, true},     /* cross */
-        {{0, 2, 1, 1}, {0, 0, 0, 5}, true},     /* T */
-        {{0, 2, 2, 3}, {0, 0, 0, 5}, true},     /* common end */
-        {{0, 2, 1, 3}, {0, 0, 0, 0}, true},     /* overlap on a line */
-        {{0, 3, 1, 2}, {0, 3, 1, 2}, true},     /* one in the other */
-        {{0, 1, 2, 3}, {0, 0, 0, 0}, false},    /* apart on a line */
-        {{0, 1, 0, 1}, {0, 0, 1, 1}, false},    /* parallel */
-        {{0, 4, 3, 3}, {0, 4, 0, 2.9}, false},  /* boxes overlap, segments do not */
-        {{0, 2, 1, 1}, {0, 0, 0, 0}, true},     /* a point on a segment */
-        {{0, 2, 1, 1}, {0, 2, 0, 0}, false},    /* a point beside one */
-        {{1, 1, 1, 1}, {1, 1, 1, 1}, true},     /* two equal points */
-        {{1, 1, 1, 1}, {1, 1, 2, 2}, false},    /* two points */
+        {{0, 2, 0, 2}, {0, 2, 2, 0}, true},    /* cross */
+        {{0, 2, 1, 1}, {0, 0, 0, 5}, true},    /* T */
+        {{0, 2, 2, 3}, {0, 0, 0, 5}, true},    /* common end */
+        {{0, 2, 1, 3}, {0, 0, 0, 0}, true},    /* overlap on a line */
+        {{0, 3, 1, 2}, {0, 3, 1, 2}, true},    /* one in the other */
+        {{0, 1, 2, 3}, {0, 0, 0, 0}, false},   /* apart on a line */
+        {{0, 1, 0, 1}, {0, 0, 1, 1}, false},   /* parallel */
+        {{0, 4, 3, 3}, {0, 4, 0, 2.9}, false}, /* boxes overlap, segments do not */
+        {{0, 2, 1, 1}, {0, 0, 0, 0}, true},    /* a point on a segment */
+        {{0, 2, 1, 1}, {0, 2, 0, 0}, false},   /* a point beside one */
+        {{1, 1, 1, 1}, {1, 1, 1, 1}, true},    /* two equal points */
+        {{1, 1, 1, 1}, {1, 1, 2, 2}, false},   /* two points */
         {{0, 1, 0.5, 2}, {0, 0, 0x1p-60, 1}, false},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
