@@ -73,6 +73,26 @@ static void scratch_free(context *ctx, world *w)
         overlay_free(w->scratch.plane);
 }
 
+static void poison(void *data, int32_t capacity, size_t size)
+{
+    if (data)
+        memset(data, 0xff, (size_t)capacity * size);
+}
+
+/* What came from outside since the last step (scratch.outside) is input, not scratch. */
+void world_poison_scratch(world *w)
+{
+#define POISON(a) poison(w->scratch.a.data, w->scratch.a.capacity, sizeof *w->scratch.a.data)
+    POISON(loads);
+    POISON(fluid);
+    POISON(contacts);
+    POISON(patch_pairs);
+    POISON(patches);
+    POISON(ice_loads);
+#undef POISON
+    memset(&w->scratch.solver, 0xff, sizeof w->scratch.solver);
+}
+
 void world_free(context *ctx, world *w)
 {
     world_table tables[WORLD_TABLE_COUNT];

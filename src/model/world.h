@@ -85,6 +85,10 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 
 fram_status world_init(context *ctx, world *w, fram_error *error);
 void world_free(context *ctx, world *w);
+/* Debug builds call this before each step: the scratch of the step before becomes garbage (all bits set, so that reals
+   are not numbers), and a stage that reads what it should have written is found.  Allocated scratch objects are left
+   alone. */
+void world_poison_scratch(world *w);
 /* 64-bit hash of the whole state. */
 uint64_t world_hash(const world *w);
 /* dst's state becomes src's; dst must have the same solids. */

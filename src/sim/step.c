@@ -116,6 +116,9 @@ fram_status world_step(context *ctx, const step_settings *s, world *w, fram_erro
     /* The order of SPEC 4; 5 (fracture) comes between the solve and the integration. */
     static const stage stages[] = {external_forces, detect_contacts, limit_crushing, solve_velocities,
                                    sum_ice_loads,   integrate,       remove_strays};
+#ifndef NDEBUG
+    world_poison_scratch(w);
+#endif
     for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
         fram_status status = stages[i](ctx, s, w, error);
         if (status != FRAM_OK)
