@@ -133,6 +133,16 @@ static inline vec3 segment_crossing(vec3 inner, double inner_distance, vec3 oute
     return vec3_mad(inner, vec3_sub(outer, inner), inner_distance / (inner_distance - outer_distance));
 }
 
+/* The point of the closed segment ab that is nearest to p. */
+static inline vec3 segment_nearest3(vec3 p, vec3 a, vec3 b)
+{
+    vec3 ab = vec3_sub(b, a);
+    double t = vec3_dot(vec3_sub(p, a), ab), length = vec3_dot(ab, ab);
+    if (t <= 0)
+        return a;
+    return t >= length ? b : vec3_mad(a, ab, t / length);
+}
+
 /* Plan outline of the section z = level: appends closed rings, counter-clockwise around solid (a hole is clockwise), in
    the order of their least triangles.  The level is taken as just below its number: vertices on it count as above it,
    so a box has a section at its top and none at its bottom, and a point or line of contact gives nothing.  Repeated

@@ -7,9 +7,11 @@
    manifold whatever rounding does to their places, also where it touches itself in the plane. */
 #include "geometry/mesh_clip.h"
 
+#include "geometry/convex_hull3.h"
 #include "geometry/ear_clip.h"
 #include "geometry/mesh_edges.h"
 #include "geometry/mesh_rings.h"
+#include "geometry/predicate3.h"
 
 typedef struct cut {
     const mesh *m;
@@ -19,6 +21,7 @@ typedef struct cut {
     int32_t *new_vertex; /* of each vertex of m, or -1 */
     int32_t *crossing;   /* new vertex of each face's edge up, or -1 */
     mesh_rings rings;
+    double straight;  /* vertices no farther off a line are on it */
     int drop;         /* the axis along which caps are seen: 0 x, 1 y, 2 z */
     bool flip;        /* seen against the normal */
     int32_array ring; /* a ring's new vertices */
@@ -44,6 +47,7 @@ static bool cut_begin(context *ctx, cut *c, vec3 normal, double d, double snap)
     }
     for (size_t i = 0; i < faces; i++)
         c->crossing[i] = -1;
+    c->straight = snap + 4 * hull_rounding(c->m->vertex.data, c->m->vertex.count);
     double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
     c->drop = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
     c->flip = (c->drop == 0 ? normal.x : c->drop == 1 ? normal.y : normal.z) < 0;
@@ -158,52 +162,132 @@ static vec2 seen_point(const cut *c, int32_t vertex)
     return c->flip ? (vec2){-q.x, q.y} : q;
 }
 
-static fram_status add_cap(context *ctx, cut *c)
+/* Take the vertices of ring[first + 1 ..] out that are straight but for rounding, each with a flat triangle over its
+   neighbours: a flat side leaves rows of them, which may even run back and forth by a last digit, and no ring of ears
+   could be found then. */
+static bool cap_straight_vertices(context *ctx, cut *c, int32_t first)
 {
-    const int32_t *ring = c->ring.data;
-    int32_t count = c->ring.count;
-    if (count < 3)
-        return FRAM_OK;
+    int32_t *ring = c->ring.data + first;
+    const vec3 *p = c->out->vertex.data;
+    int32_t before, count = c->ring.count - first;
+    if (count < 4)
+        return true;
+    do {
+        before = count;
+        int32_t kept = 1;
+        for (int32_t i = 1; i < before; i++) {
+            int32_t a = ring[kept - 1], v = ring[i], b = i + 1 < before ? ring[i + 1] : ring[0];
+            vec3 off = vec3_sub(segment_nearest3(p[v], p[a], p[b]), p[v]);
+            bool straight = vec3_dot(off, off) <= c->straight * c->straight;
+            if (!straight || kept + before - i <= 3)
+                ring[kept++] = v;
+            else if (!add_unless_flat(ctx, c->out, a, v, b))
+                return false;
+        }
+        count = kept;
+    } while (count < before);
+    c->ring.count = first + count;
+    return true;
+}
+
+/* Ears of ring[first ..] as places in it, counter-clockwise as the ring is; FRAM_ERROR_INPUT when it has none. */
+static fram_status find_ears(context *ctx, cut *c, int32_t first)
+{
+    int32_t count = c->ring.count - first;
     if (!array_resize(ctx, &c->plan, count))
         return FRAM_ERROR_MEMORY;
     for (int32_t i = 0; i < count; i++)
-        c->plan.data[i] = seen_point(c, ring[i]);
+        c->plan.data[i] = seen_point(c, c->ring.data[first + i]);
     bool hole = polygon_area((polygon){c->plan.data, count}) < 0;
-    for (int32_t i = 0, j = count - 1; hole && i < j; i++, j--) {
-        vec2 swap = c->plan.data[i];
-        c->plan.data[i] = c->plan.data[j];
-        c->plan.data[j] = swap;
-    }
+    for (int32_t i = 0; hole && i < count; i++)
+        c->plan.data[count - 1 - i] = seen_point(c, c->ring.data[first + i]);
     fram_status status = polygon_triangulate_ears(ctx, (polygon){c->plan.data, count}, &c->ears);
+    if (status != FRAM_OK)
+        return status;
+    int32_t *ear = c->ears.data;
+    for (int32_t i = 0; hole && i < c->ears.count; i++)
+        ear[i] = count - 1 - ear[i];
+    for (int32_t i = 0; hole && i < c->ears.count; i += 3) {
+        int32_t swap = ear[i];
+        ear[i] = ear[i + 2];
+        ear[i + 2] = swap;
+    }
+    /* Fewer where two vertices are seen at one place. */
+    return c->ears.count == 3 * (count - 2) ? FRAM_OK : FRAM_ERROR_INPUT;
+}
+
+/* Cap of the ring ring[first ..] of places that are all different; only ring[first] is sure to stay in the ring. */
+static fram_status add_cap(context *ctx, cut *c, int32_t first)
+{
+    if (c->ring.count - first < 3)
+        return FRAM_OK;
+    fram_status status = find_ears(ctx, c, first);
+    if (status == FRAM_ERROR_INPUT) {
+        if (!cap_straight_vertices(ctx, c, first))
+            return FRAM_ERROR_MEMORY;
+        status = find_ears(ctx, c, first);
+    }
     if (status == FRAM_ERROR_MEMORY)
         return status;
-    bool fan = status != FRAM_OK || c->ears.count != 3 * (count - 2);
-    for (int32_t i = 0; i < count - 2; i++) {
-        int32_t t[3] = {0, i + 1, i + 2};
-        for (int k = 0; k < 3 && !fan; k++)
-            t[k] = hole ? count - 1 - c->ears.data[3 * i + 2 - k] : c->ears.data[3 * i + k];
-        if (!mesh_add_triangle(ctx, c->out, ring[t[0]], ring[t[1]], ring[t[2]]))
+    const int32_t *ring = c->ring.data + first, *ear = c->ears.data;
+    for (int32_t i = 0; i < c->ring.count - first - 2; i++) {
+        bool done = status == FRAM_OK
+                        ? mesh_add_triangle(ctx, c->out, ring[ear[3 * i]], ring[ear[3 * i + 1]], ring[ear[3 * i + 2]])
+                        : mesh_add_triangle(ctx, c->out, ring[0], ring[i + 1], ring[i + 2]);
+        if (!done)
             return FRAM_ERROR_MEMORY;
     }
     return FRAM_OK;
 }
 
+/* Where the ring has been at this place before, or -1. */
+static int32_t same_place(const cut *c, int32_t vertex)
+{
+    const vec3 *p = c->out->vertex.data;
+    for (int32_t i = 0; i < c->ring.count; i++)
+        if (vec3_equal(p[c->ring.data[i]], p[vertex]))
+            return i;
+    return -1;
+}
+
+/* Follow a ring with the vertices a, b, ..., and when it comes to a place again cap what it has gone round since and go
+   on from the vertex that was there first.  Triangles without area between the two vertices of the place and their
+   neighbours keep the surface closed: (before, second, first) and (first, second, after). */
+static fram_status add_caps_of_ring(context *ctx, cut *c, int32_t begin, int32_t end)
+{
+    fram_status status = FRAM_OK;
+    int32_t last = -1, twin = -1; /* twin: the second vertex at the place of the last one in the ring, to be left */
+    array_clear(&c->ring);
+    for (int32_t i = begin; i < end && status == FRAM_OK; i++) {
+        int32_t vertex = c->crossing[c->rings.half_edge.data[i] / 3];
+        if (vertex == last || (i + 1 == end && vertex == c->ring.data[0]))
+            continue;
+        last = vertex;
+        int32_t top = c->ring.count ? c->ring.data[c->ring.count - 1] : -1, before = same_place(c, vertex);
+        if (twin >= 0 && !add_unless_flat(ctx, c->out, top, twin, vertex))
+            return FRAM_ERROR_MEMORY;
+        twin = -1;
+        if (before >= 0) {
+            status = add_cap(ctx, c, before);
+            if (!add_unless_flat(ctx, c->out, top, vertex, c->ring.data[before]))
+                return FRAM_ERROR_MEMORY;
+            c->ring.count = before + 1;
+            twin = vertex;
+        } else if (!array_push(ctx, &c->ring, vertex)) {
+            return FRAM_ERROR_MEMORY;
+        }
+    }
+    if (twin >= 0 && status == FRAM_OK &&
+        !add_unless_flat(ctx, c->out, c->ring.data[c->ring.count - 1], twin, c->ring.data[0]))
+        return FRAM_ERROR_MEMORY;
+    return status == FRAM_OK ? add_cap(ctx, c, 0) : status;
+}
+
 static fram_status add_caps(context *ctx, cut *c)
 {
     fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < mesh_rings_count(&c->rings) && status == FRAM_OK; i++) {
-        array_clear(&c->ring);
-        for (int32_t k = c->rings.start.data[i]; k < c->rings.start.data[i + 1]; k++) {
-            int32_t vertex = c->crossing[c->rings.half_edge.data[k] / 3];
-            if (c->ring.count && c->ring.data[c->ring.count - 1] == vertex)
-                continue;
-            if (!array_push(ctx, &c->ring, vertex))
-                return FRAM_ERROR_MEMORY;
-        }
-        if (c->ring.count > 1 && c->ring.data[0] == c->ring.data[c->ring.count - 1])
-            c->ring.count--;
-        status = add_cap(ctx, c);
-    }
+    for (int32_t i = 0; i < mesh_rings_count(&c->rings) && status == FRAM_OK; i++)
+        status = add_caps_of_ring(ctx, c, c->rings.start.data[i], c->rings.start.data[i + 1]);
     return status;
 }
 

@@ -55,6 +55,28 @@ void mesh_parts_free(context *ctx, mesh_parts *p)
     array_free(ctx, &p->part);
 }
 
+bool mesh_copy_part(context *ctx, const mesh *m, const mesh_parts *p, int32_t part, mesh *out)
+{
+    mesh_clear(out);
+    int32_t *number = memory_array(ctx, (size_t)m->vertex.count, sizeof *number);
+    bool done = number && array_reserve(ctx, &out->face, p->part.data[part].face_count);
+    for (int32_t f = 0; done && f < m->face.count; f++)
+        for (int k = 0; k < 3 && p->of_face.data[f] == part; k++)
+            number[m->face.data[f].v[k]] = 1;
+    for (int32_t v = 0; done && v < m->vertex.count; v++)
+        if (number[v]) {
+            number[v] = out->vertex.count;
+            done = mesh_add_vertex(ctx, out, m->vertex.data[v]);
+        }
+    for (int32_t f = 0; done && f < m->face.count; f++) {
+        const int32_t *v = m->face.data[f].v;
+        if (p->of_face.data[f] == part)
+            done = mesh_add_triangle(ctx, out, number[v[0]], number[v[1]], number[v[2]]);
+    }
+    memory_free(ctx, number);
+    return done;
+}
+
 /* Solid angle [sr] of a triangle seen from the origin, positive from inside (van Oosterom and Strackee 1983, eq. 8). */
 static double solid_angle(vec3 a, vec3 b, vec3 c)
 {

@@ -6,13 +6,13 @@
 #include "geometry/mesh.h"
 
 typedef struct polyhedron_face {
-    vec3 normal;   /* unit, outward */
-    double offset; /* dot(normal, x) = offset on the face */
+    vec3 normal;          /* unit, outward */
+    double offset;        /* dot(normal, x) = offset on the face */
     int32_t first, count; /* loop[first .. first + count) */
 } polyhedron_face;
 
-/* Faces with a common plane are one face. edges holds each edge once (vertex pairs), for edge-edge axes;
-   edge_direction lists unit directions, parallel ones once. */
+/* Faces with a common plane are one face, and no vertex is straight.  Loops begin at their least vertex.
+   edge_direction lists the unit directions of edges for edge-edge axes, parallel ones once, either way round. */
 typedef struct polyhedron {
     ARRAY(vec3) vertex;
     ARRAY(polyhedron_face) face;
@@ -26,21 +26,34 @@ typedef ARRAY(polyhedron) polyhedron_array;
 
 void polyhedron_free(context *ctx, polyhedron *p);
 void polyhedron_array_free(context *ctx, polyhedron_array *a);
-/* Convex hull of points (incremental, coplanar faces merged within `tolerance` [m]).  FRAM_ERROR_INPUT for flat
-   input. */
+/* Move vertices, planes and centre; translate.c. */
+void polyhedron_translate(polyhedron *p, vec3 by);
+
+/* Convex hull of points: quickhull with exact predicates.  Points that stand out less than `tolerance` [m] (at least
+   the rounding of the coordinates) may be left outside, and triangles within it of a common plane are one face.  Its
+   vertices are points, in the order of the points; the same points give the same bits.  What out held is dropped (it
+   must be initialised); it is empty on failure.  FRAM_ERROR_INPUT: points not finite, or all within the tolerance of a
+   plane; FRAM_ERROR_MEMORY. */
 fram_status polyhedron_hull(context *ctx, const vec3 *point, int32_t count, double tolerance, polyhedron *out,
                             fram_error *error);
-/* The prism of a convex outline between two heights. */
+/* The prism of a convex counter-clockwise outline between two heights: vertices at the bottom, then at the top, the
+   outline's straight ones left out; faces bottom, top, then the sides in the order of the edges.  What out held is
+   dropped (it must be initialised); it is empty on failure.  FRAM_ERROR_INPUT: outline not convex, bottom >= top;
+   FRAM_ERROR_MEMORY. */
 fram_status polyhedron_prism(context *ctx, polygon outline, double bottom, double top, polyhedron *out,
                              fram_error *error);
-/* Move every vertex, plane and the centre; translate.c. */
-void polyhedron_translate(polyhedron *p, vec3 by);
 double polyhedron_volume(const polyhedron *p);
+/* Not farther than `margin` [m] beyond the plane of any face. */
 bool polyhedron_contains(const polyhedron *p, vec3 point, double margin);
 
-/* Cut a closed mesh into convex pieces: cuts by planes across the longest axis where the concavity (largest distance of
-   the mesh to the piece's hull) exceeds `tolerance` [m], until it does not or `most` pieces are reached.  concavity
-   gets the largest distance of the mesh's vertices to the union's surface that remains. */
+/* Cut a closed mesh into convex pieces.  The deepest piece is cut by a plane across an axis through its deepest place,
+   or along a side of a notch there, whichever leaves the hulls of the parts least to enclose in excess, until no piece
+   is deeper than `tolerance` [m], there are `most` of them, or no plane helps.  Depth is the distance of the mesh,
+   where the hull of its piece covers it, to the surface of the union of the hulls; concavity gets the largest that
+   remains.  So the union is nowhere more than that outside the mesh; inside it stays a few hundredths of the tolerance
+   at most, which saves half of the faces.  Bodies that do not hang together are pieces of their own even beyond `most`;
+   cavities are filled. What out held is dropped (it must be initialised); it is empty on failure. FRAM_ERROR_INPUT:
+   open mesh, or without volume; FRAM_ERROR_MEMORY. */
 fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
                                double *concavity, fram_error *error);
 

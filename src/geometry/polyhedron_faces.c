@@ -227,14 +227,6 @@ static bool trace_rims(context *ctx, merge *m)
 
 /* ---- 3. straight vertices ---- */
 
-static double distance_to_segment(vec3 p, vec3 a, vec3 b)
-{
-    vec3 ab = vec3_sub(b, a), ap = vec3_sub(p, a);
-    double t = vec3_dot(ap, ab), length = vec3_dot(ab, ab);
-    t = t <= 0 || !(length > 0) ? 0 : t >= length ? 1 : t / length;
-    return vec3_length(vec3_sub(ap, vec3_scale(ab, t)));
-}
-
 /* Between places a and b of a rim (b may lie beyond its end), keep what stands off the straight line (Douglas and
    Peucker 1973). */
 static void keep_bends(merge *m, const rim *r, int32_t a, int32_t b)
@@ -244,8 +236,9 @@ static void keep_bends(merge *m, const rim *r, int32_t a, int32_t b)
         int32_t farthest = a;
         double most = m->tolerance;
         for (int32_t i = a + 1; i < b; i++) {
-            double d =
-                distance_to_segment(m->point[v[i % r->count]], m->point[v[a % r->count]], m->point[v[b % r->count]]);
+            vec3 p = m->point[v[i % r->count]];
+            vec3 q = segment_nearest3(p, m->point[v[a % r->count]], m->point[v[b % r->count]]);
+            double d = vec3_length(vec3_sub(p, q));
             if (d > most) {
                 most = d;
                 farthest = i;

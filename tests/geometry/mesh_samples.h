@@ -79,6 +79,33 @@ static inline void sample_sphere_mesh(context *ctx, int32_t stations, int32_t ar
     sample_surface(ctx, stations, around, sample_sphere_point, &s, out);
 }
 
+/* A hull of length 200, beam 44, depth 24 m with bulb, flared bow and hollow run: stations along, `around` points from
+   the port deck edge over the keel to the starboard one. */
+typedef struct sample_hull {
+    int32_t stations, around;
+} sample_hull;
+static inline vec3 sample_hull_point(int32_t u, int32_t v, const void *arg)
+{
+    const sample_hull *h = arg;
+    double along = (double)u / (h->stations - 1), turn = PI * v / (h->around - 1);
+    double z = -12 * real_sin(turn), side = real_cos(turn); /* 0 at the deck edge, -12 at the keel */
+    z = z > -6 ? 2 * z : 12 * (z + 6) / 6 - 12;
+    double below = (z + 24) / 24; /* 0 keel, 1 deck */
+    /* The stem goes back under the flare and out again for the bulb; the stern rises. */
+    double notch = 1 - (below - 0.45) * (below - 0.45) / 0.16;
+    double stem = 92 + 12 * below - (notch > 0 ? 9 * notch : 0), stern = -100 + 14 * (1 - below);
+    double t = 2 * along - 1, end = t > 0 ? t : -t;
+    /* Fuller at the deck than below it, where the waterlines are hollow towards the ends. */
+    double full = 1 - end * end * end * end, hollow = full * full * (0.35 + 0.65 * full);
+    double breadth = 0.02 + 0.98 * (below * full + (1 - below) * hollow);
+    return (vec3){stern + (stem - stern) * along, 22 * breadth * side * (0.6 + 0.4 * below), z};
+}
+static inline void sample_hull_mesh(context *ctx, int32_t stations, int32_t around, mesh *out)
+{
+    sample_hull h = {stations, around};
+    sample_surface(ctx, stations, around, sample_hull_point, &h, out);
+}
+
 /* A square ring (a moonpool platform): the square of half side 2 without that of half side 1, from z = 0 to 1. */
 static inline void sample_frame_mesh(context *ctx, mesh *out)
 {

@@ -1,0 +1,218 @@
+/* How concave is a piece?  See convex_piece.h.
+
+   A place of the solid's surface is covered when a step along its outward normal stays in the hull.  Its depth is then
+   the distance to the hull's faces.  Those in a cutting plane count only where no other hull goes on behind them: a
+   groove that is cut across is as deep as before.
+
+   Inside a hull, depth is a nearly concave function over every triangle of the surface: it is sampled at seven places,
+   and climbed where it may exceed what was found before. */
+#include "geometry/convex_piece.h"
+
+#include "geometry/polyhedron_build.h"
+
+typedef struct measure {
+    const convex_piece *piece;
+    double small;
+    const hull_list *all;
+    uint8_t *in_cut; /* of each face of the hull */
+    int32_t hint;    /* the hull face that the last uncovered place was outside of */
+    double deepest;
+    vec3 place;
+    int32_t face;
+} measure;
+
+void convex_piece_free(context *ctx, convex_piece *p)
+{
+    mesh_free(ctx, &p->surface);
+    mesh_adjacency_free(ctx, &p->adjacency);
+    array_free(ctx, &p->cuts);
+    polyhedron_free(ctx, &p->hull);
+}
+
+void convex_piece_array_free(context *ctx, convex_piece_array *a)
+{
+    for (int32_t i = 0; i < a->count; i++)
+        convex_piece_free(ctx, &a->data[i]);
+    array_free(ctx, a);
+}
+
+static bool in_plane(const plane3 *cut, vec3 p, double small)
+{
+    return fabs(vec3_dot(cut->normal, p) - cut->offset) <= 2 * small;
+}
+
+static bool hull_face_in_cut(const convex_piece *p, const polyhedron_face *f, double small)
+{
+    for (int32_t c = 0; c < p->cuts.count; c++) {
+        bool all = true;
+        for (int32_t i = 0; i < f->count && all; i++)
+            all = in_plane(&p->cuts.data[c], p->hull.vertex.data[p->hull.loop.data[f->first + i]], small);
+        if (all)
+            return true;
+    }
+    return false;
+}
+
+static bool surface_in_cut(const convex_piece *p, const vec3 t[3], double small)
+{
+    for (int32_t c = 0; c < p->cuts.count; c++) {
+        const plane3 *cut = &p->cuts.data[c];
+        if (in_plane(cut, t[0], small) && in_plane(cut, t[1], small) && in_plane(cut, t[2], small))
+            return true;
+    }
+    return false;
+}
+
+static bool outside_of(const measure *m, int32_t face, vec3 point)
+{
+    const polyhedron_face *f = &m->piece->hull.face.data[face];
+    return vec3_dot(f->normal, point) > f->offset + m->small;
+}
+
+static bool covered(measure *m, vec3 point, vec3 normal)
+{
+    vec3 ahead = vec3_mad(point, normal, 4 * m->small);
+    if (outside_of(m, m->hint, ahead))
+        return false;
+    for (int32_t k = 0; k < m->piece->hull.face.count; k++)
+        if (outside_of(m, k, ahead)) {
+            m->hint = k;
+            return false;
+        }
+    return true;
+}
+
+static vec3 nearest_on_face(const polyhedron *p, const polyhedron_face *f, vec3 point, double height)
+{
+    vec3 nearest = vec3_mad(point, f->normal, height);
+    double least = HUGE_VAL;
+    bool above = true;
+    for (int32_t i = 0; i < f->count; i++) {
+        vec3 a = p->vertex.data[p->loop.data[f->first + i]];
+        vec3 b = p->vertex.data[p->loop.data[f->first + (i + 1) % f->count]];
+        above = above && vec3_dot(vec3_cross(f->normal, vec3_sub(b, a)), vec3_sub(point, a)) >= 0;
+    }
+    for (int32_t i = 0; i < f->count && !above; i++) {
+        vec3 a = p->vertex.data[p->loop.data[f->first + i]];
+        vec3 q = segment_nearest3(point, a, p->vertex.data[p->loop.data[f->first + (i + 1) % f->count]]);
+        double d = vec3_length(vec3_sub(q, point));
+        if (d < least) {
+            least = d;
+            nearest = q;
+        }
+    }
+    return nearest;
+}
+
+/* A hull goes on behind a place on a face. */
+static bool goes_on(const measure *m, vec3 place, vec3 normal)
+{
+    vec3 behind = vec3_mad(place, normal, 4 * m->small);
+    for (int32_t i = 0; i < m->all->count; i++) {
+        const polyhedron *h = m->all->data[i];
+        vec3 off = vec3_sub(behind, h->centre);
+        if (vec3_dot(off, off) <= h->radius * h->radius && polyhedron_contains(h, behind, 0))
+            return true;
+    }
+    return false;
+}
+
+/* Depth of a covered place, or something at most `enough` when it is at most that. */
+static double depth(const measure *m, vec3 point, double enough)
+{
+    const polyhedron *hull = &m->piece->hull;
+    double best = 2 * hull->radius; /* a hull that is all cuts has no surface to be far from */
+    for (int32_t k = 0; k < hull->face.count && best > enough; k++) {
+        const polyhedron_face *f = &hull->face.data[k];
+        double height = fmax(0, f->offset - vec3_dot(f->normal, point));
+        if (height >= best)
+            continue;
+        vec3 nearest = nearest_on_face(hull, f, point, height);
+        double distance = vec3_length(vec3_sub(nearest, point));
+        if (distance < best && !(m->in_cut[k] && goes_on(m, nearest, f->normal)))
+            best = distance;
+    }
+    return best;
+}
+
+static vec3 place_on(const vec3 t[3], double u, double v)
+{
+    return vec3_mad(vec3_mad(t[0], vec3_sub(t[1], t[0]), u), vec3_sub(t[2], t[0]), v);
+}
+
+/* Compass search from the best sample; u, v and 1 - u - v are the weights of the corners. */
+static void climb(measure *m, const vec3 t[3], double u, double v, double best, int32_t face)
+{
+    static const double direction[6][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, -1}, {-1, 1}};
+    for (double step = 0.25; step > 0.02;) {
+        bool moved = false;
+        for (int k = 0; k < 6 && !moved; k++) {
+            double x = u + step * direction[k][0], y = v + step * direction[k][1];
+            if (x < 0 || y < 0 || x + y > 1)
+                continue;
+            double d = depth(m, place_on(t, x, y), best);
+            if (d > best) {
+                best = d;
+                u = x;
+                v = y;
+                moved = true;
+            }
+        }
+        if (!moved)
+            step /= 2;
+    }
+    if (best > m->deepest) {
+        m->deepest = best;
+        m->place = place_on(t, u, v);
+        m->face = face;
+    }
+}
+
+static void measure_face(measure *m, int32_t face)
+{
+    static const double sample[7][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}, {1.0 / 3, 1.0 / 3}};
+    vec3 t[3], normal = vec3_unit(mesh_area_vector(&m->piece->surface, face));
+    mesh_face_points(&m->piece->surface, face, t);
+    if (surface_in_cut(m->piece, t, m->small))
+        return;
+    double best = 0;
+    int where = -1;
+    /* Concave over the triangle, depth is nowhere more than three times what the best of these places has. */
+    for (int k = 0; k < 7; k++) {
+        vec3 p = place_on(t, sample[k][0], sample[k][1]);
+        if (!covered(m, p, normal))
+            continue;
+        double enough = fmax(best, m->deepest / 3), d = depth(m, p, enough);
+        if (d > enough) {
+            best = d;
+            where = k;
+        }
+    }
+    if (where >= 0)
+        climb(m, t, sample[where][0], sample[where][1], best, face);
+}
+
+bool convex_piece_measure(context *ctx, convex_piece *p, const hull_list *all, double small)
+{
+    measure m = {.piece = p, .small = small, .all = all, .face = -1};
+    m.in_cut = memory_array(ctx, (size_t)p->hull.face.count, 1);
+    if (!m.in_cut)
+        return false;
+    for (int32_t k = 0; k < p->hull.face.count; k++)
+        m.in_cut[k] = hull_face_in_cut(p, &p->hull.face.data[k], small);
+    for (int32_t f = 0; f < p->surface.face.count; f++)
+        measure_face(&m, f);
+    memory_free(ctx, m.in_cut);
+    p->concavity = m.deepest;
+    p->deepest = m.place;
+    p->deepest_face = m.face;
+    return true;
+}
+
+fram_status convex_piece_complete(context *ctx, convex_piece *p, double small, fram_error *error)
+{
+    if (mesh_adjacency_build(ctx, &p->surface, &p->adjacency) != FRAM_OK)
+        return error_memory(error);
+    p->volume = mesh_solid_properties(&p->surface).volume;
+    return polyhedron_hull(ctx, p->surface.vertex.data, p->surface.vertex.count, small, &p->hull, error);
+}
