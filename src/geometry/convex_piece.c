@@ -16,6 +16,7 @@ typedef struct measure {
     const hull_list *all;
     uint8_t *in_cut; /* of each face of the hull */
     int32_t hint;    /* the hull face that the last uncovered place was outside of */
+    int32_t nearest; /* the one that the last covered place was nearest to */
     double deepest;
     vec3 place;
     int32_t face;
@@ -117,20 +118,24 @@ static bool goes_on(const measure *m, vec3 place, vec3 normal)
     return false;
 }
 
-/* Depth of a covered place, or something at most `enough` when it is at most that. */
-static double depth(const measure *m, vec3 point, double enough)
+/* Depth of a covered place, or something at most `enough` when it is at most that.  Places that are asked about one
+   after the other are neighbours: the face that was nearest last time is asked first, and mostly it is near enough. */
+static double depth(measure *m, vec3 point, double enough)
 {
     const polyhedron *hull = &m->piece->hull;
     double best = 2 * hull->radius; /* a hull that is all cuts has no surface to be far from */
-    for (int32_t k = 0; k < hull->face.count && best > enough; k++) {
+    for (int32_t i = -1; i < hull->face.count && best > enough; i++) {
+        int32_t k = i < 0 ? m->nearest : i;
         const polyhedron_face *f = &hull->face.data[k];
         double height = fmax(0, f->offset - vec3_dot(f->normal, point));
         if (height >= best)
             continue;
         vec3 nearest = nearest_on_face(hull, f, point, height);
         double distance = vec3_length(vec3_sub(nearest, point));
-        if (distance < best && !(m->in_cut[k] && goes_on(m, nearest, f->normal)))
+        if (distance < best && !(m->in_cut[k] && goes_on(m, nearest, f->normal))) {
             best = distance;
+            m->nearest = k;
+        }
     }
     return best;
 }
