@@ -76,13 +76,18 @@ static GEOSGeometry *solve(overlay *o, const request *r, fram_status *status, fr
     return NULL;
 }
 
-/* A power of two that no coordinate of p exceeds, nor `least`. */
-static double extent_of(polygon p, double least)
+/* The largest coordinate of p by magnitude, but at least `least`. */
+static double reach_of(polygon p, double least)
 {
     box2 b = polygon_bounds(p);
     double x = real_max(fabs(b.lo.x), fabs(b.hi.x)), y = real_max(fabs(b.lo.y), fabs(b.hi.y));
+    return real_max(least, real_max(x, y));
+}
+
+static double power_of_two_above(double x)
+{
     int exponent;
-    frexp(real_max(least, real_max(x, y)), &exponent);
+    frexp(x, &exponent);
     return ldexp(1, exponent);
 }
 
@@ -137,7 +142,7 @@ static fram_status take_overlay(overlay *o, operation which, polygon subject, po
                      a,
                      b,
                      which == INTERSECTION ? common : polygon_area(subject) - common,
-                     extent_of(subject, extent_of(clip, 0)),
+                     power_of_two_above(reach_of(subject, reach_of(clip, 0))),
                      polygon_perimeter(subject) + polygon_perimeter(clip)};
         GEOSGeom_destroy_r(o->geos, solve(o, &r, &status, error));
         if (status == FRAM_OK)
@@ -205,6 +210,38 @@ fram_status overlay_intersection(overlay *o, polygon subject, polygon clip, poly
 
 /* ---- union ---- */
 
+/* A collection without its points and lines, which GEOS leaves in a union at times but takes in none; frees the shape.
+   NULL with *status set when there is no memory. */
+static GEOSGeometry *polygons_of(overlay *o, GEOSGeometry *shape, fram_status *status, fram_error *error)
+{
+    if (!shape || GEOSGeomTypeId_r(o->geos, shape) != GEOS_GEOMETRYCOLLECTION)
+        return shape;
+    int count = GEOSGetNumGeometries_r(o->geos, shape);
+    unsigned kept = 0;
+    GEOSGeometry **part = memory_array(o->ctx, (size_t)count + 1, sizeof *part), *polygons = NULL;
+    *status = part ? FRAM_OK : error_memory(error);
+    for (int i = 0; *status == FRAM_OK && i < count; i++) {
+        const GEOSGeometry *g = GEOSGetGeometryN_r(o->geos, shape, i);
+        if (GEOSGeomTypeId_r(o->geos, g) != GEOS_POLYGON)
+            continue;
+        part[kept] = GEOSGeom_clone_r(o->geos, g);
+        if (part[kept])
+            kept++;
+        else
+            *status = geos_failed(o, "copy a polygon", error);
+    }
+    if (*status == FRAM_OK) {
+        polygons = GEOSGeom_createCollection_r(o->geos, GEOS_MULTIPOLYGON, part, kept);
+        kept = 0; /* they are the collection's now, or gone with it */
+        *status = polygons ? FRAM_OK : geos_failed(o, "collect polygons", error);
+    }
+    for (unsigned i = 0; i < kept; i++)
+        GEOSGeom_destroy_r(o->geos, part[i]);
+    memory_free(o->ctx, part);
+    GEOSGeom_destroy_r(o->geos, shape);
+    return polygons;
+}
+
 /* Unite *sum, whose rings are the found ones, with one more part. */
 static fram_status unite_one(overlay *o, GEOSGeometry **sum, polygon part, double extent, fram_error *error)
 {
@@ -219,7 +256,7 @@ static fram_status unite_one(overlay *o, GEOSGeometry **sum, polygon part, doubl
     if (!shape)
         return status;
     r.b = shape;
-    GEOSGeometry *more = solve(o, &r, &status, error);
+    GEOSGeometry *more = polygons_of(o, solve(o, &r, &status, error), &status, error);
     GEOSGeom_destroy_r(o->geos, shape);
     GEOSGeom_destroy_r(o->geos, *sum);
     *sum = more;
@@ -230,9 +267,10 @@ static fram_status unite_one(overlay *o, GEOSGeometry **sum, polygon part, doubl
 fram_status unite(overlay *o, const polygon_list *parts, polygon_list *out, fram_error *error)
 {
     fram_status status;
-    double extent = 0;
+    double reach = 0;
     for (int32_t i = 0; i < polygon_list_count(parts); i++)
-        extent = extent_of(polygon_list_get(parts, i), extent);
+        reach = reach_of(polygon_list_get(parts, i), reach);
+    double extent = power_of_two_above(reach);
     GEOSGeometry *sum = shape_of_ring(o, polygon_list_get(parts, 0), &status, error);
     polygon_list_clear(&o->found);
     if (sum)

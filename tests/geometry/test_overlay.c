@@ -257,6 +257,64 @@ START_TEST(same_input_same_bits)
 }
 END_TEST
 
+/* One bite out of a ring, as a bending failure takes it: the remnants, and each wedge of the stencil. */
+static void bite(random_stream *r, polygon p, polygon_list *out)
+{
+    int32_t edge = outline_count(r, 0, p.count - 1), n = 2 * outline_count(r, 2, 5);
+    vec2 a = p.vertex[edge], e = vec2_sub(p.vertex[(edge + 1) % p.count], a), stencil[10];
+    vec2 tip = random_unit(r) < 0.3 ? a : vec2_add(a, vec2_scale(e, random_unit(r)));
+    double radius = random_uniform(r, 1, 8), turn = random_uniform(r, 0, 2 * PI);
+    for (int32_t i = 0; i < n; i++) {
+        double angle = turn + 2 * PI * i / n;
+        stencil[i] = vec2_make(tip.x + radius * real_cos(angle), tip.y + radius * real_sin(angle));
+    }
+    assert_ok(overlay_difference(o, p, (polygon){stencil, n}, out, &error), error);
+    for (int32_t i = 0; i < n; i++) {
+        const vec2 wedge[] = {tip, stencil[i], stencil[(i + 1) % n]};
+        assert_ok(overlay_intersection(o, p, RING(wedge), out, &error), error);
+    }
+}
+
+/* Broken a dozen times, a sheet keeps its area; united again, its pieces fill it: thousands of edges that nearly
+ * coincide. */
+START_TEST(broken_and_united)
+{
+    setup();
+    polygon_list pieces = {0}, next = {0};
+    int rounds = getenv("FRAM_TEST_SHORT") ? 10 : 150;
+    for (int round = 0; round < rounds; round++) {
+        random_stream r = random_begin(75, 0, (uint32_t)round);
+        vec2 sheet[40] = {{0, 0}, {40, 0}, {40, 30}, {0, 30}};
+        polygon whole = {sheet, 4};
+        if (round % 2)
+            whole = outline_star(&r, vec2_make(20, 15), 12, 20, 40, sheet);
+        polygon_list_clear(&pieces);
+        ck_assert(polygon_list_push(&plain, &pieces, whole));
+        for (int step = 0; step < 12; step++) {
+            int32_t bitten = outline_count(&r, 0, polygon_list_count(&pieces) - 1);
+            polygon_list_clear(&next);
+            for (int32_t i = 0; i < polygon_list_count(&pieces); i++)
+                if (i == bitten)
+                    bite(&r, polygon_list_get(&pieces, i), &next);
+                else
+                    ck_assert(polygon_list_push(&plain, &next, polygon_list_get(&pieces, i)));
+            polygon_list old = pieces;
+            pieces = next;
+            next = old;
+        }
+        double area = polygon_area(whole);
+        assert_relative(list_area(&pieces), area, 1e-13);
+        polygon_list_clear(&next);
+        assert_ok(overlay_union(o, &pieces, &next, &error), error);
+        assert_relative(list_area(&next), area, 1e-12);
+        check_normal(&next);
+    }
+    polygon_list_free(&plain, &pieces);
+    polygon_list_free(&plain, &next);
+    overlay_free(o);
+}
+END_TEST
+
 START_TEST(union_of_tiles)
 {
     setup();
@@ -519,5 +577,5 @@ START_TEST(no_memory)
 END_TEST
 
 TEST_MAIN("overlay", known_overlays, outlines_that_do_not_meet, outlines_that_touch, nearly_common_edge, areas_balance,
-          same_input_same_bits, union_of_tiles, validity_and_its_reasons, validity_as_geos_sees_it, repair,
-          repair_of_random_rings, simplification, no_memory)
+          same_input_same_bits, broken_and_united, union_of_tiles, validity_and_its_reasons, validity_as_geos_sees_it,
+          repair, repair_of_random_rings, simplification, no_memory)
