@@ -51,6 +51,10 @@ typedef struct command_row {
 int options_read(const command_row *command, const option_row *rows, int row_count, common_options *common, int argc,
                  char **argv, const char **positional, int positional_count);
 
+/* The same for a command whose last positional words may be left out: at least `least`, the others stay as they were. */
+int options_read_some(const command_row *command, const option_row *rows, int row_count, common_options *common,
+                      int argc, char **argv, const char **positional, int least, int most);
+
 /* --- answer.c --- */
 
 /* Print an error for people on standard error, and as JSON on standard output if asked; returns the exit code. */
@@ -101,5 +105,6 @@ int command_resume(const command_row *self, int argc, char **argv);
 int command_bench(const command_row *self, int argc, char **argv);
 int command_view(const command_row *self, int argc, char **argv);
 int command_keys(const command_row *self, int argc, char **argv);
+int command_hull(const command_row *self, int argc, char **argv);
 
 #endif

@@ -26,6 +26,12 @@ static const command_row commands[] = {
      "  fram view out/demo                      writes out/demo/playback.html\n"
      "  fram view out/demo -o demo.html\n",
      command_view},
+    {"hull", "[FILE]", "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
+     "  fram hull ship.stl --draught 7.5\n"
+     "  fram hull panels.gdf --freeboard 6 --draw hull.png --json\n"
+     "  fram hull ship.obj --mass 9.5e6 --kg 8.2 --repair -o closed.stl\n"
+     "  fram hull --length 100 --beam 20 --draught 7 --stem-angle-deg 30 --block-coefficient 0.62 -o ship.stl\n",
+     command_hull},
     {"keys", "", "list every scenario key with unit, default, range and meaning (Markdown)", "  fram keys | less\n",
      command_keys},
 };

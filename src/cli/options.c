@@ -102,6 +102,13 @@ static const char *store_value(const option_row *row, const char *text)
 int options_read(const command_row *command, const option_row *rows, int row_count, common_options *common, int argc,
                  char **argv, const char **positional, int positional_count)
 {
+    return options_read_some(command, rows, row_count, common, argc, argv, positional, positional_count,
+                             positional_count);
+}
+
+int options_read_some(const command_row *command, const option_row *rows, int row_count, common_options *common,
+                      int argc, char **argv, const char **positional, int least, int most)
+{
     *common = (common_options){.threads = 1};
     /* --json anywhere, so that a usage error before it is JSON too. */
     for (int i = 0; i < argc; i++)
@@ -117,7 +124,7 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
             continue;
         }
         if (only_positional || word[0] != '-' || word[1] == '\0') {
-            if (found == positional_count)
+            if (found == most)
                 return answer_usage(common, word, "is one word too many; see --help");
             positional[found++] = word;
             continue;
@@ -148,7 +155,7 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
     }
     if (common->threads < 1 || common->threads > 256)
         return answer_usage(common, "--threads", "must lie between 1 and 256");
-    if (found < positional_count) {
+    if (found < least) {
         char message[160];
         snprintf(message, sizeof message, "misses an argument: fram %s %s", command->name, command->arguments);
         return answer_usage(common, command->name, message);

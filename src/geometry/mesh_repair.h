@@ -19,14 +19,14 @@ typedef struct mesh_seal_report {
 } mesh_seal_report;
 
 /* Close cracks of at most `width` [m] between edges with one triangle, as panels of unlike division leave them: loose
-   vertices within reach of each other become one (the nearest first, never two of one triangle), and an edge that passes
-   a loose vertex within reach is led over it, its triangle cut in two.  What was at most `width` apart is then common;
-   nothing moves farther, and no triangle is without area that had one.  width 0 does nothing but count.
-   source (may be NULL) gets, for every face, the face it was cut from.  FRAM_ERROR_MEMORY. */
+   vertices within reach of each other become one (the nearest first, never two of one triangle), and an edge that
+   passes a loose vertex within reach is led over it, its triangle cut in two.  What was at most `width` apart is then
+   common; nothing moves farther, and no triangle is without area that had one.  width 0 does nothing but count. source
+   (may be NULL) gets, for every face, the face it was cut from.  FRAM_ERROR_MEMORY. */
 fram_status mesh_seal(context *ctx, mesh *m, double width, int32_array *source, mesh_seal_report *report);
 
-/* The rims of holes: rings of vertices around which a cap would run, in its sense, no vertex twice in a ring.  Ring i is
-   vertex[start[i] .. start[i + 1]).  Rims that touch in a vertex are rings of their own. */
+/* The rims of holes: rings of vertices around which a cap would run, in its sense, no vertex twice in a ring.  Ring i
+   is vertex[start[i] .. start[i + 1]).  Rims that touch in a vertex are rings of their own. */
 typedef struct mesh_rims {
     int32_array vertex, start;
 } mesh_rims;
@@ -38,19 +38,20 @@ void mesh_rims_free(context *ctx, mesh_rims *r);
 /* The area vector [m2] of a ring of vertices, counter-clockwise seen from where it points (Newell). */
 vec3 mesh_ring_area(const mesh *m, const int32_t *ring, int32_t count);
 
-/* Append a polygon of n existing vertices as triangles, counter-clockwise as given: a fan where that is sound, ears seen
-   along its area vector otherwise.  FRAM_ERROR_INPUT when it crosses itself seen so, or has no area; m is then unchanged. */
+/* Append a polygon of n existing vertices as triangles, counter-clockwise as given: a fan where that is sound, ears
+   seen along its area vector otherwise.  FRAM_ERROR_INPUT when it crosses itself seen so, or has no area; m is then
+   unchanged. */
 fram_status mesh_add_polygon(context *ctx, mesh *m, const int32_t *ring, int32_t count);
 
-/* Raise a level open top: every ring of `rims` (all at one height, to `tolerance` [m]) is led up by `height` > 0 and the
-   deck closed.  A ring within another is a well through the deck.  FRAM_ERROR_INPUT where rings cross. */
+/* Raise a level open top: every ring of `rims` (all at one height, to `tolerance` [m]) is led up by `height` > 0 and
+   the deck closed.  A ring within another is a well through the deck.  FRAM_ERROR_INPUT where rings cross. */
 fram_status mesh_raise_top(context *ctx, mesh *m, const mesh_rims *rims, double height, fram_error *error);
 
 /* Leave out vertices that no triangle names; the others keep their order.  false: no memory (m is then unchanged). */
 bool mesh_drop_unused_vertices(context *ctx, mesh *m);
 
-/* Turn triangles so that all neighbours agree, and then closed parts right side out (cavities inward).  flipped gets the
-   number of triangles turned.  FRAM_ERROR_INPUT with *face when a part has no two sides (a Moebius band);
+/* Turn triangles so that all neighbours agree, and then closed parts right side out (cavities inward).  flipped gets
+   the number of triangles turned.  FRAM_ERROR_INPUT with *face when a part has no two sides (a Moebius band);
    FRAM_ERROR_MEMORY. */
 fram_status mesh_orient(context *ctx, mesh *m, int32_t *flipped, int32_t *face);
 

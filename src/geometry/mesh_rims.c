@@ -5,6 +5,7 @@
 #include "geometry/point_grid.h"
 #include "geometry/polygon_pieces.h"
 #include "geometry/predicate.h"
+#include "geometry/triangle_flip.h"
 
 void mesh_rims_free(context *ctx, mesh_rims *r)
 {
@@ -16,8 +17,8 @@ vec3 mesh_ring_area(const mesh *m, const int32_t *ring, int32_t count)
 {
     vec3 sum = {0, 0, 0}, origin = count ? m->vertex.data[ring[0]] : sum;
     for (int32_t i = 2; i < count; i++)
-        sum = vec3_add(sum, vec3_cross(vec3_sub(m->vertex.data[ring[i - 1]], origin),
-                                       vec3_sub(m->vertex.data[ring[i]], origin)));
+        sum = vec3_add(
+            sum, vec3_cross(vec3_sub(m->vertex.data[ring[i - 1]], origin), vec3_sub(m->vertex.data[ring[i]], origin)));
     return vec3_scale(sum, 0.5);
 }
 
@@ -178,6 +179,8 @@ static fram_status add_ears(context *ctx, mesh *m, const int32_t *ring, const ve
     fram_status status = polygon_self_intersects(ctx, p, NULL, NULL) ? FRAM_ERROR_INPUT : FRAM_OK;
     if (status == FRAM_OK)
         status = polygon_triangulate_ears(ctx, p, &ears);
+    if (status == FRAM_OK && !polygon_flip_diagonals(ctx, p, &ears))
+        status = FRAM_ERROR_MEMORY;
     int32_t before = m->face.count;
     for (int32_t i = 0; i + 2 < ears.count && status == FRAM_OK; i += 3)
         if (!mesh_add_triangle(ctx, m, ring[ears.data[i]], ring[ears.data[i + 1]], ring[ears.data[i + 2]]))
@@ -236,8 +239,7 @@ static bool raise_vertices(context *ctx, raising *r, double height)
         array_clear(&ring);
         for (int32_t k = r->rims->start.data[i]; done && k < r->rims->start.data[i + 1]; k++) {
             vec3 p = m->vertex.data[r->rims->vertex.data[k]];
-            done = mesh_add_vertex(ctx, m, vec3_make(p.x, p.y, r->deck)) &&
-                   array_push(ctx, &ring, vec2_make(p.x, p.y));
+            done = mesh_add_vertex(ctx, m, vec3_make(p.x, p.y, r->deck)) && array_push(ctx, &ring, vec2_make(p.x, p.y));
         }
         done = done && polygon_list_push(ctx, &r->plan, (polygon){ring.data, ring.count});
     }
@@ -333,9 +335,10 @@ fram_status mesh_raise_top(context *ctx, mesh *m, const mesh_rims *rims, double 
     array_free(ctx, &r.ring);
     if (status == FRAM_ERROR_INPUT) {
         vec3 p = m->vertex.data[rims->vertex.data[0]];
-        return error_set(error, status, NULL, 0, NULL,
-                         "the open top at z = %g m (a rim begins at x = %g, y = %g) crosses itself: no deck can close it",
-                         p.z, p.x, p.y);
+        return error_set(
+            error, status, NULL, 0, NULL,
+            "the open top at z = %g m (a rim begins at x = %g, y = %g) crosses itself: no deck can close it", p.z, p.x,
+            p.y);
     }
     return status == FRAM_ERROR_MEMORY ? error_memory(error) : status;
 }

@@ -1,5 +1,6 @@
-/* Sealing of cracks; see mesh_repair.h.  A pass finds the open edges, joins loose vertices that are each other's nearest,
-   then leads every open edge over the loose vertices that have it as their nearest; the next pass sees what that left. */
+/* Sealing of cracks; see mesh_repair.h.  A pass finds the open edges, joins loose vertices that are each other's
+   nearest, then leads every open edge over the loose vertices that have it as their nearest; the next pass sees what
+   that left. */
 #include "geometry/mesh_bvh.h"
 #include "geometry/mesh_edges.h"
 #include "geometry/mesh_repair.h"

@@ -1,7 +1,7 @@
-/* WAMIT's low-order geometric data file (WAMIT User Manual, version 7, section 6.1): a line of text, ULEN GRAV, ISX ISY,
-   NPAN, then four corners a panel, counter-clockwise seen from the water.  A corner given twice makes a triangle.
-   Coordinates are in metres: ULEN only scales WAMIT's results.  ISX = 1 (ISY = 1): the other half is the mirror image in
-   x = 0 (y = 0). */
+/* WAMIT's low-order geometric data file (WAMIT User Manual, version 7, section 6.1): a line of text, ULEN GRAV, ISX
+   ISY, NPAN, then four corners a panel, counter-clockwise seen from the water.  A corner given twice makes a triangle.
+   Coordinates are in metres: ULEN only scales WAMIT's results.  ISX = 1 (ISY = 1): the other half is the mirror image
+   in x = 0 (y = 0). */
 #include "io/mesh_reader.h"
 
 #include "base/number_text.h"
@@ -84,8 +84,8 @@ static fram_status read_head(const mesh_reading *r, gdf_words *w, int32_t *panel
     if (status == FRAM_OK)
         status = read_integer(r, w, "ISY", 0, 1, &isy);
     if (status == FRAM_OK)
-        status = read_integer(r, w, "NPAN, the number of panels of a low-order file,", 1, MESH_FILE_TRIANGLES / 8,
-                              &count);
+        status =
+            read_integer(r, w, "NPAN, the number of panels of a low-order file,", 1, MESH_FILE_TRIANGLES / 8, &count);
     r->out->mirror_x = isx == 1;
     r->out->mirror_y = isy == 1;
     *panels = (int32_t)count;
@@ -136,8 +136,8 @@ fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
     }
     if (status == FRAM_OK && next_number(&w.reader, &w.rest, &w.rest_end))
         return mesh_refuse(r, w.reader.word_line, 0,
-                           "expected the end of the file after %d panels, found \"%.*s\"; NPAN may be too small", panels,
-                           shown(&w.reader), w.reader.word);
+                           "expected the end of the file after %d panels, found \"%.*s\"; NPAN may be too small",
+                           panels, shown(&w.reader), w.reader.word);
     r->out->elements = panels;
     return status;
 }

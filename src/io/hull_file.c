@@ -255,8 +255,7 @@ fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, co
                                  .dropped = file->dropped,
                                  .mirror_x = file->mirror_x,
                                  .mirror_y = file->mirror_y};
-    hull_reading r = {
-        .ctx = ctx, .name = name, .file = file, .options = options, .report = report, .error = error};
+    hull_reading r = {.ctx = ctx, .name = name, .file = file, .options = options, .report = report, .error = error};
     fram_status status = finish(&r);
     if (status == FRAM_OK) {
         *surface = file->surface;

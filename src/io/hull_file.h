@@ -1,5 +1,5 @@
-/* Hulls from mesh files: read, sealed, given topsides, repaired if asked, and checked; what comes out is a sound solid in
-   the file's own frame, metres.  Knows the conventions of the formats; must not know how a hull is used. */
+/* Hulls from mesh files: read, sealed, given topsides, repaired if asked, and checked; what comes out is a sound solid
+   in the file's own frame, metres.  Knows the conventions of the formats; must not know how a hull is used. */
 #ifndef IO_HULL_FILE_H
 #define IO_HULL_FILE_H
 
@@ -11,8 +11,8 @@ typedef struct hull_file_options {
     double scale;      /* lengths of the file times this are metres; > 0 */
     double seal_width; /* cracks up to this are sealed [m]; 0: none; NaN: a two-thousandth of the longest side */
     bool repair;       /* fill holes, turn triangles */
-    double freeboard;  /* a level open top is raised by this and decked [m]; NaN: a third of the depth for GDF, which ends at
-                          the waterline by convention, otherwise it stays open */
+    double freeboard;  /* a level open top is raised by this and decked [m]; NaN: a third of the depth for GDF, which
+                          ends at  the waterline by convention, otherwise it stays open */
 } hull_file_options;
 hull_file_options hull_file_defaults(void);
 
@@ -21,7 +21,7 @@ typedef struct hull_file_report {
     mesh_format format;
     int32_t elements, dropped; /* of the file; dropped: triangles without area */
     bool mirror_x, mirror_y;
-    int32_t lids;              /* GDF: triangles in the water plane, which are left out */
+    int32_t lids; /* GDF: triangles in the water plane, which are left out */
     double seal_width;
     mesh_seal_report seal;
     double freeboard; /* of the topsides that were added, 0 without [m] */

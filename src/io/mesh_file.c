@@ -166,8 +166,8 @@ fram_status mesh_place_polygon(const mesh_reading *r, int32_t *ring, int32_t cou
     int32_t before = m->face.count;
     fram_status status = mesh_add_polygon(r->ctx, m, ring, n);
     if (status == FRAM_ERROR_INPUT)
-        return mesh_refuse(r, line, element, "its %d corners cross themselves or lie on a line; split it into triangles",
-                           n);
+        return mesh_refuse(r, line, element,
+                           "its %d corners cross themselves or lie on a line; split it into triangles", n);
     if (status != FRAM_OK)
         return error_memory(r->error);
     if (m->face.count > MESH_FILE_TRIANGLES)
@@ -186,10 +186,7 @@ const char *mesh_format_name(mesh_format f)
     return (int)f >= 0 && f < MESH_FORMAT_COUNT ? names[f] : "unknown";
 }
 
-const char *mesh_format_element(mesh_format f)
-{
-    return f == MESH_OBJ ? "face" : f == MESH_GDF ? "panel" : "facet";
-}
+const char *mesh_format_element(mesh_format f) { return f == MESH_OBJ ? "face" : f == MESH_GDF ? "panel" : "facet"; }
 
 static bool ends_with(const char *name, const char *ending)
 {

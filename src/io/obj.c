@@ -79,9 +79,9 @@ static fram_status read_face(const mesh_reading *r, word_reader *w, int32_t face
 
 static bool is_passed_over(const word_reader *w)
 {
-    static const char *const words[] = {"vt", "vn",     "o",      "g",       "s",        "usemtl",    "mtllib",
-                                        "l",  "p",      "usemap", "maplib",  "shadow_obj", "trace_obj", "lod",
-                                        "bevel", "c_interp", "d_interp", "mg"};
+    static const char *const words[] = {"vt",        "vn",  "o",     "g",        "s",        "usemtl",
+                                        "mtllib",    "l",   "p",     "usemap",   "maplib",   "shadow_obj",
+                                        "trace_obj", "lod", "bevel", "c_interp", "d_interp", "mg"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (word_is(w, words[i]))
             return true;
@@ -100,10 +100,11 @@ fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size)
         else if (word_is(&w, "f"))
             status = read_face(r, &w, ++faces, &ring);
         else if (!is_passed_over(&w))
-            status = mesh_refuse(r, w.word_line, 0,
-                                 "expected a vertex (v) or a face (f), found \"%.*s\"; curves and surfaces must be made "
-                                 "into faces first",
-                                 shown(&w), w.word);
+            status =
+                mesh_refuse(r, w.word_line, 0,
+                            "expected a vertex (v) or a face (f), found \"%.*s\"; curves and surfaces must be made "
+                            "into faces first",
+                            shown(&w), w.word);
         word_skip_line(&w);
     }
     array_free(r->ctx, &ring);

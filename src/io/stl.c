@@ -36,10 +36,11 @@ static fram_status read_binary(const mesh_reading *r, const char *data, size_t s
                            PREFIX, size);
     uint32_t count = read_u32(data + HEADER);
     if (!mesh_is_binary_stl(data, size))
-        return mesh_refuse(r, 0, 0,
-                           "a binary STL file of %u facets is %llu bytes long, but this one is %zu; it is cut short, or "
-                           "no STL file",
-                           count, (unsigned long long)count * FACET + PREFIX, size);
+        return mesh_refuse(
+            r, 0, 0,
+            "a binary STL file of %u facets is %llu bytes long, but this one is %zu; it is cut short, or "
+            "no STL file",
+            count, (unsigned long long)count * FACET + PREFIX, size);
     if (count > MESH_FILE_TRIANGLES)
         return mesh_refuse(r, 0, 0, "expected at most %d facets, found %u", MESH_FILE_TRIANGLES, count);
     r->out->elements = (int32_t)count;

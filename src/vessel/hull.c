@@ -207,11 +207,12 @@ static fram_status check_block(const hull_particulars *p, fram_error *error)
     hull_block_range(p, &least, &most);
     if (asked >= least - slack && asked <= most + slack)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
-                     "with the other particulars the block coefficient can be %.4f to %.4f, found %g; a larger one takes "
-                     "steeper stem_angle or stern_angle, less flare_angle or more parallel_midbody, a smaller one the "
-                     "opposite",
-                     least, most, asked);
+    return error_set(
+        error, FRAM_ERROR_INPUT, NULL, 0, "block_coefficient",
+        "with the other particulars the block coefficient can be %.4f to %.4f, found %g; a larger one takes "
+        "steeper stem_angle or stern_angle, less flare_angle or more parallel_midbody, a smaller one the "
+        "opposite",
+        least, most, asked);
 }
 
 fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
@@ -242,8 +243,8 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
 
 /* ---- surfaces ---- */
 
-/* Rings of six from the keel to the deck, counter-clockwise from above: stem, fore and aft shoulder to port, stern, aft and
-   fore shoulder to starboard. */
+/* Rings of six from the keel to the deck, counter-clockwise from above: stem, fore and aft shoulder to port, stern, aft
+   and fore shoulder to starboard. */
 enum { RING = 6 };
 
 static bool add_ring(context *ctx, mesh *m, const hull_lines *l, double b, double z)
@@ -318,6 +319,21 @@ fram_status hull_make(context *ctx, const hull_particulars *p, mesh *surface, po
     polyhedron_free(ctx, &piece);
     mesh_free(ctx, surface);
     return status;
+}
+
+/* ---- pieces ---- */
+
+/* Concavity that is allowed where nothing is said, as a part of the breadth: floes are not much smaller than the
+   breadth, and meet a surface that is off by less than their own thickness. */
+#define DEFAULT_CONCAVITY 0.01
+
+fram_status hull_cut(context *ctx, const mesh *surface, double *tolerance, int32_t most, polyhedron_array *pieces,
+                     double *concavity, fram_error *error)
+{
+    box3 box = mesh_bounds(surface);
+    if (isnan(*tolerance))
+        *tolerance = DEFAULT_CONCAVITY * (box.hi.y - box.lo.y);
+    return mesh_convex_pieces(ctx, surface, *tolerance, most, pieces, concavity, error);
 }
 
 /* ---- zones ---- */

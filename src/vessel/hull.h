@@ -10,21 +10,21 @@ typedef enum hull_form { HULL_BOX = 0, HULL_ICEBREAKER, HULL_MESH } hull_form;
 /* Main particulars. */
 typedef struct hull_particulars {
     hull_form form;
-    double length;           /* waterline length L [m] */
-    double beam;             /* waterline beam B [m] */
-    double draught;          /* T [m] */
-    double freeboard;        /* height of the deck over the waterline [m] */
-    double stem_angle;       /* phi: stem against the water plane, at the waterline [rad] */
-    double entrance_angle;   /* alpha: half entrance angle of the waterline [rad] */
-    double flare_angle;      /* of the sides against the vertical, midbody [rad] */
-    double stern_angle;      /* run of the stern against the water plane [rad] */
-    double parallel_midbody; /* length of the parallel middle body / L [1] */
+    double length;            /* waterline length L [m] */
+    double beam;              /* waterline beam B [m] */
+    double draught;           /* T [m] */
+    double freeboard;         /* height of the deck over the waterline [m] */
+    double stem_angle;        /* phi: stem against the water plane, at the waterline [rad] */
+    double entrance_angle;    /* alpha: half entrance angle of the waterline [rad] */
+    double flare_angle;       /* of the sides against the vertical, midbody [rad] */
+    double stern_angle;       /* run of the stern against the water plane [rad] */
+    double parallel_midbody;  /* length of the parallel middle body / L [1] */
     double block_coefficient; /* displaced volume / (L B T) [1]; 0: sharp bilges, whatever it then is */
     double midships;          /* x of the middle of the waterline, other than 0 for a mesh only [m] */
 } hull_particulars;
 
-/* The least and the largest block coefficient that the bilge can make of an icebreaker whose other particulars make a hull
-   (a box has 1). */
+/* The least and the largest block coefficient that the bilge can make of an icebreaker whose other particulars make a
+   hull (a box has 1). */
 void hull_block_range(const hull_particulars *p, double *least, double *most);
 
 /* Whether the particulars make a hull.  FRAM_ERROR_INPUT, with key the name of the one that does not fit
@@ -36,12 +36,19 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
    planes through the stem line (stem_angle against the water) and the waterline's entrance (entrance_angle against the
    centre line); stern planes through the stern line (stern_angle) and the waterline's run, whose length is what
    entrance and parallel body leave of L; without any left the stern is a raked transom.  So at z = 0 length, beam and
-   parallel body are exactly those given, the whole is convex, and its one piece is exact.  A block coefficient is met to
-   rounding by the bilge: rounded, then drawn towards a V, in flat strips; waterline, stem and sides stay.  Triangles of
-   port and starboard mirror each other. FRAM_ERROR_INPUT as hull_particulars_check and for HULL_MESH, which comes from a file.
+   parallel body are exactly those given, the whole is convex, and its one piece is exact.  A block coefficient is met
+   to rounding by the bilge: rounded, then drawn towards a V, in flat strips; waterline, stem and sides stay.  Triangles
+   of port and starboard mirror each other. FRAM_ERROR_INPUT as hull_particulars_check and for HULL_MESH, which comes
+   from a file.
  */
 fram_status hull_make(context *ctx, const hull_particulars *p, mesh *surface, polyhedron_array *pieces,
                       fram_error *error);
+
+/* Cut a closed surface into convex pieces (mesh_convex_pieces).  *tolerance: largest distance between pieces and
+   surface [m], a NaN is replaced by a hundredth of the breadth; most: number of pieces.  concavity gets the distance
+   that remains. */
+fram_status hull_cut(context *ctx, const mesh *surface, double *tolerance, int32_t most, polyhedron_array *pieces,
+                     double *concavity, fram_error *error);
 
 /* What floats: of the part of a closed mesh under z = level. */
 typedef struct hull_hydrostatics {
@@ -53,6 +60,7 @@ typedef struct hull_hydrostatics {
     double waterplane_xy;                /* product moment about it: of x y [m4] */
     box2 waterline;                      /* around the water plane [m] */
     double wetted_area;                  /* [m2] */
+    vec3 volume_integrals;               /* of x n_x, y n_y, z n_z over the wet part, z from the level [m3] */
 } hull_hydrostatics;
 /* From surface integrals over the wet triangles (divergence theorem): exact for a closed mesh, without a section.  All
    zero when nothing floats.  FRAM_ERROR_INPUT when the volume integrals of x n_x, y n_y and z n_z differ by more than

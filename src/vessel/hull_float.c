@@ -86,9 +86,9 @@ static fram_status settle(context *ctx, floating *f, fram_error *error)
     return status;
 }
 
-/* Turn [rad] about x and y that Newton's method asks for.  With the volume held, the moments of the buoyancy change by the
-   stiffness [[kt, -cxy], [-cxy, kl]], kt = I_xx + V arm_z and so on; its eigenvalues are taken positive, so that the
-   step leads downhill in energy wherever it starts. */
+/* Turn [rad] about x and y that Newton's method asks for.  With the volume held, the moments of the buoyancy change by
+   the stiffness [[kt, -cxy], [-cxy, kl]], kt = I_xx + V arm_z and so on; its eigenvalues are taken positive, so that
+   the step leads downhill in energy wherever it starts. */
 static vec2 newton_turn(const floating *f)
 {
     double kt = f->h.waterplane_xx + f->h.volume * f->arm.z, kl = f->h.waterplane_yy + f->h.volume * f->arm.z;
@@ -140,27 +140,47 @@ static fram_status find_equilibrium(context *ctx, floating *f, fram_error *error
     for (int i = 0; i < MOST_STEPS && better && status == FRAM_OK && arm_of(f) > ARM_ROUNDING * f->length; i++)
         status = step(ctx, f, &better, error);
     if (status == FRAM_OK && !(arm_of(f) <= ARM_TOLERANCE * f->length))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "centre",
-                         "with its centre of mass at (%g, %g, %g) m the hull finds no equilibrium: at heel %g and trim %g "
-                         "degrees the buoyancy still has an arm of %g m; lower the centre or move it amidships",
-                         f->centre.x, f->centre.y, f->centre.z, degrees(f->attitude.heel), degrees(f->attitude.trim),
-                         arm_of(f));
+        return error_set(
+            error, FRAM_ERROR_INPUT, NULL, 0, "centre",
+            "with its centre of mass at (%g, %g, %g) m the hull finds no equilibrium: at heel %g and trim %g "
+            "degrees the buoyancy still has an arm of %g m; lower the centre or move it amidships",
+            f->centre.x, f->centre.y, f->centre.z, degrees(f->attitude.heel), degrees(f->attitude.trim), arm_of(f));
+    return status;
+}
+
+static fram_status begin(const mesh *surface, double volume, vec3 centre, floating *f, fram_error *error)
+{
+    box3 box = mesh_bounds(surface);
+    double enclosed = mesh_solid_properties(surface).volume;
+    *f = (floating){.surface = surface, .volume = volume, .centre = centre, .length = box.hi.x - box.lo.x};
+    f->attitude.level = 0.5 * (box.lo.z + box.hi.z);
+    if (volume > 0 && volume < enclosed)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "mass",
+                     "a hull that encloses %.9g m3 floats when its mass displaces more than 0 and less than that; this "
+                     "one displaces %.9g m3",
+                     enclosed, volume);
+}
+
+fram_status hull_level_of(context *ctx, const mesh *surface, double volume, double *level, fram_error *error)
+{
+    floating f;
+    fram_status status = begin(surface, volume, (vec3){0, 0, 0}, &f, error);
+    if (status == FRAM_OK)
+        status = settle(ctx, &f, error);
+    mesh_free(ctx, &f.turned);
+    if (status == FRAM_OK)
+        *level = f.attitude.level;
     return status;
 }
 
 fram_status hull_float(context *ctx, const mesh *surface, double volume, vec3 centre, hull_attitude *out,
                        fram_error *error)
 {
-    box3 box = mesh_bounds(surface);
-    double enclosed = mesh_solid_properties(surface).volume;
-    if (!(volume > 0 && volume < enclosed))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "mass",
-                         "a hull that encloses %.9g m3 floats when its mass displaces more than 0 and less than that; this "
-                         "one displaces %.9g m3",
-                         enclosed, volume);
-    floating f = {.surface = surface, .volume = volume, .centre = centre, .length = box.hi.x - box.lo.x};
-    f.attitude.level = 0.5 * (box.lo.z + box.hi.z);
-    fram_status status = find_equilibrium(ctx, &f, error);
+    floating f;
+    fram_status status = begin(surface, volume, centre, &f, error);
+    if (status == FRAM_OK)
+        status = find_equilibrium(ctx, &f, error);
     mesh_free(ctx, &f.turned);
     if (status == FRAM_OK)
         *out = f.attitude;

@@ -103,6 +103,7 @@ fram_status hull_hydrostatics_at(context *ctx, const mesh *surface, double level
         out->centre_of_buoyancy = vec3_scale(vec3_make(s.first_x, s.first_y, s.first_z), 1 / s.volume.z);
         out->centre_of_buoyancy.z += level;
         out->wetted_area = s.wetted;
+        out->volume_integrals = s.volume;
     }
     /* A hull wholly under the level has no water plane but for rounding. */
     if (s.plane > 0 && mesh_bounds(surface).hi.z > level) {

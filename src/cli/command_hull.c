@@ -1,0 +1,350 @@
+/* fram hull: a hull from a file or from main particulars; how it floats, its convex pieces, a drawing, a file. */
+#include "cli.h"
+
+#include "fram/hull.h"
+
+#include <math.h>
+#include <string.h>
+
+#define DEGREE (3.14159265358979323846 / 180)
+
+/* What the words say. */
+typedef struct hull_words {
+    const char *path;
+    fram_hull_file_definition file;
+    fram_hull_particulars particulars; /* angles in degrees until the hull is made */
+    bool box;
+    fram_hull_condition condition;
+    double kg, lcg, tcg;
+    double tolerance;
+    int pieces;
+    const char *draw, *output;
+} hull_words;
+
+static hull_words words_default(void)
+{
+    hull_words w = {.kg = NAN, .lcg = NAN, .tcg = NAN, .tolerance = NAN, .pieces = 64};
+    fram_hull_file_default(&w.file);
+    fram_hull_particulars_default(&w.particulars);
+    fram_hull_condition_default(&w.condition);
+    fram_hull_particulars *p = &w.particulars;
+    p->length = p->beam = p->parallel_midbody = NAN;
+    p->stem_angle = p->entrance_angle = p->flare_angle = p->stern_angle = NAN;
+    p->block_coefficient = NAN;
+    return w;
+}
+
+static int read_words(const command_row *self, hull_words *w, common_options *common, int argc, char **argv)
+{
+    fram_hull_particulars *p = &w->particulars;
+    const option_row rows[] = {
+        {"--draught", NULL, OPTION_REAL, &w->condition.draught, "T",
+         "water this far over the lowest point [m]; otherwise at z = 0 of the file"},
+        {"--mass", NULL, OPTION_REAL, &w->condition.mass, "M", "find level, heel and trim for this mass [kg]"},
+        {"--kg", NULL, OPTION_REAL, &w->kg, "H",
+         "centre of mass over the lowest point [m]; otherwise in the waterline"},
+        {"--lcg", NULL, OPTION_REAL, &w->lcg, "X", "x of the centre of mass [m]; otherwise that of the buoyancy"},
+        {"--tcg", NULL, OPTION_REAL, &w->tcg, "Y", "y of the centre of mass [m]; otherwise that of the buoyancy"},
+        {"--water-density", NULL, OPTION_REAL, &w->condition.water_density, "RHO", "of the water [kg/m3], 1025"},
+        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE.png", "draw lines, surface and convex pieces"},
+        {"--output", "-o", OPTION_TEXT, &w->output, "FILE", "write the closed surface: .stl, .obj or .gdf"},
+        {"--tolerance", NULL, OPTION_REAL, &w->tolerance, "D",
+         "largest distance of the convex pieces [m]; otherwise breadth/100"},
+        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N", "most convex pieces, 64"},
+        {"--seal", NULL, OPTION_REAL, &w->file.seal_width, "WIDTH",
+         "file: seal cracks up to this width [m], 0 none; otherwise length/2000"},
+        {"--repair", NULL, OPTION_FLAG, &w->file.repair, NULL,
+         "file: fill holes and turn triangles instead of refusing"},
+        {"--freeboard", NULL, OPTION_REAL, &w->file.freeboard, "F",
+         "raise an open top by this and deck it [m]; particulars: deck over the water"},
+        {"--scale", NULL, OPTION_REAL, &w->file.scale, "S",
+         "file: lengths times this are metres (0.001 for millimetres)"},
+        {"--length", NULL, OPTION_REAL, &p->length, "L", "no file: length of the waterline [m]"},
+        {"--beam", NULL, OPTION_REAL, &p->beam, "B", "no file: beam of the waterline [m]"},
+        {"--stem-angle-deg", NULL, OPTION_REAL, &p->stem_angle, "A", "no file: stem against the water plane, 30"},
+        {"--entrance-angle-deg", NULL, OPTION_REAL, &p->entrance_angle, "A",
+         "no file: half entrance angle of the waterline, 30"},
+        {"--flare-angle-deg", NULL, OPTION_REAL, &p->flare_angle, "A", "no file: sides against the vertical, 8"},
+        {"--stern-angle-deg", NULL, OPTION_REAL, &p->stern_angle, "A",
+         "no file: run of the stern against the water plane, 30"},
+        {"--parallel-midbody", NULL, OPTION_REAL, &p->parallel_midbody, "P",
+         "no file: parallel middle body over the length, 0.4"},
+        {"--block-coefficient", NULL, OPTION_REAL, &p->block_coefficient, "CB",
+         "no file: met by the bilge; otherwise sharp bilges"},
+        {"--box", NULL, OPTION_FLAG, &w->box, NULL, "no file: a box instead of an icebreaker"},
+    };
+    return options_read_some(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->path, 0, 1);
+}
+
+/* NULL, or the first particular that was given. */
+static const char *given_particular(const hull_words *w)
+{
+    const fram_hull_particulars *p = &w->particulars;
+    const struct {
+        const char *name;
+        double value;
+    } given[] = {{"--length", p->length},
+                 {"--beam", p->beam},
+                 {"--stem-angle-deg", p->stem_angle},
+                 {"--entrance-angle-deg", p->entrance_angle},
+                 {"--flare-angle-deg", p->flare_angle},
+                 {"--stern-angle-deg", p->stern_angle},
+                 {"--parallel-midbody", p->parallel_midbody},
+                 {"--block-coefficient", p->block_coefficient}};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+        if (!isnan(given[i].value))
+            return given[i].name;
+    return w->box ? "--box" : NULL;
+}
+
+static void take(double *member, double given, double unit)
+{
+    if (!isnan(given))
+        *member = given * unit;
+}
+
+static fram_status make_from_particulars(const hull_words *w, fram_context *context, fram_hull **hull,
+                                         fram_error *error)
+{
+    const fram_hull_particulars *given = &w->particulars;
+    fram_hull_particulars p;
+    fram_hull_particulars_default(&p);
+    p.box = w->box;
+    take(&p.length, given->length, 1);
+    take(&p.beam, given->beam, 1);
+    take(&p.draught, w->condition.draught, 1);
+    take(&p.freeboard, w->file.freeboard, 1);
+    take(&p.stem_angle, given->stem_angle, DEGREE);
+    take(&p.entrance_angle, given->entrance_angle, DEGREE);
+    take(&p.flare_angle, given->flare_angle, DEGREE);
+    take(&p.stern_angle, given->stern_angle, DEGREE);
+    take(&p.parallel_midbody, given->parallel_midbody, 1);
+    take(&p.block_coefficient, given->block_coefficient, 1);
+    return fram_hull_make(context, &p, hull, error);
+}
+
+/* ---- answers ---- */
+
+static const char *form_name(const hull_words *w) { return w->path ? w->path : w->box ? "a box" : "an icebreaker"; }
+
+static const char *title_of(const hull_words *w)
+{
+    const char *slash = w->path ? strrchr(w->path, '/') : NULL;
+    return slash ? slash + 1 : form_name(w);
+}
+
+static void print_surface(const hull_words *w, const fram_hull_surface *s)
+{
+    printf("%s: %s", form_name(w), s->format);
+    if (w->path)
+        printf(", %d %s%s%s", s->elements, strcmp(s->format, "GDF") == 0 ? "panels" : "elements",
+               s->mirrored_x ? ", mirrored in x = 0" : "", s->mirrored_y ? ", mirrored in y = 0" : "");
+    printf("; closed, %d triangles, %d vertices\n", s->triangles, s->vertices);
+    printf("  from x = %.6g, y = %.6g, z = %.6g to x = %.6g, y = %.6g, z = %.6g m\n", s->lo[0], s->lo[1], s->lo[2],
+           s->hi[0], s->hi[1], s->hi[2]);
+    if (s->dropped)
+        printf("  left out: %d without area\n", s->dropped);
+    if (s->lids)
+        printf("  left out: %d triangles in the water plane\n", s->lids);
+    if (s->joined || s->splits)
+        printf(
+            "  cracks up to %.4g m sealed: widest %.4g m, %d vertices joined, edges led over a vertex %d times; moved edges "
+            "swept %.4g m2;\n    the surface failed to close by an area of (%.4g, %.4g, %.4g) m2, and its volume "
+            "integrals by (%.4g, %.4g, %.4g) m3\n",
+            s->seal_width, s->crack_width, s->joined, s->splits, s->crack_area, s->crack_vector[0], s->crack_vector[1],
+            s->crack_vector[2], s->crack_volume[0], s->crack_volume[1], s->crack_volume[2]);
+    if (s->topsides > 0)
+        printf("  topsides raised by %.4g m and decked\n", s->topsides);
+    if (s->holes_filled)
+        printf("  holes filled: %d, %.4g m2\n", s->holes_filled, s->hole_area);
+    if (s->flipped)
+        printf("  triangles turned: %d\n", s->flipped);
+}
+
+static void print_floating(const fram_hull_floating *f)
+{
+    printf("\nFloating at z = %.6g m, heel %.4g deg, trim %.4g deg by the bow%s\n", f->level, f->heel / DEGREE,
+           f->trim / DEGREE, f->stable ? "" : " (UNSTABLE)");
+    printf("  displaced volume        %14.4f m3    displacement %.4f t\n", f->volume, f->mass / 1000);
+    printf("  enclosed volume         %14.4f m3\n", f->enclosed_volume);
+    printf("  draught                 %14.4f m     fore %.4f, aft %.4f\n", f->draught, f->draught_fore, f->draught_aft);
+    printf("  waterline               %14.4f m     breadth %.4f\n", f->length_waterline, f->breadth_waterline);
+    printf("  overall                 %14.4f m     breadth %.4f, depth %.4f\n", f->length_overall, f->breadth_overall,
+           f->depth);
+    printf("  centre of buoyancy      %14.4f m     y %.4f, z %.4f; KB %.4f\n", f->centre_of_buoyancy[0],
+           f->centre_of_buoyancy[1], f->centre_of_buoyancy[2], f->kb);
+    printf("  centre of flotation     %14.4f m     y %.4f\n", f->centre_of_flotation[0], f->centre_of_flotation[1]);
+    printf("  centre of mass          %14.4f m     y %.4f, z %.4f; KG %.4f\n", f->centre[0], f->centre[1], f->centre[2],
+           f->kg);
+    printf("  waterplane area         %14.4f m2    wetted surface %.4f m2\n", f->waterplane_area, f->wetted_area);
+    printf("  second moments          %14.1f m4    longitudinal %.1f\n", f->second_moment_transverse,
+           f->second_moment_longitudinal);
+    printf("  transverse BM           %14.4f m     GM %.4f\n", f->bm_transverse, f->gm_transverse);
+    printf("  longitudinal BM         %14.4f m     GM %.4f\n", f->bm_longitudinal, f->gm_longitudinal);
+    printf("  stiffness heave C33     %14.6g N/m   C35 %.6g N\n", f->c33, f->c35);
+    printf("  stiffness roll C44      %14.6g N m   pitch C55 %.6g N m\n", f->c44, f->c55);
+    printf("  coefficients: block %.4f, waterplane %.4f, midship %.4f, prismatic %.4f\n", f->block, f->waterplane,
+           f->midship, f->prismatic);
+}
+
+static void json_surface(json *j, const fram_hull_surface *s)
+{
+    json_text(j, "format", s->format);
+    json_boolean(j, "closed", true);
+    json_integer(j, "triangles", s->triangles);
+    json_integer(j, "vertices", s->vertices);
+    json_integer(j, "elements", s->elements);
+    json_integer(j, "elements_dropped", s->dropped);
+    json_boolean(j, "mirrored_x", s->mirrored_x);
+    json_boolean(j, "mirrored_y", s->mirrored_y);
+    json_reals(j, "box_lo_m", s->lo, 3);
+    json_reals(j, "box_hi_m", s->hi, 3);
+    json_open(j, "seal");
+    json_real(j, "width_m", s->seal_width);
+    json_integer(j, "open_edges_before", s->open_edges_before);
+    json_integer(j, "vertices_joined", s->joined);
+    json_integer(j, "edges_led_over_a_vertex", s->splits);
+    json_real(j, "widest_crack_m", s->crack_width);
+    json_real(j, "swept_area_m2", s->crack_area);
+    json_reals(j, "area_vector_m2", s->crack_vector, 3);
+    json_reals(j, "volume_integrals_changed_by_m3", s->crack_volume, 3);
+    json_close(j);
+    json_real(j, "topsides_raised_by_m", s->topsides);
+    json_integer(j, "lid_triangles_left_out", s->lids);
+    json_integer(j, "holes_filled", s->holes_filled);
+    json_real(j, "hole_area_m2", s->hole_area);
+    json_integer(j, "triangles_turned", s->flipped);
+}
+
+static void json_floating(json *j, const fram_hull_floating *f, const fram_hull_condition *c)
+{
+    json_real(j, "level_m", f->level);
+    json_real(j, "heel_deg", f->heel / DEGREE);
+    json_real(j, "trim_deg", f->trim / DEGREE);
+    json_boolean(j, "stable", f->stable);
+    json_real(j, "volume_m3", f->volume);
+    json_reals(j, "volume_integrals_m3", f->volume_integrals, 3);
+    json_real(j, "enclosed_volume_m3", f->enclosed_volume);
+    json_real(j, "water_density_kg_per_m3", c->water_density);
+    json_real(j, "gravity_m_per_s2", c->gravity);
+    json_real(j, "displacement_t", f->mass / 1000);
+    json_real(j, "mass_kg", f->mass);
+    json_real(j, "draught_m", f->draught);
+    json_real(j, "draught_fore_m", f->draught_fore);
+    json_real(j, "draught_aft_m", f->draught_aft);
+    json_reals(j, "centre_of_buoyancy_m", f->centre_of_buoyancy, 3);
+    json_reals(j, "centre_of_flotation_m", f->centre_of_flotation, 3);
+    json_reals(j, "centre_of_mass_m", f->centre, 3);
+    json_real(j, "waterplane_area_m2", f->waterplane_area);
+    json_real(j, "wetted_area_m2", f->wetted_area);
+    json_real(j, "second_moment_transverse_m4", f->second_moment_transverse);
+    json_real(j, "second_moment_longitudinal_m4", f->second_moment_longitudinal);
+    json_real(j, "kb_m", f->kb);
+    json_real(j, "kg_m", f->kg);
+    json_real(j, "bm_transverse_m", f->bm_transverse);
+    json_real(j, "bm_longitudinal_m", f->bm_longitudinal);
+    json_real(j, "gm_transverse_m", f->gm_transverse);
+    json_real(j, "gm_longitudinal_m", f->gm_longitudinal);
+    json_real(j, "c33_N_per_m", f->c33);
+    json_real(j, "c34_N", f->c34);
+    json_real(j, "c35_N", f->c35);
+    json_real(j, "c44_N_m", f->c44);
+    json_real(j, "c45_N_m", f->c45);
+    json_real(j, "c55_N_m", f->c55);
+    json_real(j, "length_overall_m", f->length_overall);
+    json_real(j, "breadth_overall_m", f->breadth_overall);
+    json_real(j, "depth_m", f->depth);
+    json_real(j, "length_waterline_m", f->length_waterline);
+    json_real(j, "breadth_waterline_m", f->breadth_waterline);
+    json_real(j, "midship_area_m2", f->midship_area);
+    json_real(j, "block_coefficient", f->block);
+    json_real(j, "waterplane_coefficient", f->waterplane);
+    json_real(j, "midship_coefficient", f->midship);
+    json_real(j, "prismatic_coefficient", f->prismatic);
+}
+
+static void print_json(const hull_words *w, const fram_hull_surface *s, const fram_hull_floating *f,
+                       const fram_hull_pieces *p)
+{
+    json j = json_begin();
+    json_text(&j, "hull", form_name(w));
+    json_surface(&j, s);
+    json_floating(&j, f, &w->condition);
+    json_open(&j, "convex_pieces");
+    json_integer(&j, "count", p->count);
+    json_real(&j, "tolerance_m", p->tolerance);
+    json_real(&j, "largest_distance_m", p->concavity);
+    json_real(&j, "volume_m3", p->volume);
+    json_close(&j);
+    if (w->draw)
+        json_text(&j, "drawing", w->draw);
+    if (w->output)
+        json_text(&j, "written", w->output);
+    json_end(&j);
+}
+
+/* ---- the command ---- */
+
+static fram_status work(hull_words *w, fram_context *context, fram_hull **hull, fram_hull_surface *surface,
+                        fram_hull_floating *floating, fram_hull_pieces *pieces, fram_error *error)
+{
+    fram_status status = w->path ? fram_hull_load(context, w->path, &w->file, hull, error)
+                                 : make_from_particulars(w, context, hull, error);
+    if (status != FRAM_OK)
+        return status;
+    fram_hull_surface_get(*hull, surface);
+    /* The draught of a hull made for it is that of z = 0, in which its waterline has the given length. */
+    if (!w->path)
+        w->condition.draught = NAN;
+    w->condition.centre[0] = w->lcg;
+    w->condition.centre[1] = w->tcg;
+    w->condition.centre[2] = surface->lo[2] + w->kg;
+    status = fram_hull_float(*hull, &w->condition, floating, error);
+    if (status == FRAM_OK)
+        status = fram_hull_cut(*hull, w->tolerance, w->pieces, pieces, error);
+    if (status == FRAM_OK && w->draw)
+        status = fram_hull_draw(*hull, &w->condition, title_of(w), w->draw, error);
+    if (status == FRAM_OK && w->output)
+        status = fram_hull_save(*hull, w->output, error);
+    return status;
+}
+
+int command_hull(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    hull_words w = words_default();
+    int code = read_words(self, &w, &common, argc, argv);
+    if (code >= 0)
+        return code;
+    const char *particular = given_particular(&w);
+    if (w.path && particular)
+        return answer_usage(&common, particular, "is for a hull without a file; a file has its own form");
+    if (!w.path && (isnan(w.particulars.length) || isnan(w.particulars.beam) || isnan(w.condition.draught)))
+        return answer_usage(&common, "hull", "needs a mesh file, or --length, --beam and --draught; see --help");
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+
+    fram_hull *hull = NULL;
+    fram_hull_surface surface;
+    fram_hull_floating floating;
+    fram_hull_pieces pieces;
+    fram_error error = {0};
+    if (work(&w, context, &hull, &surface, &floating, &pieces, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = EXIT_GOOD;
+        if (common.json) {
+            print_json(&w, &surface, &floating, &pieces);
+        } else {
+            print_surface(&w, &surface);
+            print_floating(&floating);
+            printf("  convex pieces: %d, within %.4g m of the surface (%.4g m were allowed)\n", pieces.count,
+                   pieces.concavity, pieces.tolerance);
+        }
+    }
+    fram_hull_destroy(hull);
+    fram_context_destroy(context);
+    return code;
+}
