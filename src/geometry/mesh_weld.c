@@ -12,8 +12,9 @@ static box3 finite_bounds(const mesh *m)
     return b.lo.x <= b.hi.x ? b : (box3){{0, 0, 0}, {0, 0, 0}};
 }
 
-/* new_index[i]: the vertex that vertex i becomes.  Vertices that are not finite stay alone. */
-static bool join(context *ctx, mesh *m, point_grid *grid, int32_array *grid_index, int32_t *new_index)
+/* new_index[i]: the vertex that vertex i becomes; grid_index: the vertex that a point of the grid is; both have room
+   for all. Vertices that are not finite stay alone. */
+static bool join(context *ctx, const mesh *m, point_grid *grid, int32_t *grid_index, int32_t *new_index)
 {
     int32_t kept = 0;
     for (int32_t i = 0; i < m->vertex.count; i++) {
@@ -21,11 +22,14 @@ static bool join(context *ctx, mesh *m, point_grid *grid, int32_array *grid_inde
         bool finite = finite_point(p);
         int32_t twin = finite ? point_grid_find(grid, p) : -1;
         if (twin >= 0) {
-            new_index[i] = grid_index->data[twin];
+            new_index[i] = grid_index[twin];
             continue;
         }
-        if (finite && (!point_grid_add(ctx, grid, p) || !array_push(ctx, grid_index, kept)))
-            return false;
+        if (finite) {
+            grid_index[grid->point.count] = kept;
+            if (!point_grid_add(ctx, grid, p))
+                return false;
+        }
         new_index[i] = kept++;
     }
     return true;
@@ -52,14 +56,14 @@ fram_status mesh_weld(context *ctx, mesh *m, double distance, int32_t *joined)
 {
     *joined = 0;
     point_grid grid;
-    int32_array grid_index = {0};
+    int32_t *grid_index = memory_array(ctx, (size_t)m->vertex.count, sizeof *grid_index);
     int32_t *new_index = memory_array(ctx, (size_t)m->vertex.count, sizeof *new_index);
     bool done = point_grid_init(ctx, &grid, finite_bounds(m), distance, m->vertex.count);
-    done = done && new_index && join(ctx, m, &grid, &grid_index, new_index);
+    done = done && grid_index && new_index && join(ctx, m, &grid, grid_index, new_index);
     if (done)
         renumber(m, new_index, joined);
     point_grid_free(ctx, &grid);
-    array_free(ctx, &grid_index);
+    memory_free(ctx, grid_index);
     memory_free(ctx, new_index);
     return done ? FRAM_OK : FRAM_ERROR_MEMORY;
 }

@@ -192,7 +192,8 @@ START_TEST(prisms_that_are_none)
     assert_fails(mesh_make_prism(&ctx, (polygon){twice, 3}, 0, 1, &m, &error), error, FRAM_ERROR_INPUT, "simple");
     assert_fails(mesh_make_prism(&ctx, (polygon){square, 2}, 0, 1, &m, &error), error, FRAM_ERROR_INPUT, "2 vertices");
     assert_fails(mesh_make_prism(&ctx, (polygon){square, 4}, 1, 1, &m, &error), error, FRAM_ERROR_INPUT, "no height");
-    assert_fails(mesh_make_prism(&ctx, (polygon){square, 4}, 0, NAN, &m, &error), error, FRAM_ERROR_INPUT, "no height");
+    assert_fails(mesh_make_prism(&ctx, (polygon){square, 4}, 0, (double)NAN, &m, &error), error, FRAM_ERROR_INPUT,
+                 "no height");
     ck_assert_int_eq(m.vertex.count, 0);
     ck_assert_int_eq(m.face.count, 0);
     mesh_free(&ctx, &m);
@@ -256,7 +257,7 @@ START_TEST(weld_joins_what_is_near)
         }
         mesh_add_triangle(&ctx, &m, 3 * f, 3 * f + 1, 3 * f + 2);
     }
-    mesh_add_vertex(&ctx, &m, (vec3){NAN, 0, 0});
+    mesh_add_vertex(&ctx, &m, (vec3){(double)NAN, 0, 0});
     mesh_add_triangle(&ctx, &m, 0, 1, 1);
     vec3 first = m.vertex.data[0];
     ck_assert_int_eq(mesh_weld(&ctx, &m, 1e-6, &joined), FRAM_OK);

@@ -57,7 +57,7 @@ START_TEST(not_finite_and_degenerate)
 {
     mesh m;
     context ctx = box_context(&m);
-    m.vertex.data[7].y = NAN;
+    m.vertex.data[7].y = (double)NAN;
     mesh_report r = check(&ctx, &m);
     ck_assert_int_eq(r.defect, MESH_NOT_FINITE);
     ck_assert_int_eq(r.face, 2);

@@ -261,7 +261,7 @@ START_TEST(inputs_that_span_nothing)
     assert_fails(polyhedron_hull(&ctx, point, 8, 0, &p, &error), error, FRAM_ERROR_INPUT, "in a plane");
     vec3 same[5] = {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}};
     assert_fails(polyhedron_hull(&ctx, same, 5, 0, &p, &error), error, FRAM_ERROR_INPUT, "in a plane");
-    point[2].z = NAN;
+    point[2].z = (double)NAN;
     assert_fails(polyhedron_hull(&ctx, point, 8, 0, &p, &error), error, FRAM_ERROR_INPUT, "point 2");
     ck_assert(!polyhedron_contains(&p, (vec3){0, 0, 0}, 1));
     ck_assert(polyhedron_volume(&p) == 0);
