@@ -16,8 +16,8 @@ static inline vec2 line_crossing(vec2 a, double side_a, vec2 b, double side_b)
 }
 
 /* Writes the part of a convex ring of n vertices with side <= 0 to out, which has room for n + 1 and is not the
-   ring, and returns its count; side[i] is the signed distance of vertex i from the line, up to a factor. A vertex
-   within `slack` of the line is on it and gets no new neighbour there. 0 when only points of the line are left. The
+   ring, and returns its count; side[i] is the signed distance of vertex i from the line, up to a factor.  A vertex
+   within `slack` of the line is on it and gets no new neighbour there. 0 when only points of the line are left.  The
    ring is walked both ways from its innermost vertex, so that one whose rounding is not quite convex still is cut
    once, and never grows by more than one vertex. */
 static inline int32_t convex_cut(const vec2 *ring, const double *side, int32_t n, double slack, vec2 *out)

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void reverse(vec2 *v, int32_t n)
+void ring_reverse(vec2 *ring, int32_t n)
 {
     for (int32_t i = 0, j = n - 1; i < j; i++, j--) {
-        vec2 t = v[i];
-        v[i] = v[j];
-        v[j] = t;
+        vec2 t = ring[i];
+        ring[i] = ring[j];
+        ring[j] = t;
     }
 }
 
@@ -25,13 +25,13 @@ int32_t ring_normal_form(vec2 *ring, int32_t n)
     if (turn == 0)
         return 0;
     if (turn < 0)
-        reverse(ring, kept);
+        ring_reverse(ring, kept);
     for (int32_t i = 1; i < kept; i++)
         least = vec2_compare(ring[i], ring[least]) < 0 ? i : least;
     /* Three reversals turn the ring so that `least` comes first. */
-    reverse(ring, least);
-    reverse(ring + least, kept - least);
-    reverse(ring, kept);
+    ring_reverse(ring, least);
+    ring_reverse(ring + least, kept - least);
+    ring_reverse(ring, kept);
     return kept;
 }
 

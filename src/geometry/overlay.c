@@ -160,16 +160,12 @@ static fram_status take_with_hole(overlay *o, polygon subject, polygon hole, pol
     polygon_list_clear(&o->found);
     if (!array_resize(o->ctx, &o->ring, hole.count) || !polygon_list_push(o->ctx, &o->rings, subject))
         return error_memory(error);
-    for (int32_t i = 0; i < hole.count; i++)
-        o->ring.data[i] = hole.vertex[hole.count - 1 - i];
+    memcpy(o->ring.data, hole.vertex, (size_t)hole.count * sizeof *hole.vertex);
+    ring_reverse(o->ring.data, hole.count);
     if (!polygon_list_push(o->ctx, &o->rings, (polygon){o->ring.data, hole.count}))
         return error_memory(error);
-    fram_status status = polygon_cut_holes(o->ctx, &o->rings, &o->found);
-    if (status == FRAM_ERROR_MEMORY)
-        return error_memory(error);
-    if (status != FRAM_OK)
-        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "a hole could not be cut open");
-    return append_found(o, out, error);
+    fram_status status = cut_rings(o, error);
+    return status == FRAM_OK ? append_found(o, out, error) : status;
 }
 
 fram_status overlay_difference(overlay *o, polygon subject, polygon clip, polygon_list *out, fram_error *error)
@@ -210,35 +206,27 @@ fram_status overlay_intersection(overlay *o, polygon subject, polygon clip, poly
 
 /* ---- union ---- */
 
-/* A collection without its points and lines, which GEOS leaves in a union at times but takes in none; frees the shape.
+/* The polygons of a collection, without the points and lines that GEOS leaves in a union at times but takes in none.
    NULL with *status set when there is no memory. */
-static GEOSGeometry *polygons_of(overlay *o, GEOSGeometry *shape, fram_status *status, fram_error *error)
+static GEOSGeometry *polygons_of(overlay *o, const GEOSGeometry *collection, fram_status *status, fram_error *error)
 {
-    if (!shape || GEOSGeomTypeId_r(o->geos, shape) != GEOS_GEOMETRYCOLLECTION)
-        return shape;
-    int count = GEOSGetNumGeometries_r(o->geos, shape);
+    int count = GEOSGetNumGeometries_r(o->geos, collection);
     unsigned kept = 0;
-    GEOSGeometry **part = memory_array(o->ctx, (size_t)count + 1, sizeof *part), *polygons = NULL;
-    *status = part ? FRAM_OK : error_memory(error);
-    for (int i = 0; *status == FRAM_OK && i < count; i++) {
-        const GEOSGeometry *g = GEOSGetGeometryN_r(o->geos, shape, i);
-        if (GEOSGeomTypeId_r(o->geos, g) != GEOS_POLYGON)
-            continue;
-        part[kept] = GEOSGeom_clone_r(o->geos, g);
-        if (part[kept])
-            kept++;
-        else
-            *status = geos_failed(o, "copy a polygon", error);
+    GEOSGeometry **part = memory_array(o->ctx, (size_t)count + 1, sizeof *part);
+    if (!part) {
+        *status = error_memory(error);
+        return NULL;
     }
-    if (*status == FRAM_OK) {
-        polygons = GEOSGeom_createCollection_r(o->geos, GEOS_MULTIPOLYGON, part, kept);
-        kept = 0; /* they are the collection's now, or gone with it */
-        *status = polygons ? FRAM_OK : geos_failed(o, "collect polygons", error);
+    for (int i = 0; i < count; i++) {
+        const GEOSGeometry *g = GEOSGetGeometryN_r(o->geos, collection, i);
+        GEOSGeometry *copy = GEOSGeomTypeId_r(o->geos, g) == GEOS_POLYGON ? GEOSGeom_clone_r(o->geos, g) : NULL;
+        if (copy)
+            part[kept++] = copy;
     }
-    for (unsigned i = 0; i < kept; i++)
-        GEOSGeom_destroy_r(o->geos, part[i]);
+    GEOSGeometry *polygons = GEOSGeom_createCollection_r(o->geos, GEOS_MULTIPOLYGON, part, kept);
     memory_free(o->ctx, part);
-    GEOSGeom_destroy_r(o->geos, shape);
+    if (!polygons)
+        *status = geos_failed(o, "collect polygons", error);
     return polygons;
 }
 
@@ -256,10 +244,14 @@ static fram_status unite_one(overlay *o, GEOSGeometry **sum, polygon part, doubl
     if (!shape)
         return status;
     r.b = shape;
-    GEOSGeometry *more = polygons_of(o, solve(o, &r, &status, error), &status, error);
+    GEOSGeometry *more = solve(o, &r, &status, error);
     GEOSGeom_destroy_r(o->geos, shape);
     GEOSGeom_destroy_r(o->geos, *sum);
     *sum = more;
+    if (more && GEOSGeomTypeId_r(o->geos, more) == GEOS_GEOMETRYCOLLECTION) {
+        *sum = polygons_of(o, more, &status, error);
+        GEOSGeom_destroy_r(o->geos, more);
+    }
     return status;
 }
 

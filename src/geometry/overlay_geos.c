@@ -75,6 +75,16 @@ static fram_status read_ring(overlay *o, const GEOSGeometry *ring, int32_t *n, f
     return FRAM_OK;
 }
 
+fram_status cut_rings(overlay *o, fram_error *error)
+{
+    fram_status status = polygon_cut_holes(o->ctx, &o->rings, &o->found);
+    if (status == FRAM_ERROR_MEMORY)
+        return error_memory(error);
+    if (status != FRAM_OK)
+        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the holes of an overlay could not be cut open");
+    return FRAM_OK;
+}
+
 /* Thinner than rounding: what is left over or missing between outlines that nearly coincide. */
 static bool is_noise(polygon p)
 {
@@ -93,23 +103,15 @@ static fram_status read_polygon(overlay *o, const GEOSGeometry *shape, bool fill
             o, i < 0 ? GEOSGetExteriorRing_r(o->geos, shape) : GEOSGetInteriorRingN_r(o->geos, shape, i), &n, error);
         if (status != FRAM_OK)
             return status;
-        for (int32_t a = 0, b = n - 1; i >= 0 && a < b; a++, b--) { /* holes run clockwise */
-            vec2 t = o->ring.data[a];
-            o->ring.data[a] = o->ring.data[b];
-            o->ring.data[b] = t;
-        }
+        if (i >= 0)
+            ring_reverse(o->ring.data, n); /* holes run clockwise */
         bool noise = is_noise((polygon){o->ring.data, n});
         if (noise && i < 0)
             return FRAM_OK;
         if (!noise && !polygon_list_push(o->ctx, list, (polygon){o->ring.data, n}))
             return error_memory(error);
     }
-    fram_status status = holes > 0 ? polygon_cut_holes(o->ctx, &o->rings, &o->found) : FRAM_OK;
-    if (status == FRAM_ERROR_MEMORY)
-        return error_memory(error);
-    if (status != FRAM_OK)
-        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the holes of an overlay could not be cut open");
-    return FRAM_OK;
+    return holes > 0 ? cut_rings(o, error) : FRAM_OK;
 }
 
 fram_status read_shape(overlay *o, const GEOSGeometry *shape, bool fill_holes, fram_error *error)

@@ -20,6 +20,8 @@ fram_status overlay_check(overlay *o, polygon p, const char *role, fram_error *e
 fram_status geos_failed(overlay *o, const char *what, fram_error *error);
 /* A GEOS polygon of a ring of at least 3 vertices, or NULL with *status set. */
 GEOSGeometry *shape_of_ring(overlay *o, polygon p, fram_status *status, fram_error *error);
+/* Add the polygon of the scratch rings, the outline and then its holes, cut open, to the found rings. */
+fram_status cut_rings(overlay *o, fram_error *error);
 /* Add the polygons of any geometry, whatever it nests, to the found rings; holes are filled or cut open. */
 fram_status read_shape(overlay *o, const GEOSGeometry *shape, bool fill_holes, fram_error *error);
 /* Append the found rings to out in order. */

@@ -72,7 +72,7 @@ int turn_sign(vec2 a, vec2 b, vec2 c, double rounding);
    a ring without area is not convex, a clockwise one may be. */
 bool polygon_is_convex(polygon p);
 /* Crossing or touching pair of non-adjacent edges, the first in order of edge_a, then edge_b > edge_a (either may
-   be NULL); false when there is none. Exact. Repeated vertices in a row do no harm. Every pair of edges under 32
+   be NULL); false when there is none.  Exact.  Repeated vertices in a row do no harm.  Every pair of edges under 32
    vertices or without memory, a sweep over sorted intervals otherwise. */
 bool polygon_self_intersects(context *ctx, polygon p, int32_t *edge_a, int32_t *edge_b);
 
@@ -91,15 +91,15 @@ bool polygon_convex_hull(context *ctx, polygon p, vec2_array *out);
 
 /* Algorithm 10, repaired: drops vertices of edges shorter than `edge` [m], spikes (cos turn < -0.99) and
    near-straight vertices (cos turn > 0.99 and height over the chord under `edge` too), repeats until a pass drops
-   none, stops at 3 vertices. A chain of vertices is never eaten up: those that were dropped, spikes apart, stay
+   none, stops at 3 vertices.  A chain of vertices is never eaten up: those that were dropped, spikes apart, stay
    within `edge` of the chord that replaces them; of a short edge the other end goes if that serves it, and only if
-   neither does may they lie farther off. So no edge is shorter than `edge` unless 3 vertices are left. The listing
+   neither does may they lie farther off.  So no edge is shorter than `edge` unless 3 vertices are left.  The listing
    lets a fine arc collapse. out may end with fewer than 3 vertices only if p had; it must not hold p. false when
    there is no memory. */
 bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out);
 
-/* Sutherland-Hodgman by one half plane: keeps n . x <= d, n of any length. Exact for convex p; the pieces of a
-   concave one stay joined along the line. Both halves of a cut get the same new vertices, to the bit. out is empty
+/* Sutherland-Hodgman by one half plane: keeps n . x <= d, n of any length.  Exact for convex p; the pieces of a
+   concave one stay joined along the line.  Both halves of a cut get the same new vertices, to the bit. out is empty
    when nothing with an area is left; it must not hold p. false when there is no memory. */
 bool polygon_clip_half_plane(context *ctx, polygon p, vec2 n, double d, vec2_array *out);
 /* The part of convex p inside convex q (both counter-clockwise). out is empty when there is none, when they only

@@ -42,7 +42,7 @@ int polygon_orientation(polygon p)
     return orientation(p.vertex[before], p.vertex[tip], p.vertex[after]);
 }
 
-/* Turns of one sign alone allow a ring that winds twice (a pentagram). Seen from the least vertex, which has all
+/* Turns of one sign alone allow a ring that winds twice (a pentagram).  Seen from the least vertex, which has all
    others within half a turn, a convex ring goes round one way only, so the triangles of that fan have the same sign
    as well. */
 bool polygon_is_convex(polygon p)

@@ -5,6 +5,8 @@
 
 #include "geometry/ear_clip.h"
 
+/* The same ring the other way round, its first vertex last. */
+void ring_reverse(vec2 *ring, int32_t n);
 /* The normal form of a simple ring of n vertices, in place: no vertex equal to the one before, counter-clockwise,
    least vertex (x, then y) first.  Returns the count that is left; fewer than 3 when the ring has no area. */
 int32_t ring_normal_form(vec2 *ring, int32_t n);
@@ -42,7 +44,7 @@ int32_t vertex_places(context *ctx, const vec2 *vertex, int32_t n, vec2 *place, 
 
 /* Cut a polygon with holes into simple rings along straight bridges between its vertices, short ones first, and
    append them to out in normal form, unsorted.  Ring 0 is the outline, counter-clockwise, the others are its holes,
-   clockwise; rings touch at most in common vertices, as those of a valid polygon do. FRAM_ERROR_MEMORY (out may
+   clockwise; rings touch at most in common vertices, as those of a valid polygon do.  FRAM_ERROR_MEMORY (out may
    then have gained rings), FRAM_ERROR_INPUT when the rings cross. */
 fram_status polygon_cut_holes(context *ctx, const polygon_list *rings, polygon_list *out);
 
