@@ -160,13 +160,18 @@ static bool is_notch(const convex_piece *p, int32_t face, int32_t other)
     return highest > 0 && vec3_dot(normal, beyond) < NOTCH_COSINE;
 }
 
-/* Planes to try: the first three are across the axes, the others are the sides of notches. */
-static int planes_to_try(const convex_piece *p, plane3 plane[MOST_PLANES])
+static int axis_planes(vec3 through, plane3 plane[MOST_PLANES])
 {
     static const vec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    int count = 0;
-    for (; count < 3; count++)
-        plane[count] = (plane3){axis[count], vec3_dot(axis[count], p->deepest)};
+    for (int i = 0; i < 3; i++)
+        plane[i] = (plane3){axis[i], vec3_dot(axis[i], through)};
+    return 3;
+}
+
+/* Across the axes through the deepest place, and along the sides of notches there. */
+static int deepest_planes(const convex_piece *p, plane3 plane[MOST_PLANES])
+{
+    int count = axis_planes(p->deepest, plane);
     for (int k = 0; k < 3; k++) {
         int32_t other = p->adjacency.neighbour.data[3 * p->deepest_face + k];
         if (!is_notch(p, p->deepest_face, other))
@@ -204,11 +209,9 @@ static bool less_fault(fault a, fault b)
     return a.excess < b.excess - slack || (a.excess <= b.excess + slack && a.volume < b.volume);
 }
 
-/* The parts that the best cut of piece number `parent` leaves; none when no plane cuts it. */
-static fram_status best_cut(carving *c, int32_t parent, convex_piece_array *best)
+/* The parts that the best of some cuts of piece number `parent` leaves; none when no plane cuts it. */
+static fram_status best_of(carving *c, int32_t parent, const plane3 *plane, int count, convex_piece_array *best)
 {
-    plane3 plane[MOST_PLANES];
-    int count = planes_to_try(&c->piece.data[parent], plane);
     fault least = {0, 0};
     fram_status status = FRAM_OK;
     for (int i = 0; i < count && status == FRAM_OK; i++) {
@@ -223,6 +226,17 @@ static fram_status best_cut(carving *c, int32_t parent, convex_piece_array *best
         }
         convex_piece_array_free(c->ctx, &parts);
     }
+    return status;
+}
+
+static fram_status best_cut(carving *c, int32_t parent, convex_piece_array *best)
+{
+    const convex_piece *p = &c->piece.data[parent];
+    plane3 plane[MOST_PLANES];
+    fram_status status = best_of(c, parent, plane, deepest_planes(p, plane), best);
+    /* Planes so near the rim that they cut nothing off: halve the piece instead. */
+    if (status == FRAM_OK && best->count == 0)
+        status = best_of(c, parent, plane, axis_planes(p->hull.centre, plane), best);
     return status;
 }
 

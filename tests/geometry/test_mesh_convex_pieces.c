@@ -218,6 +218,40 @@ START_TEST(a_hull_with_bulb_and_flare)
 }
 END_TEST
 
+/* Bodies as rough as no ship is: every vertex of a sphere at a radius of its own, some on a lattice. */
+START_TEST(rough_bodies)
+{
+    context ctx = plain();
+    for (int i = 0; i < 30; i++) {
+        mesh m = {0};
+        mesh_report report;
+        polyhedron_array pieces = {0};
+        fram_error error;
+        double concavity, volume;
+        int32_t joined;
+        random_stream r = random_begin(77, 1, (uint32_t)i);
+        double rough = random_uniform(&r, 0.1, 0.6), tolerance = random_uniform(&r, 0.3, 2);
+        sample_sphere_mesh(&ctx, 4 + i % 7, 4 + i % 11, 10, &m);
+        for (int32_t v = 0; v < m.vertex.count; v++) {
+            vec3 p = vec3_scale(m.vertex.data[v], 1 - rough * random_unit(&r));
+            m.vertex.data[v] = i % 3 ? p : (vec3){floor(p.x), floor(p.y), floor(p.z)};
+        }
+        ck_assert_int_eq(mesh_weld(&ctx, &m, 0, &joined), FRAM_OK);
+        ck_assert_int_eq(mesh_check(&ctx, &m, true, &report), FRAM_OK);
+        if (report.defect == MESH_CLOSED) {
+            volume = mesh_solid_properties(&m).volume;
+            assert_ok(mesh_convex_pieces(&ctx, &m, tolerance, 40, &pieces, &concavity, &error), error);
+            ck_assert(pieces.count >= 40 || concavity <= tolerance);
+            ck_assert_double_ge(union_volume(&pieces), volume * (1 - 1e-3));
+            ck_assert_double_le(union_volume(&pieces), volume * 1.8);
+            assert_covered(&m, &pieces, 0.06 * tolerance);
+        }
+        polyhedron_array_free(&ctx, &pieces);
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
 /* Four times the size and the tolerance: four times the same pieces, to the bit. */
 START_TEST(size_does_not_matter)
 {
@@ -299,5 +333,5 @@ END_TEST
 
 TEST_MAIN("mesh_convex_pieces", a_convex_body_is_one_piece, notched_bodies_are_cut_at_the_notch,
           a_frame_is_cut_into_beams, the_limit_leaves_concavity, deep_places_between_vertices,
-          bodies_apart_and_cavities, a_hull_with_bulb_and_flare, size_does_not_matter, surfaces_that_are_no_solids,
-          memory_runs_out)
+          bodies_apart_and_cavities, a_hull_with_bulb_and_flare, rough_bodies, size_does_not_matter,
+          surfaces_that_are_no_solids, memory_runs_out)
