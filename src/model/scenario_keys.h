@@ -73,19 +73,31 @@
     X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                  \
     X(hull, SECTION(hull), "", "the form of the hull")
 
-#define SCENARIO_HULL_KEYS(X)                                                                   \
-    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file"), "",                      \
-      "box; icebreaker: wedge bow, flared midbody and raked stern; file: a closed mesh")        \
-    X(file, PATH(""), "", "mesh of the hull in ship coordinates, for form file")                \
-    X(length, REAL(100, 1e-3, 1e4), "m", "waterline length")                                    \
-    X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                         \
-    X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                              \
-    X(freeboard, REAL(4, 1e-4, 1e3), "m", "height of the deck above the waterline")             \
-    X(stem_angle_deg, REAL(30, 5, 90), "deg", "stem against the water plane, at the waterline") \
-    X(entrance_angle_deg, REAL(30, 5, 90), "deg", "half entrance angle of the waterline")       \
-    X(flare_angle_deg, REAL(8, 0, 80), "deg", "sides against the vertical")                     \
-    X(stern_angle_deg, REAL(30, 5, 90), "deg", "run of the stern against the water plane")      \
-    X(parallel_midbody, REAL(0.4, 0, 1), "1", "length of the parallel middle body over the waterline length")
+#define SCENARIO_HULL_KEYS(X)                                                                                      \
+    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file"), "",                                         \
+      "box; icebreaker: wedge bow, flared midbody and raked stern; file: a mesh, which has its own length, beam, " \
+      "draught and angles")                                                                                        \
+    X(file, PATH(""), "",                                                                                          \
+      "form file: mesh (STL, OBJ, GDF) in ship coordinates, x forward, z = 0 in the design waterline")             \
+    X(file_scale, REAL(1, 1e-6, 1e6), "1", "form file: lengths of the file times this are metres")                 \
+    X(seal_width, AUTOMATIC(0, 1e3), "m",                                                                          \
+      "form file: cracks up to this width are sealed; auto: a two-thousandth of the length")                       \
+    X(repair, BOOLEAN(false), "", "form file: fill holes and turn triangles instead of refusing the mesh")         \
+    X(length, REAL(100, 1e-3, 1e4), "m", "waterline length")                                                       \
+    X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                                            \
+    X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                                                 \
+    X(freeboard, REAL(4, 1e-4, 1e3), "m",                                                                          \
+      "height of the deck above the waterline; form file: a level open top is raised by this and decked")          \
+    X(stem_angle_deg, REAL(30, 5, 90), "deg", "stem against the water plane, at the waterline")                    \
+    X(entrance_angle_deg, REAL(30, 5, 90), "deg", "half entrance angle of the waterline")                          \
+    X(flare_angle_deg, REAL(8, 0, 80), "deg", "sides against the vertical")                                        \
+    X(stern_angle_deg, REAL(30, 5, 90), "deg", "run of the stern against the water plane")                         \
+    X(parallel_midbody, REAL(0.4, 0, 1), "1", "length of the parallel middle body over the waterline length")      \
+    X(block_coefficient, AUTOMATIC(0.01, 1), "1",                                                                  \
+      "icebreaker: displaced volume over length, beam and draught, met by the bilge; auto: sharp bilges")          \
+    X(piece_distance, AUTOMATIC(1e-6, 1e3), "m",                                                                   \
+      "form file: largest distance of the convex pieces for contact to the mesh; auto: a hundredth of the beam")   \
+    X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
 #define SCENARIO_ICE_KEYS(X)                                                                                        \
     X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none"), "",                                            \

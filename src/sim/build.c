@@ -1,6 +1,7 @@
 #include "sim/build.h"
 
 #include "base/transcendental.h"
+#include "sim/build_hull.h"
 #include "sim/build_ice.h"
 
 #include <string.h>
@@ -23,7 +24,7 @@ step_settings build_settings(const scenario *s)
     const scenario_friction *f = &s->ice.friction;
     step_settings out = {
         .time_step = s->run.time_step,
-        .fluid = e->water,
+        .forces = e->water ? FORCES_FLUID : FORCES_NONE,
         .media = {e->gravity, e->water_density, e->air_density, horizontal(e->current_speed, e->current_direction_deg),
                   horizontal(e->wind_speed, e->wind_direction_deg)},
         .collision = {s->run.collision_margin},
@@ -47,27 +48,6 @@ step_settings build_settings(const scenario *s)
 /* ------------------------------------------------------------------------------------------------------------ vessel
  */
 
-static hull_particulars particulars_of(const scenario_hull *h)
-{
-    return (hull_particulars){.form = h->form,
-                              .length = h->length,
-                              .beam = h->beam,
-                              .draught = h->draught,
-                              .freeboard = h->freeboard,
-                              .stem_angle = radians(h->stem_angle_deg),
-                              .entrance_angle = radians(h->entrance_angle_deg),
-                              .flare_angle = radians(h->flare_angle_deg),
-                              .stern_angle = radians(h->stern_angle_deg),
-                              .parallel_midbody = h->parallel_midbody};
-}
-
-/* The hull about its centre of mass, with what its making tells. */
-typedef struct made_hull {
-    int32_t solid;
-    vec3 centre;           /* of mass, ship coordinates */
-    double displaced_mass; /* at the draught [kg] */
-} made_hull;
-
 static fram_status name_key(const scenario *s, fram_status status, const char *key, fram_error *error)
 {
     if (status == FRAM_ERROR_INPUT && error && !error->key[0]) {
@@ -77,30 +57,6 @@ static fram_status name_key(const scenario *s, fram_status status, const char *k
     return status;
 }
 
-static fram_status make_hull(context *ctx, const scenario *s, world *w, made_hull *out, fram_error *error)
-{
-    mesh surface = {0};
-    polyhedron_array pieces = {0};
-    hull_particulars particulars = particulars_of(&s->vessel.hull);
-    hull_hydrostatics floats = {0};
-    fram_status status = hull_make(ctx, &particulars, &surface, &pieces, error);
-    if (status == FRAM_OK)
-        status = hull_hydrostatics_at(ctx, &surface, 0, &floats, error);
-    if (status == FRAM_OK) {
-        out->displaced_mass = floats.volume * s->environment.water_density;
-        out->centre = vec3_make(automatic_or(s->vessel.centre_of_gravity_x, floats.centre_of_buoyancy.x),
-                                automatic_or(s->vessel.centre_of_gravity_y, floats.centre_of_buoyancy.y),
-                                automatic_or(s->vessel.centre_of_gravity_z, 0));
-        mesh_translate(&surface, vec3_neg(out->centre));
-        for (int32_t i = 0; i < pieces.count; i++)
-            polyhedron_translate(&pieces.data[i], vec3_neg(out->centre));
-        status = solid_add(ctx, &w->shapes, &surface, &pieces, 0, &out->solid, error);
-    }
-    mesh_free(ctx, &surface);
-    polyhedron_array_free(ctx, &pieces);
-    return name_key(s, status, "vessel.hull", error);
-}
-
 static fram_status add_vessel(context *ctx, const scenario *s, world *w, const made_hull *hull, fram_error *error)
 {
     const scenario_vessel *v = &s->vessel;
@@ -108,10 +64,10 @@ static fram_status add_vessel(context *ctx, const scenario *s, world *w, const m
         .solid = hull->solid,
         .centre = hull->centre,
         .mass = automatic_or(v->mass, hull->displaced_mass),
-        .gyration = {automatic_or(v->gyration_roll, 0.35 * v->hull.beam),
-                     automatic_or(v->gyration_pitch, 0.25 * v->hull.length),
-                     automatic_or(v->gyration_yaw, 0.25 * v->hull.length)},
-        .particulars = particulars_of(&v->hull),
+        .gyration = {automatic_or(v->gyration_roll, 0.35 * hull->particulars.beam),
+                     automatic_or(v->gyration_pitch, 0.25 * hull->particulars.length),
+                     automatic_or(v->gyration_yaw, 0.25 * hull->particulars.length)},
+        .particulars = hull->particulars,
         .mode = v->mode,
         .position = {v->x, v->y, 0},
         .heading = radians(v->heading_deg),
@@ -181,7 +137,7 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     status = start_load_window(ctx, s, w, error);
     made_hull hull = {0};
     if (status == FRAM_OK && s->vessel.present) {
-        status = make_hull(ctx, s, w, &hull, error);
+        status = build_hull(ctx, s, w, &hull, error);
         if (status == FRAM_OK)
             status = add_vessel(ctx, s, w, &hull, error);
         report->displaced_mass = hull.displaced_mass;
@@ -202,7 +158,7 @@ fram_status build_empty_world(context *ctx, const scenario *s, world *w, fram_er
         return status;
     made_hull hull;
     if (s->vessel.present)
-        status = make_hull(ctx, s, w, &hull, error);
+        status = build_hull(ctx, s, w, &hull, error);
     if (status != FRAM_OK)
         world_free(ctx, w);
     return status;

@@ -1,0 +1,130 @@
+#include "sim/build_hull.h"
+
+#include "base/transcendental.h"
+#include "io/hull_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A hull on its way into the store. */
+typedef struct new_hull {
+    mesh surface;
+    polyhedron_array pieces;
+    double concavity; /* of the pieces [m] */
+    hull_hydrostatics floats;
+} new_hull;
+
+static hull_particulars particulars_of(const scenario_hull *h)
+{
+    return (hull_particulars){.form = h->form,
+                              .length = h->length,
+                              .beam = h->beam,
+                              .draught = h->draught,
+                              .freeboard = h->freeboard,
+                              .stem_angle = radians(h->stem_angle_deg),
+                              .entrance_angle = radians(h->entrance_angle_deg),
+                              .flare_angle = radians(h->flare_angle_deg),
+                              .stern_angle = radians(h->stern_angle_deg),
+                              .parallel_midbody = h->parallel_midbody,
+                              .block_coefficient = automatic_or(h->block_coefficient, 0)};
+}
+
+/* An error of the rooms below names a member; the scenario's key is longer, and angles are in degrees there. */
+static fram_status name_key(const scenario *s, fram_status status, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT || !error || error->file[0])
+        return status;
+    char member[sizeof error->key];
+    memcpy(member, error->key, sizeof member);
+    size_t length = strlen(member);
+    bool angle = length > 6 && strcmp(member + length - 6, "_angle") == 0;
+    snprintf(error->key, sizeof error->key, "vessel.hull%s%.90s%s", length ? "." : "", member, angle ? "_deg" : "");
+    scenario_locate(s, error);
+    return status;
+}
+
+static void report_file(context *ctx, const hull_file_report *r)
+{
+    log_write(ctx, LOG_INFO, "the hull is read from %d elements of %s", (int)r->elements, mesh_format_name(r->format));
+    if (r->seal.joined || r->seal.splits)
+        log_write(
+            ctx, LOG_INFO,
+            "its cracks are sealed: the widest %.3g m, %d vertices joined, edges led over a vertex %d times, %.3g "
+            "m2 swept, volume integrals changed by (%.3g, %.3g, %.3g) m3",
+            r->seal.width, (int)r->seal.joined, (int)r->seal.splits, r->seal.area, r->seal.volume.x, r->seal.volume.y,
+            r->seal.volume.z);
+    if (r->freeboard > 0)
+        log_write(ctx, LOG_INFO, "its open top is raised by %.3g m and decked", r->freeboard);
+    if (r->holes || r->flipped)
+        log_write(ctx, LOG_INFO, "it is repaired: %d holes of %.3g m2 filled, %d triangles turned", (int)r->holes,
+                  r->hole_area, (int)r->flipped);
+}
+
+/* Main particulars of a mesh: those of its part under z = 0. */
+static fram_status measure(const scenario *s, const new_hull *h, hull_particulars *p, fram_error *error)
+{
+    box3 box = mesh_bounds(&h->surface);
+    box2 line = h->floats.waterline;
+    if (!(h->floats.waterplane_area > 0))
+        return error_set(
+            error, FRAM_ERROR_INPUT, s->vessel.hull.file, 0, "mesh",
+            "the design waterline of a hull's file is its z = 0, but the mesh reaches from z = %g to %g m; "
+            "move it up or down",
+            box.lo.z, box.hi.z);
+    p->length = line.hi.x - line.lo.x;
+    p->beam = line.hi.y - line.lo.y;
+    p->draught = -box.lo.z;
+    p->freeboard = box.hi.z;
+    p->midships = 0.5 * (line.lo.x + line.hi.x);
+    return FRAM_OK;
+}
+
+static fram_status read_hull(context *ctx, const scenario *s, new_hull *h, fram_error *error)
+{
+    const scenario_hull *keys = &s->vessel.hull;
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, keys->file, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "file", "the path of the mesh is too long");
+    const hull_file_options options = {keys->file_scale, keys->seal_width, keys->repair, keys->freeboard};
+    hull_file_report report;
+    fram_status status = hull_file_read(ctx, path, &options, &h->surface, &report, error);
+    if (status == FRAM_OK) {
+        report_file(ctx, &report);
+        double distance = keys->piece_distance;
+        status = hull_cut(ctx, &h->surface, &distance, (int32_t)keys->most_pieces, &h->pieces, &h->concavity, error);
+    }
+    if (status == FRAM_OK)
+        log_write(ctx, LOG_INFO, "it is cut into %d convex pieces within %.3g m of the mesh", (int)h->pieces.count,
+                  h->concavity);
+    return status;
+}
+
+static fram_status make(context *ctx, const scenario *s, new_hull *h, hull_particulars *p, fram_error *error)
+{
+    bool from_file = s->vessel.hull.form == HULL_MESH;
+    *p = particulars_of(&s->vessel.hull);
+    fram_status status = from_file ? read_hull(ctx, s, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
+    if (status == FRAM_OK)
+        status = hull_hydrostatics_at(ctx, &h->surface, 0, &h->floats, error);
+    return status == FRAM_OK && from_file ? measure(s, h, p, error) : status;
+}
+
+fram_status build_hull(context *ctx, const scenario *s, world *w, made_hull *out, fram_error *error)
+{
+    new_hull h = {0};
+    *out = (made_hull){0};
+    fram_status status = make(ctx, s, &h, &out->particulars, error);
+    if (status == FRAM_OK) {
+        out->displaced_mass = h.floats.volume * s->environment.water_density;
+        out->centre = vec3_make(automatic_or(s->vessel.centre_of_gravity_x, h.floats.centre_of_buoyancy.x),
+                                automatic_or(s->vessel.centre_of_gravity_y, h.floats.centre_of_buoyancy.y),
+                                automatic_or(s->vessel.centre_of_gravity_z, 0));
+        mesh_translate(&h.surface, vec3_neg(out->centre));
+        for (int32_t i = 0; i < h.pieces.count; i++)
+            polyhedron_translate(&h.pieces.data[i], vec3_neg(out->centre));
+        status = solid_add(ctx, &w->shapes, &h.surface, &h.pieces, h.concavity, &out->solid, error);
+    }
+    mesh_free(ctx, &h.surface);
+    polyhedron_array_free(ctx, &h.pieces);
+    return name_key(s, status, error);
+}
