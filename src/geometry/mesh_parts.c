@@ -2,6 +2,7 @@
 #include "geometry/mesh_parts.h"
 
 #include "base/transcendental.h"
+#include "geometry/mesh_point.h"
 
 /* Label everything that hangs together with `seed`; `waiting` has room for all faces. */
 static void flood(const mesh *m, const mesh_adjacency *adjacency, int32_t seed, int32_t label, mesh_parts *out,
@@ -77,14 +78,6 @@ bool mesh_copy_part(context *ctx, const mesh *m, const mesh_parts *p, int32_t pa
     return done;
 }
 
-/* Solid angle [sr] of a triangle seen from the origin, positive from inside (van Oosterom and Strackee 1983, eq. 8). */
-static double solid_angle(vec3 a, vec3 b, vec3 c)
-{
-    double la = vec3_length(a), lb = vec3_length(b), lc = vec3_length(c);
-    double down = la * lb * lc + vec3_dot(a, b) * lc + vec3_dot(a, c) * lb + vec3_dot(b, c) * la;
-    return 2 * real_atan2(vec3_dot(a, vec3_cross(b, c)), down);
-}
-
 /* How often the parts other than `own` wind about the point. */
 static double winding(const mesh *m, const mesh_parts *parts, int32_t own, vec3 point)
 {
@@ -98,7 +91,7 @@ static double winding(const mesh *m, const mesh_parts *parts, int32_t own, vec3 
                 continue;
             vec3 p[3];
             mesh_face_points(m, f, p);
-            sum += solid_angle(vec3_sub(p[0], point), vec3_sub(p[1], point), vec3_sub(p[2], point));
+            sum += triangle_solid_angle(vec3_sub(p[0], point), vec3_sub(p[1], point), vec3_sub(p[2], point));
             left--;
         }
     }

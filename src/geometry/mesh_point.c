@@ -5,18 +5,21 @@
 
 static vec3 face_vertex(const mesh *m, int32_t face, int k) { return m->vertex.data[m->face.data[face].v[k]]; }
 
+double triangle_solid_angle(vec3 a, vec3 b, vec3 c)
+{
+    double la = vec3_length(a), lb = vec3_length(b), lc = vec3_length(c);
+    double triple = vec3_dot(a, vec3_cross(b, c));
+    double below = la * lb * lc + vec3_dot(a, b) * lc + vec3_dot(b, c) * la + vec3_dot(c, a) * lb;
+    return 2 * real_atan2(triple, below);
+}
+
 double mesh_winding(const mesh *m, vec3 point)
 {
-    double half_angle = 0;
-    for (int32_t f = 0; f < m->face.count; f++) {
-        vec3 a = vec3_sub(face_vertex(m, f, 0), point), b = vec3_sub(face_vertex(m, f, 1), point),
-             c = vec3_sub(face_vertex(m, f, 2), point);
-        double la = vec3_length(a), lb = vec3_length(b), lc = vec3_length(c);
-        double triple = vec3_dot(a, vec3_cross(b, c));
-        double below = la * lb * lc + vec3_dot(a, b) * lc + vec3_dot(b, c) * la + vec3_dot(c, a) * lb;
-        half_angle += real_atan2(triple, below);
-    }
-    return half_angle / (2 * PI);
+    double angle = 0;
+    for (int32_t f = 0; f < m->face.count; f++)
+        angle += triangle_solid_angle(vec3_sub(face_vertex(m, f, 0), point), vec3_sub(face_vertex(m, f, 1), point),
+                                      vec3_sub(face_vertex(m, f, 2), point));
+    return angle / (4 * PI);
 }
 
 /* By the region of the plane that the point falls into: corners, edges, face (Ericson 2005, section 5.1.5). */

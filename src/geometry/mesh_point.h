@@ -5,9 +5,12 @@
 
 #include "geometry/mesh.h"
 
+/* Solid angle [sr] of the triangle abc seen from the origin, positive from the side that its area vector points away
+   from (Van Oosterom and Strackee 1983, eq. 8). */
+double triangle_solid_angle(vec3 a, vec3 b, vec3 c);
+
 /* Winding number of a closed mesh about a point: 1 inside, 0 outside, anything between on the surface.  Sum of the
-   solid angles of all triangles (Van Oosterom and Strackee 1983, eq. 8) over 4 pi; right beside edges and vertices too.
- */
+   solid angles of all triangles over 4 pi; right beside edges and vertices too. */
 double mesh_winding(const mesh *m, vec3 point);
 
 /* The point of the surface nearest to `point`, on the lowest such face (may be NULL).  The mesh has triangles. */
