@@ -30,6 +30,12 @@ bool mesh_copy(context *ctx, mesh *dst, const mesh *src)
     return true;
 }
 
+void mesh_translate(mesh *m, vec3 by)
+{
+    for (int32_t i = 0; i < m->vertex.count; i++)
+        m->vertex.data[i] = vec3_add(m->vertex.data[i], by);
+}
+
 bool mesh_add_vertex(context *ctx, mesh *m, vec3 v) { return array_push(ctx, &m->vertex, v); }
 
 bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c)

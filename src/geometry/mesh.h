@@ -19,7 +19,7 @@ void mesh_free(context *ctx, mesh *m);
 /* Empty, memory kept. */
 void mesh_clear(mesh *m);
 bool mesh_copy(context *ctx, mesh *dst, const mesh *src);
-/* Move every vertex; translate.c. */
+/* Move every vertex. */
 void mesh_translate(mesh *m, vec3 by);
 bool mesh_add_vertex(context *ctx, mesh *m, vec3 v);
 bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c);

@@ -22,6 +22,15 @@ void polyhedron_array_free(context *ctx, polyhedron_array *a)
     array_free(ctx, a);
 }
 
+void polyhedron_translate(polyhedron *p, vec3 by)
+{
+    for (int32_t i = 0; i < p->vertex.count; i++)
+        p->vertex.data[i] = vec3_add(p->vertex.data[i], by);
+    for (int32_t i = 0; i < p->face.count; i++)
+        p->face.data[i].offset += vec3_dot(p->face.data[i].normal, by);
+    p->centre = vec3_add(p->centre, by);
+}
+
 static vec3 corner(const polyhedron *p, const polyhedron_face *f, int32_t i)
 {
     return p->vertex.data[p->loop.data[f->first + i]];

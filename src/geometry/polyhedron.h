@@ -26,7 +26,7 @@ typedef ARRAY(polyhedron) polyhedron_array;
 
 void polyhedron_free(context *ctx, polyhedron *p);
 void polyhedron_array_free(context *ctx, polyhedron_array *a);
-/* Move vertices, planes and centre; translate.c. */
+/* Move vertices, planes and centre. */
 void polyhedron_translate(polyhedron *p, vec3 by);
 
 /* Convex hull of points: quickhull with exact predicates.  Points that stand out less than `tolerance` [m] (at least

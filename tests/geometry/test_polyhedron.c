@@ -284,6 +284,11 @@ START_TEST(prisms)
     assert_vec3_close(p.face.data[0].normal, ((vec3){0, 0, -1}), 0);
     assert_bits(p.face.data[1].offset, 1);
     assert_absolute(p.centre.z, 0.25, 1e-15);
+    /* Moved, it is the same about its centre. */
+    polyhedron_translate(&p, (vec3){10, 20, 30});
+    check_polyhedron(&p, 1e-13);
+    assert_absolute(p.centre.z, 30.25, 1e-13);
+    polyhedron_translate(&p, (vec3){-10, -20, -30});
     /* The hull of its vertices is the same body. */
     polyhedron q = {0};
     assert_hull(&ctx, p.vertex.data, p.vertex.count, 0, &q);
