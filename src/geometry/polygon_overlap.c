@@ -13,8 +13,10 @@ static bool edge_line_of(vec2 a, vec2 b, vec2 origin, edge_line *e)
 {
     bool upper = a.x > b.x; /* of a counter-clockwise ring */
     vec2 from = vec2_sub(upper ? b : a, origin), to = vec2_sub(upper ? a : b, origin);
+    if (to.x <= from.x)
+        return false;
     *e = (edge_line){from.x, to.x, from.y, (to.y - from.y) / (to.x - from.x), upper ? 1 : -1};
-    return to.x > from.x;
+    return true;
 }
 
 /* Integral of the lower of the two lines over the x they have in common; both are above 0. */
