@@ -215,12 +215,13 @@ FRAM_API fram_status fram_playback(fram_context *context, const char *folder, co
 typedef struct fram_bench_result {
     int64_t steps;
     int floes;
-    double ms_per_step_median; /* CPU time of a step, all threads [ms] */
-    double ms_wall_median;     /* [ms] */
-    double us_per_floe_step;   /* [us] */
+    double ms_per_step_median;              /* CPU time of a step, all threads [ms] */
+    double ms_wall_median;                  /* [ms] */
+    double us_per_floe_step;                /* [us] */
+    double collide_ms, solve_ms, forces_ms; /* CPU time of the parts of a step, medians [ms] */
     double real_time_factor;
-    double contact_points; /* mean per step */
-    double pairs;          /* mean number of touching pairs per step */
+    double contact_points; /* that overlap, mean per step */
+    double pairs;          /* of bodies that overlap, mean per step */
     double mean_penetration_m, max_penetration_m;
     double ship_force_kN; /* mean ice load against the ship's x axis */
     double kinetic_energy_J;
@@ -231,6 +232,22 @@ typedef struct fram_bench_result {
 /* Step a scenario's world for `time` seconds after `warm` seconds of warm-up, without output, and measure. */
 FRAM_API fram_status fram_bench(const fram_scenario *scenario, double warm, double time, fram_bench_result *result,
                                 fram_error *error);
+
+/* A benchmark scene in the text format that other engines read too (bench/peers/README.md): its own simple water, a box
+   ship at constant speed, walls; every floe awake. */
+typedef struct fram_bench_scene_definition {
+    size_t size;        /* of this struct, set by fram_bench_scene_default */
+    double time_step;   /* [s] */
+    double warm, time;  /* simulated seconds: unmeasured, and in all */
+    int iterations;     /* of the solver, for velocities and for positions */
+    const char *solver; /* "sequential", "fast", "accurate" */
+    const char *dump;   /* file for the final poses, NULL: none */
+} fram_bench_scene_definition;
+FRAM_API void fram_bench_scene_default(fram_bench_scene_definition *definition);
+/* FRAM_ERROR_INPUT with file and line for a scene that cannot be read. */
+FRAM_API fram_status fram_bench_scene(fram_context *context, const char *path,
+                                      const fram_bench_scene_definition *definition, fram_bench_result *result,
+                                      fram_error *error);
 
 #ifdef __cplusplus
 }

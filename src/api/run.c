@@ -5,6 +5,8 @@
 #include "sim/playback.h"
 #include "sim/run.h"
 
+#include <string.h>
+
 void fram_run_default(fram_run_definition *definition)
 {
     *definition = (fram_run_definition){.size = sizeof *definition};
@@ -88,27 +90,90 @@ fram_status fram_resume(fram_context *c, const fram_run_definition *definition, 
     return status;
 }
 
+/* ---- benchmarks ---- */
+
+static fram_bench_result bench_answer(const bench_result *r)
+{
+    return (fram_bench_result){.steps = r->steps,
+                               .floes = r->floes,
+                               .ms_per_step_median = r->cpu_median * 1e3,
+                               .ms_wall_median = r->wall_median * 1e3,
+                               .us_per_floe_step = r->floes > 0 ? r->cpu_median * 1e6 / r->floes : 0,
+                               .collide_ms = r->collide_median * 1e3,
+                               .solve_ms = r->solve_median * 1e3,
+                               .forces_ms = r->forces_median * 1e3,
+                               .real_time_factor = r->real_time_factor,
+                               .contact_points = r->contact_points,
+                               .pairs = r->pairs,
+                               .mean_penetration_m = r->mean_depth,
+                               .max_penetration_m = r->max_depth,
+                               .ship_force_kN = r->ship_force * 1e-3,
+                               .kinetic_energy_J = r->kinetic_energy,
+                               .solver_residual = r->residual,
+                               .state_hash = r->state_hash};
+}
+
 fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_bench_result *result, fram_error *error)
 {
     bench_result r;
     fram_status status = bench_scenario(&s->context->inner, &s->inner, warm, time, &r, error);
+    if (status == FRAM_OK)
+        *result = bench_answer(&r);
+    return status;
+}
+
+void fram_bench_scene_default(fram_bench_scene_definition *definition)
+{
+    *definition = (fram_bench_scene_definition){
+        .size = sizeof *definition, .time_step = 0.02, .warm = 5, .time = 20, .iterations = 10, .solver = "sequential"};
+}
+
+/* Times so that the number of steps is an ordinary one. */
+static bool times_are_good(const fram_bench_scene_definition *d)
+{
+    return d->time_step > 1e-9 && d->time_step <= 1e6 && d->warm >= 0 && d->warm < d->time && d->time <= 1e6 &&
+           d->time / d->time_step <= 1e8;
+}
+
+static fram_status scene_options(const fram_bench_scene_definition *d, bench_scene_options *out, fram_error *error)
+{
+    static const char *const solvers[] = {
+        [SOLVER_SEQUENTIAL] = "sequential", [SOLVER_FAST] = "fast", [SOLVER_ACCURATE] = "accurate"};
+    if (d->size != sizeof *d)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_bench_scene_definition.size",
+                         "the definition was not filled by fram_bench_scene_default of this version");
+    if (!times_are_good(d))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "time",
+                         "expected 0 <= warm < time, a positive time step, and at most 1e8 steps");
+    if (d->iterations < 1 || d->iterations > 1000000)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "iterations", "expected 1 to 1000000");
+    *out = (bench_scene_options){
+        .time_step = d->time_step, .warm = d->warm, .time = d->time, .iterations = d->iterations, .dump = d->dump};
+    for (int i = 0; i < (int)(sizeof solvers / sizeof *solvers); i++) {
+        if (d->solver && strcmp(d->solver, solvers[i]) == 0) {
+            out->solver = (solver_kind)i;
+            return FRAM_OK;
+        }
+    }
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "solver", "expected sequential, fast or accurate");
+}
+
+fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench_scene_definition *definition,
+                             fram_bench_result *result, fram_error *error)
+{
+    bench_scene_options options;
+    scene_text scene;
+    fram_status status = scene_options(definition, &options, error);
+    if (status == FRAM_OK)
+        status = scene_file_read(&c->inner, path, &scene, error);
     if (status != FRAM_OK)
         return status;
-    *result = (fram_bench_result){.steps = r.steps,
-                                  .floes = r.floes,
-                                  .ms_per_step_median = r.cpu_median * 1e3,
-                                  .ms_wall_median = r.wall_median * 1e3,
-                                  .us_per_floe_step = r.floes > 0 ? r.cpu_median * 1e6 / r.floes : 0,
-                                  .real_time_factor = r.real_time_factor,
-                                  .contact_points = r.contact_points,
-                                  .pairs = r.pairs,
-                                  .mean_penetration_m = r.mean_depth,
-                                  .max_penetration_m = r.max_depth,
-                                  .ship_force_kN = r.ship_force * 1e-3,
-                                  .kinetic_energy_J = r.kinetic_energy,
-                                  .solver_residual = r.residual,
-                                  .state_hash = r.state_hash};
-    return FRAM_OK;
+    bench_result r;
+    status = bench_scene(&c->inner, &scene, &options, &r, error);
+    scene_text_free(&c->inner, &scene);
+    if (status == FRAM_OK)
+        *result = bench_answer(&r);
+    return status;
 }
 
 fram_status fram_playback(fram_context *c, const char *folder, const char *viewer_page, const char *output,

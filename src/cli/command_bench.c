@@ -1,71 +1,160 @@
-/* fram bench: the speed of stepping a scenario, without output. */
+/* fram bench: the speed of stepping a scenario, or a scene of other engines, without output. */
 #include "cli.h"
 
-static void print_result(const common_options *common, const fram_bench_result *r)
+typedef struct bench_words {
+    common_options common;
+    const char *path; /* of the scenario, or of the scene */
+    bool is_scene, all_solvers;
+    double warm, time; /* negative: the default */
+    option_list overrides;
+    fram_bench_scene_definition scene;
+} bench_words;
+
+static void print_text(const fram_bench_result *r)
 {
-    if (!common->quiet) {
-        fprintf(stderr, "%d floes, %lld steps: %.3f ms CPU a step (median), %.3f ms wall, %.3f us per floe and step\n",
-                r->floes, (long long)r->steps, r->ms_per_step_median, r->ms_wall_median, r->us_per_floe_step);
-        fprintf(stderr,
-                "real-time factor %.2f; %.0f contact points in %.0f pairs; overlap mean %.3g m, largest %.3g m\n",
-                r->real_time_factor, r->contact_points, r->pairs, r->mean_penetration_m, r->max_penetration_m);
+    fprintf(stderr, "%d floes, %lld steps: %.3f ms CPU a step (median), %.3f ms wall, %.3f us per floe and step\n",
+            r->floes, (long long)r->steps, r->ms_per_step_median, r->ms_wall_median, r->us_per_floe_step);
+    fprintf(stderr, "collision %.3f ms, solver and integration %.3f ms, forces %.3f ms; real-time factor %.2f\n",
+            r->collide_ms, r->solve_ms, r->forces_ms, r->real_time_factor);
+    fprintf(stderr, "%.0f contact points in %.0f pairs; overlap mean %.3g m, largest %.3g m\n", r->contact_points,
+            r->pairs, r->mean_penetration_m, r->max_penetration_m);
+}
+
+static void json_result(json *j, const fram_bench_result *r)
+{
+    json_integer(j, "floes", r->floes);
+    json_integer(j, "steps", r->steps);
+    json_real(j, "ms_per_step_median", r->ms_per_step_median);
+    json_real(j, "ms_wall_median", r->ms_wall_median);
+    json_real(j, "us_per_floe_step", r->us_per_floe_step);
+    json_real(j, "collide_ms", r->collide_ms);
+    json_real(j, "solve_ms", r->solve_ms);
+    json_real(j, "forces_ms", r->forces_ms);
+    json_real(j, "real_time_factor", r->real_time_factor);
+    json_real(j, "contact_points", r->contact_points);
+    json_real(j, "pairs", r->pairs);
+    json_real(j, "mean_penetration_m", r->mean_penetration_m);
+    json_real(j, "max_penetration_m", r->max_penetration_m);
+    json_real(j, "ship_force_kN", r->ship_force_kN);
+    json_real(j, "kinetic_energy_J", r->kinetic_energy_J);
+    json_real(j, "solver_residual_m_per_s", r->solver_residual);
+    json_hash(j, "state_hash", r->state_hash);
+}
+
+static fram_status bench_scenario_file(fram_context *context, const bench_words *w, fram_bench_result *result,
+                                       fram_error *error)
+{
+    fram_scenario *scenario = NULL;
+    fram_status status = fram_scenario_load(context, w->path, w->overrides.value, w->overrides.count, &scenario, error);
+    if (status == FRAM_OK)
+        status = fram_bench(scenario, w->warm < 0 ? 2 : w->warm, w->time < 0 ? 10 : w->time, result, error);
+    fram_scenario_destroy(scenario);
+    return status;
+}
+
+static int bench_once(fram_context *context, const bench_words *w)
+{
+    fram_error error = {0};
+    fram_bench_result result = {0};
+    fram_status status = w->is_scene ? fram_bench_scene(context, w->path, &w->scene, &result, &error)
+                                     : bench_scenario_file(context, w, &result, &error);
+    if (status != FRAM_OK)
+        return answer_error(&w->common, &error);
+    if (!w->common.quiet)
+        print_text(&result);
+    if (w->common.json) {
+        json j = json_begin();
+        json_result(&j, &result);
+        json_end(&j);
     }
-    if (!common->json)
-        return;
-    json j = json_begin();
-    json_integer(&j, "floes", r->floes);
-    json_integer(&j, "steps", r->steps);
-    json_real(&j, "ms_per_step_median", r->ms_per_step_median);
-    json_real(&j, "ms_wall_median", r->ms_wall_median);
-    json_real(&j, "us_per_floe_step", r->us_per_floe_step);
-    json_real(&j, "real_time_factor", r->real_time_factor);
-    json_real(&j, "contact_points", r->contact_points);
-    json_real(&j, "pairs", r->pairs);
-    json_real(&j, "mean_penetration_m", r->mean_penetration_m);
-    json_real(&j, "max_penetration_m", r->max_penetration_m);
-    json_real(&j, "ship_force_kN", r->ship_force_kN);
-    json_real(&j, "kinetic_energy_J", r->kinetic_energy_J);
-    json_real(&j, "solver_residual_m_per_s", r->solver_residual);
-    json_hash(&j, "state_hash", r->state_hash);
-    json_end(&j);
+    return EXIT_GOOD;
+}
+
+/* Load, residual, penetration and time of each solver on one scene. */
+static int bench_solvers(fram_context *context, const bench_words *w)
+{
+    static const char *const names[] = {"sequential", "fast", "accurate"};
+    enum { SOLVERS = sizeof names / sizeof *names };
+    fram_bench_result result[SOLVERS];
+    fram_bench_scene_definition scene = w->scene;
+    scene.dump = NULL;
+    if (!w->common.quiet)
+        fprintf(stderr, "%-12s %12s %14s %12s %12s %12s\n", "solver", "load kN", "residual m/s", "mean m", "largest m",
+                "ms a step");
+    for (int i = 0; i < SOLVERS; i++) {
+        fram_error error = {0};
+        scene.solver = names[i];
+        fram_bench_result *r = &result[i];
+        if (fram_bench_scene(context, w->path, &scene, r, &error) != FRAM_OK)
+            return answer_error(&w->common, &error);
+        if (!w->common.quiet)
+            fprintf(stderr, "%-12s %12.1f %14.3g %12.3g %12.3g %12.3f\n", names[i], r->ship_force_kN,
+                    r->solver_residual, r->mean_penetration_m, r->max_penetration_m, r->ms_per_step_median);
+    }
+    if (w->common.json) {
+        json j = json_begin();
+        for (int i = 0; i < SOLVERS; i++) {
+            json_open(&j, names[i]);
+            json_result(&j, &result[i]);
+            json_close(&j);
+        }
+        json_end(&j);
+    }
+    return EXIT_GOOD;
+}
+
+/* The rest of what the words must fulfil; -1: good. */
+static int check_words(const bench_words *w, const char *scene)
+{
+    if (!(w->warm == -1 || (w->warm >= 0 && w->warm <= 1e6)))
+        return answer_usage(&w->common, "--warm", "must lie between 0 and 1e6 s");
+    if (!(w->time == -1 || (w->time > 0 && w->time <= 1e6)))
+        return answer_usage(&w->common, "--time", "must be positive and at most 1e6 s");
+    if (scene && w->path)
+        return answer_usage(&w->common, w->path, "one scenario or one scene, not both");
+    if (!scene && !w->path)
+        return answer_usage(&w->common, "SCENARIO", "name a scenario file, or a scene with --scene FILE");
+    if (!scene && (w->all_solvers || w->scene.dump))
+        return answer_usage(&w->common, w->all_solvers ? "--solvers" : "--dump", "is for scenes: --scene FILE");
+    if (scene && w->overrides.count > 0)
+        return answer_usage(&w->common, "--set", "is for scenarios");
+    return -1;
 }
 
 int command_bench(const command_row *self, int argc, char **argv)
 {
-    common_options common;
-    option_list overrides = {0};
-    const char *path = NULL;
-    double warm = 2, time = 10;
+    bench_words w = {.warm = -1, .time = -1};
+    const char *scene = NULL;
+    fram_bench_scene_default(&w.scene);
     const option_row rows[] = {
-        {"--warm", NULL, OPTION_REAL, &warm, "T", "simulated seconds before measuring (2)"},
-        {"--time", NULL, OPTION_REAL, &time, "T", "simulated seconds to measure (10)"},
-        {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+        {"--warm", NULL, OPTION_REAL, &w.warm, "T", "simulated seconds before measuring (2; scene: 5)"},
+        {"--time", NULL, OPTION_REAL, &w.time, "T", "simulated seconds to measure (10); scene: in all (20)"},
+        {"--set", NULL, OPTION_LIST, &w.overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+        {"--scene", NULL, OPTION_TEXT, &scene, "FILE", "a scene in the format of bench/peers, instead of a scenario"},
+        {"--dt", NULL, OPTION_REAL, &w.scene.time_step, "S", "scene: time step (0.02 s)"},
+        {"--iterations", NULL, OPTION_INTEGER, &w.scene.iterations, "N", "scene: of the solver (10)"},
+        {"--solver", NULL, OPTION_TEXT, &w.scene.solver, "NAME", "scene: sequential, fast or accurate"},
+        {"--solvers", NULL, OPTION_FLAG, &w.all_solvers, NULL,
+         "scene: load, residual, overlap and time of each solver"},
+        {"--dump", NULL, OPTION_TEXT, &w.scene.dump, "FILE", "scene: write the final poses as CSV"},
     };
-    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
+    int code = options_read_some(self, rows, sizeof rows / sizeof *rows, &w.common, argc, argv, &w.path, 0, 1);
     if (code >= 0)
         return code;
-    if (!(warm >= 0 && warm <= 1e6))
-        return answer_usage(&common, "--warm", "must lie between 0 and 1e6 s");
-    if (!(time > 0 && time <= 1e6))
-        return answer_usage(&common, "--time", "must be positive and at most 1e6 s");
-    fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = check_words(&w, scene);
     if (code >= 0)
         return code;
-
-    fram_scenario *scenario = NULL;
-    fram_error error = {0};
-    fram_bench_result result = {0};
-    fram_status status = fram_scenario_load(context, path, overrides.value, overrides.count, &scenario, &error);
-    if (status == FRAM_OK)
-        status = fram_bench(scenario, warm, time, &result, &error);
-    if (status != FRAM_OK) {
-        code = answer_error(&common, &error);
-    } else {
-        code = EXIT_GOOD;
-        print_result(&common, &result);
+    if (scene) {
+        w.is_scene = true;
+        w.path = scene;
+        w.scene.warm = w.warm < 0 ? w.scene.warm : w.warm;
+        w.scene.time = w.time < 0 ? w.scene.time : w.time;
     }
-    fram_scenario_destroy(scenario);
+    fram_context *context = NULL;
+    code = session_open(&w.common, &context);
+    if (code >= 0)
+        return code;
+    code = w.all_solvers ? bench_solvers(context, &w) : bench_once(context, &w);
     fram_context_destroy(context);
     return code;
 }

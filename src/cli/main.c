@@ -18,15 +18,17 @@ static const command_row commands[] = {
      "  fram check scenes/demo.yaml\n"
      "  fram check scenes/demo.yaml --set ice.concentration=0.7 > full.yaml\n",
      command_check},
-    {"bench", "SCENARIO", "step a scenario without output and measure its speed",
+    {"bench", "SCENARIO | --scene FILE", "step a scenario without output and measure its speed",
      "  fram bench scenes/demo.yaml --warm 5 --time 10\n"
-     "  fram bench scenes/demo.yaml --threads 2 --json\n",
+     "  fram bench scenes/demo.yaml --threads 2 --json\n"
+     "  fram bench --scene bench/scenes/n1000_c90.scene --dt 0.02 --iterations 10 --json\n",
      command_bench},
     {"view", "RUN", "make a page that plays a run in a browser, from disk",
      "  fram view out/demo                      writes out/demo/playback.html\n"
      "  fram view out/demo -o demo.html\n",
      command_view},
-    {"hull", "[FILE]", "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
+    {"hull", "[FILE]",
+     "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
      "  fram hull ship.stl --draught 7.5\n"
      "  fram hull panels.gdf --freeboard 6 --draw hull.png --json\n"
      "  fram hull ship.obj --mass 9.5e6 --kg 8.2 --repair -o closed.stl\n"

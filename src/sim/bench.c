@@ -1,5 +1,6 @@
 #include "sim/bench.h"
 
+#include "sim/bench_measure.h"
 #include "sim/build.h"
 
 #include <stdlib.h>
@@ -24,76 +25,134 @@ static double median(double *value, int64_t count)
     return count % 2 ? value[count / 2] : (value[count / 2 - 1] + value[count / 2]) / 2;
 }
 
-/* Pairs of bodies in contact: contacts of one pair follow one another. */
-static int32_t touching_pairs(const contact_array *c)
+int64_t bench_steps(double span, double time_step) { return (int64_t)floor(span / time_step + 0.5); }
+
+/* ---- what a step did ---- */
+
+/* Overlapping points, and pairs of bodies that have some: contacts of one pair follow one another. */
+static void count_touching(const contact_array *c, bench_result *r)
 {
-    int32_t pairs = 0;
-    for (int32_t i = 0; i < c->count; i++)
-        pairs += i == 0 || c->data[i].a != c->data[i - 1].a || c->data[i].b != c->data[i - 1].b;
-    return pairs;
+    int32_t a = -1, b = -1;
+    for (int32_t i = 0; i < c->count; i++) {
+        const contact *at = &c->data[i];
+        if (!(at->depth > 0))
+            continue;
+        r->contact_points++;
+        r->pairs += at->a != a || at->b != b;
+        a = at->a;
+        b = at->b;
+    }
 }
 
-static void add_step(const world *w, bench_result *r)
+/* Force of all contacts on a body, against its own x axis [N]. */
+static double load_against(const world *w, int32_t body, double time_step)
 {
-    r->contact_points += w->scratch.contacts.count;
-    r->pairs += touching_pairs(&w->scratch.contacts);
+    vec3 sum = {0, 0, 0};
+    for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
+        const contact *c = &w->scratch.contacts.data[i];
+        if (c->a == body || c->b == body)
+            sum = vec3_mad(sum, contact_impulse(c), c->a == body ? -1 : 1);
+    }
+    return mat3_tmul_vec(quat_matrix(w->bodies.orientation[body]), sum).x / time_step;
+}
+
+static void add_step(const step_settings *settings, const world *w, int32_t ship, bench_result *r)
+{
+    count_touching(&w->scratch.contacts, r);
     r->mean_depth += w->scratch.solver.mean_depth;
     r->max_depth = fmax(r->max_depth, w->scratch.solver.max_depth);
     r->residual += w->scratch.solver.residual;
-    if (w->vessels.count > 0) {
-        mat3 rotation = quat_matrix(w->bodies.orientation[w->vessels.body[0]]);
-        r->ship_force += mat3_tmul_vec(rotation, w->scratch.ice_loads.data[0].total.force).x;
-    }
+    if (ship >= 0)
+        r->ship_force += load_against(w, ship, settings->time_step);
 }
 
-static fram_status measure(context *ctx, const step_settings *settings, world *w, int64_t steps, double *cpu,
-                           double *wall, bench_result *r, fram_error *error)
+/* ---- clocks ---- */
+
+/* Times of the measured steps, one column each. */
+enum { TIME_CPU, TIME_WALL, TIME_FORCES, TIME_COLLIDE, TIME_SOLVE, TIME_COUNT };
+
+typedef struct stopwatch {
+    double last, part[STAGE_COUNT]; /* process CPU time [s] */
+} stopwatch;
+
+static void stage_done(void *user, step_stage stage)
 {
-    double begun = seconds(CLOCK_MONOTONIC);
-    for (int64_t k = 0; k < steps; k++) {
-        double c = seconds(CLOCK_PROCESS_CPUTIME_ID), t = seconds(CLOCK_MONOTONIC);
-        fram_status status = world_step(ctx, settings, w, error);
-        if (status != FRAM_OK)
-            return status;
-        cpu[k] = seconds(CLOCK_PROCESS_CPUTIME_ID) - c;
-        wall[k] = seconds(CLOCK_MONOTONIC) - t;
-        add_step(w, r);
-    }
-    double n = (double)steps, took = seconds(CLOCK_MONOTONIC) - begun;
+    stopwatch *s = user;
+    double now = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    s->part[stage] = now - s->last;
+    s->last = now;
+}
+
+/* times: TIME_COUNT columns of `steps` rows. */
+static fram_status measure_step(context *ctx, const step_settings *settings, world *w, int64_t row, int64_t steps,
+                                double *times, fram_error *error)
+{
+    stopwatch clock = {.last = seconds(CLOCK_PROCESS_CPUTIME_ID)};
+    double wall = seconds(CLOCK_MONOTONIC), cpu = clock.last;
+    fram_status status = world_step_watched(ctx, settings, w, &(step_watch){stage_done, &clock}, error);
+    times[TIME_CPU * steps + row] = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    times[TIME_WALL * steps + row] = seconds(CLOCK_MONOTONIC) - wall;
+    times[TIME_FORCES * steps + row] = clock.part[STAGE_FORCES];
+    times[TIME_COLLIDE * steps + row] = clock.part[STAGE_DETECTION] + clock.part[STAGE_CRUSHING];
+    times[TIME_SOLVE * steps + row] = clock.part[STAGE_SOLVE] + clock.part[STAGE_INTEGRATION];
+    return status;
+}
+
+static void summarize(const step_settings *settings, const world *w, int64_t steps, double *times, bench_result *r)
+{
+    double n = (double)steps, took = 0;
+    for (int64_t k = 0; k < steps; k++)
+        took += times[TIME_WALL * steps + k];
     r->steps = steps;
     r->real_time_factor = took > 0 ? n * settings->time_step / took : 0;
     r->contact_points /= n, r->pairs /= n, r->mean_depth /= n, r->residual /= n, r->ship_force /= n;
-    r->cpu_median = median(cpu, steps);
-    r->wall_median = median(wall, steps);
-    return FRAM_OK;
+    r->cpu_median = median(times + TIME_CPU * steps, steps);
+    r->wall_median = median(times + TIME_WALL * steps, steps);
+    r->forces_median = median(times + TIME_FORCES * steps, steps);
+    r->collide_median = median(times + TIME_COLLIDE * steps, steps);
+    r->solve_median = median(times + TIME_SOLVE * steps, steps);
+    r->kinetic_energy = body_books_of(&w->bodies).kinetic_energy;
+    r->state_hash = world_hash(w);
 }
+
+fram_status bench_measure(context *ctx, const step_settings *settings, world *w, int32_t ship, int64_t warm_steps,
+                          int64_t steps, bench_result *out, fram_error *error)
+{
+    *out = (bench_result){0};
+    double *times = memory_array(ctx, TIME_COUNT * (size_t)steps, sizeof *times);
+    if (!times)
+        return error_memory(error);
+    fram_status status = FRAM_OK;
+    for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++)
+        status = world_step(ctx, settings, w, error);
+    for (int64_t k = 0; k < steps && status == FRAM_OK; k++) {
+        status = measure_step(ctx, settings, w, k, steps, times, error);
+        add_step(settings, w, ship, out);
+    }
+    if (status == FRAM_OK)
+        summarize(settings, w, steps, times, out);
+    memory_free(ctx, times);
+    return status;
+}
+
+/* ---- scenarios ---- */
 
 fram_status bench_scenario(context *ctx, const scenario *s, double warm, double time, bench_result *out,
                            fram_error *error)
 {
     *out = (bench_result){0};
     step_settings settings = build_settings(s);
-    int64_t warm_steps = (int64_t)floor(warm / settings.time_step + 0.5),
-            steps = (int64_t)floor(time / settings.time_step + 0.5);
-    if (steps < 1)
-        steps = 1;
+    int64_t steps = bench_steps(time, settings.time_step);
     world w;
     build_report report;
     fram_status status = build_world(ctx, s, &w, &report, error);
     if (status != FRAM_OK)
         return status;
-    double *times = memory_array(ctx, 2 * (size_t)steps, sizeof *times);
-    if (!times)
-        status = error_memory(error);
-    for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++)
-        status = world_step(ctx, &settings, &w, error);
-    if (status == FRAM_OK)
-        status = measure(ctx, &settings, &w, steps, times, times + steps, out, error);
+    int32_t ship = w.vessels.count > 0 ? w.vessels.body[0] : -1;
+    status = bench_measure(ctx, &settings, &w, ship, bench_steps(warm, settings.time_step), steps < 1 ? 1 : steps, out,
+                           error);
     for (int32_t i = 0; i < w.floes.count; i++)
         out->floes += w.floes.body[i] >= 0;
-    out->kinetic_energy = body_books_of(&w.bodies).kinetic_energy;
-    out->state_hash = world_hash(&w);
-    memory_free(ctx, times);
     world_free(ctx, &w);
     return status;
 }

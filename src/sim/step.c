@@ -5,20 +5,38 @@
 #include <string.h>
 
 /* 1. External forces at the old state: gravity, buoyancy, drag, wind, and what came from outside. */
-static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
     int32_t slots = w->bodies.count;
-    if (!array_resize(ctx, &w->scratch.loads, slots) || !array_resize(ctx, &w->scratch.fluid, slots))
-        return error_memory(error);
     wrench *loads = w->scratch.loads.data;
-    memset(loads, 0, (size_t)slots * sizeof *loads);
-    memset(w->scratch.fluid.data, 0, (size_t)slots * sizeof *w->scratch.fluid.data);
-    if (s->fluid) {
-        fram_status status =
-            fluid_apply(ctx, &s->media, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
-        if (status != FRAM_OK)
-            return status;
+    array_clear(&w->scratch.fluid);
+    switch (s->forces) {
+    case FORCES_NONE:
+        break;
+    case FORCES_FLUID:
+        if (!array_resize(ctx, &w->scratch.fluid, slots))
+            return error_memory(error);
+        return fluid_apply(ctx, &s->media, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
+    case FORCES_COLUMNS:
+        if (!s->columns || s->columns->slots != slots)
+            return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL,
+                             "the columns of water are not those of this world");
+        column_water_apply(ctx, s->columns, &w->bodies, loads);
+        return FRAM_OK;
     }
+    if (slots > 0)
+        memset(loads, 0, (size_t)slots * sizeof *loads);
+    return FRAM_OK;
+}
+
+static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
+{
+    if (!array_resize(ctx, &w->scratch.loads, w->bodies.count))
+        return error_memory(error);
+    fram_status status = fluid_forces(ctx, s, w, error);
+    if (status != FRAM_OK)
+        return status;
+    wrench *loads = w->scratch.loads.data;
     for (int32_t i = 0; i < w->scratch.outside.count; i++) {
         const wrench *extra = &w->scratch.outside.data[i];
         loads[i].force = vec3_add(loads[i].force, extra->force);
@@ -110,23 +128,34 @@ static fram_status check_state(const step_settings *s, const world *w, fram_erro
     return FRAM_OK;
 }
 
-fram_status world_step(context *ctx, const step_settings *s, world *w, fram_error *error)
+fram_status world_step_watched(context *ctx, const step_settings *s, world *w, const step_watch *watch,
+                               fram_error *error)
 {
     typedef fram_status (*stage)(context *, const step_settings *, world *, fram_error *);
     /* The order of SPEC 4; 5 (fracture) comes between the solve and the integration. */
-    static const stage stages[] = {external_forces, detect_contacts, limit_crushing, solve_velocities,
-                                   sum_ice_loads,   integrate,       remove_strays};
+    static const stage stages[STAGE_COUNT] = {
+        [STAGE_FORCES] = external_forces, [STAGE_DETECTION] = detect_contacts, [STAGE_CRUSHING] = limit_crushing,
+        [STAGE_SOLVE] = solve_velocities, [STAGE_LOADS] = sum_ice_loads,       [STAGE_INTEGRATION] = integrate,
+        [STAGE_STRAYS] = remove_strays,
+    };
 #ifndef NDEBUG
     world_poison_scratch(w);
 #endif
-    for (size_t i = 0; i < sizeof stages / sizeof *stages; i++) {
+    for (int i = 0; i < STAGE_COUNT; i++) {
         fram_status status = stages[i](ctx, s, w, error);
         if (status != FRAM_OK)
             return status;
+        if (watch)
+            watch->done(watch->user, (step_stage)i);
     }
     w->clock.step[0]++;
     w->clock.time[0] = (double)w->clock.step[0] * s->time_step;
     return check_state(s, w, error);
+}
+
+fram_status world_step(context *ctx, const step_settings *s, world *w, fram_error *error)
+{
+    return world_step_watched(ctx, s, w, NULL, error);
 }
 
 fram_status world_add_wrench(context *ctx, world *w, int32_t slot, wrench load, fram_error *error)

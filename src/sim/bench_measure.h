@@ -1,0 +1,15 @@
+/* Measuring the steps of a world.  Inside sim's benchmarks. */
+#ifndef SIM_BENCH_MEASURE_H
+#define SIM_BENCH_MEASURE_H
+
+#include "sim/bench.h"
+#include "sim/step.h"
+
+/* warm_steps unmeasured steps, then `steps` measured ones; fills all of *out but floes.  ship: slot of the body whose
+   ice load is wanted, -1: none. */
+fram_status bench_measure(context *ctx, const step_settings *settings, world *w, int32_t ship, int64_t warm_steps,
+                          int64_t steps, bench_result *out, fram_error *error);
+/* Whole steps in a span of simulated time. */
+int64_t bench_steps(double span, double time_step);
+
+#endif
