@@ -47,7 +47,8 @@ if(FRAM_TESTS)
             target_link_libraries(${program} PRIVATE fram_objects PkgConfig::check)
         endif()
         target_include_directories(${program} PRIVATE tests)
-        target_compile_options(${program} PRIVATE -Wno-psabi) # as for kernels: vectors pass between static functions only
+        # As for kernels: vectors pass between static functions only.
+        target_compile_options(${program} PRIVATE -Wno-psabi)
         set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
         fram_test(${room}/${topic} ${room} ${program})
     endforeach()

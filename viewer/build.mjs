@@ -1,4 +1,5 @@
-// Bundles the viewer into one page, build/viewer/playback.html, with the place where `fram view` puts a record left open.
+// Bundles the viewer into one page, build/viewer/playback.html, with the place where `fram view` puts a record left
+// open.
 import { build } from 'esbuild';
 import { mkdir, readFile, rename, writeFile } from 'node:fs/promises';
 import { dirname, join } from 'node:path';

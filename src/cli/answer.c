@@ -1,5 +1,5 @@
 /* Answers of the command: errors for people and programs, and a JSON writer for flat results. */
-#include "cli.h"
+#include "cli/cli.h"
 
 #include <inttypes.h>
 #include <math.h>

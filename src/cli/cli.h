@@ -95,7 +95,7 @@ typedef struct progress_view {
     bool drawn;
 } progress_view;
 void progress_begin(progress_view *view);
-void progress_show(void *view, const fram_progress *progress);
+void progress_show(void *user, const fram_progress *p);
 void progress_end(progress_view *view);
 
 /* --- the commands, one file each --- */

@@ -1,5 +1,5 @@
 /* fram bench: the speed of stepping a scenario, or a scene of other engines, without output. */
-#include "cli.h"
+#include "cli/cli.h"
 
 typedef struct bench_words {
     common_options common;

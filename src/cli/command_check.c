@@ -1,5 +1,5 @@
 /* fram check and fram keys: what a scenario says, and what it could say. */
-#include "cli.h"
+#include "cli/cli.h"
 
 int command_check(const command_row *self, int argc, char **argv)
 {

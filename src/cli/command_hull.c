@@ -1,5 +1,5 @@
 /* fram hull: a hull from a file or from main particulars; how it floats, its convex pieces, a drawing, a file. */
-#include "cli.h"
+#include "cli/cli.h"
 
 #include "fram/hull.h"
 

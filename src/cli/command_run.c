@@ -1,5 +1,5 @@
 /* fram run and fram resume: a simulation with results on disk. */
-#include "cli.h"
+#include "cli/cli.h"
 
 static void print_result(const common_options *common, const char *folder, const fram_run_result *r)
 {

@@ -1,5 +1,5 @@
 /* fram view: a playback page. */
-#include "cli.h"
+#include "cli/cli.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 /* fram: the table of commands and the help that teaches them. */
-#include "cli.h"
+#include "cli/cli.h"
 
 #include <stdlib.h>
 #include <string.h>

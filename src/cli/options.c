@@ -1,5 +1,5 @@
 /* Reading a command's words by its option table; the same table prints its help. */
-#include "cli.h"
+#include "cli/cli.h"
 
 #include <errno.h>
 #include <limits.h>

@@ -1,5 +1,5 @@
 /* What a command needs around the library: a context that logs to standard error, Ctrl-C, a progress line. */
-#include "cli.h"
+#include "cli/cli.h"
 
 #include <signal.h>
 #include <unistd.h>

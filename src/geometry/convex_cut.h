@@ -27,7 +27,7 @@ static inline int32_t convex_cut(const vec2 *ring, const double *side, int32_t n
         inner = side[i] < side[inner] ? i : inner;
     if (n == 0 || side[inner] >= -slack)
         return 0;
-    int32_t last = inner, after = inner, first = inner, before = inner; /* kept ones, and the cut ones beyond them */
+    int32_t last, after = inner, first, before = inner; /* kept ones, and the cut ones beyond them */
     do {
         last = after;
         after = after + 1 < n ? after + 1 : 0;

@@ -12,6 +12,8 @@
 static const image_colour palette[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
                                        {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00}};
 enum { PALETTE_SIZE = sizeof palette / sizeof *palette };
+/* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
+enum { MOST_TICKS = 50 };
 
 typedef struct frame {
     double left, right, top, bottom; /* pixels */
@@ -57,8 +59,10 @@ static void draw_axes(cairo_t *page, const chart *c, const frame *f)
     char text[32];
     cairo_set_line_width(page, 1);
     double step = image_round_step(f->y1 - f->y0, 6);
-    for (double y = ceil(f->y0 / step) * step; y <= f->y1; y += step) {
-        double py = floor(to_py(f, y)) + 0.5;
+    double first = ceil(f->y0 / step) * step;
+    int more = (int)fmin(floor((f->y1 - first) / step), MOST_TICKS);
+    for (int i = 0; i <= more; i++) {
+        double y = first + i * step, py = floor(to_py(f, y)) + 0.5;
         image_set_colour(page, (image_colour){0.88, 0.88, 0.88});
         cairo_move_to(page, f->left, py);
         cairo_line_to(page, f->right, py);
@@ -68,8 +72,10 @@ static void draw_axes(cairo_t *page, const chart *c, const frame *f)
         image_text(page, f->left - 6, py + 4, 12, ALIGN_RIGHT, false, text);
     }
     step = image_round_step(f->x1 - f->x0, 10);
-    for (double x = ceil(f->x0 / step) * step; x <= f->x1; x += step) {
-        double px = floor(to_px(f, x)) + 0.5;
+    first = ceil(f->x0 / step) * step;
+    more = (int)fmin(floor((f->x1 - first) / step), MOST_TICKS);
+    for (int i = 0; i <= more; i++) {
+        double x = first + i * step, px = floor(to_px(f, x)) + 0.5;
         cairo_move_to(page, px, f->bottom);
         cairo_line_to(page, px, f->bottom + 5);
         cairo_stroke(page);

@@ -59,7 +59,7 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error)
 {
-    int32_t at[NAMES_MOST];
+    int32_t at[NAMES_MOST] = {0};
     if (count > NAMES_MOST)
         return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "too many columns are asked for");
     FILE *file = fopen(path, "r");

@@ -73,7 +73,7 @@ static fram_status read_numbers(reader *r, const char *key, double lo, double hi
 
 static fram_status read_version(reader *r, const char *key)
 {
-    double version;
+    double version = 0;
     fram_status status = read_number(r, key, -LARGEST_VALUE, LARGEST_VALUE, &version);
     if (status == FRAM_OK && version != 1)
         return refuse(r, key, "this program reads version 1 of the format");
@@ -92,7 +92,7 @@ static fram_status read_water_density(reader *r, const char *key)
 
 static fram_status read_current(reader *r, const char *key)
 {
-    double v[2];
+    double v[2] = {0};
     fram_status status = read_numbers(r, key, -LARGEST_VALUE, LARGEST_VALUE, v, 2);
     if (status == FRAM_OK)
         r->scene->current = vec2_make(v[0], v[1]);
@@ -112,7 +112,7 @@ static fram_status read_friction(reader *r, const char *key)
 
 static fram_status read_restitution(reader *r, const char *key)
 {
-    double restitution;
+    double restitution = 0;
     fram_status status = read_number(r, key, 0, 1, &restitution);
     if (status == FRAM_OK && restitution != 0)
         return refuse(r, key, "ice does not rebound here: only 0 is simulated");
@@ -164,7 +164,7 @@ static fram_status read_floe(reader *r, const char *key)
     scene_text *s = r->scene;
     if (s->floes.count == SCENE_MOST_FLOES)
         return refuse(r, key, "too many floes");
-    double v[5];
+    double v[5] = {0};
     fram_status status = read_numbers(r, key, 1e-6, LARGEST_VALUE, v, 2);
     if (status == FRAM_OK)
         status = read_numbers(r, key, -LARGEST_VALUE, LARGEST_VALUE, v + 2, 2);
@@ -176,7 +176,7 @@ static fram_status read_floe(reader *r, const char *key)
         return status;
     scene_floe floe = {v[0], v[1], vec2_make(v[2], v[3]), s->vertices.count, (int32_t)v[4]};
     for (int32_t i = 0; i < floe.count; i++) {
-        double p[2];
+        double p[2] = {0};
         status = read_numbers(r, key, -LARGEST_VALUE, LARGEST_VALUE, p, 2);
         if (status != FRAM_OK)
             return status;

@@ -30,7 +30,7 @@ static inline polygon outline_convex(random_stream *r, vec2 centre, double radiu
 
 static inline int32_t outline_count(random_stream *r, int32_t lo, int32_t hi)
 {
-    return lo + (int32_t)(random_bits(r) % (uint64_t)(hi - lo + 1));
+    return hi <= lo ? lo : lo + (int32_t)(random_bits(r) % (uint64_t)(hi - lo + 1));
 }
 
 /* Every coordinate rounded to a multiple of `step`. */

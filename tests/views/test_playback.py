@@ -56,7 +56,8 @@ function look(time) {
 const result = document.createElement('pre');
 try {
     const draws = () => fram.scene.renderer.info.render.calls;
-    result.textContent = JSON.stringify({ start: look(fram.record.frames[0].time), end: look(fram.end), calls: draws() });
+    const start = look(fram.record.frames[0].time), end = look(fram.end);
+    result.textContent = JSON.stringify({ start, end, calls: draws() });
 } catch (e) { result.textContent = JSON.stringify({ error: String(e) }); }
 result.id = 'result';
 document.body.append(result);
@@ -82,8 +83,8 @@ def is_blue(p):
 
 
 def find_result(chromium, page, profile):
-    dom = subprocess.run([chromium, *FLAGS, f"--user-data-dir={profile}", page.as_uri()], capture_output=True, text=True,
-                         timeout=200, check=False).stdout
+    dom = subprocess.run([chromium, *FLAGS, f"--user-data-dir={profile}", page.as_uri()],
+                         capture_output=True, text=True, timeout=200, check=False).stdout
     found = re.search(r'<pre id="result">(.*?)</pre>', dom, re.S)
     assert found, "the page left no result: " + dom[-400:]
     return json.loads(found.group(1))
@@ -95,7 +96,8 @@ def check(view, expected_x):
     assert is_blue(view["waterPixel"]), f"no water beside the field: {view['waterPixel']}"
     white = sum(is_white(p) for p in view["floePixels"])
     assert len(view["floePixels"]) > 30, "too few floes to look at"
-    assert white >= 0.97 * len(view["floePixels"]), f"{white} of {len(view['floePixels'])} floes are drawn at their place"
+    floes = len(view["floePixels"])
+    assert white >= 0.97 * floes, f"{white} of {floes} floes are drawn at their place"
 
 
 def main():

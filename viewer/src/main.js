@@ -62,14 +62,18 @@ class Player {
         const all = [], n = this.record.frames.length;
         for (let k = 0; k < Math.min(n, 12); k++) {
             this.poses.show(Math.floor(k * (n - 1) / 12));
-            for (const b of this.record.bodies) if (b.material === 'ice' && this.poses.shown[b.index]) all.push(this.poses.speed[b.index]);
+            for (const b of this.record.bodies)
+                if (b.material === 'ice' && this.poses.shown[b.index]) all.push(this.poses.speed[b.index]);
         }
         all.sort((a, b) => a - b);
         return Math.max(0.05, all[Math.floor(0.99 * (all.length - 1))] || 0);
     }
 
     centre() {
-        if (this.hull) return new THREE.Vector3(...this.poses.pose.subarray(7 * this.hull.index, 7 * this.hull.index + 2), 0);
+        if (this.hull) {
+            const at = 7 * this.hull.index;
+            return new THREE.Vector3(...this.poses.pose.subarray(at, at + 2), 0);
+        }
         return this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
     }
 
@@ -78,7 +82,8 @@ class Player {
         const mode = $('camera').value, camera = this.scene.camera;
         this.poses.show(this.frameAt(this.time));
         const target = mode === 'follow' ? this.centre() : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
-        const offset = mode === 'top' ? [0, -0.001, 1.35 * wide] : mode === 'follow' ? [-0.28 * wide, -0.3 * wide, 0.2 * wide]
+        const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
+            : mode === 'follow' ? [-0.28 * wide, -0.3 * wide, 0.2 * wide]
             : [-0.55 * wide, -0.75 * wide, 0.6 * wide];
         camera.position.copy(target).add(new THREE.Vector3(...offset));
         this.controls.target.copy(target);
@@ -109,8 +114,9 @@ class Player {
         const mode = $('colour').value, unit = { speed: 'speed [m/s]', thickness: 'thickness [m]' }[mode];
         const stops = [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`).join(',');
         const [lo, hi] = this.ranges[mode] ?? [];
-        $('legend').innerHTML = (unit ? `${unit}<div class="bar" style="background:linear-gradient(90deg,${stops})"></div>
-            <div class="ends"><span>${lo.toPrecision(2)}</span><span>${hi.toPrecision(2)}</span></div>` : 'floes white, vessel red')
+        const bar = () => `${unit}<div class="bar" style="background:linear-gradient(90deg,${stops})"></div>
+            <div class="ends"><span>${lo.toPrecision(2)}</span><span>${hi.toPrecision(2)}</span></div>`;
+        $('legend').innerHTML = (unit ? bar() : 'floes white, vessel red')
             + '<div class="scale" id="scale"></div><span id="scale-text"></span>';
         this.dirty = true;
     }
@@ -157,7 +163,8 @@ class Player {
         this.drawScale();
         const floes = this.record.bodies.reduce((n, b) => n + (b.material === 'ice' && this.poses.shown[b.index]), 0);
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
-        $('load').textContent = `ice force X ${(state.force[0] / 1000).toFixed(0)} kN, Y ${(state.force[1] / 1000).toFixed(0)} kN`;
+        const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
+        $('load').textContent = `ice force X ${x} kN, Y ${y} kN`;
     }
 }
 

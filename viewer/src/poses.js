@@ -25,15 +25,17 @@ export class Poses {
     /** Frame number with a fraction. */
     show(when) {
         const { frames, bodies } = this.record;
-        const f = Math.min(Math.floor(when), frames.length - 1), g = Math.min(f + 1, frames.length - 1), part = when - f;
+        const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last), part = when - f;
         const a = frames[f], b = frames[g], placeB = this.placesOf(g), span = b.time - a.time || 1;
         for (const body of bodies) this.shown[body.index] = body.birth <= f && f < body.death ? 1 : 0;
         for (let i = 0; i < a.order.length; i++) {
             const k = a.order[i], j = placeB[k], to = 7 * k;
             blend(a.poses, 7 * i, b.poses, j < 0 ? -1 : 7 * j, part, this.pose, to);
-            this.speed[k] = j < 0 ? 0 : Math.hypot(b.poses[7 * j] - a.poses[7 * i], b.poses[7 * j + 1] - a.poses[7 * i + 1]) / span;
+            this.speed[k] = j < 0 ? 0
+                : Math.hypot(b.poses[7 * j] - a.poses[7 * i], b.poses[7 * j + 1] - a.poses[7 * i + 1]) / span;
         }
-        return { time: a.time + part * (b.time - a.time), force: a.force.map((v, i) => v + part * (b.force[i] - v)), frame: f };
+        const force = a.force.map((v, i) => v + part * (b.force[i] - v));
+        return { time: a.time + part * (b.time - a.time), force, frame: f };
     }
 }
 

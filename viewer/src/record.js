@@ -26,9 +26,10 @@ class Cursor {
 }
 
 /** @returns {{scenario: string, bodies: Body[], frames: Frame[]}}
- *  Body: {slot, material, moves, birth, death (frame numbers; death is the first frame without it), thickness and outline
- *  [[x, y], ...] of a prism, or vertices and triangles of a solid, pose of a body that does not move}.
- *  Frame: {time, step, force: [x, y, z], poses: Float32Array, seven numbers for each of `bodies` that moves, in `order`}. */
+ *  Body: {slot, material, moves, birth, death (frame numbers; death is the first frame without it), thickness and
+ *  outline [[x, y], ...] of a prism, or vertices and triangles of a solid, pose of a body that does not move}.
+ *  Frame: {time, step, force: [x, y, z], poses: Float32Array, seven numbers for each of `bodies` that moves, in
+ *  `order`}. */
 export function readRecord(buffer) {
     const view = new DataView(buffer);
     if (buffer.byteLength < 24 || text(buffer, 0, 8) !== MAGIC) throw new Error('this is not a record of Fram');
@@ -96,7 +97,8 @@ function readFrame(c, alive) {
     const count = c.i32();
     c.i32();
     const moving = [...alive.values()].filter((b) => b.moves).sort((a, b) => a.slot - b.slot);
-    if (moving.length !== count) throw new Error(`frame at ${frame.time} s has ${count} poses for ${moving.length} bodies`);
+    if (moving.length !== count)
+        throw new Error(`frame at ${frame.time} s has ${count} poses for ${moving.length} bodies`);
     frame.order = Uint32Array.from(moving, (b) => b.index);
     frame.poses = new Float32Array(7 * count);
     for (let i = 0; i < count; i++) frame.poses.set(c.pose(), 7 * i);

@@ -1,4 +1,5 @@
-// The 3-D scene: one mesh for all prisms, whose poses the vertex shader fetches from a texture, one for the solids, water.
+// The 3-D scene: one mesh for all prisms, whose poses the vertex shader fetches from a texture, one for the solids,
+// water.
 // Frame: X, Y horizontal, Z up, metres, as in Fram.
 import * as THREE from 'three';
 
@@ -53,7 +54,8 @@ export class Scene {
     /** Vertices are given in the body's frame: turn and move them by the pose of their body. */
     fetchPoses(shader) {
         shader.uniforms.poses = { value: this.texture };
-        const fetch = (k) => `texelFetch(poses, ivec2(int(mod(body, 1024.0)) * ${TEXELS} + ${k}, int(body / 1024.0)), 0)`;
+        const fetch = (k) =>
+            `texelFetch(poses, ivec2(int(mod(body, 1024.0)) * ${TEXELS} + ${k}, int(body / 1024.0)), 0)`;
         shader.vertexShader = shader.vertexShader
             .replace('#include <common>', `#include <common>
                 uniform sampler2D poses;
@@ -69,7 +71,8 @@ export class Scene {
             .replace('#include <common>', `#include <common>
                 varying vec3 bodyColour;`);
         if (shader.fragmentShader.includes('lambert') || shader.fragmentShader.includes('reflectedLight'))
-            shader.fragmentShader = shader.fragmentShader.replace('#include <color_fragment>', 'diffuseColor.rgb *= bodyColour;');
+            shader.fragmentShader = shader.fragmentShader
+                .replace('#include <color_fragment>', 'diffuseColor.rgb *= bodyColour;');
     }
 
     /** Poses and colours to the texture. colourOf(body) -> THREE.Color or null for the material's own. */
@@ -98,7 +101,8 @@ export class Scene {
         const box = new THREE.Box3(), first = this.record.frames[0];
         for (let i = 0; i < first.order.length; i++)
             box.expandByPoint(new THREE.Vector3(first.poses[7 * i], first.poses[7 * i + 1], 0));
-        for (const b of this.record.bodies) if (b.pose && b.material !== 'wall') box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
+        for (const b of this.record.bodies)
+            if (b.pose && b.material !== 'wall') box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
         if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
         return box.expandByScalar(20);
     }
@@ -110,7 +114,13 @@ function own(body) { return OWN[body.material]; }
 /** All prisms and solids with their own normals, tagged by body. */
 function mergedGeometry(bodies) {
     const position = [], normal = [], body = [];
-    const add = (b, points, n) => { for (const p of points) { position.push(...p); normal.push(...n); body.push(b.index); } };
+    const add = (b, points, n) => {
+        for (const p of points) {
+            position.push(...p);
+            normal.push(...n);
+            body.push(b.index);
+        }
+    };
     for (const b of bodies) {
         if (b.outline) addPrism(b, add);
         else addSolid(b, add);
