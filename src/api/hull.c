@@ -310,7 +310,7 @@ static void add_row(view_table *t, const char *name, double value, const char *u
 {
     if (t->count == HULL_VIEW_LINES)
         return;
-    snprintf(t->text[t->count], sizeof t->text[0], "%.6g %s", value, unit);
+    snprintf(t->text[t->count], sizeof t->text[0], "%.6g%s%s", value, *unit ? " " : "", unit);
     t->names[t->count] = name;
     t->values[t->count] = t->text[t->count];
     t->count++;

@@ -39,7 +39,7 @@ static void report_face(mesh_report *r, const mesh *m, int32_t face, const char 
     report_text(r, "triangle %d at (%g, %g, %g) %s", face, a.x, a.y, a.z, what);
 }
 
-static bool has_area(const mesh *m, int32_t face)
+bool mesh_has_area(const mesh *m, int32_t face)
 {
     double longest = 0;
     const int32_t *v = m->face.data[face].v;
@@ -79,7 +79,7 @@ static void check_triangles(const mesh *m, mesh_report *r)
             }
         }
     for (int32_t f = 0; f < m->face.count; f++)
-        if (!has_area(m, f)) {
+        if (!mesh_has_area(m, f)) {
             r->defect = MESH_DEGENERATE;
             report_face(r, m, f, "has no area");
             return;

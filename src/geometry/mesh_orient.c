@@ -74,6 +74,14 @@ static void flip_part(mesh *m, mesh_adjacency *adjacency, mesh_parts *parts, int
     parts->part.data[part].volume = -parts->part.data[part].volume;
 }
 
+/* Parts with an open edge have no inside: let them pass for sound in the next search. */
+static void pass_open_parts(const mesh_adjacency *adjacency, mesh_parts *parts, bool nested)
+{
+    for (int32_t h = 0; h < adjacency->neighbour.count; h++)
+        if (adjacency->neighbour.data[h] < 0)
+            parts->part.data[parts->of_face.data[h / 3]].volume = nested ? -1 : 1;
+}
+
 fram_status mesh_orient(context *ctx, mesh *m, int32_t *flipped, int32_t *face)
 {
     *flipped = 0;
@@ -86,13 +94,15 @@ fram_status mesh_orient(context *ctx, mesh *m, int32_t *flipped, int32_t *face)
     if (status == FRAM_OK)
         status = mesh_parts_build(ctx, m, &adjacency, &parts);
     /* Outer parts first: whether a part is a cavity depends on what is around it.  A part is turned once a round. */
-    for (int nested = 0; nested < 2 && status == FRAM_OK; nested++)
+    for (int nested = 0; nested < 2 && status == FRAM_OK; nested++) {
+        pass_open_parts(&adjacency, &parts, nested);
         for (int32_t turns = 0; turns < parts.part.count; turns++) {
             int32_t part = mesh_parts_first_inverted(m, &parts, nested);
             if (part < 0)
                 break;
             flip_part(m, &adjacency, &parts, part, flipped);
         }
+    }
     mesh_parts_free(ctx, &parts);
     mesh_adjacency_free(ctx, &adjacency);
     return status;

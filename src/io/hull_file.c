@@ -57,8 +57,6 @@ static const char *advice_for(const hull_reading *r, mesh_defect defect)
     case MESH_INSIDE_OUT:
         return r->options->repair ? "this cannot be repaired: turn it in the program that made the file"
                                   : "have it turned (repair), or swap two corners of each triangle concerned";
-    case MESH_DEGENERATE:
-        return "remove it or move a corner";
     case MESH_NOT_MANIFOLD:
         return "remove inner walls, decks and lids: a hull is one closed skin";
     case MESH_SELF_INTERSECTING:
@@ -88,22 +86,39 @@ static void scale_surface(const hull_reading *r)
 }
 
 /* Panels in z = 0 suppress WAMIT's irregular frequencies; they are no part of the wetted hull. */
-static void drop_lids(hull_reading *r)
+static bool is_lid(const hull_reading *r, int32_t face)
+{
+    vec3 p[3];
+    mesh_face_points(&r->file->surface, face, p);
+    return r->file->format == MESH_GDF && fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= r->tolerance;
+}
+
+/* Leave out lids and, where repair is asked for, triangles without area; sealing closes the gaps, which have no width.
+ */
+static fram_status drop_triangles(hull_reading *r)
 {
     mesh *m = &r->file->surface;
     int32_t kept = 0;
     for (int32_t f = 0; f < m->face.count; f++) {
-        vec3 p[3];
-        mesh_face_points(m, f, p);
-        if (fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= r->tolerance) {
-            r->report->lids++;
-            continue;
+        bool lid = is_lid(r, f), flat = !lid && !mesh_has_area(m, f);
+        if (flat && !r->options->repair) {
+            vec3 p = m->vertex.data[m->face.data[f].v[0]];
+            char key[64];
+            snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[f]);
+            return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->file->line.data[f], key,
+                             "a triangle at (%g, %g, %g) has no area; have it left out (repair), or move a corner", p.x,
+                             p.y, p.z);
         }
+        r->report->lids += lid;
+        r->report->dropped += flat;
+        if (lid || flat)
+            continue;
         m->face.data[kept] = m->face.data[f];
         r->file->element.data[kept] = r->file->element.data[f];
         r->file->line.data[kept++] = r->file->line.data[f];
     }
     m->face.count = r->file->element.count = r->file->line.count = kept;
+    return FRAM_OK;
 }
 
 static fram_status seal(hull_reading *r)
@@ -138,41 +153,90 @@ static bool is_top(const hull_reading *r, int32_t i)
     return true;
 }
 
+static void turn_all(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    for (int32_t f = 0; f < m->face.count; f++) {
+        int32_t *v = m->face.data[f].v, swap = v[1];
+        v[1] = v[2];
+        v[2] = swap;
+    }
+    r->report->flipped += m->face.count;
+}
+
+/* The rims at the top's height; area gets their sum in plan, positive when the surface is right side out. */
+static fram_status pick_top(hull_reading *r, mesh_rims *top, double *area)
+{
+    *area = 0;
+    bool done = array_push(r->ctx, &top->start, 0);
+    for (int32_t i = 0; done && i < mesh_rims_count(&r->rims); i++) {
+        int32_t begin = r->rims.start.data[i], end = r->rims.start.data[i + 1];
+        if (!is_top(r, i))
+            continue;
+        *area += mesh_ring_area(&r->file->surface, r->rims.vertex.data + begin, end - begin).z;
+        for (int32_t k = begin; done && k < end; k++)
+            done = array_push(r->ctx, &top->vertex, r->rims.vertex.data[k]);
+        done = done && array_push(r->ctx, &top->start, top->vertex.count);
+    }
+    return done ? FRAM_OK : error_memory(r->error);
+}
+
+/* Turn the rims as turn_all turns the triangles. */
+static void turn_rims(mesh_rims *rims)
+{
+    for (int32_t i = 0; i < mesh_rims_count(rims); i++)
+        for (int32_t a = rims->start.data[i], b = rims->start.data[i + 1] - 1; a < b; a++, b--) {
+            int32_t swap = rims->vertex.data[a];
+            rims->vertex.data[a] = rims->vertex.data[b];
+            rims->vertex.data[b] = swap;
+        }
+}
+
+static fram_status raise_rims(hull_reading *r, mesh_rims *top, double area, double freeboard)
+{
+    if (area < 0 && !r->options->repair)
+        return refuse_face(r, 0, "the surface under the open top is turned the wrong way, inside out",
+                           "have it turned (repair); corners run counter-clockwise seen from the water");
+    if (area < 0) {
+        turn_all(r);
+        turn_rims(top);
+    }
+    fram_status status = mesh_raise_top(r->ctx, &r->file->surface, top, freeboard, r->error);
+    r->report->freeboard = freeboard;
+    if (status == FRAM_ERROR_INPUT && r->error)
+        snprintf(r->error->file, sizeof r->error->file, "%s", r->name);
+    return status;
+}
+
 static fram_status raise_top(hull_reading *r)
 {
-    double freeboard = r->options->freeboard;
+    double freeboard = r->options->freeboard, area = 0;
     if (isnan(freeboard) && r->file->format == MESH_GDF)
         freeboard = DEFAULT_FREEBOARD * (r->top - mesh_bounds(&r->file->surface).lo.z);
     if (isnan(freeboard))
         return FRAM_OK;
     mesh_rims top = {0};
-    fram_status status = array_push(r->ctx, &top.start, 0) ? FRAM_OK : error_memory(r->error);
-    for (int32_t i = 0; i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
-        bool done = true;
-        for (int32_t k = r->rims.start.data[i]; is_top(r, i) && done && k < r->rims.start.data[i + 1]; k++)
-            done = array_push(r->ctx, &top.vertex, r->rims.vertex.data[k]);
-        if (done && is_top(r, i))
-            done = array_push(r->ctx, &top.start, top.vertex.count);
-        if (!done)
-            status = error_memory(r->error);
-    }
-    if (status == FRAM_OK && mesh_rims_count(&top) > 0) {
-        r->report->freeboard = freeboard;
-        status = mesh_raise_top(r->ctx, &r->file->surface, &top, freeboard, r->error);
-        if (status == FRAM_ERROR_INPUT && r->error)
-            snprintf(r->error->file, sizeof r->error->file, "%s", r->name);
-    }
+    fram_status status = pick_top(r, &top, &area);
+    if (status == FRAM_OK && mesh_rims_count(&top) > 0)
+        status = raise_rims(r, &top, area, freeboard);
     mesh_rims_free(r->ctx, &top);
     return status;
+}
+
+static fram_status check(hull_reading *r)
+{
+    mesh_report report;
+    if (mesh_check(r->ctx, &r->file->surface, true, &report) != FRAM_OK)
+        return error_memory(r->error);
+    return report.defect == MESH_CLOSED ? FRAM_OK : refuse_report(r, &report);
 }
 
 static fram_status find_rims(hull_reading *r)
 {
     int32_t edge = -1;
     fram_status status = mesh_rims_find(r->ctx, &r->file->surface, &r->rims, &edge);
-    if (status == FRAM_ERROR_INPUT)
-        return refuse_face(r, edge / 3, "the rim of a hole cannot be followed: triangles at it turn opposite ways",
-                           advice_for(r, MESH_INCONSISTENT));
+    if (status == FRAM_ERROR_INPUT) /* triangles turn unlike ways, or inner walls end here: the check says where */
+        return check(r);
     return status == FRAM_ERROR_MEMORY ? error_memory(r->error) : status;
 }
 
@@ -199,14 +263,6 @@ static fram_status fill_holes(hull_reading *r)
     return status;
 }
 
-static fram_status check(hull_reading *r)
-{
-    mesh_report report;
-    if (mesh_check(r->ctx, &r->file->surface, true, &report) != FRAM_OK)
-        return error_memory(r->error);
-    return report.defect == MESH_CLOSED ? FRAM_OK : refuse_report(r, &report);
-}
-
 static fram_status check_options(const hull_reading *r)
 {
     const hull_file_options *o = r->options;
@@ -229,9 +285,9 @@ static fram_status finish(hull_reading *r)
     scale_surface(r);
     r->longest = longest_side(&r->file->surface);
     r->tolerance = LEVEL_TOLERANCE * r->longest;
-    if (r->file->format == MESH_GDF)
-        drop_lids(r);
-    status = seal(r);
+    status = drop_triangles(r);
+    if (status == FRAM_OK)
+        status = seal(r);
     if (status == FRAM_OK)
         status = orient(r);
     r->top = mesh_bounds(&r->file->surface).hi.z;

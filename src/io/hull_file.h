@@ -10,7 +10,7 @@
 typedef struct hull_file_options {
     double scale;      /* lengths of the file times this are metres; > 0 */
     double seal_width; /* cracks up to this are sealed [m]; 0: none; NaN: a two-thousandth of the longest side */
-    bool repair;       /* fill holes, turn triangles */
+    bool repair;       /* fill holes, turn triangles, leave out those without area */
     double freeboard;  /* a level open top is raised by this and decked [m]; NaN: a third of the depth for GDF, which
                           ends at  the waterline by convention, otherwise it stays open */
 } hull_file_options;

@@ -232,14 +232,15 @@ static fram_status draw_body_plan(const drawing *d, double left, double top)
     draw_silhouette(d, &f, 0, window);
     family stations = {0};
     fram_status status = hull_slicer_make(d->ctx, d->view->surface, 0, &stations.slicer, d->error);
-    for (int i = 0; i <= STATIONS && status == FRAM_OK; i++) {
-        bool fore = 2 * i >= STATIONS;
-        double t = fmin(fmax((double)i / STATIONS, END_MARGIN), 1 - END_MARGIN);
+    for (int fore = 0; fore < 2; fore++) {
+        double u = at_u(&f, middle);
         cairo_save(d->page);
-        double u = at_u(&f, middle), far = fore ? u + BODY_WIDTH : u - BODY_WIDTH;
-        cairo_rectangle(d->page, fmin(u, far), top, BODY_WIDTH, LOW_ROW);
+        cairo_rectangle(d->page, fore ? u : u - BODY_WIDTH, top, BODY_WIDTH, LOW_ROW);
         cairo_clip(d->page);
-        status = draw_section(d, &stations, &f, d->box.lo.x + t * length, fore ? fore_line : aft_line, 1.0);
+        for (int i = 0; i <= STATIONS / 2 && status == FRAM_OK; i++) {
+            double t = fmin(fmax((double)(fore ? STATIONS - i : i) / STATIONS, END_MARGIN), 1 - END_MARGIN);
+            status = draw_section(d, &stations, &f, d->box.lo.x + t * length, fore ? fore_line : aft_line, 1.0);
+        }
         cairo_restore(d->page);
     }
     hull_slicer_free(d->ctx, &stations.slicer);
@@ -312,7 +313,7 @@ static bool add_pieces(const drawing *d, solid_view *v)
 {
     const polyhedron_array *pieces = d->view->pieces;
     vec3 middle = vec3_scale(vec3_add(d->box.lo, d->box.hi), 0.5);
-    double apart = pieces->count > 1 ? 0.18 : 0;
+    double apart = pieces->count > 1 ? 0.22 : 0;
     vec3 corner[64];
     for (int32_t k = 0; k < pieces->count; k++) {
         const polyhedron *p = &pieces->data[k];

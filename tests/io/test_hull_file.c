@@ -1,0 +1,151 @@
+/* Hulls from files: sealed, given topsides, repaired on request, and the observed numbers of a real one. */
+#include "io/hull_file.h"
+#include "mesh_texts.h"
+#include "testing.h"
+
+static fram_status finish(context *ctx, const char *name, const char *text, const hull_file_options *options,
+                          mesh *surface, hull_file_report *report, fram_error *error)
+{
+    mesh_file file;
+    fram_status status = mesh_file_parse(ctx, name, text, strlen(text), &file, error);
+    return status == FRAM_OK ? hull_file_finish(ctx, name, &file, options, surface, report, error) : status;
+}
+
+static void check_sound(context *ctx, const mesh *m, double volume)
+{
+    mesh_report report;
+    ck_assert_int_eq(mesh_check(ctx, m, true, &report), FRAM_OK);
+    ck_assert_int_eq(report.defect, MESH_CLOSED);
+    assert_relative(mesh_solid_properties(m).volume, volume, 1e-12);
+}
+
+START_TEST(topsides)
+{
+    context ctx;
+    context_init(&ctx);
+    /* The mirrored box of 2 x 2 x 1, and its lid in the water plane, which is left out. */
+    const char *const texts[] = {GDF_BOX, GDF_HEAD("1", "1", "4") GDF_QUARTER "0 0 0  1 0 0  1 1 0  0 1 0\n"};
+    const double freeboards[] = {NAN, 0.5, 2};
+    for (size_t t = 0; t < 2; t++)
+        for (size_t i = 0; i < 3; i++) {
+            hull_file_options options = hull_file_defaults();
+            options.freeboard = freeboards[i];
+            double height = isnan(freeboards[i]) ? 1.0 / 3 : freeboards[i];
+            mesh m = {0};
+            hull_file_report report;
+            fram_error error = {0};
+            assert_ok(finish(&ctx, "box.gdf", texts[t], &options, &m, &report, &error), error);
+            check_sound(&ctx, &m, 4 * (1 + height));
+            assert_relative(report.freeboard, height, 1e-15);
+            ck_assert_int_eq(report.lids, t == 0 ? 0 : 8);
+            ck_assert(report.mirror_x && report.mirror_y);
+            assert_absolute(mesh_bounds(&m).hi.z, height, 1e-15);
+            mesh_free(&ctx, &m);
+        }
+}
+END_TEST
+
+START_TEST(scale)
+{
+    context ctx;
+    context_init(&ctx);
+    hull_file_options options = hull_file_defaults();
+    options.scale = 0.001;
+    mesh m = {0};
+    hull_file_report report;
+    fram_error error = {0};
+    assert_ok(finish(&ctx, "mm.obj",
+                     "v 0 0 0\nv 1000 0 0\nv 0 1000 0\nv 0 0 1000\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", &options, &m,
+                     &report, &error),
+              error);
+    check_sound(&ctx, &m, 1.0 / 6);
+    mesh_free(&ctx, &m);
+}
+END_TEST
+
+/* What is refused without repair is mended with it. */
+START_TEST(repair)
+{
+    context ctx;
+    context_init(&ctx);
+    const struct {
+        const char *name, *text;
+        double volume, freeboard;
+        int holes, flipped, dropped;
+    } cases[] = {
+        {"hole.obj", OBJ_POINTS "f 1 3 2\nf 1 2 4\nf 1 4 3\n", 1.0 / 6, NAN, 1, 0, 0},
+        {"turned.obj", OBJ_POINTS "f 1 3 2\nf 2 1 4\nf 1 4 3\nf 2 3 4\n", 1.0 / 6, NAN, 0, 1, 0},
+        {"inside_out.obj", OBJ_POINTS "f 2 3 1\nf 4 2 1\nf 3 4 1\nf 4 3 2\n", 1.0 / 6, NAN, 0, 4, 0},
+        {"flat.obj", OBJ_POINTS "v 0.5 0.5 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n", 1.0 / 6, NAN, 0, 0, 1},
+        {"inside_out.gdf",
+         GDF_HEAD("1", "1", "3") "1 0 -1 1 1 -1 0 1 -1 0 0 -1\n1 0 0 1 1 0 1 1 -1 1 0 -1\n1 1 0 0 1 0 0 1 -1 1 1 -1\n",
+         8, 1, 0, 24, 0},
+        {"gap.gdf", GDF_HEAD("1", "1", "2") "1 0 -1  1 1 -1  1 1 0  1 0 0\n1 1 -1  0 1 -1  0 1 0  1 1 0\n", 8, 1, 1, 0,
+         0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        hull_file_options options = hull_file_defaults();
+        options.freeboard = cases[i].freeboard;
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        ck_assert_int_eq(finish(&ctx, cases[i].name, cases[i].text, &options, &m, &report, &error), FRAM_ERROR_INPUT);
+        options.repair = true;
+        assert_ok(finish(&ctx, cases[i].name, cases[i].text, &options, &m, &report, &error), error);
+        check_sound(&ctx, &m, cases[i].volume);
+        ck_assert_int_eq(report.holes, cases[i].holes);
+        ck_assert_msg(report.flipped == cases[i].flipped, "%s: %d turned", cases[i].name, report.flipped);
+        ck_assert_int_eq(report.dropped, cases[i].dropped);
+        mesh_free(&ctx, &m);
+    }
+}
+END_TEST
+
+START_TEST(options_are_checked)
+{
+    context ctx;
+    context_init(&ctx);
+    const struct {
+        hull_file_options options;
+        const char *key;
+    } cases[] = {
+        {{0, NAN, false, NAN}, "scale"},       {{-1, NAN, false, NAN}, "scale"},
+        {{1, -0.1, false, NAN}, "seal_width"}, {{1, HUGE_VAL, false, NAN}, "seal_width"},
+        {{1, NAN, false, 0}, "freeboard"},     {{1, NAN, false, HUGE_VAL}, "freeboard"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mesh m = {0};
+        hull_file_report report;
+        fram_error error = {0};
+        ck_assert_int_eq(finish(&ctx, "t.obj", OBJ_TETRAHEDRON, &cases[i].options, &m, &report, &error),
+                         FRAM_ERROR_INPUT);
+        ck_assert_str_eq(error.key, cases[i].key);
+    }
+}
+END_TEST
+
+START_TEST(memory_runs_out)
+{
+    const char *const cases[][2] = {{"box.gdf", GDF_BOX}, {"hole.obj", OBJ_POINTS "f 1 3 2\nf 1 2 4\nf 1 4 3\n"}};
+    for (int i = 0; i < 2; i++)
+        for (long n = 1;; n++) {
+            failing_memory memory;
+            context ctx = failing_context(&memory, n);
+            hull_file_options options = hull_file_defaults();
+            options.repair = true;
+            mesh m = {0};
+            hull_file_report report;
+            fram_error error;
+            fram_status status = finish(&ctx, cases[i][0], cases[i][1], &options, &m, &report, &error);
+            mesh_free(&ctx, &m);
+            ck_assert_int_eq(memory.live, 0);
+            if (!memory.failed) {
+                ck_assert_int_eq(status, FRAM_OK);
+                break;
+            }
+            ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        }
+}
+END_TEST
+
+TEST_MAIN("hull_file", topsides, scale, repair, options_are_checked, memory_runs_out)

@@ -1,0 +1,232 @@
+/* Readers and writers of meshes: what is in a file comes out, and goes back. */
+#include "io/mesh_file.h"
+#include "mesh_texts.h"
+#include "scratch.h"
+
+static mesh_file parse(context *ctx, const char *name, const char *text)
+{
+    mesh_file f;
+    fram_error error = {0};
+    assert_ok(mesh_file_parse(ctx, name, text, strlen(text), &f, &error), error);
+    return f;
+}
+
+static void check_volume(const mesh *m, double volume)
+{
+    vec3 v = mesh_volume_integrals(m);
+    assert_absolute(v.x, volume, 1e-14);
+    assert_absolute(v.y, volume, 1e-14);
+    assert_absolute(v.z, volume, 1e-14);
+}
+
+START_TEST(tetrahedra)
+{
+    context ctx;
+    context_init(&ctx);
+    const struct {
+        const char *name, *text;
+        mesh_format format;
+    } cases[] = {
+        {"t.stl", STL_TETRAHEDRON, MESH_STL_TEXT},
+        {"T.STL",
+         "\xef\xbb\xbfSOLID\r\nfacet normal nan nan nan\r\nouter loop\r\nVERTEX 0 0 0\r\nvertex 0 1e0 0\r\n"
+         "vertex +1.0 0 -0.0\r\nendloop endfacet " STL_FACET(
+             STL_O, STL_X, STL_Z) "endsolid\n solid part two\n" STL_FACET(STL_O, STL_Z, STL_Y)
+             STL_FACET(STL_X, STL_Y, STL_Z) "endsolid part two",
+         MESH_STL_TEXT},
+        {"t.obj", OBJ_TETRAHEDRON, MESH_OBJ},
+        {"t.obj",
+         "# all forms of a corner\nmtllib a.mtl\no t\nvt 0 0\nvn 0 0 1\n" OBJ_POINTS
+         "usemtl m\ng a b\ns off\nf 1/1 3/1 2/1\nf 1//1 2//1 4//1\nf 1/1/1 4/1/1 \\\n3/1/1\nf -3 -2 -1 # back\n",
+         MESH_OBJ},
+        {"mesh", STL_TETRAHEDRON, MESH_STL_TEXT},
+        {"mesh", OBJ_TETRAHEDRON, MESH_OBJ},
+        {"mesh", "# a comment\n\n" OBJ_TETRAHEDRON, MESH_OBJ},
+        {"t.gdf",
+         "triangles as panels with a corner twice\n1 9.8\n0 0\n4\n0 0 0, 0,1,0 1 0 0 1 0 0\n0 0 0 1.D0 0 0 0 0 1d+0 0 0 "
+         "1\n0 0 0 0 0 1 0\n1 0 0 0 0\n1 0 0 0 1 0 0 0 1 1 0 0\n",
+         MESH_GDF},
+        {"mesh",
+         GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
+                                 "0 1 0 0 0 1 0 0 1",
+         MESH_GDF},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mesh_file f = parse(&ctx, cases[i].name, cases[i].text);
+        ck_assert_str_eq(mesh_format_name(f.format), mesh_format_name(cases[i].format));
+        ck_assert_int_eq(f.surface.vertex.count, 4);
+        ck_assert_int_eq(f.surface.face.count, 4);
+        ck_assert_int_eq(f.elements, 4);
+        ck_assert_int_eq(f.dropped, 0);
+        check_volume(&f.surface, 1.0 / 6);
+        for (int32_t k = 0; k < 4; k++)
+            ck_assert_int_eq(f.element.data[k], k + 1);
+        mesh_file_free(&ctx, &f);
+    }
+}
+END_TEST
+
+START_TEST(places)
+{
+    context ctx;
+    context_init(&ctx);
+    mesh_file f = parse(&ctx, "t.stl", STL_TETRAHEDRON);
+    ck_assert_int_eq(f.line.data[0], 2);
+    ck_assert_int_eq(f.line.data[3], 23);
+    mesh_file_free(&ctx, &f);
+    f = parse(&ctx, "t.obj", OBJ_TETRAHEDRON);
+    ck_assert_int_eq(f.line.data[2], 7);
+    mesh_file_free(&ctx, &f);
+    f = parse(&ctx, "t.gdf", GDF_BOX);
+    ck_assert_int_eq(f.line.data[f.line.count - 1], 7);
+    mesh_file_free(&ctx, &f);
+}
+END_TEST
+
+/* Facets that name a point twice go, and the others keep their numbers. */
+START_TEST(flat_facets_are_dropped)
+{
+    context ctx;
+    context_init(&ctx);
+    mesh_file f =
+        parse(&ctx, "t.stl", "solid\n" STL_FACET(STL_O, STL_X, STL_O) STL_FACET(STL_O, STL_X, STL_Y) "endsolid\n");
+    ck_assert_int_eq(f.dropped, 1);
+    ck_assert_int_eq(f.elements, 2);
+    ck_assert_int_eq(f.surface.face.count, 1);
+    ck_assert_int_eq(f.element.data[0], 2);
+    mesh_file_free(&ctx, &f);
+    f = parse(&ctx, "t.obj", OBJ_POINTS "f 1 1 2\nf 1 2 2 3 3 1\n");
+    ck_assert_int_eq(f.dropped, 1);
+    ck_assert_int_eq(f.surface.face.count, 1);
+    mesh_file_free(&ctx, &f);
+}
+END_TEST
+
+START_TEST(polygons)
+{
+    context ctx;
+    context_init(&ctx);
+    /* An L extruded: two faces of six corners with a dent, and an unused vertex far away. */
+    mesh_file f = parse(&ctx, "l.obj",
+                        "v 900 900 900\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n"
+                        "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 3 1\nv 0 3 1\n"
+                        "f 7 6 5 4 3 2\nf 8 9 10 11 12 13\n"
+                        "f 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 7 13 12\nf 7 2 8 13\n");
+    ck_assert_int_eq(f.surface.vertex.count, 12);
+    ck_assert_int_eq(f.surface.face.count, 2 * 4 + 6 * 2);
+    check_volume(&f.surface, 4);
+    mesh_report report;
+    ck_assert_int_eq(mesh_check(&ctx, &f.surface, true, &report), FRAM_OK);
+    ck_assert_int_eq(report.defect, MESH_CLOSED);
+    mesh_file_free(&ctx, &f);
+}
+END_TEST
+
+START_TEST(symmetry_planes)
+{
+    context ctx;
+    context_init(&ctx);
+    const struct {
+        const char *text;
+        int triangles;
+        vec3 lo;
+        double volume; /* by z, which an open top at z = 0 does not change */
+    } cases[] = {
+        {GDF_HEAD("0", "0", "3") GDF_QUARTER, 6, {0, 0, -1}, 1},
+        {GDF_HEAD("1", "0", "3") GDF_QUARTER, 12, {-1, 0, -1}, 2},
+        {GDF_HEAD("0", "1", "3") GDF_QUARTER, 12, {0, -1, -1}, 2},
+        {GDF_BOX, 24, {-1, -1, -1}, 4},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mesh_file f = parse(&ctx, "box.gdf", cases[i].text);
+        ck_assert_int_eq(f.surface.face.count, cases[i].triangles);
+        assert_vec3_close(mesh_bounds(&f.surface).lo, cases[i].lo, 0);
+        assert_absolute(mesh_volume_integrals(&f.surface).z, cases[i].volume, 1e-14);
+        mesh_file_free(&ctx, &f);
+    }
+}
+END_TEST
+
+/* What is written is read back: to the bit as text, to 4-byte floats in binary STL. */
+START_TEST(round_trips)
+{
+    context ctx;
+    context_init(&ctx);
+    mesh_file f = parse(&ctx, "t.obj",
+                        "v 0.1 0.2 0.3\nv 1.00000000001 0 1e-7\nv 0 123456.789012345 0\nv 0 0 1\n"
+                        "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    scratch s = scratch_make();
+    for (int format = 0; format < MESH_FORMAT_COUNT; format++) {
+        static const char *const names[] = {"a.stl", "b.stl", "c.obj", "d.gdf"};
+        const char *path = scratch_path(&s, names[format]);
+        mesh_file back;
+        fram_error error = {0};
+        assert_ok(mesh_file_write_as(&ctx, path, (mesh_format)format, &f.surface, &error), error);
+        assert_ok(mesh_file_read(&ctx, path, &back, &error), error);
+        ck_assert_int_eq((int)back.format, format);
+        ck_assert_int_eq(back.surface.face.count, 4);
+        ck_assert_int_eq(back.surface.vertex.count, 4);
+        for (int32_t i = 0; i < 4; i++) {
+            vec3 p[3], q[3];
+            mesh_face_points(&f.surface, i, p);
+            mesh_face_points(&back.surface, i, q);
+            if (format == MESH_STL_BINARY)
+                assert_array_relative(&q[0].x, &p[0].x, 9, 6e-8);
+            else
+                assert_array_bits(&q[0].x, &p[0].x, 9);
+        }
+        mesh_file_free(&ctx, &back);
+        unlink(path);
+    }
+    /* The ending names the format. */
+    fram_error error = {0};
+    assert_ok(mesh_file_write(&ctx, scratch_path(&s, "e.OBJ"), &f.surface, &error), error);
+    unlink(s.path);
+    assert_ok(mesh_file_write(&ctx, scratch_path(&s, "e.gdf"), &f.surface, &error), error);
+    unlink(s.path);
+    assert_fails(mesh_file_write(&ctx, scratch_path(&s, "e.ply"), &f.surface, &error), error, FRAM_ERROR_USAGE,
+                 ".stl, .obj or .gdf");
+    assert_ok(mesh_file_write(&ctx, scratch_path(&s, "e.stl"), &f.surface, &error), error);
+    scratch_remove(&s, "e.stl");
+    mesh_file_free(&ctx, &f);
+}
+END_TEST
+
+START_TEST(files_that_cannot_be_read)
+{
+    context ctx;
+    context_init(&ctx);
+    mesh_file f;
+    fram_error error = {0};
+    assert_fails(mesh_file_read(&ctx, "no/such/hull.stl", &f, &error), error, FRAM_ERROR_INPUT, "No such file");
+    ck_assert_str_eq(error.file, "no/such/hull.stl");
+    assert_fails(mesh_file_read(&ctx, "tests", &f, &error), error, FRAM_ERROR_INPUT, "regular file");
+    ck_assert_int_eq(f.surface.face.count, 0);
+}
+END_TEST
+
+START_TEST(memory_runs_out)
+{
+    const struct {
+        const char *name, *text;
+    } cases[] = {{"t.stl", STL_TETRAHEDRON}, {"t.obj", OBJ_POINTS "f 1 2 3 4\n"}, {"t.gdf", GDF_BOX}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (long n = 1;; n++) {
+            failing_memory memory;
+            context ctx = failing_context(&memory, n);
+            mesh_file f;
+            fram_error error;
+            fram_status status = mesh_file_parse(&ctx, cases[i].name, cases[i].text, strlen(cases[i].text), &f, &error);
+            mesh_file_free(&ctx, &f);
+            ck_assert_int_eq(memory.live, 0);
+            if (!memory.failed) {
+                ck_assert_int_eq(status, FRAM_OK);
+                break;
+            }
+            ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+        }
+}
+END_TEST
+
+TEST_MAIN("mesh_file", tetrahedra, places, flat_facets_are_dropped, polygons, symmetry_planes, round_trips,
+          files_that_cannot_be_read, memory_runs_out)
