@@ -1,11 +1,14 @@
 /* fram bench: the speed of stepping a scenario, or a scene of other engines, without output. */
 #include "cli/cli.h"
 
+/* A number that nobody writes on a command line: -1 is one that somebody may, and must be refused. */
+#define NOT_GIVEN (-1e300)
+
 typedef struct bench_words {
     common_options common;
     const char *path; /* of the scenario, or of the scene */
     bool is_scene, all_solvers;
-    double warm, time; /* negative: the default */
+    double warm, time; /* NOT_GIVEN: the default */
     option_list overrides;
     fram_bench_scene_definition scene;
 } bench_words;
@@ -106,9 +109,9 @@ static int bench_solvers(fram_context *context, const bench_words *w)
 /* The rest of what the words must fulfil; -1: good. */
 static int check_words(const bench_words *w, const char *scene)
 {
-    if (!(w->warm == -1 || (w->warm >= 0 && w->warm <= 1e6)))
+    if (!(w->warm == NOT_GIVEN || (w->warm >= 0 && w->warm <= 1e6)))
         return answer_usage(&w->common, "--warm", "must lie between 0 and 1e6 s");
-    if (!(w->time == -1 || (w->time > 0 && w->time <= 1e6)))
+    if (!(w->time == NOT_GIVEN || (w->time > 0 && w->time <= 1e6)))
         return answer_usage(&w->common, "--time", "must be positive and at most 1e6 s");
     if (scene && w->path)
         return answer_usage(&w->common, w->path, "one scenario or one scene, not both");
@@ -123,7 +126,7 @@ static int check_words(const bench_words *w, const char *scene)
 
 int command_bench(const command_row *self, int argc, char **argv)
 {
-    bench_words w = {.warm = -1, .time = -1};
+    bench_words w = {.warm = NOT_GIVEN, .time = NOT_GIVEN};
     const char *scene = NULL;
     fram_bench_scene_default(&w.scene);
     const option_row rows[] = {

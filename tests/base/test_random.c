@@ -152,6 +152,7 @@ static void power_law_check(double b)
     }
     double share =
         fabs(b) < 1e-6 ? log(hi / cut) / log(hi / lo) : (pow(cut, -b) - pow(hi, -b)) / (pow(lo, -b) - pow(hi, -b));
+    ck_assert_int_eq(outside, 0);
     assert_absolute(above / (double)DRAWS, share, 4 * sqrt(share * (1 - share) / DRAWS));
 }
 
