@@ -270,16 +270,14 @@ static fram_status finish(const mesh_reading *r)
     return FRAM_OK;
 }
 
-fram_status mesh_file_parse(context *ctx, const char *name, const char *data, size_t size, mesh_file *out,
-                            fram_error *error)
+fram_status mesh_file_parse_as(context *ctx, const char *name, mesh_format format, const char *data, size_t size,
+                               mesh_file *out, fram_error *error)
 {
-    *out = (mesh_file){0};
+    *out = (mesh_file){.format = format};
     const mesh_reading r = {ctx, name, out, error};
-    fram_status status = find_format(&r, data, size);
-    if (status == FRAM_OK)
-        status = out->format == MESH_OBJ   ? mesh_read_obj(&r, data, size)
-                 : out->format == MESH_GDF ? mesh_read_gdf(&r, data, size)
-                                           : mesh_read_stl(&r, data, size);
+    fram_status status = format == MESH_OBJ   ? mesh_read_obj(&r, data, size)
+                         : format == MESH_GDF ? mesh_read_gdf(&r, data, size)
+                                              : mesh_read_stl(&r, data, size);
     if (status == FRAM_OK)
         status = finish(&r);
     if (status != FRAM_OK) {
@@ -287,6 +285,15 @@ fram_status mesh_file_parse(context *ctx, const char *name, const char *data, si
         *out = (mesh_file){0};
     }
     return status;
+}
+
+fram_status mesh_file_parse(context *ctx, const char *name, const char *data, size_t size, mesh_file *out,
+                            fram_error *error)
+{
+    *out = (mesh_file){0};
+    const mesh_reading r = {ctx, name, out, error};
+    fram_status status = find_format(&r, data, size);
+    return status == FRAM_OK ? mesh_file_parse_as(ctx, name, out->format, data, size, out, error) : status;
 }
 
 fram_status mesh_file_read(context *ctx, const char *path, mesh_file *out, fram_error *error)

@@ -37,6 +37,9 @@ fram_status mesh_file_read(context *ctx, const char *path, mesh_file *out, fram_
 /* The same for bytes in memory, which are followed by a NUL; `name` stands for the path. */
 fram_status mesh_file_parse(context *ctx, const char *name, const char *data, size_t size, mesh_file *out,
                             fram_error *error);
+/* The same in a format that is known. */
+fram_status mesh_file_parse_as(context *ctx, const char *name, mesh_format format, const char *data, size_t size,
+                               mesh_file *out, fram_error *error);
 void mesh_file_free(context *ctx, mesh_file *f);
 
 /* Write a surface; the format is that of the ending: .stl (binary: coordinates rounded to 4-byte floats), .obj (exact),

@@ -1,0 +1,4 @@
+/* mesh_file and hull_file on any bytes as WAMIT GDF; see fuzzing_mesh.h for the promises. */
+#include "fuzzing_mesh.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) { return fuzz_mesh(MESH_GDF, data, size); }

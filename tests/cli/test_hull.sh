@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# fram hull as a user meets it: files and particulars in, report, JSON, drawing and files out, errors with their place.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+# expect CODE COMMAND...: runs it, keeps its output in out and err.
+expect() {
+    local wanted=$1 code=0
+    shift
+    "$@" >out 2>err || code=$?
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
+}
+# The value of an expression of the JSON object j on the last line of out.
+value() { tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
+same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
+# near EXPRESSIONS NUMBERS NAME: numbers of j, to rounding.
+near() { same "$(value "max(abs(a - b) for a, b in zip(($1), ($2))) < 1e-11 * max(map(abs, ($2)))")" True "$3"; }
+says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
+
+# A box from particulars, by hand: 40 x 10 x (3 + 2) m.
+expect 0 "$FRAM" hull --box --length 40 --beam 10 --draught 3 --freeboard 2 --json -o box.stl
+same "$(wc -l <out)" 1 "lines of JSON"
+near 'j["volume_m3"], j["enclosed_volume_m3"], j["displacement_t"]' "1200, 2000, 1230" "volumes of the box"
+near 'j["centre_of_buoyancy_m"]' "0, 0, -1.5" "centre of buoyancy"
+near 'j["waterplane_area_m2"], j["draught_m"], j["kb_m"]' "400, 3, 1.5" "water plane"
+same "$(value 'abs(j["gm_transverse_m"] - (1.5 + 1000 / 360 - 3)) < 1e-12')" True "GM"
+same "$(value 'j["convex_pieces"]["count"], j["closed"]')" "1 True" "pieces"
+
+# The file that it wrote, at another draught, and by mass.
+expect 0 "$FRAM" hull box.stl --draught 2.5 --json
+same "$(value 'j["format"]')" "STL (binary)" "format"
+near 'j["volume_m3"], j["level_m"]' "1000, -0.5" "the box at 2.5 m"
+expect 0 "$FRAM" hull box.stl --mass 1025e3 --kg 1 --json
+same "$(value 'abs(j["level_m"] + 0.5) < 1e-12, abs(j["heel_deg"]) < 1e-9, j["kg_m"], j["stable"]')" "True True 1 True" \
+    "the box of 1025 t"
+expect 0 "$FRAM" hull box.stl
+says "displaced volume" out
+says "closed, 12 triangles, 8 vertices" out
+
+# An icebreaker of a given block coefficient, in all formats.
+for ending in stl obj gdf; do
+    expect 0 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.5 -o "ship.$ending" --quiet
+    # A panel file ends in its water plane by convention; this one is closed.
+    expect 0 "$FRAM" hull "ship.$ending" --json
+    same "$(value 'abs(j["block_coefficient"] - 0.5) < 1e-6')" True "block coefficient of ship.$ending"
+done
+expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.9 --json
+same "$(value 'j["error"]["key"]')" block_coefficient "key"
+says "can be 0.3750 to 0.5661" err
+
+# A drawing.
+if "$FRAM" --version | grep -q pictures; then
+    expect 0 "$FRAM" hull ship.obj --draw ship.png
+    head -c 8 ship.png | od -An -tx1 | grep -q "89 50 4e 47" || fail "ship.png is no PNG"
+    expect 1 "$FRAM" hull ship.obj --draw no/such/folder/ship.png
+fi
+
+# A hole is refused with its place, and filled on request.
+grep -v '^f' ship.obj >hole.obj
+grep '^f' ship.obj | head -n -1 >>hole.obj # without a triangle of the deck
+expect 2 "$FRAM" hull hole.obj --json
+same "$(value 'j["error"]["file"], j["error"]["line"] > 0, j["error"]["key"].split()[0]')" "hole.obj True face" "place"
+says "has one triangle" err
+expect 0 "$FRAM" hull hole.obj --repair --json
+same "$(value 'j["holes_filled"]')" 1 "holes"
+
+# Words that do not go together.
+expect 2 "$FRAM" hull
+says "needs a mesh file" err
+expect 2 "$FRAM" hull ship.obj --length 30
+says "--length" err
+expect 2 "$FRAM" hull ship.obj --draught 3 --mass 1e6
+says "give one of them" err
+expect 2 "$FRAM" hull ship.obj more.obj
+expect 2 "$FRAM" hull ship.obj --draught 100
+says "does not cut the hull" err
+expect 2 "$FRAM" hull ship.obj --mass 1e12
+says "encloses" err
+expect 2 "$FRAM" hull ship.obj --pieces 0
+expect 2 "$FRAM" hull ship.obj -o ship.ply
+says ".stl, .obj or .gdf" err
+expect 2 "$FRAM" hull missing.stl
+says "missing.stl" err
+
+[ "$failures" = 0 ] || exit 1
