@@ -1,11 +1,10 @@
 /* Fluid and gravity on all bodies, in parallel over fixed blocks of slots. */
 #include "base/pool.h"
 #include "fluid/fluid.h"
-
-/* Slots a block: long enough to be worth handing out, short enough to share a thousand bodies among many threads. */
-enum { BLOCK_SLOTS = 64 };
+#include "fluid/level.h"
 
 typedef struct fluid_work {
+    context *ctx;
     const media *media;
     const drag_coefficients *coefficients;
     const body_table *bodies;
@@ -41,23 +40,26 @@ static wrench total_of(const fluid_work *w, int32_t slot, const fluid_load *load
     return sum;
 }
 
+/* Level floes together, all others one by one. */
 static void apply_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const fluid_work *w = arg;
-    int32_t first = block * BLOCK_SLOTS, end = first + BLOCK_SLOTS;
+    int32_t first = block * LEVEL_BLOCK, end = first + LEVEL_BLOCK, rest[LEVEL_BLOCK];
     if (end > w->bodies->count)
         end = w->bodies->count;
+    fluid_load own[LEVEL_BLOCK], *load = w->detail ? w->detail + first : own;
+    int32_t left = level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, first, end, load, rest);
+    for (int32_t i = 0; i < left; i++)
+        load[rest[i] - first] = load_of_body(w, rest[i]);
     for (int32_t slot = first; slot < end; slot++) {
-        fluid_load load = {0};
-        wrench total = {{0, 0, 0}, {0, 0, 0}};
+        fluid_load *here = &load[slot - first];
         if (body_is_dynamic(w->bodies, slot)) {
-            load = load_of_body(w, slot);
-            total = total_of(w, slot, &load);
+            w->loads[slot] = total_of(w, slot, here);
+        } else {
+            *here = (fluid_load){0};
+            w->loads[slot] = (wrench){{0, 0, 0}, {0, 0, 0}};
         }
-        w->loads[slot] = total;
-        if (w->detail)
-            w->detail[slot] = load;
     }
 }
 
@@ -66,8 +68,8 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
                         fram_error *error)
 {
     (void)error;
-    fluid_work work = {m, coefficients, bodies, shapes, loads, detail};
-    int32_t blocks = bodies->count / BLOCK_SLOTS + (bodies->count % BLOCK_SLOTS != 0);
+    fluid_work work = {ctx, m, coefficients, bodies, shapes, loads, detail};
+    int32_t blocks = bodies->count / LEVEL_BLOCK + (bodies->count % LEVEL_BLOCK != 0);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);
     return FRAM_OK;

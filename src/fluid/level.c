@@ -1,0 +1,165 @@
+/* Packs floes of like numbers of vertices into batches for the kernel, and hands their loads back. */
+#include "fluid/level.h"
+#include "fluid/level_kernel.h"
+
+/* Outlines of few vertices have long edges, on which the quadrature of skin drag is coarse: they are cut in half. */
+enum { FEW_VERTICES = 4 };
+
+static int32_t points_of(int32_t vertices) { return vertices <= FEW_VERTICES ? 2 * vertices : vertices; }
+
+typedef struct level_work {
+    const media *media;
+    drag_coefficients half[MATERIAL_COUNT]; /* 1/2 rho C [kg/m3] */
+    const body_table *bodies;
+    const shape_store *shapes;
+} level_work;
+
+static void set_lane(level_lane *to, int lane, vec3 v)
+{
+    to[0][lane] = v.x;
+    to[1][lane] = v.y;
+    to[2][lane] = v.z;
+}
+
+static vec3 get_lane(const level_lane *from, int lane) { return (vec3){from[0][lane], from[1][lane], from[2][lane]}; }
+
+static void set_point(level_batch *b, int32_t k, int lane, vec2 p)
+{
+    b->x[k][lane] = p.x;
+    b->y[k][lane] = p.y;
+}
+
+/* The outline, its first vertex again, and that as often as the longest outline of the batch asks for: edges without
+   length add nothing. */
+static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n)
+{
+    int32_t points = points_of(n);
+    if (points == n) {
+        for (int32_t k = 0; k < n; k++)
+            set_point(b, k, lane, vertex[k]);
+    } else {
+        for (int32_t k = 0; k < n; k++) {
+            set_point(b, 2 * k, lane, vertex[k]);
+            set_point(b, 2 * k + 1, lane, vec2_scale(vec2_add(vertex[k], vertex[k + 1 < n ? k + 1 : 0]), 0.5));
+        }
+    }
+    for (int32_t k = points; k <= b->sides; k++)
+        set_point(b, k, lane, vertex[0]);
+}
+
+static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
+{
+    const body_table *t = w->bodies;
+    const shape_table *s = &w->shapes->shapes;
+    const drag_coefficients *c = &w->half[t->material[slot]];
+    int32_t shape = t->shape[slot];
+    quat q = t->orientation[slot];
+    b->height[lane] = t->position[slot].z;
+    b->turn[0][lane] = q.w;
+    b->turn[1][lane] = q.x;
+    b->turn[2][lane] = q.y;
+    b->turn[3][lane] = q.z;
+    b->half[lane] = s->half_height[shape];
+    set_lane(b->spin, lane, t->angular_velocity[slot]);
+    set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], w->media->current));
+    b->water.form[lane] = c->water_form;
+    b->water.skin[lane] = c->water_skin;
+    set_lane(b->air.velocity, lane, vec3_sub(t->velocity[slot], w->media->wind));
+    b->air.form[lane] = c->air_form;
+    b->air.skin[lane] = c->air_skin;
+    b->wet = b->wet || c->water_form > 0 || c->water_skin > 0;
+    b->dry = b->dry || c->air_form > 0 || c->air_skin > 0;
+    pack_outline(b, lane, w->shapes->vertices.point + s->outline_first[shape], s->outline_count[shape]);
+}
+
+static wrench unpack_wrench(const level_wrench *from, int lane)
+{
+    return (wrench){get_lane(from->force, lane), get_lane(from->moment, lane)};
+}
+
+static void unpack(const level_batch *b, int lane, fluid_load *load)
+{
+    static const wrench none = {{0, 0, 0}, {0, 0, 0}};
+    load->hydrostatic = unpack_wrench(&b->hydrostatic, lane);
+    load->submerged_volume = b->volume[lane];
+    load->water_drag = b->wet ? unpack_wrench(&b->water_drag, lane) : none;
+    load->wind_drag = b->dry ? unpack_wrench(&b->air_drag, lane) : none;
+}
+
+/* The floes of a block by their number of points, each number in ascending order of slots. */
+typedef struct level_list {
+    int32_t count;
+    int32_t slot[LEVEL_BLOCK];
+    uint8_t points[LEVEL_BLOCK];
+} level_list;
+
+/* Other dynamic bodies go to rest; returns how many they are. */
+static int32_t find_floes(const level_work *w, int32_t first, int32_t end, level_list *out, int32_t *rest)
+{
+    const body_table *t = w->bodies;
+    const shape_table *s = &w->shapes->shapes;
+    uint8_t points[LEVEL_BLOCK];
+    int32_t begin[LEVEL_VERTICES + 2] = {0}, left = 0;
+    for (int32_t slot = first; slot < end; slot++) {
+        int32_t shape = t->shape[slot], n = 0;
+        if (body_is_dynamic(t, slot)) {
+            if (shape >= 0 && s->kind[shape] == SHAPE_PRISM && s->outline_count[shape] <= LEVEL_VERTICES) {
+                n = points_of(s->outline_count[shape]);
+                /* Outlines lie in the order in which floes were made: waiting for them took a tenth of the time. */
+                __builtin_prefetch(w->shapes->vertices.point + s->outline_first[shape]);
+            } else {
+                rest[left++] = slot;
+            }
+        }
+        points[slot - first] = (uint8_t)n;
+        begin[n + 1]++;
+    }
+    int32_t others = begin[1];
+    begin[1] = 0;
+    for (int n = 1; n <= LEVEL_VERTICES; n++)
+        begin[n + 1] += begin[n];
+    for (int32_t slot = first; slot < end; slot++) {
+        int32_t n = points[slot - first];
+        if (n > 0) {
+            out->points[begin[n]] = (uint8_t)n;
+            out->slot[begin[n]++] = slot;
+        }
+    }
+    out->count = end - first - others;
+    return left;
+}
+
+static drag_coefficients half_of(const media *m, const drag_coefficients *c)
+{
+    double water = 0.5 * m->water_density, air = 0.5 * m->air_density;
+    return (drag_coefficients){water * c->water_form, water * c->water_skin, air * c->air_form, air * c->air_skin};
+}
+
+int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
+                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end, fluid_load *load,
+                    int32_t rest[LEVEL_BLOCK])
+{
+    level_work w = {.media = m, .bodies = bodies, .shapes = shapes};
+    for (int i = 0; i < MATERIAL_COUNT; i++)
+        w.half[i] = half_of(m, &coefficients[i]);
+    level_list list;
+    int32_t left = find_floes(&w, first, end, &list, rest);
+    level_batch batch;
+    batch.weight = m->water_density * m->gravity;
+    for (int32_t i = 0; i < list.count; i += LEVEL_LANES) {
+        int32_t last = i + LEVEL_LANES < list.count ? i + LEVEL_LANES : list.count;
+        /* Sorted: the last one has the most points.  Lanes beyond the last floe repeat it. */
+        batch.sides = list.points[last - 1];
+        batch.wet = batch.dry = false;
+        for (int lane = 0; lane < LEVEL_LANES; lane++)
+            pack(&w, &batch, lane, list.slot[i + lane < last ? i + lane : last - 1]);
+        KERNEL_PICK(ctx, level_loads)(&batch);
+        for (int32_t k = i; k < last; k++) {
+            if (batch.level >> (k - i) & 1)
+                unpack(&batch, (int)(k - i), &load[list.slot[k] - first]);
+            else
+                rest[left++] = list.slot[k];
+        }
+    }
+    return left;
+}

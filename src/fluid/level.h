@@ -1,0 +1,17 @@
+/* Level floes of a block of body slots, eight at a time (level_kernel.h).  Inside fluid. */
+#ifndef FLUID_LEVEL_H
+#define FLUID_LEVEL_H
+
+#include "fluid/fluid.h"
+
+/* Body slots that are worked on together. */
+enum { LEVEL_BLOCK = 256 };
+
+/* Loads of the floes that float level among the slots first..end-1, at most LEVEL_BLOCK of them, written to
+   load[slot - first].  The load of a floe depends on that floe alone.  The other dynamic bodies' slots go to rest;
+   returns how many they are. */
+int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
+                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end, fluid_load *load,
+                    int32_t rest[LEVEL_BLOCK]);
+
+#endif

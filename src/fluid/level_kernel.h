@@ -1,0 +1,56 @@
+/* Fluid on eight level floes at once: prisms that stand upright and whose sides alone the water plane cuts, one cap
+   wholly wet and the other wholly dry, as nearly all floes of a field are.  Inside fluid; knows no tables.
+
+   Everything is done in the body's axes, where the wet part of a side is a trapezium between the wet cap and the
+   waterline, and the caps are the outline itself.
+
+   Hydrostatics are exact, from the second moments of the outline (oracles section 5).
+   Form drag of the caps is exact for any motion: the inflow f = L + g . r is linear, and where f changes its sign the
+   divergence theorem turns the integrals over the part with f > 0 into integrals of polynomials over the edges.
+   Form drag of a side is exact along the edge; over the depth it is a rule of two Gauss points, which is exact too
+   unless the side's motion changes its sign over the depth.
+   Skin drag is a quadrature: two Gauss points along each edge, times two Gauss-Jacobi points from the origin to the rim
+   (caps) or two Gauss points over the depth (sides).  Over the air 1/800 as dense, the dry sides have one point each
+   over their height. */
+#ifndef FLUID_LEVEL_KERNEL_H
+#define FLUID_LEVEL_KERNEL_H
+
+#include "base/kernel.h"
+
+/* Most vertices of an outline, and floes of a batch. */
+enum { LEVEL_VERTICES = 24, LEVEL_LANES = 8 };
+
+/* One number for each floe. */
+typedef double level_lane[LEVEL_LANES];
+
+/* What a medium is to each floe. */
+typedef struct level_stream {
+    level_lane velocity[3]; /* of the centre of mass, relative to the medium, global axes [m/s] */
+    level_lane form, skin;  /* 1/2 rho Cd, 1/2 rho Cf [kg/m3] */
+} level_stream;
+
+/* Force [N] and moment about the centre of mass [N m], global axes. */
+typedef struct level_wrench {
+    level_lane force[3], moment[3];
+} level_wrench;
+
+typedef struct level_batch {
+    int32_t sides;      /* edges of the longest outline; shorter ones are padded with their last point */
+    bool wet, dry;      /* whether drag of that medium is wanted */
+    double weight;      /* rho g of the water [N/m3] */
+    level_lane height;  /* of the centre of mass over still water [m] */
+    level_lane turn[4]; /* orientation w x y z */
+    level_lane spin[3]; /* angular velocity, global axes [rad/s] */
+    level_lane half;    /* half the thickness [m] */
+    level_stream water, air;
+    level_lane x[LEVEL_VERTICES + 1], y[LEVEL_VERTICES + 1]; /* outline, closed by its first vertex [m] */
+
+    /* Out. */
+    unsigned level;    /* bit i: floe i floats level; the loads of others mean nothing */
+    level_lane volume; /* submerged [m3] */
+    level_wrench hydrostatic, water_drag, air_drag;
+} level_batch;
+
+KERNEL_DECLARE(void, level_loads, (level_batch * batch));
+
+#endif
