@@ -44,6 +44,7 @@ typedef long long v8_mask __attribute__((vector_size(64)));
 
 typedef double v8_part __attribute__((vector_size(8 * V8_PART_LANES)));
 typedef long long v8_part_mask __attribute__((vector_size(8 * V8_PART_LANES)));
+typedef double v8_part2 __attribute__((vector_size(16)));
 typedef union v8_parts {
     v8 whole;
     v8_mask mask;
@@ -128,6 +129,29 @@ V8_INLINE v8 v8_load(const double *p)
     for (int i = 0; i < V8_PARTS; i++)
         memcpy(&x.part[i], p + V8_PART_LANES * i, sizeof x.part[i]);
     return x.whole;
+}
+
+/* p[0], p[2], .. p[14] and p[1], p[3], .. p[15] */
+V8_INLINE void v8_load_pairs(const double *p, v8 *even, v8 *odd)
+{
+    v8_parts x, y;
+    for (int i = 0; i < V8_PARTS; i++) {
+        v8_part a, b;
+        memcpy(&a, p + 2 * V8_PART_LANES * i, sizeof a);
+        memcpy(&b, p + 2 * V8_PART_LANES * i + V8_PART_LANES, sizeof b);
+#if defined(__AVX512F__)
+        x.part[i] = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+        y.part[i] = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+#elif defined(__AVX__)
+        x.part[i] = __builtin_shufflevector(a, b, 0, 2, 4, 6);
+        y.part[i] = __builtin_shufflevector(a, b, 1, 3, 5, 7);
+#else
+        x.part[i] = __builtin_shufflevector(a, b, 0, 2);
+        y.part[i] = __builtin_shufflevector(a, b, 1, 3);
+#endif
+    }
+    *even = x.whole;
+    *odd = y.whole;
 }
 
 V8_INLINE void v8_store(double *p, v8 a)
@@ -251,6 +275,25 @@ V8_INLINE v8 v8_sqrt(v8 a)
 
 /* Sum of the lanes, always ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)) */
 V8_INLINE double v8_sum(v8 a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
+
+/* Least lane, by v8_min of i and i + 4, then i and i + 2, then i and i + 1. */
+V8_INLINE double v8_least(v8 a)
+{
+    v8_parts x = {.whole = a};
+#if defined(__AVX512F__)
+    __m256d half = _mm256_min_pd(_mm512_castpd512_pd256((__m512d)x.whole), _mm512_extractf64x4_pd((__m512d)x.whole, 1));
+#elif defined(__AVX__)
+    __m256d half = _mm256_min_pd((__m256d)x.part[0], (__m256d)x.part[1]);
+#endif
+#if defined(__AVX__)
+    v8_part2 pair = (v8_part2)_mm_min_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+#else
+    v8_part2 pair = v8_part_min(v8_part_min(x.part[0], x.part[2]), v8_part_min(x.part[1], x.part[3]));
+#endif
+    return pair[0] < pair[1] ? pair[0] : pair[1];
+}
+
+V8_INLINE double v8_most(v8 a) { return -v8_least(-a); }
 
 /* ---- masks ---- */
 

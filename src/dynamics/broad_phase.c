@@ -1,5 +1,5 @@
-/* Which bodies may touch.  Every body has a fat box, renewed only when the body leaves it; pairs of overlapping fat
-   boxes are kept until they part.  New pairs are looked for around renewed boxes only, in grids of the plane: one grid
+/* Which bodies may touch.  Every body has a fat box (broad_boxes.c); pairs of overlapping fat boxes are kept until they
+   part.  New pairs are looked for around renewed boxes only, in grids of the plane: one grid
    for each power of two of box size, so that a hull of 200 m and walls of a kilometre stand in coarse grids of their
    own and cost the floes nothing. */
 #include "dynamics/collision_scratch.h"
@@ -9,103 +9,35 @@
 
 collision_scratch *collision_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(collision_scratch)); }
 
+static void free_room(context *ctx, narrow_room *room)
+{
+    polyhedron_free(ctx, &room->piece_a);
+    polyhedron_free(ctx, &room->piece_b);
+    array_free(ctx, &room->near_a);
+    array_free(ctx, &room->near_b);
+}
+
 void collision_scratch_free(context *ctx, collision_scratch *s)
 {
     if (!s)
         return;
     array_free(ctx, &s->change);
+    array_free(ctx, &s->filed);
     array_free(ctx, &s->entries);
     array_free(ctx, &s->bucket);
     array_free(ctx, &s->bucket_start);
     array_free(ctx, &s->fresh);
     table_free(ctx, &s->merged, &pair_table_info);
-    polyhedron_free(ctx, &s->piece_a);
-    polyhedron_free(ctx, &s->piece_b);
-    array_free(ctx, &s->near_a);
-    array_free(ctx, &s->near_b);
+    array_free(ctx, &s->box_blocks);
+    for (int32_t i = 0; i < s->pair_blocks_made; i++) {
+        array_free(ctx, &s->pair_blocks.data[i].contacts);
+        array_free(ctx, &s->pair_blocks.data[i].patch_pairs);
+    }
+    array_free(ctx, &s->pair_blocks);
+    for (int32_t i = 0; i < s->rooms.count; i++)
+        free_room(ctx, &s->rooms.data[i]);
+    array_free(ctx, &s->rooms);
     memory_free(ctx, s);
-}
-
-/* ---- boxes ---- */
-
-static box3 prism_box(polygon outline, double half_height, mat3 r)
-{
-    box3 box = box3_empty();
-    for (int32_t i = 0; i < outline.count; i++) {
-        vec2 p = outline.vertex[i];
-        box = box3_add(box, vec3_make(r.m[0][0] * p.x + r.m[0][1] * p.y, r.m[1][0] * p.x + r.m[1][1] * p.y,
-                                      r.m[2][0] * p.x + r.m[2][1] * p.y));
-    }
-    vec3 rise = vec3_make(half_height * fabs(r.m[0][2]), half_height * fabs(r.m[1][2]), half_height * fabs(r.m[2][2]));
-    return (box3){vec3_sub(box.lo, rise), vec3_add(box.hi, rise)};
-}
-
-static box3 solid_box(const mesh *surface, mat3 r)
-{
-    box3 box = box3_empty();
-    for (int32_t i = 0; i < surface->vertex.count; i++)
-        box = box3_add(box, mat3_mul_vec(r, surface->vertex.data[i]));
-    return box;
-}
-
-box3 body_box(const body_table *bodies, const shape_store *shapes, int32_t slot)
-{
-    int32_t row = bodies->shape[slot];
-    mat3 r = quat_matrix(bodies->orientation[slot]);
-    box3 box = shapes->shapes.kind[row] == SHAPE_PRISM
-                   ? prism_box(shape_outline(shapes, row), shapes->shapes.half_height[row], r)
-                   : solid_box(&shapes->solids.data[shapes->shapes.solid[row]].surface, r);
-    return (box3){vec3_add(box.lo, bodies->position[slot]), vec3_add(box.hi, bodies->position[slot])};
-}
-
-static box3 fat_box(const broad_table *boxes, int32_t slot) { return (box3){boxes->lo[slot], boxes->hi[slot]}; }
-
-static bool box_inside(box3 inner, box3 outer)
-{
-    return inner.lo.x >= outer.lo.x && inner.lo.y >= outer.lo.y && inner.lo.z >= outer.lo.z &&
-           inner.hi.x <= outer.hi.x && inner.hi.y <= outer.hi.y && inner.hi.z <= outer.hi.z;
-}
-
-static void forget_box(broad_table *boxes, int32_t slot)
-{
-    boxes->generation[slot] = 0;
-    boxes->fixed[slot] = 0;
-    boxes->lo[slot] = boxes->hi[slot] = vec3_make(0, 0, 0);
-}
-
-/* Renews the fat boxes that bodies have left; *any: something changed. */
-static fram_status renew_boxes(context *ctx, const body_table *bodies, const shape_store *shapes, double margin,
-                               broad_table *boxes, collision_scratch *s, bool *any, fram_error *error)
-{
-    *any = false;
-    if (!table_resize(ctx, boxes, &broad_table_info, bodies->count) || !array_resize(ctx, &s->change, bodies->count))
-        return error_memory(error);
-    for (int32_t i = 0; i < bodies->count; i++) {
-        s->change.data[i] = BOX_KEPT;
-        if (!body_is_alive(bodies, i) || bodies->shape[i] < 0) {
-            *any = *any || boxes->generation[i] != 0;
-            forget_box(boxes, i);
-            continue;
-        }
-        box3 box = body_box(bodies, shapes, i);
-        uint8_t fixed = bodies->motion[i] == MOTION_STATIC;
-        bool known = boxes->generation[i] == bodies->generation[i] && boxes->fixed[i] == fixed;
-        if (known && box_inside(box, fat_box(boxes, i)))
-            continue;
-        double size = vec3_length(vec3_sub(box.hi, box.lo));
-        if (!isfinite(size) || !isfinite(vec3_length(box.lo)))
-            return error_set(error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
-                             "body %d is nowhere: its position is (%g, %g, %g) m", (int)i, bodies->position[i].x,
-                             bodies->position[i].y, bodies->position[i].z);
-        vec3 rim = vec3_make(margin, margin, margin);
-        boxes->lo[i] = vec3_sub(box.lo, rim);
-        boxes->hi[i] = vec3_add(box.hi, rim);
-        boxes->generation[i] = bodies->generation[i];
-        boxes->fixed[i] = fixed;
-        s->change.data[i] = known ? BOX_MOVED : BOX_NEW;
-        *any = true;
-    }
-    return FRAM_OK;
 }
 
 /* ---- grids ---- */
@@ -152,13 +84,14 @@ static bool build_grid(context *ctx, const broad_table *boxes, collision_scratch
     while (g->mask < 2 * (uint32_t)boxes->count)
         g->mask = 2 * g->mask + 1;
     int32_t buckets = (int32_t)g->mask + 1;
-    if (!array_resize(ctx, &s->bucket_start, buckets + 1) || !array_resize(ctx, &s->bucket, boxes->count))
+    if (!array_resize(ctx, &s->bucket_start, buckets + 1) || !array_resize(ctx, &s->bucket, boxes->count) ||
+        !array_resize(ctx, &s->filed, boxes->count))
         return false;
     memset(s->bucket_start.data, 0, (size_t)(buckets + 1) * sizeof *s->bucket_start.data);
     for (int32_t i = 0; i < boxes->count; i++) {
         if (boxes->generation[i] == 0)
             continue;
-        grid_entry e = entry_of(boxes, i);
+        grid_entry e = s->filed.data[i] = entry_of(boxes, i);
         s->bucket.data[i] = (int32_t)(hash_cell(e.level, e.column, e.row) & g->mask);
         s->bucket_start.data[s->bucket.data[i]]++;
         g->in_level[e.level - LEVEL_LEAST]++;
@@ -171,7 +104,7 @@ static bool build_grid(context *ctx, const broad_table *boxes, collision_scratch
         if (boxes->generation[i] == 0)
             continue;
         /* Filled from the back: the ends become starts. */
-        s->entries.data[--s->bucket_start.data[s->bucket.data[i]]] = entry_of(boxes, i);
+        s->entries.data[--s->bucket_start.data[s->bucket.data[i]]] = s->filed.data[i];
     }
     return true;
 }
@@ -263,6 +196,7 @@ static bool merge_fresh(context *ctx, collision_scratch *s, pair_table *pairs)
         out->a[out->count] = (int32_t)(key >> 32);
         out->b[out->count] = (int32_t)(key & UINT32_MAX);
         out->axis[out->count] = old <= new ? pairs->axis[i] : vec3_make(0, 0, 0);
+        out->clear[out->count] = old <= new ? pairs->clear[i] : 0;
         i += old == key;
         f += new == key;
     }
@@ -280,7 +214,7 @@ fram_status broad_phase_update(context *ctx, const body_table *bodies, const sha
         return error_set(error, FRAM_ERROR_UNSUPPORTED, NULL, 0, NULL, "%d bodies; at most %d can be told apart",
                          (int)bodies->count, (int)CONTACT_MOST_BODIES);
     bool any;
-    fram_status status = renew_boxes(ctx, bodies, shapes, settings->margin, boxes, scratch, &any, error);
+    fram_status status = broad_boxes_update(ctx, bodies, shapes, settings, boxes, scratch, &any, error);
     if (status != FRAM_OK || !any)
         return status;
     drop_parted(boxes, scratch, pairs);

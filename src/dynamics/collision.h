@@ -8,7 +8,8 @@
 typedef int32_array index_array;
 
 typedef struct collision_settings {
-    double margin; /* fat box margin of the broad phase [m] */
+    double margin;    /* fat box margin of the broad phase [m] */
+    double lookahead; /* fat boxes reach ahead of a moving body by its way in this time [s] */
 } collision_settings;
 
 /* Scratch of both phases, kept between steps for its memory only: never state. */
@@ -16,8 +17,9 @@ typedef struct collision_scratch collision_scratch;
 collision_scratch *collision_scratch_create(context *ctx);
 void collision_scratch_free(context *ctx, collision_scratch *s);
 
-/* Bring the kept pairs up to date.  Fat boxes are renewed only when a body's box leaves them, so the list depends on
-   the state alone.  Pairs of two bodies that cannot move, and of removed bodies, are not kept. */
+/* Bring the kept pairs up to date, after whatever moved bodies since the last time.  Fat boxes are renewed when a
+   body's box has left its own, so the list depends on the state alone.  Pairs of two bodies that cannot move, and of
+   removed bodies, are not kept. */
 fram_status broad_phase_update(context *ctx, const body_table *bodies, const shape_store *shapes,
                                const collision_settings *settings, broad_table *boxes, pair_table *pairs,
                                collision_scratch *scratch, fram_error *error);
@@ -26,10 +28,12 @@ fram_status broad_phase_update(context *ctx, const body_table *bodies, const sha
    still open by a small share of the bodies' size are listed too, with depth < 0: the solver lets them close, not
    cross. Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs) instead.  impulse_limit is infinite,
    correct is true, patch -1; friction from the policies.  No contact takes its normal from an inner seam of a compound.
-   Remembers separating axes in pairs. */
+   Remembers separating axes in pairs, and skips a pair while neither body has travelled far enough to have closed the
+   gap.  Parallel over blocks of pairs; call it after broad_phase_update. */
 fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape_store *shapes,
-                             const pair_policies *policies, pair_table *pairs, contact_array *contacts,
-                             index_array *patch_pairs, collision_scratch *scratch, fram_error *error);
+                             const pair_policies *policies, const broad_table *boxes, pair_table *pairs,
+                             contact_array *contacts, index_array *patch_pairs, collision_scratch *scratch,
+                             fram_error *error);
 
 /* Manifold of two convex polyhedra given in a common frame: up to 4 points with depth > 0; normal from b to a.  Returns
    the number of points; axis in: remembered separating axis or zero, out: new one when separated. feature gets a small

@@ -13,18 +13,49 @@ typedef struct grid_entry {
 /* What the broad phase found of a slot in this update. */
 enum { BOX_KEPT = 0, BOX_MOVED, BOX_NEW };
 
+/* What a block of bodies or pairs found; every block writes its own. */
+typedef struct box_block {
+    bool changed; /* some body left its box, appeared or disappeared */
+    int32_t lost; /* slot of the first body whose position is no place, -1 */
+} box_block;
+typedef struct pair_block {
+    contact_array contacts;
+    index_array patch_pairs;
+    bool memory_failed;
+} pair_block;
+
+/* Of each thread. */
+typedef struct narrow_room {
+    polyhedron piece_a, piece_b; /* convex pieces in the global axes, about body a's centre of mass */
+    int32_array near_a, near_b;  /* pieces that reach into the common part of two boxes */
+} narrow_room;
+
 struct collision_scratch {
     ARRAY(uint8_t) change;     /* of each slot, BOX_... */
+    ARRAY(grid_entry) filed;   /* of each slot */
     ARRAY(grid_entry) entries; /* in the order of their buckets */
     int32_array bucket;        /* of each slot */
     int32_array bucket_start;
     ARRAY(uint64_t) fresh; /* new pairs, a << 32 | b */
     pair_table merged;
-    polyhedron piece_a, piece_b; /* convex pieces in the global axes, about body a's centre of mass */
-    int32_array near_a, near_b;  /* pieces that reach into the common part of two boxes */
+    ARRAY(box_block) box_blocks;
+    ARRAY(pair_block) pair_blocks; /* beyond count: empty, but with their memory */
+    int32_t pair_blocks_made;
+    ARRAY(narrow_room) rooms; /* of each thread */
 };
 
 /* Box of a body's shape in the global frame. */
 box3 body_box(const body_table *bodies, const shape_store *shapes, int32_t slot);
+
+/* ---- broad_boxes.c ---- */
+
+/* Brings travels up to date and renews fat boxes: of bodies that left theirs, and then of all that have used up half of
+   the room in theirs, so that the next one to leave is a while off.  *any: something changed; change[slot] says what.
+   FRAM_ERROR_SIMULATION names a body whose position is no place. */
+fram_status broad_boxes_update(context *ctx, const body_table *bodies, const shape_store *shapes,
+                               const collision_settings *settings, broad_table *boxes, collision_scratch *s, bool *any,
+                               fram_error *error);
+
+static inline box3 fat_box(const broad_table *boxes, int32_t slot) { return (box3){boxes->lo[slot], boxes->hi[slot]}; }
 
 #endif

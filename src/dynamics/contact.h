@@ -56,18 +56,23 @@ typedef struct pair_policies {
 TABLE_DECLARE(contact_memory, CONTACT_MEMORY_FIELDS)
 
 /* Pairs of bodies whose margins overlap, kept until they part; ascending (a, b), a < b. */
-#define PAIR_FIELDS(X)                                   \
-    X(a, int32_t, FIELD_I32, 1, "1", "lower body slot")  \
-    X(b, int32_t, FIELD_I32, 1, "1", "higher body slot") \
-    X(axis, vec3, FIELD_F64, 3, "1", "separating axis remembered from the last test; zero without")
+#define PAIR_FIELDS(X)                                                                              \
+    X(a, int32_t, FIELD_I32, 1, "1", "lower body slot")                                             \
+    X(b, int32_t, FIELD_I32, 1, "1", "higher body slot")                                            \
+    X(axis, vec3, FIELD_F64, 3, "1", "separating axis remembered from the last test; zero without") \
+    X(clear, double, FIELD_F64, 1, "m", "the two cannot meet while their travels sum to less than this")
 TABLE_DECLARE(pair, PAIR_FIELDS)
 
 /* What the broad phase remembers of each body slot: the box it was last paired with. */
-#define BROAD_FIELDS(X)                                                               \
-    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that was boxed; 0: none") \
-    X(fixed, uint8_t, FIELD_U8, 1, "1", "1: that body was static")                    \
-    X(lo, vec3, FIELD_F64, 3, "m", "lower corner of the fat box, global frame")       \
-    X(hi, vec3, FIELD_F64, 3, "m", "upper corner of the fat box")
+#define BROAD_FIELDS(X)                                                                                          \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that was boxed; 0: none")                            \
+    X(fixed, uint8_t, FIELD_U8, 1, "1", "1: that body was static")                                               \
+    X(lo, vec3, FIELD_F64, 3, "m", "lower corner of the fat box, global frame")                                  \
+    X(hi, vec3, FIELD_F64, 3, "m", "upper corner of the fat box")                                                \
+    X(travel, double, FIELD_F64, 1, "m", "bound on the way of every point of the body since it was boxed first") \
+    X(stay, double, FIELD_F64, 1, "m", "up to this travel it cannot have left its fat box")                      \
+    X(position, vec3, FIELD_F64, 3, "m", "of the body when travel was brought up to date")                       \
+    X(orientation, quat, FIELD_F64, 4, "1", "of the body when travel was brought up to date")
 TABLE_DECLARE(broad, BROAD_FIELDS)
 
 #endif

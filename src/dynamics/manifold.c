@@ -23,7 +23,7 @@ static int clip(const clip_vertex *in, int n, vec3 side, double offset, uint32_t
 /* Keeps four of n points: the deepest, the one farthest from it, and on either side of the line through both the one
    that spans the largest triangle, so that the patch keeps its extent in both directions and with it the moments it can
    carry. */
-static int choose_four(manifold_point *p, int n, vec3 normal, manifold_point out[4])
+static int choose_four(const manifold_point *p, int n, vec3 normal, manifold_point out[4])
 {
     int chosen[4] = {0, 0, -1, -1};
     for (int i = 1; i < n; i++)
@@ -55,6 +55,15 @@ static int choose_four(manifold_point *p, int n, vec3 normal, manifold_point out
     return count;
 }
 
+int manifold_reduce(const manifold_point *points, int n, vec3 normal, manifold_point out[4])
+{
+    if (n > 4)
+        return choose_four(points, n, normal, out);
+    for (int i = 0; i < n; i++)
+        out[i] = points[i];
+    return n;
+}
+
 int face_manifold(const flat_face *reference, const flat_face *incident, nearness near, bool swapped,
                   manifold_point out[4])
 {
@@ -69,7 +78,6 @@ int face_manifold(const flat_face *reference, const flat_face *incident, nearnes
     }
     manifold_point point[CLIP_MOST];
     int count = 0;
-    uint32_t base = (swapped ? 1u << 30 : 0) | (reference->name & 255u) << 22 | (incident->name & 255u) << 14;
     double offset = vec3_dot(reference->normal, reference->point[0]), deepest = -HUGE_VAL;
     for (int i = 0; i < n; i++) {
         const clip_vertex *v = &buffer[from][i], *before = &buffer[from][i > 0 ? i - 1 : n - 1];
@@ -78,14 +86,8 @@ int face_manifold(const flat_face *reference, const flat_face *incident, nearnes
         if (!(depth > -near.reach))
             continue;
         vec3 middle = vec3_mad(v->point, reference->normal, 0.5 * depth);
-        uint32_t feature = base | (before->edge & 127u) << 7 | (v->edge & 127u);
+        uint32_t feature = manifold_feature(swapped, reference->name, incident->name, before->edge, v->edge);
         point[count++] = (manifold_point){middle, depth, feature};
     }
-    if (!(deepest > -near.slack))
-        return 0;
-    if (count > 4)
-        return choose_four(point, count, reference->normal, out);
-    for (int i = 0; i < count; i++)
-        out[i] = point[i];
-    return count;
+    return deepest > -near.slack ? manifold_reduce(point, count, reference->normal, out) : 0;
 }

@@ -32,6 +32,17 @@ typedef struct nearness {
 int face_manifold(const flat_face *reference, const flat_face *incident, nearness near, bool swapped,
                   manifold_point out[4]);
 
+/* At most four of n points, so chosen that the patch keeps its extent; returns their number. */
+int manifold_reduce(const manifold_point *points, int n, vec3 normal, manifold_point out[4]);
+
+/* The name of a point where edges `before` and `after` of a clipped face meet. */
+static inline uint32_t manifold_feature(bool swapped, uint32_t reference, uint32_t incident, uint32_t before,
+                                        uint32_t after)
+{
+    return (swapped ? 1u << 30 : 0) | (reference & 255u) << 22 | (incident & 255u) << 14 | (before & 127u) << 7 |
+           (after & 127u);
+}
+
 /* Faces that are seams inside a compound: they part pieces, but no contact may take their normal. */
 typedef struct seam_masks {
     uint64_t a, b;

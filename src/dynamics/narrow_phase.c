@@ -1,7 +1,16 @@
-/* Contacts of the kept pairs: quick way out by the remembered axis, then piece against piece.  All geometry of a pair
-   is taken about the first body's centre of mass, so that nothing is lost far from the origin. */
+/* Contacts of the kept pairs: quick ways out by what the bodies travelled and by the remembered axis, then piece
+   against piece.  All geometry of a pair is taken about the first body's centre of mass, so that nothing is lost far
+   from the origin. */
+#include "base/pool.h"
 #include "dynamics/collision_scratch.h"
-#include "dynamics/prism_contact.h"
+#include "dynamics/prism_pair_kernel.h"
+
+#include <string.h>
+
+/* Pairs a block: in a packed field about a thousand contacts. */
+enum { BLOCK_PAIRS = 512 };
+/* Bounds are taken smaller by this share, far more than what rounding can take from them. */
+#define SURE (1 - 1e-9)
 
 /* Pairs are contacts a little before they touch, and open points of touching faces stay in the manifold: the solver
    lets a gap close within the step but not be crossed.  So a body at rest on four points neither rocks nor loses its
@@ -47,6 +56,7 @@ static prism prism_piece(const party *p, int32_t piece)
                    .corner = p->shapes->vertices.corner + first,
                    .outline = shape_outline(p->shapes, p->shape),
                    .count = p->shapes->pieces.size[at],
+                   .readable = p->shapes->vertices.count - first,
                    .half_height = p->shapes->shapes.half_height[p->shape],
                    .seams = p->shapes->pieces.inner_edges[at],
                    .rotation = p->rotation,
@@ -82,14 +92,15 @@ static void body_span(const party *p, vec3 axis, double *low, double *high)
     *high = middle + most + rise;
 }
 
-static bool axis_parts(const party *a, const party *b, vec3 axis, double slack)
+/* How far apart two bodies are along an axis from b to a; -infinity without an axis. */
+static double axis_gap(const party *a, const party *b, vec3 axis)
 {
     if (vec3_dot(axis, axis) == 0)
-        return false;
+        return -HUGE_VAL;
     double low_a, high_a, low_b, high_b;
     body_span(a, axis, &low_a, &high_a);
     body_span(b, axis, &low_b, &high_b);
-    return low_a - high_b > slack;
+    return low_a - high_b;
 }
 
 /* ---- pieces of compounds ---- */
@@ -188,8 +199,8 @@ static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron 
 }
 
 /* Points of two pieces, -1 without memory. */
-static int touch_pieces(context *ctx, collision_scratch *s, const party *a, const party *b, int32_t piece_a,
-                        int32_t piece_b, nearness near, vec3 *normal, manifold_point out[4], vec3 *axis)
+static int touch_pieces(context *ctx, narrow_room *s, const party *a, const party *b, int32_t piece_a, int32_t piece_b,
+                        nearness near, vec3 *normal, manifold_point out[4], vec3 *axis)
 {
     if (a->is_prism && b->is_prism) {
         if (!prism_polyhedron_reserve(ctx, &s->piece_a) || !prism_polyhedron_reserve(ctx, &s->piece_b))
@@ -227,14 +238,18 @@ static bool add_contacts(context *ctx, const body_table *bodies, const party *a,
     return true;
 }
 
-/* All contacts of one pair; *axis in and out as in pair_table. */
-static bool touch_bodies(context *ctx, collision_scratch *s, const body_table *bodies, const party *a, const party *b,
-                         const pair_policy *policy, vec3 *axis, contact_array *contacts)
+/* A pair under test: axis and gap in and out, gap only when it is larger than the slack. */
+typedef struct parting {
+    vec3 axis;
+    double gap;
+} parting;
+
+/* Any two bodies, piece by piece. */
+static bool touch_compounds(context *ctx, narrow_room *s, const body_table *bodies, const party *a, const party *b,
+                            const pair_policy *policy, nearness near, parting *part, contact_array *contacts)
 {
-    const double *radius = a->shapes->shapes.radius;
-    double smaller = fmin(radius[a->shape], radius[b->shape]);
-    nearness near = {.slack = PAIR_REACH * smaller, .reach = POINT_REACH * smaller};
-    if (axis_parts(a, b, *axis, near.slack))
+    part->gap = axis_gap(a, b, part->axis);
+    if (part->gap > near.slack)
         return true;
     bool compound = piece_count(a) > 1 || piece_count(b) > 1;
     box3 box_a = box3_empty(), box_b = box3_empty();
@@ -248,40 +263,162 @@ static bool touch_bodies(context *ctx, collision_scratch *s, const body_table *b
     vec3 last = {0, 0, 0};
     for (int32_t i = 0; i < s->near_a.count; i++) {
         for (int32_t j = 0; j < s->near_b.count; j++) {
-            vec3 normal, parting = {0, 0, 0};
+            vec3 normal, axis = {0, 0, 0};
             manifold_point point[4];
             int32_t piece_a = s->near_a.data[i], piece_b = s->near_b.data[j];
-            int count = touch_pieces(ctx, s, a, b, piece_a, piece_b, near, &normal, point, &parting);
+            int count = touch_pieces(ctx, s, a, b, piece_a, piece_b, near, &normal, point, &axis);
             if (count < 0 || !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, policy, contacts))
                 return false;
-            if (vec3_dot(parting, parting) > 0)
-                last = parting;
+            if (vec3_dot(axis, axis) > 0)
+                last = axis;
         }
     }
     contact_keys_part(contacts->data + first, contacts->count - first);
-    bool remember = contacts->count == first && (!compound || axis_parts(a, b, last, near.slack));
-    *axis = remember ? last : vec3_make(0, 0, 0);
+    part->gap = contacts->count == first ? axis_gap(a, b, last) : 0;
+    bool remember = contacts->count == first && (!compound || part->gap > near.slack);
+    part->axis = remember ? last : vec3_make(0, 0, 0);
+    return true;
+}
+
+static bool is_plain_prism(const party *p) { return p->is_prism && p->shapes->shapes.piece_count[p->shape] == 1; }
+
+/* Two prisms of one piece each. */
+static bool touch_prisms(context *ctx, narrow_room *s, const body_table *bodies, const party *a, const party *b,
+                         const pair_policy *policy, nearness near, parting *part, contact_array *contacts)
+{
+    prism p = prism_piece(a, 0), q = prism_piece(b, 0);
+    prism_meeting meeting;
+    KERNEL_PICK(ctx, prism_pair_test)(&p, &q, near.slack, &part->axis, &meeting);
+    part->axis = meeting.axis;
+    part->gap = meeting.gap;
+    if (meeting.kind == PRISMS_APART)
+        return true;
+    if (meeting.kind == PRISMS_TILTED &&
+        (!prism_polyhedron_reserve(ctx, &s->piece_a) || !prism_polyhedron_reserve(ctx, &s->piece_b)))
+        return false;
+    vec3 normal;
+    manifold_point point[4];
+    int count = prism_meeting_points(&p, &q, &meeting, near, &s->piece_a, &s->piece_b, &normal, point, &part->axis);
+    int32_t first = contacts->count;
+    if (!add_contacts(ctx, bodies, a, b, 0, 0, normal, point, count, policy, contacts))
+        return false;
+    contact_keys_part(contacts->data + first, count);
+    part->gap = vec3_dot(part->axis, part->axis) > 0 ? axis_gap(a, b, part->axis) : 0;
+    return true;
+}
+
+/* ---- blocks of pairs ---- */
+
+typedef struct narrow_work {
+    context *ctx;
+    const body_table *bodies;
+    const shape_store *shapes;
+    const broad_table *boxes;
+    const pair_policies *policies;
+    pair_table *pairs;
+    collision_scratch *scratch;
+    contact_array *contacts; /* where blocks are joined */
+    index_array *patch_pairs;
+} narrow_work;
+
+/* One pair whose bodies may have come near enough. */
+static bool test_pair(const narrow_work *w, int32_t i, narrow_room *room, pair_block *out)
+{
+    int32_t slot_a = w->pairs->a[i], slot_b = w->pairs->b[i];
+    const body_table *bodies = w->bodies;
+    const pair_policy *policy = &w->policies->of[bodies->material[slot_a]][bodies->material[slot_b]];
+    if (policy->patch)
+        return array_push(w->ctx, &out->patch_pairs, i);
+    party a = party_of(bodies, w->shapes, slot_a, bodies->position[slot_a]);
+    party b = party_of(bodies, w->shapes, slot_b, bodies->position[slot_a]);
+    const double *radius = w->shapes->shapes.radius;
+    double smaller = fmin(radius[a.shape], radius[b.shape]);
+    nearness near = {.slack = PAIR_REACH * smaller, .reach = POINT_REACH * smaller};
+    parting part = {w->pairs->axis[i], 0};
+    bool (*touch)(context *, narrow_room *, const body_table *, const party *, const party *, const pair_policy *,
+                  nearness, parting *, contact_array *) =
+        is_plain_prism(&a) && is_plain_prism(&b) ? touch_prisms : touch_compounds;
+    if (!touch(w->ctx, room, bodies, &a, &b, policy, near, &part, &out->contacts))
+        return false;
+    w->pairs->axis[i] = part.axis;
+    w->pairs->clear[i] = part.gap > near.slack
+                             ? w->boxes->travel[slot_a] + w->boxes->travel[slot_b] + SURE * (part.gap - near.slack)
+                             : 0;
+    return true;
+}
+
+static void narrow_block(void *arg, int32_t block, int32_t thread)
+{
+    const narrow_work *w = arg;
+    pair_block *out = &w->scratch->pair_blocks.data[block];
+    narrow_room *room = &w->scratch->rooms.data[thread];
+    const int32_t *a = w->pairs->a, *b = w->pairs->b;
+    const double *clear = w->pairs->clear, *travel = w->boxes->travel;
+    int32_t end = (block + 1) * BLOCK_PAIRS < w->pairs->count ? (block + 1) * BLOCK_PAIRS : w->pairs->count;
+    for (int32_t i = block * BLOCK_PAIRS; i < end; i++)
+        if (!(travel[a[i]] + travel[b[i]] < clear[i]) && !test_pair(w, i, room, out))
+            out->memory_failed = true;
+}
+
+/* As many blocks and rooms as wanted, their memory kept from before. */
+static bool make_rooms(context *ctx, collision_scratch *s, int32_t blocks, int32_t threads)
+{
+    if (!array_reserve(ctx, &s->pair_blocks, blocks))
+        return false;
+    for (; s->pair_blocks_made < blocks; s->pair_blocks_made++)
+        s->pair_blocks.data[s->pair_blocks_made] = (pair_block){0};
+    s->pair_blocks.count = blocks;
+    for (int32_t i = 0; i < blocks; i++) {
+        pair_block *b = &s->pair_blocks.data[i];
+        array_clear(&b->contacts);
+        array_clear(&b->patch_pairs);
+        b->memory_failed = false;
+    }
+    while (s->rooms.count < threads)
+        if (!array_push(ctx, &s->rooms, (narrow_room){0}))
+            return false;
+    return true;
+}
+
+/* What the blocks found, in their order. */
+static bool join_blocks(const narrow_work *w)
+{
+    const collision_scratch *s = w->scratch;
+    int32_t contacts = 0, patches = 0;
+    for (int32_t i = 0; i < s->pair_blocks.count; i++) {
+        if (s->pair_blocks.data[i].memory_failed)
+            return false;
+        contacts += s->pair_blocks.data[i].contacts.count;
+        patches += s->pair_blocks.data[i].patch_pairs.count;
+    }
+    if (!array_reserve(w->ctx, w->contacts, contacts) || !array_reserve(w->ctx, w->patch_pairs, patches))
+        return false;
+    for (int32_t i = 0; i < s->pair_blocks.count; i++) {
+        const pair_block *b = &s->pair_blocks.data[i];
+        if (b->contacts.count > 0)
+            memcpy(w->contacts->data + w->contacts->count, b->contacts.data,
+                   (size_t)b->contacts.count * sizeof *b->contacts.data);
+        if (b->patch_pairs.count > 0)
+            memcpy(w->patch_pairs->data + w->patch_pairs->count, b->patch_pairs.data,
+                   (size_t)b->patch_pairs.count * sizeof *b->patch_pairs.data);
+        w->contacts->count += b->contacts.count;
+        w->patch_pairs->count += b->patch_pairs.count;
+    }
     return true;
 }
 
 fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape_store *shapes,
-                             const pair_policies *policies, pair_table *pairs, contact_array *contacts,
-                             index_array *patch_pairs, collision_scratch *scratch, fram_error *error)
+                             const pair_policies *policies, const broad_table *boxes, pair_table *pairs,
+                             contact_array *contacts, index_array *patch_pairs, collision_scratch *scratch,
+                             fram_error *error)
 {
     array_clear(contacts);
     array_clear(patch_pairs);
-    for (int32_t i = 0; i < pairs->count; i++) {
-        int32_t slot_a = pairs->a[i], slot_b = pairs->b[i];
-        const pair_policy *policy = &policies->of[bodies->material[slot_a]][bodies->material[slot_b]];
-        if (policy->patch) {
-            if (!array_push(ctx, patch_pairs, i))
-                return error_memory(error);
-            continue;
-        }
-        party a = party_of(bodies, shapes, slot_a, bodies->position[slot_a]);
-        party b = party_of(bodies, shapes, slot_b, bodies->position[slot_a]);
-        if (!touch_bodies(ctx, scratch, bodies, &a, &b, policy, &pairs->axis[i], contacts))
-            return error_memory(error);
-    }
-    return FRAM_OK;
+    int32_t blocks = pairs->count / BLOCK_PAIRS + (pairs->count % BLOCK_PAIRS != 0);
+    narrow_work work = {ctx, bodies, shapes, boxes, policies, pairs, scratch, contacts, patch_pairs};
+    if (!make_rooms(ctx, scratch, blocks, context_threads(ctx)))
+        return error_memory(error);
+    if (blocks > 0)
+        pool_run(ctx, narrow_block, &work, blocks);
+    return join_blocks(&work) ? FRAM_OK : error_memory(error);
 }

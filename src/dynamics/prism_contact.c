@@ -1,10 +1,5 @@
 #include "dynamics/prism_contact.h"
 
-/* cos of the angle between the axes of two prisms under which sides are clipped against sides: within it a side is
-   always more opposed to a side than to top or bottom, and edge pairs add nothing that clipping does not find (their
-   axes differ from a side's normal by the tilt, the depths by its product with the freeboard). */
-#define NEARLY_LEVEL 0.98
-
 /* A direction of a plan view counts as lying in the cone of normals of a corner up to this sine. */
 #define CORNER_SLACK 0.05
 
@@ -128,36 +123,107 @@ static vec3 place_vertex(const prism *p, int32_t k, double z)
 
 /* ---- contact of two sides ---- */
 
-static void take_side(const prism *p, int32_t k, flat_face *out)
+/* A point of the opposed side in the frame of the reference side: along it, up, and how deep behind it. */
+typedef struct side_point {
+    double at[3];
+    uint32_t edge; /* name of the polygon's edge that starts here */
+} side_point;
+enum { ALONG, UP, DEPTH };
+/* Four clips of four corners give eight at most, but for roundings along an edge. */
+enum { SIDE_CORNERS = 4, SIDE_MOST = 16 };
+
+/* The part of a polygon with sign * at[k] <= bound; new edges are called `name`. */
+static int clip_side(const side_point *in, int n, int k, double sign, double bound, uint32_t name, side_point *out)
 {
-    int32_t next = k + 1 < p->count ? k + 1 : 0;
-    out->point[0] = place_vertex(p, k, -p->half_height);
-    out->point[1] = place_vertex(p, next, -p->half_height);
-    out->point[2] = place_vertex(p, next, p->half_height);
-    out->point[3] = place_vertex(p, k, p->half_height);
-    out->count = 4;
-    out->normal = global_normal(p, k);
-    out->name = (uint32_t)k;
+    int count = 0;
+    for (int i = 0; i < n && count < SIDE_MOST - 1; i++) {
+        const side_point *here = &in[i], *next = &in[i + 1 < n ? i + 1 : 0];
+        double d0 = sign * here->at[k] - bound, d1 = sign * next->at[k] - bound;
+        bool inside = d0 <= 0;
+        if (inside)
+            out[count++] = *here;
+        if (inside == (d1 <= 0))
+            continue;
+        double share = d0 / (d0 - d1);
+        side_point *cut = &out[count++];
+        for (int c = 0; c < 3; c++)
+            cut->at[c] = here->at[c] + (next->at[c] - here->at[c]) * share;
+        cut->edge = inside ? name : here->edge;
+    }
+    return count;
 }
 
-static int contact_at_side(const prism *holder, int32_t side, const prism *other, nearness near, bool swapped,
+/* The side of a prism that starts at vertex k, in its plan view. */
+typedef struct side_frame {
+    vec2 start, along, normal; /* units; normal outward */
+    double length;
+} side_frame;
+
+static side_frame side_frame_of(const prism *p, int32_t k, vec2 normal)
+{
+    vec2 start = p->vertex[k], along = vec2_perp(normal);
+    vec2 end = p->vertex[k + 1 < p->count ? k + 1 : 0];
+    return (side_frame){start, along, normal, vec2_dot(vec2_sub(end, start), along)};
+}
+
+/* Corners of side k of `other`, as seen from a side of the holder: from its lower start counter-clockwise. */
+static void opposed_corners(const prism *other, int32_t k, const relative_pose *pose, const side_frame *side,
+                            side_point out[SIDE_CORNERS])
+{
+    vec2 ends[2] = {other->vertex[k], other->vertex[k + 1 < other->count ? k + 1 : 0]};
+    for (uint32_t i = 0; i < SIDE_CORNERS; i++) {
+        vec2 v = ends[i == 1 || i == 2];
+        double z = i < 2 ? -other->half_height : other->half_height;
+        vec3 p = vec3_add(mat3_mul_vec(pose->r, vec3_make(v.x, v.y, z)), pose->t);
+        vec2 from = vec2_sub(vec2_make(p.x, p.y), side->start);
+        out[i] = (side_point){{vec2_dot(from, side->along), p.z, -vec2_dot(from, side->normal)}, i};
+    }
+}
+
+/* The opposed side clipped by the reference side: at most four points, as face_manifold names and chooses them. */
+static int contact_at_side(const prism *holder, const prism *other, const prism_meeting *m, nearness near,
                            vec3 *outward, manifold_point out[4])
 {
-    flat_face reference, incident;
-    take_side(holder, side, &reference);
-    vec3 seen = mat3_tmul_vec(other->rotation, reference.normal);
+    side_point buffer[2][SIDE_MOST];
+    relative_pose pose = pose_from(holder, other);
+    side_frame side = side_frame_of(holder, m->side, m->normal);
+    opposed_corners(other, m->opposed, &pose, &side, buffer[0]);
+    int n = clip_side(buffer[0], SIDE_CORNERS, UP, -1, holder->half_height, CLIP_MOST / 2, buffer[1]);
+    n = clip_side(buffer[1], n, ALONG, 1, side.length, CLIP_MOST / 2 + 1, buffer[0]);
+    n = clip_side(buffer[0], n, UP, 1, holder->half_height, CLIP_MOST / 2 + 2, buffer[1]);
+    n = clip_side(buffer[1], n, ALONG, -1, 0, CLIP_MOST / 2 + 3, buffer[0]);
+    *outward = mat3_mul_vec(holder->rotation, vec3_make(side.normal.x, side.normal.y, 0));
+    manifold_point point[SIDE_MOST];
+    double deepest = -HUGE_VAL;
+    int count = 0;
+    for (int i = 0; i < n; i++) {
+        const side_point *v = &buffer[0][i], *before = &buffer[0][i > 0 ? i - 1 : n - 1];
+        deepest = fmax(deepest, v->at[DEPTH]);
+        if (!(v->at[DEPTH] > -near.reach))
+            continue;
+        vec2 plan = vec2_add(
+            side.start, vec2_sub(vec2_scale(side.along, v->at[ALONG]), vec2_scale(side.normal, 0.5 * v->at[DEPTH])));
+        vec3 local = {plan.x, plan.y, v->at[UP]};
+        point[count++] = (manifold_point){
+            vec3_add(holder->centre, mat3_mul_vec(holder->rotation, local)), v->at[DEPTH],
+            manifold_feature(m->swapped, (uint32_t)m->side, (uint32_t)m->opposed, before->edge, v->edge)};
+    }
+    return deepest > -near.slack ? manifold_reduce(point, count, *outward, out) : 0;
+}
+
+static int32_t most_opposed(const prism *p, vec3 direction)
+{
+    vec3 seen = mat3_tmul_vec(p->rotation, direction);
     int32_t opposed = 0;
     double least = HUGE_VAL;
-    for (int32_t k = 0; k < other->count; k++) {
-        double d = vec2_dot(side_normal(other, k), vec2_make(seen.x, seen.y));
+    for (int32_t k = 0; k < p->count; k++) {
+        double d = vec2_dot(side_normal(p, k), vec2_make(seen.x, seen.y));
         if (d < least) {
             least = d;
             opposed = k;
         }
     }
-    take_side(other, opposed, &incident);
-    *outward = reference.normal;
-    return face_manifold(&reference, &incident, near, swapped, out);
+    return opposed;
 }
 
 /* ---- the general way ---- */
@@ -214,41 +280,66 @@ void prism_polyhedron(const prism *p, polyhedron *room)
     room->radius = sqrt(square);
 }
 
-int prism_manifold(const prism *a, const prism *b, nearness near, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
-                   manifold_point out[4], vec3 *axis)
+/* ---- both ---- */
+
+int prism_meeting_points(const prism *a, const prism *b, const prism_meeting *m, nearness near, polyhedron *a_room,
+                         polyhedron *b_room, vec3 *normal, manifold_point out[4], vec3 *axis)
 {
-    relative_pose b_in_a = pose_from(a, b), a_in_b = pose_from(b, a);
-    best_side in_a, in_b;
-    int32_t parting;
-    if (!search_sides(a, b, &b_in_a, near.slack, &in_a, &parting)) {
-        *axis = vec3_neg(global_normal(a, parting));
-        return 0;
-    }
-    if (!search_sides(b, a, &a_in_b, near.slack, &in_b, &parting)) {
-        *axis = global_normal(b, parting);
-        return 0;
-    }
-    double rise_a = vertical_depth(a, b, &b_in_a), rise_b = vertical_depth(b, a, &a_in_b);
-    if (rise_a < -near.slack || rise_b < -near.slack) {
-        vec3 up = mat3_column((rise_a < -near.slack ? a : b)->rotation, 2);
-        *axis = vec3_scale(up, vec3_dot(up, vec3_sub(a->centre, b->centre)) < 0 ? -1 : 1);
-        return 0;
-    }
     *axis = vec3_make(0, 0, 0);
-    bool of_b = in_b.side >= 0 && (in_a.side < 0 || clearly_less(in_b.depth, in_a.depth, near.slack));
-    const best_side *best = of_b ? &in_b : &in_a;
-    bool upright =
-        fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && !clearly_less(fmin(rise_a, rise_b), best->depth, near.slack);
-    if (!upright) {
+    if (m->kind == PRISMS_TILTED) {
         prism_polyhedron(a, a_room);
         prism_polyhedron(b, b_room);
         return polyhedra_manifold_masked(a_room, b_room, (seam_masks){a->seams, b->seams}, near, normal, out, axis);
     }
-    if (best->depth > SEAM_DEPTH_RATIO * fmin(in_a.barred, in_b.barred))
-        return 0;
     vec3 outward;
-    int count = of_b ? contact_at_side(b, best->side, a, near, true, &outward, out)
-                     : contact_at_side(a, best->side, b, near, false, &outward, out);
-    *normal = of_b ? outward : vec3_neg(outward);
+    int count = contact_at_side(m->swapped ? b : a, m->swapped ? a : b, m, near, &outward, out);
+    *normal = m->swapped ? outward : vec3_neg(outward);
     return count;
+}
+
+/* How two pieces meet, seams and all. */
+static prism_meeting prism_meet(const prism *a, const prism *b, nearness near)
+{
+    relative_pose b_in_a = pose_from(a, b), a_in_b = pose_from(b, a);
+    best_side in_a, in_b;
+    int32_t parting;
+    prism_meeting m = {.kind = PRISMS_APART};
+    if (!search_sides(a, b, &b_in_a, near.slack, &in_a, &parting)) {
+        m.axis = vec3_neg(global_normal(a, parting));
+        return m;
+    }
+    if (!search_sides(b, a, &a_in_b, near.slack, &in_b, &parting)) {
+        m.axis = global_normal(b, parting);
+        return m;
+    }
+    double rise_a = vertical_depth(a, b, &b_in_a), rise_b = vertical_depth(b, a, &a_in_b);
+    if (rise_a < -near.slack || rise_b < -near.slack) {
+        vec3 up = mat3_column((rise_a < -near.slack ? a : b)->rotation, 2);
+        m.axis = vec3_scale(up, vec3_dot(up, vec3_sub(a->centre, b->centre)) < 0 ? -1 : 1);
+        return m;
+    }
+    m.swapped = in_b.side >= 0 && (in_a.side < 0 || clearly_less(in_b.depth, in_a.depth, near.slack));
+    const best_side *best = m.swapped ? &in_b : &in_a;
+    bool upright =
+        fabs(b_in_a.r.m[2][2]) > NEARLY_LEVEL && !clearly_less(fmin(rise_a, rise_b), best->depth, near.slack);
+    m.kind = !upright                                                          ? PRISMS_TILTED
+             : best->depth > SEAM_DEPTH_RATIO * fmin(in_a.barred, in_b.barred) ? PRISMS_BARRED
+                                                                               : PRISMS_AT_SIDES;
+    if (m.kind != PRISMS_AT_SIDES)
+        return m;
+    const prism *holder = m.swapped ? b : a;
+    m.side = best->side;
+    m.normal = side_normal(holder, best->side);
+    m.opposed = most_opposed(m.swapped ? a : b, global_normal(holder, best->side));
+    return m;
+}
+
+int prism_manifold(const prism *a, const prism *b, nearness near, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
+                   manifold_point out[4], vec3 *axis)
+{
+    prism_meeting m = prism_meet(a, b, near);
+    *axis = m.axis;
+    if (m.kind == PRISMS_APART || m.kind == PRISMS_BARRED)
+        return 0;
+    return prism_meeting_points(a, b, &m, near, a_room, b_room, normal, out, axis);
 }

@@ -56,7 +56,7 @@ static fram_status detect_contacts(context *ctx, const step_settings *s, world *
         return status;
     array_clear(&w->scratch.contacts);
     array_clear(&w->scratch.patch_pairs);
-    return narrow_phase_run(ctx, &w->bodies, &w->shapes, &s->policies, &w->pairs, &w->scratch.contacts,
+    return narrow_phase_run(ctx, &w->bodies, &w->shapes, &s->policies, &w->boxes, &w->pairs, &w->scratch.contacts,
                             &w->scratch.patch_pairs, w->scratch.collision, error);
 }
 

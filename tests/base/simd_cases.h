@@ -56,6 +56,13 @@ START_TEST(arithmetic_is_that_of_single_lanes)
         ASSERT_LANES(clamped, !(x[i] > lo[i]) ? lo[i] : x[i] < hi[i] ? x[i] : hi[i]);
         double sum = ((lo[0] + lo[1]) + (lo[2] + lo[3])) + ((lo[4] + lo[5]) + (lo[6] + lo[7]));
         assert_bits(v8_sum(v8_load(lo)), sum);
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (int i = 0; i < 8; i++) {
+            least = fmin(least, lo[i]);
+            most = fmax(most, hi[i]);
+        }
+        assert_bits(v8_least(v8_load(lo)), least);
+        assert_bits(v8_most(v8_load(hi)), most);
     }
 }
 END_TEST
@@ -94,6 +101,10 @@ START_TEST(memory_needs_no_alignment)
             from[i] = i;
             to[i] = -1;
         }
+        v8 even, odd;
+        v8_load_pairs(from + shift, &even, &odd);
+        ASSERT_LANES(even, shift + 2 * i);
+        ASSERT_LANES(odd, shift + 2 * i + 1);
         v8_store(to + shift, v8_load(from + 8 - shift));
         for (int i = 0; i < 24; i++)
             assert_bits(to[i], i >= shift && i < shift + 8 ? 8 - shift + (i - shift) : -1.0);

@@ -115,8 +115,8 @@ static inline void rig_detect(rig *r)
     fram_error e = {0};
     assert_ok(broad_phase_update(&r->ctx, &r->bodies, &r->shapes, &r->collision, &r->boxes, &r->pairs, r->scratch, &e),
               e);
-    assert_ok(narrow_phase_run(&r->ctx, &r->bodies, &r->shapes, &r->policies, &r->pairs, &r->contacts, &r->patch_pairs,
-                               r->scratch, &e),
+    assert_ok(narrow_phase_run(&r->ctx, &r->bodies, &r->shapes, &r->policies, &r->boxes, &r->pairs, &r->contacts,
+                               &r->patch_pairs, r->scratch, &e),
               e);
 }
 
