@@ -11,7 +11,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-views viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench coverage install deps clean help
+.PHONY: build test test-views viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -61,6 +61,9 @@ fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
 
 bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `fram bench`
 	@build/release/fram bench $(BENCH_SCENE) $(BENCH_FLAGS)
+
+bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
+	@bench/run_peers.py $(BENCH_FLAGS)
 
 coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by the tests
 	@cmake --build --preset coverage -j$(JOBS)

@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+"""Fram beside Bullet and ODE on the same scenes, in the same run.
+
+  bench/run_peers.py [--repeat R] [--sizes N ...] [--covers C ...] [--solver NAME] [--core K] [--out BASE]
+      speed: every program on every scene in turn, R times, one thread on one core; BASE.md and BASE.json
+  bench/run_peers.py --threads-only [--sizes N ...]
+      two threads against one on two cores, and whether two copies of one thread reach 1.9 at the same time
+  bench/run_peers.py --loads SEEDS
+      mean ship load over seeds of Fram, Bullet and ODE, with their spread
+
+Ratios are taken inside each round and their median is told: the machine's speed may change between rounds.
+"""
+
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent
+sys.path.insert(0, str(HERE))
+import penetration  # noqa: E402  (beside this script)
+
+WORK = ROOT / "build" / "bench"
+PEERS = HERE / "peers"
+
+
+def command(*words, **more):
+    return subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True, **more).stdout
+
+
+def flags(module):
+    return command("pkg-config", "--cflags", "--libs", module).split()
+
+
+def build_peers():
+    WORK.mkdir(parents=True, exist_ok=True)
+    recipes = {
+        "bullet_f32": ("g++", "-std=c++17", PEERS / "bullet_floes.cpp", "bullet"),
+        "bullet_f64": ("g++", "-std=c++17", PEERS / "bullet_floes.cpp", "bullet-float64"),
+        "ode": ("gcc", "-std=gnu11", PEERS / "ode_floes.c", "ode"),
+    }
+    programs = {}
+    for name, (compiler, standard, source, module) in recipes.items():
+        out = WORK / name
+        if not out.exists() or out.stat().st_mtime < max(source.stat().st_mtime, (PEERS / "scene.h").stat().st_mtime):
+            command(compiler, "-O2", "-march=native", "-DNDEBUG", standard, source, "-o", out, *flags(module), "-lm")
+        programs[name] = out
+    return programs
+
+
+def scene_of(size, cover, seed=1):
+    path = WORK / "scenes" / f"n{size}_c{cover}_s{seed}.scene"
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        current = ("0.3", "0") if cover >= 90 else ("0", "0")
+        command(sys.executable, PEERS / "gen_scene.py", "--n", size, "--coverage", cover / 100, "--seed", seed,
+                "--current", *current, "-o", path)
+    return path
+
+
+def run_fram(options, scene, cores, *words):
+    out = command("taskset", "-c", cores, options.fram, "bench", "--scene", scene, "--dt", options.dt, "--iterations",
+                  options.iterations, "--time", options.time, "--warm", options.warm, "--solver", options.solver,
+                  "--json", "--quiet", *words)
+    return json.loads(out)
+
+
+def run_peer(options, program, scene, *words):
+    out = command("taskset", "-c", options.core, program, scene, "--dt", options.dt, "--iters", options.iterations,
+                  "--time", options.time, "--warm", options.warm, *words)
+    found = dict(re.findall(r"(\S+)=(\S+)", out))
+    return {
+        "ms_per_step_median": float(found["ms_cpu_median"]),
+        "collide_ms": float(found["collide_ms"]),
+        "solve_ms": float(found["solve_ms"]),
+        "forces_ms": float(found["forces_ms"]),
+        "contact_points": float(found["contacts"]),
+        "pairs": float(found["pairs"]),
+        "ship_force_kN": float(found["ship_kN"]),
+    }
+
+
+def contestants(options, peers):
+    """Name -> function of (scene, dump file)."""
+    list_of = {"fram": lambda scene, dump: run_fram(options, scene, options.core, "--dump", dump)}
+    if options.isa:
+        list_of["fram " + options.isa] = lambda scene, dump: run_fram(
+            options, scene, options.core, "--isa", options.isa, "--dump", dump)
+    for name, program in peers.items():
+        list_of[name] = lambda scene, dump, program=program: run_peer(options, program, scene, "--dump", dump)
+    return list_of
+
+
+def machine():
+    about = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    model = re.search(r"model name\s*:\s*(.*)", about)
+    return {
+        "date": datetime.date.today().isoformat(),
+        "processor": model.group(1) if model else "unknown",
+        "cores": len(os.sched_getaffinity(0)),
+        "compiler": command("gcc", "--version").splitlines()[0],
+        "bullet": command("pkg-config", "--modversion", "bullet-float64").strip(),
+        "ode": command("pkg-config", "--modversion", "ode").strip(),
+    }
+
+
+def median_of(rounds, key):
+    return statistics.median(r[key] for r in rounds)
+
+
+def measure_speed(options):
+    programs = contestants(options, build_peers())
+    scenes = []
+    for size in options.sizes:
+        for cover in options.covers:
+            scene = scene_of(size, cover)
+            rounds, depth = {name: [] for name in programs}, {}
+            for k in range(options.repeat):
+                for name, run in programs.items():
+                    dump = WORK / "poses.csv"
+                    rounds[name].append(run(scene, dump))
+                    if k == 0:
+                        depth[name] = penetration.measure(scene, dump)
+            rows = {}
+            for name, r in rounds.items():
+                ms = [x["ms_per_step_median"] for x in r]
+                rows[name] = {
+                    "ms": statistics.median(ms),
+                    "ms_least": min(ms),
+                    "us_per_floe": 1e3 * statistics.median(ms) / size,
+                    "fram_is_faster_by": statistics.median(
+                        a["ms_per_step_median"] / b["ms_per_step_median"] for a, b in zip(r, rounds["fram"])),
+                    **{k: median_of(r, k) for k in ("collide_ms", "solve_ms", "forces_ms", "contact_points", "pairs",
+                                                    "ship_force_kN")},
+                    "penetration": depth[name],
+                }
+            scenes.append({"floes": size, "cover": cover, "programs": rows})
+            print_scene(scenes[-1], sys.stderr)
+    return {"machine": machine(), "options": {k: getattr(options, k) for k in
+            ("repeat", "dt", "iterations", "warm", "time", "solver")}, "scenes": scenes}
+
+
+HEAD = ("| program | ms a step | us per floe | Fram is faster by | collide | solve | forces | points | pairs | ship kN |"
+        " overlap mean mm | p99 mm | largest mm |")
+
+
+def print_scene(scene, file):
+    print(f"\n### {scene['floes']} floes, {scene['cover']} % cover\n", file=file)
+    print(HEAD, file=file)
+    print("|" + "---|" * 13, file=file)
+    for name, r in scene["programs"].items():
+        p = r["penetration"]
+        print(f"| {name} | {r['ms']:.3f} | {r['us_per_floe']:.3f} | {r['fram_is_faster_by']:.2f} | {r['collide_ms']:.3f} |"
+              f" {r['solve_ms']:.3f} | {r['forces_ms']:.3f} | {r['contact_points']:.0f} | {r['pairs']:.0f} |"
+              f" {r['ship_force_kN']:.0f} | {1e3 * p['mean_m']:.3f} | {1e3 * p['p99_m']:.2f} | {1e3 * p['max_m']:.2f} |",
+              file=file, flush=True)
+
+
+def write_report(result, base):
+    base = pathlib.Path(base)
+    base.parent.mkdir(parents=True, exist_ok=True)
+    base.with_suffix(".json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    with open(base.with_suffix(".md"), "w", encoding="utf-8") as file:
+        m, o = result["machine"], result["options"]
+        print(f"# Fram beside Bullet and ODE, {m['date']}\n", file=file)
+        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}.", file=file)
+        print(f"One thread on one core; median of {o['repeat']} interleaved runs; time step {o['dt']} s,"
+              f" {o['iterations']} iterations, {o['time']} s of which {o['warm']} s unmeasured;"
+              f" Fram's solver: {o['solver']}.", file=file)
+        for scene in result["scenes"]:
+            print_scene(scene, file)
+
+
+def measure_threads(options):
+    """Two threads against one, and what two independent copies can reach at the same time."""
+    for size in options.sizes:
+        scene = scene_of(size, 90)
+        gains, copies = [], []
+        for _ in range(options.repeat):
+            one = run_fram(options, scene, "0,1")["ms_wall_median"]
+            two = run_fram(options, scene, "0,1", "--threads", 2)["ms_wall_median"]
+            words = [str(w) for w in ("taskset", "-c", 0, options.fram, "bench", "--scene", scene, "--dt", options.dt,
+                                      "--iterations", options.iterations, "--time", options.time, "--warm", options.warm,
+                                      "--solver", options.solver, "--json", "--quiet")]
+            both = [subprocess.Popen(words[:2] + [str(k)] + words[3:], stdout=subprocess.PIPE, text=True)
+                    for k in (0, 1)]
+            walls = [json.loads(p.communicate()[0])["ms_wall_median"] for p in both]
+            gains.append(one / two)
+            copies.append(sum(one / w for w in walls))
+            print(f"{size} floes: two threads {gains[-1]:.2f} times one, two copies {copies[-1]:.2f}", flush=True)
+        print(f"{size} floes: median {statistics.median(gains):.2f}, two copies {statistics.median(copies):.2f}")
+
+
+def measure_loads(options):
+    """Mean ship load of each program over seeds of the scene."""
+    peers = build_peers()
+    for size in options.sizes:
+        for cover in options.covers:
+            loads = {}
+            for seed in range(1, options.loads + 1):
+                scene = scene_of(size, cover, seed)
+                loads.setdefault("fram", []).append(run_fram(options, scene, options.core)["ship_force_kN"])
+                for name, program in peers.items():
+                    loads.setdefault(name, []).append(run_peer(options, program, scene)["ship_force_kN"])
+            for name, values in loads.items():
+                mean, deviation = statistics.mean(values), statistics.stdev(values)
+                print(f"{size} floes, {cover} %: {name:10} mean {mean:8.1f} kN, coefficient of variation"
+                      f" {deviation / mean:.3f}, from {min(values):.0f} to {max(values):.0f}", flush=True)
+
+
+def main():
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--repeat", type=int, default=3)
+    words.add_argument("--sizes", type=int, nargs="+", default=[1000, 5000, 10000])
+    words.add_argument("--covers", type=int, nargs="+", default=[75, 90])
+    words.add_argument("--dt", type=float, default=0.02)
+    words.add_argument("--iterations", type=int, default=10)
+    words.add_argument("--time", type=float, default=20)
+    words.add_argument("--warm", type=float, default=5)
+    words.add_argument("--solver", default="fast")
+    words.add_argument("--isa", default="baseline", help="the second row of Fram; empty: none")
+    words.add_argument("--core", default="1")
+    words.add_argument("--fram", default=str(ROOT / "build" / "release" / "fram"))
+    words.add_argument("--out", default=str(WORK / "peers"))
+    words.add_argument("--threads-only", action="store_true")
+    words.add_argument("--loads", type=int, default=0, metavar="SEEDS")
+    options = words.parse_args()
+    if options.threads_only:
+        measure_threads(options)
+    elif options.loads:
+        measure_loads(options)
+    else:
+        write_report(measure_speed(options), options.out)
+
+
+if __name__ == "__main__":
+    main()
