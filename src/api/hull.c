@@ -168,7 +168,8 @@ void fram_hull_triangles(const fram_hull *h, double *vertices, int vertex_room, 
 
 void fram_hull_condition_default(fram_hull_condition *c)
 {
-    *c = (fram_hull_condition){sizeof *c, NAN, NAN, {NAN, NAN, NAN}, 1025, 9.81};
+    *c =
+        (fram_hull_condition){sizeof *c, (double)NAN, (double)NAN, {(double)NAN, (double)NAN, (double)NAN}, 1025, 9.81};
 }
 
 static fram_status check_condition(const fram_hull_condition *c, fram_error *error)

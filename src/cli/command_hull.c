@@ -23,14 +23,14 @@ typedef struct hull_words {
 
 static hull_words words_default(void)
 {
-    hull_words w = {.kg = NAN, .lcg = NAN, .tcg = NAN, .tolerance = NAN, .pieces = 64};
+    hull_words w = {.kg = (double)NAN, .lcg = (double)NAN, .tcg = (double)NAN, .tolerance = (double)NAN, .pieces = 64};
     fram_hull_file_default(&w.file);
     fram_hull_particulars_default(&w.particulars);
     fram_hull_condition_default(&w.condition);
     fram_hull_particulars *p = &w.particulars;
-    p->length = p->beam = p->parallel_midbody = NAN;
-    p->stem_angle = p->entrance_angle = p->flare_angle = p->stern_angle = NAN;
-    p->block_coefficient = NAN;
+    p->length = p->beam = p->parallel_midbody = (double)NAN;
+    p->stem_angle = p->entrance_angle = p->flare_angle = p->stern_angle = (double)NAN;
+    p->block_coefficient = (double)NAN;
     return w;
 }
 
@@ -148,8 +148,8 @@ static void print_surface(const hull_words *w, const fram_hull_surface *s)
         printf("  left out: %d triangles in the water plane\n", s->lids);
     if (s->joined || s->splits)
         printf(
-            "  cracks up to %.4g m sealed: widest %.4g m, %d vertices joined, edges led over a vertex %d times; moved edges "
-            "swept %.4g m2;\n    the surface failed to close by an area of (%.4g, %.4g, %.4g) m2, and its volume "
+            "  cracks up to %.4g m sealed: widest %.4g m, %d vertices joined, edges led over a vertex %d times; moved "
+            "edges swept %.4g m2;\n    the surface failed to close by an area of (%.4g, %.4g, %.4g) m2, and its volume "
             "integrals by (%.4g, %.4g, %.4g) m3\n",
             s->seal_width, s->crack_width, s->joined, s->splits, s->crack_area, s->crack_vector[0], s->crack_vector[1],
             s->crack_vector[2], s->crack_volume[0], s->crack_volume[1], s->crack_volume[2]);
@@ -295,7 +295,7 @@ static fram_status work(hull_words *w, fram_context *context, fram_hull **hull, 
     fram_hull_surface_get(*hull, surface);
     /* The draught of a hull made for it is that of z = 0, in which its waterline has the given length. */
     if (!w->path)
-        w->condition.draught = NAN;
+        w->condition.draught = (double)NAN;
     w->condition.centre[0] = w->lcg;
     w->condition.centre[1] = w->tcg;
     w->condition.centre[2] = surface->lo[2] + w->kg;

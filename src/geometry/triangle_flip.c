@@ -1,5 +1,5 @@
-/* Exchanging diagonals; see triangle_flip.h.  In a pass no triangle takes part in two exchanges, so that the neighbours found
-   at its beginning hold. */
+/* Exchanging diagonals; see triangle_flip.h.  In a pass no triangle takes part in two exchanges, so that the neighbours
+   found at its beginning hold. */
 #include "geometry/triangle_flip.h"
 
 #include "geometry/mesh.h"

@@ -10,7 +10,7 @@
 /* Heights this near, relative to the longest side, are one: files hold six or seven digits. */
 #define LEVEL_TOLERANCE 1e-6
 
-hull_file_options hull_file_defaults(void) { return (hull_file_options){1, NAN, false, NAN}; }
+hull_file_options hull_file_defaults(void) { return (hull_file_options){1, (double)NAN, false, (double)NAN}; }
 
 typedef struct hull_reading {
     context *ctx;

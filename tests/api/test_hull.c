@@ -68,7 +68,7 @@ START_TEST(a_box)
     ck_assert(f.heel < 0 && f.heel > -0.05); /* port down */
     c.draught = 2;
     assert_fails(fram_hull_float(hull, &c, &f, &error), error, FRAM_ERROR_USAGE, "give one of them");
-    c.mass = NAN;
+    c.mass = (double)NAN;
     c.water_density = 0;
     assert_fails(fram_hull_float(hull, &c, &f, &error), error, FRAM_ERROR_INPUT, "positive density");
     c.water_density = 1025;
@@ -98,12 +98,12 @@ START_TEST(pieces_and_files)
     fram_hull *hull = make_box(shared), *back = NULL;
     fram_hull_pieces pieces;
     fram_error error = {0};
-    assert_ok(fram_hull_cut(hull, NAN, 8, &pieces, &error), error);
+    assert_ok(fram_hull_cut(hull, (double)NAN, 8, &pieces, &error), error);
     ck_assert_int_eq(pieces.count, 1);
     assert_absolute(pieces.tolerance, 0.1, 1e-15);
     assert_absolute(pieces.concavity, 0, 1e-3);
     assert_relative(pieces.volume, 2000, 1e-12);
-    assert_fails(fram_hull_cut(hull, NAN, 0, &pieces, &error), error, FRAM_ERROR_USAGE, "at least one piece");
+    assert_fails(fram_hull_cut(hull, (double)NAN, 0, &pieces, &error), error, FRAM_ERROR_USAGE, "at least one piece");
     assert_fails(fram_hull_cut(hull, -1, 8, &pieces, &error), error, FRAM_ERROR_USAGE, "positive distance");
 
     char folder[] = "/tmp/fram_test_XXXXXX", path[64];
@@ -162,7 +162,7 @@ START_TEST(memory_runs_out)
         if (status == FRAM_OK)
             status = fram_hull_make(shared, &p, &hull, &error);
         if (status == FRAM_OK)
-            status = fram_hull_cut(hull, NAN, 4, &pieces, &error);
+            status = fram_hull_cut(hull, (double)NAN, 4, &pieces, &error);
         if (status == FRAM_OK)
             status = fram_hull_float(hull, &c, &floating, &error);
         if (status == FRAM_OK)

@@ -25,7 +25,7 @@ START_TEST(topsides)
     context_init(&ctx);
     /* The mirrored box of 2 x 2 x 1, and its lid in the water plane, which is left out. */
     const char *const texts[] = {GDF_BOX, GDF_HEAD("1", "1", "4") GDF_QUARTER "0 0 0  1 0 0  1 1 0  0 1 0\n"};
-    const double freeboards[] = {NAN, 0.5, 2};
+    const double freeboards[] = {(double)NAN, 0.5, 2};
     for (size_t t = 0; t < 2; t++)
         for (size_t i = 0; i < 3; i++) {
             hull_file_options options = hull_file_defaults();
@@ -73,10 +73,11 @@ START_TEST(repair)
         double volume, freeboard;
         int holes, flipped, dropped;
     } cases[] = {
-        {"hole.obj", OBJ_POINTS "f 1 3 2\nf 1 2 4\nf 1 4 3\n", 1.0 / 6, NAN, 1, 0, 0},
-        {"turned.obj", OBJ_POINTS "f 1 3 2\nf 2 1 4\nf 1 4 3\nf 2 3 4\n", 1.0 / 6, NAN, 0, 1, 0},
-        {"inside_out.obj", OBJ_POINTS "f 2 3 1\nf 4 2 1\nf 3 4 1\nf 4 3 2\n", 1.0 / 6, NAN, 0, 4, 0},
-        {"flat.obj", OBJ_POINTS "v 0.5 0.5 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n", 1.0 / 6, NAN, 0, 0, 1},
+        {"hole.obj", OBJ_POINTS "f 1 3 2\nf 1 2 4\nf 1 4 3\n", 1.0 / 6, (double)NAN, 1, 0, 0},
+        {"turned.obj", OBJ_POINTS "f 1 3 2\nf 2 1 4\nf 1 4 3\nf 2 3 4\n", 1.0 / 6, (double)NAN, 0, 1, 0},
+        {"inside_out.obj", OBJ_POINTS "f 2 3 1\nf 4 2 1\nf 3 4 1\nf 4 3 2\n", 1.0 / 6, (double)NAN, 0, 4, 0},
+        {"flat.obj", OBJ_POINTS "v 0.5 0.5 0\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n", 1.0 / 6, (double)NAN, 0,
+         0, 1},
         {"inside_out.gdf",
          GDF_HEAD("1", "1", "3") "1 0 -1 1 1 -1 0 1 -1 0 0 -1\n1 0 0 1 1 0 1 1 -1 1 0 -1\n1 1 0 0 1 0 0 1 -1 1 1 -1\n",
          8, 1, 0, 24, 0},
@@ -109,9 +110,9 @@ START_TEST(options_are_checked)
         hull_file_options options;
         const char *key;
     } cases[] = {
-        {{0, NAN, false, NAN}, "scale"},       {{-1, NAN, false, NAN}, "scale"},
-        {{1, -0.1, false, NAN}, "seal_width"}, {{1, HUGE_VAL, false, NAN}, "seal_width"},
-        {{1, NAN, false, 0}, "freeboard"},     {{1, NAN, false, HUGE_VAL}, "freeboard"},
+        {{0, (double)NAN, false, (double)NAN}, "scale"}, {{-1, (double)NAN, false, (double)NAN}, "scale"},
+        {{1, -0.1, false, (double)NAN}, "seal_width"},   {{1, HUGE_VAL, false, (double)NAN}, "seal_width"},
+        {{1, (double)NAN, false, 0}, "freeboard"},       {{1, (double)NAN, false, HUGE_VAL}, "freeboard"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         mesh m = {0};

@@ -43,7 +43,7 @@ START_TEST(tetrahedra)
         {"mesh", OBJ_TETRAHEDRON, MESH_OBJ},
         {"mesh", "# a comment\n\n" OBJ_TETRAHEDRON, MESH_OBJ},
         {"t.gdf",
-         "triangles as panels with a corner twice\n1 9.8\n0 0\n4\n0 0 0, 0,1,0 1 0 0 1 0 0\n0 0 0 1.D0 0 0 0 0 1d+0 0 0 "
+         "a corner twice\n1 9.8\n0 0\n4\n0 0 0, 0,1,0 1 0 0 1 0 0\n0 0 0 1.D0 0 0 0 0 1d+0 0 0 "
          "1\n0 0 0 0 0 1 0\n1 0 0 0 0\n1 0 0 0 1 0 0 0 1 1 0 0\n",
          MESH_GDF},
         {"mesh",

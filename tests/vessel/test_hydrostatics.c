@@ -165,7 +165,7 @@ START_TEST(what_does_not_float)
     hull_attitude a;
     hull_stability s;
     fram_error error = {0};
-    const double volumes[] = {0, -1, 80, 81, HUGE_VAL, NAN};
+    const double volumes[] = {0, -1, 80, 81, HUGE_VAL, (double)NAN};
     for (int i = 0; i < 6; i++) {
         assert_fails(hull_float(&ctx, &m, volumes[i], (vec3){0, 0, 0}, &a, &error), error, FRAM_ERROR_INPUT,
                      "encloses 80 m3");
@@ -240,7 +240,7 @@ START_TEST(block_coefficients)
         m = (mesh){0};
         pieces = (polyhedron_array){0};
     }
-    const double beyond[] = {least - 0.001, most + 0.001, -1, 2, NAN};
+    const double beyond[] = {least - 0.001, most + 0.001, -1, 2, (double)NAN};
     for (int i = 0; i < 5; i++) {
         p.block_coefficient = beyond[i];
         assert_fails(hull_make(&ctx, &p, &m, &pieces, &error), error, FRAM_ERROR_INPUT, "block coefficient can be");
@@ -266,7 +266,7 @@ START_TEST(memory_runs_out)
         hull_attitude a;
         hull_stability s;
         polyhedron_array pieces = {0};
-        double tolerance = NAN, concavity;
+        double tolerance = (double)NAN, concavity;
         fram_error error;
         fram_status status = hull_float(&ctx, &m, 30, vec3_make(0.1, 0.1, 0), &a, &error);
         if (status == FRAM_OK)
