@@ -1,0 +1,64 @@
+#include "vessel/event.h"
+
+#include "base/transcendental.h"
+
+#include <stdio.h>
+
+#define TABLE_SELF event_table
+TABLE_DEFINE(event, EVENT_FIELDS)
+#undef TABLE_SELF
+
+bool event_add(context *ctx, event_table *events, station_event kind, double time, int32_t vessel, int32_t number,
+               double value)
+{
+    int32_t row = events->count;
+    if (!table_resize(ctx, events, &event_table_info, row + 1))
+        return false;
+    events->time[row] = time;
+    events->value[row] = value;
+    events->kind[row] = (int32_t)kind;
+    events->vessel[row] = vessel;
+    events->number[row] = number;
+    return true;
+}
+
+const char *event_name(station_event kind)
+{
+    static const char *const names[EVENT_COUNT] = {
+        "line_break",        "line_release", "thruster_failure", "position_lost",
+        "position_regained", "heading_lost", "heading_regained",
+    };
+    return (int)kind >= 0 && kind < EVENT_COUNT ? names[kind] : "unknown";
+}
+
+void event_text(const event_table *events, int32_t row, char *out, size_t size)
+{
+    double value = events->value[row];
+    int number = (int)events->number[row] + 1;
+    switch ((station_event)events->kind[row]) {
+    case EVENT_LINE_BREAK:
+        snprintf(out, size, "mooring line %d broke at a tension of %.4g kN", number, value * 1e-3);
+        return;
+    case EVENT_LINE_RELEASE:
+        snprintf(out, size, "mooring line %d was let go at a tension of %.4g kN", number, value * 1e-3);
+        return;
+    case EVENT_THRUSTER_FAILURE:
+        snprintf(out, size, "thruster %d failed at a thrust of %.4g kN", number, value * 1e-3);
+        return;
+    case EVENT_POSITION_LOST:
+        snprintf(out, size, "position lost: the offset is %.4g m", value);
+        return;
+    case EVENT_POSITION_REGAINED:
+        snprintf(out, size, "position regained: the offset is %.4g m", value);
+        return;
+    case EVENT_HEADING_LOST:
+        snprintf(out, size, "heading lost: it is off by %.4g deg", degrees(value));
+        return;
+    case EVENT_HEADING_REGAINED:
+        snprintf(out, size, "heading regained: it is off by %.4g deg", degrees(value));
+        return;
+    case EVENT_COUNT:
+        break;
+    }
+    snprintf(out, size, "unknown event");
+}

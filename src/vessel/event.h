@@ -1,0 +1,34 @@
+/* What befell a vessel on station: a table that grows, kept as state so that a resumed run tells the whole story. */
+#ifndef VESSEL_EVENT_H
+#define VESSEL_EVENT_H
+
+#include "base/table.h"
+
+typedef enum station_event {
+    EVENT_LINE_BREAK = 0,   /* a line's tension exceeded its breaking load; value: tension [N] */
+    EVENT_LINE_RELEASE,     /* a line was let go at its given time; value: tension [N] */
+    EVENT_THRUSTER_FAILURE, /* value: thrust it had [N] */
+    EVENT_POSITION_LOST,    /* the offset came to exceed its limit; value: offset [m] */
+    EVENT_POSITION_REGAINED,
+    EVENT_HEADING_LOST, /* the heading came to deviate by more than its limit; value: deviation [rad] */
+    EVENT_HEADING_REGAINED,
+    EVENT_COUNT
+} station_event;
+
+#define EVENT_FIELDS(X)                                        \
+    X(time, double, FIELD_F64, 1, "s", "simulated time")       \
+    X(value, double, FIELD_F64, 1, "", "what the kind says")   \
+    X(kind, int32_t, FIELD_I32, 1, "1", "enum station_event")  \
+    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel") \
+    X(number, int32_t, FIELD_I32, 1, "1", "line or thruster, from 0; -1: none")
+TABLE_DECLARE(event, EVENT_FIELDS)
+
+/* false: no memory. */
+bool event_add(context *ctx, event_table *events, station_event kind, double time, int32_t vessel, int32_t number,
+               double value);
+/* "line 3 broke at a tension of 2.1 MN", for people; numbers count from 1. */
+void event_text(const event_table *events, int32_t row, char *out, size_t size);
+/* "line_break", for machines. */
+const char *event_name(station_event kind);
+
+#endif

@@ -1,0 +1,257 @@
+#include "vessel/mooring.h"
+
+#include "base/transcendental.h"
+
+#define TABLE_SELF line_table
+TABLE_DEFINE(line, LINE_FIELDS)
+#undef TABLE_SELF
+
+static fram_status refuse(fram_error *error, const char *key, const char *rule, double found)
+{
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s must be %s, found %g", key, rule, found);
+}
+
+static fram_status check_definition(const line_definition *d, double height, fram_error *error)
+{
+    if (!(height > 0))
+        return refuse(error, "depth", "more than the depth of the upper end", d->depth);
+    if (!(d->distance > 0))
+        return refuse(error, "distance", "a positive number of metres", d->distance);
+    if (!(d->stiffness > 0))
+        return refuse(error, "stiffness", "positive", d->stiffness);
+    if (d->kind == LINE_CATENARY && !(d->weight > 0))
+        return refuse(error, "weight", "a positive number of newtons per metre", d->weight);
+    if (!(d->breaking_load > 0))
+        return refuse(error, "breaking_load", "a positive number of newtons", d->breaking_load);
+    if (isnan(d->length) && !(d->pretension > 0))
+        return refuse(error, "pretension", "a positive number of newtons where no length is given", d->pretension);
+    if (!isnan(d->length) && !(d->length > 0))
+        return refuse(error, "length", "a positive number of metres", d->length);
+    return FRAM_OK;
+}
+
+/* Unstretched length from the pretension, where it is not given. */
+static fram_status find_length(const line_definition *d, double height, double *length, fram_error *error)
+{
+    *length = d->length;
+    if (!isnan(d->length))
+        return FRAM_OK;
+    if (d->kind == LINE_SPRING) {
+        *length = sqrt(height * height + d->distance * d->distance) - d->pretension / d->stiffness;
+        if (*length > 0)
+            return FRAM_OK;
+        return refuse(error, "pretension", "less than the stiffness times the distance of the ends", d->pretension);
+    }
+    const catenary_line line = {0, d->weight, d->stiffness};
+    if (catenary_length_for(line, height, d->distance, d->pretension, length))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "pretension",
+                     "pretension must be more than the weight of the line over the depth, %g N, found %g N",
+                     d->weight * height, d->pretension);
+}
+
+fram_status mooring_add_line(context *ctx, const line_definition *d, const vessel_table *vessels,
+                             const body_table *bodies, line_table *lines, fram_error *error)
+{
+    int32_t body = vessels->body[d->vessel];
+    vec3 lead = vec3_make(real_cos(d->direction), real_sin(d->direction), 0);
+    vec3 arm = vec3_scale(lead, d->fairlead_distance);
+    vec3 fairlead = vec3_sub(d->centre, vessels->centre[d->vessel]);
+    vec3 point = vec3_add(body_to_global(bodies, body, fairlead), arm);
+    double height = point.z + d->depth, length;
+    fram_status status = check_definition(d, height, error);
+    if (status == FRAM_OK)
+        status = find_length(d, height, &length, error);
+    if (status != FRAM_OK)
+        return status;
+    int32_t row = lines->count;
+    if (!table_resize(ctx, lines, &line_table_info, row + 1))
+        return error_memory(error);
+    lines->vessel[row] = d->vessel;
+    lines->kind[row] = (uint8_t)d->kind;
+    lines->fairlead[row] = d->turret ? fairlead : body_to_local(bodies, body, point);
+    lines->arm[row] = d->turret ? arm : vec3_make(0, 0, 0);
+    vec3 anchor = vec3_mad(point, lead, d->distance);
+    lines->anchor[row] = vec3_make(anchor.x, anchor.y, -d->depth);
+    lines->length[row] = length;
+    lines->weight[row] = d->weight;
+    lines->stiffness[row] = d->stiffness;
+    lines->breaking_load[row] = d->breaking_load;
+    lines->release_time[row] = d->release_time;
+    line_pull pull = mooring_line_pull(lines, row, bodies->position[body], bodies->orientation[body]);
+    lines->horizontal[row] = pull.horizontal;
+    lines->tension[row] = pull.tension;
+    return FRAM_OK;
+}
+
+static void spring_pull(const line_table *lines, int32_t row, vec3 gap, line_pull *pull)
+{
+    double distance = vec3_length(gap), stretch = distance - lines->length[row];
+    if (!(stretch > 0))
+        return;
+    pull->tension = lines->stiffness[row] * stretch;
+    pull->force = vec3_scale(gap, pull->tension / distance);
+    pull->horizontal = sqrt(pull->force.x * pull->force.x + pull->force.y * pull->force.y);
+}
+
+static void hanging_pull(const line_table *lines, int32_t row, vec3 gap, line_pull *pull)
+{
+    const catenary_line line = {lines->length[row], lines->weight[row], lines->stiffness[row]};
+    double distance = sqrt(gap.x * gap.x + gap.y * gap.y);
+    catenary_pull p = catenary_solve(&line, -gap.z, distance, lines->horizontal[row]);
+    double share = distance > 0 ? p.horizontal / distance : 0;
+    pull->force = vec3_make(gap.x * share, gap.y * share, -p.vertical);
+    pull->tension = catenary_tension(p);
+    pull->horizontal = p.horizontal;
+}
+
+line_pull mooring_line_pull(const line_table *lines, int32_t row, vec3 position, quat orientation)
+{
+    vec3 at = vec3_add(position, mat3_mul_vec(quat_matrix(orientation), lines->fairlead[row]));
+    line_pull pull = {.point = vec3_add(at, lines->arm[row])};
+    if (lines->broken[row])
+        return pull;
+    vec3 gap = vec3_sub(lines->anchor[row], pull.point);
+    if (lines->kind[row] == LINE_SPRING)
+        spring_pull(lines, row, gap, &pull);
+    else
+        hanging_pull(lines, row, gap, &pull);
+    return pull;
+}
+
+wrench mooring_pull(const line_table *lines, int32_t vessel, vec3 position, quat orientation)
+{
+    wrench sum = {0};
+    for (int32_t i = 0; i < lines->count; i++) {
+        if (lines->vessel[i] != vessel)
+            continue;
+        line_pull pull = mooring_line_pull(lines, i, position, orientation);
+        wrench_add(&sum, position, pull.force, pull.point);
+    }
+    return sum;
+}
+
+/* Whether the line parts now; the event is booked. */
+static bool parts(context *ctx, line_table *lines, int32_t row, double time, double tension, event_table *events,
+                  bool *good)
+{
+    station_event kind;
+    if (tension > lines->breaking_load[row])
+        kind = EVENT_LINE_BREAK;
+    else if (time >= lines->release_time[row])
+        kind = EVENT_LINE_RELEASE;
+    else
+        return false;
+    /* The number of a line counts those of its own vessel. */
+    int32_t number = 0;
+    for (int32_t i = 0; i < row; i++)
+        number += lines->vessel[i] == lines->vessel[row];
+    *good = event_add(ctx, events, kind, time, lines->vessel[row], number, tension);
+    lines->broken[row] = 1;
+    lines->tension[row] = lines->horizontal[row] = 0;
+    return true;
+}
+
+fram_status mooring_step(context *ctx, line_table *lines, const vessel_table *vessels, const body_table *bodies,
+                         double time, wrench *loads, wrench *sum, event_table *events, fram_error *error)
+{
+    for (int32_t i = 0; i < lines->count; i++) {
+        if (lines->broken[i])
+            continue;
+        int32_t vessel = lines->vessel[i], body = vessels->body[vessel];
+        line_pull pull = mooring_line_pull(lines, i, bodies->position[body], bodies->orientation[body]);
+        bool good = true, parted = parts(ctx, lines, i, time, pull.tension, events, &good);
+        if (!good)
+            return error_memory(error);
+        if (parted)
+            continue;
+        lines->tension[i] = pull.tension;
+        lines->horizontal[i] = pull.horizontal;
+        wrench_add(&loads[body], bodies->position[body], pull.force, pull.point);
+        wrench_add(&sum[vessel], bodies->position[body], pull.force, pull.point);
+    }
+    return FRAM_OK;
+}
+
+/* ---- equilibrium ---- */
+
+typedef struct balance {
+    const line_table *lines;
+    int32_t vessel;
+    double length; /* of the vessel: what a moment is divided and a turn multiplied by */
+    steady_load load;
+    const void *user;
+    double z, roll, pitch;
+} balance;
+
+/* Force left at (x, y, length * yaw), the moment over the length. */
+static vec3 balance_miss(const balance *b, vec3 at)
+{
+    double yaw = at.z / b->length;
+    wrench pull = mooring_pull(b->lines, b->vessel, vec3_make(at.x, at.y, b->z),
+                               quat_from_roll_pitch_yaw(b->roll, b->pitch, yaw));
+    vec3 steady = b->load ? b->load(b->user, yaw) : vec3_make(0, 0, 0);
+    return vec3_make(pull.force.x + steady.x, pull.force.y + steady.y, (pull.moment.z + steady.z) / b->length);
+}
+
+static mat3 balance_slope(const balance *b, vec3 at)
+{
+    double step = 1e-4 * b->length;
+    mat3 slope;
+    for (int c = 0; c < 3; c++) {
+        vec3 by = vec3_make(c == 0 ? step : 0, c == 1 ? step : 0, c == 2 ? step : 0);
+        vec3 d = vec3_sub(balance_miss(b, vec3_add(at, by)), balance_miss(b, vec3_sub(at, by)));
+        slope.m[0][c] = d.x / (2 * step);
+        slope.m[1][c] = d.y / (2 * step);
+        slope.m[2][c] = d.z / (2 * step);
+    }
+    return slope;
+}
+
+/* Solves (J'J + damping I) x = -J' miss (Levenberg 1944). */
+static vec3 balance_step(mat3 slope, vec3 miss, double damping)
+{
+    mat3 normal = mat3_mul(mat3_transpose(slope), slope);
+    for (int i = 0; i < 3; i++)
+        normal.m[i][i] += damping;
+    return vec3_neg(mat3_mul_vec(mat3_inverse(normal), mat3_tmul_vec(slope, miss)));
+}
+
+bool mooring_equilibrium(const line_table *lines, int32_t vessel, double length, steady_load load, const void *user,
+                         vec3 *position, quat *orientation, double *residual)
+{
+    enum { MOST_STEPS = 200 };
+    vec3 attitude = quat_roll_pitch_yaw(*orientation);
+    const balance b = {lines, vessel, length, load, user, position->z, attitude.x, attitude.y};
+    vec3 at = vec3_make(position->x, position->y, length * attitude.z), miss = balance_miss(&b, at);
+    double pulls = 0, damping = 1e-3;
+    for (int32_t i = 0; i < lines->count; i++)
+        pulls += lines->vessel[i] == vessel ? lines->tension[i] : 0;
+    for (int i = 0; i < MOST_STEPS && vec3_length(miss) > 1e-9 * pulls; i++) {
+        mat3 slope = balance_slope(&b, at);
+        double scale = 0;
+        for (int k = 0; k < 9; k++)
+            scale = fmax(scale, fabs(slope.m[k / 3][k % 3]));
+        if (!(scale > 0))
+            break;
+        vec3 step = balance_step(slope, miss, damping * scale * scale);
+        double reach = vec3_length(step);
+        if (reach > 0.1 * length)
+            step = vec3_scale(step, 0.1 * length / reach);
+        vec3 next = vec3_add(at, step), next_miss = balance_miss(&b, next);
+        if (vec3_length(next_miss) < vec3_length(miss)) {
+            at = next;
+            miss = next_miss;
+            damping = fmax(damping / 8, 1e-15);
+        } else if (damping < 1e6) {
+            damping *= 4;
+        } else {
+            break;
+        }
+    }
+    position->x = at.x;
+    position->y = at.y;
+    *orientation = quat_from_roll_pitch_yaw(attitude.x, attitude.y, at.z / length);
+    *residual = vec3_length(miss);
+    return *residual <= 1e-6 * pulls;
+}

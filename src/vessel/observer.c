@@ -1,0 +1,156 @@
+#include "vessel/observer.h"
+
+#include <string.h>
+
+static vec3 place_error(vec3 measured, vec3 place)
+{
+    vec3 e = vec3_sub(measured, place);
+    e.z = plane_angle(e.z);
+    return e;
+}
+
+void passive_observer_step(const plane_model *m, const passive_tuning *tuning, motion_estimate *e, vec3 tau,
+                           vec3 measured, double dt)
+{
+    double w = tuning->bandwidth, heading = e->place.z;
+    vec3 error = place_error(measured, e->place), mass = plane_diagonal(m->mass);
+    vec3 weighted = plane_times(mass, plane_to_vessel(heading, error));
+    vec3 force = vec3_add(tau, plane_to_vessel(heading, e->bias));
+    force = vec3_sub(force, mat3_mul_vec(m->damping, e->velocity));
+    force = vec3_mad(force, weighted, 3 * w * w);
+    vec3 acceleration = mat3_mul_vec(mat3_inverse(m->mass), force);
+    vec3 bias_rate =
+        vec3_mad(plane_to_global(heading, vec3_scale(weighted, w * w * w)), e->bias, -1 / tuning->bias_time);
+    /* Semi-implicit: the new velocity moves the place. */
+    e->bias = vec3_mad(e->bias, bias_rate, dt);
+    e->velocity = vec3_mad(e->velocity, acceleration, dt);
+    vec3 rate = vec3_mad(plane_to_global(heading, e->velocity), error, 3 * w);
+    e->place = vec3_mad(e->place, rate, dt);
+}
+
+/* ---- Kalman ---- */
+
+enum { N = KALMAN_STATES };
+
+static double component(vec3 v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
+
+kalman_covariance kalman_begin(const kalman_tuning *tuning, vec3 speed, vec3 bias)
+{
+    kalman_covariance p;
+    memset(&p, 0, sizeof p);
+    for (int i = 0; i < 3; i++) {
+        double sd[3] = {component(tuning->measurement, i), component(speed, i), component(bias, i)};
+        for (int k = 0; k < 3; k++) {
+            int s = 3 * k + i;
+            p.of[N * s + s] = sd[k] * sd[k];
+        }
+    }
+    return p;
+}
+
+/* Jacobian of the step x -> x + dt f(x). */
+static void step_jacobian(const plane_model *m, mat3 inverse, const kalman_tuning *tuning, const motion_estimate *e,
+                          double dt, double f[N][N])
+{
+    double c = real_cos(e->place.z), s = real_sin(e->place.z);
+    const mat3 rotation = {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
+    mat3 drag = mat3_mul(inverse, m->damping), push = mat3_mul(inverse, mat3_transpose(rotation));
+    /* Derivatives by the heading of R velocity and of R^T bias. */
+    vec3 v = e->velocity, b = e->bias;
+    vec3 turned = vec3_make(-s * v.x - c * v.y, c * v.x - s * v.y, 0);
+    vec3 pushed = mat3_mul_vec(inverse, vec3_make(-s * b.x + c * b.y, -c * b.x - s * b.y, 0));
+    memset(f, 0, sizeof(double[N][N]));
+    for (int r = 0; r < N; r++)
+        f[r][r] = 1;
+    for (int r = 0; r < 3; r++) {
+        f[r][2] += dt * component(turned, r);
+        f[3 + r][2] += dt * component(pushed, r);
+        f[6 + r][6 + r] -= dt / tuning->bias_time;
+        for (int k = 0; k < 3; k++) {
+            f[r][3 + k] = dt * rotation.m[r][k];
+            f[3 + r][3 + k] -= dt * drag.m[r][k];
+            f[3 + r][6 + k] = dt * push.m[r][k];
+        }
+    }
+}
+
+/* p becomes f p f', symmetric to the bit. */
+static void propagate(double f[N][N], kalman_covariance *p)
+{
+    double half[N][N];
+    for (int r = 0; r < N; r++) {
+        for (int k = 0; k < N; k++) {
+            double sum = 0;
+            for (int i = 0; i < N; i++)
+                sum += f[r][i] * p->of[N * i + k];
+            half[r][k] = sum;
+        }
+    }
+    for (int r = 0; r < N; r++) {
+        for (int k = r; k < N; k++) {
+            double sum = 0;
+            for (int i = 0; i < N; i++)
+                sum += half[r][i] * f[k][i];
+            p->of[N * r + k] = p->of[N * k + r] = sum;
+        }
+    }
+}
+
+/* Covariance of the velocity that white forces give in a second: M^-1 diag(force^2) M^-T. */
+static void add_noise(mat3 inverse, const kalman_tuning *tuning, double dt, kalman_covariance *p)
+{
+    for (int r = 0; r < 3; r++) {
+        for (int k = 0; k < 3; k++) {
+            double sum = 0;
+            for (int i = 0; i < 3; i++) {
+                double sd = component(tuning->force, i);
+                sum += inverse.m[r][i] * inverse.m[k][i] * sd * sd;
+            }
+            p->of[N * (3 + r) + 3 + k] += dt * sum;
+        }
+        double sd = component(tuning->bias, r);
+        p->of[N * (6 + r) + 6 + r] += dt * sd * sd;
+    }
+}
+
+void kalman_predict(const plane_model *m, const kalman_tuning *tuning, motion_estimate *e, kalman_covariance *p,
+                    vec3 tau, double dt)
+{
+    double f[N][N];
+    mat3 inverse = mat3_inverse(m->mass);
+    step_jacobian(m, inverse, tuning, e, dt, f);
+    propagate(f, p);
+    add_noise(inverse, tuning, dt, p);
+    vec3 force = vec3_add(tau, plane_to_vessel(e->place.z, e->bias));
+    force = vec3_sub(force, mat3_mul_vec(m->damping, e->velocity));
+    vec3 rate = plane_to_global(e->place.z, e->velocity);
+    e->place = vec3_mad(e->place, rate, dt);
+    e->velocity = vec3_mad(e->velocity, mat3_mul_vec(inverse, force), dt);
+    e->bias = vec3_scale(e->bias, 1 - dt / tuning->bias_time);
+}
+
+void kalman_correct(const kalman_tuning *tuning, motion_estimate *e, kalman_covariance *p, vec3 measured)
+{
+    double x[N] = {e->place.x,    e->place.y, e->place.z, e->velocity.x, e->velocity.y,
+                   e->velocity.z, e->bias.x,  e->bias.y,  e->bias.z};
+    for (int i = 0; i < 3; i++) {
+        double sd = component(tuning->measurement, i), variance = p->of[N * i + i] + sd * sd, gain[N], row[N];
+        double miss = component(measured, i) - x[i];
+        if (i == 2)
+            miss = plane_angle(miss);
+        if (!(variance > 0))
+            continue;
+        for (int k = 0; k < N; k++) {
+            row[k] = p->of[N * i + k];
+            gain[k] = row[k] / variance;
+        }
+        for (int r = 0; r < N; r++) {
+            x[r] += gain[r] * miss;
+            for (int k = 0; k < N; k++)
+                p->of[N * r + k] -= row[r] * row[k] / variance;
+        }
+    }
+    e->place = vec3_make(x[0], x[1], x[2]);
+    e->velocity = vec3_make(x[3], x[4], x[5]);
+    e->bias = vec3_make(x[6], x[7], x[8]);
+}

@@ -1,0 +1,36 @@
+/* Motion in the water plane: surge, sway, yaw.  A vec3 holds (x, y, heading) of a place in the global frame, or (surge,
+   sway, yaw) of a velocity or a force in the vessel's frame (x forward, y to port, counter-clockwise).  A mat3 holds a
+   mass or damping matrix in the same order (Fossen 2011, chapter 7: M v' + D v = tau). */
+#ifndef VESSEL_PLANE_MOTION_H
+#define VESSEL_PLANE_MOTION_H
+
+#include "base/transcendental.h"
+#include "base/vec.h"
+
+typedef struct plane_model {
+    mat3 mass;    /* with added mass [kg, kg m, kg m2] */
+    mat3 damping; /* linear [kg/s, kg m/s, kg m2/s] */
+} plane_model;
+
+/* A mass or damping matrix about another point: the new reference point lies at (x, y) of the old axes [m]. */
+mat3 plane_matrix_moved(mat3 about, double x, double y);
+/* A matrix in axes with y and yaw reversed (z down to z up, or back). */
+mat3 plane_matrix_flipped(mat3 m);
+
+/* An angle brought into [-pi, pi). */
+static inline double plane_angle(double a) { return a - 2 * PI * floor((a + PI) / (2 * PI)); }
+/* Global from vessel components, and back; the third component stays. */
+static inline vec3 plane_to_global(double heading, vec3 v)
+{
+    double c = real_cos(heading), s = real_sin(heading);
+    return vec3_make(c * v.x - s * v.y, s * v.x + c * v.y, v.z);
+}
+static inline vec3 plane_to_vessel(double heading, vec3 v)
+{
+    double c = real_cos(heading), s = real_sin(heading);
+    return vec3_make(c * v.x + s * v.y, c * v.y - s * v.x, v.z);
+}
+static inline vec3 plane_diagonal(mat3 m) { return vec3_make(m.m[0][0], m.m[1][1], m.m[2][2]); }
+static inline vec3 plane_times(vec3 a, vec3 b) { return vec3_make(a.x * b.x, a.y * b.y, a.z * b.z); }
+
+#endif

@@ -1,0 +1,173 @@
+/* Mooring lines on a vessel: pulls, symmetry, springs, turret, failure, equilibrium. */
+#include "supply_ship.h"
+#include "vessel/mooring.h"
+
+typedef struct moored {
+    bare_vessel b;
+    line_table lines;
+} moored;
+
+static line_definition sample_line(double direction)
+{
+    return (line_definition){.kind = LINE_CATENARY,
+                             .centre = {0, 0, -5},
+                             .fairlead_distance = 10,
+                             .direction = direction,
+                             .distance = 600,
+                             .depth = 105,
+                             .length = (double)NAN,
+                             .pretension = 4e5,
+                             .weight = 1000,
+                             .stiffness = 6e8,
+                             .breaking_load = 5e6,
+                             .release_time = HUGE_VAL};
+}
+
+static void moor(moored *m, line_definition d, int count)
+{
+    bare_vessel_open(&m->b);
+    m->lines = (line_table){0};
+    double first = d.direction;
+    for (int i = 0; i < count; i++) {
+        d.direction = first + 2 * PI * i / count;
+        assert_ok(mooring_add_line(&m->b.ctx, &d, &m->b.vessels, &m->b.bodies, &m->lines, &m->b.error), m->b.error);
+    }
+}
+
+static void unmoor(moored *m)
+{
+    table_free(&m->b.ctx, &m->lines, &line_table_info);
+    bare_vessel_close(&m->b);
+}
+
+START_TEST(spread_is_balanced_and_restores)
+{
+    moored m;
+    moor(&m, sample_line(0.3), 8);
+    vec3 at = m.b.bodies.position[0];
+    wrench none = mooring_pull(&m.lines, 0, at, quat_identity());
+    assert_absolute(none.force.x, 0, 1);
+    assert_absolute(none.force.y, 0, 1);
+    assert_absolute(none.moment.z, 0, 10);
+    /* Tension 400 kN, 100 m of height at 1 kN/m: H = 300 kN but for the stretch. */
+    assert_relative(m.lines.tension[0], 4e5, 1e-6);
+    assert_relative(m.lines.horizontal[0], 3e5, 1e-3);
+    wrench back = mooring_pull(&m.lines, 0, vec3_make(5, 0, 0), quat_identity());
+    ck_assert(back.force.x < -1e4);
+    assert_absolute(back.force.y, 0, 0.02 * fabs(back.force.x));
+    wrench turned = mooring_pull(&m.lines, 0, at, quat_from_roll_pitch_yaw(0, 0, 0.1));
+    ck_assert(turned.moment.z < -1e5);
+    unmoor(&m);
+}
+END_TEST
+
+START_TEST(a_turret_does_not_hold_the_heading)
+{
+    moored m;
+    line_definition d = sample_line(0.3);
+    d.turret = true;
+    moor(&m, d, 8);
+    wrench turned = mooring_pull(&m.lines, 0, m.b.bodies.position[0], quat_from_roll_pitch_yaw(0, 0, 1));
+    assert_absolute(turned.moment.z, 0, 10);
+    assert_absolute(turned.force.x, 0, 1);
+    unmoor(&m);
+}
+END_TEST
+
+/* A spring of stiffness k displaced by a steady force moves by force / k (oracles section 7, spring offset). */
+START_TEST(spring_offset)
+{
+    moored m;
+    line_definition d = sample_line(0);
+    d.kind = LINE_SPRING;
+    d.stiffness = 5e4;
+    d.pretension = 2e6;
+    d.depth = 5 + 1e-6; /* level springs */
+    moor(&m, d, 4);
+    wrench back = mooring_pull(&m.lines, 0, vec3_make(1, 0, 0), quat_identity());
+    /* Two along: 2 k x; two across: their tension turns with x / distance. */
+    assert_relative(-back.force.x, 2 * 5e4 + 2 * 2e6 / 600, 1e-4);
+    /* A spring never pushes. */
+    back = mooring_pull(&m.lines, 0, vec3_make(50, 0, 0), quat_identity());
+    assert_relative(-back.force.x,
+                    5e4 * (50 + 40) + 2 * (2e6 + 5e4 * (sqrt(600 * 600 + 2500) - 600)) * 50 / sqrt(600 * 600 + 2500),
+                    1e-6);
+    unmoor(&m);
+}
+END_TEST
+
+static vec3 steady(const void *user, double heading)
+{
+    (void)heading;
+    return *(const vec3 *)user;
+}
+
+START_TEST(equilibrium_under_a_steady_load)
+{
+    moored m;
+    moor(&m, sample_line(0.3), 8);
+    vec3 load = {2e5, -1e5, 1e6}, at = m.b.bodies.position[0];
+    quat q = quat_identity();
+    double residual;
+    ck_assert(mooring_equilibrium(&m.lines, 0, 76, steady, &load, &at, &q, &residual));
+    ck_assert(at.x > 0.5 && at.y < -0.2);
+    wrench pull = mooring_pull(&m.lines, 0, at, q);
+    assert_absolute(pull.force.x, -2e5, 1);
+    assert_absolute(pull.force.y, 1e5, 1);
+    assert_absolute(pull.moment.z, -1e6, 100);
+    /* Without lines there is none. */
+    line_table none = {0};
+    ck_assert(!mooring_equilibrium(&none, 0, 76, steady, &load, &at, &q, &residual));
+    unmoor(&m);
+}
+END_TEST
+
+START_TEST(lines_break_and_are_let_go)
+{
+    moored m;
+    moor(&m, sample_line(0), 4);
+    m.lines.breaking_load[0] = 3.9e5;
+    m.lines.release_time[2] = 1;
+    wrench load = {0}, sum = {0};
+    bare_vessel *b = &m.b;
+    assert_ok(mooring_step(&b->ctx, &m.lines, &b->vessels, &b->bodies, 0.5, &load, &sum, &b->events, &b->error),
+              b->error);
+    ck_assert_int_eq(b->events.count, 1);
+    ck_assert_int_eq(b->events.kind[0], EVENT_LINE_BREAK);
+    ck_assert(m.lines.broken[0] && m.lines.tension[0] == 0);
+    assert_relative(load.force.x, -3e5, 1e-2);
+    assert_vec3_close(load.force, sum.force, 0);
+    load = sum = (wrench){0};
+    assert_ok(mooring_step(&b->ctx, &m.lines, &b->vessels, &b->bodies, 1, &load, &sum, &b->events, &b->error),
+              b->error);
+    ck_assert_int_eq(b->events.count, 2);
+    ck_assert_int_eq(b->events.kind[1], EVENT_LINE_RELEASE);
+    ck_assert_int_eq(b->events.number[1], 2);
+    assert_absolute(load.force.x, 0, 1);
+    unmoor(&m);
+}
+END_TEST
+
+START_TEST(refusals)
+{
+    moored m;
+    moor(&m, sample_line(0), 0);
+    line_definition d = sample_line(0);
+    d.pretension = 5e4;
+    assert_fails(mooring_add_line(&m.b.ctx, &d, &m.b.vessels, &m.b.bodies, &m.lines, &m.b.error), m.b.error,
+                 FRAM_ERROR_INPUT, "pretension");
+    d = sample_line(0);
+    d.depth = 3;
+    assert_fails(mooring_add_line(&m.b.ctx, &d, &m.b.vessels, &m.b.bodies, &m.lines, &m.b.error), m.b.error,
+                 FRAM_ERROR_INPUT, "depth");
+    d = sample_line(0);
+    d.weight = 0;
+    assert_fails(mooring_add_line(&m.b.ctx, &d, &m.b.vessels, &m.b.bodies, &m.lines, &m.b.error), m.b.error,
+                 FRAM_ERROR_INPUT, "weight");
+    ck_assert_int_eq(m.lines.count, 0);
+    unmoor(&m);
+}
+END_TEST
+
+TEST_MAIN("mooring", spread_is_balanced_and_restores, a_turret_does_not_hold_the_heading, spring_offset,
+          equilibrium_under_a_steady_load, lines_break_and_are_let_go, refusals)
