@@ -220,20 +220,19 @@ static bool add_contacts(context *ctx, const body_table *bodies, const party *a,
                          int32_t piece_b, vec3 normal, const manifold_point *point, int count,
                          const pair_policy *policy, contact_array *contacts)
 {
+    if (contacts->capacity - contacts->count < count && !array_reserve(ctx, contacts, contacts->count + count))
+        return false;
+    vec3 origin = bodies->position[a->slot];
     for (int i = 0; i < count; i++) {
-        contact c = {.a = a->slot,
-                     .b = b->slot,
-                     .point = vec3_add(bodies->position[a->slot], point[i].point),
-                     .normal = normal,
-                     .depth = point[i].depth,
-                     .impulse_limit = HUGE_VAL,
-                     .friction_static = policy->friction_static,
-                     .friction_kinetic = policy->friction_kinetic,
-                     .correct = true,
-                     .patch = -1,
-                     .key = contact_key(bodies, a->slot, b->slot, piece_a, piece_b, point[i].feature)};
-        if (!array_push(ctx, contacts, c))
-            return false;
+        contact *c = &contacts->data[contacts->count++];
+        *c = (contact){.a = a->slot, .b = b->slot, .normal = normal, .impulse_limit = HUGE_VAL};
+        c->point = vec3_add(origin, point[i].point);
+        c->depth = point[i].depth;
+        c->friction_static = policy->friction_static;
+        c->friction_kinetic = policy->friction_kinetic;
+        c->correct = true;
+        c->patch = -1;
+        c->key = contact_key(bodies, a->slot, b->slot, piece_a, piece_b, point[i].feature);
     }
     return true;
 }
@@ -322,13 +321,14 @@ typedef struct narrow_work {
 } narrow_work;
 
 /* One pair whose bodies may have come near enough. */
-static bool test_pair(const narrow_work *w, int32_t i, narrow_room *room, pair_block *out)
+static bool test_pair(const narrow_work *w, int32_t i, narrow_room *room, contact_array *contacts,
+                      index_array *patch_pairs)
 {
     int32_t slot_a = w->pairs->a[i], slot_b = w->pairs->b[i];
     const body_table *bodies = w->bodies;
     const pair_policy *policy = &w->policies->of[bodies->material[slot_a]][bodies->material[slot_b]];
     if (policy->patch)
-        return array_push(w->ctx, &out->patch_pairs, i);
+        return array_push(w->ctx, patch_pairs, i);
     party a = party_of(bodies, w->shapes, slot_a, bodies->position[slot_a]);
     party b = party_of(bodies, w->shapes, slot_b, bodies->position[slot_a]);
     const double *radius = w->shapes->shapes.radius;
@@ -338,7 +338,7 @@ static bool test_pair(const narrow_work *w, int32_t i, narrow_room *room, pair_b
     bool (*touch)(context *, narrow_room *, const body_table *, const party *, const party *, const pair_policy *,
                   nearness, parting *, contact_array *) =
         is_plain_prism(&a) && is_plain_prism(&b) ? touch_prisms : touch_compounds;
-    if (!touch(w->ctx, room, bodies, &a, &b, policy, near, &part, &out->contacts))
+    if (!touch(w->ctx, room, bodies, &a, &b, policy, near, &part, contacts))
         return false;
     w->pairs->axis[i] = part.axis;
     w->pairs->clear[i] = part.gap > near.slack
@@ -347,21 +347,37 @@ static bool test_pair(const narrow_work *w, int32_t i, narrow_room *room, pair_b
     return true;
 }
 
+/* Pairs first..end-1, what they find appended to the arrays. */
+static bool test_pairs(const narrow_work *w, int32_t first, int32_t end, narrow_room *room, contact_array *contacts,
+                       index_array *patch_pairs)
+{
+    const int32_t *a = w->pairs->a, *b = w->pairs->b;
+    const double *clear = w->pairs->clear, *travel = w->boxes->travel;
+    for (int32_t i = first; i < end; i++)
+        if (!(travel[a[i]] + travel[b[i]] < clear[i]) && !test_pair(w, i, room, contacts, patch_pairs))
+            return false;
+    return true;
+}
+
 static void narrow_block(void *arg, int32_t block, int32_t thread)
 {
     const narrow_work *w = arg;
     pair_block *out = &w->scratch->pair_blocks.data[block];
-    narrow_room *room = &w->scratch->rooms.data[thread];
-    const int32_t *a = w->pairs->a, *b = w->pairs->b;
-    const double *clear = w->pairs->clear, *travel = w->boxes->travel;
-    int32_t end = (block + 1) * BLOCK_PAIRS < w->pairs->count ? (block + 1) * BLOCK_PAIRS : w->pairs->count;
-    for (int32_t i = block * BLOCK_PAIRS; i < end; i++)
-        if (!(travel[a[i]] + travel[b[i]] < clear[i]) && !test_pair(w, i, room, out))
-            out->memory_failed = true;
+    int32_t first = block * BLOCK_PAIRS, rest = w->pairs->count - first;
+    out->memory_failed = !test_pairs(w, first, first + (rest < BLOCK_PAIRS ? rest : BLOCK_PAIRS),
+                                     &w->scratch->rooms.data[thread], &out->contacts, &out->patch_pairs);
 }
 
-/* As many blocks and rooms as wanted, their memory kept from before. */
-static bool make_rooms(context *ctx, collision_scratch *s, int32_t blocks, int32_t threads)
+static bool make_rooms(context *ctx, collision_scratch *s, int32_t threads)
+{
+    while (s->rooms.count < threads)
+        if (!array_push(ctx, &s->rooms, (narrow_room){0}))
+            return false;
+    return true;
+}
+
+/* Empty blocks, with the memory they had before. */
+static bool make_blocks(context *ctx, collision_scratch *s, int32_t blocks)
 {
     if (!array_reserve(ctx, &s->pair_blocks, blocks))
         return false;
@@ -374,9 +390,6 @@ static bool make_rooms(context *ctx, collision_scratch *s, int32_t blocks, int32
         array_clear(&b->patch_pairs);
         b->memory_failed = false;
     }
-    while (s->rooms.count < threads)
-        if (!array_push(ctx, &s->rooms, (narrow_room){0}))
-            return false;
     return true;
 }
 
@@ -414,11 +427,16 @@ fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape
 {
     array_clear(contacts);
     array_clear(patch_pairs);
-    int32_t blocks = pairs->count / BLOCK_PAIRS + (pairs->count % BLOCK_PAIRS != 0);
     narrow_work work = {ctx, bodies, shapes, boxes, policies, pairs, scratch, contacts, patch_pairs};
-    if (!make_rooms(ctx, scratch, blocks, context_threads(ctx)))
-        return error_memory(error);
-    if (blocks > 0)
-        pool_run(ctx, narrow_block, &work, blocks);
-    return join_blocks(&work) ? FRAM_OK : error_memory(error);
+    int32_t threads = context_threads(ctx), blocks = pairs->count / BLOCK_PAIRS + (pairs->count % BLOCK_PAIRS != 0);
+    bool ok = make_rooms(ctx, scratch, threads);
+    if (ok && threads == 1) { /* in order and into the arrays themselves: the same contacts, and no copy */
+        ok = test_pairs(&work, 0, pairs->count, &scratch->rooms.data[0], contacts, patch_pairs);
+    } else if (ok && blocks > 0) {
+        ok = make_blocks(ctx, scratch, blocks);
+        if (ok)
+            pool_run(ctx, narrow_block, &work, blocks);
+        ok = ok && join_blocks(&work);
+    }
+    return ok ? FRAM_OK : error_memory(error);
 }

@@ -51,8 +51,11 @@ typedef struct relative_pose {
 
 static relative_pose pose_from(const prism *from, const prism *to)
 {
+    const double(*f)[3] = from->rotation.m, (*t)[3] = to->rotation.m;
     relative_pose p = {.t = mat3_tmul_vec(from->rotation, vec3_sub(to->centre, from->centre))};
-    p.r = mat3_mul(mat3_transpose(from->rotation), to->rotation);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            p.r.m[i][j] = f[0][i] * t[0][j] + f[1][i] * t[1][j] + f[2][i] * t[2][j];
     return p;
 }
 
@@ -198,7 +201,7 @@ static int contact_at_side(const prism *holder, const prism *other, const prism_
     int count = 0;
     for (int i = 0; i < n; i++) {
         const side_point *v = &buffer[0][i], *before = &buffer[0][i > 0 ? i - 1 : n - 1];
-        deepest = fmax(deepest, v->at[DEPTH]);
+        deepest = v->at[DEPTH] > deepest ? v->at[DEPTH] : deepest;
         if (!(v->at[DEPTH] > -near.reach))
             continue;
         vec2 plan = vec2_add(
