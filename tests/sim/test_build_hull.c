@@ -1,0 +1,149 @@
+/* A scenario's hull from a mesh file: measured, cut, placed about its centre of mass; mistakes named by key or place.
+ */
+#include "io/scenario_file.h"
+#include "sim/build_hull.h"
+#include "testing.h"
+#include <stdio.h>
+#include <unistd.h>
+
+/* A box of 40 x 10 x 3 m under water, x from 0 to 40, open at z = 0, in millimetres: half of it. */
+static const char half_box[] = "a barge\n1 9.81\n0 1\n4\n"
+                               "0 0 -3000  0 5000 -3000  40000 5000 -3000  40000 0 -3000\n"
+                               "40000 0 -3000  40000 5000 -3000  40000 5000 0  40000 0 0\n"
+                               "40000 5000 -3000  0 5000 -3000  0 5000 0  40000 5000 0\n"
+                               "0 5000 -3000  0 0 -3000  0 0 0  0 5000 0\n";
+
+typedef struct folder {
+    char name[64], mesh[96], scene[96];
+} folder;
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_int_ge(fputs(text, file), 0);
+    ck_assert_int_eq(fclose(file), 0);
+}
+
+static folder make_folder(const char *hull_keys, const char *mesh_text)
+{
+    folder f = {.name = "/tmp/fram_test_XXXXXX"};
+    ck_assert_ptr_nonnull(mkdtemp(f.name));
+    snprintf(f.mesh, sizeof f.mesh, "%s/barge.gdf", f.name);
+    snprintf(f.scene, sizeof f.scene, "%s/scene.yaml", f.name);
+    char text[512];
+    snprintf(text, sizeof text, "vessel:\n  hull:\n    form: file\n    file: barge.gdf\n%s", hull_keys);
+    write_text(f.scene, text);
+    write_text(f.mesh, mesh_text);
+    return f;
+}
+
+static void remove_folder(const folder *f)
+{
+    unlink(f->mesh);
+    unlink(f->scene);
+    ck_assert_int_eq(rmdir(f->name), 0);
+}
+
+static fram_status build(context *ctx, const folder *f, made_hull *hull, world *w, fram_error *error)
+{
+    scenario s;
+    fram_status status = scenario_read(ctx, f->scene, NULL, &s, error);
+    if (status != FRAM_OK)
+        return status;
+    status = world_init(ctx, w, error);
+    if (status == FRAM_OK)
+        status = build_hull(ctx, &s, w, hull, error);
+    scenario_free(ctx, &s);
+    return status;
+}
+
+START_TEST(a_barge)
+{
+    context ctx;
+    context_init(&ctx);
+    folder f = make_folder("    file_scale: 0.001\n    freeboard: 2\n", half_box);
+    made_hull hull;
+    world w;
+    fram_error error = {0};
+    assert_ok(build(&ctx, &f, &hull, &w, &error), error);
+    const hull_particulars *p = &hull.particulars;
+    const double found[] = {p->length, p->beam, p->draught, p->freeboard, p->midships}, expected[] = {40, 10, 3, 2, 20};
+    assert_array_absolute(found, expected, 5, 1e-12);
+    assert_relative(hull.displaced_mass, 1025 * 1200, 1e-13);
+    assert_vec3_close(hull.centre, vec3_make(20, 0, 0), 1e-12);
+    const solid *s = &w.shapes.solids.data[hull.solid];
+    ck_assert_int_eq(s->pieces.count, 1);
+    box3 box = mesh_bounds(&s->surface);
+    assert_vec3_close(box.lo, vec3_make(-20, -5, -3), 1e-12);
+    assert_vec3_close(box.hi, vec3_make(20, 5, 2), 1e-12);
+    /* Zones are about the middle of the waterline, not about x = 0. */
+    hull_zones zones = hull_zones_of(p);
+    ck_assert_int_eq(hull_zone_at(&zones, vec3_make(39, 0, 0)), ZONE_BOW);
+    ck_assert_int_eq(hull_zone_at(&zones, vec3_make(1, 0, 0)), ZONE_STERN);
+    ck_assert_int_eq(hull_zone_at(&zones, vec3_make(20, 0, 0)), ZONE_MIDBODY);
+    world_free(&ctx, &w);
+    remove_folder(&f);
+}
+END_TEST
+
+START_TEST(mistakes)
+{
+    context ctx;
+    context_init(&ctx);
+    static const char dry[] = "d\n1 9.81\n0 0\n4\n0 0 1 0 1 1 1 0 1 1 0 1\n0 0 1 1 0 1 0 0 2 0 0 2\n"
+                              "0 0 1 0 0 2 0 1 1 0 1 1\n1 0 1 0 1 1 0 0 2 0 0 2\n";
+    const struct {
+        const char *keys, *mesh, *file, *key, *message;
+        int line;
+    } cases[] = {
+        {"", "a barge\n1 9.81\n0 1\nfour\n", "barge.gdf", "", "NPAN", 4},
+        {"", dry, "barge.gdf", "mesh", "z = 0", 0},
+        {"    most_pieces: 0\n", half_box, "scene.yaml", "vessel.hull.most_pieces", "from 1 to 4096", 5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        folder f = make_folder(cases[i].keys, cases[i].mesh);
+        made_hull hull;
+        world w = {0};
+        fram_error error = {0};
+        assert_fails(build(&ctx, &f, &hull, &w, &error), error, FRAM_ERROR_INPUT, cases[i].message);
+        ck_assert_ptr_nonnull(strstr(error.file, cases[i].file));
+        ck_assert_str_eq(error.key, cases[i].key);
+        ck_assert_int_eq(error.line, cases[i].line);
+        world_free(&ctx, &w);
+        remove_folder(&f);
+    }
+}
+END_TEST
+
+/* Keys of particulars that do not go together are named in full, with the place in the scenario. */
+START_TEST(particulars)
+{
+    context ctx;
+    context_init(&ctx);
+    const struct {
+        const char *text, *key;
+        int line;
+    } cases[] = {
+        {"vessel:\n  hull:\n    length: 100\n    flare_angle_deg: 70\n", "vessel.hull.flare_angle_deg", 4},
+        {"vessel:\n  hull:\n    block_coefficient: 0.95\n", "vessel.hull.block_coefficient", 3},
+        {"vessel:\n  hull:\n    entrance_angle_deg: 6\n", "vessel.hull.entrance_angle_deg", 3},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scenario s;
+        world w;
+        made_hull hull;
+        fram_error error = {0};
+        assert_ok(scenario_parse(&ctx, "s.yaml", cases[i].text, strlen(cases[i].text), NULL, &s, &error), error);
+        assert_ok(world_init(&ctx, &w, &error), error);
+        ck_assert_int_eq(build_hull(&ctx, &s, &w, &hull, &error), FRAM_ERROR_INPUT);
+        ck_assert_str_eq(error.key, cases[i].key);
+        ck_assert_str_eq(error.file, "s.yaml");
+        ck_assert_int_eq(error.line, cases[i].line);
+        world_free(&ctx, &w);
+        scenario_free(&ctx, &s);
+    }
+}
+END_TEST
+
+TEST_MAIN("build_hull", a_barge, mistakes, particulars)
