@@ -25,7 +25,8 @@ export class Poses {
     /** Frame number with a fraction. */
     show(when) {
         const { frames, bodies } = this.record;
-        const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last), part = when - f;
+        const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last);
+        const part = when - f;
         const a = frames[f], b = frames[g], placeB = this.placesOf(g), span = b.time - a.time || 1;
         for (const body of bodies) this.shown[body.index] = body.birth <= f && f < body.death ? 1 : 0;
         for (let i = 0; i < a.order.length; i++) {
