@@ -26,6 +26,7 @@ void shape_store_free(context *ctx, shape_store *s)
         mesh_free(ctx, &body->surface);
         mesh_adjacency_free(ctx, &body->adjacency);
         mesh_bvh_free(ctx, &body->tree);
+        mesh_integrals_free(ctx, &body->integrals);
         polyhedron_array_free(ctx, &body->pieces);
     }
     array_free(ctx, &s->solids);
@@ -269,8 +270,11 @@ fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_ar
     fram_status status = mesh_adjacency_build(ctx, surface, &made.adjacency);
     if (status == FRAM_OK)
         status = mesh_bvh_build(ctx, surface, &made.tree);
+    if (status == FRAM_OK && !mesh_integrals_build(ctx, surface, &made.tree, &made.integrals))
+        status = FRAM_ERROR_MEMORY;
     if (status != FRAM_OK) {
         mesh_adjacency_free(ctx, &made.adjacency);
+        mesh_bvh_free(ctx, &made.tree);
         return status == FRAM_ERROR_MEMORY
                    ? error_memory(error)
                    : error_set(error, status, NULL, 0, NULL, "the surface of a solid of %d triangles is no valid mesh",

@@ -8,6 +8,7 @@
 #include "base/table.h"
 #include "geometry/mesh.h"
 #include "geometry/mesh_bvh.h"
+#include "geometry/mesh_integrals.h"
 #include "geometry/overlay.h"
 #include "geometry/polyhedron.h"
 
@@ -43,6 +44,7 @@ typedef struct solid {
     mesh surface;
     mesh_adjacency adjacency;
     mesh_bvh tree;
+    mesh_integrals integrals;
     polyhedron_array pieces;
     double concavity; /* largest distance of the mesh to its pieces [m] */
     double radius;    /* bounding radius about the origin [m] */
@@ -68,8 +70,8 @@ fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon ou
                             double piece_area_limit, int32_t *row, fram_error *error);
 /* A shape that refers to a solid already in the store; FRAM_ERROR_USAGE when it is not there. */
 fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error);
-/* Builds tree, adjacency, radius and takes over surface and pieces (moved out of the caller's objects, which are then
-   empty; left to the caller on failure).  FRAM_ERROR_INPUT for a mesh without triangles. */
+/* Builds tree, integrals, adjacency, radius and takes over surface and pieces (moved out of the caller's objects, which
+   are then empty; left to the caller on failure).  FRAM_ERROR_INPUT for a mesh without triangles. */
 fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
                       int32_t *index, fram_error *error);
 void shape_remove(shape_store *s, int32_t row);

@@ -1,6 +1,7 @@
 /* Fluid and gravity on all bodies, in parallel over fixed blocks of slots. */
 #include "base/pool.h"
 #include "fluid/fluid.h"
+#include "fluid/hull_load.h"
 #include "fluid/level.h"
 
 typedef struct fluid_work {
@@ -13,21 +14,24 @@ typedef struct fluid_work {
     fluid_load *detail;
 } fluid_work;
 
+static fluid_motion motion_of(const body_table *b, int32_t slot)
+{
+    return (fluid_motion){b->position[slot], quat_matrix(b->orientation[slot]), b->velocity[slot],
+                          b->angular_velocity[slot]};
+}
+
+/* Prisms; solids have their turn later, several threads each. */
 static fluid_load load_of_body(const fluid_work *w, int32_t slot)
 {
     fluid_load load = {0};
     const body_table *b = w->bodies;
+    const shape_table *s = &w->shapes->shapes;
     int32_t shape = b->shape[slot];
-    if (shape < 0)
+    if (shape < 0 || s->kind[shape] != SHAPE_PRISM)
         return load;
-    fluid_motion state = {b->position[slot], quat_matrix(b->orientation[slot]), b->velocity[slot],
-                          b->angular_velocity[slot]};
-    const drag_coefficients *c = &w->coefficients[b->material[slot]];
-    if (w->shapes->shapes.kind[shape] == SHAPE_PRISM)
-        fluid_load_prism(w->media, c, shape_outline(w->shapes, shape), w->shapes->shapes.half_height[shape], &state,
-                         &load);
-    else if (w->shapes->shapes.kind[shape] == SHAPE_SOLID)
-        fluid_load_mesh(w->media, c, &w->shapes->solids.data[w->shapes->shapes.solid[shape]].surface, &state, &load);
+    fluid_motion state = motion_of(b, slot);
+    fluid_load_prism(w->media, &w->coefficients[b->material[slot]], shape_outline(w->shapes, shape),
+                     s->half_height[shape], &state, &load);
     return load;
 }
 
@@ -63,6 +67,24 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
     }
 }
 
+static void apply_solids(const fluid_work *w)
+{
+    const body_table *b = w->bodies;
+    const shape_store *s = w->shapes;
+    for (int32_t slot = 0; slot < b->count; slot++) {
+        int32_t shape = b->shape[slot];
+        if (!body_is_dynamic(b, slot) || shape < 0 || s->shapes.kind[shape] != SHAPE_SOLID)
+            continue;
+        fluid_motion state = motion_of(b, slot);
+        fluid_load load;
+        fluid_load_solid(w->ctx, w->media, &w->coefficients[b->material[slot]], &s->solids.data[s->shapes.solid[shape]],
+                         &state, &load);
+        w->loads[slot] = total_of(w, slot, &load);
+        if (w->detail)
+            w->detail[slot] = load;
+    }
+}
+
 fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
                         const body_table *bodies, const shape_store *shapes, wrench *loads, fluid_load *detail,
                         fram_error *error)
@@ -72,5 +94,6 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
     int32_t blocks = bodies->count / LEVEL_BLOCK + (bodies->count % LEVEL_BLOCK != 0);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);
+    apply_solids(&work);
     return FRAM_OK;
 }

@@ -1,9 +1,9 @@
 #include "fluid/facet.h"
 #include "geometry/mesh.h"
 
-stream stream_of_water(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin)
+stream stream_of_water(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin, double height)
 {
-    return (stream){vec3_sub(velocity, m->current), spin, 0.5 * m->water_density * c->water_form,
+    return (stream){vec3_sub(velocity, media_current(m, height)), spin, 0.5 * m->water_density * c->water_form,
                     0.5 * m->water_density * c->water_skin};
 }
 

@@ -26,9 +26,15 @@ typedef struct stream {
     double skin;   /* 1/2 rho Cf [kg/m3] */
 } stream;
 
-/* The wet and the dry side of a body with that motion. */
-stream stream_of_water(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin);
+/* The wet and the dry side of a body with that motion; the current is that at a height over still water [m]. */
+stream stream_of_water(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin, double height);
 stream stream_of_air(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin);
+/* Where a prism as a whole meets the current: in the middle of its wet part if it lay flat; height: of its middle,
+   rise: of its upper cap over that, in place. */
+static inline double prism_current_height(double height, double rise)
+{
+    return height + fabs(rise) <= 0 ? height : 0.5 * fmin(0, height - fabs(rise));
+}
 /* Whether the medium can exert any drag at all. */
 static inline bool stream_acts(const stream *s) { return s->form > 0 || s->skin > 0; }
 

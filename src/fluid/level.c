@@ -1,5 +1,7 @@
 /* Packs floes of like numbers of vertices into batches for the kernel, and hands their loads back. */
 #include "fluid/level.h"
+
+#include "fluid/facet.h"
 #include "fluid/level_kernel.h"
 
 /* Outlines of few vertices have long edges, on which the quadrature of skin drag is coarse: they are cut in half. */
@@ -47,6 +49,15 @@ static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n
         set_point(b, k, lane, vertex[0]);
 }
 
+static vec3 current_at(const level_work *w, int32_t slot)
+{
+    if (w->media->profile.count == 0)
+        return w->media->current;
+    const body_table *t = w->bodies;
+    double rise = w->shapes->shapes.half_height[t->shape[slot]] * quat_matrix(t->orientation[slot]).m[2][2];
+    return media_current(w->media, prism_current_height(t->position[slot].z, rise));
+}
+
 static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
 {
     const body_table *t = w->bodies;
@@ -61,7 +72,7 @@ static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
     b->turn[3][lane] = q.z;
     b->half[lane] = s->half_height[shape];
     set_lane(b->spin, lane, t->angular_velocity[slot]);
-    set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], w->media->current));
+    set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], current_at(w, slot)));
     b->water.form[lane] = c->water_form;
     b->water.skin[lane] = c->water_skin;
     set_lane(b->air.velocity, lane, vec3_sub(t->velocity[slot], w->media->wind));

@@ -4,6 +4,7 @@
 
 /* What is asked of one walk over the triangles. */
 typedef struct mesh_walk {
+    const media *media;
     const mesh *surface;
     const fluid_motion *state;
     bool pressure;
@@ -19,8 +20,16 @@ static void add_wet(const mesh_walk *w, mesh_sums *sums, const vec3 *part, int n
 {
     if (w->pressure)
         facet_add_pressure(&sums->pressure, part, n, w->state->position.z);
-    if (stream_acts(&w->water))
-        facet_add_drag(&sums->water, &w->water, part, n, normal);
+    if (!stream_acts(&w->water) || n < 3)
+        return;
+    stream water = w->water;
+    if (w->media->profile.count > 0) {
+        double height = w->state->position.z;
+        for (int i = 0; i < n; i++)
+            height += part[i].z / n;
+        water.velocity = vec3_sub(w->state->velocity, media_current(w->media, height));
+    }
+    facet_add_drag(&sums->water, &water, part, n, normal);
 }
 
 static void add_triangle(const mesh_walk *w, mesh_sums *sums, int32_t face)
@@ -74,7 +83,7 @@ static void wrench_sum(wrench *to, const wrench *add)
 
 void hydrostatics_mesh(const media *m, const mesh *surface, const fluid_motion *state, fluid_load *load)
 {
-    mesh_sums sums = walk_mesh(&(mesh_walk){.surface = surface, .state = state, .pressure = true});
+    mesh_sums sums = walk_mesh(&(mesh_walk){.media = m, .surface = surface, .state = state, .pressure = true});
     *load = (fluid_load){0};
     take_pressure(m, &sums.pressure, load);
 }
@@ -82,9 +91,10 @@ void hydrostatics_mesh(const media *m, const mesh *surface, const fluid_motion *
 void drag_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                fluid_load *load)
 {
-    mesh_sums sums = walk_mesh(&(mesh_walk){.surface = surface,
+    mesh_sums sums = walk_mesh(&(mesh_walk){.media = m,
+                                            .surface = surface,
                                             .state = state,
-                                            .water = stream_of_water(m, c, state->velocity, state->angular_velocity),
+                                            .water = stream_of_water(m, c, state->velocity, state->angular_velocity, 0),
                                             .air = stream_of_air(m, c, state->velocity, state->angular_velocity)});
     wrench_sum(&load->water_drag, &sums.water);
     wrench_sum(&load->wind_drag, &sums.air);
@@ -93,10 +103,11 @@ void drag_mesh(const media *m, const drag_coefficients *c, const mesh *surface, 
 void fluid_load_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                      fluid_load *load)
 {
-    mesh_sums sums = walk_mesh(&(mesh_walk){.surface = surface,
+    mesh_sums sums = walk_mesh(&(mesh_walk){.media = m,
+                                            .surface = surface,
                                             .state = state,
                                             .pressure = true,
-                                            .water = stream_of_water(m, c, state->velocity, state->angular_velocity),
+                                            .water = stream_of_water(m, c, state->velocity, state->angular_velocity, 0),
                                             .air = stream_of_air(m, c, state->velocity, state->angular_velocity)});
     take_pressure(m, &sums.pressure, load);
     load->water_drag = sums.water;

@@ -143,7 +143,9 @@ void fluid_load_prism(const media *m, const drag_coefficients *c, polygon outlin
                     .height = state->position.z,
                     .half_height = half_height,
                     .up = vec3_scale(mat3_column(state->rotation, 2), half_height),
-                    .water = stream_of_water(m, c, state->velocity, state->angular_velocity),
+                    .water =
+                        stream_of_water(m, c, state->velocity, state->angular_velocity,
+                                        prism_current_height(state->position.z, half_height * state->rotation.m[2][2])),
                     .air = stream_of_air(m, c, state->velocity, state->angular_velocity)};
     immersion kind = find_immersion(&w);
     w.pressure = kind == IMMERSION_CUT;

@@ -1,0 +1,348 @@
+#include "fluid/hull_load.h"
+
+#include "base/pool.h"
+#include "fluid/facet.h"
+#include "fluid/point_kernel.h"
+
+/* Branches that are shared out: those at this depth of the tree, if the mesh is worth it. */
+enum { BRANCH_DEPTH = 5, MOST_BRANCHES = 1 << BRANCH_DEPTH, WORTH_SHARING = 4000 };
+
+/* Sample points waiting to be handed to the kernel: neighbours are joined to one call. */
+typedef struct point_run {
+    int32_t first, end;
+} point_run;
+
+/* What one branch adds up. */
+typedef struct branch_sums {
+    surface_moments wet; /* of the faces that whole nodes had under water, body axes */
+    pressure_sum pressure;
+    wrench water, air; /* of facets, global axes */
+    point_sums water_points, air_points;
+    point_run water_run, air_run;
+} branch_sums;
+
+typedef struct hull_walk {
+    context *ctx;
+    const media *media;
+    const solid *body;
+    const fluid_motion *state;
+    vec3 up; /* global Z in body axes */
+    stream water, air;
+    bool wet, dry; /* media whose drag is wanted */
+    point_stream water_points, air_points;
+    int32_t branch_count;
+    int32_t branch[MOST_BRANCHES];
+    branch_sums sums[MOST_BRANCHES];
+} hull_walk;
+
+/* ---- streams ---- */
+
+static point_stream points_of(const hull_walk *w, const stream *s)
+{
+    mat3 r = w->state->rotation;
+    return (point_stream){.velocity = mat3_tmul_vec(r, s->velocity),
+                          .spin = mat3_tmul_vec(r, s->spin),
+                          .form = s->form,
+                          .skin = s->skin,
+                          .down = vec3_neg(w->up),
+                          .depth = -w->state->position.z};
+}
+
+static void add_layers(const hull_walk *w, const current_profile *p, point_stream *s)
+{
+    for (int32_t k = 0; k + 1 < p->count; k++) {
+        double thick = p->depth[k + 1] - p->depth[k];
+        vec3 change = vec3_sub(p->velocity[k + 1], p->velocity[k]);
+        s->top[k] = p->depth[k];
+        s->thick[k] = thick;
+        s->slope[k] = mat3_tmul_vec(w->state->rotation, vec3_scale(change, 1 / thick));
+        s->layers = k + 1;
+    }
+}
+
+/* The water as a facet of n vertices meets it. */
+static stream water_at(const hull_walk *w, const vec3 *vertex, int n)
+{
+    stream s = w->water;
+    if (w->media->profile.count > 0) {
+        double height = 0;
+        for (int i = 0; i < n; i++)
+            height += vertex[i].z / n;
+        s.velocity = vec3_sub(w->state->velocity, media_current(w->media, w->state->position.z + height));
+    }
+    return s;
+}
+
+/* ---- sample points ---- */
+
+static void flush(const hull_walk *w, const point_stream *s, point_run *run, point_sums *sums)
+{
+    if (run->first < run->end)
+        KERNEL_PICK(w->ctx, point_drag)(s, &w->body->integrals, run->first, run->end, sums);
+    run->first = run->end = 0;
+}
+
+static void add_run(const hull_walk *w, const point_stream *s, int32_t first, int32_t end, point_run *run,
+                    point_sums *sums)
+{
+    if (first != run->end) {
+        flush(w, s, run, sums);
+        run->first = first;
+    }
+    run->end = end;
+}
+
+/* ---- single facets ---- */
+
+static vec3 mean_of(const vec3 *vertex, int n)
+{
+    vec3 sum = {0, 0, 0};
+    for (int i = 0; i < n; i++)
+        sum = vec3_add(sum, vertex[i]);
+    return vec3_scale(sum, 1.0 / n);
+}
+
+/* Drag of a small facet as of one point: the middle of its triangle, or the mean of its vertices. */
+static void add_small(wrench *load, const stream *s, const vec3 *vertex, int n)
+{
+    vec3 area = {0, 0, 0}, middle = mean_of(vertex, n);
+    for (int i = 1; i + 1 < n; i++)
+        area = vec3_add(area, vec3_cross(vec3_sub(vertex[i], vertex[0]), vec3_sub(vertex[i + 1], vertex[0])));
+    double size = 0.5 * vec3_length(area);
+    vec3 normal = vec3_unit(area), v = vec3_add(s->velocity, vec3_cross(s->spin, middle));
+    double into = vec3_dot(v, normal), push = into > 0 ? s->form * into * into : 0;
+    vec3 along = vec3_mad(v, normal, -into);
+    vec3 force = vec3_scale(vec3_mad(vec3_scale(normal, push), along, s->skin * vec3_length(along)), -size);
+    load->force = vec3_add(load->force, force);
+    load->moment = vec3_add(load->moment, vec3_cross(middle, force));
+}
+
+static void add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, bool small)
+{
+    if (n < 3)
+        return;
+    if (small)
+        add_small(load, s, vertex, n);
+    else
+        facet_add_drag(load, s, vertex, n,
+                       vec3_unit(vec3_cross(vec3_sub(vertex[1], vertex[0]), vec3_sub(vertex[2], vertex[0]))));
+}
+
+static void corners_of(const hull_walk *w, int32_t place, vec3 corner[3])
+{
+    const solid *b = w->body;
+    const int32_t *v = b->surface.face.data[b->tree.face.data[place]].v;
+    for (int k = 0; k < 3; k++)
+        corner[k] = mat3_mul_vec(w->state->rotation, b->surface.vertex.data[v[k]]);
+}
+
+/* Large triangles among the places first..end-1, wholly in one medium. */
+static void add_large(const hull_walk *w, int32_t first, int32_t end, bool under, branch_sums *sums)
+{
+    const mesh_integrals *all = &w->body->integrals;
+    for (int32_t i = all->large_first.data[first]; i < all->large_first.data[end]; i++) {
+        vec3 corner[3];
+        corners_of(w, all->large.data[i], corner);
+        stream s = under ? water_at(w, corner, 3) : w->air;
+        add_drag(under ? &sums->water : &sums->air, &s, corner, 3, false);
+    }
+}
+
+/* A triangle of a node that the water plane may cut.  It is small when one point would stand for it or for more. */
+static void add_place(const hull_walk *w, int32_t place, bool joined, branch_sums *sums)
+{
+    const mesh_integrals *all = &w->body->integrals;
+    double height = w->state->position.z;
+    int32_t first = all->point_first.data[place], end = all->point_first.data[place + 1];
+    bool small = joined || end - first == 1;
+    vec3 corner[3], part[4];
+    corners_of(w, place, corner);
+    double low = fmin(corner[0].z, fmin(corner[1].z, corner[2].z)) + height;
+    double high = fmax(corner[0].z, fmax(corner[1].z, corner[2].z)) + height;
+    if (high <= 0) {
+        facet_add_pressure(&sums->pressure, corner, 3, height);
+        stream s = water_at(w, corner, 3);
+        if (w->wet)
+            add_drag(&sums->water, &s, corner, 3, small);
+        return;
+    }
+    if (low < 0) {
+        int n = triangle_clip_below(corner, -height, part);
+        facet_add_pressure(&sums->pressure, part, n, height);
+        if (w->wet && n >= 3) {
+            stream s = water_at(w, part, n);
+            add_drag(&sums->water, &s, part, n, small);
+        }
+    }
+    if (w->dry)
+        add_drag(&sums->air, &w->air, part, facet_clip(corner, 3, vec3_make(0, 0, -1), height, part), small);
+}
+
+/* ---- the tree ---- */
+
+static surface_moments add_moments(const surface_moments *a, const surface_moments *b)
+{
+    surface_moments sum = {vec3_add(a->area, b->area), vec3_add(a->turn, b->turn), a->area_first, a->turn_first};
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            sum.area_first.m[i][j] += b->area_first.m[i][j];
+            sum.turn_first.m[i][j] += b->turn_first.m[i][j];
+        }
+    }
+    return sum;
+}
+
+static void add_wet_node(const hull_walk *w, int32_t n, branch_sums *sums)
+{
+    const mesh_bvh_node *node = &w->body->tree.node.data[n];
+    const mesh_integrals *all = &w->body->integrals;
+    int32_t end = node->first + node->count;
+    sums->wet = add_moments(&sums->wet, &all->moments.data[n]);
+    if (w->wet) {
+        add_run(w, &w->water_points, all->point_first.data[node->first], all->point_first.data[end], &sums->water_run,
+                &sums->water_points);
+        add_large(w, node->first, end, true, sums);
+    }
+}
+
+static void add_dry_node(const hull_walk *w, int32_t n, branch_sums *sums)
+{
+    const mesh_bvh_node *node = &w->body->tree.node.data[n];
+    const mesh_integrals *all = &w->body->integrals;
+    int32_t end = node->first + node->count;
+    add_run(w, &w->air_points, all->point_first.data[node->first], all->point_first.data[end], &sums->air_run,
+            &sums->air_points);
+    add_large(w, node->first, end, false, sums);
+}
+
+/* Height over still water of the box: its middle, and how far it reaches from there. */
+static double box_height(const hull_walk *w, box3 b, double *reach)
+{
+    vec3 half = vec3_scale(vec3_sub(b.hi, b.lo), 0.5), middle = vec3_add(b.lo, half);
+    *reach = fabs(w->up.x) * half.x + fabs(w->up.y) * half.y + fabs(w->up.z) * half.z;
+    return w->state->position.z + vec3_dot(w->up, middle);
+}
+
+/* Whether one point stands for several faces of a node, so that its parts have none of their own. */
+static bool is_joined(const mesh_integrals *all, const mesh_bvh_node *node)
+{
+    int32_t end = node->first + node->count;
+    return node->count > 1 && all->point_first.data[end] - all->point_first.data[node->first] == 1 &&
+           all->large_first.data[end] == all->large_first.data[node->first];
+}
+
+static void add_node(const hull_walk *w, int32_t n, branch_sums *sums)
+{
+    const mesh_bvh_node *node = &w->body->tree.node.data[n];
+    double reach, height = box_height(w, node->box, &reach);
+    if (height + reach <= 0) {
+        add_wet_node(w, n, sums);
+        return;
+    }
+    if (height - reach >= 0) {
+        if (w->dry)
+            add_dry_node(w, n, sums);
+        return;
+    }
+    bool joined = is_joined(&w->body->integrals, node);
+    if (joined || node->next < 0) {
+        for (int32_t i = node->first; i < node->first + node->count; i++)
+            add_place(w, i, joined, sums);
+        return;
+    }
+    add_node(w, n + 1, sums);
+    add_node(w, node->next, sums);
+}
+
+static void add_branch(void *arg, int32_t block, int32_t thread)
+{
+    (void)thread;
+    hull_walk *w = arg;
+    branch_sums *sums = &w->sums[block];
+    *sums = (branch_sums){0};
+    add_node(w, w->branch[block], sums);
+    flush(w, &w->water_points, &sums->water_run, &sums->water_points);
+    flush(w, &w->air_points, &sums->air_run, &sums->air_points);
+}
+
+/* The nodes at a depth, and leaves above it; a joined node is never split. */
+static void find_branches(hull_walk *w, int32_t n, int depth)
+{
+    const mesh_bvh_node *node = &w->body->tree.node.data[n];
+    if (depth == 0 || node->next < 0 || is_joined(&w->body->integrals, node)) {
+        w->branch[w->branch_count++] = n;
+        return;
+    }
+    find_branches(w, n + 1, depth - 1);
+    find_branches(w, node->next, depth - 1);
+}
+
+/* ---- results ---- */
+
+static void add_wrench(wrench *to, vec3 force, vec3 moment)
+{
+    to->force = vec3_add(to->force, force);
+    to->moment = vec3_add(to->moment, moment);
+}
+
+/* Integrals of z n and r x z n over whole nodes, z the height over still water, global axes. */
+static pressure_sum pressure_of(const hull_walk *w, const surface_moments *m)
+{
+    mat3 r = w->state->rotation;
+    double height = w->state->position.z;
+    return (pressure_sum){mat3_mul_vec(r, vec3_mad(mat3_mul_vec(m->area_first, w->up), m->area, height)),
+                          mat3_mul_vec(r, vec3_mad(mat3_mul_vec(m->turn_first, w->up), m->turn, height))};
+}
+
+static void add_points(const hull_walk *w, const point_sums *p, wrench *to)
+{
+    double sum[6];
+    for (int i = 0; i < 6; i++) {
+        const double *a = p->lane[i];
+        sum[i] = ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
+    }
+    mat3 r = w->state->rotation;
+    add_wrench(to, mat3_mul_vec(r, vec3_make(sum[0], sum[1], sum[2])),
+               mat3_mul_vec(r, vec3_make(sum[3], sum[4], sum[5])));
+}
+
+static void sum_branches(const hull_walk *w, fluid_load *load)
+{
+    pressure_sum pressure = {{0, 0, 0}, {0, 0, 0}};
+    for (int32_t i = 0; i < w->branch_count; i++) {
+        const branch_sums *b = &w->sums[i];
+        pressure_sum whole = pressure_of(w, &b->wet);
+        pressure.force = vec3_add(pressure.force, vec3_add(whole.force, b->pressure.force));
+        pressure.moment = vec3_add(pressure.moment, vec3_add(whole.moment, b->pressure.moment));
+        add_wrench(&load->water_drag, b->water.force, b->water.moment);
+        add_wrench(&load->wind_drag, b->air.force, b->air.moment);
+        add_points(w, &b->water_points, &load->water_drag);
+        add_points(w, &b->air_points, &load->wind_drag);
+    }
+    double weight = w->media->water_density * w->media->gravity;
+    load->hydrostatic.force = vec3_scale(pressure.force, weight);
+    load->hydrostatic.moment = vec3_scale(pressure.moment, weight);
+    load->submerged_volume = pressure.force.z;
+}
+
+void fluid_load_solid(context *ctx, const media *m, const drag_coefficients *c, const solid *body,
+                      const fluid_motion *state, fluid_load *load)
+{
+    *load = (fluid_load){0};
+    const mat3 *r = &state->rotation;
+    hull_walk w = {.ctx = ctx,
+                   .media = m,
+                   .body = body,
+                   .state = state,
+                   .up = {r->m[2][0], r->m[2][1], r->m[2][2]},
+                   .water = stream_of_water(m, c, state->velocity, state->angular_velocity, 0),
+                   .air = stream_of_air(m, c, state->velocity, state->angular_velocity)};
+    w.wet = stream_acts(&w.water);
+    w.dry = stream_acts(&w.air);
+    w.water_points = points_of(&w, &w.water);
+    w.air_points = points_of(&w, &w.air);
+    add_layers(&w, &m->profile, &w.water_points);
+    find_branches(&w, 0, body->surface.face.count >= WORTH_SHARING ? BRANCH_DEPTH : 0);
+    pool_run(ctx, add_branch, &w, w.branch_count);
+    sum_branches(&w, load);
+}

@@ -1,0 +1,213 @@
+/* Moments of every node from the leaves up, and sample points from the root down; see mesh_integrals.h. */
+#include "geometry/mesh_integrals.h"
+
+static void add_outer(mat3 *to, vec3 a, vec3 b)
+{
+    const double x[3] = {a.x, a.y, a.z}, y[3] = {b.x, b.y, b.z};
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            to->m[i][j] += x[i] * y[j];
+}
+
+/* int r_j r dS over the triangle's area = (sum over its corners of v_j v + s_j s) / 12, s the sum of its corners. */
+surface_moments triangle_moments(const vec3 corner[3])
+{
+    vec3 s = vec3_add(corner[0], vec3_add(corner[1], corner[2])), centre = vec3_scale(s, 1.0 / 3);
+    vec3 area = vec3_scale(vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0])), 0.5);
+    surface_moments m = {.area = area, .turn = vec3_cross(centre, area)};
+    add_outer(&m.area_first, area, centre);
+    add_outer(&m.turn_first, vec3_scale(vec3_cross(s, area), 1.0 / 12), s);
+    for (int k = 0; k < 3; k++)
+        add_outer(&m.turn_first, vec3_scale(vec3_cross(corner[k], area), 1.0 / 12), corner[k]);
+    return m;
+}
+
+static surface_moments moments_sum(const surface_moments *a, const surface_moments *b)
+{
+    surface_moments sum = {vec3_add(a->area, b->area), vec3_add(a->turn, b->turn), a->area_first, a->turn_first};
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            sum.area_first.m[i][j] += b->area_first.m[i][j];
+            sum.turn_first.m[i][j] += b->turn_first.m[i][j];
+        }
+    }
+    return sum;
+}
+
+/* A node's children follow it, so backward every node finds them done. */
+static void find_moments(const mesh *m, const mesh_bvh *tree, mesh_integrals *out)
+{
+    for (int32_t n = tree->node.count - 1; n >= 0; n--) {
+        const mesh_bvh_node *node = &tree->node.data[n];
+        if (node->next >= 0) {
+            out->moments.data[n] = moments_sum(&out->moments.data[n + 1], &out->moments.data[node->next]);
+            continue;
+        }
+        surface_moments sum = {0};
+        for (int32_t i = node->first; i < node->first + node->count; i++) {
+            vec3 corner[3];
+            mesh_face_points(m, tree->face.data[i], corner);
+            surface_moments one = triangle_moments(corner);
+            sum = moments_sum(&sum, &one);
+        }
+        out->moments.data[n] = sum;
+    }
+}
+
+/* ---- points ---- */
+
+typedef struct point_maker {
+    context *ctx;
+    const mesh *mesh;
+    const mesh_bvh *tree;
+    mesh_integrals *out;
+    double spacing;
+    double *area_before; /* per place, and one more: area of the faces before it */
+} point_maker;
+
+static bool add_point(point_maker *p, vec3 place, vec3 normal, double area)
+{
+    context *ctx = p->ctx;
+    mesh_integrals *o = p->out;
+    return array_push(ctx, &o->x, place.x) && array_push(ctx, &o->y, place.y) && array_push(ctx, &o->z, place.z) &&
+           array_push(ctx, &o->nx, normal.x) && array_push(ctx, &o->ny, normal.y) &&
+           array_push(ctx, &o->nz, normal.z) && array_push(ctx, &o->area, area);
+}
+
+static double longest_edge(const vec3 v[3])
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        vec3 edge = vec3_sub(v[(k + 1) % 3], v[k]);
+        square = fmax(square, vec3_dot(edge, edge));
+    }
+    return sqrt(square);
+}
+
+/* The centres of the parts^2 equal triangles into which lines parallel to its sides cut a triangle. */
+static bool add_parts(point_maker *p, const vec3 v[3], int parts)
+{
+    vec3 normal = vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0]));
+    double area = 0.5 * vec3_length(normal) / (parts * parts), step = 1.0 / (3 * parts);
+    normal = vec3_unit(normal);
+    vec3 a = vec3_scale(vec3_sub(v[1], v[0]), step), b = vec3_scale(vec3_sub(v[2], v[0]), step);
+    for (int i = 0; i < parts; i++) {
+        for (int j = 0; i + j < parts; j++) {
+            vec3 corner = vec3_mad(vec3_mad(v[0], a, 3 * i), b, 3 * j);
+            if (!add_point(p, vec3_add(corner, vec3_add(a, b)), normal, area))
+                return false;
+            if (i + j + 1 < parts && !add_point(p, vec3_mad(vec3_mad(corner, a, 2), b, 2), normal, area))
+                return false;
+        }
+    }
+    return true;
+}
+
+static bool add_face(point_maker *p, int32_t place)
+{
+    vec3 v[3];
+    mesh_face_points(p->mesh, p->tree->face.data[place], v);
+    double parts = ceil(longest_edge(v) / p->spacing);
+    if (parts * parts > MESH_MOST_PARTS)
+        return array_push(p->ctx, &p->out->large, place);
+    return add_parts(p, v, parts < 1 ? 1 : (int)parts);
+}
+
+/* One point for a small and nearly flat node.  Its place is the centre of its area, its area that of the faces. */
+static bool join(point_maker *p, int32_t n, bool *joined)
+{
+    const mesh_bvh_node *node = &p->tree->node.data[n];
+    const surface_moments *m = &p->out->moments.data[n];
+    double area = p->area_before[node->first + node->count] - p->area_before[node->first];
+    *joined =
+        vec3_length(vec3_sub(node->box.hi, node->box.lo)) <= p->spacing && vec3_length(m->area) > MESH_FLATNESS * area;
+    if (!*joined)
+        return true;
+    vec3 normal = vec3_unit(m->area), centre = {0, 0, 0};
+    for (int32_t i = node->first; i < node->first + node->count; i++) {
+        vec3 v[3];
+        mesh_face_points(p->mesh, p->tree->face.data[i], v);
+        centre = vec3_mad(centre, vec3_add(v[0], vec3_add(v[1], v[2])),
+                          (p->area_before[i + 1] - p->area_before[i]) / (3 * area));
+    }
+    return add_point(p, centre, normal, area);
+}
+
+/* The places first..end-1 have had their points. */
+static void close_places(point_maker *p, int32_t first, int32_t end)
+{
+    for (int32_t i = first; i < end; i++) {
+        p->out->point_first.data[i + 1] = p->out->x.count;
+        p->out->large_first.data[i + 1] = p->out->large.count;
+    }
+}
+
+/* Nodes are depth first: what a node does not settle itself, the following ones do. */
+static bool find_points(point_maker *p)
+{
+    p->out->point_first.data[0] = p->out->large_first.data[0] = 0;
+    int32_t settled = 0; /* places that have had their points */
+    for (int32_t n = 0; n < p->tree->node.count; n++) {
+        const mesh_bvh_node *node = &p->tree->node.data[n];
+        int32_t end = node->first + node->count;
+        if (node->first < settled)
+            continue;
+        bool joined;
+        if (!join(p, n, &joined))
+            return false;
+        if (joined) {
+            close_places(p, node->first, end);
+            settled = end;
+        } else if (node->next < 0) {
+            for (int32_t i = node->first; i < end; i++) {
+                if (!add_face(p, i))
+                    return false;
+                close_places(p, i, i + 1);
+            }
+            settled = end;
+        }
+    }
+    return true;
+}
+
+static double radius_of(const mesh *m)
+{
+    double square = 0;
+    for (int32_t i = 0; i < m->vertex.count; i++)
+        square = fmax(square, vec3_dot(m->vertex.data[i], m->vertex.data[i]));
+    return sqrt(square);
+}
+
+bool mesh_integrals_build(context *ctx, const mesh *m, const mesh_bvh *tree, mesh_integrals *out)
+{
+    *out = (mesh_integrals){.spacing = MESH_SPACING * radius_of(m)};
+    int32_t faces = tree->face.count;
+    double *area_before = memory_array(ctx, (size_t)faces + 1, sizeof *area_before);
+    bool ok = area_before && array_resize(ctx, &out->moments, tree->node.count) &&
+              array_resize(ctx, &out->point_first, faces + 1) && array_resize(ctx, &out->large_first, faces + 1);
+    if (ok) {
+        for (int32_t i = 0; i < faces; i++)
+            area_before[i + 1] = area_before[i] + vec3_length(mesh_area_vector(m, tree->face.data[i]));
+        find_moments(m, tree, out);
+        ok = find_points(&(point_maker){ctx, m, tree, out, out->spacing, area_before});
+    }
+    memory_free(ctx, area_before);
+    if (!ok)
+        mesh_integrals_free(ctx, out);
+    return ok;
+}
+
+void mesh_integrals_free(context *ctx, mesh_integrals *i)
+{
+    array_free(ctx, &i->moments);
+    array_free(ctx, &i->x);
+    array_free(ctx, &i->y);
+    array_free(ctx, &i->z);
+    array_free(ctx, &i->nx);
+    array_free(ctx, &i->ny);
+    array_free(ctx, &i->nz);
+    array_free(ctx, &i->area);
+    array_free(ctx, &i->point_first);
+    array_free(ctx, &i->large);
+    array_free(ctx, &i->large_first);
+}
