@@ -17,6 +17,9 @@ static vec3 horizontal(double speed, double direction_deg)
     return vec3_make(speed * real_cos(angle), speed * real_sin(angle), 0);
 }
 
+/* Boxes of moving bodies reach ahead by this many steps: they are then renewed about as often as those of slow ones. */
+#define LOOKAHEAD_STEPS 25
+
 step_settings build_settings(const scenario *s)
 {
     const scenario_environment *e = &s->environment;
@@ -27,7 +30,7 @@ step_settings build_settings(const scenario *s)
         .forces = e->water ? FORCES_FLUID : FORCES_NONE,
         .media = {e->gravity, e->water_density, e->air_density, horizontal(e->current_speed, e->current_direction_deg),
                   horizontal(e->wind_speed, e->wind_direction_deg)},
-        .collision = {s->run.collision_margin},
+        .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {s->run.time_step, 0, s->ice.top_plane_area},
         .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
                    v->baumgarte, v->tolerance, (int32_t)v->most_iterations},

@@ -1,6 +1,7 @@
 #include "sim/build_ice.h"
 
 #include "base/transcendental.h"
+#include "geometry/space_curve.h"
 
 #include <string.h>
 
@@ -52,6 +53,22 @@ fram_status build_footprint(context *ctx, const world *w, int32_t body, bool bel
     return good ? FRAM_OK : error_memory(error);
 }
 
+/* Outlines along a space-filling curve: neighbours in the water become neighbours in memory.  NULL: no memory. */
+static int32_t *memory_order(context *ctx, const polygon_list *outlines)
+{
+    int32_t count = polygon_list_count(outlines);
+    vec2 *place = memory_array(ctx, (size_t)count + 1, sizeof *place);
+    int32_t *order = memory_array(ctx, (size_t)count + 1, sizeof *order);
+    for (int32_t i = 0; place && i < count; i++)
+        place[i] = polygon_list_get(outlines, i).vertex[0];
+    if (!place || !order || !space_curve_order(ctx, place, count, order)) {
+        memory_free(ctx, order);
+        order = NULL;
+    }
+    memory_free(ctx, place);
+    return order;
+}
+
 static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines,
                                    fram_error *error)
 {
@@ -61,15 +78,16 @@ static fram_status add_field_floes(context *ctx, const scenario *s, world *w, co
                          .motion = MOTION_DYNAMIC,
                          .elevation = floating_elevation(s, s->ice.thickness),
                          .parent = -1};
-    for (int32_t i = 0; i < polygon_list_count(outlines); i++) {
+    int32_t *order = memory_order(ctx, outlines);
+    fram_status status = order ? FRAM_OK : error_memory(error);
+    for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
         int32_t row;
-        d.outline = polygon_list_get(outlines, i);
-        fram_status status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes,
-                                         &w->floes, &w->clock.next_floe[0], &row, error);
-        if (status != FRAM_OK)
-            return status;
+        d.outline = polygon_list_get(outlines, order[i]);
+        status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
+                             &w->clock.next_floe[0], &row, error);
     }
-    return FRAM_OK;
+    memory_free(ctx, order);
+    return status;
 }
 
 static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
