@@ -37,9 +37,7 @@
 extern "C" {
 #endif
 
-/* --- Version
- * -------------------------------------------------------------------------------------------------------------------
- */
+/* ---- Version ---- */
 
 /* "0.1.0" */
 FRAM_API const char *fram_version(void);
@@ -48,9 +46,7 @@ FRAM_API const char *fram_features(void);
 /* One word for a status: "ok", "usage", "input", ... */
 FRAM_API const char *fram_status_name(fram_status status);
 
-/* --- Context
- * --------------------------------------------------------------------------------------------------------------------
- */
+/* ---- Context ---- */
 
 typedef struct fram_context fram_context;
 
@@ -77,9 +73,7 @@ FRAM_API fram_status fram_context_create(const fram_context_definition *definiti
                                          fram_error *error);
 FRAM_API void fram_context_destroy(fram_context *context);
 
-/* --- Scenario
- * -------------------------------------------------------------------------------------------------------------------
- */
+/* ---- Scenario ---- */
 
 typedef struct fram_scenario fram_scenario;
 
@@ -99,9 +93,7 @@ FRAM_API void fram_scenario_destroy(fram_scenario *scenario);
 FRAM_API fram_status fram_scenario_reference(fram_context *context, char **markdown, fram_error *error);
 FRAM_API void fram_text_free(fram_context *context, char *text);
 
-/* --- World
- * ----------------------------------------------------------------------------------------------------------------------
- */
+/* ---- World ---- */
 
 typedef struct fram_world fram_world;
 
@@ -162,9 +154,7 @@ FRAM_API fram_status fram_body_apply_wrench(fram_world *world, fram_body_id body
 FRAM_API fram_status fram_world_ice_load(const fram_world *world, fram_body_id vessel, fram_ice_load *load,
                                          fram_error *error);
 
-/* --- Runs
- * ------------------------------------------------------------------------------------------------------------------------
- */
+/* ---- Runs ---- */
 
 typedef struct fram_progress {
     double time, end;        /* simulated [s] */
@@ -202,15 +192,14 @@ FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_defi
 FRAM_API fram_status fram_resume(fram_context *context, const fram_run_definition *definition, fram_run_result *result,
                                  fram_error *error);
 
-/* --- Playback ----------------------------------------------------------------------------------------------------- */
+/* ---- Playback ---- */
 
 /* A page that plays the run in `folder` in a browser, from disk: the viewer's page with the run's record inside.  Of
    long runs only every n-th frame goes in; frames and left_out (may be NULL) say how many do and do not. */
 FRAM_API fram_status fram_playback(fram_context *context, const char *folder, const char *viewer_page,
                                    const char *output, int64_t *frames, int64_t *left_out, fram_error *error);
 
-/* --- Benchmark
- * ------------------------------------------------------------------------------------------------------------------ */
+/* ---- Benchmark ---- */
 
 typedef struct fram_bench_result {
     int64_t steps;

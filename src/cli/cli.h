@@ -51,7 +51,8 @@ typedef struct command_row {
 int options_read(const command_row *command, const option_row *rows, int row_count, common_options *common, int argc,
                  char **argv, const char **positional, int positional_count);
 
-/* The same for a command whose last positional words may be left out: at least `least`, the others stay as they were. */
+/* The same for a command whose last positional words may be left out: at least `least`, the others stay as they
+   were. */
 int options_read_some(const command_row *command, const option_row *rows, int row_count, common_options *common,
                       int argc, char **argv, const char **positional, int least, int most);
 

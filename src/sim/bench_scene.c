@@ -9,8 +9,8 @@
 /* Walls as the peers have them: this thick, and from -WALL_HEIGHT/2 to WALL_HEIGHT/2 [m]. */
 #define WALL_THICKNESS 20.0
 #define WALL_HEIGHT 40.0
-/* Margin of the fat boxes [m], and how far ahead of a moving body they reach [s]: a share of the peers' floes, of 13 m at
-   under a metre a second, that keeps boxes for tens of steps. */
+/* Margin of the fat boxes [m], and how far ahead of a moving body they reach [s]: a share of the peers' floes, of 13 m
+   at under a metre a second, that keeps boxes for tens of steps. */
 #define BOX_MARGIN 0.5
 #define BOX_LOOKAHEAD 0.5
 /* A body this fast means that the run went wrong [m/s]. */
@@ -112,12 +112,14 @@ static fram_status add_floes(context *ctx, const scene_text *s, bench_world *b, 
     vec2 *centre = memory_array(ctx, (size_t)count, sizeof *centre);
     int32_t *order = memory_array(ctx, (size_t)count, sizeof *order);
     fram_status status = centre && order && array_resize(ctx, &b->slot, count) ? FRAM_OK : error_memory(error);
-    for (int32_t i = 0; i < count && status == FRAM_OK; i++)
-        centre[i] = s->floes.data[i].centre;
-    if (status == FRAM_OK && !space_curve_order(ctx, centre, count, order))
-        status = error_memory(error);
-    for (int32_t i = 0; i < count && status == FRAM_OK; i++)
-        status = add_floe(ctx, s, b, order[i], error);
+    if (centre && order && status == FRAM_OK) {
+        for (int32_t i = 0; i < count; i++)
+            centre[i] = s->floes.data[i].centre;
+        if (!space_curve_order(ctx, centre, count, order))
+            status = error_memory(error);
+        for (int32_t i = 0; i < count && status == FRAM_OK; i++)
+            status = add_floe(ctx, s, b, order[i], error);
+    }
     memory_free(ctx, centre);
     memory_free(ctx, order);
     return status;

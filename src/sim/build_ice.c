@@ -119,8 +119,7 @@ static fram_status build_voronoi(context *ctx, const scenario *s, world *w, fiel
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------------- single floes
- */
+/* ---- single floes ---- */
 
 enum { SINGLE_FLOE_VERTICES = 64 };
 

@@ -14,8 +14,7 @@ enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_HASH, NUMBER_COUNT };
 enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_COUNT };
 enum { PATH_SIZE = 1024, CHECKPOINTS_KEPT = 2 };
 
-/* ------------------------------------------------------------------------------------------------------------- names
- */
+/* ---- names ---- */
 
 /* The step in "checkpoint-000000001234.fram", or -1. */
 static int64_t step_of_name(const char *name)
@@ -74,8 +73,7 @@ static void remove_from(context *ctx, const char *folder, int32_t keep)
 
 void checkpoint_remove_all(context *ctx, const char *folder) { remove_from(ctx, folder, 0); }
 
-/* ----------------------------------------------------------------------------------------------------------- writing
- */
+/* ---- writing ---- */
 
 static fram_status write_to(context *ctx, const char *path, const world *w, const checkpoint_note *note,
                             fram_error *error)
@@ -114,8 +112,7 @@ fram_status checkpoint_write_failed(context *ctx, const char *folder, const worl
     return write_to(ctx, path, w, note, error);
 }
 
-/* ----------------------------------------------------------------------------------------------------------- reading
- */
+/* ---- reading ---- */
 
 static bool same_text(const table_file_bytes *bytes, const char *text)
 {

@@ -76,8 +76,7 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ blocks
- */
+/* ---- blocks ---- */
 
 static bool put(recorder *r, const void *data, size_t size)
 {

@@ -247,8 +247,7 @@ static void run_free(run *r)
     text_free(r->ctx, &r->inputs);
 }
 
-/* ------------------------------------------------------------------------------------------------------------- start
- */
+/* ---- start ---- */
 
 static fram_status write_scenario(run *r, text_buffer *text, fram_error *error)
 {
@@ -308,8 +307,7 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     return status;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ resume
- */
+/* ---- resume ---- */
 
 static fram_status resume_world(run *r, run_result *result, fram_error *error)
 {

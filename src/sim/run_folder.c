@@ -17,8 +17,7 @@
 
 enum { PATH_SIZE = 1024, INPUT_LIMIT = 1 << 30 };
 
-/* ------------------------------------------------------------------------------------------------------------ folder
- */
+/* ---- folder ---- */
 
 /* mkdir -p */
 static fram_status make_folders(const char *folder, fram_error *error)
@@ -69,8 +68,7 @@ fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fra
     return FRAM_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------------------ inputs
- */
+/* ---- inputs ---- */
 
 typedef struct input_list {
     context *ctx;
@@ -108,8 +106,7 @@ fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out,
     return status == FRAM_OK && (out->failed || !out->data) ? error_memory(error) : status;
 }
 
-/* ----------------------------------------------------------------------------------------------------------- summary
- */
+/* ---- summary ---- */
 
 /* A JSON string. */
 static void add_quoted(context *ctx, text_buffer *b, const char *text)

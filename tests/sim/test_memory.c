@@ -7,7 +7,8 @@
 #include <unistd.h>
 
 static const char text[] = "run:\n  duration: 0.1\n  time_step: 0.02\n"
-                           "vessel:\n  mode: towed\n  x: -10\n  speed: 2\n  hull:\n    length: 24\n    beam: 6\n    draught: 2\n"
+                           "vessel:\n  mode: towed\n  x: -10\n  speed: 2\n"
+                           "  hull:\n    length: 24\n    beam: 6\n    draught: 2\n"
                            "    freeboard: 1\n    parallel_midbody: 0.3\n"
                            "ice:\n  concentration: 0.8\n  mean_floe_area: 40\n"
                            "domain:\n  x_min: -24\n  x_max: 24\n  y_min: -16\n  y_max: 16\n"

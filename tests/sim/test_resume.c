@@ -11,7 +11,8 @@
 static const char *const scenes[] = {
     /* a towed hull in a managed field between walls */
     "run:\n  duration: 4\n  time_step: 0.02\n  seed: 2\n"
-    "vessel:\n  mode: towed\n  x: -30\n  speed: 2\n  ramp: 0.5\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "vessel:\n  mode: towed\n  x: -30\n  speed: 2\n  ramp: 0.5\n"
+    "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
     "ice:\n  concentration: 0.85\n  mean_floe_area: 64\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n"
     "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",

@@ -6,8 +6,7 @@
 
 enum { TEXT_SIZE = 4096 };
 
-/* ------------------------------------------------------------------------------------------------------------ scaling
- */
+/* ---- scaling ---- */
 
 /* A towed hull in a managed field with crushing, friction, current and wind, all lengths times lambda (Froude). */
 static void scaled_text(char out[TEXT_SIZE], double lambda, double root)
@@ -57,8 +56,7 @@ END_TEST
 START_TEST(scaling_by_sixteen) { check_scaled(16, 4); }
 END_TEST
 
-/* ----------------------------------------------------------------------------------------------------------- Galileo
- */
+/* ---- Galileo ---- */
 
 /* A driven hull meets four floes; everything also moves with (shift, 0) m/s. */
 static void moving_text(char out[TEXT_SIZE], double hull_speed, double shift)
@@ -74,11 +72,11 @@ static void moving_text(char out[TEXT_SIZE], double hull_speed, double shift)
                       "    - shape: regular\n      sides: %d\n      radius: 5\n      x: %.17g\n      y: %.17g\n"
                       "      yaw_deg: %d\n      velocity_x: %.17g\n",
                       5 + i, 34 + 9.5 * (i / 2), -4.9 + 9.9 * (i % 2), 7 * i, shift);
-    snprintf(
-        out + n, (size_t)(TEXT_SIZE - n),
-        "domain:\n  x_min: -500\n  x_max: 500\n  boundary: open\n"
-        "environment:\n  current_speed: %.17g\n  current_direction_deg: %d\n  wind_speed: %.17g\n  wind_direction_deg: %d\n",
-        fabs(shift), shift < 0 ? 180 : 0, fabs(shift), shift < 0 ? 180 : 0);
+    snprintf(out + n, (size_t)(TEXT_SIZE - n),
+             "domain:\n  x_min: -500\n  x_max: 500\n  boundary: open\n"
+             "environment:\n  current_speed: %.17g\n  current_direction_deg: %d\n"
+             "  wind_speed: %.17g\n  wind_direction_deg: %d\n",
+             fabs(shift), shift < 0 ? 180 : 0, fabs(shift), shift < 0 ? 180 : 0);
 }
 
 START_TEST(moving_hull_equals_moving_ice)
@@ -104,8 +102,7 @@ START_TEST(moving_hull_equals_moving_ice)
 }
 END_TEST
 
-/* --------------------------------------------------------------------------------------------------- mirror and turn
- */
+/* ---- mirror and turn ---- */
 
 /* One hull, two floes off the centre line, in a frame turned by `turn` degrees and mirrored in the hull's own plane. */
 static void placed_text(char out[TEXT_SIZE], int turn, int mirror)
@@ -120,10 +117,10 @@ static void placed_text(char out[TEXT_SIZE], int turn, int mirror)
                      turn);
     for (int i = 0; i < 2; i++) {
         double x = floe[i][0], y = mirror * floe[i][1];
-        n += snprintf(
-            out + n, (size_t)(TEXT_SIZE - n),
-            "    - shape: rectangle\n      length: 12\n      width: 6\n      x: %.17g\n      y: %.17g\n      yaw_deg: %.17g\n",
-            c * x - s * y, s * x + c * y, turn + mirror * floe[i][2]);
+        n += snprintf(out + n, (size_t)(TEXT_SIZE - n),
+                      "    - shape: rectangle\n      length: 12\n      width: 6\n"
+                      "      x: %.17g\n      y: %.17g\n      yaw_deg: %.17g\n",
+                      c * x - s * y, s * x + c * y, turn + mirror * floe[i][2]);
     }
     snprintf(out + n, (size_t)(TEXT_SIZE - n),
              "domain:\n  x_min: -500\n  x_max: 500\n  y_min: -500\n  y_max: 500\n  boundary: open\n");
