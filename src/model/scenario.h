@@ -7,7 +7,8 @@
 #include "base/array.h"
 #include "dynamics/solver.h"
 #include "model/scenario_keys.h"
-#include "vessel/vessel.h"
+#include "vessel/mooring.h"
+#include "vessel/station.h"
 
 /* Where the ice comes from. */
 typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE } ice_source;

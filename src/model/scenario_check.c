@@ -99,6 +99,30 @@ static bool inside_domain(const scenario *s, double x, double y)
     return x >= s->domain.x_min && x <= s->domain.x_max && y >= s->domain.y_min && y <= s->domain.y_max;
 }
 
+/* Lines, thrusters and positioning act on a vessel that is free, and positioning needs thrusters. */
+static fram_status check_station(const scenario *s, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    bool held = v->mode != VESSEL_FREE;
+    if (held && v->mooring.lines.count > 0)
+        return fault(s, error, "vessel.mooring.lines", "expected none, since vessel.mode is not free, found %d",
+                     (int)v->mooring.lines.count);
+    if (held && v->thrusters.count > 0)
+        return fault(s, error, "vessel.thrusters", "expected none, since vessel.mode is not free, found %d",
+                     (int)v->thrusters.count);
+    if (v->positioning.active && v->thrusters.count == 0)
+        return fault(s, error, "vessel.thrusters",
+                     "expected thrusters, since vessel.positioning.active is true, found none");
+    for (int32_t i = 1; i < v->positioning.waypoints.count; i++) {
+        if (v->positioning.waypoints.data[i].time > v->positioning.waypoints.data[i - 1].time)
+            continue;
+        char key[64];
+        snprintf(key, sizeof key, "vessel.positioning.waypoints[%d].time", (int)i);
+        return fault(s, error, key, "expected a later time than that of the way point before");
+    }
+    return FRAM_OK;
+}
+
 static fram_status check_vessel(const scenario *s, fram_error *error)
 {
     const scenario_vessel *v = &s->vessel;
@@ -110,6 +134,9 @@ static fram_status check_vessel(const scenario *s, fram_error *error)
     if (v->hull.form != HULL_MESH && v->hull.file[0])
         return fault(s, error, "vessel.hull.file", "expected nothing, since vessel.hull.form is not file, found \"%s\"",
                      v->hull.file);
+    fram_status status = check_station(s, error);
+    if (status != FRAM_OK)
+        return status;
     if (s->domain.boundary == DOMAIN_WALLS && !inside_domain(s, v->x, v->y))
         return fault(s, error, "vessel.x",
                      "expected vessel.x and vessel.y inside the walls of the domain, found a place outside");

@@ -20,6 +20,8 @@
 #ifndef MODEL_SCENARIO_KEYS_H
 #define MODEL_SCENARIO_KEYS_H
 
+#include "model/scenario_station_keys.h"
+
 #define SCENARIO_KEYS(X)                                                      \
     X(title, TEXT(""), "", "what the scenario shows; goes into reports")      \
     X(run, SECTION(run), "", "time, randomness and numerical method")         \
@@ -71,7 +73,11 @@
     X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                   \
     X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                \
     X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                  \
-    X(hull, SECTION(hull), "", "the form of the hull")
+    X(hull, SECTION(hull), "", "the form of the hull")                                                           \
+    X(mooring, SECTION(mooring), "", "mode free: lines to the bottom")                                           \
+    X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                 \
+    X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                   \
+    X(station, SECTION(station), "", "what counts as being on station")
 
 #define SCENARIO_HULL_KEYS(X)                                                                                      \
     X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file"), "",                                         \
@@ -197,6 +203,7 @@
     S(solver, SCENARIO_SOLVER_KEYS)           \
     S(run, SCENARIO_RUN_KEYS)                 \
     S(hull, SCENARIO_HULL_KEYS)               \
+    SCENARIO_STATION_SECTIONS(S)              \
     S(vessel, SCENARIO_VESSEL_KEYS)           \
     S(friction, SCENARIO_FRICTION_KEYS)       \
     S(floe, SCENARIO_FLOE_KEYS)               \

@@ -35,6 +35,24 @@ SECTION_DEFINE(run, SCENARIO_RUN_KEYS)
 #define SELF scenario_hull
 SECTION_DEFINE(hull, SCENARIO_HULL_KEYS)
 #undef SELF
+#define SELF scenario_mooring_line
+SECTION_DEFINE(mooring_line, SCENARIO_MOORING_LINE_KEYS)
+#undef SELF
+#define SELF scenario_mooring
+SECTION_DEFINE(mooring, SCENARIO_MOORING_KEYS)
+#undef SELF
+#define SELF scenario_thruster
+SECTION_DEFINE(thruster, SCENARIO_THRUSTER_KEYS)
+#undef SELF
+#define SELF scenario_waypoint
+SECTION_DEFINE(waypoint, SCENARIO_WAYPOINT_KEYS)
+#undef SELF
+#define SELF scenario_positioning
+SECTION_DEFINE(positioning, SCENARIO_POSITIONING_KEYS)
+#undef SELF
+#define SELF scenario_station
+SECTION_DEFINE(station, SCENARIO_STATION_KEYS)
+#undef SELF
 #define SELF scenario_vessel
 SECTION_DEFINE(vessel, SCENARIO_VESSEL_KEYS)
 #undef SELF

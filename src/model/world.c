@@ -36,6 +36,11 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(contact_memory, memory),
         STATE(load_window, load_window),
         STATE(recorded, recorded),
+        STATE(line, lines),
+        STATE(thruster, thrusters),
+        STATE(waypoint, waypoints),
+        STATE(station, stations),
+        STATE(event, events),
     };
     memcpy(out, list, sizeof list);
 }

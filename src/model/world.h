@@ -9,7 +9,8 @@
 #include "fluid/fluid.h"
 #include "ice/crushing.h"
 #include "ice/floe.h"
-#include "vessel/vessel.h"
+#include "vessel/mooring.h"
+#include "vessel/station.h"
 
 /* One row. */
 #define CLOCK_FIELDS(X)                                                                       \
@@ -56,6 +57,11 @@ typedef struct world {
     contact_memory_table memory;
     load_window_table load_window;
     recorded_table recorded;
+    line_table lines;
+    thruster_table thrusters;
+    waypoint_table waypoints;
+    station_table stations; /* row i belongs to vessel i */
+    event_table events;
 
     /* Scratch: written anew each step. */
     struct {
@@ -79,7 +85,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 13 };
+enum { WORLD_TABLE_COUNT = 18 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "sim/build_hull.h"
 #include "sim/build_ice.h"
+#include "sim/build_station.h"
 
 #include <string.h>
 
@@ -143,6 +144,10 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
         status = build_hull(ctx, s, w, &hull, error);
         if (status == FRAM_OK)
             status = add_vessel(ctx, s, w, &hull, error);
+        if (status == FRAM_OK) {
+            step_settings settings = build_settings(s);
+            status = build_station(ctx, s, &settings, w, error);
+        }
         report->displaced_mass = hull.displaced_mass;
     }
     if (status == FRAM_OK)

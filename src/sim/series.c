@@ -10,8 +10,35 @@ typedef struct vessel_channels {
     vec3 ice_force_body, ice_moment_body;
     wrench averaged;
     vec3 joint_force, joint_moment;
-    wrench fluid;
+    wrench fluid, mooring, thrust;
+    vec3 offset, estimate, bias, demand;
+    double thruster_power, line_tension_max;
+    int32_t lines_parted, thrusters_failed, saturated;
 } vessel_channels;
+
+/* What keeps the first vessel on station. */
+static void add_station(const world *w, vessel_channels *c)
+{
+    if (w->stations.count == 0)
+        return;
+    const station_table *s = &w->stations;
+    c->mooring = s->mooring_load[0];
+    c->thrust = s->thruster_load[0];
+    c->offset = vec3_make(s->offset[0].x, s->offset[0].y, degrees(s->offset[0].z));
+    c->estimate = s->estimate[0].place;
+    c->estimate.z = degrees(plane_angle(c->estimate.z));
+    c->bias = s->estimate[0].bias;
+    c->demand = s->demand[0];
+    c->saturated = s->saturated[0];
+    for (int32_t i = 0; i < w->thrusters.count; i++) {
+        c->thruster_power += w->thrusters.failed[i] ? 0 : thruster_power(&w->thrusters, i);
+        c->thrusters_failed += w->thrusters.failed[i];
+    }
+    for (int32_t i = 0; i < w->lines.count; i++) {
+        c->line_tension_max = fmax(c->line_tension_max, w->lines.tension[i]);
+        c->lines_parted += w->lines.broken[i];
+    }
+}
 
 static vessel_channels vessel_channels_of(const world *w)
 {
@@ -39,6 +66,7 @@ static vessel_channels vessel_channels_of(const world *w)
         c.fluid.force = vec3_add(vec3_add(f->hydrostatic.force, f->water_drag.force), f->wind_drag.force);
         c.fluid.moment = vec3_add(vec3_add(f->hydrostatic.moment, f->water_drag.moment), f->wind_drag.moment);
     }
+    add_station(w, &c);
     return c;
 }
 
@@ -85,6 +113,23 @@ static count_channels counts_of(const world *w)
     V3(X, "tow_moment", "N m", c.joint_moment)                        \
     V3(X, "fluid_force", "N", c.fluid.force)                          \
     V3(X, "fluid_moment", "N m", c.fluid.moment)                      \
+    V3(X, "mooring_force", "N", c.mooring.force)                      \
+    V3(X, "mooring_moment", "N m", c.mooring.moment)                  \
+    V3(X, "thruster_force", "N", c.thrust.force)                      \
+    V3(X, "thruster_moment", "N m", c.thrust.moment)                  \
+    X("thruster_power", "W", c.thruster_power)                        \
+    X("thrusters_failed", "1", c.thrusters_failed)                    \
+    X("thrusters_saturated", "1", c.saturated)                        \
+    X("line_tension_max", "N", c.line_tension_max)                    \
+    X("lines_parted", "1", c.lines_parted)                            \
+    X("offset_x", "m", c.offset.x)                                    \
+    X("offset_y", "m", c.offset.y)                                    \
+    X("heading_deviation", "deg", c.offset.z)                         \
+    X("estimated_x", "m", c.estimate.x)                               \
+    X("estimated_y", "m", c.estimate.y)                               \
+    X("estimated_heading", "deg", c.estimate.z)                       \
+    V3(X, "estimated_load", "N", c.bias)                              \
+    V3(X, "demanded_force", "N", c.demand)                            \
     X("bodies", "1", n.bodies)                                        \
     X("floes", "1", n.floes)                                          \
     X("contacts", "1", w->scratch.contacts.count)                     \

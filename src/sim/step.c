@@ -1,6 +1,7 @@
 #include "sim/step.h"
 
 #include "sim/ice_loads.h"
+#include "sim/station_forces.h"
 
 #include <string.h>
 
@@ -43,6 +44,9 @@ static fram_status external_forces(context *ctx, const step_settings *s, world *
         loads[i].moment = vec3_add(loads[i].moment, extra->moment);
     }
     array_clear(&w->scratch.outside);
+    status = station_forces(ctx, s, w, error);
+    if (status != FRAM_OK)
+        return status;
     vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + s->time_step);
     return FRAM_OK;
 }

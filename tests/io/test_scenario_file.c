@@ -165,6 +165,7 @@ START_TEST(random_scenarios_survive_printing)
         s.run.time_step = s.run.transient = s.run.duration / 7;
         s.domain = (scenario_domain){-7.1e6, 1e7 / 3, -1e6, 1e5 / 3, DOMAIN_OPEN, 1, 1};
         s.ice.source = ICE_NONE;
+        s.vessel.positioning.active = false; /* needs thrusters */
         s.ice.friction = (scenario_friction){0.7, 0.6, 0.5, 0.4, 0.3, 0.2};
         if (s.run.time_step > 10)
             s.run.time_step = 10;

@@ -80,7 +80,7 @@ static void inspect_section(const scenario_section *section)
         ck_assert_int_eq(section_find(section, key->name), k);
         ck_assert_str_eq(section_nearest(section, key->name), key->name);
         bool degrees_name = strlen(key->name) > 4 && strcmp(key->name + strlen(key->name) - 4, "_deg") == 0;
-        ck_assert_msg(degrees_name == (strcmp(key->unit, "deg") == 0), "%s [%s]", key->name, key->unit);
+        ck_assert_msg(degrees_name == (strncmp(key->unit, "deg", 3) == 0), "%s [%s]", key->name, key->unit);
         if (key->kind == KEY_REAL || key->kind == KEY_INTEGER) {
             ck_assert_msg(*key->unit != '\0', "%s has no unit", key->name);
             ck_assert_msg(key->automatic || (key->value >= key->lo && key->value <= key->hi), "%s", key->name);

@@ -1,0 +1,238 @@
+#include "sim/build_station.h"
+
+#include "base/transcendental.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* An error of the rooms below names a member of a list's item. */
+static fram_status name_item(const scenario *s, fram_status status, const char *list, int32_t item, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT || !error)
+        return status;
+    char member[sizeof error->key];
+    memcpy(member, error->key, sizeof member);
+    snprintf(error->key, sizeof error->key, "vessel.%s[%d].%.60s", list, (int)item, member);
+    scenario_locate(s, error);
+    return status;
+}
+
+/* ---- mooring ---- */
+
+enum { MOST_LINES = 64 };
+
+static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    const scenario_mooring *m = &s->vessel.mooring;
+    for (int32_t i = 0; i < m->lines.count; i++) {
+        const scenario_mooring_line *l = &m->lines.data[i];
+        for (int64_t k = 0; k < l->count; k++) {
+            const line_definition d = {
+                .vessel = 0,
+                .kind = l->kind,
+                .turret = m->turret,
+                .centre = {m->x, m->y, m->z},
+                .fairlead_distance = l->fairlead_distance,
+                .direction = radians(l->direction_deg + (double)k * l->spacing_deg),
+                .distance = l->distance,
+                .depth = m->depth,
+                .length = l->length,
+                .pretension = l->pretension,
+                .weight = l->weight,
+                .stiffness = l->stiffness,
+                .breaking_load = automatic_or(l->breaking_load, HUGE_VAL),
+                .release_time = automatic_or(l->release_time, HUGE_VAL),
+            };
+            fram_status status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
+            if (status != FRAM_OK)
+                return name_item(s, status, "mooring.lines", i, error);
+        }
+    }
+    if (w->lines.count <= MOST_LINES)
+        return FRAM_OK;
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, "vessel.mooring.lines", "expected at most %d lines in all, found %d",
+              MOST_LINES, (int)w->lines.count);
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
+}
+
+/* Current and wind on the hull as it lies still. */
+typedef struct still_hull {
+    const world *w;
+    const step_settings *settings;
+    int32_t body;
+} still_hull;
+
+static vec3 still_load(const void *user, double heading)
+{
+    const still_hull *h = user;
+    const world *w = h->w;
+    const mesh *surface = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[h->body]]].surface;
+    const fluid_motion still = {.position = w->bodies.position[h->body],
+                                .rotation = quat_matrix(quat_from_roll_pitch_yaw(0, 0, heading))};
+    fluid_load load;
+    fluid_load_mesh(&h->settings->media, &h->settings->drag[MATERIAL_HULL], surface, &still, &load);
+    vec3 force = vec3_add(load.water_drag.force, load.wind_drag.force);
+    return vec3_make(force.x, force.y, load.water_drag.moment.z + load.wind_drag.moment.z);
+}
+
+static void find_equilibrium(context *ctx, const scenario *s, const step_settings *settings, world *w)
+{
+    if (w->lines.count == 0 || !s->vessel.mooring.equilibrium)
+        return;
+    int32_t body = w->vessels.body[0];
+    const still_hull hull = {w, settings, body};
+    bool fluid = settings->forces == FORCES_FLUID;
+    vec3 position = w->bodies.position[body];
+    quat orientation = w->bodies.orientation[body];
+    double residual;
+    bool found = mooring_equilibrium(&w->lines, 0, w->vessels.length[0], fluid ? still_load : NULL, &hull, &position,
+                                     &orientation, &residual);
+    vec3 by = vec3_sub(position, w->bodies.position[body]);
+    if (found)
+        log_write(ctx, LOG_INFO, "the moored vessel begins at its equilibrium, (%.3g, %.3g) m off", by.x, by.y);
+    else
+        log_write(ctx, LOG_WARNING,
+                  "no equilibrium of the moored vessel was found; %.4g kN are left (%.3g, %.3g) m off", residual * 1e-3,
+                  by.x, by.y);
+    w->bodies.position[body] = position;
+    w->bodies.orientation[body] = orientation;
+}
+
+/* ---- thrusters, way points ---- */
+
+static fram_status add_thrusters(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    for (int32_t i = 0; i < s->vessel.thrusters.count; i++) {
+        const scenario_thruster *t = &s->vessel.thrusters.data[i];
+        double astern = automatic_or(t->thrust_astern, t->thrust);
+        const thruster_definition d = {
+            .vessel = 0,
+            .kind = t->kind,
+            .place = {t->x, t->y, t->z},
+            .ahead = t->thrust,
+            .astern = astern,
+            .time_constant = t->time_constant,
+            .speed_rate = t->speed_rate,
+            .turn_rate = radians(t->turn_rate_deg),
+            .rudder = radians(t->rudder_deg),
+            .forbidden_centre = radians(t->forbidden_deg),
+            .forbidden_half = radians(0.5 * t->forbidden_width_deg),
+            .cost = t->cost,
+            .full_power = t->power,
+            .failure_time = automatic_or(t->failure_time, HUGE_VAL),
+            .order = t->setting * (t->setting >= 0 ? t->thrust : astern),
+            .order_angle = radians(t->direction_deg),
+        };
+        fram_status status = thruster_add(ctx, &d, &w->vessels, &w->thrusters, error);
+        if (status != FRAM_OK)
+            return name_item(s, status, "thrusters", i, error);
+    }
+    return FRAM_OK;
+}
+
+static fram_status add_waypoints(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    const scenario_positioning *p = &s->vessel.positioning;
+    if (!table_resize(ctx, &w->waypoints, &waypoint_table_info, p->waypoints.count))
+        return error_memory(error);
+    for (int32_t i = 0; i < p->waypoints.count; i++) {
+        const scenario_waypoint *from = &p->waypoints.data[i];
+        w->waypoints.vessel[i] = 0;
+        w->waypoints.time[i] = from->time;
+        w->waypoints.place[i] = vec3_make(from->x, from->y, radians(from->heading_deg));
+    }
+    return FRAM_OK;
+}
+
+/* ---- station ---- */
+
+/* Full scale, at which the model's own time constants hold. */
+#define FULL_SCALE 30.0
+
+static plane_model model_of(const scenario *s, const world *w)
+{
+    const scenario_positioning *p = &s->vessel.positioning;
+    int32_t body = w->vessels.body[0];
+    vec3 added = w->bodies.added_mass[body];
+    double mass = w->bodies.mass[body], stretch = sqrt(s->run.scale / FULL_SCALE);
+    vec3 m = {automatic_or(p->mass_surge, mass + added.x), automatic_or(p->mass_sway, mass + added.y),
+              automatic_or(p->mass_yaw, w->bodies.inertia[body].zz + w->bodies.added_inertia[body].z)};
+    vec3 d = {automatic_or(p->damping_surge, m.x / (100 * stretch)),
+              automatic_or(p->damping_sway, m.y / (50 * stretch)), automatic_or(p->damping_yaw, m.z / (20 * stretch))};
+    return (plane_model){{{{m.x, 0, 0}, {0, m.y, 0}, {0, 0, m.z}}}, {{{d.x, 0, 0}, {0, d.y, 0}, {0, 0, d.z}}}};
+}
+
+/* A vessel's moments are noisy with a lever of a quarter of its length. */
+static vec3 noise_of(const plane_model *m, double per_mass, double length)
+{
+    vec3 mass = plane_diagonal(m->mass);
+    return vec3_make(per_mass * mass.x, per_mass * mass.y, per_mass * mass.z / (0.25 * length));
+}
+
+static int64_t steps_of(double interval, double time_step)
+{
+    double steps = floor(interval / time_step + 0.5);
+    return steps < 1 ? 1 : (int64_t)steps;
+}
+
+static station_definition definition_of(const scenario *s, const world *w)
+{
+    const scenario_positioning *p = &s->vessel.positioning;
+    const scenario_station *limits = &s->vessel.station;
+    const scenario_mooring *m = &s->vessel.mooring;
+    double dt = s->run.time_step, length = w->vessels.length[0];
+    int64_t control_every = steps_of(p->interval, dt), sample_every = steps_of(p->sample_interval, dt);
+    /* A measurement that falls between two calls would be missed: samples are taken at calls. */
+    sample_every = (sample_every + control_every - 1) / control_every * control_every;
+    double turn = radians(p->noise_heading_deg);
+    station_definition d = {
+        .positioning = p->active,
+        .observer = p->observer,
+        .feed = p->feed_forward,
+        .heading = p->heading,
+        .control_every = control_every,
+        .sample_every = sample_every,
+        .watched = {automatic_or(limits->watch_x, m->x), automatic_or(limits->watch_y, m->y), m->z},
+        .offset_limit = automatic_or(limits->offset_limit, HUGE_VAL),
+        .heading_limit = radians(automatic_or(limits->heading_limit_deg, HUGE_VAL)),
+        .model = model_of(s, w),
+        .control_frequency = p->frequency,
+        .control_damping = p->damping,
+        .filter = {p->reference_frequency,
+                   1,
+                   {p->reference_speed, p->reference_speed, radians(p->reference_turn_rate_deg)}},
+        .passive = {p->observer_bandwidth, p->bias_time},
+        .vaning = {radians(p->vaning_rate_deg), p->vaning_time, p->vaning_load},
+        .feed_gain = p->feed_forward_gain,
+        .feed_time = p->feed_forward_time,
+        .noise = {p->noise_position, p->noise_position, turn},
+        .seed = (uint64_t)s->run.seed,
+    };
+    /* A filter that trusts its measurements wholly has no gain to compute: a hundredth of a metre at least, scaled. */
+    double least = 0.01 * s->run.scale / FULL_SCALE;
+    double position_noise = fmax(p->noise_position, least);
+    d.kalman = (kalman_tuning){{position_noise, position_noise, fmax(turn, 1e-4)},
+                               noise_of(&d.model, p->force_noise, length),
+                               noise_of(&d.model, p->bias_rate, length),
+                               p->bias_time};
+    return d;
+}
+
+fram_status build_station(context *ctx, const scenario *s, const step_settings *settings, world *w, fram_error *error)
+{
+    if (w->vessels.count == 0 || s->vessel.mode != VESSEL_FREE)
+        return FRAM_OK;
+    fram_status status = add_lines(ctx, s, w, error);
+    if (status == FRAM_OK)
+        status = add_thrusters(ctx, s, w, error);
+    if (status == FRAM_OK)
+        status = add_waypoints(ctx, s, w, error);
+    if (status != FRAM_OK)
+        return status;
+    station_definition d = definition_of(s, w);
+    status = station_add(ctx, &d, &w->vessels, &w->bodies, &w->stations, error);
+    if (status == FRAM_OK)
+        find_equilibrium(ctx, s, settings, w);
+    return status;
+}

@@ -1,0 +1,49 @@
+#include "sim/station_forces.h"
+
+#include <string.h>
+
+/* Load of the ice in the step before; the window's row of that step. */
+static wrench last_ice_load(const world *w, int32_t vessel)
+{
+    int32_t rows = w->load_window.count;
+    if (vessel != 0 || rows == 0 || w->clock.step[0] == 0)
+        return (wrench){0};
+    int64_t row = (w->clock.step[0] - 1) % rows;
+    return (wrench){w->load_window.force[row], w->load_window.moment[row]};
+}
+
+static void tell(context *ctx, const world *w, int32_t from)
+{
+    for (int32_t i = from; i < w->events.count; i++) {
+        char text[160];
+        event_text(&w->events, i, text, sizeof text);
+        log_write(ctx, LOG_WARNING, "t = %.2f s: %s", w->events.time[i], text);
+    }
+}
+
+fram_status station_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
+{
+    station_table *stations = &w->stations;
+    if (stations->count == 0)
+        return FRAM_OK;
+    int32_t told = w->events.count;
+    double time = w->clock.time[0], dt = s->time_step;
+    fram_status status = FRAM_OK;
+    size_t size = (size_t)stations->count * sizeof(wrench);
+    memset(stations->mooring_load, 0, size);
+    memset(stations->thruster_load, 0, size);
+    for (int32_t i = 0; i < stations->count && status == FRAM_OK; i++) {
+        const station_moment now = {w->clock.step[0], time, dt, last_ice_load(w, i)};
+        status = station_step(ctx, stations, i, &now, &w->vessels, &w->bodies, &w->waypoints, &w->thrusters, &w->events,
+                              error);
+    }
+    wrench *loads = w->scratch.loads.data;
+    if (status == FRAM_OK)
+        status = thruster_step(ctx, &w->thrusters, &w->vessels, &w->bodies, time, dt, loads, stations->thruster_load,
+                               &w->events, error);
+    if (status == FRAM_OK)
+        status = mooring_step(ctx, &w->lines, &w->vessels, &w->bodies, time, loads, stations->mooring_load, &w->events,
+                              error);
+    tell(ctx, w, told);
+    return status;
+}

@@ -1,0 +1,10 @@
+/* Stage 1 of a step for vessels on station: controllers, thrusters and mooring lines add to the external forces. */
+#ifndef SIM_STATION_FORCES_H
+#define SIM_STATION_FORCES_H
+
+#include "sim/step.h"
+
+/* Adds to scratch.loads.  What befell a vessel is booked in the table of events and told to the log. */
+fram_status station_forces(context *ctx, const step_settings *s, world *w, fram_error *error);
+
+#endif

@@ -1,0 +1,185 @@
+#include "vessel/station.h"
+
+#include "base/random.h"
+
+#define TABLE_SELF station_table
+TABLE_DEFINE(station, STATION_FIELDS)
+#undef TABLE_SELF
+
+/* What the numbers of a station are drawn for. */
+enum { STREAM_SENSOR = 0x5e05 };
+/* Position counts as regained below this share of the limit, so that it is not lost and regained with every wave. */
+#define REGAINED 0.9
+
+static vec3 place_of(const body_table *bodies, int32_t body)
+{
+    vec3 r = bodies->position[body];
+    return vec3_make(r.x, r.y, quat_roll_pitch_yaw(bodies->orientation[body]).z);
+}
+
+/* Place of the centre of mass for a place of the ship's origin. */
+static vec3 centre_place(vec3 centre, vec3 place)
+{
+    vec3 off = plane_to_global(place.z, vec3_make(centre.x, centre.y, 0));
+    return vec3_make(place.x + off.x, place.y + off.y, place.z);
+}
+
+fram_status station_add(context *ctx, const station_definition *d, const vessel_table *vessels,
+                        const body_table *bodies, station_table *s, fram_error *error)
+{
+    int32_t row = s->count, body = vessels->body[s->count];
+    if (!table_resize(ctx, s, &station_table_info, row + 1))
+        return error_memory(error);
+    vec3 centre = vessels->centre[row], place = place_of(bodies, body);
+    vec3 back = plane_to_global(place.z, vec3_make(centre.x, centre.y, 0));
+    s->positioning[row] = d->positioning;
+    s->observer[row] = (uint8_t)d->observer;
+    s->feed[row] = (uint8_t)d->feed;
+    s->heading_rule[row] = (uint8_t)d->heading;
+    s->control_every[row] = d->control_every;
+    s->sample_every[row] = d->sample_every;
+    s->home[row] = vec3_make(place.x - back.x, place.y - back.y, place.z);
+    s->watched[row] = vec3_sub(d->watched, centre);
+    s->watched_home[row] = body_to_global(bodies, body, s->watched[row]);
+    s->offset_limit[row] = d->offset_limit;
+    s->heading_limit[row] = d->heading_limit;
+    s->lever[row] = 0.5 * vessels->length[row];
+    s->model[row] = d->model;
+    s->gains[row] = pid_gains_for(d->model.mass, d->control_frequency, d->control_damping);
+    s->filter[row] = d->filter;
+    s->passive[row] = d->passive;
+    s->kalman[row] = d->kalman;
+    s->vaning[row] = d->vaning;
+    s->feed_gain[row] = d->feed_gain;
+    s->feed_time[row] = d->feed_time;
+    s->noise[row] = d->noise;
+    s->seed[row] = d->seed;
+    s->reference[row].place = s->estimate[row].place = s->measured[row] = place;
+    s->estimate[row].velocity = plane_to_vessel(place.z, bodies->velocity[body]);
+    s->estimate[row].velocity.z = 0;
+    vec3 doubt = vec3_scale(d->kalman.bias, 10);
+    s->covariance[row] = kalman_begin(&d->kalman, vec3_make(0.1, 0.1, 0.002), doubt);
+    s->vane_heading[row] = place.z;
+    return FRAM_OK;
+}
+
+/* ---- deviation ---- */
+
+static bool book(context *ctx, event_table *events, bool beyond, bool within, int bit, station_event lost, double time,
+                 double value, int32_t row, uint8_t *flags)
+{
+    bool is_lost = (*flags >> bit & 1) != 0;
+    if (!is_lost && beyond) {
+        *flags = (uint8_t)(*flags | 1u << bit);
+        return event_add(ctx, events, lost, time, row, -1, value);
+    }
+    if (is_lost && within) {
+        *flags = (uint8_t)(*flags & ~(1u << bit));
+        return event_add(ctx, events, (station_event)(lost + 1), time, row, -1, value);
+    }
+    return true;
+}
+
+/* Offset of the watched point from where it shall be: where it was, moved with the way points. */
+static bool watch(context *ctx, station_table *s, int32_t row, const station_moment *now, const vessel_table *vessels,
+                  const body_table *bodies, const waypoint_table *path, event_table *events)
+{
+    int32_t body = vessels->body[row];
+    vec3 target = reference_target(path, row, s->home[row], now->time);
+    vec3 wanted = vec3_add(s->watched_home[row], vec3_sub(target, s->home[row]));
+    vec3 at = body_to_global(bodies, body, s->watched[row]);
+    bool vanes = s->heading_rule[row] == HEADING_VANING;
+    double heading = vanes ? s->vane_heading[row] : target.z;
+    double off = plane_angle(place_of(bodies, body).z - heading);
+    s->offset[row] = vec3_make(at.x - wanted.x, at.y - wanted.y, off);
+    double offset = sqrt(s->offset[row].x * s->offset[row].x + s->offset[row].y * s->offset[row].y), turn = fabs(off);
+    return book(ctx, events, offset > s->offset_limit[row], offset < REGAINED * s->offset_limit[row], 0,
+                EVENT_POSITION_LOST, now->time, offset, row, &s->lost[row]) &&
+           book(ctx, events, turn > s->heading_limit[row], turn < REGAINED * s->heading_limit[row], 1,
+                EVENT_HEADING_LOST, now->time, off, row, &s->lost[row]);
+}
+
+/* ---- control ---- */
+
+/* Noise is a pure function of seed, vessel and step. */
+static void measure(station_table *s, int32_t row, const station_moment *now, vec3 place)
+{
+    random_stream r = random_begin(s->seed[row], STREAM_SENSOR, (uint32_t)row);
+    r.counter = 3 * (uint64_t)now->step;
+    vec3 noise = s->noise[row];
+    double x = random_normal(&r), y = random_normal(&r), z = random_normal(&r);
+    s->measured[row] = vec3_make(place.x + noise.x * x, place.y + noise.y * y, place.z + noise.z * z);
+}
+
+static void observe(station_table *s, int32_t row, vec3 thrust, bool fresh, double dt)
+{
+    motion_estimate *e = &s->estimate[row];
+    if (s->observer[row] == OBSERVER_PASSIVE) {
+        passive_observer_step(&s->model[row], &s->passive[row], e, thrust, s->measured[row], dt);
+        return;
+    }
+    kalman_predict(&s->model[row], &s->kalman[row], e, &s->covariance[row], thrust, dt);
+    if (fresh)
+        kalman_correct(&s->kalman[row], e, &s->covariance[row], s->measured[row]);
+}
+
+/* The load that is fed forward, global. */
+static vec3 fed_load(const station_table *s, int32_t row)
+{
+    switch ((feed_source)s->feed[row]) {
+    case FEED_MEASURED:
+        return s->load[row];
+    case FEED_OBSERVED:
+        return s->estimate[row].bias;
+    case FEED_NONE:
+        break;
+    }
+    return vec3_make(0, 0, 0);
+}
+
+static void control(station_table *s, int32_t row, const station_moment *now, vec3 centre, const waypoint_table *path,
+                    thruster_table *thrusters)
+{
+    double dt = now->dt * (double)s->control_every[row];
+    vec3 target = reference_target(path, row, s->home[row], now->time);
+    if (s->heading_rule[row] == HEADING_VANING) {
+        vec3 load = s->feed[row] == FEED_MEASURED ? s->load[row] : s->estimate[row].bias;
+        s->vane_heading[row] = vaning_step(&s->vaning[row], s->vane_heading[row], load, dt);
+        target.z = s->vane_heading[row];
+    }
+    reference_step(&s->filter[row], &s->reference[row], centre_place(centre, target), dt);
+    const motion_estimate *e = &s->estimate[row];
+    vec3 feed = plane_to_vessel(e->place.z, vec3_scale(fed_load(s, row), -s->feed_gain[row]));
+    const reference_state *r = &s->reference[row];
+    s->demand[row] = pid_step(&s->gains[row], e->place, e->velocity, r->place, r->velocity, feed,
+                              s->saturated[row] != 0, &s->integral[row], dt);
+    bool reached;
+    s->missed[row] = thruster_allocate(thrusters, row, s->lever[row], s->demand[row], &reached);
+    s->saturated[row] = !reached;
+}
+
+static void smooth_load(station_table *s, int32_t row, const station_moment *now)
+{
+    double share = s->feed_time[row] > now->dt ? now->dt / s->feed_time[row] : 1;
+    vec3 load = vec3_make(now->ice.force.x, now->ice.force.y, now->ice.moment.z);
+    s->load[row] = vec3_mad(s->load[row], vec3_sub(load, s->load[row]), share);
+}
+
+fram_status station_step(context *ctx, station_table *s, int32_t row, const station_moment *now,
+                         const vessel_table *vessels, const body_table *bodies, const waypoint_table *path,
+                         thruster_table *thrusters, event_table *events, fram_error *error)
+{
+    if (!watch(ctx, s, row, now, vessels, bodies, path, events))
+        return error_memory(error);
+    if (!s->positioning[row])
+        return FRAM_OK;
+    smooth_load(s, row, now);
+    bool fresh = now->step % s->sample_every[row] == 0;
+    if (fresh)
+        measure(s, row, now, place_of(bodies, vessels->body[row]));
+    if (now->step % s->control_every[row] != 0)
+        return FRAM_OK;
+    observe(s, row, thruster_effect(thrusters, row), fresh, now->dt * (double)s->control_every[row]);
+    control(s, row, now, vessels->centre[row], path, thrusters);
+    return FRAM_OK;
+}

@@ -1,0 +1,95 @@
+/* A vessel on station: where it shall be, what it measures and believes, what its controller orders, how far it is off.
+   Row i belongs to vessel i.  The controller runs at its own rate: every
+   `control_every` steps, on measurements taken every `sample_every` steps. */
+#ifndef VESSEL_STATION_H
+#define VESSEL_STATION_H
+
+#include "vessel/controller.h"
+#include "vessel/observer.h"
+#include "vessel/reference.h"
+#include "vessel/thruster.h"
+
+typedef enum observer_kind { OBSERVER_PASSIVE = 0, OBSERVER_KALMAN } observer_kind;
+/* Where the feed-forward of the ice load comes from. */
+typedef enum feed_source {
+    FEED_NONE = 0,
+    FEED_MEASURED, /* the ice load itself, as strain gauges would tell it, smoothed */
+    FEED_OBSERVED  /* the observer's bias: ice, wind and current together */
+} feed_source;
+typedef enum heading_rule { HEADING_FIXED = 0, HEADING_VANING } heading_rule;
+
+#define STATION_FIELDS(X)                                                                                      \
+    X(positioning, uint8_t, FIELD_U8, 1, "1", "1: on dynamic positioning")                                     \
+    X(observer, uint8_t, FIELD_U8, 1, "1", "enum observer_kind")                                               \
+    X(feed, uint8_t, FIELD_U8, 1, "1", "enum feed_source")                                                     \
+    X(heading_rule, uint8_t, FIELD_U8, 1, "1", "enum heading_rule")                                            \
+    X(control_every, int64_t, FIELD_I64, 1, "1", "steps between calls of the controller")                      \
+    X(sample_every, int64_t, FIELD_I64, 1, "1", "steps between measurements")                                  \
+    X(home, vec3, FIELD_F64, 3, "m, m, rad", "x, y of the ship's origin and heading that are wanted at first") \
+    X(watched, vec3, FIELD_F64, 3, "m", "the point whose offset counts, body frame about the centre of mass")  \
+    X(watched_home, vec3, FIELD_F64, 3, "m", "where it was at the start")                                      \
+    X(offset_limit, double, FIELD_F64, 1, "m", "largest allowed offset; infinity: none")                       \
+    X(heading_limit, double, FIELD_F64, 1, "rad", "largest allowed deviation of the heading; infinity: none")  \
+    X(lever, double, FIELD_F64, 1, "m", "what moments are divided by where they are compared with forces")     \
+    X(model, plane_model, FIELD_F64, 18, "kg, kg/s", "mass and damping about the centre of mass")              \
+    X(gains, pid_gains, FIELD_F64, 9, "", "of the controller")                                                 \
+    X(filter, reference_filter, FIELD_F64, 5, "", "of the reference")                                          \
+    X(passive, passive_tuning, FIELD_F64, 2, "", "of the passive observer")                                    \
+    X(kalman, kalman_tuning, FIELD_F64, 10, "", "of the Kalman filter")                                        \
+    X(vaning, vaning, FIELD_F64, 3, "", "of the heading that meets the ice")                                   \
+    X(feed_gain, double, FIELD_F64, 1, "1", "share of the load that is fed forward")                           \
+    X(feed_time, double, FIELD_F64, 1, "s", "time constant of the smoothed load")                              \
+    X(noise, vec3, FIELD_F64, 3, "m, m, rad", "standard deviations of the measurements")                       \
+    X(seed, uint64_t, FIELD_U64, 1, "1", "of the noise")                                                       \
+    X(reference, reference_state, FIELD_F64, 9, "", "smoothed place that is wanted")                           \
+    X(estimate, motion_estimate, FIELD_F64, 9, "", "what the observer believes")                               \
+    X(covariance, kalman_covariance, FIELD_F64, 81, "", "of the Kalman filter")                                \
+    X(measured, vec3, FIELD_F64, 3, "m, m, rad", "last measurement of the centre of mass and heading")         \
+    X(integral, vec3, FIELD_F64, 3, "m s, m s, rad s", "of the deviation, global")                             \
+    X(vane_heading, double, FIELD_F64, 1, "rad", "heading that the vaning wants")                              \
+    X(load, vec3, FIELD_F64, 3, "N, N, N m", "ice load, smoothed, global")                                     \
+    X(demand, vec3, FIELD_F64, 3, "N, N, N m", "force demanded of the thrusters, vessel frame")                \
+    X(missed, vec3, FIELD_F64, 3, "N, N, N m", "what the allocation could not give of it")                     \
+    X(saturated, uint8_t, FIELD_U8, 1, "1", "the thrusters cannot give the demand")                            \
+    X(lost, uint8_t, FIELD_U8, 1, "1", "bit 0: the offset exceeds its limit; bit 1: the heading does")         \
+    X(offset, vec3, FIELD_F64, 3, "m, m, rad", "of the watched point along X and Y, and of the heading")       \
+    X(mooring_load, wrench, FIELD_F64, 6, "N, N m", "of all lines in the last step, global, about the centre") \
+    X(thruster_load, wrench, FIELD_F64, 6, "N, N m", "of all thrusters in the last step, global")
+TABLE_DECLARE(station, STATION_FIELDS)
+
+typedef struct station_definition {
+    bool positioning;
+    observer_kind observer;
+    feed_source feed;
+    heading_rule heading;
+    int64_t control_every, sample_every;
+    vec3 watched; /* ship coordinates [m] */
+    double offset_limit, heading_limit;
+    plane_model model;                         /* about the centre of mass, z up */
+    double control_frequency, control_damping; /* of the controller: [rad/s], [1] */
+    reference_filter filter;
+    passive_tuning passive;
+    kalman_tuning kalman;
+    vaning vaning;
+    double feed_gain, feed_time;
+    vec3 noise;
+    uint64_t seed;
+} station_definition;
+
+/* The station of the next vessel, which lies where it was made, with all that it believes true. */
+fram_status station_add(context *ctx, const station_definition *d, const vessel_table *vessels,
+                        const body_table *bodies, station_table *stations, fram_error *error);
+
+/* What the step looks like to a station. */
+typedef struct station_moment {
+    int64_t step;
+    double time, dt;
+    wrench ice; /* load on the vessel in the step before, global */
+} station_moment;
+
+/* Measure, observe, control and give orders to the thrusters, where due; book offset and loss of position. */
+fram_status station_step(context *ctx, station_table *stations, int32_t row, const station_moment *now,
+                         const vessel_table *vessels, const body_table *bodies, const waypoint_table *path,
+                         thruster_table *thrusters, event_table *events, fram_error *error);
+
+#endif
