@@ -108,8 +108,8 @@ void wedge_profile(const wedge *w, double xi, double out[4])
 }
 
 /* Beyond the load the wedge feels its moments alone: by reciprocity (Betti 1872) a force at s < x acts there as f0(s)
-   tip forces and -f1(s) tip moments.  Under the load, eta and eta' go on where they are beyond it; eta'' and eta''' then
-   do too. */
+   tip forces and -f1(s) tip moments.  Under the load, eta and eta' go on where they are beyond it; eta'' and eta'''
+   then do too. */
 static void set_coefficients(wedge *w)
 {
     double a = w->load_length, p = pressure(w);

@@ -13,12 +13,12 @@
 #define WEDGE_MOST_LOAD 3.0
 
 typedef struct wedge {
-    double load_length;  /* a/l */
-    double inner[2];     /* eta = p + inner[0] f0 + inner[1] f1 under the load */
-    double outer[2];     /* eta = outer[0] TIP + outer[1] MOM beyond it */
-    double x_max;        /* place of the largest eta'', R_bending / l */
-    double curvature;    /* largest eta'' */
-    double capacity;     /* C = 1/curvature: the wedge carries sigma_f b0 h^2 / 6 C */
+    double load_length;    /* a/l */
+    double inner[2];       /* eta = p + inner[0] f0 + inner[1] f1 under the load */
+    double outer[2];       /* eta = outer[0] TIP + outer[1] MOM beyond it */
+    double x_max;          /* place of the largest eta'', R_bending / l */
+    double curvature;      /* largest eta'' */
+    double capacity;       /* C = 1/curvature: the wedge carries sigma_f b0 h^2 / 6 C */
     double tip_deflection; /* eta(0) */
 } wedge;
 

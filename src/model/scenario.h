@@ -6,6 +6,7 @@
 
 #include "base/array.h"
 #include "dynamics/solver.h"
+#include "ice/fracture.h"
 #include "model/scenario_keys.h"
 #include "vessel/mooring.h"
 #include "vessel/station.h"

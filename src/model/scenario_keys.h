@@ -128,6 +128,7 @@
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")     \
     X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                   \
     X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                \
+    X(fracture, SECTION(fracture), "", "how breakable floes break")                                                 \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
 #define SCENARIO_FRICTION_KEYS(X)                                            \
@@ -137,6 +138,20 @@
     X(ice_hull_kinetic, REAL(0.1, 0, 10), "1", "ice on hull, sliding")       \
     X(ice_wall_static, REAL(0.3, 0, 10), "1", "ice on basin wall, sticking") \
     X(ice_wall_kinetic, REAL(0.3, 0, 10), "1", "ice on basin wall, sliding")
+
+#define SCENARIO_FRACTURE_KEYS(X)                                                                               \
+    X(wedges, INTEGER(3, 2, 32), "1", "N of the N wedges that share a load; the stencil has twice as many")     \
+    X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                         \
+      "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than " \
+      "splitting_factor R; toughness: fracture mechanics; none: floes do not split")                            \
+    X(splitting_factor, REAL(3, 0, 1e6), "1", "length: S_k; 1 or less produces no splitting")                   \
+    X(toughness, REAL(150e3, 1e-3, 1e12), "Pa m^0.5", "toughness: fracture toughness K_IC")                     \
+    X(narrowness, REAL(4, 1, 1e6), "1",                                                                         \
+      "R_size: a floe does not split into one whose box is longer than this many "                              \
+      "widths")                                                                                                 \
+    X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")    \
+    X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")      \
+    X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")
 
 #define SCENARIO_FLOE_KEYS(X)                                                                              \
     X(shape, CHOICE(floe_shape, FLOE_RECTANGLE, "rectangle regular"), "", "rectangle, or regular polygon") \
@@ -206,6 +221,7 @@
     SCENARIO_STATION_SECTIONS(S)              \
     S(vessel, SCENARIO_VESSEL_KEYS)           \
     S(friction, SCENARIO_FRICTION_KEYS)       \
+    S(fracture, SCENARIO_FRACTURE_KEYS)       \
     S(floe, SCENARIO_FLOE_KEYS)               \
     S(ice, SCENARIO_ICE_KEYS)                 \
     S(domain, SCENARIO_DOMAIN_KEYS)           \

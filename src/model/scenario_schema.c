@@ -59,6 +59,9 @@ SECTION_DEFINE(vessel, SCENARIO_VESSEL_KEYS)
 #define SELF scenario_friction
 SECTION_DEFINE(friction, SCENARIO_FRICTION_KEYS)
 #undef SELF
+#define SELF scenario_fracture
+SECTION_DEFINE(fracture, SCENARIO_FRACTURE_KEYS)
+#undef SELF
 #define SELF scenario_floe
 SECTION_DEFINE(floe, SCENARIO_FLOE_KEYS)
 #undef SELF

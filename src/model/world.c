@@ -50,9 +50,11 @@ fram_status world_init(context *ctx, world *w, fram_error *error)
     memset(w, 0, sizeof *w);
     w->scratch.collision = collision_scratch_create(ctx);
     w->scratch.crushing = crushing_scratch_create(ctx);
+    w->scratch.fracture = fracture_scratch_create(ctx);
     w->scratch.solve = solver_create(ctx);
     w->scratch.plane = overlay_create(ctx);
-    bool made = w->scratch.collision && w->scratch.crushing && w->scratch.solve && w->scratch.plane;
+    bool made =
+        w->scratch.collision && w->scratch.crushing && w->scratch.fracture && w->scratch.solve && w->scratch.plane;
     if (made && table_resize(ctx, &w->clock, &clock_table_info, 1))
         return FRAM_OK;
     world_free(ctx, w);
@@ -68,10 +70,13 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.patch_pairs);
     array_free(ctx, &w->scratch.patches);
     array_free(ctx, &w->scratch.ice_loads);
+    array_free(ctx, &w->scratch.fractures);
     if (w->scratch.collision)
         collision_scratch_free(ctx, w->scratch.collision);
     if (w->scratch.crushing)
         crushing_scratch_free(ctx, w->scratch.crushing);
+    if (w->scratch.fracture)
+        fracture_scratch_free(ctx, w->scratch.fracture);
     if (w->scratch.solve)
         solver_free(ctx, w->scratch.solve);
     if (w->scratch.plane)
@@ -94,6 +99,7 @@ void world_poison_scratch(world *w)
     POISON(patch_pairs);
     POISON(patches);
     POISON(ice_loads);
+    POISON(fractures);
 #undef POISON
     memset(&w->scratch.solver, 0xff, sizeof w->scratch.solver);
 }

@@ -137,6 +137,9 @@ static count_channels counts_of(const world *w)
     X("crushing_patches", "1", w->scratch.patches.count)              \
     X("ice_mass_left", "kg", w->clock.ice_left[0])                    \
     X("ice_mass_lost", "kg", w->clock.ice_lost[0])                    \
+    X("ice_mass_gained", "kg", w->clock.ice_gained[0])                \
+    X("splits", "1", (double)w->clock.splits[0])                      \
+    X("bendings", "1", (double)w->clock.bendings[0])                  \
     X("crushing_work", "J", w->clock.work_crushed[0])                 \
     X("kinetic_energy", "J", books.kinetic_energy)                    \
     X("solver_residual", "m/s", w->scratch.solver.residual)           \

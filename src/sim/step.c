@@ -79,6 +79,22 @@ static fram_status solve_velocities(context *ctx, const step_settings *s, world 
                         &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
 }
 
+/* 5. Fracture of breakable floes, from the solved impulses. */
+static fram_status break_floes(context *ctx, const step_settings *s, world *w, fram_error *error)
+{
+    fracture_state state = {&w->bodies, &w->shapes, &w->floes, &w->scratch.contacts, &w->memory, w->clock.next_floe};
+    array_clear(&w->scratch.fractures);
+    fram_status status = fracture_run(ctx, w->scratch.fracture, &s->fracture, w->scratch.plane, &w->scratch.patches,
+                                      &state, &w->scratch.fractures, error);
+    for (int32_t i = 0; i < w->scratch.fractures.count; i++) {
+        const fracture_event *e = &w->scratch.fractures.data[i];
+        *(e->kind == FRACTURE_SPLIT ? w->clock.splits : w->clock.bendings) += 1;
+        w->clock.ice_lost[0] += e->mass_lost;
+        w->clock.ice_gained[0] += e->mass_gained;
+    }
+    return status;
+}
+
 /* 6. Time integration, then position correction. */
 static fram_status integrate(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
@@ -136,11 +152,11 @@ fram_status world_step_watched(context *ctx, const step_settings *s, world *w, c
                                fram_error *error)
 {
     typedef fram_status (*stage)(context *, const step_settings *, world *, fram_error *);
-    /* The order of SPEC 4; 5 (fracture) comes between the solve and the integration. */
+    /* The order of SPEC 4. */
     static const stage stages[STAGE_COUNT] = {
         [STAGE_FORCES] = external_forces, [STAGE_DETECTION] = detect_contacts, [STAGE_CRUSHING] = limit_crushing,
-        [STAGE_SOLVE] = solve_velocities, [STAGE_LOADS] = sum_ice_loads,       [STAGE_INTEGRATION] = integrate,
-        [STAGE_STRAYS] = remove_strays,
+        [STAGE_SOLVE] = solve_velocities, [STAGE_LOADS] = sum_ice_loads,       [STAGE_FRACTURE] = break_floes,
+        [STAGE_INTEGRATION] = integrate,  [STAGE_STRAYS] = remove_strays,
     };
 #ifndef NDEBUG
     world_poison_scratch(w);

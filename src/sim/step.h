@@ -23,6 +23,7 @@ typedef struct step_settings {
     collision_settings collision;
     pair_policies policies;
     crushing_settings crushing;
+    fracture_settings fracture;
     solver_settings solver;
     domain_boundary boundary;
     box2 domain;        /* [m] */
@@ -40,6 +41,7 @@ typedef enum step_stage {
     STAGE_CRUSHING,
     STAGE_SOLVE,
     STAGE_LOADS,
+    STAGE_FRACTURE,
     STAGE_INTEGRATION,
     STAGE_STRAYS,
     STAGE_COUNT

@@ -1,0 +1,286 @@
+/* The order of fracture: which floes break, by which patch, in which way; see fracture.h. */
+#include "ice/fracture_parts.h"
+
+#include "geometry/predicate.h"
+
+#include <string.h>
+
+/* A crack starts at a corner when it is nearer to it than this part of R_bending. */
+static const double CORNER_REACH = 1e-6;
+/* An r_start is gone when the outline that is left is farther from it than this part of R_bending. */
+static const double GONE_REACH = 1e-6;
+
+fracture_scratch *fracture_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(fracture_scratch)); }
+
+void fracture_scratch_free(context *ctx, fracture_scratch *s)
+{
+    if (!s)
+        return;
+    array_free(ctx, &s->loads);
+    array_free(ctx, &s->broken);
+    polygon_list_free(ctx, &s->whole);
+    polygon_list_free(ctx, &s->remnants);
+    polygon_list_free(ctx, &s->wedges);
+    polygon_list_free(ctx, &s->pieces);
+    polygon_list_free(ctx, &s->outlines);
+    polygon_list_free(ctx, &s->pair);
+    polygon_list_free(ctx, &s->joined);
+    array_free(ctx, &s->cut);
+    array_free(ctx, &s->ring);
+    array_free(ctx, &s->clean);
+    array_free(ctx, &s->forgotten);
+    memory_free(ctx, s);
+}
+
+/* What one call works on. */
+typedef struct fracture_job {
+    context *ctx;
+    fracture_scratch *scratch;
+    const fracture_settings *settings;
+    overlay *plane;
+    const fracture_state *state;
+    fracture_event_array *events;
+    fram_error *error;
+} fracture_job;
+
+/* The failing loads of one floe. */
+typedef struct floe_loads {
+    const fracture_load *load;
+    int32_t count;
+} floe_loads;
+
+static crack_start start_of(polygon p, const fracture_load *l)
+{
+    return crack_start_of(p, l->place, CORNER_REACH * l->stress.breaking_radius);
+}
+
+static fracture_event event_of(const fracture_job *j, const fracture_load *l, const crack_start *start,
+                               fracture_kind kind, double length)
+{
+    bool split = kind == FRACTURE_SPLIT;
+    return (fracture_event){
+        .kind = kind,
+        .place = body_to_global(j->state->bodies, l->body, (vec3){start->point.x, start->point.y, 0}),
+        .load = l->force,
+        .crack_length = length,
+        .stress_ratio = split ? l->radial_ratio : l->wedge_ratio,
+        .loaded_radius = split ? l->stress.radial_radius : l->stress.wedge_radius,
+    };
+}
+
+static fram_status commit(const fracture_job *j, const fracture_load *l, fracture_event *event)
+{
+    fracture_scratch *s = j->scratch;
+    bool broke;
+    fram_status status = fracture_birth(j->ctx, s, j->settings, j->plane, j->state, l->floe, &s->whole, &s->wedges,
+                                        event, &broke, j->error);
+    if (status != FRAM_OK || !broke)
+        return status;
+    s->broken.data[l->body] = 1;
+    return array_push(j->ctx, j->events, *event) ? FRAM_OK : error_memory(j->error);
+}
+
+/* ---- splitting ---- */
+
+/* The first valid split, by falling stress over strength; *done says whether there was one. */
+static fram_status split_floe(const fracture_job *j, polygon outline, floe_loads loads, bool *done)
+{
+    fracture_scratch *s = j->scratch;
+    for (int32_t i = 0; i < loads.count; i++) {
+        const fracture_load *l = &loads.load[i];
+        crack_start start = start_of(outline, l);
+        double length;
+        bool memory = false;
+        if (!fracture_splits(j->settings, outline, l, j->state->floes->thickness[l->floe], &start, &length))
+            continue;
+        polygon_list_clear(&s->whole);
+        polygon_list_clear(&s->wedges);
+        if (fracture_split(j->ctx, j->settings, outline, &start, &s->whole, &memory)) {
+            fracture_event event = event_of(j, l, &start, FRACTURE_SPLIT, length);
+            *done = true;
+            return commit(j, l, &event);
+        }
+        if (memory)
+            return error_memory(j->error);
+    }
+    return FRAM_OK;
+}
+
+/* ---- bending ---- */
+
+/* The ring that still has the crack's start on its boundary, -1 when that is gone. */
+static int32_t ring_with_start(const polygon_list *rings, const fracture_load *l, const crack_start *start)
+{
+    for (int32_t i = 0; i < polygon_list_count(rings); i++) {
+        vec2 near = polygon_nearest_boundary(polygon_list_get(rings, i), start->point, NULL);
+        if (vec2_length(vec2_sub(near, start->point)) <= GONE_REACH * l->stress.breaking_radius)
+            return i;
+    }
+    return -1;
+}
+
+/* Whether a wedge has room to develop (option). */
+static bool has_room(const fracture_job *j, polygon ring, const fracture_load *l, const crack_start *start)
+{
+    int32_t edge;
+    return !j->settings->wedge_room || crack_length(ring, start, &edge) > l->stress.breaking_radius;
+}
+
+/* rings with ring `at` replaced by `others`. */
+static bool replace_ring(context *ctx, polygon_list *rings, int32_t at, const polygon_list *others, polygon_list *room)
+{
+    polygon_list_clear(room);
+    bool good = true;
+    for (int32_t i = 0; i < polygon_list_count(rings) && good; i++)
+        if (i != at)
+            good = polygon_list_push(ctx, room, polygon_list_get(rings, i));
+    for (int32_t i = 0; i < polygon_list_count(others) && good; i++)
+        good = polygon_list_push(ctx, room, polygon_list_get(others, i));
+    polygon_list moved = *rings;
+    *rings = *room;
+    *room = moved;
+    return good;
+}
+
+/* One stencil on what is left of the floe; *cut says whether it took something off. */
+static fram_status cut_stencil(const fracture_job *j, const fracture_load *l, crack_start *start, bool *cut)
+{
+    fracture_scratch *s = j->scratch;
+    *cut = false;
+    int32_t at = ring_with_start(&s->whole, l, start);
+    if (at < 0)
+        return FRAM_OK;
+    polygon ring = polygon_list_get(&s->whole, at);
+    *start = crack_start_of(ring, start->point, CORNER_REACH * l->stress.breaking_radius);
+    if (!has_room(j, ring, l, start))
+        return FRAM_OK;
+    polygon_list_clear(&s->remnants);
+    polygon_list_clear(&s->pieces);
+    fram_status status = fracture_bend(j->ctx, j->plane, j->settings, l->stress.breaking_radius, ring, start,
+                                       &s->remnants, &s->pieces, j->error);
+    /* No sound cut of this outline: it stays whole, and the next step tries again. */
+    if (status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT) {
+        log_write(j->ctx, LOG_DEBUG, "a floe could not be cut in bending: %s", j->error ? j->error->message : "");
+        return FRAM_OK;
+    }
+    if (status != FRAM_OK || polygon_list_count(&s->pieces) == 0)
+        return status;
+    *cut = true;
+    for (int32_t i = 0; i < polygon_list_count(&s->pieces); i++)
+        if (!polygon_list_push(j->ctx, &s->wedges, polygon_list_get(&s->pieces, i)))
+            return error_memory(j->error);
+    return replace_ring(j->ctx, &s->whole, at, &s->remnants, &s->pieces) ? FRAM_OK : error_memory(j->error);
+}
+
+/* All failing patches cut in turn; the event tells of the first that did. */
+static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads loads)
+{
+    fracture_scratch *s = j->scratch;
+    polygon_list_clear(&s->whole);
+    polygon_list_clear(&s->wedges);
+    if (!polygon_list_push(j->ctx, &s->whole, outline))
+        return error_memory(j->error);
+    const fracture_load *first = NULL;
+    fracture_event event;
+    for (int32_t i = 0; i < loads.count; i++) {
+        const fracture_load *l = &loads.load[i];
+        if (l->wedge_ratio < 1)
+            continue;
+        /* Where the floe as it was has its boundary; gone when an earlier stencil took that. */
+        crack_start start = start_of(outline, l);
+        bool cut;
+        fram_status status = cut_stencil(j, l, &start, &cut);
+        if (status != FRAM_OK)
+            return status;
+        if (!cut || first)
+            continue;
+        first = l;
+        event = event_of(j, l, &start, FRACTURE_BENDING, l->stress.breaking_radius);
+    }
+    return first ? commit(j, first, &event) : FRAM_OK;
+}
+
+/* ---- contacts of broken floes ---- */
+
+static bool row_of_key(const contact_memory_table *memory, uint64_t key, int32_t *row)
+{
+    int32_t low = 0, high = memory->count;
+    while (low < high) {
+        int32_t middle = low + (high - low) / 2;
+        if (memory->key[middle] < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *row = low;
+    return low < memory->count && memory->key[low] == key;
+}
+
+/* A child may stand in its parent's slot: what contacts of the parent carried must not reach it. */
+static bool void_contacts(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    contact_memory_table *memory = j->state->memory;
+    if (!array_resize(j->ctx, &s->forgotten, memory->count))
+        return false;
+    if (memory->count > 0)
+        memset(s->forgotten.data, 0, (size_t)memory->count);
+    for (int32_t i = 0; i < j->state->contacts->count; i++) {
+        contact *c = &j->state->contacts->data[i];
+        int32_t row;
+        if (!s->broken.data[c->a] && !s->broken.data[c->b])
+            continue;
+        c->correct = false;
+        if (row_of_key(memory, c->key, &row))
+            s->forgotten.data[row] = 1;
+    }
+    int32_t kept = 0;
+    for (int32_t i = 0; i < memory->count; i++) {
+        if (s->forgotten.data[i])
+            continue;
+        if (kept != i)
+            table_move_row(memory, &contact_memory_table_info, kept, i);
+        kept++;
+    }
+    return table_resize(j->ctx, memory, &contact_memory_table_info, kept);
+}
+
+/* ---- all floes ---- */
+
+static fram_status break_floe(const fracture_job *j, floe_loads loads)
+{
+    fracture_scratch *s = j->scratch;
+    polygon view = shape_outline(j->state->shapes, j->state->bodies->shape[loads.load[0].body]);
+    /* A copy: new shapes move the pool that the outline stands in. */
+    if (!array_resize(j->ctx, &s->ring, view.count))
+        return error_memory(j->error);
+    memcpy(s->ring.data, view.vertex, (size_t)view.count * sizeof *view.vertex);
+    polygon outline = {s->ring.data, s->ring.count};
+    bool split = false;
+    fram_status status = split_floe(j, outline, loads, &split);
+    return status != FRAM_OK || split ? status : bend_floe(j, outline, loads);
+}
+
+fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture_settings *settings, overlay *plane,
+                         const crushing_patch_array *patches, const fracture_state *state, fracture_event_array *events,
+                         fram_error *error)
+{
+    fracture_job j = {ctx, scratch, settings, plane, state, events, error};
+    if (!fracture_loads(ctx, scratch, settings, patches, state))
+        return error_memory(error);
+    const fracture_load_array *loads = &scratch->loads;
+    if (loads->count == 0)
+        return FRAM_OK;
+    int32_t slots = state->bodies->count, had = events->count;
+    if (!array_resize(ctx, &scratch->broken, slots))
+        return error_memory(error);
+    memset(scratch->broken.data, 0, (size_t)slots);
+    for (int32_t i = 0, end; i < loads->count; i = end) {
+        for (end = i + 1; end < loads->count && loads->data[end].body == loads->data[i].body; end++)
+            continue;
+        fram_status status = break_floe(&j, (floe_loads){&loads->data[i], end - i});
+        if (status != FRAM_OK)
+            return status;
+    }
+    return events->count == had || void_contacts(&j) ? FRAM_OK : error_memory(error);
+}

@@ -1,0 +1,105 @@
+/* Fracture of breakable floes (SPEC 8): from the solved contact impulses of a step to cracks, new floes and the books
+   of every event.  Knows floes, patches and contacts; whose surface pushes, it does not know, but for the material.
+
+   In a floe's own plane, with the velocities and impulses of this step's solve:
+     1. loads: one per crushing patch, with the stresses it makes (fracture_load.c);
+     2. a radial crack opens when sigma_yy >= sigma_f; where it finds the floe's other side near enough, the floe splits
+        (fracture_split.c);
+     3. otherwise wedges break off when sigma_wedge >= sigma_f (fracture_bend.c);
+     4. the parent goes, its pieces are cleaned and become floes, and what was lost is booked (fracture_birth.c).
+   Floes are treated by ascending body slot, patches of a floe by falling stress over strength. */
+#ifndef ICE_FRACTURE_H
+#define ICE_FRACTURE_H
+
+#include "ice/crushing.h"
+
+typedef enum fracture_kind { FRACTURE_SPLIT = 1, FRACTURE_BENDING = 2 } fracture_kind;
+
+/* What decides whether a radial crack runs through. */
+typedef enum splitting_rule {
+    SPLITTING_LENGTH = 0, /* R_bending < length < S_k R_bending: the reference */
+    SPLITTING_TOUGHNESS,  /* fracture mechanics: in-plane load >= the floe's largest for K_IC (oracles section 3) */
+    SPLITTING_NONE
+} splitting_rule;
+
+typedef struct fracture_settings {
+    double time_step;     /* [s] */
+    double water_density; /* [kg/m3] */
+    double gravity;       /* [m/s2] */
+    int32_t wedges;       /* N_wedges; the stencil has twice as many */
+    splitting_rule splitting;
+    double splitting_factor;    /* S_k */
+    double toughness;           /* K_IC [Pa m^0.5], for SPLITTING_TOUGHNESS */
+    double narrowness;          /* R_size: a split child's box may be this much longer than wide */
+    double smallest_floe_area;  /* pieces under it are lost [m2] */
+    double smallest_piece_area; /* as in shape_add_prism [m2] */
+    double edge_threshold;      /* as in polygon_clean [m] */
+    bool thick_plate_radius;    /* small loads act as on a radius that grows with the thickness (Westergaard) */
+    bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
+    bool under_ice_contacts;    /* option: patches between floes break them too */
+} fracture_settings;
+
+/* One event: a floe that broke.  Scratch row, made anew each step. */
+typedef struct fracture_event {
+    int32_t kind;                   /* enum fracture_kind */
+    int32_t floe;                   /* running number of the parent */
+    int32_t first_piece;            /* running number of the first piece; the others follow */
+    int32_t pieces;                 /* floes made */
+    vec3 place;                     /* where the first crack starts, global [m] */
+    double load;                    /* P [N] */
+    double crack_length;            /* split: of the crack; bending: R_bending of the first stencil [m] */
+    double stress_ratio;            /* of the criterion that was met: stress over flexural strength */
+    double loaded_radius;           /* a of that criterion [m] */
+    double parent_area, piece_area; /* of the parent, and of all pieces together [m2] */
+    double area_lost, area_gained;  /* parent = pieces + lost - gained, to rounding [m2] */
+    double mass_lost, mass_gained;  /* [kg] */
+} fracture_event;
+typedef ARRAY(fracture_event) fracture_event_array;
+
+typedef struct fracture_scratch fracture_scratch;
+fracture_scratch *fracture_scratch_create(context *ctx);
+void fracture_scratch_free(context *ctx, fracture_scratch *s);
+
+/* Everything that fracture changes. */
+typedef struct fracture_state {
+    body_table *bodies;
+    shape_store *shapes;
+    floe_table *floes;
+    contact_array *contacts;
+    contact_memory_table *memory;
+    int32_t *next_number;
+} fracture_state;
+
+/* All fracture of one step.  Children keep the parent's orientation, material, thickness and motion of their material
+   points; a static parent's remnants stay static, its wedges do not.  Contacts of a floe that broke are void: correct
+   becomes false, and what they carried is forgotten.  Events are appended.  A floe whose geometry admits no sound cut
+   is left as it is for this step.  Without memory the step cannot go on: the tables keep their meaning, a floe may be
+   gone. */
+fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture_settings *settings, overlay *plane,
+                         const crushing_patch_array *patches, const fracture_state *state, fracture_event_array *events,
+                         fram_error *error);
+
+/* --- the formulas, one load at a time --- */
+
+/* b0 of a wedge of angle pi/N: 2 tan(pi/(2 N)). */
+double fracture_wedge_width(int32_t wedges);
+/* Radius of a load of this area [m2]: the area as a part of a disc, area = share a^2; where a < 1.724 h and thick is
+   set, a_eff = sqrt(1.6 a^2 + h^2) - 0.675 h (Westergaard 1926) [m]. */
+double fracture_loaded_radius(double area, double share, double thickness, bool thick);
+
+/* What a load P on a horizontal area A_h does to the edge of a floe. */
+typedef struct edge_stress {
+    double length;                          /* characteristic length l [m] */
+    double radial_radius, wedge_radius;     /* loaded radii [m] */
+    double radial_stress, wedge_stress;     /* sigma_yy, sigma_wedge_max [Pa] */
+    double radial_capacity, wedge_capacity; /* loads P that make them equal to the flexural strength [N] */
+    double breaking_radius;                 /* R_bending [m] */
+} edge_stress;
+edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
+                                 double load, double horizontal_area);
+
+/* Largest opening force of an edge crack in a floe of this thickness [m], toughness K_IC [Pa m^0.5], length along the
+   crack and width across it [m]: F h K_IC sqrt(length), F by width over length (oracles section 3) [N]. */
+double fracture_splitting_force(double thickness, double toughness, double length, double width);
+
+#endif

@@ -1,0 +1,136 @@
+/* Pieces too small to be floes of their own (SPEC 8.5, 8.8).  The reference deletes them; a stencil cuts some off
+   nearly every floe, though, and of a small floe that would be a good part.  They are joined to a sibling instead. */
+#include "ice/fracture_parts.h"
+
+#include "base/transcendental.h"
+
+/* Boundaries nearer than this part of a ring's size are the same. */
+static const double SAME_BOUNDARY = 1e-7;
+
+/* A union has the area of its parts, but for this part of it. */
+static const double SAME_AREA = 1e-11;
+
+/* Corners nearer than this part of a ring's size to an edge of it that is not theirs may touch it after rounding. */
+static const double LEAST_CLEARANCE = 1e-10;
+
+bool fracture_outline_is_sound(context *ctx, polygon p)
+{
+    if (p.count < 3 || !(polygon_area(p) > 0) || polygon_self_intersects(ctx, p, NULL, NULL))
+        return false;
+    double reach = LEAST_CLEARANCE * polygon_perimeter(p);
+    for (int32_t i = 0; i < p.count; i++) {
+        int32_t next = i + 1 < p.count ? i + 1 : 0;
+        vec2 a = p.vertex[i], b = p.vertex[next];
+        for (int32_t k = 0; k < p.count; k++) {
+            vec2 v = p.vertex[k];
+            if (k == i || k == next || fmin(a.x, b.x) - v.x > reach || v.x - fmax(a.x, b.x) > reach ||
+                fmin(a.y, b.y) - v.y > reach || v.y - fmax(a.y, b.y) > reach)
+                continue;
+            if (vec2_length(vec2_sub(segment_nearest(a, b, v), v)) <= reach)
+                return false;
+        }
+    }
+    return true;
+}
+
+/* Length of a's edges that lie on b, by the edges' middles. */
+static double length_on(polygon a, polygon b)
+{
+    double sum = 0, reach = SAME_BOUNDARY * polygon_perimeter(b);
+    for (int32_t i = 0; i < a.count; i++) {
+        vec2 from = a.vertex[i], to = a.vertex[i + 1 < a.count ? i + 1 : 0];
+        vec2 middle = vec2_scale(vec2_add(from, to), 0.5), near = polygon_nearest_boundary(b, middle, NULL);
+        if (vec2_length(vec2_sub(near, middle)) <= reach)
+            sum += vec2_length(vec2_sub(to, from));
+    }
+    return sum;
+}
+
+/* How much boundary two pieces share: an edge of one may be a part of an edge of the other. */
+static double shared_length(const fracture_scratch *s, int32_t i, int32_t k)
+{
+    polygon a = polygon_list_get(&s->outlines, s->cut.data[i].ring);
+    polygon b = polygon_list_get(&s->outlines, s->cut.data[k].ring);
+    return fmax(length_on(a, b), length_on(b, a));
+}
+
+/* The sibling of piece i with the longest common boundary, but shorter than `under`; -1 when there is none. */
+static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
+{
+    int32_t best = -1;
+    double longest = 0;
+    for (int32_t k = 0; k < s->cut.count; k++) {
+        double length = k == i ? 0 : shared_length(s, i, k);
+        if (length > longest && length < *under) {
+            longest = length;
+            best = k;
+        }
+    }
+    *under = longest;
+    return best;
+}
+
+/* Unite pieces i and k; *joined says whether that gave one ring, which then is piece k's. */
+static fram_status unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
+                         fram_error *error)
+{
+    *joined = false;
+    polygon_list_clear(&s->pair);
+    polygon_list_clear(&s->joined);
+    if (!polygon_list_push(ctx, &s->pair, polygon_list_get(&s->outlines, s->cut.data[i].ring)) ||
+        !polygon_list_push(ctx, &s->pair, polygon_list_get(&s->outlines, s->cut.data[k].ring)))
+        return error_memory(error);
+    fram_status status = overlay_union(plane, &s->pair, &s->joined, error);
+    if (status == FRAM_ERROR_MEMORY)
+        return status;
+    if (status != FRAM_OK || polygon_list_count(&s->joined) != 1)
+        return FRAM_OK;
+    /* Corners of both that differ by rounding become one. */
+    polygon ring = polygon_list_get(&s->joined, 0);
+    if (!polygon_clean(ctx, ring, SAME_BOUNDARY * polygon_perimeter(ring), &s->clean))
+        return error_memory(error);
+    ring = (polygon){s->clean.data, s->clean.count};
+    double area = s->cut.data[i].area + s->cut.data[k].area;
+    if (!fracture_outline_is_sound(ctx, ring) || !(fabs(polygon_area(ring) - area) <= SAME_AREA * area))
+        return FRAM_OK;
+    s->cut.data[k].ring = polygon_list_count(&s->outlines);
+    s->cut.data[k].area = polygon_area(ring);
+    *joined = true;
+    return polygon_list_push(ctx, &s->outlines, ring) ? FRAM_OK : error_memory(error);
+}
+
+/* Piece i joined to the first neighbour that takes it; -1 when none does. */
+static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t *to, fram_error *error)
+{
+    double under = HUGE_VAL;
+    for (int32_t k = neighbour_of(s, i, &under); k >= 0; k = neighbour_of(s, i, &under)) {
+        bool joined;
+        fram_status status = unite(ctx, s, plane, i, k, &joined, error);
+        *to = k;
+        if (status != FRAM_OK || joined)
+            return status;
+    }
+    *to = -1;
+    return FRAM_OK;
+}
+
+fram_status fracture_join_dust(context *ctx, fracture_scratch *s, overlay *plane, double smallest, fram_error *error)
+{
+    for (int32_t i = 0; i < s->cut.count;) {
+        int32_t to = -1;
+        fram_status status = s->cut.data[i].area < smallest ? join(ctx, s, plane, i, &to, error) : FRAM_OK;
+        if (status != FRAM_OK)
+            return status;
+        if (to < 0) {
+            i++;
+            continue;
+        }
+        for (int32_t m = i; m + 1 < s->cut.count; m++)
+            s->cut.data[m] = s->cut.data[m + 1];
+        s->cut.count--;
+        /* The neighbour may still be too small, and may stand before. */
+        if (to < i)
+            i = to;
+    }
+    return FRAM_OK;
+}

@@ -1,0 +1,185 @@
+/* Radial cracks: where they start, which way they run, and floes that split along them (SPEC 8.2, 8.3; Algorithms 7, 8
+   and the reference's checks of the children). */
+#include "ice/fracture_parts.h"
+
+#include "base/transcendental.h"
+
+/* ---- the start ---- */
+
+static vec2 edge_vector(polygon p, int32_t i) { return vec2_sub(p.vertex[i + 1 < p.count ? i + 1 : 0], p.vertex[i]); }
+
+/* Inward unit normal of an edge of a counter-clockwise ring. */
+static vec2 inward_normal(polygon p, int32_t i)
+{
+    vec2 e = edge_vector(p, i);
+    double length = vec2_length(e);
+    return length > 0 ? (vec2){-e.y / length, e.x / length} : (vec2){0, 0};
+}
+
+crack_start crack_start_of(polygon p, vec2 load, double snap)
+{
+    crack_start c;
+    c.point = polygon_nearest_boundary(p, load, &c.edge);
+    c.distance = vec2_length(vec2_sub(c.point, load));
+    int32_t next = c.edge + 1 < p.count ? c.edge + 1 : 0;
+    bool at_next = vec2_length(vec2_sub(p.vertex[next], c.point)) <= snap;
+    if (at_next)
+        c.edge = next;
+    c.direction = inward_normal(p, c.edge);
+    if (at_next || vec2_length(vec2_sub(p.vertex[c.edge], c.point)) <= snap) {
+        c.point = p.vertex[c.edge];
+        vec2 mean = vec2_add(c.direction, inward_normal(p, c.edge > 0 ? c.edge - 1 : p.count - 1));
+        double length = vec2_length(mean);
+        if (length > 0)
+            c.direction = vec2_scale(mean, 1 / length);
+    }
+    return c;
+}
+
+/* ---- the way through ---- */
+
+static bool touches_start(polygon p, int32_t i, const crack_start *start)
+{
+    vec2 a = p.vertex[i], b = p.vertex[i + 1 < p.count ? i + 1 : 0], s = start->point;
+    return i == start->edge || (a.x == s.x && a.y == s.y) || (b.x == s.x && b.y == s.y);
+}
+
+double crack_length(polygon p, const crack_start *start, int32_t *edge)
+{
+    double least = HUGE_VAL;
+    *edge = -1;
+    for (int32_t i = 0; i < p.count; i++) {
+        if (touches_start(p, i, start))
+            continue;
+        vec2 a = vec2_sub(p.vertex[i], start->point);
+        vec2 b = vec2_sub(p.vertex[i + 1 < p.count ? i + 1 : 0], start->point);
+        double side_a = vec2_cross(start->direction, a), side_b = vec2_cross(start->direction, b);
+        if ((side_a > 0) == (side_b > 0))
+            continue;
+        double share = side_a / (side_a - side_b);
+        double way = (1 - share) * vec2_dot(start->direction, a) + share * vec2_dot(start->direction, b);
+        if (way > 0 && way < least) {
+            least = way;
+            *edge = i;
+        }
+    }
+    return least;
+}
+
+/* ---- the criterion ---- */
+
+double fracture_splitting_force(double thickness, double toughness, double length, double width)
+{
+    /* Width over length, and the factor of the load. */
+    static const double TABLE[][2] = {{0.5, 0.1334}, {1, 0.1869}, {2, 0.2105}, {3, 0.2107}};
+    enum { ROWS = sizeof TABLE / sizeof *TABLE };
+    double ratio = width / length, factor = TABLE[0][1];
+    for (int i = 1; i < ROWS && ratio > TABLE[i - 1][0]; i++) {
+        double share = fmin((ratio - TABLE[i - 1][0]) / (TABLE[i][0] - TABLE[i - 1][0]), 1);
+        factor = TABLE[i - 1][1] + share * (TABLE[i][1] - TABLE[i - 1][1]);
+    }
+    return factor * thickness * toughness * sqrt(length);
+}
+
+/* Extent of the outline across the crack. */
+static double width_across(polygon p, vec2 direction)
+{
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (int32_t i = 0; i < p.count; i++) {
+        double side = vec2_cross(direction, p.vertex[i]);
+        least = fmin(least, side);
+        most = fmax(most, side);
+    }
+    return most - least;
+}
+
+bool fracture_splits(const fracture_settings *settings, polygon outline, const fracture_load *load, double thickness,
+                     const crack_start *start, double *length)
+{
+    int32_t edge;
+    if (settings->splitting == SPLITTING_NONE || load->radial_ratio < 1)
+        return false;
+    *length = crack_length(outline, start, &edge);
+    double radius = load->stress.breaking_radius;
+    if (edge < 0 || !(*length > radius))
+        return false;
+    if (settings->splitting == SPLITTING_LENGTH)
+        return *length < settings->splitting_factor * radius;
+    double width = width_across(outline, start->direction);
+    return load->plane_force >= fracture_splitting_force(thickness, settings->toughness, *length, width);
+}
+
+/* ---- the children ---- */
+
+/* From one crack point along the boundary to the other; equal points follow one another once. */
+static bool take_side(context *ctx, polygon p, vec2 from, int32_t from_edge, vec2 to, int32_t to_edge, vec2_array *out)
+{
+    array_clear(out);
+    bool good = array_push(ctx, out, from);
+    int32_t i = from_edge;
+    do {
+        i = i + 1 < p.count ? i + 1 : 0;
+        vec2 v = p.vertex[i], last = out->data[out->count - 1];
+        if (v.x != last.x || v.y != last.y)
+            good = good && array_push(ctx, out, v);
+    } while (i != to_edge && good);
+    vec2 last = out->data[out->count - 1];
+    if (to.x != last.x || to.y != last.y)
+        good = good && array_push(ctx, out, to);
+    return good;
+}
+
+static bool child_is_sound(context *ctx, const fracture_settings *settings, polygon child, bool *memory)
+{
+    if (child.count < 3 || !(polygon_area(child) >= settings->smallest_floe_area) ||
+        polygon_self_intersects(ctx, child, NULL, NULL))
+        return false;
+    oriented_box box;
+    if (polygon_oriented_box(ctx, child, &box) != FRAM_OK) {
+        *memory = true;
+        return false;
+    }
+    return box.sides[0] <= settings->narrowness * box.sides[1];
+}
+
+/* A crack end so near to a corner that the edge between would be rounding becomes the corner. */
+static const double SNAP = 1e-9;
+
+static vec2 snapped(polygon p, int32_t edge, vec2 end, double reach)
+{
+    for (int k = 0; k < 2; k++) {
+        vec2 v = p.vertex[(edge + k) % p.count];
+        if (vec2_length(vec2_sub(v, end)) <= reach)
+            return v;
+    }
+    return end;
+}
+
+bool fracture_split(context *ctx, const fracture_settings *settings, polygon outline, const crack_start *start,
+                    polygon_list *out, bool *memory)
+{
+    int32_t edge, had = polygon_list_count(out);
+    double length = crack_length(outline, start, &edge);
+    if (edge < 0)
+        return false;
+    vec2 end = snapped(outline, edge, vec2_add(start->point, vec2_scale(start->direction, length)), SNAP * length);
+    vec2_array side = {0};
+    bool sound = true;
+    for (int child = 0; child < 2 && sound; child++) {
+        bool good = child == 0 ? take_side(ctx, outline, start->point, start->edge, end, edge, &side)
+                               : take_side(ctx, outline, end, edge, start->point, start->edge, &side);
+        polygon ring = {side.data, side.count};
+        *memory = !good;
+        sound = good && child_is_sound(ctx, settings, ring, memory);
+        if (sound && !polygon_list_push(ctx, out, ring)) {
+            *memory = true;
+            sound = false;
+        }
+    }
+    array_free(ctx, &side);
+    if (!sound && polygon_list_count(out) > had) {
+        out->vertex.count = out->start.data[had];
+        out->start.count = had + 1;
+    }
+    return sound;
+}
