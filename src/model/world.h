@@ -12,3 +12,100 @@
 #include "ice/fracture.h"
 #include "vessel/mooring.h"
 #include "vessel/station.h"
+
+/* One row. */
+#define CLOCK_FIELDS(X)                                                                            \
+    X(step, int64_t, FIELD_I64, 1, "1", "steps done")                                              \
+    X(time, double, FIELD_F64, 1, "s", "simulated time = step * time step")                        \
+    X(next_floe, int32_t, FIELD_I32, 1, "1", "next running number of a floe")                      \
+    X(ice_left, double, FIELD_F64, 1, "kg", "mass of ice that left through an open boundary")      \
+    X(ice_lost, double, FIELD_F64, 1, "kg", "mass of ice booked as lost in fracture")              \
+    X(ice_gained, double, FIELD_F64, 1, "kg", "mass booked as gained where outlines were cleaned") \
+    X(splits, int64_t, FIELD_I64, 1, "1", "floes that split")                                      \
+    X(bendings, int64_t, FIELD_I64, 1, "1", "floes that broke in bending")                         \
+    X(work_crushed, double, FIELD_F64, 1, "J", "energy dissipated by rows at their crushing limit")
+TABLE_DECLARE(clock, CLOCK_FIELDS)
+
+/* The recorder's moving average of the ice load on the first vessel: a ring of the last steps, oldest overwritten at
+   row (step mod count).  As many rows as steps in the averaging window. */
+#define LOAD_WINDOW_FIELDS(X)                                                                      \
+    X(force, vec3, FIELD_F64, 3, "N", "ice force on the vessel, mean over the step, global frame") \
+    X(moment, vec3, FIELD_F64, 3, "N m", "ice moment about its centre of mass, global frame")
+TABLE_DECLARE(load_window, LOAD_WINDOW_FIELDS)
+
+/* Which bodies the record already knows, one row per body slot that it has seen. */
+#define RECORDED_FIELDS(X) X(generation, uint32_t, FIELD_U32, 1, "1", "generation in the record, 0: none")
+TABLE_DECLARE(recorded, RECORDED_FIELDS)
+
+/* What the ice does to one vessel in a step: means over the step, on the vessel, global frame, moments about its centre
+   of mass. Scratch. */
+typedef struct ice_load {
+    wrench total;
+    wrench capped;  /* normal forces of contacts at their crushing limit */
+    wrench elastic; /* normal forces below it */
+    wrench friction;
+    wrench zone[ZONE_COUNT]; /* total, split by hull zone */
+    int32_t contacts;
+} ice_load;
+
+typedef struct world {
+    /* State: everything that outlives a step; world_tables() lists the tables. */
+    clock_table clock;
+    body_table bodies;
+    shape_store shapes; /* solids inside are not state */
+    floe_table floes;
+    vessel_table vessels;
+    joint_table joints;
+    pair_table pairs;
+    broad_table boxes;
+    contact_memory_table memory;
+    load_window_table load_window;
+    recorded_table recorded;
+    line_table lines;
+    thruster_table thrusters;
+    waypoint_table waypoints;
+    station_table stations; /* row i belongs to vessel i */
+    event_table events;
+
+    /* Scratch: written anew each step. */
+    struct {
+        ARRAY(wrench) loads;     /* one per body slot */
+        ARRAY(wrench) outside;   /* wrenches given from outside through the API, used once */
+        ARRAY(fluid_load) fluid; /* one per body slot */
+        contact_array contacts;
+        index_array patch_pairs;
+        crushing_patch_array patches;
+        ARRAY(ice_load) ice_loads; /* one per vessel */
+        fracture_event_array fractures;
+        solver_report solver;
+        collision_scratch *collision;
+        crushing_scratch *crushing;
+        fracture_scratch *fracture;
+        solver *solve;
+        overlay *plane;
+    } scratch;
+} world;
+
+/* One entry of the list of state tables. */
+typedef struct world_table {
+    const table_info *info;
+    void *table;
+} world_table;
+enum { WORLD_TABLE_COUNT = 18 };
+/* The state tables in their fixed order. */
+void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
+
+fram_status world_init(context *ctx, world *w, fram_error *error);
+void world_free(context *ctx, world *w);
+/* Debug builds call this before each step: the scratch of the step before becomes garbage (all bits set, so that reals
+   are not numbers), and a stage that reads what it should have written is found.  Allocated scratch objects are left
+   alone. */
+void world_poison_scratch(world *w);
+/* 64-bit hash of the whole state. */
+uint64_t world_hash(const world *w);
+/* dst's state becomes src's; dst must have the same solids. */
+fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error);
+/* The first differing table, field and row of two states, as text; false when they are equal. */
+bool world_difference(const world *a, const world *b, char text[200]);
+
+#endif
