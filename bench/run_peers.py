@@ -146,7 +146,8 @@ def measure_speed(options):
             ("repeat", "dt", "iterations", "warm", "time", "solver")}, "scenes": scenes}
 
 
-HEAD = ("| program | ms a step | us per floe | Fram is faster by | collide | solve | forces | points | pairs | ship kN |"
+HEAD = ("| program | ms a step | us per floe | Fram is faster by | collide | solve | forces | points | pairs |"
+        " ship kN |"
         " overlap mean mm | p99 mm | largest mm |")
 
 
@@ -156,9 +157,11 @@ def print_scene(scene, file):
     print("|" + "---|" * 13, file=file)
     for name, r in scene["programs"].items():
         p = r["penetration"]
-        print(f"| {name} | {r['ms']:.3f} | {r['us_per_floe']:.3f} | {r['fram_is_faster_by']:.2f} | {r['collide_ms']:.3f} |"
+        print(f"| {name} | {r['ms']:.3f} | {r['us_per_floe']:.3f} | {r['fram_is_faster_by']:.2f} |"
+              f" {r['collide_ms']:.3f} |"
               f" {r['solve_ms']:.3f} | {r['forces_ms']:.3f} | {r['contact_points']:.0f} | {r['pairs']:.0f} |"
-              f" {r['ship_force_kN']:.0f} | {1e3 * p['mean_m']:.3f} | {1e3 * p['p99_m']:.2f} | {1e3 * p['max_m']:.2f} |",
+              f" {r['ship_force_kN']:.0f} | {1e3 * p['mean_m']:.3f} | {1e3 * p['p99_m']:.2f} |"
+              f" {1e3 * p['max_m']:.2f} |",
               file=file, flush=True)
 
 
@@ -169,7 +172,8 @@ def write_report(result, base):
     with open(base.with_suffix(".md"), "w", encoding="utf-8") as file:
         m, o = result["machine"], result["options"]
         print(f"# Fram beside Bullet and ODE, {m['date']}\n", file=file)
-        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}.", file=file)
+        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}.",
+              file=file)
         print(f"One thread on one core; median of {o['repeat']} interleaved runs; time step {o['dt']} s,"
               f" {o['iterations']} iterations, {o['time']} s of which {o['warm']} s unmeasured;"
               f" Fram's solver: {o['solver']}.", file=file)
@@ -186,7 +190,8 @@ def measure_threads(options):
             one = run_fram(options, scene, "0,1")["ms_wall_median"]
             two = run_fram(options, scene, "0,1", "--threads", 2)["ms_wall_median"]
             words = [str(w) for w in ("taskset", "-c", 0, options.fram, "bench", "--scene", scene, "--dt", options.dt,
-                                      "--iterations", options.iterations, "--time", options.time, "--warm", options.warm,
+                                      "--iterations", options.iterations, "--time", options.time,
+                                      "--warm", options.warm,
                                       "--solver", options.solver, "--json", "--quiet")]
             both = [subprocess.Popen(words[:2] + [str(k)] + words[3:], stdout=subprocess.PIPE, text=True)
                     for k in (0, 1)]
