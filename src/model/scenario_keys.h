@@ -80,9 +80,9 @@
     X(station, SECTION(station), "", "what counts as being on station")
 
 #define SCENARIO_HULL_KEYS(X)                                                                                      \
-    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file"), "",                                         \
+    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file cone"), "",                                    \
       "box; icebreaker: wedge bow, flared midbody and raked stern; file: a mesh, which has its own length, beam, " \
-      "draught and angles")                                                                                        \
+      "draught and angles; cone: inverted, of 24 facets, length and beam its diameter, sides at the flare angle")  \
     X(file, PATH(""), "",                                                                                          \
       "form file: mesh (STL, OBJ, GDF) in ship coordinates, x forward, z = 0 in the design waterline")             \
     X(file_scale, REAL(1, 1e-6, 1e6), "1", "form file: lengths of the file times this are metres")                 \

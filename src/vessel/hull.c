@@ -2,6 +2,7 @@
 #include "vessel/hull.h"
 
 #include "base/transcendental.h"
+#include "vessel/hull_cone.h"
 
 /* Two faces this far apart, relative to the length, are one face of the convex piece. */
 #define FACE_TOLERANCE 1e-9
@@ -202,7 +203,7 @@ static fram_status check_parallel(const hull_particulars *p, const hull_lines *l
 static fram_status check_block(const hull_particulars *p, fram_error *error)
 {
     double least, most, asked = p->block_coefficient, slack = LEAST_BILGE * LEAST_BILGE;
-    if (asked == 0 || p->form == HULL_MESH)
+    if (asked == 0 || p->form == HULL_MESH || p->form == HULL_CONE)
         return FRAM_OK;
     hull_block_range(p, &least, &most);
     if (asked >= least - slack && asked <= most + slack)
@@ -220,6 +221,8 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
     fram_status status = check_lengths(p, error);
     if (status == FRAM_OK && p->form == HULL_BOX)
         status = check_block(p, error);
+    else if (status == FRAM_OK && p->form == HULL_CONE)
+        status = hull_cone_check(p, error);
     if (status != FRAM_OK || p->form != HULL_ICEBREAKER)
         return status;
     status = check_angles(p, error);
@@ -306,8 +309,10 @@ fram_status hull_make(context *ctx, const hull_particulars *p, mesh *surface, po
     if (p->form == HULL_MESH)
         return error_set(
             error, FRAM_ERROR_INPUT, NULL, 0, "form",
-            "a hull of form mesh comes from a mesh file; only box and icebreaker are made from particulars");
-    bool made = p->form == HULL_BOX ? make_box(ctx, p, surface) : make_icebreaker(ctx, p, surface);
+            "a hull of form mesh comes from a mesh file; box, icebreaker and cone are made from particulars");
+    bool made = p->form == HULL_BOX    ? make_box(ctx, p, surface)
+                : p->form == HULL_CONE ? hull_cone_make(ctx, p, surface)
+                                       : make_icebreaker(ctx, p, surface);
     polyhedron piece = {0};
     status = made ? polyhedron_hull(ctx, surface->vertex.data, surface->vertex.count, FACE_TOLERANCE * p->length,
                                     &piece, error)
@@ -351,7 +356,7 @@ hull_zones hull_zones_of(const hull_particulars *p)
         hull_lines lines = lines_of(p);
         bow = lines.entrance * lines.half_beam;
         stern = lines.run * lines.half_beam;
-    } else if (p->form == HULL_MESH) {
+    } else if (p->form == HULL_MESH || p->form == HULL_CONE) {
         bow = stern = p->length / 5;
     }
     double end = 0.5 * p->length, fore = p->midships + end - fmax(bow, least);

@@ -5,7 +5,7 @@
 
 #include "geometry/polyhedron.h"
 
-typedef enum hull_form { HULL_BOX = 0, HULL_ICEBREAKER, HULL_MESH } hull_form;
+typedef enum hull_form { HULL_BOX = 0, HULL_ICEBREAKER, HULL_MESH, HULL_CONE } hull_form;
 
 /* Main particulars. */
 typedef struct hull_particulars {
@@ -80,7 +80,7 @@ typedef struct hull_zones {
     double bottom;   /* bottom: z < bottom, whatever x */
 } hull_zones;
 /* Bow: the waterline's entrance, at least L/20.  Shoulder: the next L/10.  Stern: the run, at least L/20.  Bottom: the
-   lowest twentieth of the draught.  Entrance and run of HULL_MESH count as L/5. */
+   lowest twentieth of the draught.  Entrance and run of HULL_MESH and HULL_CONE count as L/5. */
 hull_zones hull_zones_of(const hull_particulars *p);
 hull_zone hull_zone_at(const hull_zones *zones, vec3 point);
 
