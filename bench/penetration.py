@@ -3,9 +3,9 @@
 
   bench/penetration.py SCENE POSES.csv       one JSON line: pairs, mean_m, p99_m, max_m, sum_per_floe_m
 
-Plan view: every outline turned by its body's orientation and dropped on the plane.  Depth of a pair: the least overlap
-over the edge normals of both (separating axis test); of a floe and a wall: how far it reaches beyond it.  Only overlaps
-count; touching within 1e-9 m is none.
+Depth of a pair: the least overlap over the sides, tops and bottoms of both prisms (separating axis test), so that a floe
+that was pushed under another is not taken for one inside it; of level floes it is the overlap of their outlines.  Of a
+floe and a wall: how far it reaches beyond it.  Only overlaps count; touching within 1e-9 m is none.
 """
 
 import collections
@@ -18,46 +18,63 @@ TOUCHING = 1e-9
 
 
 def read_scene(path):
-    outlines, walls = [], None
+    """Floes as (thickness, outline), and the walls."""
+    floes, walls = [], None
     with open(path, encoding="utf-8") as lines:
         for line in lines:
             word = line.split()
             if word and word[0] == "floe":
                 v = [float(x) for x in word[6:]]
-                outlines.append(list(zip(v[0::2], v[1::2])))
+                floes.append((float(word[1]), list(zip(v[0::2], v[1::2]))))
             elif word and word[0] == "domain":
                 walls = [float(x) for x in word[1:5]]
-    return outlines, walls
+    return floes, walls
 
 
-def place(outline, row):
-    """The outline of a floe in the global plan view."""
-    x, y, z, w = (float(row[k]) for k in ("qx", "qy", "qz", "qw"))
-    a, b = 1 - 2 * (y * y + z * z), 2 * (x * y - w * z)
-    c, d = 2 * (x * y + w * z), 1 - 2 * (x * x + z * z)
-    px, py = float(row["x"]), float(row["y"])
-    return [(px + a * u + b * v, py + c * u + d * v) for u, v in outline]
+class Prism:
+    """A placed floe: its corners, and for each of its faces the outward normal and its offset."""
+
+    def __init__(self, floe, row):
+        thickness, outline = floe
+        x, y, z, w = (float(row[k]) for k in ("qx", "qy", "qz", "qw"))
+        turn = ((1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+                (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+                (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)))
+        centre = [float(row[k]) for k in ("x", "y", "z")]
+
+        def turned(u, v, h):
+            return tuple(r[0] * u + r[1] * v + r[2] * h for r in turn)
+
+        half = thickness / 2
+        self.corners = [tuple(c + p for c, p in zip(centre, turned(u, v, h))) for u, v in outline for h in (-half, half)]
+        self.box = (min(c[0] for c in self.corners), min(c[1] for c in self.corners),
+                    max(c[0] for c in self.corners), max(c[1] for c in self.corners))
+        self.faces = []
+        for i, (u, v) in enumerate(outline):
+            du, dv = u - outline[i - 1][0], v - outline[i - 1][1]
+            length = math.hypot(du, dv)
+            if length > 0:
+                self.add_face(turned(dv / length, -du / length, 0), self.corners[2 * i])
+        self.add_face(turned(0, 0, 1), self.corners[1])
+        self.add_face(turned(0, 0, -1), self.corners[0])
+
+    def add_face(self, normal, point):
+        self.faces.append((*normal, sum(n * p for n, p in zip(normal, point))))
 
 
-def gap_beyond(p, q, least):
-    """Least overlap of q along the normals of p's edges, or None when some normal parts them."""
-    for i, (x, y) in enumerate(p):
-        ex, ey = p[i - 1]
-        nx, ny = y - ey, ex - x  # outward for counter-clockwise outlines: the edge runs from i - 1 to i
-        length = math.hypot(nx, ny)
-        if length == 0:
-            continue
-        depth = (nx * x + ny * y - min(nx * u + ny * v for u, v in q)) / length
+def least_overlap(p, q, least):
+    """Least overlap of q behind the faces of p, 0 when one of them parts the two."""
+    for nx, ny, nz, offset in p.faces:
+        depth = offset - min(nx * x + ny * y + nz * z for x, y, z in q.corners)
         if depth <= TOUCHING:
-            return None
+            return 0.0
         least = min(least, depth)
     return least
 
 
 def pair_depth(p, q):
-    least = gap_beyond(p, q, math.inf)
-    least = least and gap_beyond(q, p, least)
-    return least or 0.0
+    least = least_overlap(p, q, math.inf)
+    return least and least_overlap(q, p, least)
 
 
 def near_pairs(boxes):
@@ -76,16 +93,15 @@ def near_pairs(boxes):
 
 
 def depths(scene, poses):
-    outlines, walls = read_scene(scene)
+    floes, walls = read_scene(scene)
     with open(poses, encoding="utf-8", newline="") as lines:
-        rows = list(csv.DictReader(lines))
-    plans = [place(outlines[int(row["id"])], row) for row in rows]
-    boxes = [(min(x for x, _ in p), min(y for _, y in p), max(x for x, _ in p), max(y for _, y in p)) for p in plans]
-    found = [pair_depth(plans[i], plans[j]) for i, j in near_pairs(boxes)]
+        placed = [Prism(floes[int(row["id"])], row) for row in csv.DictReader(lines)]
+    boxes = [p.box for p in placed]
+    found = [pair_depth(placed[i], placed[j]) for i, j in near_pairs(boxes)]
     if walls:
         for b in boxes:
             found += [walls[0] - b[0], walls[1] - b[1], b[2] - walls[2], b[3] - walls[3]]
-    return sorted(d for d in found if d > TOUCHING), len(plans)
+    return sorted(d for d in found if d > TOUCHING), len(placed)
 
 
 def measure(scene, poses):

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# fram bench --scene: the same state for every thread count, instruction set and choice of the C library's own functions;
+# the numbers that benchmarks read; refusals.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+value() { python3 -c 'import json, sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"; }
+
+scene=$scratch/small.scene
+python3 "$FRAM_SOURCE/bench/peers/gen_scene.py" --n 150 --coverage 0.9 --current 0.3 0 --seed 3 -o "$scene" >/dev/null
+steps=${FRAM_TEST_SHORT:+5.2}
+bench() { "$FRAM" bench --scene "$scene" --warm 5 --time "${steps:-8}" --json --quiet "$@"; }
+
+bench >"$scratch/plain"
+hash=$(value state_hash <"$scratch/plain")
+for key in ms_per_step_median ms_wall_median us_per_floe_step contact_points pairs mean_penetration_m max_penetration_m \
+    ship_force_kN kinetic_energy_J collide_ms solve_ms forces_ms; do
+    value $key <"$scratch/plain" >/dev/null || fail "no $key in the answer"
+done
+[ "$(value floes <"$scratch/plain")" = 150 ] || fail "wrong number of floes"
+
+same() {
+    [ "$1" = "$hash" ] || fail "$2: state $1 instead of $hash"
+}
+for threads in 2 3 4 8; do
+    same "$(bench --threads $threads | value state_hash)" "$threads threads"
+done
+for isa in baseline avx2 avx512; do
+    if answer=$(bench --isa $isa 2>/dev/null); then
+        same "$(value state_hash <<<"$answer")" "--isa $isa"
+    fi
+done
+tunables=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable,-AVX512F
+same "$(GLIBC_TUNABLES=$tunables bench | value state_hash)" "$tunables"
+
+# Poses, and how deep they overlap.
+bench --dump "$scratch/poses.csv" >/dev/null
+[ "$(wc -l <"$scratch/poses.csv")" = 151 ] || fail "the poses have not one line a floe"
+python3 "$FRAM_SOURCE/bench/penetration.py" "$scene" "$scratch/poses.csv" | value max_m >"$scratch/overlap"
+python3 -c 'import sys; sys.exit(not 0 <= float(open(sys.argv[1]).read()) < 0.5)' "$scratch/overlap" ||
+    fail "overlap of $(cat "$scratch/overlap") m"
+
+refuses() {
+    local words=$1 code=0
+    shift
+    "$FRAM" bench "$@" >/dev/null 2>"$scratch/err" || code=$?
+    [ $code = 2 ] || fail "exit code $code instead of 2: $*"
+    grep -q -- "$words" "$scratch/err" || fail "'$(cat "$scratch/err")' lacks '$words'"
+}
+refuses "SCENARIO"
+refuses "not both" scenes/demo.yaml --scene "$scene"
+refuses "--dump" scenes/demo.yaml --dump x.csv
+refuses "is for scenarios" --scene "$scene" --set a=b
+refuses "solver" --scene "$scene" --solver best
+refuses "iterations" --scene "$scene" --iterations 0
+refuses "warm" --scene "$scene" --warm 5 --time 5
+printf 'icescene 1\nfloe 1 2\n' >"$scratch/bad.scene"
+refuses "bad.scene:2" --scene "$scratch/bad.scene"
+
+[ $failures = 0 ] && echo "fram bench --scene: as it should be"
+exit $failures
