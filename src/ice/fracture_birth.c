@@ -156,7 +156,7 @@ fram_status fracture_birth(context *ctx, fracture_scratch *s, const fracture_set
     *broke = false;
     if (!gather(&b, remnants, (motion)b.from.motion) || !gather(&b, wedges, MOTION_DYNAMIC))
         return error_memory(error);
-    fram_status status = fracture_join_dust(ctx, s, plane, settings->smallest_floe_area, error);
+    fram_status status = fracture_join_dust(ctx, s, settings, plane, error);
     double smallest = settings->smallest_floe_area, parent_area = state->floes->area[floe];
     double budget = MOST_BOOKED * parent_area - dust_of(&b);
     if (status != FRAM_OK || s->cut.count < 2 || budget < 0)

@@ -114,11 +114,30 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
     return FRAM_OK;
 }
 
-fram_status fracture_join_dust(context *ctx, fracture_scratch *s, overlay *plane, double smallest, fram_error *error)
+/* Too small, or so narrow that cleaning would leave less than half of it. */
+static fram_status judge(context *ctx, fracture_scratch *s, const fracture_settings *settings, int32_t i, bool *dust,
+                         fram_error *error)
+{
+    double area = s->cut.data[i].area;
+    *dust = area < settings->smallest_floe_area;
+    if (*dust)
+        return FRAM_OK;
+    if (!polygon_clean(ctx, polygon_list_get(&s->outlines, s->cut.data[i].ring), settings->edge_threshold, &s->clean))
+        return error_memory(error);
+    double left = s->clean.count < 3 ? 0 : polygon_area((polygon){s->clean.data, s->clean.count});
+    *dust = left < fmax(settings->smallest_floe_area, area / 2);
+    return FRAM_OK;
+}
+
+fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
+                               fram_error *error)
 {
     for (int32_t i = 0; i < s->cut.count;) {
         int32_t to = -1;
-        fram_status status = s->cut.data[i].area < smallest ? join(ctx, s, plane, i, &to, error) : FRAM_OK;
+        bool dust;
+        fram_status status = judge(ctx, s, settings, i, &dust, error);
+        if (status == FRAM_OK && dust)
+            status = join(ctx, s, plane, i, &to, error);
         if (status != FRAM_OK)
             return status;
         if (to < 0) {

@@ -74,9 +74,10 @@ fram_status fracture_bend(context *ctx, overlay *plane, const fracture_settings 
 /* Simple, and by so much that rounding in a shift of the origin does not spoil it. */
 bool fracture_outline_is_sound(context *ctx, polygon p);
 
-/* Pieces under the smallest area are joined to the neighbour that they share the most boundary with, so that no ice is
-   lost; those without one stay.  Pieces keep their order. */
-fram_status fracture_join_dust(context *ctx, fracture_scratch *s, overlay *plane, double smallest, fram_error *error);
+/* Pieces that are too small or too narrow to be floes are joined to the neighbour that they share the most boundary
+   with, so that no ice is lost; those without one stay.  Pieces keep their order. */
+fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
+                               fram_error *error);
 
 /* The parent goes; cleaned remnants and wedges become floes, and the event's books are filled in.  *broke is false, and
    nothing has changed, when the pieces are too small to part, or so small that more than the booked area of SPEC 8.8

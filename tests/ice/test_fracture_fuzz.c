@@ -165,7 +165,7 @@ static void check_momentum(body_books before, body_books after, const fracture_e
     if (cleaned || e->area_lost + e->area_gained > 1e-12 * e->parent_area)
         return;
     double p = vec3_length(vec3_sub(after.momentum, before.momentum));
-    ck_assert_msg(p <= 1e-10 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
+    ck_assert_msg(p <= 1e-9 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
     double h = vec3_length(vec3_sub(after.angular_momentum, before.angular_momentum));
     ck_assert_msg(h <= 1e-9 * (vec3_length(before.angular_momentum) + mass * speed),
                   "angular momentum changes by %g of %g", h, vec3_length(before.angular_momentum));

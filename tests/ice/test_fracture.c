@@ -1,0 +1,545 @@
+/* Fracture of single floes: criteria, cracks, splits, stencils, new floes. */
+#include "fracture_rig.h"
+
+static int32_t plate(fracture_rig *r, double length, double width, motion kind)
+{
+    double x = length / 2, y = width / 2;
+    const vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind);
+    ck_assert_int_ge(row, 0);
+    return row;
+}
+
+static int32_t first_floe(const fracture_rig *r)
+{
+    for (int32_t i = 0; i < r->floes.count; i++)
+        if (r->floes.body[i] >= 0)
+            return i;
+    return -1;
+}
+
+/* ---- formulas ---- */
+
+START_TEST(loaded_radius)
+{
+    assert_relative(fracture_loaded_radius(2, PI / 2, 1, false), sqrt(4 / PI), 1e-15);
+    assert_relative(fracture_loaded_radius(0, PI / 2, 2, true), 0.65, 1e-15);
+    /* Westergaard's radius meets the plain one at 1.724 h. */
+    double a = 1.7239, area = a * a * PI / 2;
+    assert_relative(fracture_loaded_radius(area, PI / 2, 1, true), fracture_loaded_radius(area, PI / 2, 1, false),
+                    2e-4);
+    assert_relative(fracture_loaded_radius(4 * area, PI / 2, 1, true), 2 * a, 1e-14);
+}
+END_TEST
+
+/* Oracles, section 1: N = 3, a/l = 0.1. */
+START_TEST(wedge_capacity)
+{
+    fracture_settings s = fracture_rig_settings();
+    s.thick_plate_radius = false;
+    double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81);
+    double area = 0.01 * l * l * 3 * fracture_wedge_width(3) / 2;
+    edge_stress e = fracture_edge_stress(&s, &FRACTURE_RIG_ICE, 1, 1e5, area);
+    assert_absolute(e.length, 14.6079, 5e-5);
+    assert_relative(e.wedge_radius, 0.1 * l, 1e-14);
+    assert_absolute(e.wedge_capacity / 0.5e6, 0.7248, 5e-5);
+    assert_absolute(e.breaking_radius, 7.47, 5e-3);
+    assert_relative(e.wedge_stress / 0.5e6, 1e5 / e.wedge_capacity, 1e-14);
+    assert_relative(e.radial_stress / 0.5e6, 1e5 / e.radial_capacity, 1e-14);
+    ck_assert(e.radial_capacity < e.wedge_capacity);
+}
+END_TEST
+
+START_TEST(splitting_force)
+{
+    assert_relative(fracture_splitting_force(1, 150e3, 50, 50), 0.1869 * 150e3 * sqrt(50), 1e-14);
+    assert_absolute(fracture_splitting_force(1, 150e3, 50, 50), 198e3, 500);
+    assert_relative(fracture_splitting_force(2, 150e3, 50, 10), 2 * 0.1334 * 150e3 * sqrt(50), 1e-14);
+    assert_relative(fracture_splitting_force(1, 150e3, 50, 75), 0.1987 * 150e3 * sqrt(50), 1e-14);
+    assert_relative(fracture_splitting_force(1, 150e3, 50, 500), 0.2107 * 150e3 * sqrt(50), 1e-14);
+}
+END_TEST
+
+/* ---- thresholds ---- */
+
+START_TEST(strong_enough)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+    edge_stress e = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5);
+    ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, 0.9999 * e.wedge_capacity, 0.5));
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    ck_assert_int_eq(fracture_rig_count(&r), 1);
+    ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, 1.0001 * e.wedge_capacity, 0.5));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    ck_assert_int_eq(r.events.data[0].kind, FRACTURE_BENDING);
+    assert_relative(r.events.data[0].stress_ratio, 1.0001, 1e-12);
+    assert_relative(r.events.data[0].crack_length, e.breaking_radius, 1e-12);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+START_TEST(unbreakable)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+    r.floes.breakable[row] = 0;
+    ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, 1e8, 0.5));
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- splitting ---- */
+
+/* R_bending is about 5 m on this area: a crack of 10 m runs through, one of 4 m or 20 m does not. */
+static const double AREA = 0.5;
+
+START_TEST(split_in_two)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 20, 10, MOTION_DYNAMIC);
+    double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA).breaking_radius;
+    ck_assert(radius > 10 / 3.0 && radius < 10);
+    ck_assert(fracture_rig_load(&r, row, (vec2){2, -4.9}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    const fracture_event *e = &r.events.data[0];
+    ck_assert_int_eq(e->kind, FRACTURE_SPLIT);
+    ck_assert_int_eq(e->pieces, 2);
+    ck_assert_int_eq(e->first_piece, 1);
+    ck_assert_int_eq(e->floe, 0);
+    assert_relative(e->crack_length, 10, 1e-14);
+    assert_relative(e->load, 1e7, 1e-12);
+    assert_vec3_close(e->place, ((vec3){2, -5, 0}), 1e-12);
+    ck_assert_int_eq(fracture_rig_count(&r), 2);
+    double areas[2];
+    int n = 0;
+    for (int32_t i = 0; i < r.floes.count; i++)
+        if (r.floes.body[i] >= 0)
+            areas[n++] = r.floes.area[i];
+    assert_relative(fmin(areas[0], areas[1]), 80, 1e-13);
+    assert_relative(fmax(areas[0], areas[1]), 120, 1e-13);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+START_TEST(no_split)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA).breaking_radius;
+    /* Too long, too short, S_k = 1, switched off. */
+    const double width[4] = {3.01 * radius, 0.99 * radius, 2 * radius, 2 * radius};
+    for (int i = 0; i < 4; i++) {
+        r.settings.splitting_factor = i == 2 ? 1 : 3;
+        r.settings.splitting = i == 3 ? SPLITTING_NONE : SPLITTING_LENGTH;
+        int32_t row = plate(&r, 2 * width[i], width[i], MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){0.5, -width[i] / 2}, 1e7, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        ck_assert_int_eq(r.events.data[0].kind, FRACTURE_BENDING);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* A child of 2 x 10 m is narrower than R_size = 4; the floe bends instead.  With R_size = 5.1 it splits. */
+START_TEST(narrow_child)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    for (int turn = 0; turn < 2; turn++) {
+        r.settings.narrowness = turn ? 5.1 : 4;
+        int32_t row = plate(&r, 30, 10, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){13, -5}, 1e7, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        ck_assert_int_eq(r.events.data[0].kind, turn ? FRACTURE_SPLIT : FRACTURE_BENDING);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* Two arms beyond a slot: the crack ends at the slot, the first boundary that it meets. */
+START_TEST(concave_shortest_crack)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    const vec2 slotted[8] = {{-15, -10}, {15, -10}, {15, 20}, {12, 20}, {12, 0}, {-12, 0}, {-12, 20}, {-15, 20}};
+    int32_t row = fracture_rig_floe(&r, (polygon){slotted, 8}, 1, MOTION_DYNAMIC);
+    vec3 centre = r.bodies.position[r.floes.body[row]];
+    ck_assert(fracture_rig_load(&r, row, (vec2){1 - centre.x, -10 - centre.y}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    ck_assert_int_eq(r.events.data[0].kind, FRACTURE_SPLIT);
+    assert_relative(r.events.data[0].crack_length, 10, 1e-12);
+    assert_absolute(fracture_rig_area(&r), 900 - 24 * 20, 1e-9);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* At a corner the crack runs along the mean of the normals: the diagonal of a square, whose halves are triangles. */
+START_TEST(crack_from_a_corner)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 8, 8, MOTION_DYNAMIC);
+    ck_assert(fracture_rig_load(&r, row, (vec2){-4.1, -4.2}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    ck_assert_int_eq(r.events.data[0].kind, FRACTURE_SPLIT);
+    assert_relative(r.events.data[0].crack_length, 8 * sqrt(2), 1e-13);
+    for (int32_t i = 0; i < r.floes.count; i++) {
+        if (r.floes.body[i] < 0)
+            continue;
+        ck_assert_int_eq(fracture_rig_outline(&r, i).count, 3);
+        assert_relative(r.floes.area[i], 32, 1e-13);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* The option: the crack runs when the load in the plane is what fracture mechanics asks for. */
+START_TEST(split_by_toughness)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_TOUGHNESS;
+    double needed = fracture_splitting_force(1, 150e3, 50, 50);
+    for (int turn = 0; turn < 2; turn++) {
+        int32_t row = plate(&r, 50, 50, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){0, -25}, 1e6, AREA));
+        /* Friction brings the load in the plane. */
+        r.contacts.data[0].impulse[1] = (turn ? 1.001 : 0.999) * needed * r.settings.time_step;
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        ck_assert_int_eq(r.events.data[0].kind, turn ? FRACTURE_SPLIT : FRACTURE_BENDING);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* Oracles, section 6: a floe at 20 deg tilt, spinning, split in two: corners, momenta and energy stay. */
+START_TEST(split_while_spinning)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 20, 10, MOTION_DYNAMIC), body = r.floes.body[row];
+    r.bodies.position[body] = (vec3){100, -50, 0.3};
+    r.bodies.orientation[body] = quat_from_roll_pitch_yaw(radians(20), 0, 0.5);
+    r.bodies.velocity[body] = (vec3){1, -2, 0.3};
+    r.bodies.angular_velocity[body] = (vec3){0.2, -0.1, 0.7};
+    vec3 corner[4];
+    for (int i = 0; i < 4; i++)
+        corner[i] = body_to_global(&r.bodies, body, (vec3){i & 1 ? 10 : -10, i & 2 ? 5 : -5, 0.5});
+    body_books before = body_books_of(&r.bodies);
+    ck_assert(fracture_rig_load(&r, row, (vec2){0, -5}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    ck_assert_int_eq(fracture_rig_count(&r), 2);
+    body_books after = body_books_of(&r.bodies);
+    assert_relative(after.mass, before.mass, 1e-13);
+    assert_relative(after.kinetic_energy, before.kinetic_energy, 1e-12);
+    assert_vec3_close(after.momentum, before.momentum, 1e-12 * vec3_length(before.momentum));
+    assert_vec3_close(after.angular_momentum, before.angular_momentum, 1e-12 * vec3_length(before.angular_momentum));
+    for (int i = 0; i < 4; i++) {
+        double nearest = HUGE_VAL;
+        for (int32_t f = 0; f < r.floes.count; f++) {
+            polygon p = fracture_rig_outline(&r, f);
+            for (int32_t k = 0; k < p.count; k++) {
+                vec3 v = body_to_global(&r.bodies, r.floes.body[f], (vec3){p.vertex[k].x, p.vertex[k].y, 0.5});
+                nearest = fmin(nearest, vec3_length(vec3_sub(v, corner[i])));
+            }
+        }
+        assert_absolute(nearest, 0, 1e-12);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- bending ---- */
+
+/* A straight edge and N = 3: wedges of 30, 60, 60 and 30 degrees, and one remnant (oracles, section 1); for other N
+   the angles there too. */
+START_TEST(wedge_angles)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.edge_threshold = 0;
+    static const int pieces[] = {2, 4, 4, 6};
+    for (int n = 2; n <= 5; n++) {
+        r.settings.wedges = n;
+        int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){0, -50}, 1e7, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        const fracture_event *e = &r.events.data[0];
+        ck_assert_int_eq(e->pieces, pieces[n - 2] + 1);
+        double radius = e->crack_length, step = PI / n, half = PI / 2 - step * floor(n / 2.0 + 1e-9);
+        double area = 2 * (floor(n / 2.0 + 1e-9)) * 0.5 * radius * radius * real_sin(step);
+        /* The wedge at the edge: its chord runs on to the next corner of the stencil. */
+        if (half > 1e-9) {
+            double chord = real_cos(step / 2) / real_cos(step / 2 - half);
+            area += 2 * 0.5 * radius * radius * chord * real_sin(half);
+        }
+        double cut = 0;
+        for (int32_t i = 0; i < r.floes.count; i++)
+            if (r.floes.body[i] >= 0 && r.floes.area[i] < 5000)
+                cut += r.floes.area[i];
+        assert_relative(cut, area, 1e-9);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* Smaller than R_bending: no remnant is left, only sectors. */
+START_TEST(floe_smaller_than_the_stencil)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    for (int room = 0; room < 2; room++) {
+        r.settings.wedge_room = room;
+        int32_t row = plate(&r, 4, 3, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){0, -1.5}, 1e7, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), room ? 0 : 1);
+        if (!room) {
+            ck_assert_int_eq(r.events.data[0].pieces, 4);
+            assert_absolute(fracture_rig_area(&r), 12, 12e-3);
+        }
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+START_TEST(level_ice_stays)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 100, 100, MOTION_STATIC);
+    ck_assert(fracture_rig_load(&r, row, (vec2){0, -50}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    for (int32_t i = 0; i < r.floes.count; i++) {
+        int32_t body = r.floes.body[i];
+        ck_assert_int_eq(r.bodies.motion[body], r.floes.area[i] > 5000 ? MOTION_STATIC : MOTION_DYNAMIC);
+        assert_vec3_close(r.bodies.velocity[body], ((vec3){0, 0, 0}), 0);
+        ck_assert_int_eq(r.floes.breakable[i], 1);
+        assert_bits(r.floes.thickness[i], 1);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- several patches ---- */
+
+/* Far apart: both cut in the same event.  At the same place: the second start is gone. */
+START_TEST(several_patches)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    for (int turn = 0; turn < 2; turn++) {
+        int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){-20, -50}, 1e7, AREA));
+        ck_assert(fracture_rig_load(&r, row, (vec2){turn ? -19 : 20, -50}, 0.9e7, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        ck_assert_int_eq(r.events.data[0].pieces, turn ? 5 : 9);
+        assert_vec3_close(r.events.data[0].place, ((vec3){-20, -50, 0}), 1e-12);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* Overlapping stencils: wedges of the second are cut from what the first left. */
+START_TEST(overlapping_patches)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+    ck_assert(fracture_rig_load(&r, row, (vec2){-3, -50}, 1e7, AREA));
+    ck_assert(fracture_rig_load(&r, row, (vec2){3, -50}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    const fracture_event *e = &r.events.data[0];
+    assert_vec3_close(e->place, ((vec3){-3, -50, 0}), 1e-12); /* a tie: the lower patch */
+    ck_assert_int_gt(e->pieces, 5);
+    assert_absolute(fracture_rig_area(&r), 1e4, 10);
+    assert_absolute(e->piece_area + e->area_lost - e->area_gained, 1e4, 1e-8);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* The order of patches in the list does not matter where their stresses differ. */
+START_TEST(order_of_patches)
+{
+    double area[2][64];
+    int count[2];
+    for (int turn = 0; turn < 2; turn++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
+        for (int k = 0; k < 3; k++) {
+            int i = turn ? 2 - k : k;
+            ck_assert(fracture_rig_load(&r, row, (vec2){5.0 * i - 5, -50}, 1e7 + 1e6 * i, AREA));
+        }
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        count[turn] = 0;
+        for (int32_t i = 0; i < r.floes.count && count[turn] < 64; i++)
+            if (r.floes.body[i] >= 0)
+                area[turn][count[turn]++] = r.floes.area[i];
+        fracture_rig_free(&r);
+    }
+    ck_assert_int_eq(count[0], count[1]);
+    assert_array_bits(area[1], area[0], count[0]);
+}
+END_TEST
+
+/* Floes break in the order of their slots; the pieces take the lowest free ones. */
+START_TEST(several_floes)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t a = plate(&r, 20, 10, MOTION_DYNAMIC), b = plate(&r, 20, 10, MOTION_DYNAMIC);
+    int32_t slot = r.floes.body[a];
+    ck_assert(fracture_rig_load(&r, b, (vec2){0, -5}, 2e7, AREA));
+    ck_assert(fracture_rig_load(&r, a, (vec2){0, -5}, 1e7, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 2);
+    ck_assert_int_eq(r.events.data[0].floe, 0);
+    ck_assert_int_eq(r.events.data[1].floe, 1);
+    ck_assert_int_eq(r.events.data[0].first_piece, 2);
+    ck_assert_int_eq(r.events.data[1].first_piece, 4);
+    ck_assert_int_eq(r.floes.number[r.bodies.owner[slot]], 2);
+    ck_assert_int_eq(r.bodies.generation[slot], 2);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- contacts ---- */
+
+START_TEST(void_contacts)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    int32_t a = plate(&r, 20, 10, MOTION_DYNAMIC), b = plate(&r, 20, 10, MOTION_DYNAMIC);
+    ck_assert(fracture_rig_load(&r, a, (vec2){0, -5}, 1e7, AREA));
+    ck_assert(fracture_rig_load(&r, b, (vec2){0, -5}, 1, AREA));
+    contact between = {.a = r.floes.body[b], .b = r.floes.body[a], .correct = true, .patch = -1, .key = 102};
+    ck_assert(array_push(&r.ctx, &r.contacts, between));
+    ck_assert(table_resize(&r.ctx, &r.memory, &contact_memory_table_info, 4));
+    for (int i = 0; i < 4; i++) {
+        r.memory.key[i] = 100 + (uint64_t)i;
+        r.memory.impulse[i] = (vec3){i, 0, 0};
+    }
+    fram_error e = {0};
+    assert_ok(fracture_rig_try(&r, &e), e);
+    ck_assert_int_eq(r.events.count, 1);
+    ck_assert(!r.contacts.data[0].correct);
+    ck_assert(r.contacts.data[1].correct);
+    ck_assert(!r.contacts.data[2].correct);
+    ck_assert_int_eq(r.memory.count, 2);
+    ck_assert_uint_eq(r.memory.key[0], 101);
+    ck_assert_uint_eq(r.memory.key[1], 103);
+    assert_bits(r.memory.impulse[1].x, 3);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* Between floes only with the option, and then both may break. */
+START_TEST(under_ice_contacts)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    for (int option = 0; option < 2; option++) {
+        r.settings.under_ice_contacts = option;
+        int32_t a = plate(&r, 20, 10, MOTION_DYNAMIC), b = plate(&r, 20, 10, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, a, (vec2){0, -5}, 1e7, AREA));
+        r.contacts.data[0].b = r.patches.data[0].surface_body = r.floes.body[b];
+        ck_assert_int_eq(fracture_rig_break(&r), option ? 2 : 0);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- dust ---- */
+
+/* 600 bites along one side of one floe: edges, angles, areas and vertex counts stay bounded. */
+START_TEST(six_hundred_bites)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    int32_t row = plate(&r, 400, 300, MOTION_STATIC);
+    double lost = 0;
+    random_stream s = random_begin(5, 1, 0);
+    for (int bite = 0; bite < 600; bite++) {
+        polygon p = fracture_rig_outline(&r, row);
+        /* Always at the same part of the boundary, the way a ship comes back. */
+        vec2 place = {random_uniform(&s, -150, 150), -200};
+        ck_assert(fracture_rig_load(&r, row, place, 1e7, random_uniform(&s, 0.05, 2)));
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        lost += r.events.data[0].area_lost + r.events.data[0].area_gained;
+        int32_t largest = -1;
+        for (int32_t i = 0; i < r.floes.count; i++)
+            if (r.floes.body[i] >= 0 && (largest < 0 || r.floes.area[i] > r.floes.area[largest]))
+                largest = i;
+        for (int32_t i = 0; i < r.floes.count; i++) {
+            if (r.floes.body[i] < 0)
+                continue;
+            p = fracture_rig_outline(&r, i);
+            ck_assert(r.floes.area[i] >= r.settings.smallest_floe_area * (1 - 1e-12));
+            for (int32_t k = 0; k < p.count && p.count > 3; k++) {
+                vec2 e = vec2_sub(p.vertex[(k + 1) % p.count], p.vertex[k]);
+                ck_assert(vec2_length(e) >= r.settings.edge_threshold * (1 - 1e-9));
+            }
+            if (i != largest)
+                floe_remove(&r.bodies, &r.shapes, &r.floes, i);
+        }
+        row = largest;
+        ck_assert_int_eq(shape_compact(&r.ctx, &r.shapes), FRAM_OK);
+        ck_assert_int_lt(fracture_rig_outline(&r, row).count, 200);
+    }
+    ck_assert(lost < 0.005 * 400 * 300);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- memory ---- */
+
+START_TEST(memory_runs_out)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        fracture_rig r;
+        fram_error e = {0};
+        fram_status status = FRAM_ERROR_MEMORY;
+        bool good = fracture_rig_start(&r, failing_context(&memory, n));
+        const vec2 corner[4] = {{-20, -10}, {20, -10}, {20, 10}, {-20, 10}};
+        int32_t row = good ? fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_DYNAMIC) : -1;
+        if (row >= 0 && fracture_rig_load(&r, row, (vec2){0, -10}, 1e7, AREA))
+            status = fracture_rig_try(&r, &e);
+        fracture_rig_free(&r);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            assert_ok(status, e);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+START_TEST(nothing_to_do)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    ck_assert_int_eq(first_floe(&r), -1);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, strong_enough, unbreakable, split_in_two,
+          no_split, narrow_child, concave_shortest_crack, crack_from_a_corner, split_by_toughness, split_while_spinning,
+          wedge_angles, floe_smaller_than_the_stencil, level_ice_stays, several_patches, overlapping_patches,
+          order_of_patches, several_floes, void_contacts, under_ice_contacts, six_hundred_bites, memory_runs_out,
+          nothing_to_do)
