@@ -1,5 +1,43 @@
 #include "fluid/media.h"
 
+void media_history_free(context *ctx, media_history *h)
+{
+    memory_free(ctx, h->current.time);
+    memory_free(ctx, h->current.velocity);
+    memory_free(ctx, h->wind.time);
+    memory_free(ctx, h->wind.velocity);
+    *h = (media_history){0};
+}
+
+vec3 velocity_series_at(const velocity_series *s, double time)
+{
+    /* The last row that is not later: low, or the first one. */
+    int32_t low = 0, high = s->count;
+    while (high - low > 1) {
+        int32_t middle = low + (high - low) / 2;
+        if (s->time[middle] <= time)
+            low = middle;
+        else
+            high = middle;
+    }
+    if (low + 1 == s->count || time <= s->time[low])
+        return s->velocity[low];
+    double share = (time - s->time[low]) / (s->time[low + 1] - s->time[low]);
+    return vec3_mad(s->velocity[low], vec3_sub(s->velocity[low + 1], s->velocity[low]), share);
+}
+
+media media_at(const media *still, const media_history *history, double time)
+{
+    media m = *still;
+    if (history->current.count > 0)
+        m.current = velocity_series_at(&history->current, time);
+    if (history->wind.count > 0)
+        m.wind = velocity_series_at(&history->wind, time);
+    if (history->profile.count > 0)
+        m.profile = history->profile;
+    return m;
+}
+
 vec3 media_current(const media *m, double height)
 {
     const current_profile *p = &m->profile;

@@ -3,9 +3,8 @@
 #ifndef FLUID_MEDIA_H
 #define FLUID_MEDIA_H
 
+#include "base/context.h"
 #include "base/vec.h"
-
-#include <stdint.h>
 
 /* Most levels of a current that changes with depth. */
 enum { CURRENT_LEVELS = 16 };
@@ -17,6 +16,23 @@ typedef struct current_profile {
     vec3 velocity[CURRENT_LEVELS]; /* on top of the current at the surface [m/s] */
 } current_profile;
 
+/* A velocity that changes with time: its components are linear between rows, constant before the first and after the
+   last one. */
+typedef struct velocity_series {
+    int32_t count;  /* 0: none */
+    double *time;   /* ascending, different [s] */
+    vec3 *velocity; /* [m/s] */
+} velocity_series;
+
+/* What is known of the media beforehand, beyond what stays as it is. */
+typedef struct media_history {
+    velocity_series current, wind; /* in place of the constant ones */
+    current_profile profile;
+} media_history;
+
+void media_history_free(context *ctx, media_history *h);
+vec3 velocity_series_at(const velocity_series *s, double time);
+
 /* State of the media at one instant. Directions are velocities towards, global frame. */
 typedef struct media {
     double gravity;       /* [m/s2], down */
@@ -27,6 +43,8 @@ typedef struct media {
     current_profile profile;
 } media;
 
+/* The state at a time, `still` being what does not change. */
+media media_at(const media *still, const media_history *history, double time);
 /* Current at a height over still water (0 or less; above it, that of the surface) [m/s]. */
 vec3 media_current(const media *m, double height);
 

@@ -19,6 +19,8 @@ static fram_status find_columns(const char *path, const char *header, const char
         int32_t column = 0;
         for (const char *c = header;; c++, column++) {
             size_t length = strcspn(c, ",["), whole = strcspn(c, ",");
+            while (length > 0 && c[length - 1] == ' ')
+                length--;
             if (length == strlen(names[k]) && strncmp(c, names[k], length) == 0)
                 at[k] = column;
             c += whole;

@@ -111,6 +111,7 @@ void world_free(context *ctx, world *w)
     for (int t = 0; t < WORLD_TABLE_COUNT; t++)
         table_free(ctx, tables[t].table, tables[t].info);
     shape_store_free(ctx, &w->shapes);
+    media_history_free(ctx, &w->media);
     scratch_free(ctx, w);
     memset(w, 0, sizeof *w);
 }

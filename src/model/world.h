@@ -67,6 +67,9 @@ typedef struct world {
     station_table stations; /* row i belongs to vessel i */
     event_table events;
 
+    /* Not state, as solids are not: made from the scenario again on resume. */
+    media_history media;
+
     /* Scratch: written anew each step. */
     struct {
         ARRAY(wrench) loads;     /* one per body slot */

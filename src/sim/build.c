@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "sim/build_hull.h"
 #include "sim/build_ice.h"
+#include "sim/build_media.h"
 #include "sim/build_station.h"
 
 #include <string.h>
@@ -153,6 +154,8 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     if (status != FRAM_OK)
         return status;
     status = start_load_window(ctx, s, w, error);
+    if (status == FRAM_OK)
+        status = build_media(ctx, s, &w->media, error);
     made_hull hull = {0};
     if (status == FRAM_OK && s->vessel.present) {
         status = build_hull(ctx, s, w, &hull, error);
@@ -178,8 +181,9 @@ fram_status build_empty_world(context *ctx, const scenario *s, world *w, fram_er
     fram_status status = world_init(ctx, w, error);
     if (status != FRAM_OK)
         return status;
+    status = build_media(ctx, s, &w->media, error);
     made_hull hull;
-    if (s->vessel.present)
+    if (status == FRAM_OK && s->vessel.present)
         status = build_hull(ctx, s, w, &hull, error);
     if (status != FRAM_OK)
         world_free(ctx, w);

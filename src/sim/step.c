@@ -10,6 +10,7 @@ static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, 
 {
     int32_t slots = w->bodies.count;
     wrench *loads = w->scratch.loads.data;
+    media now;
     array_clear(&w->scratch.fluid);
     switch (s->forces) {
     case FORCES_NONE:
@@ -17,7 +18,8 @@ static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, 
     case FORCES_FLUID:
         if (!array_resize(ctx, &w->scratch.fluid, slots))
             return error_memory(error);
-        return fluid_apply(ctx, &s->media, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
+        now = media_at(&s->media, &w->media, w->clock.time[0]);
+        return fluid_apply(ctx, &now, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
     case FORCES_COLUMNS:
         if (!s->columns || s->columns->slots != slots)
             return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL,

@@ -1,0 +1,13 @@
+/* Current and wind that change, from the files that a scenario names. */
+#ifndef SIM_BUILD_MEDIA_H
+#define SIM_BUILD_MEDIA_H
+
+#include "model/scenario.h"
+#include "model/world.h"
+
+/* environment.current_file, wind_file: CSV with the columns time [s], x [m/s], y [m/s], at least one row, times
+   ascending; the velocity is along X and Y, towards.  environment.current_profile_file: columns depth [m], x, y; 1 to
+   CURRENT_LEVELS rows, depths from 0 on ascending.  FRAM_ERROR_INPUT with file, and line or what is wrong. */
+fram_status build_media(context *ctx, const scenario *s, media_history *out, fram_error *error);
+
+#endif
