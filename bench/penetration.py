@@ -3,8 +3,8 @@
 
   bench/penetration.py SCENE POSES.csv       one JSON line: pairs, mean_m, p99_m, max_m, sum_per_floe_m
 
-Depth of a pair: the least overlap over the sides, tops and bottoms of both prisms (separating axis test), so that a floe
-that was pushed under another is not taken for one inside it; of level floes it is the overlap of their outlines.  Of a
+Depth of a pair: the least overlap over the sides, tops and bottoms of both prisms (separating axis test), so that a
+floe pushed under another is not taken for one inside it; of level floes it is the overlap of their outlines.  Of a
 floe and a wall: how far it reaches beyond it.  Only overlaps count; touching within 1e-9 m is none.
 """
 
@@ -46,7 +46,8 @@ class Prism:
             return tuple(r[0] * u + r[1] * v + r[2] * h for r in turn)
 
         half = thickness / 2
-        self.corners = [tuple(c + p for c, p in zip(centre, turned(u, v, h))) for u, v in outline for h in (-half, half)]
+        self.corners = [tuple(c + p for c, p in zip(centre, turned(u, v, h)))
+                        for u, v in outline for h in (-half, half)]
         self.box = (min(c[0] for c in self.corners), min(c[1] for c in self.corners),
                     max(c[0] for c in self.corners), max(c[1] for c in self.corners))
         self.faces = []
