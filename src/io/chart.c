@@ -143,14 +143,34 @@ static void draw_legend(cairo_t *page, const chart *c, const frame *f)
     }
 }
 
-fram_status chart_write(context *ctx, const chart *c, const char *path, int width, int height, fram_error *error)
+/* Widen one axis so that both have the same scale, about the middle. */
+static void equalise(frame *f)
 {
-    cairo_t *page = NULL;
-    fram_status status = image_begin(width, height, &page, error);
-    if (status != FRAM_OK)
-        return status;
+    double across = (f->x1 - f->x0) / (f->right - f->left), upwards = (f->y1 - f->y0) / (f->bottom - f->top);
+    double scale = fmax(across, upwards);
+    double half_x = 0.5 * scale * (f->right - f->left), half_y = 0.5 * scale * (f->bottom - f->top);
+    double x = 0.5 * (f->x0 + f->x1), y = 0.5 * (f->y0 + f->y1);
+    f->x0 = x - half_x, f->x1 = x + half_x;
+    f->y0 = y - half_y, f->y1 = y + half_y;
+}
+
+/* A track turns back: it is drawn point by point. */
+static void draw_track(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
+{
+    image_set_colour(page, colour);
+    cairo_set_line_width(page, line->thick ? 2 : 1);
+    for (int32_t i = 0; i < line->count; i++)
+        if (isfinite(line->x[i]) && isfinite(line->y[i]))
+            cairo_line_to(page, to_px(f, line->x[i]), to_py(f, line->y[i]));
+    cairo_stroke(page);
+}
+
+void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)
+{
     frame f = {.left = 86, .right = width - 22, .top = 78, .bottom = height - 58};
     find_range(c, &f);
+    if (equal)
+        equalise(&f);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
     image_text(page, f.left, 28, 17, ALIGN_LEFT, true, c->title);
     image_text(page, f.left, 48, 12, ALIGN_LEFT, false, c->subtitle);
@@ -160,9 +180,18 @@ fram_status chart_write(context *ctx, const chart *c, const char *path, int widt
     cairo_clip(page);
     cairo_set_line_join(page, CAIRO_LINE_JOIN_ROUND);
     for (int32_t k = 0; k < c->line_count; k++)
-        draw_line(page, &f, &c->lines[k], palette[k % PALETTE_SIZE]);
+        (equal ? draw_track : draw_line)(page, &f, &c->lines[k], palette[k % PALETTE_SIZE]);
     cairo_restore(page);
     draw_legend(page, c, &f);
+}
+
+fram_status chart_write(context *ctx, const chart *c, const char *path, int width, int height, fram_error *error)
+{
+    cairo_t *page = NULL;
+    fram_status status = image_begin(width, height, &page, error);
+    if (status != FRAM_OK)
+        return status;
+    chart_draw(page, c, width, height, false);
     return image_write(ctx, page, path, error);
 }
 

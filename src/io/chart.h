@@ -21,6 +21,11 @@ typedef struct chart {
 
 /* Dense lines are drawn as the envelope of their values within each pixel column, so that no peak is lost.
    FRAM_ERROR_UNSUPPORTED without cairo. */
+#ifdef FRAM_HAVE_CAIRO
+#include <cairo.h>
+/* The same into a part of a page, width x height from its origin; equal: a metre is as long across as upwards. */
+void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal);
+#endif
 fram_status chart_write(context *ctx, const chart *c, const char *path, int width, int height, fram_error *error);
 
 #endif

@@ -60,11 +60,11 @@
     X(active, BOOLEAN(false), "", "dynamic positioning holds the vessel, or moves it along the way points")           \
     X(interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between calls of the controller; at least a time step")           \
     X(sample_interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between measurements")                                     \
-    X(noise_position, SCALED(0.1, 30, 1, 0, 1e3), "m", "standard deviation of the measured position")                 \
+    X(noise_position, SCALED(0.05, 30, 1, 0, 1e3), "m", "standard deviation of the measured position")                 \
     X(noise_heading_deg, REAL(0.05, 0, 90), "deg", "standard deviation of the measured heading")                      \
     X(observer, CHOICE(observer_kind, OBSERVER_PASSIVE, "passive kalman"), "",                                        \
       "passive: nonlinear passive observer without wave filter; kalman: extended Kalman filter")                      \
-    X(observer_bandwidth, SCALED(0.3, 30, -0.5, 1e-9, 1e6), "rad/s", "passive: how fast estimates follow")            \
+    X(observer_bandwidth, SCALED(0.2, 30, -0.5, 1e-9, 1e6), "rad/s", "passive: how fast estimates follow")            \
     X(bias_time, SCALED(1000, 30, 0.5, 1e-9, 1e9), "s",                                                               \
       "time constant of the estimated load of ice, wind and current")                                                 \
     X(bias_rate, REAL(0.001, 0, 1e3), "m/s^2.5",                                                                      \

@@ -36,11 +36,11 @@ fram_status recorder_create(context *ctx, const scenario *s, const char *folder,
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
     char path[1024];
-    int32_t count;
-    const csv_column *columns = series_columns(&count);
+    series_layout layout;
+    series_columns(s, &layout);
     fram_status status = stream_path(folder, "series.csv", path, error);
     if (status == FRAM_OK)
-        status = csv_create(ctx, path, columns, count, &r->series, error);
+        status = csv_create(ctx, path, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
         return status;
     status = stream_path(folder, "record.fram", path, error);
@@ -61,11 +61,11 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
     char path[1024];
-    int32_t count;
-    const csv_column *columns = series_columns(&count);
+    series_layout layout;
+    series_columns(s, &layout);
     fram_status status = stream_path(folder, "series.csv", path, error);
     if (status == FRAM_OK)
-        status = csv_continue(ctx, path, series_length, columns, count, &r->series, error);
+        status = csv_continue(ctx, path, series_length, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
         return status;
     status = stream_path(folder, "record.fram", path, error);

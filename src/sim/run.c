@@ -8,6 +8,7 @@
 #include "sim/pictures.h"
 #include "sim/recorder.h"
 #include "sim/run_folder.h"
+#include "sim/station_results.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -115,6 +116,21 @@ static fram_status draw_loads(run *r, const char *name, fram_error *error)
     return picture_loads(r->ctx, r->s, r->options->folder, error);
 }
 
+static fram_status draw_station(run *r, const char *name, fram_error *error)
+{
+    (void)name;
+    return station_page_write(r->ctx, r->s, &r->world, r->options->folder, error);
+}
+
+/* The one-page result of keeping station, where the vessel does. */
+static fram_status write_station(run *r, fram_error *error)
+{
+    if (!station_has_results(r->s))
+        return FRAM_OK;
+    fram_status status = station_results_write(r->ctx, r->s, &r->world, r->options->folder, error);
+    return status == FRAM_OK ? draw(r, "station.png", draw_station, error) : status;
+}
+
 static fram_status draw_numbered_plan(run *r, fram_error *error)
 {
     char name[64], folder[PATH_SIZE];
@@ -205,6 +221,8 @@ static fram_status conclude(run *r, run_result *result, fram_error *error)
         status = draw(r, "plan.png", draw_plan, error);
     if (status == FRAM_OK && r->s->vessel.present)
         status = draw(r, "loads.png", draw_loads, error);
+    if (status == FRAM_OK)
+        status = write_station(r, error);
     if (status == FRAM_OK)
         status = write_summary(r, result->finished ? "finished" : interrupted ? "interrupted" : "stopped", NULL, error);
     if (status != FRAM_OK || !interrupted)

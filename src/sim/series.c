@@ -3,6 +3,9 @@
 #include "base/transcendental.h"
 #include "sim/ice_loads.h"
 
+#include <stdio.h>
+#include <string.h>
+
 /* The vessel's part of a row: zero without a vessel. */
 typedef struct vessel_channels {
     vec3 position, velocity, angular_velocity, attitude_deg;
@@ -152,10 +155,29 @@ static const csv_column columns[] = {SERIES(COLUMN)};
 enum { COLUMN_COUNT = sizeof columns / sizeof *columns };
 _Static_assert((int)COLUMN_COUNT <= (int)SERIES_ROOM, "a row has room for every column");
 
-const csv_column *series_columns(int32_t *count)
+static void add_numbered(series_layout *out, const char *format, int32_t number, const char *unit)
 {
-    *count = COLUMN_COUNT;
-    return columns;
+    if (out->count == SERIES_ROOM)
+        return;
+    snprintf(out->name[out->count], sizeof *out->name, format, (int)number);
+    out->column[out->count] = (csv_column){out->name[out->count], unit};
+    out->count++;
+}
+
+void series_columns(const scenario *s, series_layout *out)
+{
+    out->count = COLUMN_COUNT;
+    memcpy(out->column, columns, sizeof columns);
+    if (!s->vessel.present || s->vessel.mode != VESSEL_FREE)
+        return;
+    int32_t line = 0;
+    for (int32_t i = 0; i < s->vessel.mooring.lines.count; i++)
+        for (int64_t k = 0; k < s->vessel.mooring.lines.data[i].count; k++)
+            add_numbered(out, "line_%d_tension", ++line, "N");
+    for (int32_t i = 1; i <= s->vessel.thrusters.count; i++) {
+        add_numbered(out, "thruster_%d_thrust", i, "N");
+        add_numbered(out, "thruster_%d_angle", i, "deg");
+    }
 }
 
 void series_row(const world *w, double wall, double out[SERIES_ROOM])
@@ -167,4 +189,10 @@ void series_row(const world *w, double wall, double out[SERIES_ROOM])
 #define VALUE(name, unit, value) out[k++] = (value);
     SERIES(VALUE)
 #undef VALUE
+    for (int32_t i = 0; i < w->lines.count && k < SERIES_ROOM; i++)
+        out[k++] = w->lines.tension[i];
+    for (int32_t i = 0; i < w->thrusters.count && k + 1 < SERIES_ROOM; i++) {
+        out[k++] = w->thrusters.thrust[i];
+        out[k++] = degrees(w->thrusters.angle[i]);
+    }
 }

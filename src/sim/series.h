@@ -3,11 +3,19 @@
 #define SIM_SERIES_H
 
 #include "io/csv.h"
+#include "model/scenario.h"
 #include "model/world.h"
 
-/* The columns, always all of them; channels of a vessel are 0 without one. */
-const csv_column *series_columns(int32_t *count);
-enum { SERIES_ROOM = 128 };
+enum { SERIES_ROOM = 384 };
+/* The columns of a run: the same for all but for those of each mooring line and thruster at the end. */
+typedef struct series_layout {
+    int32_t count;
+    csv_column column[SERIES_ROOM];
+    char name[SERIES_ROOM][32]; /* of the numbered ones; a layout must not be moved */
+} series_layout;
+
+/* The columns; channels of a vessel are 0 without one. */
+void series_columns(const scenario *s, series_layout *out);
 /* One row.  wall: time that the step took [s]. */
 void series_row(const world *w, double wall, double out[SERIES_ROOM]);
 

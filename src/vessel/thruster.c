@@ -198,10 +198,12 @@ static double speed_of_thrust(double thrust, double ahead, double astern)
 /* Shaft and angle over one step. */
 static void follow(thruster_table *t, int32_t row, double dt)
 {
-    double wanted = speed_of_thrust(t->order[row], t->ahead[row], t->astern[row]);
+    double turn = plane_angle(t->order_angle[row] - t->angle[row]);
+    /* While it still turns, it gives only what helps: the order times the cosine of the angle left. */
+    double order = turns(t, row) && t->order[row] > 0 ? t->order[row] * fmax(real_cos(turn), 0) : t->order[row];
+    double wanted = speed_of_thrust(order, t->ahead[row], t->astern[row]);
     double share = t->time_constant[row] > 0 ? 1 - real_exp(-dt / t->time_constant[row]) : 1;
     t->speed[row] += limited((wanted - t->speed[row]) * share, t->speed_rate[row] * dt);
-    double turn = plane_angle(t->order_angle[row] - t->angle[row]);
     t->angle[row] = plane_angle(t->angle[row] + limited(turn, t->turn_rate[row] * dt));
     double n = t->speed[row];
     t->thrust[row] = (n >= 0 ? t->ahead[row] : t->astern[row]) * n * fabs(n);

@@ -2,7 +2,7 @@
    constant, and may fail.  Frames: places in ship coordinates, angles counter-clockwise from the bow.
    The shaft speed n, a fraction of the largest, follows its order as a first-order lag with a rate limit; the thrust is
    largest thrust times n |n| (T = K n |n|, Fossen 2011, section 9.3).  A rudder turns the thrust ahead of its propeller
-   by its angle and does nothing astern. */
+   by its angle and does nothing astern.  While a thruster turns, its order counts with the cosine of the angle left. */
 #ifndef VESSEL_THRUSTER_H
 #define VESSEL_THRUSTER_H
 

@@ -22,6 +22,17 @@ static const char *const scenes[] = {
     "ice:\n  concentration: 0.7\n  mean_floe_area: 64\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
     "environment:\n  current_speed: 3\n  current_direction_deg: 160\n",
+    /* a hull on dynamic positioning with a line that is let go and a thruster that fails, noise and all */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 3\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5, "
+    "release_time: 2.5}\n"
+    "  thrusters:\n    - {x: 18}\n    - {x: -18, kind: main, rudder_deg: 25, failure_time: 1}\n    - {x: -15, kind: tunnel}\n"
+    "  positioning: {active: true, observer: kalman, heading: vaning, vaning_load: 0, feed_forward: measured}\n"
+    "  station: {offset_limit: 0.01}\n"
+    "ice:\n  concentration: 0.7\n  mean_floe_area: 64\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
+    "environment:\n  current_speed: 1\n  current_direction_deg: 160\n",
     /* floes without a vessel, crushing each other and the walls */
     "run:\n  duration: 2\n  time_step: 0.01\nvessel:\n  present: false\n"
     "ice:\n  concentration: 0.9\n  mean_floe_area: 30\n  cap_ice_ice: true\n  cap_ice_wall: true\n"
@@ -70,6 +81,13 @@ static bool same_files(const char *a, const char *b, const char *name)
     return system(command) == 0;
 }
 
+static bool access_in(const char *folder, const char *name)
+{
+    char path[PATH + 64];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return access(path, R_OK) == 0;
+}
+
 static void check_scene(const char *text, int threads, uint64_t *hash)
 {
     char straight[PATH], halves[PATH];
@@ -87,6 +105,7 @@ static void check_scene(const char *text, int threads, uint64_t *hash)
     run_to(&ctx, &s, halves, s.run.duration / 2);
     ck_assert_uint_eq(resume(&ctx, halves), *hash);
     ck_assert(same_files(straight, halves, "record.fram"));
+    ck_assert(s.vessel.thrusters.count == 0 || access_in(straight, "station.json"));
 
     scenario_free(&ctx, &s);
     if (ctx.threads)

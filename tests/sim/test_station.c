@@ -1,0 +1,169 @@
+/* Vessels held in ice: the balance of recorded forces of a towed hull, events of a vessel on station, statistics. */
+#include "scene.h"
+
+#include "sim/series.h"
+#include "sim/station_results.h"
+
+#include <stdio.h>
+
+/* Recorded channels by name. */
+typedef struct record_row {
+    series_layout layout;
+    double value[SERIES_ROOM];
+} record_row;
+
+static void take_row(const scene *k, record_row *r)
+{
+    series_columns(&k->s, &r->layout);
+    series_row(&k->w, 0, r->value);
+}
+
+static double channel(const record_row *r, const char *name)
+{
+    for (int32_t i = 0; i < r->layout.count; i++)
+        if (strcmp(r->layout.column[i].name, name) == 0)
+            return r->value[i];
+    ck_abort_msg("no channel %s", name);
+}
+
+static vec3 channel3(const record_row *r, const char *name)
+{
+    char full[64];
+    double v[3];
+    for (int i = 0; i < 3; i++) {
+        snprintf(full, sizeof full, "%s_%c", name, "xyz"[i]);
+        v[i] = channel(r, full);
+    }
+    return vec3_make(v[0], v[1], v[2]);
+}
+
+static const char towed[] = "run:\n  duration: 60\n  time_step: 0.02\n  seed: 2\n"
+                            "vessel:\n  mode: towed\n  x: -34\n  speed: 1\n  ramp: 0.5\n"
+                            "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+                            "ice:\n  concentration: 0.85\n  mean_floe_area: 64\n"
+                            "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n"
+                            "environment:\n  current_speed: 0.2\n  current_direction_deg: 120\n";
+
+/* |joint + ice + fluid + gravity - m dv/dt| at every step, over the largest ice load. */
+static double worst_balance(const char *const *overrides, int count, int steps)
+{
+    scene k;
+    scene_open_with(&k, towed, overrides, count);
+    record_row row;
+    double worst = 0, peak = 0, mass = k.w.bodies.mass[k.w.vessels.body[0]];
+    vec3 before = k.w.bodies.velocity[k.w.vessels.body[0]];
+    for (int i = 0; i < steps; i++) {
+        scene_steps(&k, 1);
+        take_row(&k, &row);
+        vec3 now = channel3(&row, "velocity"), ice = channel3(&row, "ice_force");
+        vec3 left = vec3_add(vec3_add(channel3(&row, "tow_force"), ice), channel3(&row, "fluid_force"));
+        left.z -= mass * k.settings.media.gravity;
+        left = vec3_mad(left, vec3_sub(now, before), -mass / k.settings.time_step);
+        worst = fmax(worst, vec3_length(left));
+        peak = fmax(peak, vec3_length(ice));
+        before = now;
+    }
+    ck_assert_msg(peak > 1e4, "the hull met no ice (%g N)", peak);
+    scene_close(&k);
+    return worst / peak;
+}
+
+START_TEST(forces_on_a_towed_hull_balance)
+{
+    double left = worst_balance(NULL, 0, 600);
+    ck_assert_msg(left <= 1e-2, "default solver: %g of the peak is missing", left);
+    static const char *const accurate[] = {"run.solver.kind=accurate", "run.solver.tolerance=1e-9"};
+    left = worst_balance(accurate, 2, 500);
+    ck_assert_msg(left <= 1e-6, "accurate solver: %g of the peak is missing", left);
+}
+END_TEST
+
+static const char held[] =
+    "run:\n  duration: 60\n  time_step: 0.05\n  seed: 3\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  thrusters:\n    - {x: 18, thrust: 80.0e3}\n    - {x: -18, y: 3, thrust: 80.0e3, failure_time: 20}\n"
+    "    - {x: -18, y: -3, thrust: 80.0e3, failure_time: 60}\n"
+    "  positioning: {active: true}\n"
+    "  station: {offset_limit: 8}\n"
+    "ice:\n  source: none\n"
+    "domain:\n  boundary: open\n  x_min: -500\n"
+    "environment:\n  current_speed: 0.5\n  current_direction_deg: 90\n  wind_speed: 10\n  wind_direction_deg: 120\n";
+
+START_TEST(a_ship_holds_its_place_until_its_thrusters_fail)
+{
+    scene k;
+    scene_open(&k, held);
+    record_row row;
+    scene_steps(&k, 59 * 20);
+    take_row(&k, &row);
+    ck_assert(fabs(channel(&row, "offset_x")) < 0.5 && fabs(channel(&row, "offset_y")) < 1);
+    ck_assert(channel(&row, "thrusters_failed") == 1);
+    ck_assert(channel(&row, "thruster_2_thrust") == 0 && channel(&row, "thruster_1_thrust") > 0);
+    ck_assert(channel(&row, "thruster_power") > 0);
+    /* What the observer takes for the load is what the thrusters work against. */
+    vec3 thrust = channel3(&row, "thruster_force"), load = channel3(&row, "estimated_load");
+    ck_assert(vec2_dot((vec2){thrust.x, thrust.y}, (vec2){load.x, load.y}) < 0);
+    ck_assert_int_eq(k.w.events.count, 1);
+    ck_assert_int_eq(k.w.events.kind[0], EVENT_THRUSTER_FAILURE);
+    ck_assert_int_eq(k.w.events.number[0], 1);
+    for (int32_t i = 0; i < k.w.thrusters.count; i++)
+        k.w.thrusters.failure_time[i] = 0;
+    scene_steps(&k, 120 * 20);
+    ck_assert_int_eq(k.w.events.count, 4);
+    ck_assert_int_eq(k.w.events.kind[3], EVENT_POSITION_LOST);
+    assert_absolute(k.w.events.value[3], 8, 0.1);
+    scene_close(&k);
+}
+END_TEST
+
+START_TEST(a_moored_ship_begins_in_balance)
+{
+    static const char moored[] =
+        "run:\n  duration: 60\n  time_step: 0.05\n"
+        "vessel:\n  mode: free\n  hull:\n    form: cone\n    length: 40\n    beam: 40\n    draught: 6\n    freeboard: 2\n"
+        "    flare_angle_deg: 50\n"
+        "  mooring:\n    depth: 60\n    lines:\n      - {count: 6, spacing_deg: 60, distance: 400, pretension: 3.0e5}\n"
+        "ice:\n  source: none\n"
+        "domain:\n  boundary: open\n"
+        "environment:\n  current_speed: 2\n  current_direction_deg: 30\n";
+    scene k;
+    scene_open(&k, moored);
+    vec3 start = k.w.bodies.position[0];
+    ck_assert(start.x > 0.1 && start.y > 0.05);
+    record_row row;
+    scene_steps(&k, 1);
+    take_row(&k, &row);
+    vec3 pull = channel3(&row, "mooring_force"), drag = channel3(&row, "fluid_force");
+    assert_absolute(pull.x + drag.x, 0, 2e-3 * fabs(drag.x) + 1);
+    assert_absolute(pull.y + drag.y, 0, 2e-3 * fabs(drag.y) + 1);
+    assert_relative(channel(&row, "line_4_tension"), channel(&row, "line_tension_max"), 0.05);
+    scene_steps(&k, 400);
+    assert_absolute(k.w.bodies.position[0].x, start.x, 0.1);
+    assert_absolute(k.w.bodies.position[0].y, start.y, 0.1);
+    scene_close(&k);
+}
+END_TEST
+
+START_TEST(statistics_of_a_channel)
+{
+    enum { N = 2000 };
+    double time[N], value[N];
+    for (int i = 0; i < N; i++) {
+        time[i] = 0.01 * i;
+        double tooth = i % 100 < 50 ? 1 : 0;
+        value[i] = i < 500 ? 1e9 : tooth * (1 + i / 100 % 3); /* peaks of 1, 2 and 3 */
+    }
+    channel_statistics s = channel_statistics_of(time, value, N, 5);
+    ck_assert_int_eq(s.peaks, 10); /* those of 1 do not exceed the mean */
+    assert_relative(s.mean, 1, 1e-12);
+    assert_relative(s.significant, 3, 1e-12);
+    assert_absolute(s.greatest, 3, 0);
+    assert_absolute(s.least, 0, 0);
+    assert_relative(s.deviation, sqrt(0.5 * 14 / 3 - 1), 1e-12);
+    s = channel_statistics_of(time, value, N, 1e9);
+    ck_assert(s.mean == 0 && s.peaks == 0);
+}
+END_TEST
+
+TEST_MAIN("station", forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,
+          a_moored_ship_begins_in_balance, statistics_of_a_channel)
