@@ -11,7 +11,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-views viewer demo test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers coverage install deps clean help
+.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -31,6 +31,9 @@ build/viewer/playback.html: $(wildcard viewer/*.json viewer/*.mjs viewer/.npmrc 
 
 demo: build ## run scenes/demo.yaml with a playback page, and say which files to look at
 	@tools/demo.sh
+
+scenes: build ## run the ready scenes of vessels on station for ten minutes each, results under out/
+	@tools/scenes.sh
 
 test-views: viewer build | $(STAMPS)/views ## the playback page in headless Chromium
 	@cd build/release && $(CTEST) -L '^views$$'

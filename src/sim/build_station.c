@@ -71,7 +71,8 @@ static vec3 still_load(const void *user, double heading)
     const fluid_motion still = {.position = w->bodies.position[h->body],
                                 .rotation = quat_matrix(quat_from_roll_pitch_yaw(0, 0, heading))};
     fluid_load load;
-    fluid_load_mesh(&h->settings->media, &h->settings->drag[MATERIAL_HULL], surface, &still, &load);
+    media begin = media_at(&h->settings->media, &w->media, 0);
+    fluid_load_mesh(&begin, &h->settings->drag[MATERIAL_HULL], surface, &still, &load);
     vec3 force = vec3_add(load.water_drag.force, load.wind_drag.force);
     return vec3_make(force.x, force.y, load.water_drag.moment.z + load.wind_drag.moment.z);
 }

@@ -120,7 +120,8 @@ START_TEST(a_moored_ship_begins_in_balance)
 {
     static const char moored[] =
         "run:\n  duration: 60\n  time_step: 0.05\n"
-        "vessel:\n  mode: free\n  hull:\n    form: cone\n    length: 40\n    beam: 40\n    draught: 6\n    freeboard: 2\n"
+        "vessel:\n  mode: free\n  hull:\n    form: cone\n    length: 40\n    beam: 40\n    draught: 6\n"
+        "    freeboard: 2\n"
         "    flare_angle_deg: 50\n"
         "  mooring:\n    depth: 60\n    lines:\n      - {count: 6, spacing_deg: 60, distance: 400, pretension: 3.0e5}\n"
         "ice:\n  source: none\n"
