@@ -194,9 +194,9 @@ static fram_status find_attitude(const fram_hull *h, const fram_hull_condition *
                                  fram_error *error)
 {
     context *ctx = &h->context->inner;
-    double volume = c->mass / c->water_density;
     *a = (hull_attitude){isnan(c->draught) ? 0 : h->about.lo[2] + c->draught, 0, 0};
     fram_status status = check_condition(c, error);
+    double volume = status == FRAM_OK ? c->mass / c->water_density : 0;
     if (status == FRAM_OK && !isnan(c->mass))
         status = hull_level_of(ctx, &h->surface, volume, &a->level, error);
     hull_hydrostatics upright;
