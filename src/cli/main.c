@@ -34,6 +34,12 @@ static const command_row commands[] = {
      "  fram hull ship.obj --mass 9.5e6 --kg 8.2 --repair -o closed.stl\n"
      "  fram hull --length 100 --beam 20 --draught 7 --stem-angle-deg 30 --block-coefficient 0.62 -o ship.stl\n",
      command_hull},
+    {"ice", "wedge | sheet | break",
+     "calculate how floating ice breaks at its edge: a wedge, a sheet, or a load on ice of given properties",
+     "  fram ice wedge --a-over-l 0.1\n"
+     "  fram ice sheet --a-over-l 0.1 --nu 0.3 --json\n"
+     "  fram ice break --force 3e5 --contact-area 0.2 --thickness 0.8 --flexural-strength 6e5\n",
+     command_ice},
     {"keys", "", "list every scenario key with unit, default, range and meaning (Markdown)", "  fram keys | less\n",
      command_keys},
 };

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_HASH, NUMBER_COUNT };
+enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_FRACTURES, NUMBER_HASH, NUMBER_COUNT };
 enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_COUNT };
 enum { PATH_SIZE = 1024, CHECKPOINTS_KEPT = 2 };
 
@@ -58,20 +58,23 @@ static bool list_steps(context *ctx, const char *folder, step_array *steps)
     return good;
 }
 
-static void remove_from(context *ctx, const char *folder, int32_t keep)
+/* false: no memory. */
+static bool remove_from(context *ctx, const char *folder, int32_t keep)
 {
     step_array steps = {0};
     char path[PATH_SIZE];
-    if (list_steps(ctx, folder, &steps)) {
+    bool good = list_steps(ctx, folder, &steps);
+    if (good) {
         for (int32_t i = keep; i < steps.count; i++) {
             if (checkpoint_path(folder, steps.data[i], path))
                 (void)unlink(path);
         }
     }
     array_free(ctx, &steps);
+    return good;
 }
 
-void checkpoint_remove_all(context *ctx, const char *folder) { remove_from(ctx, folder, 0); }
+void checkpoint_remove_all(context *ctx, const char *folder) { (void)remove_from(ctx, folder, 0); }
 
 /* ---- writing ---- */
 
@@ -81,8 +84,10 @@ static fram_status write_to(context *ctx, const char *path, const world *w, cons
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
     /* Writing only reads; the container's one struct for both ways has no const. */
-    table_file_number numbers[NUMBER_COUNT] = {
-        {"series_length", note->series_length}, {"record_length", note->record_length}, {"state_hash", world_hash(w)}};
+    table_file_number numbers[NUMBER_COUNT] = {{"series_length", note->series_length},
+                                               {"record_length", note->record_length},
+                                               {"fractures_length", note->fractures_length},
+                                               {"state_hash", world_hash(w)}};
     table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
                                            {"inputs", (void *)note->inputs, strlen(note->inputs)},
                                            {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
@@ -97,8 +102,8 @@ fram_status checkpoint_write(context *ctx, const char *folder, const world *w, c
     if (!checkpoint_path(folder, w->clock.step[0], path))
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     fram_status status = write_to(ctx, path, w, note, error);
-    if (status == FRAM_OK)
-        remove_from(ctx, folder, CHECKPOINTS_KEPT);
+    if (status == FRAM_OK && !remove_from(ctx, folder, CHECKPOINTS_KEPT))
+        status = error_memory(error);
     return status;
 }
 
@@ -126,7 +131,8 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
-    table_file_number numbers[NUMBER_COUNT] = {{"series_length", 0}, {"record_length", 0}, {"state_hash", 0}};
+    table_file_number numbers[NUMBER_COUNT] = {
+        {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}};
     table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}};
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
     *other = false;
@@ -146,6 +152,7 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
     }
     note->series_length = numbers[NUMBER_SERIES].value;
     note->record_length = numbers[NUMBER_RECORD].value;
+    note->fractures_length = numbers[NUMBER_FRACTURES].value;
     table_file_free_bytes(ctx, &content);
     return status;
 }

@@ -8,7 +8,7 @@
 
 /* What stands beside the state. */
 typedef struct checkpoint_note {
-    uint64_t series_length, record_length; /* bytes of the streams that belong to this state */
+    uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
     char scenario_hash[65];
     const char *inputs; /* text of inputs_list, compared on resume */
 } checkpoint_note;

@@ -2,6 +2,8 @@
 
 #include "base/transcendental.h"
 #include "ice/floe.h"
+#include "ice/fracture.h"
+#include "sim/build.h"
 
 static void note_ice(context *ctx, const scenario *s, text_buffer *out)
 {
@@ -22,6 +24,35 @@ static void note_ice(context *ctx, const scenario *s, text_buffer *out)
                     i->mean_floe_area, area);
     text_format(ctx, out, "thresholds: floe %.4g m2, piece %.4g m2, edge %.4g m (scale %g)\n", i->smallest_floe_area,
                 i->smallest_piece_area, i->edge_threshold, s->run.scale);
+}
+
+/* What breaks the ice at its edge, by the loads that SPEC 8 compares. */
+static void note_fracture(context *ctx, const scenario *s, text_buffer *out)
+{
+    const scenario_ice *i = &s->ice;
+    if (i->source == ICE_NONE || !i->breakable)
+        return;
+    double h = i->thickness, sigma = i->crushing_strength, areas[2] = {0.1 * h * h, h * h};
+    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
+                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
+    fracture_settings f = build_settings(s).fracture;
+    for (int k = 0; k < 2; k++) {
+        edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k]);
+        text_format(
+            ctx, out,
+            "fracture: on %.3g m2 the radial crack opens at %.4g kN, %d wedges break off at %.4g kN, %.4g m from "
+            "the edge; crushing there gives %.4g kN\n",
+            areas[k], e.radial_capacity * 1e-3, (int)f.wedges, e.wedge_capacity * 1e-3, e.breaking_radius,
+            ice_crushing_pressure(&m, areas[k]) * areas[k] * 1e-3);
+    }
+    /* The patch of a plate at 45 degrees, as wide as the ice is thick, grows until the wedges break off. */
+    edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0]);
+    double depth = s->vessel.speed * s->run.time_step, needed = e.wedge_capacity / (sigma * h);
+    if (s->vessel.present && depth > 0.2 * needed)
+        text_format(ctx, out,
+                    "warning: the vessel moves %.3g m in a step, and ice as wide as it is thick breaks after about "
+                    "%.3g m of crushing; take run.time_step under %.3g s\n",
+                    depth, needed, 0.2 * needed / s->vessel.speed);
 }
 
 static void note_vessel(context *ctx, const scenario *s, text_buffer *out)
@@ -48,6 +79,7 @@ void scenario_notes(context *ctx, const scenario *s, text_buffer *out)
     text_format(ctx, out, "run: %.0f steps of %g s\n", floor(s->run.duration / s->run.time_step + 0.5),
                 s->run.time_step);
     note_ice(ctx, s, out);
+    note_fracture(ctx, s, out);
     note_vessel(ctx, s, out);
     if (s->run.solver.baumgarte)
         text_add(ctx, out,

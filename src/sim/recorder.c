@@ -43,7 +43,13 @@ fram_status recorder_create(context *ctx, const scenario *s, const char *folder,
         status = csv_create(ctx, path, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
         return status;
-    status = stream_path(folder, "record.fram", path, error);
+    int32_t count;
+    const csv_column *columns = fracture_columns(&count);
+    status = stream_path(folder, "fractures.csv", path, error);
+    if (status == FRAM_OK)
+        status = csv_create(ctx, path, columns, count, &r->fractures, error);
+    if (status == FRAM_OK)
+        status = stream_path(folder, "record.fram", path, error);
     if (status == FRAM_OK)
         status = record_create(ctx, path, &r->record, error);
     if (status == FRAM_OK) {
@@ -55,8 +61,13 @@ fram_status recorder_create(context *ctx, const scenario *s, const char *folder,
     return status;
 }
 
-fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, uint64_t series_length,
-                              uint64_t record_length, recorder *r, fram_error *error)
+recorder_lengths recorder_lengths_of(const recorder *r)
+{
+    return (recorder_lengths){csv_length(&r->series), record_length(&r->record), csv_length(&r->fractures)};
+}
+
+fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, const recorder_lengths *lengths,
+                              recorder *r, fram_error *error)
 {
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
@@ -65,12 +76,18 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     series_columns(s, &layout);
     fram_status status = stream_path(folder, "series.csv", path, error);
     if (status == FRAM_OK)
-        status = csv_continue(ctx, path, series_length, layout.column, layout.count, &r->series, error);
+        status = csv_continue(ctx, path, lengths->series, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
         return status;
-    status = stream_path(folder, "record.fram", path, error);
+    int32_t count;
+    const csv_column *columns = fracture_columns(&count);
+    status = stream_path(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
-        status = record_continue(ctx, path, record_length, &r->record, error);
+        status = csv_continue(ctx, path, lengths->fractures, columns, count, &r->fractures, error);
+    if (status == FRAM_OK)
+        status = stream_path(folder, "record.fram", path, error);
+    if (status == FRAM_OK)
+        status = record_continue(ctx, path, lengths->record, &r->record, error);
     if (status != FRAM_OK)
         recorder_close(r, NULL);
     return status;
@@ -232,6 +249,28 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     return append(r, BLOCK_FRAME, error);
 }
 
+/* The events of this step, at its end's time: rows of the table, and a block of the record. */
+static fram_status write_fractures(recorder *r, const world *w, fram_error *error)
+{
+    const fracture_event_array *events = &w->scratch.fractures;
+    if (events->count == 0)
+        return FRAM_OK;
+    double time = w->clock.time[0];
+    bool good = put_i32(r, events->count) && put_i32(r, 0);
+    for (int32_t i = 0; i < events->count; i++) {
+        const fracture_event *e = &events->data[i];
+        double row[SERIES_ROOM];
+        fracture_row(time, e, row);
+        fram_status status = csv_append(&r->fractures, row, error);
+        if (status != FRAM_OK)
+            return status;
+        good = good && put_f64(r, time) && put_i32(r, e->kind) && put_i32(r, e->floe) && put_i32(r, e->pieces) &&
+               put_i32(r, 0) && put_f32(r, e->place.x) && put_f32(r, e->place.y) && put_f32(r, e->place.z) &&
+               put_f32(r, e->load) && put_f32(r, e->crack_length) && put_f32(r, e->parent_area);
+    }
+    return good ? append(r, BLOCK_FRACTURES, error) : error_memory(error);
+}
+
 fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
 {
     int64_t step = w->clock.step[0];
@@ -241,6 +280,8 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
         series_row(w, wall, row);
         status = csv_append(&r->series, row, error);
     }
+    if (status == FRAM_OK && step > 0)
+        status = write_fractures(r, w, error);
     if (status == FRAM_OK && r->frame_every > 0 && step % r->frame_every == 0)
         status = write_frame(r, w, error);
     return status;
@@ -249,6 +290,8 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
 fram_status recorder_flush(recorder *r, fram_error *error)
 {
     fram_status status = csv_flush(&r->series, true, error);
+    if (status == FRAM_OK)
+        status = csv_flush(&r->fractures, true, error);
     return status == FRAM_OK ? record_flush(&r->record, true, error) : status;
 }
 
@@ -256,6 +299,8 @@ fram_status recorder_close(recorder *r, fram_error *error)
 {
     array_free(r->ctx, &r->block);
     fram_status series = csv_close(&r->series, error);
+    fram_status fractures = csv_close(&r->fractures, series == FRAM_OK ? error : NULL);
+    series = series == FRAM_OK ? fractures : series;
     fram_status record = record_close(&r->record, series == FRAM_OK ? error : NULL);
     return series != FRAM_OK ? series : record;
 }

@@ -69,8 +69,10 @@ static fram_status write_checkpoint(run *r, fram_error *error)
     fram_status status = recorder_flush(&r->recorder, error);
     if (status != FRAM_OK)
         return status;
-    checkpoint_note note = {.series_length = csv_length(&r->recorder.series),
-                            .record_length = record_length(&r->recorder.record),
+    recorder_lengths lengths = recorder_lengths_of(&r->recorder);
+    checkpoint_note note = {.series_length = lengths.series,
+                            .record_length = lengths.record,
+                            .fractures_length = lengths.fractures,
                             .inputs = r->inputs.data};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     return checkpoint_write(r->ctx, r->options->folder, &r->world, &note, error);
@@ -335,8 +337,8 @@ static fram_status resume_world(run *r, run_result *result, fram_error *error)
     if (status != FRAM_OK)
         return status;
     log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);
-    status = recorder_continue(r->ctx, r->s, r->options->folder, note.series_length, note.record_length, &r->recorder,
-                               error);
+    recorder_lengths lengths = {note.series_length, note.record_length, note.fractures_length};
+    status = recorder_continue(r->ctx, r->s, r->options->folder, &lengths, &r->recorder, error);
     return status == FRAM_OK ? drive(r, result, error) : status;
 }
 

@@ -196,3 +196,42 @@ void series_row(const world *w, double wall, double out[SERIES_ROOM])
         out[k++] = degrees(w->thrusters.angle[i]);
     }
 }
+
+/* ---- broken floes ---- */
+
+/* kind: 1 split, 2 bending.  Numbers of floes are never used twice; the pieces have first_piece and those after it. */
+#define FRACTURE(X)                                 \
+    X("time", "s", time)                            \
+    X("kind", "1", e->kind)                         \
+    X("floe", "1", e->floe)                         \
+    X("pieces", "1", e->pieces)                     \
+    X("first_piece", "1", e->first_piece)           \
+    V3(X, "place", "m", e->place)                   \
+    X("load", "N", e->load)                         \
+    X("crack_length", "m", e->crack_length)         \
+    X("loaded_radius", "m", e->loaded_radius)       \
+    X("stress_over_strength", "1", e->stress_ratio) \
+    X("floe_area", "m2", e->parent_area)            \
+    X("pieces_area", "m2", e->piece_area)           \
+    X("area_lost", "m2", e->area_lost)              \
+    X("area_gained", "m2", e->area_gained)          \
+    X("mass_lost", "kg", e->mass_lost)              \
+    X("mass_gained", "kg", e->mass_gained)
+
+static const csv_column broken_columns[] = {FRACTURE(COLUMN)};
+enum { BROKEN_COUNT = sizeof broken_columns / sizeof *broken_columns };
+_Static_assert((int)BROKEN_COUNT <= (int)SERIES_ROOM, "a row has room for every column");
+
+const csv_column *fracture_columns(int32_t *count)
+{
+    *count = BROKEN_COUNT;
+    return broken_columns;
+}
+
+void fracture_row(double time, const fracture_event *e, double out[SERIES_ROOM])
+{
+    int k = 0;
+#define VALUE(name, unit, value) out[k++] = (value);
+    FRACTURE(VALUE)
+#undef VALUE
+}

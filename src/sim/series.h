@@ -19,4 +19,8 @@ void series_columns(const scenario *s, series_layout *out);
 /* One row.  wall: time that the step took [s]. */
 void series_row(const world *w, double wall, double out[SERIES_ROOM]);
 
+/* The same for the table of broken floes; time: the end of the step in which it broke [s]. */
+const csv_column *fracture_columns(int32_t *count);
+void fracture_row(double time, const fracture_event *e, double out[SERIES_ROOM]);
+
 #endif

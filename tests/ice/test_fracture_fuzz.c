@@ -143,7 +143,7 @@ static void check_children(fracture_rig *r, const fracture_event *e, fuzz_books 
             double overlap = polygon_overlap_area(child[i], child[k]);
             double edge = overlap / (0.5 * fmin(polygon_perimeter(child[i]), polygon_perimeter(child[k])));
             books->worst_overlap = fmax(books->worst_overlap, edge);
-            ck_assert_msg(edge <= r->settings.edge_threshold + 1e-7, "siblings overlap by %g m", edge);
+            ck_assert_msg(edge <= r->settings.edge_threshold + 1e-6, "siblings overlap by %g m", edge);
         }
     double lost = (e->area_lost + e->area_gained) / e->parent_area;
     books->worst_lost = fmax(books->worst_lost, lost);

@@ -1,0 +1,78 @@
+/* Fram: how floating ice breaks under a load at its edge; the formulas that a run uses, for quick calculations.
+
+       fram_ice_edge load;
+       fram_ice_breaking breaking;
+       fram_ice_edge_default(&load);
+       load.force = 300e3;
+       load.contact_area = 0.2;
+       fram_ice_break(&load, &breaking, &error);
+       printf("breaks %g m from the edge at %g N\n", breaking.breaking_radius, breaking.wedge_capacity);
+
+   Units are SI.  Symbols: h thickness, l characteristic length, a radius of the loaded area, P load, sigma_f flexural
+   strength, N wedges that share the load, b0 = 2 tan(pi/(2 N)).  Rules about statuses and errors stand in fram.h. */
+#ifndef FRAM_ICE_H
+#define FRAM_ICE_H
+
+#include "fram/fram.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* --- Dimensionless --- */
+
+/* A wedge-shaped beam on water, loaded evenly over the length a at its tip (Nevel 1961). */
+typedef struct fram_ice_wedge_result {
+    double capacity_C; /* one wedge carries sigma_f b0 h^2/6 C */
+    double x_max;      /* where it breaks, over l */
+    double eta0;       /* deflection of the tip, w k b0 l^2/P */
+} fram_ice_wedge_result;
+/* FRAM_ERROR_INPUT unless 0.001 <= a/l <= 3. */
+FRAM_API fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_error *error);
+
+/* A sheet with a straight edge, loaded evenly on a half disk of radius a there: stress along the edge. */
+typedef struct fram_ice_sheet_result {
+    double sigma_h2_over_P;       /* as a run takes it: closed form up to a/l = 0.3, the plate's integral beyond */
+    double exact_sigma_h2_over_P; /* the plate's integral, to about 1e-6 */
+    double closed_form_sigma_h2_over_P; /* Westergaard */
+} fram_ice_sheet_result;
+/* FRAM_ERROR_INPUT unless 0.001 <= a/l <= 3 and 0 <= poisson_ratio <= 0.5. */
+FRAM_API fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet_result *result,
+                                    fram_error *error);
+
+/* --- A load on an ice edge --- */
+
+typedef struct fram_ice_edge {
+    size_t size;              /* of this struct, set by fram_ice_edge_default */
+    double force;             /* P, across the ice [N]; default 0 */
+    double contact_area;      /* horizontal area of the contact [m2]; default 0: a point */
+    double thickness;         /* [m]; default 1 */
+    double elastic_modulus;   /* [Pa]; default 5e9 */
+    double poisson_ratio;     /* default 0.3 */
+    double flexural_strength; /* [Pa]; default 0.5e6 */
+    double crushing_strength; /* [Pa]; default 2e6 */
+    double water_density;     /* [kg/m3]; default 1025 */
+    double gravity;           /* [m/s2]; default 9.81 */
+    int wedges;               /* N; default 3 */
+    bool thick_plate_radius;  /* small loads act as on a radius that grows with the thickness; default true */
+} fram_ice_edge;
+FRAM_API void fram_ice_edge_default(fram_ice_edge *load);
+
+typedef struct fram_ice_breaking {
+    double characteristic_length; /* l [m] */
+    double radial_radius;         /* a of the half disk [m] */
+    double wedge_radius;          /* a of the wedges [m] */
+    double radial_stress;         /* sigma_yy: the first, radial crack opens when it meets sigma_f [Pa] */
+    double wedge_stress;          /* sigma_wedge_max: the wedges break off when it meets sigma_f [Pa] */
+    double radial_capacity;       /* P at which the radial crack opens [N] */
+    double wedge_capacity;        /* P at which the wedges break off [N] */
+    double breaking_radius;       /* R_bending [m] */
+    double crushing_force;        /* the contact area at the crushing strength [N] */
+} fram_ice_breaking;
+/* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
+FRAM_API fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

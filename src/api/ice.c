@@ -1,0 +1,119 @@
+/* Breaking ice of the public API. */
+#include "fram/ice.h"
+
+#include "base/context.h"
+#include "ice/fracture.h"
+#include "ice/sheet.h"
+#include "ice/wedge.h"
+
+#include <math.h>
+#include <string.h>
+
+static fram_status need(bool good, const char *key, const char *range, double found, fram_error *error)
+{
+    if (good)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", range, found);
+}
+
+static fram_status need_load_length(double a_over_l, fram_error *error)
+{
+    return need(a_over_l >= WEDGE_LEAST_LOAD && a_over_l <= WEDGE_MOST_LOAD, "a_over_l", "a number from 0.001 to 3",
+                a_over_l, error);
+}
+
+static fram_status need_ratio(double poisson_ratio, fram_error *error)
+{
+    return need(poisson_ratio >= 0 && poisson_ratio <= 0.5, "poisson_ratio", "a number from 0 to 0.5", poisson_ratio,
+                error);
+}
+
+fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_error *error)
+{
+    fram_status status = need_load_length(a_over_l, error);
+    if (status != FRAM_OK)
+        return status;
+    wedge w = wedge_solve(a_over_l);
+    *result = (fram_ice_wedge_result){w.capacity, w.x_max, w.tip_deflection};
+    return FRAM_OK;
+}
+
+fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet_result *result, fram_error *error)
+{
+    fram_status status = need_load_length(a_over_l, error);
+    if (status == FRAM_OK)
+        status = need_ratio(poisson_ratio, error);
+    if (status != FRAM_OK)
+        return status;
+    *result =
+        (fram_ice_sheet_result){sheet_stress(a_over_l, poisson_ratio), sheet_stress_integral(a_over_l, poisson_ratio),
+                                sheet_stress_closed_form(a_over_l, poisson_ratio)};
+    return FRAM_OK;
+}
+
+void fram_ice_edge_default(fram_ice_edge *load)
+{
+    *load = (fram_ice_edge){.size = sizeof *load,
+                            .thickness = 1,
+                            .elastic_modulus = 5e9,
+                            .poisson_ratio = 0.3,
+                            .flexural_strength = 0.5e6,
+                            .crushing_strength = 2e6,
+                            .water_density = 1025,
+                            .gravity = 9.81,
+                            .wedges = 3,
+                            .thick_plate_radius = true};
+}
+
+static fram_status check_load(const fram_ice_edge *l, fram_error *error)
+{
+    const struct {
+        const char *key;
+        double value;
+        bool positive;
+    } row[] = {{"force", l->force, false},
+               {"contact_area", l->contact_area, false},
+               {"thickness", l->thickness, true},
+               {"elastic_modulus", l->elastic_modulus, true},
+               {"flexural_strength", l->flexural_strength, true},
+               {"crushing_strength", l->crushing_strength, true},
+               {"water_density", l->water_density, true},
+               {"gravity", l->gravity, true}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        bool good = (row[i].positive ? row[i].value > 0 : row[i].value >= 0) && isfinite(row[i].value);
+        fram_status status =
+            need(good, row[i].key, row[i].positive ? "a positive number" : "a number not below 0", row[i].value, error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    fram_status status = need_ratio(l->poisson_ratio, error);
+    return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
+}
+
+fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error)
+{
+    if (load->size != sizeof *load)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "size", "call fram_ice_edge_default first");
+    fram_status status = check_load(load, error);
+    if (status != FRAM_OK)
+        return status;
+    ice_material m = {.elastic_modulus = load->elastic_modulus,
+                      .poisson_ratio = load->poisson_ratio,
+                      .flexural_strength = load->flexural_strength,
+                      .crushing_strength = load->crushing_strength};
+    fracture_settings s = {.water_density = load->water_density,
+                           .gravity = load->gravity,
+                           .wedges = load->wedges,
+                           .thick_plate_radius = load->thick_plate_radius};
+    edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area);
+    *breaking = (fram_ice_breaking){.characteristic_length = e.length,
+                                    .radial_radius = e.radial_radius,
+                                    .wedge_radius = e.wedge_radius,
+                                    .radial_stress = e.radial_stress,
+                                    .wedge_stress = e.wedge_stress,
+                                    .radial_capacity = e.radial_capacity,
+                                    .wedge_capacity = e.wedge_capacity,
+                                    .breaking_radius = e.breaking_radius,
+                                    .crushing_force = load->contact_area * load->crushing_strength};
+    return FRAM_OK;
+}

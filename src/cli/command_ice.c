@@ -1,0 +1,131 @@
+/* fram ice: quick hand calculations of how floating ice breaks at its edge. */
+#include "cli/cli.h"
+
+#include "fram/ice.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct ice_words {
+    const char *what; /* wedge, sheet or break */
+    double a_over_l;
+    bool thin;
+    fram_ice_edge load;
+} ice_words;
+
+static int read_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
+{
+    const option_row rows[] = {
+        {"--a-over-l", NULL, OPTION_REAL, &w->a_over_l, "X",
+         "wedge, sheet: radius of the load over the characteristic length"},
+        {"--nu", NULL, OPTION_REAL, &w->load.poisson_ratio, "V", "sheet, break: Poisson's ratio, 0.3"},
+        {"--force", NULL, OPTION_REAL, &w->load.force, "P", "break: load across the ice [N], 0"},
+        {"--contact-area", NULL, OPTION_REAL, &w->load.contact_area, "A", "break: horizontal contact area [m2], 0"},
+        {"--thickness", NULL, OPTION_REAL, &w->load.thickness, "H", "break: of the ice [m], 1"},
+        {"--elastic-modulus", NULL, OPTION_REAL, &w->load.elastic_modulus, "E", "break: [Pa], 5e9"},
+        {"--flexural-strength", NULL, OPTION_REAL, &w->load.flexural_strength, "S", "break: [Pa], 5e5"},
+        {"--crushing-strength", NULL, OPTION_REAL, &w->load.crushing_strength, "S", "break: [Pa], 2e6"},
+        {"--water-density", NULL, OPTION_REAL, &w->load.water_density, "RHO", "break: [kg/m3], 1025"},
+        {"--gravity", NULL, OPTION_REAL, &w->load.gravity, "G", "break: [m/s2], 9.81"},
+        {"--wedges", NULL, OPTION_INTEGER, &w->load.wedges, "N", "break: wedges that share the load, 3"},
+        {"--thin-plate", NULL, OPTION_FLAG, &w->thin, NULL, "break: small loads keep their own radius"},
+    };
+    return options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
+}
+
+/* One line for people, or one member for programs. */
+typedef struct answer_row {
+    const char *key;
+    double value;
+    const char *unit, *meaning;
+} answer_row;
+
+static void print_rows(const common_options *common, const answer_row *rows, int count)
+{
+    json j = {0};
+    if (common->json)
+        j = json_begin();
+    for (int i = 0; i < count; i++) {
+        if (common->json)
+            json_real(&j, rows[i].key, rows[i].value);
+        else
+            printf("%-28s %-14.7g %-4s %s\n", rows[i].key, rows[i].value, rows[i].unit, rows[i].meaning);
+    }
+    if (common->json)
+        json_end(&j);
+}
+#define PRINT(common, rows) print_rows((common), (rows), (int)(sizeof(rows) / sizeof *(rows)))
+
+static int answer_wedge(const ice_words *w, const common_options *common)
+{
+    fram_error error;
+    fram_ice_wedge_result r;
+    if (fram_ice_wedge(w->a_over_l, &r, &error) != FRAM_OK)
+        return answer_error(common, &error);
+    const answer_row rows[] = {
+        {"a_over_l", w->a_over_l, "", "radius of the load over l"},
+        {"capacity_C", r.capacity_C, "", "a wedge carries flexural strength * b0 h^2/6 * C"},
+        {"x_max", r.x_max, "", "breaking radius over l"},
+        {"eta0", r.eta0, "", "deflection of the tip, w k b0 l^2/P"},
+    };
+    PRINT(common, rows);
+    return EXIT_GOOD;
+}
+
+static int answer_sheet(const ice_words *w, const common_options *common)
+{
+    fram_error error;
+    fram_ice_sheet_result r;
+    if (fram_ice_sheet(w->a_over_l, w->load.poisson_ratio, &r, &error) != FRAM_OK)
+        return answer_error(common, &error);
+    const answer_row rows[] = {
+        {"a_over_l", w->a_over_l, "", "radius of the load over l"},
+        {"nu", w->load.poisson_ratio, "", "Poisson's ratio"},
+        {"sigma_h2_over_P", r.sigma_h2_over_P, "", "stress along the edge, as a run takes it"},
+        {"exact_sigma_h2_over_P", r.exact_sigma_h2_over_P, "", "the plate's integral"},
+        {"closed_form_sigma_h2_over_P", r.closed_form_sigma_h2_over_P, "", "Westergaard's closed form"},
+    };
+    PRINT(common, rows);
+    return EXIT_GOOD;
+}
+
+static int answer_break(const ice_words *w, const common_options *common)
+{
+    fram_error error;
+    fram_ice_breaking b;
+    fram_ice_edge load = w->load;
+    load.thick_plate_radius = !w->thin;
+    if (fram_ice_break(&load, &b, &error) != FRAM_OK)
+        return answer_error(common, &error);
+    const answer_row rows[] = {
+        {"characteristic_length", b.characteristic_length, "m", "l"},
+        {"radial_radius", b.radial_radius, "m", "loaded half disk"},
+        {"wedge_radius", b.wedge_radius, "m", "loaded tip of the wedges"},
+        {"radial_stress", b.radial_stress, "Pa", "along the edge; the radial crack opens at the flexural strength"},
+        {"wedge_stress", b.wedge_stress, "Pa", "in the wedges; they break off at the flexural strength"},
+        {"radial_capacity", b.radial_capacity, "N", "load at which the radial crack opens"},
+        {"wedge_capacity", b.wedge_capacity, "N", "load at which the wedges break off"},
+        {"breaking_radius", b.breaking_radius, "m", "from the edge to the circumferential crack"},
+        {"crushing_force", b.crushing_force, "N", "contact area at the crushing strength"},
+    };
+    PRINT(common, rows);
+    return EXIT_GOOD;
+}
+
+int command_ice(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    ice_words w = {.a_over_l = NAN};
+    fram_ice_edge_default(&w.load);
+    int code = read_words(self, &w, &common, argc, argv);
+    if (code >= 0)
+        return code;
+    bool breaks = strcmp(w.what, "break") == 0, plain = strcmp(w.what, "wedge") == 0 || strcmp(w.what, "sheet") == 0;
+    if (!breaks && !plain)
+        return answer_usage(&common, w.what, "is no calculation; take wedge, sheet or break");
+    if (plain && isnan(w.a_over_l))
+        return answer_usage(&common, "--a-over-l", "is needed");
+    if (breaks)
+        return answer_break(&w, &common);
+    return strcmp(w.what, "wedge") == 0 ? answer_wedge(&w, &common) : answer_sheet(&w, &common);
+}

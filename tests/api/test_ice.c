@@ -1,0 +1,80 @@
+/* Breaking ice through the public interface. */
+#include "fram/ice.h"
+#include "testing.h"
+
+START_TEST(wedge)
+{
+    fram_ice_wedge_result r;
+    fram_error e = {0};
+    assert_ok(fram_ice_wedge(0.1, &r, &e), e);
+    assert_relative(r.capacity_C, 1.255469567682, 1e-11);
+    assert_relative(r.x_max, 0.5114858883249, 1e-11);
+    assert_relative(r.eta0, 2.067333645437, 1e-11);
+    assert_fails(fram_ice_wedge(0, &r, &e), e, FRAM_ERROR_INPUT, "0.001 to 3");
+    assert_fails(fram_ice_wedge((double)NAN, &r, &e), e, FRAM_ERROR_INPUT, "0.001 to 3");
+    ck_assert_str_eq(e.key, "a_over_l");
+}
+END_TEST
+
+START_TEST(sheet)
+{
+    fram_ice_sheet_result r;
+    fram_error e = {0};
+    assert_ok(fram_ice_sheet(0.1, 0.3, &r, &e), e);
+    assert_relative(r.sigma_h2_over_P, 3.95955, 0.01);
+    assert_absolute(r.exact_sigma_h2_over_P, 3.95955, 1e-5);
+    assert_bits(r.sigma_h2_over_P, r.closed_form_sigma_h2_over_P);
+    assert_ok(fram_ice_sheet(2, 0.3, &r, &e), e);
+    assert_relative(r.sigma_h2_over_P, r.exact_sigma_h2_over_P, 1e-4);
+    assert_fails(fram_ice_sheet(0.1, 0.7, &r, &e), e, FRAM_ERROR_INPUT, "0 to 0.5");
+    ck_assert_str_eq(e.key, "poisson_ratio");
+    assert_fails(fram_ice_sheet(4, 0.3, &r, &e), e, FRAM_ERROR_INPUT, "a number");
+}
+END_TEST
+
+/* The state at the break of the oracles, section 1. */
+START_TEST(load_on_an_edge)
+{
+    fram_ice_edge load;
+    fram_ice_breaking b;
+    fram_error e = {0};
+    fram_ice_edge_default(&load);
+    load.force = 311.743e3;
+    load.contact_area = 0.155871;
+    load.thick_plate_radius = false;
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    assert_absolute(b.characteristic_length, 14.6079, 5e-5);
+    assert_relative(b.wedge_stress, 0.5e6, 1e-5);
+    assert_relative(b.wedge_capacity, 311.743e3, 1e-5);
+    assert_relative(b.breaking_radius, 4.14196, 2e-6);
+    assert_relative(b.wedge_radius, 0.299987, 1e-5);
+    assert_relative(b.crushing_force, 311.742e3, 1e-12);
+    ck_assert(b.radial_stress > b.wedge_stress && b.radial_capacity < b.wedge_capacity);
+    load.thick_plate_radius = true;
+    double thin = b.wedge_radius;
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    ck_assert(b.wedge_radius > thin);
+}
+END_TEST
+
+START_TEST(wrong_loads)
+{
+    fram_ice_edge load;
+    fram_ice_breaking b;
+    fram_error e = {0};
+    fram_ice_edge_default(&load);
+    load.thickness = 0;
+    assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_INPUT, "positive");
+    ck_assert_str_eq(e.key, "thickness");
+    fram_ice_edge_default(&load);
+    load.contact_area = -1;
+    assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_INPUT, "not below 0");
+    fram_ice_edge_default(&load);
+    load.wedges = 1;
+    assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_INPUT, "2 to 32");
+    load.size = 0;
+    assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_USAGE, "default");
+}
+END_TEST
+
+TEST_MAIN("api_ice", wedge, sheet, load_on_an_edge, wrong_loads)

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# fram ice as a user meets it: dimensionless and SI calculations, JSON, errors.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+# expect CODE COMMAND...: runs it, keeps its output in out and err.
+expect() {
+    local wanted=$1 code=0
+    shift
+    "$@" >out 2>err || code=$?
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
+}
+# near EXPRESSION NUMBER TOLERANCE NAME, of the JSON object j on the last line of out.
+near() {
+    tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); a, b = '"$1, $2"'
+sys.exit(abs(a - b) > '"$3"' * abs(b))' || fail "$4: $(cat out)"
+}
+says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
+
+expect 0 "$FRAM" ice wedge --a-over-l 0.1 --json
+near 'j["capacity_C"]' 1.255469567682 1e-9 "capacity"
+near 'j["x_max"]' 0.5114858883249 1e-9 "place"
+near 'j["eta0"]' 2.067333645437 1e-9 "deflection"
+expect 0 "$FRAM" ice sheet --a-over-l 0.2 --nu 0.3 --json
+near 'j["sigma_h2_over_P"]' 2.94937 0.01 "sheet"
+near 'j["exact_sigma_h2_over_P"]' 2.94937 1e-5 "exact sheet"
+expect 0 "$FRAM" ice break --force 311743 --contact-area 0.155871 --thin-plate --json
+near 'j["wedge_stress"]' 0.5e6 1e-5 "stress"
+near 'j["breaking_radius"]' 4.14196 1e-5 "radius"
+expect 0 "$FRAM" ice break --thickness 0.8
+says breaking_radius out
+
+expect 2 "$FRAM" ice wedge
+says '--a-over-l' err
+expect 2 "$FRAM" ice wedge --a-over-l 7 --json
+says 'a_over_l' err
+says '"status":"input"' out
+expect 2 "$FRAM" ice bend
+says 'is no calculation' err
+expect 2 "$FRAM" ice break --thickness -1
+says thickness err
+
+[ "$failures" = 0 ] || exit 1
