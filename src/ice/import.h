@@ -1,0 +1,99 @@
+/* Ice fields that were observed: rings as somebody else outlined them become sound floe outlines, moved, cut to a
+   domain, simplified, and kept clear of a vessel, with a record of everything that was refused, left out or mended.
+   Knows outlines and where they were written; must not know files, bodies or materials. */
+#ifndef ICE_IMPORT_H
+#define ICE_IMPORT_H
+
+#include "geometry/overlay.h"
+
+/* Where a ring came from, for errors and notes. */
+typedef struct import_place {
+    int32_t feature, polygon, ring; /* from 1; ring 1 is the outline of its polygon, later ones are holes */
+    int32_t line, column;           /* from 1 */
+    bool open;                      /* its last position was not its first one */
+    double thickness;               /* [m]; NaN: not given */
+} import_place;
+
+/* Rings as they were written, sound or not, without the repeated last position; place[i] belongs to ring i. */
+typedef struct import_rings {
+    polygon_list rings;
+    ARRAY(import_place) place;
+} import_rings;
+void import_rings_free(context *ctx, import_rings *r);
+
+/* What is done with a ring that is no simple outline. */
+typedef enum import_bad { IMPORT_REFUSE = 0, IMPORT_DROP, IMPORT_REPAIR } import_bad;
+
+typedef struct import_options {
+    const char *name; /* of the file, for errors */
+    double scale;     /* lengths of the rings times this are metres; > 0 */
+    bool centre;      /* the centre of the bounds of all rings goes to `offset`, instead of their origin */
+    vec2 offset;      /* [m], added after scaling */
+    bool crop;        /* floes are cut at the edge of `domain` */
+    box2 domain;      /* [m] */
+    double simplify;  /* largest distance by which an outline may change [m]; 0: not at all */
+    import_bad bad;
+    double smallest_area;         /* floes and cut pieces under it are left out [m2] */
+    const polygon_list *keep_out; /* convex, counter-clockwise zones; floes that reach into them are left out; or NULL */
+    double keep_out_margin;       /* and those nearer to a zone than this [m] */
+} import_options;
+
+/* What happened to a ring.  Those from IMPORT_NOTE_OPEN to IMPORT_NOTE_HOLE are faults: IMPORT_REFUSE stops there. */
+typedef enum import_event {
+    IMPORT_NOTE_OPEN = 0,  /* not closed; repair: closed */
+    IMPORT_NOTE_FEW,       /* fewer than 3 different vertices; always left out */
+    IMPORT_NOTE_FLAT,      /* no area; always left out */
+    IMPORT_NOTE_CROSSED,   /* meets itself; repair: the outlines of all that it winds round */
+    IMPORT_NOTE_HOLE,      /* a hole; drop and repair: filled with ice */
+    IMPORT_NOTE_SMALL,     /* under the smallest area, whole or as a cut piece */
+    IMPORT_NOTE_OUTSIDE,   /* outside the domain */
+    IMPORT_NOTE_KEPT_OUT,  /* in a keep-out zone */
+    IMPORT_EVENT_COUNT
+} import_event;
+/* "crosses or touches itself" */
+const char *import_event_text(import_event event);
+
+typedef struct import_note {
+    int32_t ring; /* of import_rings */
+    import_event event;
+    bool dropped; /* nothing came of the ring or of this piece of it; otherwise it was mended */
+    vec2 at;      /* where, in the file's own lengths, for IMPORT_NOTE_CROSSED; otherwise its first vertex */
+} import_note;
+
+/* Sound floes: simple, counter-clockwise, with area.  ring[i] and thickness[i] belong to outline i. */
+typedef struct import_field {
+    polygon_list outlines;
+    int32_array ring;
+    ARRAY(double) thickness; /* [m]; NaN: not given */
+    ARRAY(import_note) notes;
+} import_field;
+void import_field_free(context *ctx, import_field *f);
+
+/* out must be empty; on failure it still is.  FRAM_ERROR_INPUT, with line, column and "feature 17" as key, for a fault
+   under IMPORT_REFUSE, for coordinates beyond 1e9 m and when no floe is left.  Floes come in the order of the rings. */
+fram_status import_field_make(context *ctx, overlay *o, const import_rings *rings, const import_options *options,
+                              import_field *out, fram_error *error);
+
+/* What a field of outlines is.  Also for fields from elsewhere. */
+enum { IMPORT_HISTOGRAM_BINS = 12 };
+typedef struct import_measure {
+    int32_t floes, vertices, concave;
+    box2 bounds;              /* of the outlines [m] */
+    double area;              /* [m2] */
+    double largest_diameter;  /* [m] */
+    double smallest_area, largest_area;
+    int32_t overlaps;         /* pairs that share area */
+    double overlap_area;      /* of all pairs together [m2] */
+    double largest_overlap;   /* the largest common area of a pair [m2] */
+    int32_t overlap_pair[2];  /* of it; -1, -1: none */
+    double overlap_width;     /* the largest width of what a pair has in common [m] */
+    /* Floes by diameter of the circle of equal area: bin i holds up to edge[i+1], edge[i] excluded (but for the first).
+     */
+    double edge[IMPORT_HISTOGRAM_BINS + 1]; /* [m] */
+    int32_t bin[IMPORT_HISTOGRAM_BINS];
+} import_measure;
+/* Common area less than 1e-12 of the smaller outline is rounding and counts as none. */
+fram_status import_field_measure(context *ctx, overlay *o, const polygon_list *outlines, import_measure *out,
+                                 fram_error *error);
+
+#endif

@@ -1,0 +1,33 @@
+/* GeoJSON (RFC 7946) as rings with their places, and floes as GeoJSON.  Coordinates are planar lengths, not degrees.
+   Read are FeatureCollection, Feature, GeometryCollection, Polygon and MultiPolygon; of the properties only `thickness`
+   [m], which may be null; heights (third coordinates) and all other members are passed over.  Knows the format; whether
+   a ring is sound is asked of ice/import.h. */
+#ifndef IO_GEOJSON_H
+#define IO_GEOJSON_H
+
+#include "ice/import.h"
+
+/* What a file may hold. */
+enum {
+    GEOJSON_BYTES_MOST = 256 << 20,
+    GEOJSON_DEPTH_MOST = 32,
+    GEOJSON_FEATURES_MOST = 1000000,
+    GEOJSON_RINGS_MOST = 1000000,
+    GEOJSON_RING_VERTICES_MOST = 100000,
+    GEOJSON_VERTICES_MOST = 10000000
+};
+
+/* FRAM_ERROR_INPUT with line, column and, inside a feature, "feature 17" or "feature 17, polygon 2, ring 1" as key:
+   for anything that is no JSON, no GeoJSON of these kinds, or over the limits.  out must be empty; on failure it still
+   is. */
+fram_status geojson_read(context *ctx, const char *path, import_rings *out, fram_error *error);
+/* The same for a text in memory; name stands for the file in errors. */
+fram_status geojson_parse(context *ctx, const char *name, const char *data, size_t size, import_rings *out,
+                          fram_error *error);
+
+/* A FeatureCollection of Polygons with properties id (from 0) and, where given and not NaN, thickness.  Numbers are the
+   shortest that read back to the bit.  thickness may be NULL. */
+fram_status geojson_write(context *ctx, const char *path, const polygon_list *outlines, const double *thickness,
+                          fram_error *error);
+
+#endif
