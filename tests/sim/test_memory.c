@@ -14,6 +14,16 @@ static const char text[] = "run:\n  duration: 0.1\n  time_step: 0.02\n"
                            "domain:\n  x_min: -24\n  x_max: 24\n  y_min: -16\n  y_max: 16\n"
                            "output:\n  frame_interval: 0.04\n  checkpoint_interval: 0.06\n";
 
+/* Held by lines that are let go and thrusters that fail: events are booked as memory runs out. */
+static const char held[] =
+    "run:\n  duration: 0.1\n  time_step: 0.02\n"
+    "vessel:\n  mode: free\n"
+    "  hull:\n    length: 24\n    beam: 6\n    draught: 2\n    freeboard: 1\n    parallel_midbody: 0.3\n"
+    "  mooring:\n    lines:\n      - {count: 3, spacing_deg: 120, distance: 400, pretension: 2.0e5, release_time: 0.05}\n"
+    "  thrusters:\n    - {x: 9, failure_time: 0.03}\n    - {x: -9}\n"
+    "  positioning: {active: true, waypoints: [{time: 0.05}]}\n"
+    "ice:\n  source: none\n";
+
 static fram_status build_and_step(context *ctx, const scenario *s)
 {
     fram_error error = {0};
@@ -30,18 +40,18 @@ static fram_status build_and_step(context *ctx, const scenario *s)
 }
 
 /* The scenario is read once with memory that never fails. */
-static void read_scenario(context *ctx, scenario *s)
+static void read_scenario(context *ctx, const char *from, scenario *s)
 {
     fram_error error = {0};
     context_init(ctx);
-    assert_ok(scenario_parse(ctx, "scene.yaml", text, strlen(text), NULL, s, &error), error);
+    assert_ok(scenario_parse(ctx, "scene.yaml", from, strlen(from), NULL, s, &error), error);
 }
 
-START_TEST(world_without_memory)
+static void check_world(const char *from)
 {
     context plain;
     scenario s = {0};
-    read_scenario(&plain, &s);
+    read_scenario(&plain, from, &s);
     for (long n = 1;; n++) {
         failing_memory memory;
         context ctx = failing_context(&memory, n);
@@ -56,14 +66,20 @@ START_TEST(world_without_memory)
     }
     scenario_free(&plain, &s);
 }
+
+START_TEST(world_without_memory)
+{
+    check_world(text);
+    check_world(held);
+}
 END_TEST
 
 /* A whole run with files: every seventh request, for there are many. */
-START_TEST(run_without_memory)
+static void check_run(const char *from)
 {
     context plain;
     scenario s = {0};
-    read_scenario(&plain, &s);
+    read_scenario(&plain, from, &s);
     char folder[] = "/tmp/fram-memory-XXXXXX";
     ck_assert_ptr_nonnull(mkdtemp(folder));
     for (long n = 1;; n += 7) {
@@ -84,6 +100,12 @@ START_TEST(run_without_memory)
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     ck_assert_int_eq(system(command), 0);
     scenario_free(&plain, &s);
+}
+
+START_TEST(run_without_memory)
+{
+    check_run(text);
+    check_run(held);
 }
 END_TEST
 
