@@ -148,12 +148,26 @@ static int32_t shape_row(context *ctx, shape_store *s)
     return table_resize(ctx, t, &shape_table_info, t->count + 1) ? t->count - 1 : -1;
 }
 
-static void append_outline(shape_store *s, polygon outline)
+/* Unit outward normal of the side from vertex i; at a repeated vertex that of the next side. */
+static vec2 side_normal(polygon ring, int32_t i)
+{
+    for (int32_t k = i; k < i + ring.count; k++) {
+        vec2 e = vec2_sub(ring.vertex[(k + 1) % ring.count], ring.vertex[k % ring.count]);
+        double length = vec2_length(e);
+        if (length > 0)
+            return vec2_make(e.y / length, -e.x / length);
+    }
+    return vec2_make(0, 0);
+}
+
+/* A ring at the end of the vertex pool; corner NULL: it is the outline. */
+static void append_ring(shape_store *s, polygon ring, const int32_t *corner)
 {
     shape_vertex_table *v = &s->vertices;
-    for (int32_t i = 0; i < outline.count; i++) {
-        v->point[v->count] = outline.vertex[i];
-        v->corner[v->count++] = i;
+    for (int32_t i = 0; i < ring.count; i++) {
+        v->point[v->count] = ring.vertex[i];
+        v->side[v->count] = side_normal(ring, i);
+        v->corner[v->count++] = corner ? corner[i] : i;
     }
 }
 
@@ -171,17 +185,15 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
               table_reserve(ctx, &s->pieces, &piece_table_info, piece_first + piece_count);
     *row = ok ? shape_row(ctx, s) : -1;
     if (*row >= 0) {
-        append_outline(s, outline);
+        append_ring(s, outline, NULL);
         for (int32_t i = 0; i < piece_count; i++) {
             int32_t at = s->pieces.count++, begin = pieces->start.data[i];
             polygon p = polygon_list_get(pieces, i);
             s->pieces.first[at] = piece_count > 1 ? s->vertices.count : first;
             s->pieces.size[at] = p.count;
             s->pieces.inner_edges[at] = inner[i];
-            for (int32_t k = 0; k < p.count && piece_count > 1; k++) {
-                s->vertices.point[s->vertices.count] = p.vertex[k];
-                s->vertices.corner[s->vertices.count++] = corner[begin + k];
-            }
+            if (piece_count > 1)
+                append_ring(s, p, corner + begin);
         }
         double plan_square = 0;
         for (int32_t i = 0; i < outline.count; i++)
@@ -315,6 +327,7 @@ static void move_shape(shape_store *s, int32_t row, shape_vertex_table *vertices
     int32_t count = t->outline_count[row] + vertices_of_pieces(s, row), from = t->outline_first[row];
     int32_t shift = vertices->count - from;
     memcpy(vertices->point + vertices->count, s->vertices.point + from, (size_t)count * sizeof *vertices->point);
+    memcpy(vertices->side + vertices->count, s->vertices.side + from, (size_t)count * sizeof *vertices->side);
     memcpy(vertices->corner + vertices->count, s->vertices.corner + from, (size_t)count * sizeof *vertices->corner);
     vertices->count += count;
     t->outline_first[row] += shift;

@@ -34,8 +34,9 @@ TABLE_DECLARE(shape, SHAPE_FIELDS)
     X(inner_edges, uint64_t, FIELD_U64, 1, "1", "bit k: edge k is a seam inside the compound, not a face")
 TABLE_DECLARE(piece, PIECE_FIELDS)
 
-#define SHAPE_VERTEX_FIELDS(X)                                 \
-    X(point, vec2, FIELD_F64, 2, "m", "body frame, plan view") \
+#define SHAPE_VERTEX_FIELDS(X)                                                                                   \
+    X(point, vec2, FIELD_F64, 2, "m", "body frame, plan view")                                                   \
+    X(side, vec2, FIELD_F64, 2, "1", "unit outward normal of the side from here to the next vertex of the ring") \
     X(corner, int32_t, FIELD_I32, 1, "1", "index in the shape's outline; -1: a point that the outline does not have")
 TABLE_DECLARE(shape_vertex, SHAPE_VERTEX_FIELDS)
 

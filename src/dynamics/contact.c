@@ -39,13 +39,22 @@ static uint64_t mix(uint64_t h)
     return h ^ (h >> 33);
 }
 
-uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b, uint32_t feature)
+contact_key_stem contact_key_begin(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b)
 {
     int32_t low = a < b ? a : b, high = a < b ? b : a;
     uint64_t h = mix(((uint64_t)bodies->generation[a] << 32) | bodies->generation[b]);
     h = mix(h ^ (((uint64_t)(uint32_t)piece_a << 32) | (uint32_t)piece_b));
-    h = mix(h ^ feature);
-    return ((uint64_t)low << (SLOT_BITS + FEATURE_BITS)) | ((uint64_t)high << FEATURE_BITS) | (h & FEATURE_MASK);
+    return (contact_key_stem){((uint64_t)low << (SLOT_BITS + FEATURE_BITS)) | ((uint64_t)high << FEATURE_BITS), h};
+}
+
+uint64_t contact_key_end(contact_key_stem stem, uint32_t feature)
+{
+    return stem.slots | (mix(stem.hash ^ feature) & FEATURE_MASK);
+}
+
+uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b, uint32_t feature)
+{
+    return contact_key_end(contact_key_begin(bodies, a, b, piece_a, piece_b), feature);
 }
 
 void contact_keys_part(contact *contacts, int32_t count)

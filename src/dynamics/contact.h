@@ -37,6 +37,12 @@ vec3 contact_impulse(const contact *c);
 enum { CONTACT_MOST_BODIES = 1 << 22 };
 uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b,
                      uint32_t feature);
+/* contact_key in two steps, for many features of one pair of pieces. */
+typedef struct contact_key_stem {
+    uint64_t slots, hash;
+} contact_key_stem;
+contact_key_stem contact_key_begin(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b);
+uint64_t contact_key_end(contact_key_stem stem, uint32_t feature);
 /* Makes the keys of all contacts of one pair differ: of equal ones the later are counted up. */
 void contact_keys_part(contact *contacts, int32_t count);
 

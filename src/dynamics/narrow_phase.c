@@ -53,11 +53,13 @@ static prism prism_piece(const party *p, int32_t piece)
 {
     int32_t at = p->shapes->shapes.piece_first[p->shape] + piece, first = p->shapes->pieces.first[at];
     return (prism){.vertex = p->shapes->vertices.point + first,
+                   .side = p->shapes->vertices.side + first,
                    .corner = p->shapes->vertices.corner + first,
                    .outline = shape_outline(p->shapes, p->shape),
                    .count = p->shapes->pieces.size[at],
                    .readable = p->shapes->vertices.count - first,
                    .half_height = p->shapes->shapes.half_height[p->shape],
+                   .plan_radius = p->shapes->shapes.plan_radius[p->shape],
                    .seams = p->shapes->pieces.inner_edges[at],
                    .rotation = p->rotation,
                    .centre = p->centre};
@@ -222,7 +224,10 @@ static bool add_contacts(context *ctx, const body_table *bodies, const party *a,
 {
     if (contacts->capacity - contacts->count < count && !array_reserve(ctx, contacts, contacts->count + count))
         return false;
+    if (count == 0)
+        return true;
     vec3 origin = bodies->position[a->slot];
+    contact_key_stem stem = contact_key_begin(bodies, a->slot, b->slot, piece_a, piece_b);
     for (int i = 0; i < count; i++) {
         contact *c = &contacts->data[contacts->count++];
         *c = (contact){.a = a->slot, .b = b->slot, .normal = normal, .impulse_limit = HUGE_VAL};
@@ -232,7 +237,7 @@ static bool add_contacts(context *ctx, const body_table *bodies, const party *a,
         c->friction_kinetic = policy->friction_kinetic;
         c->correct = true;
         c->patch = -1;
-        c->key = contact_key(bodies, a->slot, b->slot, piece_a, piece_b, point[i].feature);
+        c->key = contact_key_end(stem, point[i].feature);
     }
     return true;
 }

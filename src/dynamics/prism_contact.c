@@ -3,13 +3,6 @@
 /* A direction of a plan view counts as lying in the cone of normals of a corner up to this sine. */
 #define CORNER_SLACK 0.05
 
-static vec2 side_normal(const prism *p, int32_t k)
-{
-    vec2 e = vec2_sub(p->vertex[k + 1 < p->count ? k + 1 : 0], p->vertex[k]);
-    double scale = 1 / vec2_length(e);
-    return vec2_make(e.y * scale, -e.x * scale);
-}
-
 /* ---- support of a compound's piece ---- */
 
 static vec2 unit2(vec2 v)
@@ -28,8 +21,8 @@ static bool may_be_pushed(const prism *p, int32_t k, vec2 direction)
     int32_t before = k > 0 ? k - 1 : p->count - 1;
     bool outer_before = !(p->seams >> before & 1u), outer_after = !(p->seams >> k & 1u);
     double flat = sqrt(1 - CORNER_SLACK * CORNER_SLACK);
-    if ((outer_before && vec2_dot(side_normal(p, before), direction) > flat) ||
-        (outer_after && vec2_dot(side_normal(p, k), direction) > flat))
+    if ((outer_before && vec2_dot(p->side[before], direction) > flat) ||
+        (outer_after && vec2_dot(p->side[k], direction) > flat))
         return true;
     int32_t c = p->corner[k], n = p->outline.count;
     if (c < 0)
@@ -71,7 +64,7 @@ static bool search_sides(const prism *p, const prism *other, const relative_pose
 {
     *best = (best_side){-1, HUGE_VAL, HUGE_VAL};
     for (int32_t k = 0; k < p->count; k++) {
-        vec2 n = side_normal(p, k);
+        vec2 n = p->side[k];
         /* The normal in the other's frame. */
         const double(*r)[3] = pose->r.m;
         vec3 m = {r[0][0] * n.x + r[1][0] * n.y, r[0][1] * n.x + r[1][1] * n.y, r[0][2] * n.x + r[1][2] * n.y};
@@ -115,7 +108,7 @@ static double vertical_depth(const prism *p, const prism *other, const relative_
 
 static vec3 global_normal(const prism *p, int32_t side)
 {
-    vec2 n = side_normal(p, side);
+    vec2 n = p->side[side];
     return mat3_mul_vec(p->rotation, vec3_make(n.x, n.y, 0));
 }
 
@@ -220,7 +213,7 @@ static int32_t most_opposed(const prism *p, vec3 direction)
     int32_t opposed = 0;
     double least = HUGE_VAL;
     for (int32_t k = 0; k < p->count; k++) {
-        double d = vec2_dot(side_normal(p, k), vec2_make(seen.x, seen.y));
+        double d = vec2_dot(p->side[k], vec2_make(seen.x, seen.y));
         if (d < least) {
             least = d;
             opposed = k;
@@ -332,7 +325,7 @@ static prism_meeting prism_meet(const prism *a, const prism *b, nearness near)
         return m;
     const prism *holder = m.swapped ? b : a;
     m.side = best->side;
-    m.normal = side_normal(holder, best->side);
+    m.normal = holder->side[best->side];
     m.opposed = most_opposed(m.swapped ? a : b, global_normal(holder, best->side));
     return m;
 }

@@ -8,12 +8,14 @@
 /* One convex piece of a prism shape, placed. */
 typedef struct prism {
     const vec2 *vertex;
+    const vec2 *side;      /* unit outward normal of the side that starts at each vertex */
     const int32_t *corner; /* index in the outline of each vertex, -1 without */
     polygon outline;       /* of the whole shape */
     int32_t count;
     int32_t readable; /* vertices that may be read from `vertex` on, those of other pieces included; >= count */
     double half_height;
-    uint64_t seams; /* bit k: side k is inside the compound */
+    double plan_radius; /* no vertex is farther from the axis */
+    uint64_t seams;     /* bit k: side k is inside the compound */
     mat3 rotation;
     vec3 centre; /* of the shape's frame, in the common axes */
 } prism;

@@ -7,23 +7,34 @@ enum { MOST_BLOCKS = (PIECE_MOST_VERTICES + V8_LANES - 1) / V8_LANES };
 
 #define LANE_NUMBERS ((v8){0, 1, 2, 3, 4, 5, 6, 7})
 
-/* Vertices first..first+7 of a ring; from `count` on the first one again. */
-V8_INLINE void load_vertices(const prism *p, int32_t first, v8 *x, v8 *y)
+/* Eight points from ring[first] on; what stands beyond `count` has no meaning. */
+V8_INLINE void load_points(const prism *p, const vec2 *ring, int32_t first, v8 *x, v8 *y)
 {
     if (first + V8_LANES <= p->readable) {
-        v8_load_pairs(&p->vertex[first].x, x, y);
-        v8_mask inside = v8_less(LANE_NUMBERS + (double)first, v8_set(p->count));
-        *x = v8_select(inside, *x, v8_set(p->vertex[0].x));
-        *y = v8_select(inside, *y, v8_set(p->vertex[0].y));
+        v8_load_pairs(&ring[first].x, x, y);
         return;
     }
     double room[2 * V8_LANES];
     for (int32_t i = 0; i < V8_LANES; i++) {
-        vec2 v = p->vertex[first + i < p->count ? first + i : 0];
+        vec2 v = ring[first + i < p->count ? first + i : 0];
         room[2 * i] = v.x;
         room[2 * i + 1] = v.y;
     }
     v8_load_pairs(room, x, y);
+}
+
+V8_INLINE v8_mask real_lanes(const prism *p, int32_t first)
+{
+    return v8_less(LANE_NUMBERS + (double)first, v8_set(p->count));
+}
+
+/* Vertices first..first+7; from `count` on the first one again. */
+V8_INLINE void load_vertices(const prism *p, int32_t first, v8 *x, v8 *y)
+{
+    v8_mask real = real_lanes(p, first);
+    load_points(p, p->vertex, first, x, y);
+    *x = v8_select(real, *x, v8_set(p->vertex[0].x));
+    *y = v8_select(real, *y, v8_set(p->vertex[0].y));
 }
 
 /* ---- extents ---- */
@@ -57,24 +68,11 @@ V8_INLINE double axis_gap(const prism *a, const prism *b, vec3 axis)
 
 /* ---- sides ---- */
 
-/* Sides of one prism, with their unit outward normals in its plan view. */
+/* Sides of one prism. */
 typedef struct side_block {
-    v8 x, y;   /* where the side starts */
-    v8 nx, ny; /* as side_normal of prism_contact.c */
+    v8 nx, ny; /* unit outward normals in its plan view */
     v8_mask real;
 } side_block;
-
-V8_INLINE void load_sides(const prism *p, int32_t first, side_block *s)
-{
-    v8 next_x, next_y;
-    load_vertices(p, first, &s->x, &s->y);
-    load_vertices(p, first + 1, &next_x, &next_y); /* the last one ends at vertex 0 */
-    s->real = v8_less(LANE_NUMBERS + (double)first, v8_set(p->count));
-    v8 ex = v8_select(s->real, next_x - s->x, v8_set(1)), ey = v8_select(s->real, next_y - s->y, v8_set(0));
-    v8 scale = 1 / v8_sqrt(ex * ex + ey * ey);
-    s->nx = ey * scale;
-    s->ny = -ex * scale;
-}
 
 /* The other's frame as the holder of the sides sees it: r turns the other's coordinates into the holder's. */
 typedef struct seen_frame {
@@ -93,13 +91,16 @@ V8_INLINE best_of_sides search_all_sides(const prism *p, const prism *other, con
     best_of_sides best = {HUGE_VAL, 0};
     for (int32_t first = 0, k = 0; first < p->count; first += V8_LANES, k++) {
         side_block *s = &blocks[k];
-        load_sides(p, first, s);
+        v8 x, y;
+        load_points(p, p->vertex, first, &x, &y);
+        load_points(p, p->side, first, &s->nx, &s->ny);
+        s->real = real_lanes(p, first);
         v8 mx = f->r[0][0] * s->nx + f->r[1][0] * s->ny, my = f->r[0][1] * s->nx + f->r[1][1] * s->ny;
         v8 mz = f->r[0][2] * s->nx + f->r[1][2] * s->ny, low = v8_set(HUGE_VAL);
         for (int32_t i = 0; i < other->count; i++)
             low = v8_min(mx * other->vertex[i].x + my * other->vertex[i].y, low);
         low += s->nx * f->t.x + s->ny * f->t.y - other->half_height * v8_abs(mz);
-        v8 depth = v8_select(s->real, s->nx * s->x + s->ny * s->y - low, v8_set(HUGE_VAL));
+        v8 depth = v8_select(s->real, s->nx * x + s->ny * y - low, v8_set(HUGE_VAL));
         double least = v8_least(depth);
         if (least < best.depth) {
             best.depth = least;
@@ -109,10 +110,15 @@ V8_INLINE best_of_sides search_all_sides(const prism *p, const prism *other, con
     return best;
 }
 
-/* Overlap along p's own axis. */
-V8_INLINE double rise_of(const prism *p, const prism *other, const seen_frame *f)
+/* Overlap along p's own axis: exactly, or any bound below it that is already more than `enough`. */
+V8_INLINE double rise_of(const prism *p, const prism *other, const seen_frame *f, double enough)
 {
-    double low, high, reach = other->half_height * fabs(f->r[2][2]);
+    double reach = other->half_height * fabs(f->r[2][2]);
+    double slope = sqrt(f->r[2][0] * f->r[2][0] + f->r[2][1] * f->r[2][1]);
+    double bound = (p->half_height - fabs(f->t.z)) + (reach - slope * other->plan_radius);
+    if (bound > enough)
+        return bound;
+    double low, high;
     plan_span(other, f->r[2][0], f->r[2][1], &low, &high);
     return f->t.z > 0 ? p->half_height - (f->t.z + low - reach) : (f->t.z + high + reach) + p->half_height;
 }
@@ -178,7 +184,11 @@ void KERNEL(prism_pair_test)(const prism *a, const prism *b, double slack, const
                          : global_direction(b, side_normal_of(of_b, in_b.side));
         return;
     }
-    double rise_a = rise_of(a, b, &b_in_a), rise_b = rise_of(b, a, &a_in_b);
+    /* Rises matter when they part the two, or are less than the best side's depth. */
+    out->swapped = clearly_less(in_b.depth, in_a.depth, slack);
+    const best_of_sides *best = out->swapped ? &in_b : &in_a;
+    double enough = best->depth > 0 ? best->depth : 0;
+    double rise_a = rise_of(a, b, &b_in_a, enough), rise_b = rise_of(b, a, &a_in_b, enough);
     if (rise_a < -slack || rise_b < -slack) {
         bool by_a = rise_a <= rise_b;
         vec3 up = mat3_column((by_a ? a : b)->rotation, 2);
@@ -186,8 +196,6 @@ void KERNEL(prism_pair_test)(const prism *a, const prism *b, double slack, const
         out->axis = vec3_scale(up, vec3_dot(up, vec3_sub(a->centre, b->centre)) < 0 ? -1 : 1);
         return;
     }
-    out->swapped = clearly_less(in_b.depth, in_a.depth, slack);
-    const best_of_sides *best = out->swapped ? &in_b : &in_a;
     if (fabs(b_in_a.r[2][2]) <= NEARLY_LEVEL || clearly_less(fmin(rise_a, rise_b), best->depth, slack)) {
         out->kind = PRISMS_TILTED;
         return;

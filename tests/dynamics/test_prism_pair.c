@@ -8,7 +8,7 @@ enum { MOST = PIECE_MOST_VERTICES };
 
 /* A convex outline of n vertices on an ellipse, and the prism of it in a random pose. */
 typedef struct sample {
-    vec2 vertex[MOST + 8];
+    vec2 vertex[MOST + 8], side[MOST + 8];
     int32_t corner[MOST];
     prism p;
 } sample;
@@ -22,9 +22,15 @@ static void sample_draw(random_stream *draw, int n, double tilt, vec3 centre, sa
         s->corner[k] = k;
     }
     for (int k = n; k < MOST + 8; k++)
-        s->vertex[k] = vec2_make(random_uniform(draw, -9, 9), NAN); /* never to be looked at */
+        s->vertex[k] = s->side[k] = vec2_make(random_uniform(draw, -9, 9), NAN); /* never to be looked at */
+    for (int k = 0; k < n; k++) {
+        vec2 e = vec2_sub(s->vertex[k + 1 < n ? k + 1 : 0], s->vertex[k]);
+        s->side[k] = vec2_scale(vec2_make(e.y, -e.x), 1 / vec2_length(e));
+    }
     quat q = quat_from_roll_pitch_yaw(tilt * random_normal(draw), tilt * random_normal(draw), 9 * random_normal(draw));
     s->p = (prism){.vertex = s->vertex,
+                   .side = s->side,
+                   .plan_radius = 3.0001,
                    .corner = s->corner,
                    .outline = {s->vertex, n},
                    .count = n,

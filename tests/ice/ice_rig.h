@@ -164,6 +164,8 @@ static inline void ice_rig_cut(ice_rig *r, int32_t shape, int n)
             p->size[p->count] = 4;
             p->inner_edges[p->count++] = 0;
             for (int c = 0; c < 4; c++) {
+                static const vec2 side[4] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+                v->side[v->count] = side[c];
                 v->corner[v->count] = -1;
                 v->point[v->count++] =
                     (vec2){b.lo.x + (i + (c == 1 || c == 2)) * step.x, b.lo.y + (k + c / 2) * step.y};

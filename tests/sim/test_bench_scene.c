@@ -45,7 +45,7 @@ static scene_text make_scene(context *ctx, int side)
     return s;
 }
 
-#define GOLDEN_ENERGY 0x1.0f07b499c0544p+20
+#define GOLDEN_ENERGY 0x1.0f07b499b915ap+20
 
 static const bench_scene_options plain = {
     .time_step = 0.02, .warm = 1, .time = 3, .iterations = 10, .solver = SOLVER_SEQUENTIAL};
