@@ -34,6 +34,15 @@ static const char *const scenes[] = {
     "ice:\n  concentration: 0.7\n  mean_floe_area: 64\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
     "environment:\n  current_speed: 1\n  current_direction_deg: 160\n",
+    /* floes that break, level ice among them */
+    "run:\n  duration: 4\n  time_step: 0.02\n"
+    "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.5\n"
+    "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "ice:\n  source: floes\n  thickness: 0.5\n  breakable: true\n  floes:\n"
+    "    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}\n"
+    "    - {length: 40, width: 20, x: 20.5, y: -11}\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
+    "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
     /* floes without a vessel, crushing each other and the walls */
     "run:\n  duration: 2\n  time_step: 0.01\nvessel:\n  present: false\n"
     "ice:\n  concentration: 0.9\n  mean_floe_area: 30\n  cap_ice_ice: true\n  cap_ice_wall: true\n"
@@ -106,6 +115,7 @@ static void check_scene(const char *text, int threads, uint64_t *hash)
     run_to(&ctx, &s, halves, s.run.duration / 2);
     ck_assert_uint_eq(resume(&ctx, halves), *hash);
     ck_assert(same_files(straight, halves, "record.fram"));
+    ck_assert(same_files(straight, halves, "fractures.csv"));
     ck_assert(s.vessel.thrusters.count == 0 || access_in(straight, "station.json"));
 
     scenario_free(&ctx, &s);
