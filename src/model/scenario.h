@@ -14,6 +14,13 @@
 /* Where the ice comes from. */
 typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE } ice_source;
 typedef enum floe_shape { FLOE_RECTANGLE = 0, FLOE_REGULAR } floe_shape;
+/* Where a vessel's added mass and damping come from, and the axes of given matrices. */
+typedef enum hydrodynamics_source {
+    HYDRODYNAMICS_NONE = 0,
+    HYDRODYNAMICS_ESTIMATE,
+    HYDRODYNAMICS_GIVEN
+} hydrodynamics_source;
+typedef enum matrix_axes { MATRIX_AXES_UP = 0, MATRIX_AXES_DOWN } matrix_axes;
 /* What closes the domain. */
 typedef enum domain_boundary { DOMAIN_WALLS = 0, DOMAIN_OPEN } domain_boundary;
 

@@ -207,6 +207,20 @@ static fram_status check_ice(const scenario *s, fram_error *error)
                  found);
 }
 
+static fram_status check_rows(const scenario *s, const char *key, int32_t count, fram_error *error)
+{
+    if (count == 0 || count == 6)
+        return FRAM_OK;
+    return fault(s, error, key, "expected 6 rows (surge, sway, heave, roll, pitch, yaw) or none, found %d", (int)count);
+}
+
+static fram_status check_hydrodynamics(const scenario *s, fram_error *error)
+{
+    const scenario_hydrodynamics *h = &s->vessel.hydrodynamics;
+    fram_status status = check_rows(s, "vessel.hydrodynamics.added_mass", h->added_mass.count, error);
+    return status == FRAM_OK ? check_rows(s, "vessel.hydrodynamics.damping", h->damping.count, error) : status;
+}
+
 fram_status scenario_check(const scenario *s, fram_error *error)
 {
     fram_status status = scenario_walk(s, check_range, (void *)s, error);
@@ -216,6 +230,8 @@ fram_status scenario_check(const scenario *s, fram_error *error)
         status = check_domain(s, error);
     if (status == FRAM_OK)
         status = check_vessel(s, error);
+    if (status == FRAM_OK)
+        status = check_hydrodynamics(s, error);
     if (status == FRAM_OK)
         status = check_ice(s, error);
     return status;

@@ -22,6 +22,8 @@
 
 #include "model/scenario_station_keys.h"
 
+#include "model/scenario_water_keys.h"
+
 #define SCENARIO_KEYS(X)                                                      \
     X(title, TEXT(""), "", "what the scenario shows; goes into reports")      \
     X(run, SECTION(run), "", "time, randomness and numerical method")         \
@@ -77,7 +79,8 @@
     X(mooring, SECTION(mooring), "", "mode free: lines to the bottom")                                           \
     X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                 \
     X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                   \
-    X(station, SECTION(station), "", "what counts as being on station")
+    X(station, SECTION(station), "", "what counts as being on station")                                          \
+    X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")
 
 #define SCENARIO_HULL_KEYS(X)                                                                                      \
     X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file cone"), "",                                    \
@@ -182,21 +185,23 @@
     X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water") \
     X(wall_thickness, SCALED(10, 30, 1, 1e-6, 1e4), "m", "thickness of the walls, outside the domain")
 
-#define SCENARIO_ENVIRONMENT_KEYS(X)                                                                              \
-    X(water, BOOLEAN(true), "", "false: neither fluid nor gravity, for tests of pure dynamics")                   \
-    X(gravity, REAL(9.81, 1e-3, 1e3), "m/s2", "acceleration of gravity, down")                                    \
-    X(water_density, REAL(1025, 1, 1e4), "kg/m3", "density of water")                                             \
-    X(air_density, REAL(1.225, 0, 1e3), "kg/m3", "density of air")                                                \
-    X(current_speed, REAL(0, 0, 100), "m/s", "uniform current")                                                   \
-    X(current_direction_deg, REAL(0, -360, 360), "deg", "direction the current flows to")                         \
-    X(wind_speed, REAL(0, 0, 200), "m/s", "uniform wind")                                                         \
-    X(wind_direction_deg, REAL(0, -360, 360), "deg", "direction the wind blows to")                               \
-    X(current_file, PATH(""), "",                                                                                 \
-      "CSV of a current that changes with time: time [s], x, y [m/s]; instead of the uniform one")                \
-    X(current_profile_file, PATH(""), "", "CSV of what the current has on top at a depth: depth [m], x, y [m/s]") \
-    X(wind_file, PATH(""), "",                                                                                    \
-      "CSV of a wind that changes with time: time [s], x, y [m/s]; instead of the uniform one")                   \
-    X(ice_drag, SECTION(ice_drag), "", "drag coefficients of the floes")                                          \
+#define SCENARIO_ENVIRONMENT_KEYS(X)                                                                                \
+    X(water, BOOLEAN(true), "", "false: neither fluid nor gravity, for tests of pure dynamics")                     \
+    X(gravity, REAL(9.81, 1e-3, 1e3), "m/s2", "acceleration of gravity, down")                                      \
+    X(water_density, REAL(1025, 1, 1e4), "kg/m3", "density of water")                                               \
+    X(air_density, REAL(1.225, 0, 1e3), "kg/m3", "density of air")                                                  \
+    X(current_speed, REAL(0, 0, 100), "m/s", "uniform current")                                                     \
+    X(current_direction_deg, REAL(0, -360, 360), "deg", "direction the current flows to")                           \
+    X(wind_speed, REAL(0, 0, 200), "m/s", "uniform wind")                                                           \
+    X(wind_direction_deg, REAL(0, -360, 360), "deg", "direction the wind blows to")                                 \
+    X(current_file, PATH(""), "",                                                                                   \
+      "CSV of a current that changes with time: time [s], x, y [m/s]; instead of the uniform one")                  \
+    X(current_profile_file, PATH(""), "", "CSV of what the current has on top at a depth: depth [m], x, y [m/s]")   \
+    X(wind_file, PATH(""), "",                                                                                      \
+      "CSV of a wind that changes with time: time [s], x, y [m/s]; instead of the uniform one")                     \
+    X(floe_added_mass, BOOLEAN(false), "", "floes have the added mass of thin plates in heave, roll and pitch")     \
+    X(floe_damping, REAL(0, 0, 10), "1", "linear damping of floes in heave, roll and pitch, over the critical one") \
+    X(ice_drag, SECTION(ice_drag), "", "drag coefficients of the floes")                                            \
     X(hull_drag, SECTION(hull_drag), "", "drag coefficients of the vessel")
 
 #define SCENARIO_ICE_DRAG_KEYS(X)                                                          \
@@ -224,6 +229,7 @@
     S(run, SCENARIO_RUN_KEYS)                 \
     S(hull, SCENARIO_HULL_KEYS)               \
     SCENARIO_STATION_SECTIONS(S)              \
+    SCENARIO_WATER_SECTIONS(S)                \
     S(vessel, SCENARIO_VESSEL_KEYS)           \
     S(friction, SCENARIO_FRICTION_KEYS)       \
     S(fracture, SCENARIO_FRACTURE_KEYS)       \

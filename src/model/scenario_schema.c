@@ -53,6 +53,12 @@ SECTION_DEFINE(positioning, SCENARIO_POSITIONING_KEYS)
 #define SELF scenario_station
 SECTION_DEFINE(station, SCENARIO_STATION_KEYS)
 #undef SELF
+#define SELF scenario_matrix_row
+SECTION_DEFINE(matrix_row, SCENARIO_MATRIX_ROW_KEYS)
+#undef SELF
+#define SELF scenario_hydrodynamics
+SECTION_DEFINE(hydrodynamics, SCENARIO_HYDRODYNAMICS_KEYS)
+#undef SELF
 #define SELF scenario_vessel
 SECTION_DEFINE(vessel, SCENARIO_VESSEL_KEYS)
 #undef SELF

@@ -7,6 +7,7 @@
 #include "dynamics/joint.h"
 #include "dynamics/solver.h"
 #include "fluid/fluid.h"
+#include "fluid/response.h"
 #include "ice/crushing.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
@@ -69,6 +70,8 @@ typedef struct world {
 
     /* Not state, as solids are not: made from the scenario again on resume. */
     media_history media;
+    bool has_hydrodynamics; /* of the first vessel */
+    hydrodynamics hydrodynamics;
 
     /* Scratch: written anew each step. */
     struct {

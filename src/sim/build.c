@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/build_hull.h"
+#include "sim/build_hydrodynamics.h"
 #include "sim/build_ice.h"
 #include "sim/build_media.h"
 #include "sim/build_station.h"
@@ -32,6 +33,7 @@ step_settings build_settings(const scenario *s)
         .forces = e->water ? FORCES_FLUID : FORCES_NONE,
         .media = {e->gravity, e->water_density, e->air_density, horizontal(e->current_speed, e->current_direction_deg),
                   horizontal(e->wind_speed, e->wind_direction_deg)},
+        .floe_response = {e->floe_added_mass, e->floe_damping},
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {s->run.time_step, 0, s->ice.top_plane_area},
         .fracture = {.time_step = s->run.time_step,
@@ -94,7 +96,10 @@ static fram_status add_vessel(context *ctx, const scenario *s, world *w, const m
         .tow_ramp = v->ramp,
     };
     int32_t row = -1;
-    return vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
+    fram_status status = vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
+    if (status == FRAM_OK)
+        build_added_mass(w);
+    return status;
 }
 
 /* ------------------------------------------------------------------------------------------------------------- walls
@@ -160,6 +165,8 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     if (status == FRAM_OK && s->vessel.present) {
         status = build_hull(ctx, s, w, &hull, error);
         if (status == FRAM_OK)
+            status = build_hydrodynamics(s, &hull, w, error);
+        if (status == FRAM_OK)
             status = add_vessel(ctx, s, w, &hull, error);
         if (status == FRAM_OK) {
             step_settings settings = build_settings(s);
@@ -185,6 +192,8 @@ fram_status build_empty_world(context *ctx, const scenario *s, world *w, fram_er
     made_hull hull;
     if (status == FRAM_OK && s->vessel.present)
         status = build_hull(ctx, s, w, &hull, error);
+    if (status == FRAM_OK && s->vessel.present)
+        status = build_hydrodynamics(s, &hull, w, error);
     if (status != FRAM_OK)
         world_free(ctx, w);
     return status;

@@ -115,6 +115,7 @@ fram_status build_hull(context *ctx, const scenario *s, world *w, made_hull *out
     *out = (made_hull){0};
     fram_status status = make(ctx, s, &h, &out->particulars, error);
     if (status == FRAM_OK) {
+        out->floats = h.floats;
         out->displaced_mass = h.floats.volume * s->environment.water_density;
         out->centre = vec3_make(automatic_or(s->vessel.centre_of_gravity_x, h.floats.centre_of_buoyancy.x),
                                 automatic_or(s->vessel.centre_of_gravity_y, h.floats.centre_of_buoyancy.y),

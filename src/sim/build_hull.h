@@ -11,6 +11,7 @@ typedef struct made_hull {
     vec3 centre;                  /* of mass, ship coordinates [m] */
     double displaced_mass;        /* at the draught [kg] */
     hull_particulars particulars; /* of a file: measured at z = 0 */
+    hull_hydrostatics floats;     /* at the draught, ship coordinates */
 } made_hull;
 
 /* Errors name the key at fault, or place and element of the mesh file. */

@@ -32,6 +32,20 @@ static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, 
     return FRAM_OK;
 }
 
+/* What the water answers to motion: with all other loads known, since it changes what they do. */
+static void respond(context *ctx, const step_settings *s, world *w)
+{
+    media now = media_at(&s->media, &w->media, w->clock.time[0]);
+    wrench *loads = w->scratch.loads.data;
+    prisms_respond(ctx, &now, s->drag, &s->floe_response, s->time_step, &w->bodies, &w->shapes, w->scratch.fluid.data,
+                   loads);
+    if (!w->has_hydrodynamics || w->vessels.count == 0 || w->vessels.mode[0] == VESSEL_PRESCRIBED)
+        return;
+    int32_t body = w->vessels.body[0];
+    hydrodynamics_respond(&w->hydrodynamics, w->vessels.mode[0] == VESSEL_FREE, &now, s->time_step, &w->bodies, body,
+                          &loads[body]);
+}
+
 static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
     if (!array_resize(ctx, &w->scratch.loads, w->bodies.count))
@@ -49,6 +63,8 @@ static fram_status external_forces(context *ctx, const step_settings *s, world *
     status = station_forces(ctx, s, w, error);
     if (status != FRAM_OK)
         return status;
+    if (s->forces == FORCES_FLUID)
+        respond(ctx, s, w);
     vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + s->time_step);
     return FRAM_OK;
 }

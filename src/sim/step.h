@@ -19,6 +19,7 @@ typedef struct step_settings {
     force_source forces;
     media media;
     drag_coefficients drag[MATERIAL_COUNT];
+    prism_response floe_response;
     const column_water *columns; /* of FORCES_COLUMNS, else NULL */
     collision_settings collision;
     pair_policies policies;

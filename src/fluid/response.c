@@ -1,0 +1,251 @@
+#include "fluid/response.h"
+
+#include "base/pool.h"
+#include "fluid/added_mass.h"
+#include "fluid/facet.h"
+
+enum { BLOCK_SLOTS = 256 };
+/* Added mass is whole when this part of a floe is under water. */
+#define WHOLE_FROM 0.25
+
+typedef struct response_work {
+    const media *media;
+    const drag_coefficients *coefficients;
+    const prism_response *settings;
+    double time_step;
+    body_table *bodies;
+    const shape_store *shapes;
+    const fluid_load *detail;
+    wrench *loads;
+} response_work;
+
+/* A prism as this room sees it, body axes. */
+typedef struct prism_view {
+    int32_t shape;
+    mat3 rotation;
+    vec3 velocity, spin; /* relative to the water */
+    double area, radius, half_height;
+    polygon_moments moments; /* only where they are asked for */
+} prism_view;
+
+static vec3 times(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+static prism_view view_of(const response_work *w, int32_t slot)
+{
+    const body_table *b = w->bodies;
+    const shape_table *s = &w->shapes->shapes;
+    prism_view v = {.shape = b->shape[slot], .rotation = quat_matrix(b->orientation[slot])};
+    v.area = s->area[v.shape];
+    v.radius = s->plan_radius[v.shape];
+    v.half_height = s->half_height[v.shape];
+    double rise = v.half_height * v.rotation.m[2][2];
+    vec3 current = media_current(w->media, prism_current_height(b->position[slot].z, rise));
+    v.velocity = mat3_tmul_vec(v.rotation, vec3_sub(b->velocity[slot], current));
+    v.spin = mat3_tmul_vec(v.rotation, b->angular_velocity[slot]);
+    if (w->settings->added_mass || w->settings->damping_ratio > 0)
+        v.moments = polygon_moments_of(shape_outline(w->shapes, v.shape));
+    return v;
+}
+
+/* ---- drag by velocity ---- */
+
+typedef struct drag_bound {
+    vec3 line, turn; /* [N s/m], [N m s], body axes */
+} drag_bound;
+
+/* Bounds of the derivatives: twice the drag of every face at its largest speed over that speed; sides are those of the
+   box around the prism, both caps wet. */
+static drag_bound bound_drag(const response_work *w, int32_t slot, const prism_view *v)
+{
+    const drag_coefficients *c = &w->coefficients[w->bodies->material[slot]];
+    double form = w->media->water_density * c->water_form, skin = w->media->water_density * c->water_skin;
+    double r = v->radius, h = v->half_height, side = 4 * r * h;
+    double along = sqrt(v->velocity.x * v->velocity.x + v->velocity.y * v->velocity.y) + r * fabs(v->spin.z);
+    double up = fabs(v->velocity.z) + r * sqrt(v->spin.x * v->spin.x + v->spin.y * v->spin.y);
+    double flat = form * side * along + skin * (2 * v->area + 4 * side) * (along + up);
+    double heave = form * v->area * up + skin * 4 * side * (along + up);
+    double tilt = 0.5 * r * r * heave + h * h * flat;
+    return (drag_bound){{flat, flat, heave}, {tilt, tilt, r * r * flat}};
+}
+
+/* Whether no part of the bound can reach its limit, told without a root: both speeds in it are at most sqrt(speed2),
+   both faces at most `face`, and all levers squared at most `lever2`. */
+static bool drag_is_weak(const response_work *w, int32_t slot, const prism_view *v)
+{
+    const body_table *b = w->bodies;
+    const drag_coefficients *c = &w->coefficients[b->material[slot]];
+    sym3 i = b->inertia[slot];
+    double r = v->radius, h = v->half_height, face = 2 * v->area + 16 * r * h, lever2 = r * r + h * h;
+    double speed2 = 2 * (vec3_dot(v->velocity, v->velocity) + r * r * vec3_dot(v->spin, v->spin));
+    double rate = w->media->water_density * (c->water_form + 2 * c->water_skin) * face * w->time_step;
+    double limit = EXPLICIT_DRAG * fmin(b->mass[slot], fmin(i.xx, fmin(i.yy, i.zz)) / lever2);
+    return rate * rate * speed2 < limit * limit;
+}
+
+static double implicit_part(double bound, double mass, double time_step)
+{
+    return fmax(0, time_step * bound - EXPLICIT_DRAG * mass);
+}
+
+/* ---- one prism ---- */
+
+static double wet_share(const response_work *w, int32_t slot, const prism_view *v)
+{
+    double whole = 2 * v->half_height * v->area;
+    return fmax(0, fmin(1, w->detail[slot].submerged_volume / (WHOLE_FROM * whole)));
+}
+
+/* Sets what added mass there is, and adds Kirchhoff's terms; the dynamics know those of turning alone. */
+static void add_mass(const response_work *w, int32_t slot, const prism_view *v, double share, vec3 *mass, vec3 *inertia)
+{
+    plate_added_mass plate = plate_added_mass_of(&v->moments, share * w->media->water_density);
+    *mass = vec3_make(0, 0, plate.heave);
+    *inertia = vec3_make(plate.roll, plate.pitch, 0);
+    vec3 p = times(*mass, v->velocity);
+    vec3 force = vec3_sub(times(*mass, vec3_cross(v->spin, v->velocity)), vec3_cross(v->spin, p));
+    vec3 moment = vec3_neg(vec3_cross(v->velocity, p));
+    wrench *load = &w->loads[slot];
+    load->force = vec3_add(load->force, mat3_mul_vec(v->rotation, force));
+    load->moment = vec3_add(load->moment, mat3_mul_vec(v->rotation, moment));
+}
+
+/* Part of the critical damping of the springs that the water plane makes; adds its force and its bound. */
+static void add_damping(const response_work *w, int32_t slot, const prism_view *v, double share, vec3 mass,
+                        vec3 inertia, drag_bound *bound)
+{
+    const body_table *b = w->bodies;
+    double weight = w->media->water_density * w->media->gravity, twice = 2 * share * w->settings->damping_ratio;
+    double heave = twice * sqrt(weight * v->moments.area * (b->mass[slot] + mass.z));
+    double roll = twice * sqrt(weight * v->moments.xx * (b->inertia[slot].xx + inertia.x));
+    double pitch = twice * sqrt(weight * v->moments.yy * (b->inertia[slot].yy + inertia.y));
+    vec3 force = {0, 0, -heave * v->velocity.z}, moment = {-roll * v->spin.x, -pitch * v->spin.y, 0};
+    wrench *load = &w->loads[slot];
+    load->force = vec3_add(load->force, mat3_mul_vec(v->rotation, force));
+    load->moment = vec3_add(load->moment, mat3_mul_vec(v->rotation, moment));
+    bound->line.z += heave;
+    bound->turn.x += roll;
+    bound->turn.y += pitch;
+}
+
+static void respond(const response_work *w, int32_t slot)
+{
+    const vec3 none = {0, 0, 0};
+    body_table *b = w->bodies;
+    vec3 mass = none, inertia = none;
+    prism_view v = view_of(w, slot);
+    bool plain = !w->settings->added_mass && !(w->settings->damping_ratio > 0);
+    if (!plain || !drag_is_weak(w, slot, &v)) {
+        double share = wet_share(w, slot, &v), dt = w->time_step;
+        drag_bound bound = share > 0 ? bound_drag(w, slot, &v) : (drag_bound){none, none};
+        if (w->settings->added_mass)
+            add_mass(w, slot, &v, share, &mass, &inertia);
+        if (w->settings->damping_ratio > 0)
+            add_damping(w, slot, &v, share, mass, inertia, &bound);
+        mass.x += implicit_part(bound.line.x, b->mass[slot] + mass.x, dt);
+        mass.y += implicit_part(bound.line.y, b->mass[slot] + mass.y, dt);
+        mass.z += implicit_part(bound.line.z, b->mass[slot] + mass.z, dt);
+        inertia.x += implicit_part(bound.turn.x, b->inertia[slot].xx + inertia.x, dt);
+        inertia.y += implicit_part(bound.turn.y, b->inertia[slot].yy + inertia.y, dt);
+        inertia.z += implicit_part(bound.turn.z, b->inertia[slot].zz + inertia.z, dt);
+    }
+    b->added_mass[slot] = mass;
+    b->added_inertia[slot] = inertia;
+}
+
+static void respond_block(void *arg, int32_t block, int32_t thread)
+{
+    (void)thread;
+    const response_work *w = arg;
+    const body_table *b = w->bodies;
+    int32_t first = block * BLOCK_SLOTS, end = first + BLOCK_SLOTS < b->count ? first + BLOCK_SLOTS : b->count;
+    for (int32_t slot = first; slot < end; slot++)
+        if (body_is_dynamic(b, slot) && b->shape[slot] >= 0 && w->shapes->shapes.kind[b->shape[slot]] == SHAPE_PRISM)
+            respond(w, slot);
+}
+
+void prisms_respond(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
+                    const prism_response *settings, double time_step, body_table *bodies, const shape_store *shapes,
+                    const fluid_load *detail, wrench *loads)
+{
+    response_work w = {m, coefficients, settings, time_step, bodies, shapes, detail, loads};
+    pool_run(ctx, respond_block, &w, bodies->count / BLOCK_SLOTS + (bodies->count % BLOCK_SLOTS != 0));
+}
+
+/* ---- matrices ---- */
+
+/* The body's velocity relative to the water at its centre of mass, body axes. */
+static pair6 relative_velocity(const media *m, const body_table *b, int32_t slot, mat3 r)
+{
+    vec3 current = media_current(m, fmin(0, b->position[slot].z));
+    return (pair6){mat3_tmul_vec(r, vec3_sub(b->velocity[slot], current)), mat3_tmul_vec(r, b->angular_velocity[slot])};
+}
+
+static matrix6 diagonal_of(const matrix6 *a)
+{
+    matrix6 d = {0};
+    for (int i = 0; i < 6; i++)
+        d.m[i][i] = a->m[i][i];
+    return d;
+}
+
+static matrix6 rigid_matrix(const body_table *b, int32_t slot)
+{
+    double m = b->mass[slot];
+    sym3 i = b->inertia[slot];
+    return (matrix6){{{m},
+                      {0, m},
+                      {0, 0, m},
+                      {0, 0, 0, i.xx, i.xy, i.xz},
+                      {0, 0, 0, i.xy, i.yy, i.yz},
+                      {0, 0, 0, i.xz, i.yz, i.zz}}};
+}
+
+/* Kirchhoff's terms for all of A, less what the dynamics know: w x (diagonal of A's last block) w. */
+static pair6 turning_terms(const matrix6 *a, pair6 v)
+{
+    pair6 p = matrix6_mul(a, v), shift = matrix6_mul(a, (pair6){vec3_cross(v.turn, v.line), {0, 0, 0}});
+    vec3 known = {a->m[3][3] * v.turn.x, a->m[4][4] * v.turn.y, a->m[5][5] * v.turn.z};
+    vec3 force = vec3_sub(shift.line, vec3_cross(v.turn, p.line));
+    vec3 moment =
+        vec3_sub(shift.turn, vec3_add(vec3_cross(v.line, p.line), vec3_cross(v.turn, vec3_sub(p.turn, known))));
+    return (pair6){force, moment};
+}
+
+static pair6 pair_sum(pair6 a, pair6 b, double scale)
+{
+    return (pair6){vec3_mad(a.line, b.line, scale), vec3_mad(a.turn, b.turn, scale)};
+}
+
+void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
+                           const body_table *bodies, int32_t slot, wrench *load)
+{
+    mat3 r = quat_matrix(bodies->orientation[slot]);
+    pair6 v = relative_velocity(m, bodies, slot, r);
+    matrix6 diagonal = diagonal_of(&h->added_mass), rigid = rigid_matrix(bodies, slot);
+    matrix6 added = coupled ? h->added_mass : diagonal, damping = coupled ? h->damping : diagonal_of(&h->damping);
+    pair6 force = {mat3_tmul_vec(r, load->force), mat3_tmul_vec(r, load->moment)};
+    force = pair_sum(force, matrix6_mul(&damping, v), -1);
+    vec3 gyroscopic = {0, 0, 0};
+    if (coupled) {
+        /* Known to the dynamics, who divide it by what they know: it must be divided by all, and then put back. */
+        vec3 known = matrix6_mul(&diagonal, v).turn;
+        gyroscopic = vec3_cross(v.turn, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.turn), known));
+        force = pair_sum(force, turning_terms(&added, v), 1);
+        force.turn = vec3_sub(force.turn, gyroscopic);
+    }
+    matrix6 known = matrix6_sum(&rigid, &diagonal, 1), whole = matrix6_sum(&rigid, &added, 1);
+    whole = matrix6_sum(&whole, &damping, time_step);
+    pair6 acceleration;
+    if (!matrix6_solve(&whole, force, &acceleration))
+        return;
+    pair6 changed = matrix6_mul(&known, acceleration);
+    load->force = mat3_mul_vec(r, changed.line);
+    load->moment = mat3_mul_vec(r, vec3_add(changed.turn, gyroscopic));
+}
+
+double hydrodynamics_energy(const hydrodynamics *h, const media *m, const body_table *bodies, int32_t slot)
+{
+    pair6 v = relative_velocity(m, bodies, slot, quat_matrix(bodies->orientation[slot]));
+    pair6 p = matrix6_mul(&h->added_mass, v);
+    return 0.5 * (vec3_dot(v.line, p.line) + vec3_dot(v.turn, p.turn));
+}

@@ -1,0 +1,55 @@
+/* How the water answers a body's motion beyond pressure and drag: added mass, linear damping, and the treatment of drag
+   that is too strong for the time step.  What this room knows of it goes into the loads and into the added masses of
+   the body table, before the solver turns loads into velocities.
+   Signs: A is the added mass, D the linear damping; velocities are relative to the water. */
+#ifndef FLUID_RESPONSE_H
+#define FLUID_RESPONSE_H
+
+#include "fluid/fluid.h"
+#include "fluid/matrix6.h"
+
+/* ---- prisms: floes ---- */
+
+typedef struct prism_response {
+    bool added_mass;      /* of thin plates (added_mass.h), in heave, roll and pitch */
+    double damping_ratio; /* linear damping in heave, roll and pitch, over the critical one; 0: none */
+} prism_response;
+
+/* Drag is treated implicitly as far as an explicit step would take more than this part of a velocity. */
+#define EXPLICIT_DRAG 0.05
+
+/* For every dynamic prism: sets its added mass and inertia in `bodies`, and adds to its load what added mass and
+   damping exert.  detail: what fluid_apply gave of this step.
+
+   Added mass acts in proportion to the submerged part while that is small (a quarter of the body), so that floes that
+   leave the water do it without a jump.  With p = A v in axes that turn with the body, the load is that of Kirchhoff's
+   equations (Lamb 1932, section 124): -w x p + A (w x v), and -v x p about the centre of mass.
+
+   Strong drag: the solver's equation becomes (M + dt C) dv = dt F, linearly implicit, with a diagonal C (body axes)
+   that bounds the derivative of drag by velocity at the present speed from above, less EXPLICIT_DRAG M / dt.  For drag
+   that grows with the square of the speed this is stable for any time step, does not overshoot, stays of first order,
+   and leaves terminal speeds and the balance of drag with contacts as they are; where dt C < EXPLICIT_DRAG M it changes
+   nothing. */
+void prisms_respond(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
+                    const prism_response *settings, double time_step, body_table *bodies, const shape_store *shapes,
+                    const fluid_load *detail, wrench *loads);
+
+/* ---- vessels: matrices ---- */
+
+/* Body axes, about the centre of mass. */
+typedef struct hydrodynamics {
+    matrix6 added_mass; /* symmetric [kg, kg m, kg m2] */
+    matrix6 damping;    /* [N s/m, N s, N m s] */
+} hydrodynamics;
+
+/* Changes the load of a dynamic body, whose added mass and inertia in `bodies` must be the diagonal of h->added_mass:
+   its acceleration under the changed load by mass and diagonal is what (M + A + dt D) a = F - D v - (Kirchhoff's
+   terms) gives, with all of A and D.  Contacts and joints then meet the diagonal only.  coupled: false leaves out all
+   but the diagonals, for a body that a joint allows to heave only. */
+void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
+                           const body_table *bodies, int32_t slot, wrench *load);
+
+/* The energy [J] of the water that moves with a body: half of v' A v, for the books. */
+double hydrodynamics_energy(const hydrodynamics *h, const media *m, const body_table *bodies, int32_t slot);
+
+#endif

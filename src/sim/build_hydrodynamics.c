@@ -1,0 +1,118 @@
+#include "sim/build_hydrodynamics.h"
+
+#include "fluid/added_mass.h"
+
+#include <string.h>
+
+/* ---- matrices of the scenario ---- */
+
+/* Entries m[i][j] and m[j][i] of an added mass may differ by this part of the diagonal: published ones are rounded. */
+#define ASYMMETRY 1e-3
+
+static matrix6 rows_of(const scenario_matrix_row_list *rows)
+{
+    matrix6 a = {0};
+    for (int i = 0; i < rows->count && i < 6; i++) {
+        const scenario_matrix_row *r = &rows->data[i];
+        const double row[6] = {r->surge, r->sway, r->heave, r->roll, r->pitch, r->yaw};
+        memcpy(a.m[i], row, sizeof row);
+    }
+    return a;
+}
+
+static fram_status fault(const scenario *s, const char *key, fram_error *error)
+{
+    if (error) {
+        strcpy(error->key, key);
+        scenario_locate(s, error);
+    }
+    return FRAM_ERROR_INPUT;
+}
+
+/* Symmetric, nearly, and no negative diagonal; takes the mean of the two halves. */
+static fram_status check_added_mass(const scenario *s, matrix6 *a, fram_error *error)
+{
+    for (int i = 0; i < 6; i++) {
+        if (a->m[i][i] < 0) {
+            error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                      "expected a diagonal without negative numbers, found %g in row %d", a->m[i][i], i + 1);
+            return fault(s, "vessel.hydrodynamics.added_mass", error);
+        }
+        for (int j = 0; j < i; j++) {
+            double size = sqrt(a->m[i][i] * a->m[j][j]), mean = 0.5 * (a->m[i][j] + a->m[j][i]);
+            if (fabs(a->m[i][j] - a->m[j][i]) > ASYMMETRY * size || fabs(mean) > size) {
+                error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
+                          "expected a symmetric positive matrix, found %g in row %d, column %d, and %g across",
+                          a->m[i][j], i + 1, j + 1, a->m[j][i]);
+                return fault(s, "vessel.hydrodynamics.added_mass", error);
+            }
+            a->m[i][j] = a->m[j][i] = mean;
+        }
+    }
+    return FRAM_OK;
+}
+
+/* About the centre of mass, in the ship's axes. */
+static matrix6 moved(const scenario_hydrodynamics *h, const matrix6 *a, vec3 centre)
+{
+    matrix6 up = h->axes == MATRIX_AXES_DOWN ? matrix6_turned_over(a) : *a;
+    return matrix6_moved(&up, vec3_sub(vec3_make(h->x, h->y, h->z), centre));
+}
+
+static fram_status given(const scenario *s, vec3 centre, hydrodynamics *out, fram_error *error)
+{
+    const scenario_hydrodynamics *h = &s->vessel.hydrodynamics;
+    matrix6 mass = rows_of(&h->added_mass), damping = rows_of(&h->damping);
+    fram_status status = check_added_mass(s, &mass, error);
+    out->added_mass = moved(h, &mass, centre);
+    out->damping = moved(h, &damping, centre);
+    return status;
+}
+
+/* ---- estimate ---- */
+
+static hydrodynamics estimate(const scenario *s, const made_hull *hull)
+{
+    const scenario_vessel *v = &s->vessel;
+    const hull_particulars *p = &hull->particulars;
+    const hull_hydrostatics *f = &hull->floats;
+    double density = s->environment.water_density, weight = density * s->environment.gravity;
+    vec3 half = {0.5 * p->length, 0.5 * p->beam, p->draught};
+    matrix6 mass = ellipsoid_added_mass(half, f->volume, density);
+    hydrodynamics out = {0};
+    out.added_mass = matrix6_moved(&mass, vec3_sub(vec3_make(p->midships, 0, 0), hull->centre));
+    double m = automatic_or(v->mass, hull->displaced_mass), lift = f->centre_of_buoyancy.z - hull->centre.z;
+    double roll_arm = automatic_or(v->gyration_roll, 0.35 * p->beam);
+    double pitch_arm = automatic_or(v->gyration_pitch, 0.25 * p->length);
+    double heave_spring = weight * f->waterplane_area;
+    double roll_spring = fmax(0, weight * (f->waterplane_xx + f->volume * lift));
+    double pitch_spring = fmax(0, weight * (f->waterplane_yy + f->volume * lift));
+    const scenario_hydrodynamics *h = &v->hydrodynamics;
+    const matrix6 *a = &out.added_mass;
+    out.damping.m[2][2] = 2 * h->heave_damping * sqrt(heave_spring * (m + a->m[2][2]));
+    out.damping.m[3][3] = 2 * h->roll_damping * sqrt(roll_spring * (m * roll_arm * roll_arm + a->m[3][3]));
+    out.damping.m[4][4] = 2 * h->pitch_damping * sqrt(pitch_spring * (m * pitch_arm * pitch_arm + a->m[4][4]));
+    return out;
+}
+
+fram_status build_hydrodynamics(const scenario *s, const made_hull *hull, world *w, fram_error *error)
+{
+    const scenario_hydrodynamics *h = &s->vessel.hydrodynamics;
+    w->has_hydrodynamics = h->source != HYDRODYNAMICS_NONE;
+    w->hydrodynamics = (hydrodynamics){0};
+    if (h->source == HYDRODYNAMICS_GIVEN)
+        return given(s, hull->centre, &w->hydrodynamics, error);
+    if (h->source == HYDRODYNAMICS_ESTIMATE)
+        w->hydrodynamics = estimate(s, hull);
+    return FRAM_OK;
+}
+
+void build_added_mass(world *w)
+{
+    if (!w->has_hydrodynamics || w->vessels.count == 0)
+        return;
+    int32_t body = w->vessels.body[0];
+    const matrix6 *a = &w->hydrodynamics.added_mass;
+    w->bodies.added_mass[body] = vec3_make(a->m[0][0], a->m[1][1], a->m[2][2]);
+    w->bodies.added_inertia[body] = vec3_make(a->m[3][3], a->m[4][4], a->m[5][5]);
+}

@@ -1,0 +1,109 @@
+/* Added mass of plates and ellipsoids, and 6 x 6 matrices. */
+#include "fluid/added_mass.h"
+#include "samples.h"
+
+static plate_added_mass plate(polygon outline)
+{
+    polygon_moments m = polygon_moments_of(outline);
+    return plate_added_mass_of(&m, 1025);
+}
+
+/* Oracles section 5: 10 x 10 m in heave, 233 t where the surface yields. */
+START_TEST(plates)
+{
+    plate_added_mass square = plate(OUTLINE(square_outline));
+    assert_relative(square.heave, 233e3, 1e-3);
+    assert_relative(square.roll, square.heave * 8.0 / 15 * 100 / 12, 1e-12);
+    assert_bits(square.roll, square.pitch);
+    /* Disc of radius 5: 4/3 rho r^3 and 8/45 rho r^5. */
+    vec2 circle[128];
+    for (int i = 0; i < 128; i++)
+        circle[i] = vec2_make(5 * real_cos(2 * PI * i / 128), 5 * real_sin(2 * PI * i / 128));
+    plate_added_mass disc = plate((polygon){circle, 128});
+    assert_relative(disc.heave, 4.0 / 3 * 1025 * 125, 0.06);
+    assert_relative(disc.roll / disc.heave, 2.0 / 15 * 25, 2e-3);
+    /* A strip: pi/8 rho a^2 a metre; its own turn does not matter to heave. */
+    static const vec2 strip[] = {{-50, -0.5}, {50, -0.5}, {50, 0.5}, {-50, 0.5}};
+    assert_relative(plate(OUTLINE(strip)).heave, PI / 8 * 1025 * 100, 0.01);
+    static const vec2 anti[] = {{-40.3, -29.6}, {-39.7, -30.4}, {40.3, 29.6}, {39.7, 30.4}};
+    assert_relative(plate(OUTLINE(anti)).heave, plate(OUTLINE(strip)).heave, 1e-3);
+}
+END_TEST
+
+START_TEST(ellipsoids)
+{
+    /* Half a sphere: half of its displaced mass along every axis, nothing when it turns. */
+    double volume = 2.0 / 3 * PI * 27;
+    matrix6 ball = ellipsoid_added_mass(vec3_make(3, 3, 3), volume, 1000);
+    for (int i = 0; i < 3; i++) {
+        assert_relative(ball.m[i][i], 0.5 * 1000 * volume, 1e-13);
+        assert_absolute(ball.m[3 + i][3 + i], 0, 1e-9);
+    }
+    /* Prolate 5:1 (Lamb 1932, section 114): k1 .059, k2 .895, k' .701. */
+    volume = 2.0 / 3 * PI * 5;
+    matrix6 ship = ellipsoid_added_mass(vec3_make(5, 1, 1), volume, 1000);
+    assert_absolute(ship.m[0][0] / (1000 * volume), 0.0591, 1e-4);
+    assert_absolute(ship.m[1][1] / (1000 * volume), 0.8943, 1e-3);
+    assert_absolute(ship.m[4][4] / (1000 * volume * 26.0 / 5), 0.7000, 2e-3);
+    assert_bits(ship.m[1][1], ship.m[2][2]);
+    assert_absolute(ship.m[3][3], 0, 1e-9);
+    /* A flat disc deep under water, both sides: 8/3 rho r^3 along z, 16/45 rho r^5 when it turns over. */
+    double thin = 1e-5;
+    matrix6 disc = ellipsoid_added_mass(vec3_make(2, 2, thin), 4.0 / 3 * PI * 4 * thin, 1000);
+    assert_relative(disc.m[2][2], 8.0 / 3 * 1000 * 8, 1e-4);
+    assert_relative(disc.m[3][3], 16.0 / 45 * 1000 * 32, 1e-4);
+    assert_relative(disc.m[4][4], disc.m[3][3], 1e-9);
+    ck_assert(disc.m[0][0] > 0 && disc.m[0][1] == 0);
+}
+END_TEST
+
+static matrix6 random_matrix(random_stream *r)
+{
+    matrix6 a;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            a.m[i][j] = random_uniform(r, -1, 1) + (i == j ? 4 : 0);
+    return a;
+}
+
+/* The same force on the same body, whichever point it is told about and whichever way z points. */
+START_TEST(reference_points_and_axes)
+{
+    random_stream r = random_begin(31, 0, 0);
+    for (int n = 0; n < 50; n++) {
+        matrix6 at_p = random_matrix(&r);
+        vec3 arm = random_vector(&r, 3), v = random_vector(&r, 1), w = random_vector(&r, 1);
+        matrix6 at_q = matrix6_moved(&at_p, arm);
+        pair6 p = matrix6_mul(&at_p, (pair6){vec3_add(v, vec3_cross(w, arm)), w});
+        pair6 q = matrix6_mul(&at_q, (pair6){v, w});
+        assert_vec3_close(q.line, p.line, 1e-12);
+        assert_vec3_close(q.turn, vec3_add(p.turn, vec3_cross(arm, p.line)), 1e-12);
+        matrix6 over = matrix6_turned_over(&at_p);
+        pair6 x = {{v.x, -v.y, -v.z}, {w.x, -w.y, -w.z}};
+        pair6 up = matrix6_mul(&over, (pair6){v, w}), down = matrix6_mul(&at_p, x);
+        assert_vec3_close(up.line, vec3_make(down.line.x, -down.line.y, -down.line.z), 1e-13);
+        assert_vec3_close(up.turn, vec3_make(down.turn.x, -down.turn.y, -down.turn.z), 1e-13);
+        pair6 back;
+        ck_assert(matrix6_solve(&at_p, p, &back));
+        assert_vec3_close(back.turn, w, 1e-12);
+    }
+    /* The supply ship of oracles section 7, sway and yaw about midships, z down: a point 3 m ahead of midships sees
+       m23 + 3 m22 ... with the sign of the other axes. */
+    matrix6 fossen = {{{6.7644e6},
+                       {0, 1.13412e7, 0, 0, 0, -3.401568e7},
+                       {0, 0, 1},
+                       {0, 0, 0, 1},
+                       {0, 0, 0, 0, 1},
+                       {0, -3.401568e7, 0, 0, 0, 4.452378e9}}};
+    matrix6 ours = matrix6_turned_over(&fossen);
+    assert_relative(ours.m[1][5], -3.401568e7, 1e-15);
+    matrix6 moved = matrix6_moved(&ours, vec3_make(3, 0, 0));
+    assert_relative(moved.m[1][5], -3.401568e7 + 3 * 1.13412e7, 1e-9);
+    assert_relative(moved.m[5][5], 4.452378e9 - 6 * 3.401568e7 + 9 * 1.13412e7, 1e-14);
+    matrix6 none = {0};
+    pair6 x;
+    ck_assert(!matrix6_solve(&none, (pair6){{1, 2, 3}, {4, 5, 6}}, &x));
+}
+END_TEST
+
+TEST_MAIN("added_mass", plates, ellipsoids, reference_points_and_axes)

@@ -1,0 +1,345 @@
+/* What the water answers to motion: matrices of vessels, added mass and strong drag of prisms. */
+#include "fluid/added_mass.h"
+#include "fluid/response.h"
+#include "samples.h"
+
+typedef struct rig {
+    context ctx;
+    body_table bodies;
+    shape_store shapes;
+} rig;
+
+static void rig_close(rig *r)
+{
+    table_free(&r->ctx, &r->bodies, &body_table_info);
+    shape_store_free(&r->ctx, &r->shapes);
+}
+
+static int32_t rig_open(rig *r, double mass, sym3 inertia)
+{
+    *r = (rig){0};
+    context_init(&r->ctx);
+    int32_t slot = body_create(&r->ctx, &r->bodies, MOTION_DYNAMIC, MATERIAL_HULL);
+    r->bodies.mass[slot] = mass;
+    r->bodies.inertia[slot] = inertia;
+    r->bodies.position[slot] = vec3_make(0, 0, -2);
+    return slot;
+}
+
+/* Symmetric, with couplings of every kind, and positive. */
+static matrix6 coupled_matrix(random_stream *r, double size)
+{
+    matrix6 a = {0};
+    double f[6][6];
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            f[i][j] = random_uniform(r, -1, 1) + (i == j ? 1.5 : 0);
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            for (int k = 0; k < 6; k++)
+                a.m[i][j] += 0.2 * size * f[k][i] * f[k][j];
+    return a;
+}
+
+static void set_diagonal(body_table *b, int32_t slot, const matrix6 *a)
+{
+    b->added_mass[slot] = vec3_make(a->m[0][0], a->m[1][1], a->m[2][2]);
+    b->added_inertia[slot] = vec3_make(a->m[3][3], a->m[4][4], a->m[5][5]);
+}
+
+/* A step as the dynamics take it: global velocities by mass and added mass along body axes, turning with the
+   gyroscopic term of all inertia that they know. */
+static void step(body_table *b, int32_t slot, const wrench *load, double dt)
+{
+    mat3 r = quat_matrix(b->orientation[slot]);
+    vec3 f = mat3_tmul_vec(r, load->force), added = b->added_mass[slot], turn = b->added_inertia[slot];
+    double m = b->mass[slot];
+    vec3 push = {f.x / (m + added.x), f.y / (m + added.y), f.z / (m + added.z)};
+    sym3 i = b->inertia[slot];
+    i.xx += turn.x, i.yy += turn.y, i.zz += turn.z;
+    vec3 w = mat3_tmul_vec(r, b->angular_velocity[slot]);
+    vec3 moment = vec3_sub(mat3_tmul_vec(r, load->moment), vec3_cross(w, sym3_mul_vec(i, w)));
+    w = vec3_mad(w, sym3_mul_vec(sym3_inverse(i), moment), dt);
+    b->velocity[slot] = vec3_mad(b->velocity[slot], mat3_mul_vec(r, push), dt);
+    vec3 s = b->angular_velocity[slot] = mat3_mul_vec(r, w);
+    quat q = b->orientation[slot], rate = quat_mul((quat){0, s.x, s.y, s.z}, q);
+    double h = 0.5 * dt;
+    b->orientation[slot] = quat_unit((quat){q.w + h * rate.w, q.x + h * rate.x, q.y + h * rate.y, q.z + h * rate.z});
+    b->position[slot] = vec3_mad(b->position[slot], b->velocity[slot], dt);
+}
+
+/* From rest, the acceleration is that of all of M + A, whatever the attitude; and no force does nothing. */
+START_TEST(whole_matrix_accelerates)
+{
+    random_stream r = random_begin(41, 0, 0);
+    for (int n = 0; n < 20; n++) {
+        rig k;
+        int32_t slot = rig_open(&k, 900, (sym3){800, 900, 1000, 20, -30, 10});
+        k.bodies.orientation[slot] = quat_from_roll_pitch_yaw(0.3, -0.2, random_uniform(&r, -3, 3));
+        hydrodynamics h = {coupled_matrix(&r, 500), {{{0}}}};
+        set_diagonal(&k.bodies, slot, &h.added_mass);
+        pair6 a = {random_vector(&r, 1), random_vector(&r, 1)};
+        mat3 turn = quat_matrix(k.bodies.orientation[slot]);
+        pair6 f = matrix6_mul(&h.added_mass, a);
+        f.line = vec3_mad(f.line, a.line, 900);
+        f.turn = vec3_add(f.turn, sym3_mul_vec(k.bodies.inertia[slot], a.turn));
+        wrench load = {mat3_mul_vec(turn, f.line), mat3_mul_vec(turn, f.turn)};
+        hydrodynamics_respond(&h, true, &still_water, 1e-3, &k.bodies, slot, &load);
+        step(&k.bodies, slot, &load, 1);
+        assert_vec3_close(mat3_tmul_vec(turn, k.bodies.velocity[slot]), a.line, 1e-12);
+        wrench none = {{0, 0, 0}, {0, 0, 0}};
+        rig still;
+        slot = rig_open(&still, 900, (sym3){800, 900, 1000, 20, -30, 10});
+        hydrodynamics_respond(&h, true, &still_water, 1e-3, &still.bodies, slot, &none);
+        ck_assert(vec3_length(none.force) == 0 && vec3_length(none.moment) == 0);
+        rig_close(&still);
+        rig_close(&k);
+    }
+}
+END_TEST
+
+/* Kirchhoff: a body coasting and tumbling in an ideal fluid keeps its energy, fluid included; the step's error is of
+   first order. */
+static double energy_drift(double dt)
+{
+    random_stream r = random_begin(42, 0, 0);
+    rig k;
+    int32_t slot = rig_open(&k, 900, (sym3){800, 900, 1300, 20, -30, 10});
+    hydrodynamics h = {coupled_matrix(&r, 300), {{{0}}}};
+    set_diagonal(&k.bodies, slot, &h.added_mass);
+    k.bodies.velocity[slot] = vec3_make(1, 0.4, -0.3);
+    k.bodies.angular_velocity[slot] = vec3_make(0.2, -0.3, 0.5);
+    media m = still_water;
+    m.current = vec3_make(0.3, -0.5, 0);
+    double start = 0, worst = 0;
+    for (int i = 0; i * dt <= 5; i++) {
+        vec3 v = vec3_sub(k.bodies.velocity[slot], m.current);
+        vec3 w = mat3_tmul_vec(quat_matrix(k.bodies.orientation[slot]), k.bodies.angular_velocity[slot]);
+        double energy = 0.5 * (900 * vec3_dot(v, v) + vec3_dot(w, sym3_mul_vec(k.bodies.inertia[slot], w))) +
+                        hydrodynamics_energy(&h, &m, &k.bodies, slot);
+        start = i == 0 ? energy : start;
+        worst = fmax(worst, fabs(energy / start - 1));
+        wrench load = {{0, 0, 0}, {0, 0, 0}};
+        hydrodynamics_respond(&h, true, &m, dt, &k.bodies, slot, &load);
+        step(&k.bodies, slot, &load, dt);
+    }
+    rig_close(&k);
+    return worst;
+}
+
+START_TEST(coasting_keeps_energy)
+{
+    double coarse = energy_drift(0.01), fine = energy_drift(0.005);
+    ck_assert_msg(fine < 2e-2 && coarse / fine > 1.8 && coarse / fine < 2.2, "drift %g, then %g", coarse, fine);
+}
+END_TEST
+
+/* Linear damping is implicit: v' = v / (1 + dt D/M) for any step, and exp(-D t/M) to first order. */
+START_TEST(damping_of_any_strength)
+{
+    for (double rate = 1e-3; rate < 1e6; rate *= 10) {
+        rig k;
+        int32_t slot = rig_open(&k, 500, (sym3){800, 900, 1300, 0, 0, 0});
+        hydrodynamics h = {{{{100}, {0, 100}, {0, 0, 500}}}, {{{0}, {0}, {0, 0, rate}, {0, 0, 0, rate}}}};
+        set_diagonal(&k.bodies, slot, &h.added_mass);
+        k.bodies.velocity[slot].z = 2;
+        k.bodies.angular_velocity[slot].x = 1;
+        for (int coupled = 0; coupled < 2; coupled++) {
+            if (coupled)
+                k.bodies.angular_velocity[slot].x = 0, k.bodies.orientation[slot] = quat_identity();
+            double before = k.bodies.velocity[slot].z, turned = k.bodies.angular_velocity[slot].x;
+            wrench load = {{0, 0, 0}, {0, 0, 0}};
+            hydrodynamics_respond(&h, coupled, &still_water, 0.1, &k.bodies, slot, &load);
+            step(&k.bodies, slot, &load, 0.1);
+            assert_relative(k.bodies.velocity[slot].z, before / (1 + 0.1 * rate / 1000), 1e-9);
+            if (!coupled)
+                assert_relative(k.bodies.angular_velocity[slot].x, turned / (1 + 0.1 * rate / 800), 1e-9);
+        }
+        rig_close(&k);
+    }
+}
+END_TEST
+
+/* ---- prisms ---- */
+
+static int32_t add_floe(rig *k, double thickness)
+{
+    *k = (rig){0};
+    context_init(&k->ctx);
+    int32_t shape, slot = body_create(&k->ctx, &k->bodies, MOTION_DYNAMIC, MATERIAL_ICE);
+    fram_error error = {0};
+    double half = 0.5 * thickness, mass = 920 * 100 * thickness, flat = mass * thickness * thickness / 12;
+    assert_ok(shape_add_prism(&k->ctx, &k->shapes, NULL, OUTLINE(square_outline), half, 0, &shape, &error), error);
+    k->bodies.shape[slot] = shape;
+    k->bodies.mass[slot] = mass;
+    k->bodies.inertia[slot] = (sym3){mass * 100 / 12 + flat, mass * 100 / 12 + flat, mass * 200 / 12, 0, 0, 0};
+    k->bodies.position[slot].z = half - thickness * 920 / 1025;
+    return slot;
+}
+
+static const drag_coefficients drag[MATERIAL_COUNT] = {{.water_form = 1, .water_skin = 0.01}};
+
+static void step_floe(rig *k, const media *m, const prism_response *settings, double dt)
+{
+    wrench load;
+    fluid_load detail;
+    fram_error error = {0};
+    assert_ok(fluid_apply(&k->ctx, m, drag, &k->bodies, &k->shapes, &load, &detail, &error), error);
+    prisms_respond(&k->ctx, m, drag, settings, dt, &k->bodies, &k->shapes, &detail, &load);
+    step(&k->bodies, 0, &load, dt);
+}
+
+/* Weak drag: nothing is changed. */
+START_TEST(weak_drag_is_left_alone)
+{
+    rig k;
+    int32_t slot = add_floe(&k, 1);
+    k.bodies.velocity[slot] = vec3_make(0.4, 0, 0.01);
+    k.bodies.angular_velocity[slot] = vec3_make(0.005, 0, 0.02);
+    k.bodies.added_mass[slot] = vec3_make(7, 7, 7);
+    wrench load = {{1, 2, 3}, {4, 5, 6}};
+    fluid_load detail = {.submerged_volume = 80};
+    prisms_respond(&k.ctx, &still_water, drag, &(prism_response){false, 0}, 0.01, &k.bodies, &k.shapes, &detail, &load);
+    assert_vec3_close(load.force, vec3_make(1, 2, 3), 0);
+    assert_vec3_close(load.moment, vec3_make(4, 5, 6), 0);
+    assert_vec3_close(k.bodies.added_mass[slot], vec3_make(0, 0, 0), 0);
+    assert_vec3_close(k.bodies.added_inertia[slot], vec3_make(0, 0, 0), 0);
+    rig_close(&k);
+}
+END_TEST
+
+/* Deep under water so that no spring pulls: every thickness, speed and step; the speed relative to the water never
+   grows and never turns round. */
+START_TEST(strong_drag_is_stable)
+{
+    static const double thickness[] = {1e-3, 1e-2, 0.1, 1}, speeds[] = {0.01, 0.3, 10, 100};
+    static const double steps[] = {1e-3, 0.1, 10};
+    for (int n = 0; n < 4 * 4 * 3 * 3; n++) {
+        double dt = steps[n % 3], speed = speeds[n / 3 % 4];
+        int way = n / 48;
+        rig k;
+        int32_t slot = add_floe(&k, thickness[n / 12 % 4]);
+        media m = still_water;
+        m.gravity = 0;
+        m.current = vec3_make(0.3, 0, 0);
+        k.bodies.position[slot].z = -1e6;
+        vec3 direction = way == 0 ? vec3_make(1, 0, 0) : way == 1 ? vec3_make(0, 0, -1) : vec3_make(0, 0, 0);
+        k.bodies.velocity[slot] = vec3_mad(m.current, direction, speed);
+        if (way == 2)
+            k.bodies.angular_velocity[slot] = vec3_make(0, 0, fmin(speed, 1 / dt));
+        double before = way == 2 ? k.bodies.angular_velocity[slot].z : speed;
+        for (int i = 0; i < 200; i++) {
+            step_floe(&k, &m, &(prism_response){false, 0}, dt);
+            double now = way == 2 ? k.bodies.angular_velocity[slot].z
+                                  : vec3_dot(vec3_sub(k.bodies.velocity[slot], m.current), direction);
+            ck_assert_msg(now >= 0 && now <= before, "case %d, step %d: %g after %g", n, i, now, before);
+            before = now;
+        }
+        rig_close(&k);
+    }
+}
+END_TEST
+
+/* A thin floe pushed by a constant force: its terminal speed is that of the balance with drag, however large the step.
+   And decay is 1/(1 + u t/L) to first order. */
+START_TEST(strong_drag_is_right)
+{
+    for (int n = 0; n < 2; n++) {
+        rig k;
+        int32_t slot = add_floe(&k, 0.01);
+        media m = still_water;
+        m.gravity = 0;
+        k.bodies.position[slot].z = -1e3;
+        double dt = n ? 5 : 0.05, push = 5000;
+        for (int i = 0; i < 400; i++) {
+            wrench load;
+            fluid_load detail;
+            fram_error error = {0};
+            assert_ok(fluid_apply(&k.ctx, &m, drag, &k.bodies, &k.shapes, &load, &detail, &error), error);
+            load.force.z -= push;
+            prisms_respond(&k.ctx, &m, drag, &(prism_response){false, 0}, dt, &k.bodies, &k.shapes, &detail, &load);
+            step(&k.bodies, slot, &load, dt);
+        }
+        double sides = 0.01 * 4 * 10 * 0.01; /* their skin */
+        assert_relative(-k.bodies.velocity[slot].z, sqrt(push / (0.5 * 1025 * (100 + sides))), 1e-6);
+        rig_close(&k);
+    }
+    /* Explicit, mixed or implicit: the error is of first order in the step. */
+    double rate = 0.5 * 1025 * 100.004 / 920, exact = -5 / (1 + 5 * rate * 0.1), largest = 0;
+    for (int steps = 10; steps <= 20480; steps *= 2) {
+        rig k;
+        int32_t slot = add_floe(&k, 0.01);
+        media m = still_water;
+        m.gravity = 0;
+        k.bodies.position[slot].z = -1e3;
+        k.bodies.velocity[slot].z = -5;
+        for (int i = 0; i < steps; i++)
+            step_floe(&k, &m, &(prism_response){false, 0}, 0.1 / steps);
+        double error = k.bodies.velocity[slot].z - exact;
+        largest = fmax(largest, fabs(error) * steps);
+        ck_assert_msg(fabs(error) < 2.5 / steps, "%d steps: %g m/s", steps, error);
+        rig_close(&k);
+    }
+    ck_assert(largest > 0.01);
+}
+END_TEST
+
+/* Heave of the 10 x 10 x 1 m box with the added mass of a plate: T = 2 pi sqrt((m + a)/(rho g A)). */
+START_TEST(floe_with_added_mass)
+{
+    rig k;
+    int32_t slot = add_floe(&k, 1);
+    double rest = k.bodies.position[slot].z, dt = 1e-3;
+    static const drag_coefficients none[MATERIAL_COUNT] = {{0}};
+    double first = 0, last = 0, before = 0.01;
+    int crossings = 0;
+    k.bodies.position[slot].z += 0.01;
+    for (int i = 1; crossings < 4; i++) {
+        ck_assert_int_lt(i, 20000);
+        wrench load;
+        fluid_load detail;
+        fram_error error = {0};
+        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load, &detail, &error), error);
+        prisms_respond(&k.ctx, &still_water, none, &(prism_response){true, 0}, dt, &k.bodies, &k.shapes, &detail,
+                       &load);
+        step(&k.bodies, slot, &load, dt);
+        double now = k.bodies.position[slot].z - rest;
+        if (before < 0 && now >= 0) {
+            last = dt * (i - now / (now - before));
+            first = crossings++ == 0 ? last : first;
+        }
+        before = now;
+    }
+    plate_added_mass plate = plate_added_mass_of(&(polygon_moments){100, {0, 0}, 1e4 / 12, 1e4 / 12, 0}, 1025);
+    double period = 2 * PI * sqrt((92000 + plate.heave) / (1025 * 9.81 * 100));
+    assert_relative((last - first) / 3, period, 1e-5);
+    assert_absolute(period, 2 * PI * sqrt(325e3 / (1025 * 9.81 * 100)), 1e-3); /* oracles: 233 t */
+    rig_close(&k);
+}
+END_TEST
+
+/* Damping: with half the critical one, a heave oscillation loses exp(-2 pi z / sqrt(1 - z^2)) a period. */
+START_TEST(floe_with_damping)
+{
+    rig k;
+    int32_t slot = add_floe(&k, 1);
+    double rest = k.bodies.position[slot].z, lowest = 0, dt = 5e-4, ratio = 0.5;
+    static const drag_coefficients none[MATERIAL_COUNT] = {{0}};
+    k.bodies.position[slot].z += 0.05;
+    for (int i = 0; i * dt < 1.5; i++) {
+        wrench load;
+        fluid_load detail;
+        fram_error error = {0};
+        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load, &detail, &error), error);
+        prisms_respond(&k.ctx, &still_water, none, &(prism_response){false, ratio}, dt, &k.bodies, &k.shapes, &detail,
+                       &load);
+        step(&k.bodies, slot, &load, dt);
+        lowest = fmin(lowest, k.bodies.position[slot].z - rest);
+    }
+    assert_relative(lowest, -0.05 * real_exp(-PI * ratio / sqrt(1 - ratio * ratio)), 0.01);
+    rig_close(&k);
+}
+END_TEST
+
+TEST_MAIN("response", whole_matrix_accelerates, coasting_keeps_energy, damping_of_any_strength, weak_drag_is_left_alone,
+          strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
