@@ -117,6 +117,49 @@ V8_INLINE unsigned v8_part_bits(v8_part_mask mask)
 #endif
 }
 
+V8_INLINE v8_part v8_part_set(double x)
+{
+#if defined(__AVX512F__)
+    return (v8_part){x, x, x, x, x, x, x, x};
+#elif defined(__AVX__)
+    return (v8_part){x, x, x, x};
+#else
+    return (v8_part){x, x};
+#endif
+}
+
+/* Least lane of a part, halves first. */
+V8_INLINE double v8_part_least(v8_part a)
+{
+#if defined(__AVX512F__)
+    __m256d half = _mm256_min_pd(_mm512_castpd512_pd256((__m512d)a), _mm512_extractf64x4_pd((__m512d)a, 1));
+    v8_part2 pair = (v8_part2)_mm_min_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+#elif defined(__AVX__)
+    v8_part2 pair = (v8_part2)_mm_min_pd(_mm256_castpd256_pd128((__m256d)a), _mm256_extractf128_pd((__m256d)a, 1));
+#else
+    v8_part2 pair = a;
+#endif
+    return pair[0] < pair[1] ? pair[0] : pair[1];
+}
+
+/* p[0], p[2], .. and p[1], p[3], .., as many of each as a part has lanes */
+V8_INLINE void v8_part_load_pairs(const double *p, v8_part *even, v8_part *odd)
+{
+    v8_part a, b;
+    memcpy(&a, p, sizeof a);
+    memcpy(&b, p + V8_PART_LANES, sizeof b);
+#if defined(__AVX512F__)
+    *even = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+    *odd = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+#elif defined(__AVX__)
+    *even = __builtin_shufflevector(a, b, 0, 2, 4, 6);
+    *odd = __builtin_shufflevector(a, b, 1, 3, 5, 7);
+#else
+    *even = __builtin_shufflevector(a, b, 0, 2);
+    *odd = __builtin_shufflevector(a, b, 1, 3);
+#endif
+}
+
 /* ---- memory ---- */
 
 /* x in all lanes */
@@ -135,21 +178,8 @@ V8_INLINE v8 v8_load(const double *p)
 V8_INLINE void v8_load_pairs(const double *p, v8 *even, v8 *odd)
 {
     v8_parts x, y;
-    for (int i = 0; i < V8_PARTS; i++) {
-        v8_part a, b;
-        memcpy(&a, p + 2 * V8_PART_LANES * i, sizeof a);
-        memcpy(&b, p + 2 * V8_PART_LANES * i + V8_PART_LANES, sizeof b);
-#if defined(__AVX512F__)
-        x.part[i] = __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
-        y.part[i] = __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
-#elif defined(__AVX__)
-        x.part[i] = __builtin_shufflevector(a, b, 0, 2, 4, 6);
-        y.part[i] = __builtin_shufflevector(a, b, 1, 3, 5, 7);
-#else
-        x.part[i] = __builtin_shufflevector(a, b, 0, 2);
-        y.part[i] = __builtin_shufflevector(a, b, 1, 3);
-#endif
-    }
+    for (int i = 0; i < V8_PARTS; i++)
+        v8_part_load_pairs(p + 2 * V8_PART_LANES * i, &x.part[i], &y.part[i]);
     *even = x.whole;
     *odd = y.whole;
 }
@@ -281,16 +311,12 @@ V8_INLINE double v8_least(v8 a)
 {
     v8_parts x = {.whole = a};
 #if defined(__AVX512F__)
-    __m256d half = _mm256_min_pd(_mm512_castpd512_pd256((__m512d)x.whole), _mm512_extractf64x4_pd((__m512d)x.whole, 1));
+    return v8_part_least(x.part[0]);
 #elif defined(__AVX__)
-    __m256d half = _mm256_min_pd((__m256d)x.part[0], (__m256d)x.part[1]);
-#endif
-#if defined(__AVX__)
-    v8_part2 pair = (v8_part2)_mm_min_pd(_mm256_castpd256_pd128(half), _mm256_extractf128_pd(half, 1));
+    return v8_part_least(v8_part_min(x.part[0], x.part[1]));
 #else
-    v8_part2 pair = v8_part_min(v8_part_min(x.part[0], x.part[2]), v8_part_min(x.part[1], x.part[3]));
+    return v8_part_least(v8_part_min(v8_part_min(x.part[0], x.part[2]), v8_part_min(x.part[1], x.part[3])));
 #endif
-    return pair[0] < pair[1] ? pair[0] : pair[1];
 }
 
 V8_INLINE double v8_most(v8 a) { return -v8_least(-a); }

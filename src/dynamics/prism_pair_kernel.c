@@ -2,77 +2,64 @@
 
 #include "base/simd.h"
 
-/* Blocks of eight vertices. */
-enum { MOST_BLOCKS = (PIECE_MOST_VERTICES + V8_LANES - 1) / V8_LANES };
+/* Vertices and sides are taken one register at a time (V8_PART_LANES of them), whatever its width: what is asked of
+   each is the same, and least and largest do not depend on the grouping. */
+enum { LANES = V8_PART_LANES };
 
-#define LANE_NUMBERS ((v8){0, 1, 2, 3, 4, 5, 6, 7})
+#if V8_PART_LANES == 8
+#define LANE_NUMBERS ((v8_part){0, 1, 2, 3, 4, 5, 6, 7})
+#elif V8_PART_LANES == 4
+#define LANE_NUMBERS ((v8_part){0, 1, 2, 3})
+#else
+#define LANE_NUMBERS ((v8_part){0, 1})
+#endif
 
-/* Eight points from ring[first] on; what stands beyond `count` has no meaning. */
-V8_INLINE void load_points(const prism *p, const vec2 *ring, int32_t first, v8 *x, v8 *y)
+/* Points from ring[first] on; what stands beyond `count` has no meaning. */
+V8_INLINE void load_points(const prism *p, const vec2 *ring, int32_t first, v8_part *x, v8_part *y)
 {
-    if (first + V8_LANES <= p->readable) {
-        v8_load_pairs(&ring[first].x, x, y);
+    if (first + LANES <= p->readable) {
+        v8_part_load_pairs(&ring[first].x, x, y);
         return;
     }
-    double room[2 * V8_LANES];
-    for (int32_t i = 0; i < V8_LANES; i++) {
+    double room[2 * LANES];
+    for (int32_t i = 0; i < LANES; i++) {
         vec2 v = ring[first + i < p->count ? first + i : 0];
         room[2 * i] = v.x;
         room[2 * i + 1] = v.y;
     }
-    v8_load_pairs(room, x, y);
+    v8_part_load_pairs(room, x, y);
 }
 
-V8_INLINE v8_mask real_lanes(const prism *p, int32_t first)
+/* Which lanes from `first` on are vertices. */
+V8_INLINE v8_part_mask real_lanes(const prism *p, int32_t first)
 {
-    return v8_less(LANE_NUMBERS + (double)first, v8_set(p->count));
-}
-
-/* Vertices first..first+7; from `count` on the first one again. */
-V8_INLINE void load_vertices(const prism *p, int32_t first, v8 *x, v8 *y)
-{
-    v8_mask real = real_lanes(p, first);
-    load_points(p, p->vertex, first, x, y);
-    *x = v8_select(real, *x, v8_set(p->vertex[0].x));
-    *y = v8_select(real, *y, v8_set(p->vertex[0].y));
+    return (v8_part_mask)(LANE_NUMBERS < v8_part_set(p->count - first));
 }
 
 /* ---- extents ---- */
 
-/* Least and largest of n . v over the vertices. */
-V8_INLINE void plan_span(const prism *p, double nx, double ny, double *low, double *high)
+/* Least of n . v over the vertices. */
+V8_INLINE double plan_least(const prism *p, double nx, double ny)
 {
-    v8 least = v8_set(HUGE_VAL), most = v8_set(-HUGE_VAL);
-    for (int32_t first = 0; first < p->count; first += V8_LANES) {
-        v8 x, y;
-        load_vertices(p, first, &x, &y);
-        v8 d = nx * x + ny * y;
-        least = v8_min(d, least);
-        most = v8_max(d, most);
+    v8_part least = v8_part_set(HUGE_VAL);
+    for (int32_t first = 0; first < p->count; first += LANES) {
+        v8_part x, y;
+        load_points(p, p->vertex, first, &x, &y);
+        least = v8_part_min(v8_part_select(real_lanes(p, first), nx * x + ny * y, least), least);
     }
-    *low = v8_least(least);
-    *high = v8_most(most);
+    return v8_part_least(least);
 }
 
 /* How far apart the two are along an axis from b to a. */
 V8_INLINE double axis_gap(const prism *a, const prism *b, vec3 axis)
 {
     vec3 na = mat3_tmul_vec(a->rotation, axis), nb = mat3_tmul_vec(b->rotation, axis);
-    double low_a, high_a, low_b, high_b;
-    plan_span(a, na.x, na.y, &low_a, &high_a);
-    plan_span(b, nb.x, nb.y, &low_b, &high_b);
-    double bottom = vec3_dot(axis, a->centre) + low_a - a->half_height * fabs(na.z);
-    double top = vec3_dot(axis, b->centre) + high_b + b->half_height * fabs(nb.z);
+    double bottom = vec3_dot(axis, a->centre) + plan_least(a, na.x, na.y) - a->half_height * fabs(na.z);
+    double top = vec3_dot(axis, b->centre) - plan_least(b, -nb.x, -nb.y) + b->half_height * fabs(nb.z);
     return bottom - top;
 }
 
 /* ---- sides ---- */
-
-/* Sides of one prism. */
-typedef struct side_block {
-    v8 nx, ny; /* unit outward normals in its plan view */
-    v8_mask real;
-} side_block;
 
 /* The other's frame as the holder of the sides sees it: r turns the other's coordinates into the holder's. */
 typedef struct seen_frame {
@@ -85,29 +72,44 @@ typedef struct best_of_sides {
     int32_t side;
 } best_of_sides;
 
+/* The least lane and, of equal ones, the first. */
+V8_INLINE void take_least(v8_part value, int32_t first, best_of_sides *best)
+{
+    double least = v8_part_least(value);
+    if (least < best->depth) {
+        best->depth = least;
+        best->side = first + __builtin_ctz(v8_part_bits((v8_part_mask)(value <= v8_part_set(least))));
+    }
+}
+
 /* The side along which `other` reaches least deep into p. */
-V8_INLINE best_of_sides search_all_sides(const prism *p, const prism *other, const seen_frame *f, side_block *blocks)
+V8_INLINE best_of_sides search_all_sides(const prism *p, const prism *other, const seen_frame *f)
 {
     best_of_sides best = {HUGE_VAL, 0};
-    for (int32_t first = 0, k = 0; first < p->count; first += V8_LANES, k++) {
-        side_block *s = &blocks[k];
-        v8 x, y;
+    for (int32_t first = 0; first < p->count; first += LANES) {
+        v8_part x, y, nx, ny, low = v8_part_set(HUGE_VAL);
         load_points(p, p->vertex, first, &x, &y);
-        load_points(p, p->side, first, &s->nx, &s->ny);
-        s->real = real_lanes(p, first);
-        v8 mx = f->r[0][0] * s->nx + f->r[1][0] * s->ny, my = f->r[0][1] * s->nx + f->r[1][1] * s->ny;
-        v8 mz = f->r[0][2] * s->nx + f->r[1][2] * s->ny, low = v8_set(HUGE_VAL);
+        load_points(p, p->side, first, &nx, &ny);
+        v8_part mx = f->r[0][0] * nx + f->r[1][0] * ny, my = f->r[0][1] * nx + f->r[1][1] * ny;
+        v8_part mz = f->r[0][2] * nx + f->r[1][2] * ny;
         for (int32_t i = 0; i < other->count; i++)
-            low = v8_min(mx * other->vertex[i].x + my * other->vertex[i].y, low);
-        low += s->nx * f->t.x + s->ny * f->t.y - other->half_height * v8_abs(mz);
-        v8 depth = v8_select(s->real, s->nx * x + s->ny * y - low, v8_set(HUGE_VAL));
-        double least = v8_least(depth);
-        if (least < best.depth) {
-            best.depth = least;
-            best.side = first + __builtin_ctz(v8_bits(v8_less_equal(depth, v8_set(least))));
-        }
+            low = v8_part_min(mx * other->vertex[i].x + my * other->vertex[i].y, low);
+        low += nx * f->t.x + ny * f->t.y - other->half_height * v8_part_max(mz, -mz);
+        take_least(v8_part_select(real_lanes(p, first), nx * x + ny * y - low, v8_part_set(HUGE_VAL)), first, &best);
     }
     return best;
+}
+
+/* The side whose normal is most opposed to the plan direction d. */
+V8_INLINE int32_t most_opposed_side(const prism *p, double dx, double dy)
+{
+    best_of_sides best = {HUGE_VAL, 0};
+    for (int32_t first = 0; first < p->count; first += LANES) {
+        v8_part nx, ny;
+        load_points(p, p->side, first, &nx, &ny);
+        take_least(v8_part_select(real_lanes(p, first), nx * dx + ny * dy, v8_part_set(HUGE_VAL)), first, &best);
+    }
+    return best.side;
 }
 
 /* Overlap along p's own axis: exactly, or any bound below it that is already more than `enough`. */
@@ -118,31 +120,9 @@ V8_INLINE double rise_of(const prism *p, const prism *other, const seen_frame *f
     double bound = (p->half_height - fabs(f->t.z)) + (reach - slope * other->plan_radius);
     if (bound > enough)
         return bound;
-    double low, high;
-    plan_span(other, f->r[2][0], f->r[2][1], &low, &high);
-    return f->t.z > 0 ? p->half_height - (f->t.z + low - reach) : (f->t.z + high + reach) + p->half_height;
-}
-
-V8_INLINE vec2 side_normal_of(const side_block *blocks, int32_t side)
-{
-    const side_block *s = &blocks[side / V8_LANES];
-    return vec2_make(s->nx[side % V8_LANES], s->ny[side % V8_LANES]);
-}
-
-/* The side whose normal is most opposed to the plan direction d. */
-V8_INLINE int32_t most_opposed_side(const side_block *blocks, int32_t count, double dx, double dy)
-{
-    double best = HUGE_VAL;
-    int32_t side = 0;
-    for (int32_t first = 0, k = 0; first < count; first += V8_LANES, k++) {
-        v8 along = v8_select(blocks[k].real, blocks[k].nx * dx + blocks[k].ny * dy, v8_set(HUGE_VAL));
-        double least = v8_least(along);
-        if (least < best) {
-            best = least;
-            side = first + __builtin_ctz(v8_bits(v8_less_equal(along, v8_set(least))));
-        }
-    }
-    return side;
+    if (f->t.z > 0)
+        return p->half_height - (f->t.z + plan_least(other, f->r[2][0], f->r[2][1]) - reach);
+    return (f->t.z - plan_least(other, -f->r[2][0], -f->r[2][1]) + reach) + p->half_height;
 }
 
 V8_INLINE vec3 global_direction(const prism *p, vec2 n) { return mat3_mul_vec(p->rotation, vec3_make(n.x, n.y, 0)); }
@@ -175,13 +155,11 @@ void KERNEL(prism_pair_test)(const prism *a, const prism *b, double slack, const
     }
     seen_frame b_in_a, a_in_b;
     frames_make(a, b, &b_in_a, &a_in_b);
-    side_block of_a[MOST_BLOCKS], of_b[MOST_BLOCKS];
-    best_of_sides in_a = search_all_sides(a, b, &b_in_a, of_a), in_b = search_all_sides(b, a, &a_in_b, of_b);
+    best_of_sides in_a = search_all_sides(a, b, &b_in_a), in_b = search_all_sides(b, a, &a_in_b);
     if (in_a.depth < -slack || in_b.depth < -slack) {
         bool by_a = in_a.depth <= in_b.depth;
         out->gap = by_a ? -in_a.depth : -in_b.depth;
-        out->axis = by_a ? vec3_neg(global_direction(a, side_normal_of(of_a, in_a.side)))
-                         : global_direction(b, side_normal_of(of_b, in_b.side));
+        out->axis = by_a ? vec3_neg(global_direction(a, a->side[in_a.side])) : global_direction(b, b->side[in_b.side]);
         return;
     }
     /* Rises matter when they part the two, or are less than the best side's depth. */
@@ -201,10 +179,10 @@ void KERNEL(prism_pair_test)(const prism *a, const prism *b, double slack, const
         return;
     }
     const seen_frame *f = out->swapped ? &a_in_b : &b_in_a;
-    vec2 n = side_normal_of(out->swapped ? of_b : of_a, best->side);
+    vec2 n = (out->swapped ? b : a)->side[best->side];
     out->kind = PRISMS_AT_SIDES;
     out->side = best->side;
     out->normal = n;
-    out->opposed = most_opposed_side(out->swapped ? of_a : of_b, out->swapped ? a->count : b->count,
-                                     f->r[0][0] * n.x + f->r[1][0] * n.y, f->r[0][1] * n.x + f->r[1][1] * n.y);
+    out->opposed = most_opposed_side(out->swapped ? a : b, f->r[0][0] * n.x + f->r[1][0] * n.y,
+                                     f->r[0][1] * n.x + f->r[1][1] * n.y);
 }
