@@ -14,6 +14,10 @@ typedef struct import_place {
     double thickness;               /* [m]; NaN: not given */
 } import_place;
 
+enum { IMPORT_NAME_SIZE = 64 };
+/* "feature 17, polygon 2, ring 1" */
+void import_place_name(const import_place *p, char out[IMPORT_NAME_SIZE]);
+
 /* Rings as they were written, sound or not, without the repeated last position; place[i] belongs to ring i. */
 typedef struct import_rings {
     polygon_list rings;
@@ -33,21 +37,22 @@ typedef struct import_options {
     box2 domain;      /* [m] */
     double simplify;  /* largest distance by which an outline may change [m]; 0: not at all */
     import_bad bad;
-    double smallest_area;         /* floes and cut pieces under it are left out [m2] */
-    const polygon_list *keep_out; /* convex, counter-clockwise zones; floes that reach into them are left out; or NULL */
-    double keep_out_margin;       /* and those nearer to a zone than this [m] */
+    double smallest_area; /* floes and cut pieces under it are left out [m2] */
+    const polygon_list
+        *keep_out;          /* convex, counter-clockwise zones; floes that reach into them are left out; or NULL */
+    double keep_out_margin; /* and those nearer to a zone than this [m] */
 } import_options;
 
 /* What happened to a ring.  Those from IMPORT_NOTE_OPEN to IMPORT_NOTE_HOLE are faults: IMPORT_REFUSE stops there. */
 typedef enum import_event {
-    IMPORT_NOTE_OPEN = 0,  /* not closed; repair: closed */
-    IMPORT_NOTE_FEW,       /* fewer than 3 different vertices; always left out */
-    IMPORT_NOTE_FLAT,      /* no area; always left out */
-    IMPORT_NOTE_CROSSED,   /* meets itself; repair: the outlines of all that it winds round */
-    IMPORT_NOTE_HOLE,      /* a hole; drop and repair: filled with ice */
-    IMPORT_NOTE_SMALL,     /* under the smallest area, whole or as a cut piece */
-    IMPORT_NOTE_OUTSIDE,   /* outside the domain */
-    IMPORT_NOTE_KEPT_OUT,  /* in a keep-out zone */
+    IMPORT_NOTE_OPEN = 0, /* not closed; repair: closed */
+    IMPORT_NOTE_FEW,      /* fewer than 3 different vertices; always left out */
+    IMPORT_NOTE_FLAT,     /* no area; always left out */
+    IMPORT_NOTE_CROSSED,  /* meets itself; repair: the outlines of all that it winds round */
+    IMPORT_NOTE_HOLE,     /* a hole; drop and repair: filled with ice */
+    IMPORT_NOTE_SMALL,    /* under the smallest area, whole or as a cut piece */
+    IMPORT_NOTE_OUTSIDE,  /* outside the domain */
+    IMPORT_NOTE_KEPT_OUT, /* in a keep-out zone */
     IMPORT_EVENT_COUNT
 } import_event;
 /* "crosses or touches itself" */
@@ -57,7 +62,7 @@ typedef struct import_note {
     int32_t ring; /* of import_rings */
     import_event event;
     bool dropped; /* nothing came of the ring or of this piece of it; otherwise it was mended */
-    vec2 at;      /* where, in the file's own lengths, for IMPORT_NOTE_CROSSED; otherwise its first vertex */
+    vec2 at;      /* where it crosses itself; otherwise its first vertex, if it has one [m] */
 } import_note;
 
 /* Sound floes: simple, counter-clockwise, with area.  ring[i] and thickness[i] belong to outline i. */
@@ -69,8 +74,9 @@ typedef struct import_field {
 } import_field;
 void import_field_free(context *ctx, import_field *f);
 
-/* out must be empty; on failure it still is.  FRAM_ERROR_INPUT, with line, column and "feature 17" as key, for a fault
-   under IMPORT_REFUSE, for coordinates beyond 1e9 m and when no floe is left.  Floes come in the order of the rings. */
+/* out must be empty; on failure it still is.  FRAM_ERROR_INPUT, with line, column and the ring's name as key, for a
+   fault under IMPORT_REFUSE, for coordinates beyond 1e9 m and when no floe is left.  Floes come in the order of the
+   rings. */
 fram_status import_field_make(context *ctx, overlay *o, const import_rings *rings, const import_options *options,
                               import_field *out, fram_error *error);
 
@@ -78,21 +84,21 @@ fram_status import_field_make(context *ctx, overlay *o, const import_rings *ring
 enum { IMPORT_HISTOGRAM_BINS = 12 };
 typedef struct import_measure {
     int32_t floes, vertices, concave;
-    box2 bounds;              /* of the outlines [m] */
-    double area;              /* [m2] */
-    double largest_diameter;  /* [m] */
-    double smallest_area, largest_area;
-    int32_t overlaps;         /* pairs that share area */
-    double overlap_area;      /* of all pairs together [m2] */
-    double largest_overlap;   /* the largest common area of a pair [m2] */
-    int32_t overlap_pair[2];  /* of it; -1, -1: none */
-    double overlap_width;     /* the largest width of what a pair has in common [m] */
+    box2 bounds;                        /* of the outlines [m] */
+    double area;                        /* [m2] */
+    double largest_diameter;            /* [m] */
+    double smallest_area, largest_area; /* [m2] */
+    int32_t overlaps;                   /* pairs that share area */
+    double overlap_area;                /* of all pairs together [m2] */
+    double largest_overlap;             /* the largest common area of a pair [m2] */
+    int32_t overlap_pair[2];            /* of it; -1, -1: none */
+    double overlap_width;               /* the largest width of what a pair has in common [m] */
     /* Floes by diameter of the circle of equal area: bin i holds up to edge[i+1], edge[i] excluded (but for the first).
      */
     double edge[IMPORT_HISTOGRAM_BINS + 1]; /* [m] */
     int32_t bin[IMPORT_HISTOGRAM_BINS];
 } import_measure;
-/* Common area less than 1e-12 of the smaller outline is rounding and counts as none. */
+/* Common area under 1e-12 of the areas of both is rounding and counts as none.  No outlines give zeros. */
 fram_status import_field_measure(context *ctx, overlay *o, const polygon_list *outlines, import_measure *out,
                                  fram_error *error);
 

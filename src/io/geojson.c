@@ -1,0 +1,398 @@
+#include "io/geojson.h"
+
+#include "base/number_text.h"
+#include "io/atomic_file.h"
+#include "io/json_walk.h"
+#include "io/text_buffer.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* One reading.  Members of an object may come in any order, so each object is walked twice: once to find its members,
+   then those that its type asks for. */
+typedef struct reading {
+    context *ctx;
+    import_rings *out;
+    fram_error *error;
+    int32_t feature, polygon; /* of the ring that is read, from 1; feature 0: not in one yet */
+    int32_t features;
+    double thickness;
+    char key[IMPORT_NAME_SIZE]; /* for errors */
+} reading;
+
+/* The members that matter, of any object; at of one that is missing is NULL. */
+typedef struct object {
+    char type[24]; /* empty: missing */
+    json_walk type_place, features, geometry, geometries, coordinates, properties;
+} object;
+
+/* Names the place in an error that has none. */
+static fram_status name_place(const reading *r, fram_status status)
+{
+    if (status == FRAM_ERROR_INPUT && r->error && !r->error->key[0])
+        snprintf(r->error->key, sizeof r->error->key, "%s", r->key);
+    return status;
+}
+
+/* ---- objects ---- */
+
+static json_walk *member_of(object *o, const char *key)
+{
+    const struct {
+        const char *name;
+        json_walk *walk;
+    } members[] = {{"type", &o->type_place},       {"features", &o->features},       {"geometry", &o->geometry},
+                   {"geometries", &o->geometries}, {"coordinates", &o->coordinates}, {"properties", &o->properties}};
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        if (strcmp(key, members[i].name) == 0)
+            return members[i].walk;
+    return NULL;
+}
+
+/* Walks over an object and remembers where its members are. */
+static fram_status scan_object(const reading *r, json_walk *w, object *o)
+{
+    char key[24];
+    bool more = true;
+    *o = (object){.type = ""};
+    fram_status status = json_walk_enter(w, JSON_OBJECT, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_member(w, first, key, sizeof key, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        json_walk *member = member_of(o, key);
+        if (member && member->at)
+            return json_walk_refuse(w, r->key, r->error, "the member \"%s\" is there twice", key);
+        if (member)
+            *member = *w;
+        status = member == &o->type_place ? json_walk_text(w, o->type, sizeof o->type, r->error)
+                                          : json_walk_skip(w, r->error);
+    }
+    return status;
+}
+
+/* ---- coordinates ---- */
+
+static fram_status read_position(const reading *r, json_walk *w, vec2 *out)
+{
+    double value[3] = {0};
+    int count = 0;
+    bool more = true;
+    json_walk begin = *w;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_element(w, first, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        if (count == 3)
+            return json_walk_refuse(&begin, r->key, r->error, "expected a position of 2 or 3 numbers, found more");
+        status = json_walk_number(w, &value[count++], r->error);
+    }
+    if (status == FRAM_OK && count < 2)
+        return json_walk_refuse(&begin, r->key, r->error, "expected a position of 2 or 3 numbers, found %d", count);
+    *out = vec2_make(value[0], value[1]);
+    return status;
+}
+
+/* The last ring of a list, while it grows: its vertices stand at the end of the pool. */
+static fram_status read_positions(const reading *r, json_walk *w, int32_t begin)
+{
+    vec2_array *vertices = &r->out->rings.vertex;
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        vec2 position = {0, 0};
+        status = json_walk_element(w, first, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        if (vertices->count - begin == GEOJSON_RING_VERTICES_MOST)
+            return json_walk_refuse(w, r->key, r->error, "a ring has more than %d positions",
+                                    (int)GEOJSON_RING_VERTICES_MOST);
+        if (vertices->count == GEOJSON_VERTICES_MOST)
+            return json_walk_refuse(w, r->key, r->error, "the file has more than %d positions",
+                                    (int)GEOJSON_VERTICES_MOST);
+        status = read_position(r, w, &position);
+        if (status == FRAM_OK && !array_push(r->ctx, vertices, position))
+            status = error_memory(r->error);
+    }
+    return status;
+}
+
+static fram_status read_ring(reading *r, json_walk *w, int32_t number)
+{
+    polygon_list *rings = &r->out->rings;
+    if (r->out->place.count == GEOJSON_RINGS_MOST)
+        return json_walk_refuse(w, r->key, r->error, "the file has more than %d rings", (int)GEOJSON_RINGS_MOST);
+    import_place place = {.feature = r->feature,
+                          .polygon = r->polygon,
+                          .ring = number,
+                          .line = w->line,
+                          .column = json_walk_column(w),
+                          .thickness = r->thickness};
+    import_place_name(&place, r->key);
+    int32_t begin = rings->vertex.count;
+    fram_status status = read_positions(r, w, begin);
+    if (status != FRAM_OK)
+        return name_place(r, status);
+    const vec2 *v = rings->vertex.data + begin;
+    int32_t count = rings->vertex.count - begin;
+    place.open = count < 2 || v[0].x != v[count - 1].x || v[0].y != v[count - 1].y;
+    if (!place.open)
+        rings->vertex.count--;
+    if (rings->start.count == 0 && !array_push(r->ctx, &rings->start, 0))
+        return error_memory(r->error);
+    if (!array_push(r->ctx, &r->out->place, place) || !array_push(r->ctx, &rings->start, rings->vertex.count))
+        return error_memory(r->error);
+    return FRAM_OK;
+}
+
+/* Rings of a polygon: the outline, then its holes. */
+static fram_status read_polygon(reading *r, json_walk *w)
+{
+    int32_t count = 0;
+    bool more = true;
+    json_walk begin = *w;
+    r->polygon++;
+    snprintf(r->key, sizeof r->key, "feature %d, polygon %d", (int)r->feature, (int)r->polygon);
+    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_element(w, first, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = read_ring(r, w, ++count);
+    }
+    if (status == FRAM_OK && count == 0)
+        return json_walk_refuse(&begin, r->key, r->error, "expected at least one ring, found none");
+    return name_place(r, status);
+}
+
+static fram_status read_polygons(reading *r, json_walk *w)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_element(w, first, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = read_polygon(r, w);
+    }
+    return status;
+}
+
+/* ---- features ---- */
+
+/* The thickness of a feature; its other properties are its own business. */
+static fram_status read_properties(reading *r, json_walk w)
+{
+    char key[16];
+    bool more = true;
+    json_kind kind;
+    r->thickness = (double)NAN;
+    if (!w.at)
+        return FRAM_OK;
+    fram_status status = json_walk_kind(&w, &kind, r->error);
+    if (status != FRAM_OK || kind == JSON_NULL)
+        return status;
+    status = json_walk_enter(&w, JSON_OBJECT, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_member(&w, first, key, sizeof key, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        bool wanted = strcmp(key, "thickness") == 0;
+        if (wanted)
+            status = json_walk_kind(&w, &kind, r->error);
+        if (status != FRAM_OK || !wanted || kind == JSON_NULL) {
+            status = status == FRAM_OK ? json_walk_skip(&w, r->error) : status;
+            continue;
+        }
+        json_walk place = w;
+        status = json_walk_number(&w, &r->thickness, r->error);
+        if (status == FRAM_OK && !(r->thickness > 0))
+            return json_walk_refuse(&place, r->key, r->error, "expected a thickness over 0 m, found %g", r->thickness);
+    }
+    return status;
+}
+
+static fram_status read_geometry(reading *r, json_walk w);
+
+static fram_status read_geometries(reading *r, json_walk w)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(&w, JSON_ARRAY, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_element(&w, first, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        json_walk geometry = w;
+        status = json_walk_skip(&w, r->error);
+        if (status == FRAM_OK)
+            status = read_geometry(r, geometry);
+    }
+    return status;
+}
+
+/* A geometry object that the walk stands at, scanned already. */
+static fram_status read_scanned_geometry(reading *r, json_walk begin, const object *o)
+{
+    bool collection = strcmp(o->type, "GeometryCollection") == 0, many = strcmp(o->type, "MultiPolygon") == 0;
+    if (!collection && !many && strcmp(o->type, "Polygon") != 0)
+        return json_walk_refuse(o->type_place.at ? &o->type_place : &begin, r->key, r->error,
+                                "expected a Polygon, MultiPolygon or GeometryCollection, found %s%.24s",
+                                o->type[0] ? "" : "no type", o->type);
+    json_walk w = collection ? o->geometries : o->coordinates;
+    if (!w.at)
+        return json_walk_refuse(&begin, r->key, r->error, "the %s has no member \"%s\"", o->type,
+                                collection ? "geometries" : "coordinates");
+    if (collection)
+        return read_geometries(r, w);
+    return many ? read_polygons(r, &w) : read_polygon(r, &w);
+}
+
+static fram_status read_geometry(reading *r, json_walk w)
+{
+    object o;
+    json_walk begin = w;
+    fram_status status = scan_object(r, &w, &o);
+    return status == FRAM_OK ? read_scanned_geometry(r, begin, &o) : status;
+}
+
+static fram_status begin_feature(reading *r, const json_walk *w)
+{
+    if (r->features == GEOJSON_FEATURES_MOST)
+        return json_walk_refuse(w, r->key, r->error, "the file has more than %d features", (int)GEOJSON_FEATURES_MOST);
+    r->feature = ++r->features;
+    r->polygon = 0;
+    r->thickness = (double)NAN;
+    snprintf(r->key, sizeof r->key, "feature %d", (int)r->feature);
+    return FRAM_OK;
+}
+
+/* A feature without a geometry, which is null then, is one that is not anywhere: allowed, and no floe. */
+static fram_status read_feature(reading *r, json_walk begin, const object *o)
+{
+    json_kind kind;
+    json_walk geometry = o->geometry;
+    if (strcmp(o->type, "Feature") != 0)
+        return json_walk_refuse(o->type_place.at ? &o->type_place : &begin, r->key, r->error,
+                                "expected a Feature, found %s%.24s", o->type[0] ? "" : "no type", o->type);
+    if (!geometry.at)
+        return json_walk_refuse(&begin, r->key, r->error, "the Feature has no member \"geometry\"");
+    fram_status status = read_properties(r, o->properties);
+    if (status == FRAM_OK)
+        status = json_walk_kind(&geometry, &kind, r->error);
+    if (status == FRAM_OK && kind != JSON_NULL)
+        status = read_geometry(r, geometry);
+    return status;
+}
+
+static fram_status read_features(reading *r, json_walk w)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(&w, JSON_ARRAY, r->error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        object o;
+        r->key[0] = '\0';
+        status = json_walk_element(&w, first, &more, r->error);
+        if (status != FRAM_OK || !more)
+            break;
+        json_walk begin = w;
+        status = begin_feature(r, &begin);
+        if (status == FRAM_OK)
+            status = scan_object(r, &w, &o);
+        if (status == FRAM_OK)
+            status = read_feature(r, begin, &o);
+        name_place(r, status);
+    }
+    return status;
+}
+
+static fram_status read_root(reading *r, json_walk *w)
+{
+    object o;
+    json_walk begin = *w;
+    fram_status status = scan_object(r, w, &o);
+    if (status == FRAM_OK)
+        status = json_walk_end(w, r->error);
+    if (status != FRAM_OK)
+        return status;
+    if (strcmp(o.type, "FeatureCollection") == 0) {
+        if (!o.features.at)
+            return json_walk_refuse(&begin, NULL, r->error, "the FeatureCollection has no member \"features\"");
+        return read_features(r, o.features);
+    }
+    status = begin_feature(r, &begin);
+    if (status != FRAM_OK)
+        return status;
+    status = strcmp(o.type, "Feature") == 0 ? read_feature(r, begin, &o) : read_scanned_geometry(r, begin, &o);
+    return name_place(r, status);
+}
+
+fram_status geojson_parse(context *ctx, const char *name, const char *data, size_t size, import_rings *out,
+                          fram_error *error)
+{
+    reading r = {.ctx = ctx, .out = out, .error = error, .thickness = (double)NAN};
+    json_walk w = json_walk_begin(name, data, size, GEOJSON_DEPTH_MOST);
+    fram_error own;
+    if (!error)
+        r.error = &own;
+    *r.error = (fram_error){.status = FRAM_OK};
+    fram_status status = read_root(&r, &w);
+    if (status != FRAM_OK)
+        import_rings_free(ctx, out);
+    return status;
+}
+
+fram_status geojson_read(context *ctx, const char *path, import_rings *out, fram_error *error)
+{
+    char *data = NULL;
+    size_t size = 0;
+    fram_status status = file_read(ctx, path, GEOJSON_BYTES_MOST, &data, &size, error);
+    if (status == FRAM_OK)
+        status = geojson_parse(ctx, path, data, size, out, error);
+    memory_free(ctx, data);
+    return status;
+}
+
+/* ---- writing ---- */
+
+static void add_number(context *ctx, text_buffer *b, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    int length = real_to_text(value, text);
+    text_add_bytes(ctx, b, text, (size_t)length);
+}
+
+static void add_ring(context *ctx, text_buffer *b, polygon p)
+{
+    for (int32_t k = 0; k <= p.count && p.count > 0; k++) {
+        vec2 v = p.vertex[k % p.count];
+        text_add(ctx, b, k > 0 ? ",[" : "[");
+        add_number(ctx, b, v.x);
+        text_add(ctx, b, ",");
+        add_number(ctx, b, v.y);
+        text_add(ctx, b, "]");
+    }
+}
+
+fram_status geojson_write(context *ctx, const char *path, const polygon_list *outlines, const double *thickness,
+                          fram_error *error)
+{
+    text_buffer b = {0};
+    int32_t count = polygon_list_count(outlines);
+    text_add(ctx, &b, "{\"type\":\"FeatureCollection\",\"features\":[\n");
+    for (int32_t i = 0; i < count; i++) {
+        text_format(ctx, &b, "{\"type\":\"Feature\",\"properties\":{\"id\":%d", (int)i);
+        if (thickness && !isnan(thickness[i])) {
+            text_add(ctx, &b, ",\"thickness\":");
+            add_number(ctx, &b, thickness[i]);
+        }
+        text_add(ctx, &b, "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[");
+        add_ring(ctx, &b, polygon_list_get(outlines, i));
+        text_add(ctx, &b, i + 1 < count ? "]]}},\n" : "]]}}\n");
+    }
+    text_add(ctx, &b, "]}\n");
+    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    text_free(ctx, &b);
+    return status;
+}

@@ -1,0 +1,313 @@
+#include "io/json_walk.h"
+
+#include "base/number_text.h"
+#include "io/utf8.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A longer number is no number that anybody wrote. */
+enum { NUMBER_LENGTH_MOST = 400 };
+
+json_walk json_walk_begin(const char *name, const char *data, size_t size, int32_t depth_limit)
+{
+    json_walk w = {name, data, data + size, data, 1, 0, depth_limit};
+    if (size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0)
+        w.at = w.line_start = data + 3;
+    return w;
+}
+
+int32_t json_walk_column(const json_walk *w)
+{
+    ptrdiff_t column = w->at - w->line_start + 1;
+    return column < INT32_MAX ? (int32_t)column : INT32_MAX;
+}
+
+fram_status json_walk_refuse(const json_walk *w, const char *key, fram_error *error, const char *format, ...)
+{
+    char text[384];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    error_set(error, FRAM_ERROR_INPUT, w->name, w->line, key, "%s", text);
+    if (error)
+        error->column = json_walk_column(w);
+    return FRAM_ERROR_INPUT;
+}
+
+static void skip_blanks(json_walk *w)
+{
+    for (; w->at < w->end; w->at++) {
+        if (*w->at == '\n') {
+            w->line++;
+            w->line_start = w->at + 1;
+        } else if (*w->at != ' ' && *w->at != '\t' && *w->at != '\r') {
+            return;
+        }
+    }
+}
+
+/* "expected X, found ..." */
+static fram_status refuse_next(const json_walk *w, fram_error *error, const char *expected)
+{
+    if (w->at == w->end)
+        return json_walk_refuse(w, NULL, error, "expected %s, found the end of the file", expected);
+    unsigned char c = (unsigned char)*w->at;
+    if (c < 0x20 || c >= 0x7f)
+        return json_walk_refuse(w, NULL, error, "expected %s, found the byte 0x%02x", expected, c);
+    return json_walk_refuse(w, NULL, error, "expected %s, found '%c'", expected, c);
+}
+
+fram_status json_walk_kind(json_walk *w, json_kind *kind, fram_error *error)
+{
+    skip_blanks(w);
+    switch (w->at < w->end ? *w->at : '\0') {
+    case '{':
+        *kind = JSON_OBJECT;
+        return FRAM_OK;
+    case '[':
+        *kind = JSON_ARRAY;
+        return FRAM_OK;
+    case '"':
+        *kind = JSON_STRING;
+        return FRAM_OK;
+    case 't':
+        *kind = JSON_TRUE;
+        return FRAM_OK;
+    case 'f':
+        *kind = JSON_FALSE;
+        return FRAM_OK;
+    case 'n':
+        *kind = JSON_NULL;
+        return FRAM_OK;
+    default:
+        break;
+    }
+    if (w->at == w->end || !(*w->at == '-' || (*w->at >= '0' && *w->at <= '9')))
+        return refuse_next(w, error, "a value");
+    *kind = JSON_NUMBER;
+    return FRAM_OK;
+}
+
+/* ---- objects and arrays ---- */
+
+fram_status json_walk_enter(json_walk *w, json_kind kind, fram_error *error)
+{
+    skip_blanks(w);
+    if (w->at == w->end || *w->at != (kind == JSON_OBJECT ? '{' : '['))
+        return refuse_next(w, error, kind == JSON_OBJECT ? "an object, '{'" : "an array, '['");
+    if (w->depth == w->depth_limit)
+        return json_walk_refuse(w, NULL, error, "objects and arrays are nested more than %d deep", (int)w->depth_limit);
+    w->depth++;
+    w->at++;
+    return FRAM_OK;
+}
+
+/* The comma before the next item, or the end of all. */
+static fram_status next_item(json_walk *w, bool first, char close, bool *more, fram_error *error)
+{
+    skip_blanks(w);
+    *more = true;
+    if (w->at < w->end && *w->at == close) {
+        *more = false;
+        w->depth--;
+        w->at++;
+        return FRAM_OK;
+    }
+    if (first)
+        return FRAM_OK;
+    if (w->at == w->end || *w->at != ',')
+        return refuse_next(w, error, close == ']' ? "',' or ']'" : "',' or '}'");
+    w->at++;
+    skip_blanks(w);
+    return FRAM_OK;
+}
+
+fram_status json_walk_element(json_walk *w, bool first, bool *more, fram_error *error)
+{
+    return next_item(w, first, ']', more, error);
+}
+
+fram_status json_walk_member(json_walk *w, bool first, char *key, size_t room, bool *more, fram_error *error)
+{
+    fram_status status = next_item(w, first, '}', more, error);
+    if (status != FRAM_OK || !*more)
+        return status;
+    if (w->at == w->end || *w->at != '"')
+        return refuse_next(w, error, "the name of a member in quotes");
+    status = json_walk_text(w, key, room, error);
+    if (status != FRAM_OK)
+        return status;
+    skip_blanks(w);
+    if (w->at == w->end || *w->at != ':')
+        return refuse_next(w, error, "':'");
+    w->at++;
+    skip_blanks(w);
+    return FRAM_OK;
+}
+
+/* ---- single values ---- */
+
+static bool is_hexadecimal(char c)
+{
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+}
+
+/* Past one character of a string. */
+static fram_status pass_character(json_walk *w, fram_error *error)
+{
+    if (*w->at != '\\') {
+        if ((unsigned char)*w->at < 0x20)
+            return refuse_next(w, error, "no control character in a string");
+        if (utf8_next(&w->at, w->end) < 0)
+            return refuse_next(w, error, "UTF-8");
+        return FRAM_OK;
+    }
+    if (w->end - w->at < 2 || !strchr("\"\\/bfnrtu", w->at[1]) || w->at[1] == '\0')
+        return refuse_next(w, error, "an escape of JSON");
+    if (w->at[1] != 'u') {
+        w->at += 2;
+        return FRAM_OK;
+    }
+    for (int k = 2; k < 6; k++)
+        if (w->end - w->at <= k || !is_hexadecimal(w->at[k]))
+            return refuse_next(w, error, "four hexadecimal digits after \\u");
+    w->at += 6;
+    return FRAM_OK;
+}
+
+fram_status json_walk_text(json_walk *w, char *text, size_t room, fram_error *error)
+{
+    skip_blanks(w);
+    if (w->at == w->end || *w->at != '"')
+        return refuse_next(w, error, "a string");
+    const char *begin = ++w->at;
+    while (w->at < w->end && *w->at != '"') {
+        fram_status status = pass_character(w, error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    if (w->at == w->end)
+        return refuse_next(w, error, "'\"' at the end of a string");
+    size_t length = (size_t)(w->at - begin);
+    if (length >= room)
+        length = room - 1;
+    memcpy(text, begin, length);
+    text[length] = '\0';
+    w->at++;
+    return FRAM_OK;
+}
+
+static const char *pass_digits(const char *at, const char *end)
+{
+    while (at < end && *at >= '0' && *at <= '9')
+        at++;
+    return at;
+}
+
+/* The end of the longest number of JSON's form at the walk; NULL: there is none. */
+static const char *number_end(const json_walk *w)
+{
+    const char *at = w->at, *digits;
+    if (at < w->end && *at == '-')
+        at++;
+    digits = at;
+    at = pass_digits(at, w->end);
+    if (at == digits || (at - digits > 1 && *digits == '0'))
+        return NULL;
+    if (at < w->end && *at == '.') {
+        digits = ++at;
+        at = pass_digits(at, w->end);
+        if (at == digits)
+            return NULL;
+    }
+    if (at < w->end && (*at == 'e' || *at == 'E')) {
+        at++;
+        if (at < w->end && (*at == '+' || *at == '-'))
+            at++;
+        digits = at;
+        at = pass_digits(at, w->end);
+        if (at == digits)
+            return NULL;
+    }
+    return at;
+}
+
+fram_status json_walk_number(json_walk *w, double *value, fram_error *error)
+{
+    json_kind kind;
+    fram_status status = json_walk_kind(w, &kind, error);
+    if (status != FRAM_OK)
+        return status;
+    if (kind != JSON_NUMBER)
+        return refuse_next(w, error, "a number");
+    const char *end = number_end(w);
+    if (!end)
+        return json_walk_refuse(w, NULL, error,
+                                "expected a number as JSON writes it: -12.5e3, without leading zeros or a bare point");
+    char text[NUMBER_LENGTH_MOST + 1];
+    size_t length = (size_t)(end - w->at);
+    if (length > NUMBER_LENGTH_MOST)
+        return json_walk_refuse(w, NULL, error, "a number of %zu characters; at most %d are read", length,
+                                (int)NUMBER_LENGTH_MOST);
+    memcpy(text, w->at, length);
+    text[length] = '\0';
+    if (real_from_text(text, value) != NUMBER_GOOD)
+        return json_walk_refuse(w, NULL, error, "the number %.40s is not finite", text);
+    w->at = end;
+    return FRAM_OK;
+}
+
+static fram_status pass_word(json_walk *w, const char *word, fram_error *error)
+{
+    size_t length = strlen(word);
+    if ((size_t)(w->end - w->at) < length || memcmp(w->at, word, length) != 0)
+        return refuse_next(w, error, "true, false or null");
+    w->at += length;
+    return FRAM_OK;
+}
+
+static fram_status skip_single(json_walk *w, json_kind kind, fram_error *error)
+{
+    char text[2];
+    double value;
+    switch (kind) {
+    case JSON_STRING:
+        return json_walk_text(w, text, sizeof text, error);
+    case JSON_NUMBER:
+        return json_walk_number(w, &value, error);
+    case JSON_TRUE:
+        return pass_word(w, "true", error);
+    case JSON_FALSE:
+        return pass_word(w, "false", error);
+    default:
+        return pass_word(w, "null", error);
+    }
+}
+
+fram_status json_walk_skip(json_walk *w, fram_error *error)
+{
+    json_kind kind;
+    fram_status status = json_walk_kind(w, &kind, error);
+    if (status != FRAM_OK || kind > JSON_ARRAY)
+        return status == FRAM_OK ? skip_single(w, kind, error) : status;
+    char key[2];
+    bool more = true;
+    status = json_walk_enter(w, kind, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = kind == JSON_ARRAY ? json_walk_element(w, first, &more, error)
+                                    : json_walk_member(w, first, key, sizeof key, &more, error);
+        if (status == FRAM_OK && !more)
+            return FRAM_OK;
+        if (status == FRAM_OK)
+            status = json_walk_skip(w, error); /* as deep as depth_limit allows */
+    }
+    return status;
+}
+
+fram_status json_walk_end(json_walk *w, fram_error *error)
+{
+    skip_blanks(w);
+    return w->at == w->end ? FRAM_OK : refuse_next(w, error, "the end of the file");
+}
