@@ -4,7 +4,7 @@
 
 /* Vertices and sides are taken one register at a time (V8_PART_LANES of them), whatever its width: what is asked of
    each is the same, and least and largest do not depend on the grouping. */
-enum { LANES = V8_PART_LANES };
+enum { LANES = V8_PART_LANES, EIGHT = 8 };
 
 #if V8_PART_LANES == 8
 #define LANE_NUMBERS ((v8_part){0, 1, 2, 3, 4, 5, 6, 7})
@@ -92,8 +92,11 @@ V8_INLINE best_of_sides search_all_sides(const prism *p, const prism *other, con
         load_points(p, p->side, first, &nx, &ny);
         v8_part mx = f->r[0][0] * nx + f->r[1][0] * ny, my = f->r[0][1] * nx + f->r[1][1] * ny;
         v8_part mz = f->r[0][2] * nx + f->r[1][2] * ny;
-        for (int32_t i = 0; i < other->count; i++)
-            low = v8_part_min(mx * other->vertex[i].x + my * other->vertex[i].y, low);
+        for (int32_t i = 0; i < other->count; i += EIGHT)
+            for (int32_t k = i; k < i + EIGHT; k++) { /* always eight: the end of a shorter loop is never foreseen */
+                vec2 v = other->vertex[k < other->count ? k : 0];
+                low = v8_part_min(mx * v.x + my * v.y, low);
+            }
         low += nx * f->t.x + ny * f->t.y - other->half_height * v8_part_max(mz, -mz);
         take_least(v8_part_select(real_lanes(p, first), nx * x + ny * y - low, v8_part_set(HUGE_VAL)), first, &best);
     }
