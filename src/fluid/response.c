@@ -7,6 +7,8 @@
 enum { BLOCK_SLOTS = 256 };
 /* Added mass is whole when this part of a floe is under water. */
 #define WHOLE_FROM 0.25
+/* Damping is that of waves: whole while more than this part of a floe is above water, none when it is under it. */
+#define WAVES_FROM 0.05
 
 typedef struct response_work {
     const media *media;
@@ -62,10 +64,11 @@ static drag_bound bound_drag(const response_work *w, int32_t slot, const prism_v
     double r = v->radius, h = v->half_height, side = 4 * r * h;
     double along = sqrt(v->velocity.x * v->velocity.x + v->velocity.y * v->velocity.y) + r * fabs(v->spin.z);
     double up = fabs(v->velocity.z) + r * sqrt(v->spin.x * v->spin.x + v->spin.y * v->spin.y);
-    double flat = form * side * along + skin * (2 * v->area + 4 * side) * (along + up);
-    double heave = form * v->area * up + skin * 4 * side * (along + up);
-    double tilt = 0.5 * r * r * heave + h * h * flat;
-    return (drag_bound){{flat, flat, heave}, {tilt, tilt, r * r * flat}};
+    double push = form * side * along, rub = skin * (2 * v->area + 4 * side) * (along + up);
+    double flat = push + rub, heave = form * v->area * up + skin * 4 * side * (along + up);
+    /* Levers squared, over a plank of length 2 r: a third of r^2. */
+    double tilt = r * r * (1.0 / 3) * heave + h * h * flat, yaw = r * r * ((1.0 / 3) * push + 0.5 * rub);
+    return (drag_bound){{flat, flat, heave}, {tilt, tilt, yaw}};
 }
 
 /* Whether no part of the bound can reach its limit, told without a root: both speeds in it are at most sqrt(speed2),
@@ -89,10 +92,26 @@ static double implicit_part(double bound, double mass, double time_step)
 
 /* ---- one prism ---- */
 
+static double wave_share(const response_work *w, int32_t slot, const prism_view *v)
+{
+    double whole = 2 * v->half_height * v->area;
+    return fmax(0, fmin(1, (whole - w->detail[slot].submerged_volume) / (WAVES_FROM * whole)));
+}
+
 static double wet_share(const response_work *w, int32_t slot, const prism_view *v)
 {
     double whole = 2 * v->half_height * v->area;
     return fmax(0, fmin(1, w->detail[slot].submerged_volume / (WHOLE_FROM * whole)));
+}
+
+/* How much of the added mass came over the last step, as if the floe sank evenly over its height. */
+static double new_share(const response_work *w, int32_t slot, const prism_view *v)
+{
+    double upright = v->rotation.m[2][2], tilt = sqrt(fmax(0, 1 - upright * upright));
+    double reach = v->half_height * fabs(upright) + v->radius * tilt, height = w->bodies->position[slot].z;
+    double before = height - w->time_step * w->bodies->velocity[slot].z;
+    double now = fmin(1, fmax(0, (reach - height) / (2 * WHOLE_FROM * reach)));
+    return fmax(0, now - fmin(1, fmax(0, (reach - before) / (2 * WHOLE_FROM * reach))));
 }
 
 /* Sets what added mass there is, and adds Kirchhoff's terms; the dynamics know those of turning alone. */
@@ -104,6 +123,9 @@ static void add_mass(const response_work *w, int32_t slot, const prism_view *v, 
     vec3 p = times(*mass, v->velocity);
     vec3 force = vec3_sub(times(*mass, vec3_cross(v->spin, v->velocity)), vec3_cross(v->spin, p));
     vec3 moment = vec3_neg(vec3_cross(v->velocity, p));
+    /* Water that is met must be set going. */
+    if (share > 0)
+        force.z -= fmin(1, new_share(w, slot, v) / share) * mass->z * v->velocity.z / w->time_step;
     wrench *load = &w->loads[slot];
     load->force = vec3_add(load->force, mat3_mul_vec(v->rotation, force));
     load->moment = vec3_add(load->moment, mat3_mul_vec(v->rotation, moment));
@@ -140,7 +162,7 @@ static void respond(const response_work *w, int32_t slot)
         if (w->settings->added_mass)
             add_mass(w, slot, &v, share, &mass, &inertia);
         if (w->settings->damping_ratio > 0)
-            add_damping(w, slot, &v, share, mass, inertia, &bound);
+            add_damping(w, slot, &v, share * wave_share(w, slot, &v), mass, inertia, &bound);
         mass.x += implicit_part(bound.line.x, b->mass[slot] + mass.x, dt);
         mass.y += implicit_part(bound.line.y, b->mass[slot] + mass.y, dt);
         mass.z += implicit_part(bound.line.z, b->mass[slot] + mass.z, dt);

@@ -21,9 +21,11 @@ typedef struct prism_response {
 /* For every dynamic prism: sets its added mass and inertia in `bodies`, and adds to its load what added mass and
    damping exert.  detail: what fluid_apply gave of this step.
 
+   Damping is that of the waves that a floe makes: it fades as the last twentieth of a floe goes under.
    Added mass acts in proportion to the submerged part while that is small (a quarter of the body), so that floes that
-   leave the water do it without a jump.  With p = A v in axes that turn with the body, the load is that of Kirchhoff's
-   equations (Lamb 1932, section 124): -w x p + A (w x v), and -v x p about the centre of mass.
+   leave the water do it without a jump; what comes to a sinking floe is set going by it, at the cost of its momentum.
+   With p = A v in axes that turn with the body, the load is that of Kirchhoff's equations (Lamb 1932, section 124): -w
+   x p + A (w x v), and -v x p about the centre of mass.
 
    Strong drag: the solver's equation becomes (M + dt C) dv = dt F, linearly implicit, with a diagonal C (body axes)
    that bounds the derivative of drag by velocity at the present speed from above, less EXPLICIT_DRAG M / dt.  For drag

@@ -1,0 +1,130 @@
+/* Free decay of vessels in heave, roll and pitch against the theory of small motions, with and without added mass. */
+#include "decay.h"
+#include "testing.h"
+
+#include <stdio.h>
+
+#define SCENE                                                                 \
+    "run: {time_step: 0.01}\nice: {source: none}\ndomain: {boundary: open}\n" \
+    "environment: {hull_drag: {water_form: 0, water_skin: 0, air_form: 0, air_skin: 0}}\n"
+
+static const char box[] =
+    "vessel: {mode: free, centre_of_gravity_z: 1, hull: {form: box, length: 60, beam: 18, draught: 4, freeboard: 6}%s}\n";
+static const char ship[] =
+    "vessel: {mode: free, centre_of_gravity_z: 0, hull: {form: icebreaker, length: 200, beam: 44, draught: 12, "
+    "freeboard: 10, flare_angle_deg: 0, stem_angle_deg: 60, entrance_angle_deg: 50, parallel_midbody: 0.7}%s}\n";
+static const char estimate[] =
+    ", hydrodynamics: {source: estimate, heave_damping: 0, roll_damping: 0, pitch_damping: 0}";
+
+static void open_vessel(decay *d, const char *vessel, const char *more)
+{
+    char text[1500];
+    fram_error error = {0};
+    int size = snprintf(text, sizeof text, SCENE);
+    snprintf(text + size, sizeof text - (size_t)size, vessel, more);
+    assert_ok(decay_open(d, text, &error), error);
+}
+
+static void check_mode(const char *vessel, const char *more, int mode, double amplitude, double tolerance)
+{
+    decay d;
+    fram_error error = {0};
+    open_vessel(&d, vessel, more);
+    double theory = d.period[mode], dt = d.settings.time_step;
+    double measured = decay_run(&d, mode, amplitude, (int)(4.2 * theory / dt), NULL, &error);
+    ck_assert_msg(measured > 0, "%s", error.message);
+    ck_assert_msg(fabs(measured / theory - 1) < tolerance, "mode %d%s: %.5f s, by theory %.5f s", mode, more, measured,
+                  theory);
+    decay_close(&d);
+}
+
+/* Walls stand upright at the waterline, so heave is exactly linear; of roll and pitch small angles are. */
+START_TEST(box_periods)
+{
+    for (int k = 0; k < 2; k++) {
+        check_mode(box, k ? estimate : "", DECAY_HEAVE, 0.05, 2e-5);
+        check_mode(box, k ? estimate : "", DECAY_ROLL, 1e-3, 1e-4);
+        check_mode(box, k ? estimate : "", DECAY_PITCH, 1e-3, 1e-4);
+    }
+}
+END_TEST
+
+START_TEST(ship_periods)
+{
+    for (int k = 0; k < 2; k++) {
+        check_mode(ship, k ? estimate : "", DECAY_HEAVE, 0.02, 5e-4);
+        check_mode(ship, k ? estimate : "", DECAY_ROLL, 1e-3, 5e-4);
+        check_mode(ship, k ? estimate : "", DECAY_PITCH, 2e-4, 5e-4);
+    }
+}
+END_TEST
+
+/* A given matrix, about midships with z down, is that of the estimate when it holds the same numbers. */
+START_TEST(given_matrices_are_moved)
+{
+    decay a, b;
+    open_vessel(&a, ship, estimate);
+    const matrix6 *m = &a.w.hydrodynamics.added_mass;
+    /* Back to the point amidships in the water line. */
+    vec3 centre = a.w.vessels.centre[0];
+    matrix6 about = matrix6_moved(m, centre), down = matrix6_turned_over(&about);
+    char more[1200];
+    int size = snprintf(more, sizeof more, ", hydrodynamics: {source: given, axes: down, added_mass: [");
+    for (int i = 0; i < 6; i++)
+        size +=
+            snprintf(more + size, sizeof more - (size_t)size,
+                     "%s{surge: %.17g, sway: %.17g, heave: %.17g, roll: %.17g, pitch: %.17g, yaw: %.17g}",
+                     i ? ", " : "", down.m[i][0], down.m[i][1], down.m[i][2], down.m[i][3], down.m[i][4], down.m[i][5]);
+    snprintf(more + size, sizeof more - (size_t)size, "]}");
+    open_vessel(&b, ship, more);
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < 6; j++)
+            assert_absolute(b.w.hydrodynamics.added_mass.m[i][j], m->m[i][j],
+                            1e-12 * sqrt(m->m[i][i] * m->m[j][j]) + 1e-6);
+    ck_assert(b.w.bodies.added_mass[b.w.vessels.body[0]].z > 0);
+    decay_close(&b);
+    decay_close(&a);
+}
+END_TEST
+
+START_TEST(wrong_matrices)
+{
+    static const struct {
+        const char *more, *message, *key;
+    } cases[] = {
+        {", hydrodynamics: {source: given, damping: [{surge: 1}]}", "6 rows", "vessel.hydrodynamics.damping"},
+        {", hydrodynamics: {source: given, added_mass: [{surge: -1}, {}, {}, {}, {}, {}]}", "negative",
+         "vessel.hydrodynamics.added_mass"},
+        {", hydrodynamics: {source: given, added_mass: [{surge: 1, sway: 0.5}, {sway: 1}, {}, {}, {}, {}]}",
+         "symmetric", "vessel.hydrodynamics.added_mass"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        decay d;
+        char text[1500];
+        fram_error error = {0};
+        int size = snprintf(text, sizeof text, SCENE);
+        snprintf(text + size, sizeof text - (size_t)size, ship, cases[i].more);
+        assert_fails(decay_open(&d, text, &error), error, FRAM_ERROR_INPUT, cases[i].message);
+        ck_assert_str_eq(error.key, cases[i].key);
+        scenario_free(&d.ctx, &d.s);
+    }
+}
+END_TEST
+
+/* Damping over the critical one: the height after a period falls by exp(-2 pi z / sqrt(1 - z^2)). */
+START_TEST(estimated_damping)
+{
+    decay d;
+    fram_error error = {0};
+    open_vessel(&d, box, ", hydrodynamics: {source: estimate, heave_damping: 0.1}");
+    double undamped = d.period[DECAY_HEAVE], dt = d.settings.time_step;
+    int steps = (int)(undamped / sqrt(1 - 0.01) / dt + 0.5);
+    double *value = malloc((size_t)(steps + 1) * sizeof *value);
+    decay_run(&d, DECAY_HEAVE, 0.05, steps, value, &error);
+    assert_relative(value[steps] / 0.05, real_exp(-2 * PI * 0.1 / sqrt(1 - 0.01)), 0.02);
+    free(value);
+    decay_close(&d);
+}
+END_TEST
+
+TEST_MAIN("decay", box_periods, ship_periods, given_matrices_are_moved, wrong_matrices, estimated_damping)
