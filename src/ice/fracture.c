@@ -59,7 +59,7 @@ static fracture_event event_of(const fracture_job *j, const fracture_load *l, co
 {
     bool split = kind == FRACTURE_SPLIT;
     return (fracture_event){
-        .kind = kind,
+        .kind = (int32_t)kind,
         .place = body_to_global(j->state->bodies, l->body, (vec3){start->point.x, start->point.y, 0}),
         .load = l->force,
         .crack_length = length,
