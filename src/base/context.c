@@ -123,4 +123,4 @@ fram_status error_set(fram_error *e, fram_status status, const char *file, int l
     return status;
 }
 
-fram_status error_memory(fram_error *e) { return error_set(e, FRAM_ERROR_MEMORY, NULL, 0, NULL, "not enough memory"); }
+void error_memory_text(fram_error *e) { (void)error_set(e, FRAM_ERROR_MEMORY, NULL, 0, NULL, "not enough memory"); }

@@ -50,7 +50,12 @@ void log_write(context *ctx, log_level level, const char *format, ...) __attribu
 /* Fill e (which may be NULL) and return status.  file, key may be NULL. */
 fram_status error_set(fram_error *e, fram_status status, const char *file, int line, const char *key,
                       const char *format, ...) __attribute__((format(printf, 6, 7)));
-/* The one message for a failed allocation. */
-fram_status error_memory(fram_error *e);
+/* The one message for a failed allocation.  Inline, so that a reader and an analyser see that it is never FRAM_OK. */
+void error_memory_text(fram_error *e);
+static inline fram_status error_memory(fram_error *e)
+{
+    error_memory_text(e);
+    return FRAM_ERROR_MEMORY;
+}
 
 #endif

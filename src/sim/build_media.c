@@ -76,10 +76,10 @@ static fram_status read_profile(context *ctx, const scenario *s, const char *fil
     velocity_rows rows = {0};
     fram_status status = read_rows(ctx, s, file, "depth", &rows, error);
     int32_t count = rows.column[AT].count;
-    if (status == FRAM_OK && (count > CURRENT_LEVELS || rows.column[AT].data[0] < 0))
+    if (status == FRAM_OK && (count < 1 || count > CURRENT_LEVELS || rows.column[AT].data[0] < 0))
         status = error_set(error, FRAM_ERROR_INPUT, file, 0, "depth",
-                           "expected at most %d depths, from 0 on, found %d, from %g on", (int)CURRENT_LEVELS,
-                           (int)count, rows.column[AT].data[0]);
+                           "expected 1 to %d depths, from 0 on, found %d, from %g on", (int)CURRENT_LEVELS, (int)count,
+                           count < 1 ? 0 : rows.column[AT].data[0]);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
         out->depth[i] = rows.column[AT].data[i];
         out->velocity[i] = vec3_make(rows.column[ALONG_X].data[i], rows.column[ALONG_Y].data[i], 0);
