@@ -242,76 +242,83 @@ static bool add_contacts(context *ctx, const body_table *bodies, const party *a,
     return true;
 }
 
-/* A pair under test: axis and gap in and out, gap only when it is larger than the slack. */
-typedef struct parting {
+/* A pair under test. */
+typedef struct pair_case {
+    int32_t row; /* of the pair table */
+    party a, b;
+    bool plain; /* two prisms of one piece each: */
+    prism p, q;
+    const pair_policy *policy;
+    nearness near;
+    /* In and out: the remembered axis, and how far apart the two are along it, when that is more than the slack. */
     vec3 axis;
     double gap;
-} parting;
+} pair_case;
 
 /* Any two bodies, piece by piece. */
-static bool touch_compounds(context *ctx, narrow_room *s, const body_table *bodies, const party *a, const party *b,
-                            const pair_policy *policy, nearness near, parting *part, contact_array *contacts)
+static bool touch_compounds(context *ctx, narrow_room *room, const body_table *bodies, pair_case *c,
+                            contact_array *contacts)
 {
-    part->gap = axis_gap(a, b, part->axis);
-    if (part->gap > near.slack)
+    const party *a = &c->a, *b = &c->b;
+    c->gap = axis_gap(a, b, c->axis);
+    if (c->gap > c->near.slack)
         return true;
     bool compound = piece_count(a) > 1 || piece_count(b) > 1;
     box3 box_a = box3_empty(), box_b = box3_empty();
     if (compound) {
-        box_a = box3_grown(party_box(a), near.slack);
-        box_b = box3_grown(party_box(b), near.slack);
+        box_a = box3_grown(party_box(a), c->near.slack);
+        box_b = box3_grown(party_box(b), c->near.slack);
     }
-    if (!gather_pieces(ctx, a, box_b, &s->near_a) || !gather_pieces(ctx, b, box_a, &s->near_b))
+    if (!gather_pieces(ctx, a, box_b, &room->near_a) || !gather_pieces(ctx, b, box_a, &room->near_b))
         return false;
     int32_t first = contacts->count;
     vec3 last = {0, 0, 0};
-    for (int32_t i = 0; i < s->near_a.count; i++) {
-        for (int32_t j = 0; j < s->near_b.count; j++) {
+    for (int32_t i = 0; i < room->near_a.count; i++) {
+        for (int32_t j = 0; j < room->near_b.count; j++) {
             vec3 normal, axis = {0, 0, 0};
             manifold_point point[4];
-            int32_t piece_a = s->near_a.data[i], piece_b = s->near_b.data[j];
-            int count = touch_pieces(ctx, s, a, b, piece_a, piece_b, near, &normal, point, &axis);
-            if (count < 0 || !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, policy, contacts))
+            int32_t piece_a = room->near_a.data[i], piece_b = room->near_b.data[j];
+            int count = touch_pieces(ctx, room, a, b, piece_a, piece_b, c->near, &normal, point, &axis);
+            if (count < 0 ||
+                !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, c->policy, contacts))
                 return false;
             if (vec3_dot(axis, axis) > 0)
                 last = axis;
         }
     }
     contact_keys_part(contacts->data + first, contacts->count - first);
-    part->gap = contacts->count == first ? axis_gap(a, b, last) : 0;
-    bool remember = contacts->count == first && (!compound || part->gap > near.slack);
-    part->axis = remember ? last : vec3_make(0, 0, 0);
+    c->gap = contacts->count == first ? axis_gap(a, b, last) : 0;
+    bool remember = contacts->count == first && (!compound || c->gap > c->near.slack);
+    c->axis = remember ? last : vec3_make(0, 0, 0);
     return true;
 }
 
-static bool is_plain_prism(const party *p) { return p->is_prism && p->shapes->shapes.piece_count[p->shape] == 1; }
-
 /* Two prisms of one piece each. */
-static bool touch_prisms(context *ctx, narrow_room *s, const body_table *bodies, const party *a, const party *b,
-                         const pair_policy *policy, nearness near, parting *part, contact_array *contacts)
+static bool touch_prisms(context *ctx, narrow_room *room, const body_table *bodies, pair_case *c,
+                         contact_array *contacts)
 {
-    prism p = prism_piece(a, 0), q = prism_piece(b, 0);
     prism_meeting meeting;
-    KERNEL_PICK(ctx, prism_pair_test)(&p, &q, near.slack, &part->axis, &meeting);
-    part->axis = meeting.axis;
-    part->gap = meeting.gap;
+    KERNEL_PICK(ctx, prism_pair_test)(&c->p, &c->q, c->near.slack, &c->axis, &meeting);
+    c->axis = meeting.axis;
+    c->gap = meeting.gap;
     if (meeting.kind == PRISMS_APART)
         return true;
     if (meeting.kind == PRISMS_TILTED &&
-        (!prism_polyhedron_reserve(ctx, &s->piece_a) || !prism_polyhedron_reserve(ctx, &s->piece_b)))
+        (!prism_polyhedron_reserve(ctx, &room->piece_a) || !prism_polyhedron_reserve(ctx, &room->piece_b)))
         return false;
     vec3 normal;
     manifold_point point[4];
-    int count = prism_meeting_points(&p, &q, &meeting, near, &s->piece_a, &s->piece_b, &normal, point, &part->axis);
+    int count =
+        prism_meeting_points(&c->p, &c->q, &meeting, c->near, &room->piece_a, &room->piece_b, &normal, point, &c->axis);
     int32_t first = contacts->count;
-    if (!add_contacts(ctx, bodies, a, b, 0, 0, normal, point, count, policy, contacts))
+    if (!add_contacts(ctx, bodies, &c->a, &c->b, 0, 0, normal, point, count, c->policy, contacts))
         return false;
     contact_keys_part(contacts->data + first, count);
-    part->gap = vec3_dot(part->axis, part->axis) > 0 ? axis_gap(a, b, part->axis) : 0;
+    c->gap = vec3_dot(c->axis, c->axis) > 0 ? axis_gap(&c->a, &c->b, c->axis) : 0;
     return true;
 }
 
-/* ---- blocks of pairs ---- */
+/* ---- pairs in their order ---- */
 
 typedef struct narrow_work {
     context *ctx;
@@ -325,44 +332,83 @@ typedef struct narrow_work {
     index_array *patch_pairs;
 } narrow_work;
 
-/* One pair whose bodies may have come near enough. */
-static bool test_pair(const narrow_work *w, int32_t i, narrow_room *room, contact_array *contacts,
-                      index_array *patch_pairs)
+static bool is_plain_prism(const party *p) { return p->is_prism && p->shapes->shapes.piece_count[p->shape] == 1; }
+
+/* Calls for the outline of a prism, which lies in no cache of a wide field. */
+static void prism_fetch(const prism *p)
 {
-    int32_t slot_a = w->pairs->a[i], slot_b = w->pairs->b[i];
-    const body_table *bodies = w->bodies;
-    const pair_policy *policy = &w->policies->of[bodies->material[slot_a]][bodies->material[slot_b]];
-    if (policy->patch)
-        return array_push(w->ctx, patch_pairs, i);
-    party a = party_of(bodies, w->shapes, slot_a, bodies->position[slot_a]);
-    party b = party_of(bodies, w->shapes, slot_b, bodies->position[slot_a]);
+    __builtin_prefetch(p->vertex);
+    __builtin_prefetch(p->vertex + 4);
+    __builtin_prefetch(p->side);
+    __builtin_prefetch(p->side + 4);
+}
+
+static void case_make(const narrow_work *w, int32_t row, const pair_policy *policy, pair_case *c)
+{
+    int32_t slot_a = w->pairs->a[row], slot_b = w->pairs->b[row];
+    vec3 origin = w->bodies->position[slot_a];
+    c->row = row;
+    c->policy = policy;
+    c->a = party_of(w->bodies, w->shapes, slot_a, origin);
+    c->b = party_of(w->bodies, w->shapes, slot_b, origin);
+    c->axis = w->pairs->axis[row];
+    c->gap = 0;
     const double *radius = w->shapes->shapes.radius;
-    double smaller = fmin(radius[a.shape], radius[b.shape]);
-    nearness near = {.slack = PAIR_REACH * smaller, .reach = POINT_REACH * smaller};
-    parting part = {w->pairs->axis[i], 0};
-    bool (*touch)(context *, narrow_room *, const body_table *, const party *, const party *, const pair_policy *,
-                  nearness, parting *, contact_array *) =
-        is_plain_prism(&a) && is_plain_prism(&b) ? touch_prisms : touch_compounds;
-    if (!touch(w->ctx, room, bodies, &a, &b, policy, near, &part, contacts))
-        return false;
-    w->pairs->axis[i] = part.axis;
-    w->pairs->clear[i] = part.gap > near.slack
-                             ? w->boxes->travel[slot_a] + w->boxes->travel[slot_b] + SURE * (part.gap - near.slack)
-                             : 0;
+    double smaller = fmin(radius[c->a.shape], radius[c->b.shape]);
+    c->near = (nearness){.slack = PAIR_REACH * smaller, .reach = POINT_REACH * smaller};
+    c->plain = is_plain_prism(&c->a) && is_plain_prism(&c->b);
+    if (c->plain) {
+        c->p = prism_piece(&c->a, 0);
+        c->q = prism_piece(&c->b, 0);
+        prism_fetch(&c->p);
+        prism_fetch(&c->q);
+    }
+}
+
+/* The contacts of some pairs, and what is remembered of them. */
+static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow_room *room, contact_array *contacts)
+{
+    for (int k = 0; k < count; k++) {
+        pair_case *c = &cases[k];
+        if (!(c->plain ? touch_prisms : touch_compounds)(w->ctx, room, w->bodies, c, contacts))
+            return false;
+        double travel = w->boxes->travel[c->a.slot] + w->boxes->travel[c->b.slot];
+        w->pairs->axis[c->row] = c->axis;
+        w->pairs->clear[c->row] = c->gap > c->near.slack ? travel + SURE * (c->gap - c->near.slack) : 0;
+    }
     return true;
 }
 
-/* Pairs first..end-1, what they find appended to the arrays. */
+/* Pairs first..end-1, what they find appended to the arrays.  Those that may have met are taken a few at a time, so
+   that memory answers for the next while the last are tested. */
 static bool test_pairs(const narrow_work *w, int32_t first, int32_t end, narrow_room *room, contact_array *contacts,
                        index_array *patch_pairs)
 {
+    enum { CASES = 8 };
+    pair_case cases[CASES];
+    int waiting = 0;
     const int32_t *a = w->pairs->a, *b = w->pairs->b;
     const double *clear = w->pairs->clear, *travel = w->boxes->travel;
-    for (int32_t i = first; i < end; i++)
-        if (!(travel[a[i]] + travel[b[i]] < clear[i]) && !test_pair(w, i, room, contacts, patch_pairs))
+    for (int32_t i = first; i < end; i++) {
+        if (travel[a[i]] + travel[b[i]] < clear[i])
+            continue;
+        const pair_policy *policy = &w->policies->of[w->bodies->material[a[i]]][w->bodies->material[b[i]]];
+        if (policy->patch) {
+            if (!array_push(w->ctx, patch_pairs, i))
+                return false;
+            continue;
+        }
+        case_make(w, i, policy, &cases[waiting++]);
+        if (waiting < CASES)
+            continue;
+        if (!cases_test(w, cases, waiting, room, contacts))
             return false;
-    return true;
+        waiting = 0;
+    }
+    return cases_test(w, cases, waiting, room, contacts);
 }
+
+/* ---- blocks of pairs ---- */
 
 static void narrow_block(void *arg, int32_t block, int32_t thread)
 {
