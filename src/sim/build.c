@@ -31,8 +31,11 @@ step_settings build_settings(const scenario *s)
     step_settings out = {
         .time_step = s->run.time_step,
         .forces = e->water ? FORCES_FLUID : FORCES_NONE,
-        .media = {e->gravity, e->water_density, e->air_density, horizontal(e->current_speed, e->current_direction_deg),
-                  horizontal(e->wind_speed, e->wind_direction_deg)},
+        .media = {.gravity = e->gravity,
+                  .water_density = e->water_density,
+                  .air_density = e->air_density,
+                  .current = horizontal(e->current_speed, e->current_direction_deg),
+                  .wind = horizontal(e->wind_speed, e->wind_direction_deg)},
         .floe_response = {e->floe_added_mass, e->floe_damping},
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {s->run.time_step, 0, s->ice.top_plane_area},
