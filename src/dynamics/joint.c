@@ -215,18 +215,22 @@ static void block_want(const solver *s, const joint_block *j, double want[JOINT_
         want[r] = -(row_axis_velocity(&j->axis[r], body, base) + j->bias[r] + j->softness * j->impulse[r]);
 }
 
-void joint_row_sweep(solver *s)
+double joint_row_sweep(solver *s)
 {
+    double energy = 0;
     for (int32_t i = 0; i < s->joints.count; i++) {
         joint_block *j = &s->joints.data[i];
-        double step[JOINT_MOST_ROWS];
-        block_want(s, j, step);
+        double want[JOINT_MOST_ROWS], step[JOINT_MOST_ROWS];
+        block_want(s, j, want);
+        memcpy(step, want, sizeof step);
         block_solve(j, step);
         for (int r = 0; r < j->count; r++) {
             row_axis_push(&j->axis[r], &s->bodies.data[j->body], &s->bodies.data[j->base], step[r]);
             j->impulse[r] += step[r];
+            energy += want[r] * step[r];
         }
     }
+    return energy;
 }
 
 double joint_row_residual(const solver *s, const joint_block *block)

@@ -27,6 +27,7 @@ void solver_free(context *ctx, solver *s)
     array_free(ctx, &s->island);
     array_free(ctx, &s->gain);
     memory_free(ctx, s->entries);
+    fast_rows_free(ctx, s->fast);
     memory_free(ctx, s);
 }
 
@@ -57,36 +58,37 @@ static void write_velocities(const solver *s, body_table *bodies)
     }
 }
 
-static solver_report report_of(const solver *s, const contact_array *contacts, int32_t iterations)
+static double largest_residual(const solver *s)
 {
-    solver_report r = {.iterations = iterations};
+    double largest = 0;
     for (int32_t i = 0; i < s->contacts.count; i++)
-        r.residual = fmax(r.residual, contact_row_residual(s, &s->contacts.data[i]));
+        largest = fmax(largest, contact_row_residual(s, &s->contacts.data[i]));
+    return largest;
+}
+
+static void report_depths(const contact_array *contacts, solver_report *r)
+{
+    r->overlapping = 0;
+    r->mean_depth = r->max_depth = 0;
     for (int32_t i = 0; i < contacts->count; i++) {
         if (contacts->data[i].depth < 0)
             continue;
-        r.overlapping++;
-        r.mean_depth += contacts->data[i].depth;
-        r.max_depth = fmax(r.max_depth, contacts->data[i].depth);
+        r->overlapping++;
+        r->mean_depth += contacts->data[i].depth;
+        r->max_depth = fmax(r->max_depth, contacts->data[i].depth);
     }
-    if (r.overlapping > 0)
-        r.mean_depth /= r.overlapping;
-    return r;
+    if (r->overlapping > 0)
+        r->mean_depth /= r->overlapping;
 }
 
-fram_status solver_solve(context *ctx, solver *s, const solver_settings *settings, double dt, body_table *bodies,
-                         const wrench *loads, joint_table *joints, contact_array *contacts,
-                         contact_memory_table *memory, solver_report *report, fram_error *error)
+/* The sequential and the accurate solver. */
+static fram_status solve_in_order(solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                                  const wrench *loads, joint_table *joints, contact_array *contacts,
+                                  contact_memory_table *memory, solver_report *report, fram_error *error)
 {
-    s->ctx = ctx;
-    if (settings->kind != SOLVER_SEQUENTIAL && settings->kind != SOLVER_ACCURATE)
-        return error_set(error, FRAM_ERROR_UNSUPPORTED, NULL, 0, NULL,
-                         "this build has the sequential and the accurate solver, not number %d", (int)settings->kind);
-    fram_status status = bodies_check(bodies, error);
-    if (status == FRAM_OK && !solver_bodies_begin(s, bodies))
-        status = error_memory(error);
-    if (status == FRAM_OK)
-        status = joint_rows_make(s, dt, bodies, joints, error);
+    if (!solver_bodies_begin(s, bodies))
+        return error_memory(error);
+    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
     if (status == FRAM_OK)
         status = contact_rows_make(s, settings, dt, bodies, contacts, error);
     if (status != FRAM_OK)
@@ -105,9 +107,30 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
         return status;
     write_velocities(s, bodies);
     joint_rows_finish(s, dt, joints);
-    if (report)
-        *report = report_of(s, contacts, iterations);
-    return contact_rows_finish(s, contacts, memory, error);
+    report->iterations = iterations;
+    report->residual = largest_residual(s);
+    return contact_rows_finish(s, bodies, contacts, memory, error);
+}
+
+fram_status solver_solve(context *ctx, solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                         const wrench *loads, joint_table *joints, contact_array *contacts,
+                         contact_memory_table *memory, solver_report *report, fram_error *error)
+{
+    s->ctx = ctx;
+    solver_report unread;
+    report = report ? report : &unread;
+    fram_status status = bodies_check(bodies, error);
+    if (status != FRAM_OK)
+        return status;
+    if (settings->kind == SOLVER_FAST)
+        status = solver_solve_fast(s, settings, dt, bodies, loads, joints, contacts, memory, report, error);
+    else if (settings->kind == SOLVER_SEQUENTIAL || settings->kind == SOLVER_ACCURATE)
+        status = solve_in_order(s, settings, dt, bodies, loads, joints, contacts, memory, report, error);
+    else
+        status = error_set(error, FRAM_ERROR_UNSUPPORTED, NULL, 0, NULL, "there is no solver number %d",
+                           (int)settings->kind);
+    report_depths(contacts, report);
+    return status;
 }
 
 /* ---- positions ---- */
@@ -118,6 +141,22 @@ static double correction_share(const contact *c, double rate)
     double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
     double share = fmin(rate, 1 - carried);
     return share > 0 ? share : 0;
+}
+
+double correction_velocity(const contact *c, const solver_settings *settings, double dt)
+{
+    return (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
+}
+
+void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt)
+{
+    for (int32_t i = 0; i < s->joints.count; i++) {
+        joint_block *j = &s->joints.data[i];
+        if (j->softness > 0) /* springs hold no position */
+            j->count = 0;
+        for (int r = 0; r < j->count; r++)
+            j->bias[r] = settings->correction_rate * j->error[r] / dt;
+    }
 }
 
 /* Normal rows only, wanting the speed that takes away its share of the overlap within the step. */
@@ -143,7 +182,7 @@ static bool make_correction_rows(solver *s, const solver_settings *settings, dou
                                      vec3_cross(c->arm_a, c->normal), vec3_cross(c->arm_b, c->normal));
         row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
         row->limit = HUGE_VAL;
-        row->bias = (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
+        row->bias = correction_velocity(c, settings, dt);
     }
     return true;
 }
@@ -153,6 +192,8 @@ fram_status solver_correct_positions(context *ctx, solver *s, const solver_setti
                                      fram_error *error)
 {
     s->ctx = ctx;
+    if (settings->kind == SOLVER_FAST)
+        return solver_correct_fast(s, settings, dt, bodies, joints, contacts, error);
     if (!solver_bodies_begin(s, bodies))
         return error_memory(error);
     fram_status status = joint_rows_make(s, dt, bodies, joints, error);
@@ -160,13 +201,7 @@ fram_status solver_correct_positions(context *ctx, solver *s, const solver_setti
         return status;
     if (!make_correction_rows(s, settings, dt, bodies, contacts))
         return error_memory(error);
-    for (int32_t i = 0; i < s->joints.count; i++) {
-        joint_block *j = &s->joints.data[i];
-        if (j->softness > 0) /* springs hold no position */
-            j->count = 0;
-        for (int r = 0; r < j->count; r++)
-            j->bias[r] = settings->correction_rate * j->error[r] / dt;
-    }
+    joint_rows_for_positions(s, settings, dt);
     /* Pseudo velocities start from rest and are forgotten: no kinetic energy is added. */
     for (int32_t i = 0; i < s->bodies.count; i++)
         s->bodies.data[i].velocity = s->bodies.data[i].angular_velocity = vec3_make(0, 0, 0);

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A contact between two bodies that nothing can move: a hull driven against static ice takes its cap while they
-   approach, and kinetic friction against the sliding; all others carry nothing. */
-static void load_immovable(const body_table *bodies, contact *c)
+/* A hull driven against static ice takes its cap while they approach, and kinetic friction against the sliding; all
+   others carry nothing. */
+void contact_load_immovable(const body_table *bodies, contact *c)
 {
     memset(c->impulse, 0, sizeof c->impulse);
     if (!c->crush_infinite || !isfinite(c->impulse_limit))
@@ -54,7 +54,7 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
     for (int32_t i = 0; i < contacts->count; i++) {
         contact *c = &contacts->data[i];
         if (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)) {
-            load_immovable(bodies, c);
+            contact_load_immovable(bodies, c);
             continue;
         }
         contact_row *row = &s->contacts.data[s->contacts.count++];
@@ -77,8 +77,7 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
 
 /* ---- warm start ---- */
 
-/* Keys mostly come in the order of the memory: look at the next entry first, then search all. */
-static int32_t memory_find(const contact_memory_table *memory, uint64_t key, int32_t next)
+int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t next)
 {
     if (next < memory->count && memory->key[next] == key)
         return next;
@@ -117,7 +116,7 @@ void contact_rows_recall(solver *s, const contact_array *contacts, const contact
     int32_t next = 0;
     for (int32_t i = 0; i < s->contacts.count; i++) {
         contact_row *row = &s->contacts.data[i];
-        int32_t at = memory_find(memory, contacts->data[row->contact].key, next);
+        int32_t at = contact_memory_find(memory, contacts->data[row->contact].key, next);
         if (at < 0)
             continue;
         next = at + 1;
@@ -206,24 +205,36 @@ static int compare_entries(const void *a, const void *b)
     return (x->contact > y->contact) - (x->contact < y->contact);
 }
 
-/* Contacts that carry something, by ascending keys. */
-static fram_status remember(solver *s, const contact_array *contacts, contact_memory_table *memory, fram_error *error)
+/* The narrow phase lists contacts by ascending keys, and others follow in an order of their own: the tail is sorted
+   and merged. */
+static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, memory_entry *tail)
 {
-    if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, contacts->count, sizeof *s->entries) ||
+    int32_t left = count - sorted;
+    if (left == 0)
+        return;
+    qsort(entries + sorted, (size_t)left, sizeof *entries, compare_entries);
+    memcpy(tail, entries + sorted, (size_t)left * sizeof *entries);
+    for (int32_t i = sorted - 1, to = count - 1; left > 0; to--)
+        entries[to] = i >= 0 && compare_entries(&entries[i], &tail[left - 1]) > 0 ? entries[i--] : tail[--left];
+}
+
+fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
+                              contact_memory_table *memory, fram_error *error)
+{
+    if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, 2 * contacts->count, sizeof *s->entries) ||
         !table_reserve(s->ctx, memory, &contact_memory_table_info, contacts->count))
         return error_memory(error);
-    int32_t count = 0;
-    bool sorted = true;
-    for (int32_t i = 0; i < s->contacts.count; i++) {
-        int32_t row = s->contacts.data[i].contact;
-        if (contacts->data[row].impulse[0] <= 0)
+    int32_t count = 0, sorted = 0;
+    for (int32_t i = 0; i < contacts->count; i++) {
+        const contact *c = &contacts->data[i];
+        if (c->impulse[0] <= 0 || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
             continue;
-        s->entries[count] = (memory_entry){contacts->data[row].key, row};
-        sorted = sorted && (count == 0 || s->entries[count - 1].key < s->entries[count].key);
+        s->entries[count] = (memory_entry){c->key, i};
+        if (sorted == count && (count == 0 || s->entries[count - 1].key < c->key))
+            sorted++;
         count++;
     }
-    if (!sorted)
-        qsort(s->entries, (size_t)count, sizeof *s->entries, compare_entries);
+    sort_entries(s->entries, count, sorted, s->entries + contacts->count);
     memory->count = count;
     for (int32_t i = 0; i < count; i++) {
         memory->key[i] = s->entries[i].key;
@@ -232,11 +243,12 @@ static fram_status remember(solver *s, const contact_array *contacts, contact_me
     return FRAM_OK;
 }
 
-fram_status contact_rows_finish(solver *s, contact_array *contacts, contact_memory_table *memory, fram_error *error)
+fram_status contact_rows_finish(solver *s, const body_table *bodies, contact_array *contacts,
+                                contact_memory_table *memory, fram_error *error)
 {
     for (int32_t i = 0; i < s->contacts.count; i++) {
         const contact_row *row = &s->contacts.data[i];
         memcpy(contacts->data[row->contact].impulse, row->impulse, sizeof row->impulse);
     }
-    return remember(s, contacts, memory, error);
+    return contacts_remember(s, bodies, contacts, memory, error);
 }

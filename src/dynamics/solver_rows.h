@@ -71,6 +71,7 @@ struct solver {
     ARRAY(energy_gain) gain; /* of each leader */
     struct memory_entry *entries;
     int32_t entry_capacity;
+    struct fast_rows *fast; /* of the fast solver, made when it is first used */
 };
 
 /* ---- solver_bodies.c ---- */
@@ -89,15 +90,30 @@ void bodies_accelerate(body_table *bodies, const wrench *loads, double dt);
 /* Velocities of the table into the list. */
 void solver_bodies_load(solver *s, const body_table *bodies);
 
+/* ---- solver.c ---- */
+
+/* Pseudo velocity at which a contact wants to part, or may close, in the position correction. */
+double correction_velocity(const contact *c, const solver_settings *settings, double dt);
+/* Joint rows made for velocities now ask for positions. */
+void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt);
+
 /* ---- solver_contacts.c ---- */
 
 /* Rows of all contacts of bodies that can be moved; impulses of the others are set here (SPEC 6: two driven bodies). */
 fram_status contact_rows_make(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
                               contact_array *contacts, fram_error *error);
+/* The impulse of a contact between two bodies that nothing can move. */
+void contact_load_immovable(const body_table *bodies, contact *c);
+/* Row of the memory with this key, -1 without; looks at `next` first, as keys mostly come in the memory's order. */
+int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t next);
+/* The memory of this step: contacts that carry something, by ascending keys. */
+fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
+                              contact_memory_table *memory, fram_error *error);
 /* Impulses of the last step into the rows, within this step's bounds; solver_warm_start applies them. */
 void contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory);
 /* Impulses back into the contacts, and the memory of this step. */
-fram_status contact_rows_finish(solver *s, contact_array *contacts, contact_memory_table *memory, fram_error *error);
+fram_status contact_rows_finish(solver *s, const body_table *bodies, contact_array *contacts,
+                                contact_memory_table *memory, fram_error *error);
 void contact_row_sweep(solver *s);
 /* Complementarity residual of the normal row [m/s]. */
 double contact_row_residual(const solver *s, const contact_row *row);
@@ -110,14 +126,34 @@ fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, cons
                             fram_error *error);
 void joint_rows_recall(solver *s, const joint_table *joints);
 void joint_rows_finish(solver *s, double dt, joint_table *joints);
-void joint_row_sweep(solver *s);
+/* Returns an energy as contact sweeps do: minus the changes of impulses times the velocities that asked for them. */
+double joint_row_sweep(solver *s);
 /* Largest unmet velocity of the block [m/s]; turning is taken at the radius of gyration. */
 double joint_row_residual(const solver *s, const joint_block *block);
 
 /* ---- solver_warm.c ---- */
 
+/* The leader of an island in an array that gives each member one nearer to it. */
+int32_t island_leader(int32_t *parent, int32_t i);
+/* Makes one island of two.  The lower place leads, so that the leaders depend on the rows alone. */
+void island_join(int32_t *parent, int32_t i, int32_t j);
+/* The largest share x in [0, 1] of impulses that gives no energy: linear x + square x^2 / 2 <= 0. */
+double energy_share(energy_gain g);
+double joint_row_work(const solver *s, const joint_block *j);
+void joint_row_push(solver *s, const joint_block *j, double share);
+
 /* Applies the impulses that the rows hold, as far as they give no energy.  false: no memory. */
 bool solver_warm_start(solver *s);
+
+/* ---- solver_fast.c ---- */
+
+/* The fast solver's solver_solve and solver_correct_positions. */
+fram_status solver_solve_fast(solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                              const wrench *loads, joint_table *joints, contact_array *contacts,
+                              contact_memory_table *memory, solver_report *report, fram_error *error);
+fram_status solver_correct_fast(solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                                const joint_table *joints, const contact_array *contacts, fram_error *error);
+void fast_rows_free(context *ctx, struct fast_rows *fast);
 
 /* ---- solver_accurate.c ---- */
 

@@ -5,7 +5,7 @@
    f(share p0) <= 0. */
 #include "dynamics/solver_rows.h"
 
-static int32_t island_of(int32_t *parent, int32_t i)
+int32_t island_leader(int32_t *parent, int32_t i)
 {
     while (parent[i] != i)
         i = parent[i] = parent[parent[i]];
@@ -14,16 +14,22 @@ static int32_t island_of(int32_t *parent, int32_t i)
 
 static bool is_movable(const solver *s, int32_t place) { return s->bodies.data[place].inverse_mass.xx > 0; }
 
-/* The lower place leads, so that the leaders depend on the rows alone. */
-static void join(solver *s, int32_t a, int32_t b)
+void island_join(int32_t *parent, int32_t i, int32_t j)
 {
-    if (!is_movable(s, a) || !is_movable(s, b))
-        return;
-    int32_t *parent = s->island.data, x = island_of(parent, a), y = island_of(parent, b);
+    int32_t x = island_leader(parent, i), y = island_leader(parent, j);
     parent[x > y ? x : y] = x < y ? x : y;
 }
 
-static int32_t leader(solver *s, int32_t a, int32_t b) { return island_of(s->island.data, is_movable(s, a) ? a : b); }
+static void join(solver *s, int32_t a, int32_t b)
+{
+    if (is_movable(s, a) && is_movable(s, b))
+        island_join(s->island.data, a, b);
+}
+
+static int32_t leader(solver *s, int32_t a, int32_t b)
+{
+    return island_leader(s->island.data, is_movable(s, a) ? a : b);
+}
 
 static bool find_islands(solver *s)
 {
@@ -50,7 +56,7 @@ static double contact_work(const solver *s, const contact_row *row)
     return sum;
 }
 
-static double joint_work(const solver *s, const joint_block *j)
+double joint_row_work(const solver *s, const joint_block *j)
 {
     double sum = 0;
     for (int r = 0; r < j->count; r++)
@@ -65,7 +71,7 @@ static void push_contact(solver *s, const contact_row *row, double share)
         row_axis_push(&row->axis[k], &s->bodies.data[row->a], &s->bodies.data[row->b], share * row->impulse[k]);
 }
 
-static void push_joint(solver *s, const joint_block *j, double share)
+void joint_row_push(solver *s, const joint_block *j, double share)
 {
     for (int r = 0; r < j->count; r++)
         row_axis_push(&j->axis[r], &s->bodies.data[j->body], &s->bodies.data[j->base], share * j->impulse[r]);
@@ -78,17 +84,17 @@ static void apply_and_weigh(solver *s)
     for (int32_t i = 0; i < s->contacts.count; i++)
         gain[leader(s, s->contacts.data[i].a, s->contacts.data[i].b)].linear += contact_work(s, &s->contacts.data[i]);
     for (int32_t i = 0; i < s->joints.count; i++)
-        gain[leader(s, s->joints.data[i].body, s->joints.data[i].base)].linear += joint_work(s, &s->joints.data[i]);
+        gain[leader(s, s->joints.data[i].body, s->joints.data[i].base)].linear += joint_row_work(s, &s->joints.data[i]);
     for (int32_t i = 0; i < s->contacts.count; i++)
         push_contact(s, &s->contacts.data[i], 1);
     for (int32_t i = 0; i < s->joints.count; i++)
-        push_joint(s, &s->joints.data[i], 1);
+        joint_row_push(s, &s->joints.data[i], 1);
     for (int32_t i = 0; i < s->contacts.count; i++)
         gain[leader(s, s->contacts.data[i].a, s->contacts.data[i].b)].square += contact_work(s, &s->contacts.data[i]);
     for (int32_t i = 0; i < s->joints.count; i++) {
         const joint_block *j = &s->joints.data[i];
         energy_gain *g = &gain[leader(s, j->body, j->base)];
-        g->square += joint_work(s, j);
+        g->square += joint_row_work(s, j);
         for (int r = 0; r < j->count; r++)
             g->square += j->softness * j->impulse[r] * j->impulse[r];
     }
@@ -96,8 +102,7 @@ static void apply_and_weigh(solver *s)
         gain[i].square -= gain[i].linear;
 }
 
-/* f(x p0) = linear x + square x^2 / 2 <= 0. */
-static double share_of(energy_gain g)
+double energy_share(energy_gain g)
 {
     if (g.linear + 0.5 * g.square <= 0)
         return 1;
@@ -111,7 +116,7 @@ bool solver_warm_start(solver *s)
     apply_and_weigh(s);
     for (int32_t i = 0; i < s->contacts.count; i++) {
         contact_row *row = &s->contacts.data[i];
-        double share = share_of(s->gain.data[leader(s, row->a, row->b)]);
+        double share = energy_share(s->gain.data[leader(s, row->a, row->b)]);
         if (share == 1)
             continue;
         push_contact(s, row, share - 1);
@@ -120,10 +125,10 @@ bool solver_warm_start(solver *s)
     }
     for (int32_t i = 0; i < s->joints.count; i++) {
         joint_block *j = &s->joints.data[i];
-        double share = share_of(s->gain.data[leader(s, j->body, j->base)]);
+        double share = energy_share(s->gain.data[leader(s, j->body, j->base)]);
         if (share == 1)
             continue;
-        push_joint(s, j, share - 1);
+        joint_row_push(s, j, share - 1);
         for (int r = 0; r < j->count; r++)
             j->impulse[r] *= share;
     }

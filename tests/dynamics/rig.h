@@ -8,6 +8,41 @@
 
 #define GRAVITY 9.81
 
+/* The solver of new rigs: RIG_MAIN runs every test once with each. */
+static solver_kind rig_kind = SOLVER_SEQUENTIAL;
+static inline void rig_use_sequential(void) { rig_kind = SOLVER_SEQUENTIAL; }
+static inline void rig_use_fast(void) { rig_kind = SOLVER_FAST; }
+static inline void rig_use_accurate(void) { rig_kind = SOLVER_ACCURATE; }
+
+#define RIG_MAIN(name, ...)                                             \
+    int main(void)                                                      \
+    {                                                                   \
+        const TTest *const list[] = {__VA_ARGS__};                      \
+        return rig_tests_run((name), list, sizeof list / sizeof *list); \
+    }
+
+static inline int rig_tests_run(const char *name, const TTest *const *tests, size_t count)
+{
+    static const struct {
+        const char *name;
+        SFun use;
+    } kinds[] = {{"sequential", rig_use_sequential}, {"fast", rig_use_fast}, {"accurate", rig_use_accurate}};
+    Suite *suite = suite_create(name);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        TCase *group = tcase_create(kinds[k].name);
+        tcase_set_timeout(group, TEST_TIMEOUT);
+        tcase_add_checked_fixture(group, kinds[k].use, NULL);
+        for (size_t i = 0; i < count; i++)
+            tcase_add_test(group, tests[i]);
+        suite_add_tcase(suite, group);
+    }
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
+
 typedef struct rig {
     context ctx;
     body_table bodies;
@@ -42,7 +77,7 @@ static inline rig rig_make(double dt)
 {
     rig r = {.dt = dt, .gravity = {0, 0, -GRAVITY}};
     context_init(&r.ctx);
-    r.settings = (solver_settings){.kind = SOLVER_SEQUENTIAL,
+    r.settings = (solver_settings){.kind = rig_kind,
                                    .iterations = 30,
                                    .position_iterations = 30,
                                    .warm_start = true,

@@ -190,6 +190,6 @@ START_TEST(joints_of_removed_bodies_rest)
 }
 END_TEST
 
-TEST_MAIN("joint", pendulum_swings_with_its_period, fixed_joint_carries_the_weight, hinge_turns_about_its_axis_only,
-          prismatic_joint_leaves_heave_free, spring_swings_and_its_damper_damps, spring_at_rest_carries_the_weight,
-          displaced_joint_is_drawn_together, joints_of_removed_bodies_rest)
+RIG_MAIN("joint", pendulum_swings_with_its_period, fixed_joint_carries_the_weight, hinge_turns_about_its_axis_only,
+         prismatic_joint_leaves_heave_free, spring_swings_and_its_damper_damps, spring_at_rest_carries_the_weight,
+         displaced_joint_is_drawn_together, joints_of_removed_bodies_rest)

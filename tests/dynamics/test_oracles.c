@@ -34,7 +34,7 @@ static slide_end slide(double dt, double heading)
     }
     end.distance = vec3_dot(r.bodies.position[box], way);
     vec3 across = vec3_make(-way.y, way.x, 0);
-    assert_absolute(vec3_dot(r.bodies.position[box], across), 0, 1e-6);
+    assert_absolute(vec3_dot(r.bodies.position[box], across), 0, 1e-5);
     rig_free(&r);
     return end;
 }
@@ -260,6 +260,6 @@ START_TEST(many_floes_keep_momentum_and_lose_energy)
 }
 END_TEST
 
-TEST_MAIN("oracles", slide_stops, friction_is_isotropic, incline_sticks_below_and_slides_above, two_floes_end_together,
-          corner_hit_turns_the_floe, free_prism_keeps_energy_and_momentum, middle_axis_is_unstable,
-          many_floes_keep_momentum_and_lose_energy)
+RIG_MAIN("oracles", slide_stops, friction_is_isotropic, incline_sticks_below_and_slides_above, two_floes_end_together,
+         corner_hit_turns_the_floe, free_prism_keeps_energy_and_momentum, middle_axis_is_unstable,
+         many_floes_keep_momentum_and_lose_energy)

@@ -250,6 +250,8 @@ static rig pile(void)
 
 START_TEST(warm_start_helps)
 {
+    if (rig_kind == SOLVER_ACCURATE)
+        return; /* that one ends at its tolerance either way */
     double residual[2];
     for (int warm = 0; warm < 2; warm++) {
         rig r = pile();
@@ -355,7 +357,6 @@ START_TEST(memory_runs_out)
         fram_error e = {0};
         solver *s = solver_create(&failing);
         contact_memory_table fresh = {0};
-        r.settings.kind = SOLVER_ACCURATE;
         r.settings.most_iterations = 3;
         fram_status status = s ? solver_solve(&failing, s, &r.settings, r.dt, &r.bodies, r.loads.data, &r.joints,
                                               &r.contacts, &fresh, &r.report, &e)
@@ -376,9 +377,9 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("solver", correction_leaves_a_fifth_of_the_depth, correction_yields_to_crushing,
-          baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told,
-          friction_is_bounded_by_the_capped_force, driven_bodies_take_the_cap_while_approaching,
-          static_friction_holds_more_than_kinetic, heavy_body_under_a_light_one, heavy_body_pushes_light_ones,
-          heavy_body_on_a_light_one_sinks_without_a_bang, warm_start_helps, solvers_agree, pile_comes_to_rest,
-          memory_is_sorted_and_matches, added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)
+RIG_MAIN("solver", correction_leaves_a_fifth_of_the_depth, correction_yields_to_crushing,
+         baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told, friction_is_bounded_by_the_capped_force,
+         driven_bodies_take_the_cap_while_approaching, static_friction_holds_more_than_kinetic,
+         heavy_body_under_a_light_one, heavy_body_pushes_light_ones, heavy_body_on_a_light_one_sinks_without_a_bang,
+         warm_start_helps, solvers_agree, pile_comes_to_rest, memory_is_sorted_and_matches,
+         added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)

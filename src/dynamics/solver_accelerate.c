@@ -1,0 +1,358 @@
+/* Faster than sweep by sweep.  A velocity is a linear function of the impulses, v = v0 + M^-1 J^T p, and where no bound
+   is active the solution makes f(p) = v.M v / 2 - wanted.p least.  After every other sweep p goes on by the combination
+   of its last ways that makes f least: conjugate gradients with the sweep as preconditioner, of which the three-term
+   recurrence is widened to four ways.  All scalar products are ones of velocities, hence sums over bodies, far fewer
+   than contacts; p and v go on by the same shares, and stay true to each other.
+
+   Bounds.  The next sweep draws p back into its bounds.  A step that did more harm than good - f and the sweeps' energy
+   both above those before it - is put back.  Sliding friction is no minimum of f: its impulse follows the normal one.
+   So the work of ways in the tangents of sliding contacts is left out of the gradient; otherwise friction would come
+   out too strong.  (After Silcowitz, Niebe and Erleben 2010, who take the ratio of two sweeps' squares in place of the
+   products.) */
+#include "base/pool.h"
+#include "dynamics/solver_fast.h"
+
+#include <string.h>
+
+/* How far a step may go, in ways: at the start, and by what factor that grows after a step that was shortened and kept
+   half its promise, and shrinks after one that failed.  Where light bodies carry a heavy one the best step is huge
+   (about the ratio of masses); taken at once, what the bounds cut off from it would be large against the light ones. */
+#define FIRST_REACH 16.0
+#define REACH_FACTOR 8.0
+#define LAST_REACH 1e6
+#define WORTH_REACHING 1e-9 /* of the bodies' energy: less is promised by rounding as well */
+/* A pull below this share of the bodies' energy is rounding: a small way of large velocities is known no better. */
+#define PULL_ROUNDING 1e-14
+/* Sweeps that take less than this share of the bodies' energy work on rounding errors: velocities are right to 1e-13.
+ */
+#define NOTHING_LEFT 1e-26
+/* A way that repeats others to within this share of its square adds nothing. */
+#define DEPENDENT_WAY 1e-10
+
+void acceleration_free(context *ctx, acceleration *a)
+{
+    for (int i = 0; i < VECTORS; i++) {
+        sweep_vector *v = &a->vector[i];
+        array_free(ctx, &v->start.memory);
+        array_free(ctx, &v->kept.memory);
+        for (int w = 0; w < SWEEP_WAYS - 1; w++)
+            array_free(ctx, &v->store[w].memory);
+    }
+}
+
+static bool vector_begin(context *ctx, sweep_vector *v, aligned_rows *x, int64_t rows)
+{
+    v->x = x;
+    v->count = rows * BATCH_LANES;
+    if (!rows_reserve(ctx, &v->start, rows) || !rows_reserve(ctx, &v->kept, rows))
+        return false;
+    for (int w = 1; w < SWEEP_WAYS; w++) {
+        if (!rows_reserve(ctx, &v->store[w - 1], rows))
+            return false;
+        rows_clear(&v->store[w - 1], rows);
+        v->way[w] = v->store[w - 1].rows;
+    }
+    memcpy(v->start.rows, x->rows, (size_t)v->count * sizeof *x->rows);
+    return true;
+}
+
+/* Impulses of joints from their blocks into rows, and back. */
+static void gather_joints(const solver *s)
+{
+    for (int32_t i = 0; i < s->joints.count; i++)
+        memcpy(row_of(&s->fast->joint_impulse, i), s->joints.data[i].impulse, sizeof s->joints.data[i].impulse);
+}
+
+static void scatter_joints(solver *s)
+{
+    for (int32_t i = 0; i < s->joints.count; i++)
+        memcpy(s->joints.data[i].impulse, row_of(&s->fast->joint_impulse, i), sizeof s->joints.data[i].impulse);
+}
+
+static double wanted_of(const stage *st, const double *impulses)
+{
+    const fast_rows *f = st->s->fast;
+    double sum = 0;
+    for (int32_t k = 0; k < f->plan.points; k++) {
+        const double *normal = impulses + (ptrdiff_t)BATCH_LANES * k * (st->positions ? 1 : IMPULSE_ROWS);
+        const double *bias = st->positions ? row_of(&f->bias, k) : row_of(&f->point, POINT_ROWS * k + POINT_BIAS);
+        for (int lane = 0; lane < BATCH_LANES; lane++)
+            sum += normal[lane] * bias[lane];
+    }
+    return sum;
+}
+
+/* ---- scalar products ---- */
+
+enum { BODY_BLOCK = 512 };
+
+static void products_of_block(void *arg, int32_t block, int32_t thread)
+{
+    const stage *st = arg;
+    fast_rows *f = st->s->fast;
+    const sweep_vector *v = &f->acceleration.vector[VECTOR_VELOCITY];
+    int32_t first = BODY_BLOCK * block, end = first + BODY_BLOCK, all = padded_rows(f);
+    (void)thread;
+    f->blocks.data[block] = KERNEL_PICK(st->s->ctx, solver_products)(
+        f->velocity.rows, v->start.rows, v->way, f->mass.rows, f->inertia.rows, first, end < all ? end : all);
+}
+
+/* Products of velocities, and what soft joints add to them.  value: f. */
+static way_products products_of(stage *st, double wanted, double *value)
+{
+    solver *s = st->s;
+    fast_rows *f = s->fast;
+    const sweep_vector *v = &f->acceleration.vector[VECTOR_JOINT];
+    way_products sum = {.square = 0};
+    pool_run(s->ctx, products_of_block, st, f->blocks.count);
+    for (int32_t i = 0; i < f->blocks.count; i++) {
+        sum.square += f->blocks.data[i].square;
+        for (int w = 0; w < SWEEP_WAYS; w++) {
+            sum.way[w] += f->blocks.data[i].way[w];
+            sum.velocity[w] += f->blocks.data[i].velocity[w];
+        }
+    }
+    *value = 0.5 * sum.square - wanted;
+    for (int32_t i = 0; i < s->joints.count; i++) {
+        const joint_block *j = &s->joints.data[i];
+        for (int r = 0; r < j->count; r++) {
+            ptrdiff_t at = (ptrdiff_t)BATCH_LANES * i + r;
+            double now = j->impulse[r] - v->start.rows[at];
+            *value += (j->bias[r] + 0.5 * j->softness * j->impulse[r]) * j->impulse[r];
+            for (int w = 0; w < SWEEP_WAYS; w++) {
+                double way = w == 0 ? now : v->way[w][at];
+                sum.way[w] += j->softness * now * way;
+                sum.velocity[w] += (j->bias[r] + j->softness * j->impulse[r]) * way;
+            }
+        }
+    }
+    return sum;
+}
+
+/* ---- begin ---- */
+
+bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
+{
+    solver *s = st->s;
+    fast_rows *f = s->fast;
+    acceleration *a = &f->acceleration;
+    int32_t bodies = padded_rows(f), joints = s->joints.count;
+    if (!rows_reserve(s->ctx, &f->joint_impulse, joints) ||
+        !array_resize(s->ctx, &f->blocks, (bodies + BODY_BLOCK - 1) / BODY_BLOCK))
+        return false;
+    rows_clear(&f->joint_impulse, joints);
+    gather_joints(s);
+    a->ways = 0;
+    a->reach = FIRST_REACH;
+    a->promised = 0;
+    a->wanted_start = wanted_of(st, x->rows);
+    memset(a->product, 0, sizeof a->product);
+    if (!vector_begin(s->ctx, &a->vector[VECTOR_VELOCITY], &f->velocity, bodies) ||
+        !vector_begin(s->ctx, &a->vector[VECTOR_IMPULSE], x, rows) ||
+        !vector_begin(s->ctx, &a->vector[VECTOR_JOINT], &f->joint_impulse, joints))
+        return false;
+    double value;
+    a->scale = products_of(st, a->wanted_start, &value).square;
+    return true;
+}
+
+static void slide_task(const stage *st, batch_task *task)
+{
+    const sweep_vector *v = &st->s->fast->acceleration.vector[VECTOR_IMPULSE];
+    KERNEL_PICK(st->s->ctx, solver_slide)(&st->view, task->first, task->end, v->start.rows, v->way, task->slide);
+}
+
+/* The work of each way in the tangents of sliding contacts. */
+static void slides_of(stage *st, double slide[SWEEP_WAYS])
+{
+    const batch_plan *plan = &st->s->fast->plan;
+    stage_run(st, slide_task);
+    for (int32_t t = 0; t < plan->tasks.count; t++)
+        for (int w = 0; w < SWEEP_WAYS; w++)
+            slide[w] += plan->tasks.data[t].slide[w];
+}
+
+/* ---- the step ---- */
+
+/* Shares that make f least: product share = pull, by Cholesky's method without the ways that repeat others. */
+static void solve_shares(double product[SWEEP_WAYS][SWEEP_WAYS], const double pull[SWEEP_WAYS], int ways,
+                         double share[SWEEP_WAYS])
+{
+    double l[SWEEP_WAYS][SWEEP_WAYS] = {{0}}, y[SWEEP_WAYS] = {0};
+    for (int i = 0; i < ways; i++) {
+        double pivot = product[i][i], rest = pull[i];
+        for (int k = 0; k < i; k++) {
+            double sum = product[i][k];
+            for (int q = 0; q < k; q++)
+                sum -= l[i][q] * l[k][q];
+            l[i][k] = l[k][k] > 0 ? sum / l[k][k] : 0;
+            pivot -= l[i][k] * l[i][k];
+            rest -= l[i][k] * y[k];
+        }
+        if (pivot > DEPENDENT_WAY * product[i][i]) {
+            l[i][i] = sqrt(pivot);
+            y[i] = rest / l[i][i];
+        } else {
+            memset(l[i], 0, sizeof l[i]);
+        }
+    }
+    for (int i = ways - 1; i >= 0; i--) {
+        double sum = y[i];
+        for (int q = i + 1; q < ways; q++)
+            sum -= l[q][i] * share[q];
+        share[i] = l[i][i] > 0 ? sum / l[i][i] : 0;
+    }
+}
+
+/* Keeps a step within reach; true when it was longer. */
+static bool shorten(double share[SWEEP_WAYS], double reach)
+{
+    double longest = 0;
+    for (int w = 0; w < SWEEP_WAYS; w++)
+        longest = fmax(longest, fabs(share[w]));
+    if (longest <= reach)
+        return false;
+    for (int w = 0; w < SWEEP_WAYS; w++)
+        share[w] *= reach / longest;
+    return true;
+}
+
+/* What a step takes from f if no bound is met. */
+static double decrease_of(const acceleration *a, const double pull[SWEEP_WAYS], const double share[SWEEP_WAYS])
+{
+    double sum = 0;
+    for (int w = 0; w < SWEEP_WAYS; w++) {
+        sum += share[w] * pull[w];
+        for (int k = 0; k < SWEEP_WAYS; k++)
+            sum -= 0.5 * share[w] * share[k] * a->product[w][k];
+    }
+    return sum;
+}
+
+typedef struct combination {
+    context *ctx;
+    sweep_vector *v;
+    const double *share;
+} combination;
+
+enum { COMBINE_BLOCK = 1 << 12 };
+
+static void combine_block(void *arg, int32_t block, int32_t thread)
+{
+    const combination *c = arg;
+    int64_t first = (int64_t)block * COMBINE_BLOCK, end = first + COMBINE_BLOCK;
+    (void)thread;
+    KERNEL_PICK(c->ctx, solver_combine)
+    (c->v->x->rows, c->v->start.rows, c->v->kept.rows, c->v->way, c->share, first,
+     end < c->v->count ? end : c->v->count);
+}
+
+/* Moves all vectors on; the newest way takes the place of the oldest. */
+static void move_on(context *ctx, acceleration *a, const double share[SWEEP_WAYS])
+{
+    for (int i = 0; i < VECTORS; i++) {
+        sweep_vector *v = &a->vector[i];
+        combination c = {ctx, v, share};
+        pool_run(ctx, combine_block, &c, (int32_t)((v->count + COMBINE_BLOCK - 1) / COMBINE_BLOCK));
+        double *newest = v->way[SWEEP_WAYS - 1];
+        for (int w = SWEEP_WAYS - 1; w > 1; w--)
+            v->way[w] = v->way[w - 1];
+        v->way[1] = newest;
+    }
+}
+
+/* Products of the new way, which is made of the old ones, follow from theirs. */
+static void remember_way(acceleration *a, const double share[SWEEP_WAYS])
+{
+    double part[SWEEP_WAYS], with[SWEEP_WAYS], square = 0, wanted = 0;
+    for (int w = 0; w < SWEEP_WAYS; w++)
+        part[w] = share[w] + (w == 0 ? 1 : 0);
+    for (int w = 0; w < SWEEP_WAYS; w++) {
+        with[w] = 0;
+        for (int k = 0; k < SWEEP_WAYS; k++)
+            with[w] += part[k] * a->product[k][w];
+        square += part[w] * with[w];
+        wanted += part[w] * a->wanted_way[w];
+    }
+    for (int w = SWEEP_WAYS - 1; w > 1; w--) {
+        for (int k = SWEEP_WAYS - 1; k > 1; k--)
+            a->product[w][k] = a->product[w - 1][k - 1];
+        a->wanted_way[w] = a->wanted_way[w - 1];
+    }
+    for (int w = 2; w < SWEEP_WAYS; w++)
+        a->product[w][1] = a->product[1][w] = with[w - 1];
+    a->product[1][1] = square;
+    a->wanted_way[1] = wanted;
+    a->wanted_start += wanted;
+    a->ways = a->ways < SWEEP_WAYS - 1 ? a->ways + 1 : SWEEP_WAYS - 1;
+}
+
+static bool failed(const acceleration *a, double value, double energy)
+{
+    return a->ways > 0 && value > a->kept_value && energy > a->kept_energy;
+}
+
+static void put_back(solver *s)
+{
+    acceleration *a = &s->fast->acceleration;
+    for (int i = 0; i < VECTORS; i++) {
+        const sweep_vector *v = &a->vector[i];
+        size_t size = (size_t)v->count * sizeof(double);
+        memcpy(v->x->rows, v->kept.rows, size);
+        memcpy(v->start.rows, v->kept.rows, size);
+    }
+    scatter_joints(s);
+    a->ways = 0;
+}
+
+bool acceleration_go_on(stage *st, double energy, double wanted)
+{
+    solver *s = st->s;
+    acceleration *a = &s->fast->acceleration;
+    double value, slide[SWEEP_WAYS] = {0}, pull[SWEEP_WAYS], share[SWEEP_WAYS] = {0};
+    gather_joints(s);
+    way_products sum = products_of(st, wanted, &value);
+    a->scale = fmax(a->scale, sum.square);
+    if (energy <= NOTHING_LEFT * a->scale || sum.way[0] <= NOTHING_LEFT * a->scale)
+        return false;
+    if (failed(a, value, energy)) {
+        put_back(s);
+        a->wanted_start = a->kept_wanted;
+        a->reach = fmax(1, a->reach / REACH_FACTOR);
+        a->promised = 0;
+        return true;
+    }
+    if (!st->positions)
+        slides_of(st, slide);
+    a->wanted_way[0] = wanted - a->wanted_start;
+    for (int w = 0; w < SWEEP_WAYS; w++) {
+        a->product[0][w] = a->product[w][0] = sum.way[w];
+        pull[w] = a->wanted_way[w] - sum.velocity[w] + slide[w];
+    }
+    for (int w = 0; w < SWEEP_WAYS; w++)
+        if (fabs(pull[w]) <= PULL_ROUNDING * sum.square)
+            pull[w] = 0;
+    solve_shares(a->product, pull, a->ways + 1, share);
+    if (a->promised > WORTH_REACHING * a->scale && a->kept_value - value >= 0.5 * a->promised)
+        a->reach = fmin(LAST_REACH, a->reach * REACH_FACTOR);
+    a->promised = shorten(share, a->reach) ? decrease_of(a, pull, share) : 0;
+    move_on(s->ctx, a, share);
+    scatter_joints(s);
+    remember_way(a, share);
+    a->kept_value = value;
+    a->kept_energy = energy;
+    a->kept_wanted = wanted;
+    return true;
+}
+
+void acceleration_end(stage *st, double energy, double wanted)
+{
+    solver *s = st->s;
+    double value;
+    if (s->fast->acceleration.ways == 0)
+        return;
+    gather_joints(s);
+    products_of(st, wanted, &value);
+    if (failed(&s->fast->acceleration, value, energy))
+        put_back(s);
+}

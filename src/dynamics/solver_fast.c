@@ -1,0 +1,318 @@
+/* The fast solver: the sweeps of the reference on batches of contacts (solver_batch.h), in another order, and sped up
+   by what their ways tell (solver_accelerate.c). */
+#include "dynamics/solver_fast.h"
+#include "base/pool.h"
+#include "dynamics/motion.h"
+
+#include <string.h>
+
+/* Fewer rows of points than this in a colour are not worth other threads. */
+enum { THREAD_POINTS = 128 };
+
+/* ---- work on tasks ---- */
+
+static void run_task(void *arg, int32_t block, int32_t thread)
+{
+    const stage *st = arg;
+    (void)thread;
+    st->run(st, &st->s->fast->plan.tasks.data[st->first_task + block]);
+}
+
+/* Runs tasks [first, end), which share nothing that is written. */
+static void run_tasks(stage *st, int32_t first, int32_t end)
+{
+    const batch_plan *plan = &st->s->fast->plan;
+    if (first == end)
+        return;
+    const batch_task *head = &plan->tasks.data[first], *last = &plan->tasks.data[end - 1];
+    int32_t points = plan->batches.data[last->end - 1].first - plan->batches.data[head->first].first;
+    st->first_task = first;
+    if (points >= THREAD_POINTS) {
+        pool_run(st->s->ctx, run_task, st, end - first);
+        return;
+    }
+    for (int32_t t = first; t < end; t++)
+        run_task(st, t - first, 0);
+}
+
+void stage_run_colours(stage *st, void (*run)(const stage *, batch_task *))
+{
+    const int32_array *ends = &st->s->fast->plan.colour_end;
+    st->run = run;
+    for (int32_t c = 0, first = 0; c < ends->count; first = ends->data[c++])
+        run_tasks(st, first, ends->data[c]);
+}
+
+void stage_run(stage *st, void (*run)(const stage *, batch_task *))
+{
+    st->run = run;
+    run_tasks(st, 0, st->s->fast->plan.tasks.count);
+}
+
+/* ---- joints ---- */
+
+void joints_borrow(solver *s)
+{
+    for (int32_t i = 0; i < s->bodies.count; i++) {
+        const double *r = row_of(&s->fast->velocity, s->fast->joint_row.data[i]);
+        memcpy(&s->bodies.data[i].velocity, r + BODY_VELOCITY, sizeof(vec3));
+        memcpy(&s->bodies.data[i].angular_velocity, r + BODY_SPIN, sizeof(vec3));
+    }
+}
+
+void joints_return(solver *s)
+{
+    for (int32_t i = 0; i < s->bodies.count; i++) {
+        double *r = row_of(&s->fast->velocity, s->fast->joint_row.data[i]);
+        memcpy(r + BODY_VELOCITY, &s->bodies.data[i].velocity, sizeof(vec3));
+        memcpy(r + BODY_SPIN, &s->bodies.data[i].angular_velocity, sizeof(vec3));
+    }
+}
+
+static double sweep_joints(solver *s)
+{
+    if (s->joints.count == 0)
+        return 0;
+    joints_borrow(s);
+    double energy = joint_row_sweep(s);
+    joints_return(s);
+    return energy;
+}
+
+/* ---- sweeps ---- */
+
+/* Sweeps between accelerations: the ways of two tell nearly as much as twice the number of single ones. */
+enum { SWEEPS_OF_A_WAY = 2 };
+
+static sweep_sums sweep_once(stage *st, void (*sweep)(const stage *, batch_task *))
+{
+    const batch_plan *plan = &st->s->fast->plan;
+    sweep_sums sums = {.energy = sweep_joints(st->s)};
+    stage_run_colours(st, sweep);
+    for (int32_t t = 0; t < plan->tasks.count; t++) {
+        sums.energy += plan->tasks.data[t].energy;
+        sums.wanted += plan->tasks.data[t].wanted;
+    }
+    return sums;
+}
+
+/* At most so many sweeps; fewer when nothing is left to do.  x: multipliers of contacts, `rows` of them. */
+static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), aligned_rows *x, int64_t rows, int32_t most,
+                    int32_t *iterations)
+{
+    sweep_sums sums = {.energy = 1};
+    if (!acceleration_begin(st, x, rows))
+        return false;
+    for (*iterations = 0; *iterations < most && sums.energy != 0;) {
+        sums = sweep_once(st, sweep);
+        ++*iterations;
+        /* Afterwards the same number of sweeps must be left to draw all back into its bounds. */
+        if (*iterations % SWEEPS_OF_A_WAY == 0 && *iterations + SWEEPS_OF_A_WAY <= most &&
+            !acceleration_go_on(st, sums.energy, sums.wanted))
+            return true;
+    }
+    acceleration_end(st, sums.energy, sums.wanted);
+    return true;
+}
+
+static void keep_sums(batch_task *task, sweep_sums sums)
+{
+    task->energy = sums.energy;
+    task->wanted = sums.wanted;
+}
+
+static void sweep_task(const stage *st, batch_task *task)
+{
+    keep_sums(task, KERNEL_PICK(st->s->ctx, solver_sweep)(&st->view, task->first, task->end));
+}
+
+static void correct_task(const stage *st, batch_task *task)
+{
+    const fast_rows *f = st->s->fast;
+    keep_sums(task, KERNEL_PICK(st->s->ctx, solver_correct)(&st->view, task->first, task->end, f->bias.rows,
+                                                            f->correction.rows));
+}
+
+static void residual_task(const stage *st, batch_task *task)
+{
+    task->residual = KERNEL_PICK(st->s->ctx, solver_residual)(&st->view, task->first, task->end);
+}
+
+static bool fast_rows_begin(solver *s)
+{
+    if (s->fast)
+        return true;
+    s->fast = memory_array(s->ctx, 1, sizeof *s->fast);
+    if (s->fast)
+        s->fast->planned = -1;
+    return s->fast != NULL;
+}
+
+/* ---- velocities ---- */
+
+/* Arms of contacts, and where the memory has them. */
+static bool find_contacts(solver *s, const contact_memory_table *memory, const body_table *bodies,
+                          contact_array *contacts)
+{
+    if (!array_resize(s->ctx, &s->fast->memory_row, contacts->count))
+        return false;
+    int32_t next = 0;
+    for (int32_t i = 0; i < contacts->count; i++) {
+        contact *c = &contacts->data[i];
+        s->fast->memory_row.data[i] = -1;
+        if (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)) {
+            contact_load_immovable(bodies, c);
+            continue;
+        }
+        c->arm_a = vec3_sub(c->point, bodies->position[c->a]);
+        c->arm_b = vec3_sub(c->point, bodies->position[c->b]);
+        int32_t at = memory ? contact_memory_find(memory, c->key, next) : -1;
+        s->fast->memory_row.data[i] = at;
+        next = at < 0 ? next : at + 1;
+    }
+    return true;
+}
+
+static void finish_task(const stage *st, batch_task *task)
+{
+    const fast_rows *f = st->s->fast;
+    for (int32_t i = task->first; i < task->end; i++) {
+        const contact_batch *batch = &f->plan.batches.data[i];
+        for (int32_t k = 0; k < batch->points; k++) {
+            const double *impulse = row_of(&f->impulse, IMPULSE_ROWS * (batch->first + k));
+            for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+                int32_t number = batch->contact[k][lane];
+                for (int32_t r = 0; r < IMPULSE_ROWS && number >= 0; r++)
+                    st->results->data[number].impulse[r] = impulse[BATCH_LANES * r + lane];
+            }
+        }
+    }
+}
+
+static double largest_residual(stage *st)
+{
+    double largest = 0;
+    stage_run(st, residual_task);
+    for (int32_t t = 0; t < st->s->fast->plan.tasks.count; t++)
+        largest = fmax(largest, st->s->fast->plan.tasks.data[t].residual);
+    return largest;
+}
+
+fram_status solver_solve_fast(solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                              const wrench *loads, joint_table *joints, contact_array *contacts,
+                              contact_memory_table *memory, solver_report *report, fram_error *error)
+{
+    if (!fast_rows_begin(s) || !solver_bodies_begin(s, bodies))
+        return error_memory(error);
+    fast_rows *f = s->fast;
+    f->planned = -1;
+    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    if (status != FRAM_OK)
+        return status;
+    stage st = {.s = s,
+                .bodies = bodies,
+                .contacts = contacts,
+                .results = contacts,
+                .memory = settings->warm_start ? memory : NULL,
+                .settings = settings,
+                .dt = dt};
+    if (!find_contacts(s, st.memory, bodies, contacts) || !batch_plan_make(s->ctx, &f->plan, bodies, contacts) ||
+        !fast_rows_make(&st))
+        return error_memory(error);
+    bodies_accelerate(bodies, loads, dt);
+    fast_velocities_load(f, bodies);
+    if (settings->warm_start) {
+        joint_rows_recall(s, joints);
+        if (!fast_warm_start(&st))
+            return error_memory(error);
+    }
+    if (!iterate(&st, sweep_task, &f->impulse, (int64_t)IMPULSE_ROWS * f->plan.points, settings->iterations,
+                 &report->iterations))
+        return error_memory(error);
+    fast_velocities_of_impulses(&st);
+    fast_velocities_store(f, bodies);
+    joint_rows_finish(s, dt, joints);
+    stage_run(&st, finish_task);
+    report->residual = largest_residual(&st);
+    f->planned = contacts->count;
+    return contacts_remember(s, bodies, contacts, memory, error);
+}
+
+/* ---- positions ---- */
+
+/* A velocity that no impulse is asked to reach. */
+#define NEVER (-1e300)
+
+static void fill_bias(const stage *st, batch_task *task)
+{
+    const fast_rows *f = st->s->fast;
+    task->energy = 0;
+    for (int32_t i = task->first; i < task->end; i++) {
+        const contact_batch *batch = &f->plan.batches.data[i];
+        for (int32_t k = 0; k < batch->points; k++) {
+            double *bias = row_of(&f->bias, batch->first + k);
+            for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+                const contact *c = batch->contact[k][lane] < 0 ? NULL : &st->contacts->data[batch->contact[k][lane]];
+                bias[lane] = !c                                       ? 0
+                             : c->correct && !st->settings->baumgarte ? correction_velocity(c, st->settings, st->dt)
+                                                                      : NEVER;
+                task->energy = bias[lane] > 0 ? 1 : task->energy;
+            }
+        }
+    }
+}
+
+static bool begin_correction(stage *st)
+{
+    solver *s = st->s;
+    fast_rows *f = s->fast;
+    bool fits = fast_rows_fit(f, st->contacts);
+    if (!fits && !batch_plan_make(s->ctx, &f->plan, st->bodies, st->contacts))
+        return false;
+    f->planned = -1;
+    if (fits ? !fast_bodies_make(st) : !fast_rows_make(st))
+        return false;
+    st->view = fast_view(f);
+    if (!rows_reserve(s->ctx, &f->bias, f->plan.points) || !rows_reserve(s->ctx, &f->correction, f->plan.points))
+        return false;
+    rows_clear(&f->velocity, padded_rows(f));
+    rows_clear(&f->correction, f->plan.points);
+    return true;
+}
+
+static void move_bodies(const fast_rows *f, body_table *bodies, double dt)
+{
+    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+        const double *r = row_of(&f->velocity, row);
+        int32_t slot = f->plan.slot.data[row];
+        if (slot < 0 || !body_is_dynamic(bodies, slot))
+            continue;
+        body_move(bodies, slot, vec3_make(r[BODY_VELOCITY], r[BODY_VELOCITY + 1], r[BODY_VELOCITY + 2]),
+                  vec3_make(r[BODY_SPIN], r[BODY_SPIN + 1], r[BODY_SPIN + 2]), dt);
+    }
+}
+
+fram_status solver_correct_fast(solver *s, const solver_settings *settings, double dt, body_table *bodies,
+                                const joint_table *joints, const contact_array *contacts, fram_error *error)
+{
+    if (!fast_rows_begin(s) || !solver_bodies_begin(s, bodies))
+        return error_memory(error);
+    fast_rows *f = s->fast;
+    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    if (status != FRAM_OK)
+        return status;
+    joint_rows_for_positions(s, settings, dt);
+    stage st = {.s = s, .bodies = bodies, .contacts = contacts, .settings = settings, .dt = dt, .positions = true};
+    if (!begin_correction(&st))
+        return error_memory(error);
+    stage_run(&st, fill_bias);
+    int32_t sweeps;
+    bool needed = s->joints.count > 0;
+    for (int32_t t = 0; t < f->plan.tasks.count; t++)
+        needed = needed || f->plan.tasks.data[t].energy > 0;
+    if (needed && !iterate(&st, correct_task, &f->correction, f->plan.points, settings->position_iterations, &sweeps))
+        return error_memory(error);
+    if (needed)
+        move_bodies(f, bodies, dt);
+    return FRAM_OK;
+}

@@ -1,0 +1,122 @@
+/* The fast solver from inside: its rows in memory, stages of work on tasks, and how its files share the work.
+   solver_fast_rows.c fills rows, solver_fast_warm.c starts from the last impulses, solver_accelerate.c speeds sweeps
+   up, solver_fast.c tells the order of it all. */
+#ifndef DYNAMICS_SOLVER_FAST_H
+#define DYNAMICS_SOLVER_FAST_H
+
+#include "dynamics/solver_batch.h"
+#include "dynamics/solver_rows.h"
+#include "dynamics/solver_sweep_kernel.h"
+
+/* Rows of eight doubles on cache lines: `rows` points into `memory`. */
+typedef struct aligned_rows {
+    double *rows;
+    ARRAY(double) memory;
+} aligned_rows;
+
+/* What changes in a sweep: velocities of body rows, impulses of contacts, impulses of joints. */
+enum { VECTOR_VELOCITY, VECTOR_IMPULSE, VECTOR_JOINT, VECTORS };
+
+/* One of these: where the last sweeps began, what they are put back to when they fail, and the ways they went. */
+typedef struct sweep_vector {
+    aligned_rows *x;
+    int64_t count; /* doubles, a multiple of eight */
+    aligned_rows start, kept, store[SWEEP_WAYS - 1];
+    double *way[SWEEP_WAYS]; /* from the newest, 1, to the oldest; 0 stands for the way since `start` */
+} sweep_vector;
+
+typedef struct acceleration {
+    sweep_vector vector[VECTORS];
+    double product[SWEEP_WAYS][SWEEP_WAYS]; /* of ways */
+    double wanted_way[SWEEP_WAYS], wanted_start;
+    double kept_value, kept_energy, kept_wanted;
+    double reach;    /* longest step, in ways */
+    double promised; /* decrease of f by the last step if it was shortened, else 0 */
+    double scale;    /* largest product of the velocities with themselves */
+    int32_t ways;    /* remembered */
+} acceleration;
+
+typedef struct fast_rows {
+    batch_plan plan;
+    aligned_rows velocity, inverse, tensor; /* of each body row */
+    aligned_rows mass, inertia;             /* the same, not inverted: xx yy zz xy xz yz; zero for copies of a hub */
+    aligned_rows frame, point, impulse;
+    aligned_rows work, share;      /* a row for each batch */
+    aligned_rows bias, correction; /* position correction: a row for each point */
+    aligned_rows joint_impulse;    /* a row for each joint */
+    acceleration acceleration;
+    int32_array joint_row;      /* body row of each entry of solver.bodies */
+    int32_array island;         /* of each body row, see solver_warm.c */
+    int32_array memory_row;     /* of each contact, -1: none */
+    ARRAY(energy_gain) gain;    /* of each body row that leads an island */
+    ARRAY(way_products) blocks; /* sums of each block of body rows */
+    int32_t planned;            /* number of contacts that the rows were made for, -1: none */
+} fast_rows;
+
+/* What a stage of the work needs; each uses a part. */
+typedef struct stage {
+    solver *s;
+    batch_view view;
+    const body_table *bodies;
+    const contact_array *contacts;
+    contact_array *results;
+    const contact_memory_table *memory; /* NULL: start cold */
+    const solver_settings *settings;
+    double dt;
+    const double *share; /* of solver_push */
+    bool positions;      /* position correction, not velocities */
+    int32_t first_task;
+    void (*run)(const struct stage *, batch_task *);
+} stage;
+
+/* ---- solver_fast.c ---- */
+
+/* Runs a stage that only reads bodies on all tasks. */
+void stage_run(stage *st, void (*run)(const stage *, batch_task *));
+/* Runs a stage that moves bodies, one colour after the other. */
+void stage_run_colours(stage *st, void (*run)(const stage *, batch_task *));
+/* Joints keep their own list of bodies (solver_rows.h), which borrows velocities from the rows. */
+void joints_borrow(solver *s);
+void joints_return(solver *s);
+
+/* ---- solver_fast_rows.c ---- */
+
+/* At least so many rows, contents undefined; false: no memory. */
+bool rows_reserve(context *ctx, aligned_rows *r, int64_t rows);
+void rows_clear(aligned_rows *r, int64_t rows);
+static inline double *row_of(const aligned_rows *r, int32_t row) { return r->rows + (ptrdiff_t)BATCH_LANES * row; }
+/* Body rows are worked in groups of eight; rows beyond the last body are zero. */
+static inline int32_t padded_rows(const fast_rows *f) { return (f->plan.slot.count + 7) / 8 * 8; }
+batch_view fast_view(const fast_rows *f);
+
+/* Rows of the bodies in the plan, and of joints' bodies; velocities as in the table. */
+bool fast_bodies_make(stage *st);
+void fast_velocities_load(fast_rows *f, const body_table *bodies);
+void fast_velocities_store(const fast_rows *f, body_table *bodies);
+/* The body slot in a lane; that of the hub for its copies. */
+int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t row);
+/* Rows of bodies and contacts. */
+bool fast_rows_make(stage *st);
+/* Whether the rows are still those of these contacts: bodies, normals, arms. */
+bool fast_rows_fit(const fast_rows *f, const contact_array *contacts);
+
+/* ---- solver_fast_warm.c ---- */
+
+/* Impulses in the rows are within bounds and applied as far as they give no energy.  false: no memory. */
+bool fast_warm_start(stage *st);
+/* Velocities anew from those of the table and all impulses, so that what many steps of rounding have drawn apart is one
+   again and momentum is kept. */
+void fast_velocities_of_impulses(stage *st);
+
+/* ---- solver_accelerate.c ---- */
+
+/* Before the first sweep.  x: multipliers of contacts, `rows` of them.  false: no memory. */
+bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows);
+/* After sweeps that took `energy` and left `wanted`: goes on by what their ways tell, or puts back what failed.  false:
+   nothing is left to do. */
+bool acceleration_go_on(stage *st, double energy, double wanted);
+/* After the last sweep. */
+void acceleration_end(stage *st, double energy, double wanted);
+void acceleration_free(context *ctx, acceleration *a);
+
+#endif

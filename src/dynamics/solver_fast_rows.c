@@ -1,0 +1,279 @@
+/* Rows of the fast solver: where they lie, how bodies and contacts get into them and out again. */
+#include "base/pool.h"
+#include "dynamics/motion.h"
+#include "dynamics/solver_fast.h"
+
+#include <string.h>
+
+/* ---- memory ---- */
+
+bool rows_reserve(context *ctx, aligned_rows *r, int64_t rows)
+{
+    enum { LINE = 64 };
+    if (rows > INT32_MAX / BATCH_LANES - 1 || !array_reserve(ctx, &r->memory, BATCH_LANES * ((int32_t)rows + 1)))
+        return false;
+    size_t past = (size_t)((uintptr_t)r->memory.data % LINE);
+    r->rows = r->memory.data + (past == 0 ? 0 : (LINE - past) / sizeof(double));
+    return true;
+}
+
+void rows_clear(aligned_rows *r, int64_t rows) { memset(r->rows, 0, (size_t)rows * BATCH_LANES * sizeof *r->rows); }
+
+void fast_rows_free(context *ctx, fast_rows *f)
+{
+    if (!f)
+        return;
+    aligned_rows *rows[] = {&f->velocity, &f->inverse,    &f->tensor,       &f->mass, &f->inertia,
+                            &f->frame,    &f->point,      &f->impulse,      &f->work, &f->share,
+                            &f->bias,     &f->correction, &f->joint_impulse};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        array_free(ctx, &rows[i]->memory);
+    acceleration_free(ctx, &f->acceleration);
+    array_free(ctx, &f->joint_row);
+    array_free(ctx, &f->island);
+    array_free(ctx, &f->memory_row);
+    array_free(ctx, &f->gain);
+    array_free(ctx, &f->blocks);
+    batch_plan_free(ctx, &f->plan);
+    memory_free(ctx, f);
+}
+
+batch_view fast_view(const fast_rows *f)
+{
+    return (batch_view){.velocity = f->velocity.rows,
+                        .inverse = f->inverse.rows,
+                        .tensor = f->tensor.rows,
+                        .batch = f->plan.batches.data,
+                        .frame = f->frame.rows,
+                        .point = f->point.rows,
+                        .impulse = f->impulse.rows};
+}
+
+/* ---- bodies ---- */
+
+static bool is_general(const body_table *bodies, int32_t slot)
+{
+    vec3 added = bodies->added_mass[slot];
+    return added.x != 0 || added.y != 0 || added.z != 0;
+}
+
+enum { INVERSE_GENERAL = 7 }; /* place in the inverse row: 1 for a mass that depends on the direction */
+
+static void put_tensor(double *row, sym3 s, double factor)
+{
+    const double part[8] = {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz, 0, 0};
+    for (int k = 0; k < 8; k++)
+        row[k] = factor * part[k];
+}
+
+static void put_masses(fast_rows *f, int32_t row, const body_table *bodies, int32_t slot, double factor)
+{
+    sym3 mass, inertia;
+    bool movable = slot >= 0 && body_is_dynamic(bodies, slot);
+    body_inverse_tensors(bodies, slot, &mass, &inertia);
+    put_tensor(row_of(&f->tensor, row), mass, factor);
+    put_tensor(row_of(&f->inverse, row), inertia, factor);
+    row_of(&f->inverse, row)[INVERSE_MASS] = factor * mass.xx;
+    row_of(&f->inverse, row)[INVERSE_GENERAL] = movable && is_general(bodies, slot);
+    bool counts = movable && factor == 1;
+    put_tensor(row_of(&f->mass, row), counts ? sym3_inverse(mass) : (sym3){0}, 1);
+    put_tensor(row_of(&f->inertia, row), counts ? sym3_inverse(inertia) : (sym3){0}, 1);
+}
+
+static void put_velocity(fast_rows *f, int32_t row, const body_table *bodies, int32_t slot)
+{
+    double *r = row_of(&f->velocity, row);
+    memset(r, 0, BODY_ROW * sizeof *r);
+    if (slot < 0)
+        return;
+    memcpy(r + BODY_VELOCITY, &bodies->velocity[slot], sizeof(vec3));
+    memcpy(r + BODY_SPIN, &bodies->angular_velocity[slot], sizeof(vec3));
+}
+
+enum { ROW_BLOCK = 256 };
+
+static void fill_body_rows(void *arg, int32_t block, int32_t thread)
+{
+    const stage *st = arg;
+    fast_rows *f = st->s->fast;
+    (void)thread;
+    for (int32_t row = ROW_BLOCK * block; row < padded_rows(f) && row < ROW_BLOCK * (block + 1); row++) {
+        int32_t slot = row < f->plan.slot.count ? f->plan.slot.data[row] : -1;
+        put_masses(f, row, st->bodies, slot, 1);
+        put_velocity(f, row, st->bodies, slot);
+    }
+}
+
+/* Rows for the bodies of joints. */
+static bool find_joint_rows(solver *s, const body_table *bodies)
+{
+    fast_rows *f = s->fast;
+    if (!array_resize(s->ctx, &f->joint_row, s->bodies.count))
+        return false;
+    for (int32_t i = 0; i < s->bodies.count; i++) {
+        f->joint_row.data[i] = batch_plan_row(s->ctx, &f->plan, bodies, s->bodies.data[i].slot);
+        if (f->joint_row.data[i] < 0)
+            return false;
+    }
+    return true;
+}
+
+bool fast_bodies_make(stage *st)
+{
+    context *ctx = st->s->ctx;
+    fast_rows *f = st->s->fast;
+    if (!find_joint_rows(st->s, st->bodies))
+        return false;
+    int32_t rows = padded_rows(f);
+    if (!rows_reserve(ctx, &f->velocity, rows) || !rows_reserve(ctx, &f->inverse, rows) ||
+        !rows_reserve(ctx, &f->tensor, rows) || !rows_reserve(ctx, &f->mass, rows) ||
+        !rows_reserve(ctx, &f->inertia, rows))
+        return false;
+    pool_run(ctx, fill_body_rows, st, (rows + ROW_BLOCK - 1) / ROW_BLOCK);
+    for (int32_t h = 0; h < f->plan.hubs.count; h++) /* an eighth of the hub in each of its copies */
+        for (int32_t i = 0; i < BATCH_LANES; i++)
+            put_masses(f, f->plan.movable + BATCH_LANES * h + i, st->bodies, f->plan.hubs.data[h], BATCH_LANES);
+    return true;
+}
+
+void fast_velocities_load(fast_rows *f, const body_table *bodies)
+{
+    for (int32_t row = 0; row < f->plan.slot.count; row++)
+        if (f->plan.slot.data[row] >= 0)
+            put_velocity(f, row, bodies, f->plan.slot.data[row]);
+}
+
+void fast_velocities_store(const fast_rows *f, body_table *bodies)
+{
+    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+        int32_t slot = f->plan.slot.data[row];
+        if (slot < 0 || !body_is_dynamic(bodies, slot))
+            continue;
+        memcpy(&bodies->velocity[slot], row_of(&f->velocity, row) + BODY_VELOCITY, sizeof(vec3));
+        memcpy(&bodies->angular_velocity[slot], row_of(&f->velocity, row) + BODY_SPIN, sizeof(vec3));
+    }
+}
+
+/* ---- contacts into rows ---- */
+
+static void put3(double *rows, int at, int32_t lane, vec3 v)
+{
+    rows[BATCH_LANES * at + lane] = v.x;
+    rows[BATCH_LANES * (at + 1) + lane] = v.y;
+    rows[BATCH_LANES * (at + 2) + lane] = v.z;
+}
+
+static double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
+{
+    if (c->depth < 0) /* an open point may close, no more */
+        return c->depth / dt;
+    return settings->baumgarte && c->correct ? settings->correction_rate * c->depth / dt : 0;
+}
+
+static void fill_lane(const stage *st, const contact_batch *batch, double *frame, int32_t lane)
+{
+    const fast_rows *f = st->s->fast;
+    for (int32_t k = 0; k < batch->points; k++) {
+        double *point = row_of(&f->point, POINT_ROWS * (batch->first + k));
+        double *impulse = row_of(&f->impulse, IMPULSE_ROWS * (batch->first + k));
+        int32_t number = batch->contact[k][lane];
+        vec3 zero = vec3_make(0, 0, 0);
+        if (number < 0) { /* nothing: a cap of zero */
+            put3(point, POINT_ARM_A, lane, zero);
+            put3(point, POINT_ARM_B, lane, zero);
+            put3(impulse, 0, lane, zero);
+            point[BATCH_LANES * POINT_BIAS + lane] = point[BATCH_LANES * POINT_LIMIT + lane] = 0;
+            continue;
+        }
+        const contact *c = &st->contacts->data[number];
+        int32_t remembered = st->memory ? f->memory_row.data[number] : -1;
+        put3(point, POINT_ARM_A, lane, c->arm_a);
+        put3(point, POINT_ARM_B, lane, c->arm_b);
+        put3(impulse, 0, lane, remembered < 0 ? zero : st->memory->impulse[remembered]);
+        point[BATCH_LANES * POINT_BIAS + lane] = wanted_velocity(c, st->settings, st->dt);
+        point[BATCH_LANES * POINT_LIMIT + lane] = c->impulse_limit;
+    }
+    if (batch->contact[0][lane] < 0) {
+        put3(frame, FRAME_NORMAL, lane, vec3_make(0, 0, 1));
+        frame[BATCH_LANES * FRAME_STATIC + lane] = frame[BATCH_LANES * FRAME_KINETIC + lane] = 0;
+        return;
+    }
+    const contact *c = &st->contacts->data[batch->contact[0][lane]];
+    put3(frame, FRAME_NORMAL, lane, c->normal);
+    frame[BATCH_LANES * FRAME_STATIC + lane] = fmax(c->friction_static, c->friction_kinetic);
+    frame[BATCH_LANES * FRAME_KINETIC + lane] = c->friction_kinetic;
+}
+
+static bool has_general(const fast_rows *f, const contact_batch *batch)
+{
+    bool general = false;
+    for (int32_t lane = 0; lane < BATCH_LANES; lane++)
+        general = general || row_of(&f->inverse, batch->a[lane])[INVERSE_GENERAL] > 0 ||
+                  row_of(&f->inverse, batch->b[lane])[INVERSE_GENERAL] > 0;
+    return general;
+}
+
+static void fill_task(const stage *st, batch_task *task)
+{
+    fast_rows *f = st->s->fast;
+    for (int32_t i = task->first; i < task->end; i++) {
+        contact_batch *batch = &f->plan.batches.data[i];
+        batch->general = has_general(f, batch);
+        for (int32_t lane = 0; lane < BATCH_LANES; lane++)
+            fill_lane(st, batch, row_of(&f->frame, FRAME_ROWS * i), lane);
+    }
+    KERNEL_PICK(st->s->ctx, solver_prepare)(&st->view, task->first, task->end);
+}
+
+bool fast_rows_make(stage *st)
+{
+    context *ctx = st->s->ctx;
+    fast_rows *f = st->s->fast;
+    int32_t batches = f->plan.batches.count, points = f->plan.points;
+    if (!fast_bodies_make(st) || !rows_reserve(ctx, &f->frame, (int64_t)FRAME_ROWS * batches) ||
+        !rows_reserve(ctx, &f->point, (int64_t)POINT_ROWS * points) ||
+        !rows_reserve(ctx, &f->impulse, (int64_t)IMPULSE_ROWS * points))
+        return false;
+    st->view = fast_view(f);
+    stage_run(st, fill_task);
+    return true;
+}
+
+/* ---- rows again ---- */
+
+/* Bits are compared: the rows hold the very numbers. */
+static bool same3(const double *rows, int at, int32_t lane, vec3 v)
+{
+    return rows[BATCH_LANES * at + lane] == v.x && rows[BATCH_LANES * (at + 1) + lane] == v.y &&
+           rows[BATCH_LANES * (at + 2) + lane] == v.z;
+}
+
+int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t row)
+{
+    bool copy = batch->hub >= 0 && row >= batch->copies && row < batch->copies + BATCH_LANES;
+    return plan->slot.data[copy ? batch->hub : row];
+}
+
+bool fast_rows_fit(const fast_rows *f, const contact_array *contacts)
+{
+    if (f->planned != contacts->count)
+        return false;
+    for (int32_t i = 0; i < f->plan.batches.count; i++) {
+        const contact_batch *batch = &f->plan.batches.data[i];
+        const double *frame = row_of(&f->frame, FRAME_ROWS * i);
+        for (int32_t k = 0; k < batch->points; k++) {
+            const double *point = row_of(&f->point, POINT_ROWS * (batch->first + k));
+            for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+                if (batch->contact[k][lane] < 0)
+                    continue;
+                const contact *c = &contacts->data[batch->contact[k][lane]];
+                if (c->a != lane_slot(&f->plan, batch, batch->a[lane]) ||
+                    c->b != lane_slot(&f->plan, batch, batch->b[lane]) ||
+                    !same3(frame, FRAME_NORMAL, lane, c->normal) || !same3(point, POINT_ARM_A, lane, c->arm_a) ||
+                    !same3(point, POINT_ARM_B, lane, c->arm_b))
+                    return false;
+            }
+        }
+    }
+    return true;
+}

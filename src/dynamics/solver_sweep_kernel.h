@@ -1,0 +1,58 @@
+/* Arithmetic of the fast solver on batches of contacts (solver_batch.h), one copy per instruction set.  Ranges are of
+   batches and are worked in ascending order. */
+#ifndef DYNAMICS_SOLVER_SWEEP_KERNEL_H
+#define DYNAMICS_SOLVER_SWEEP_KERNEL_H
+
+#include "base/kernel.h"
+#include "dynamics/solver_batch.h"
+
+/* energy: minus the sum of changes of impulses times the velocities that asked for them, never negative, zero when
+   nothing is left to do.  wanted: the sum of normal impulses times the velocities that are wanted. */
+typedef struct sweep_sums {
+    double energy, wanted;
+} sweep_sums;
+
+/* Ways that an acceleration combines: that of the last sweeps and three earlier ones. */
+enum { SWEEP_WAYS = 4 };
+
+/* Of way 0 with each way, of the velocity with each way, and of the velocity with itself. */
+typedef struct way_products {
+    double way[SWEEP_WAYS], velocity[SWEEP_WAYS], square;
+} way_products;
+
+/* Masses and slips of the points from arms and the velocities before the step. */
+KERNEL_DECLARE(void, solver_prepare, (const batch_view *view, int32_t first, int32_t end));
+/* Impulses in the global frame, as they stand in `impulse`, become those along normal and tangents, within this step's
+   bounds. */
+KERNEL_DECLARE(void, solver_recall, (const batch_view *view, int32_t first, int32_t end));
+/* work[8 batch + lane] = sum over the lane's points of impulse . (velocity - wanted one). */
+KERNEL_DECLARE(void, solver_work, (const batch_view *view, int32_t first, int32_t end, double *work));
+/* Applies share[8 batch + lane] of the impulses to the bodies; share NULL: all. */
+KERNEL_DECLARE(void, solver_push, (const batch_view *view, int32_t first, int32_t end, const double *share));
+/* One sweep of projected Gauss-Seidel. */
+KERNEL_DECLARE(sweep_sums, solver_sweep, (const batch_view *view, int32_t first, int32_t end));
+/* Largest complementarity residual of the normal rows [m/s]. */
+KERNEL_DECLARE(double, solver_residual, (const batch_view *view, int32_t first, int32_t end));
+/* A sweep of the position correction: normal rows only, `bias` and `impulse` of one row of lanes per point, no cap. */
+KERNEL_DECLARE(sweep_sums, solver_correct,
+               (const batch_view *view, int32_t first, int32_t end, const double *bias, double *impulse));
+
+/* ---- for solver_accelerate.c ---- */
+
+/* Adds to sum[k] the work of way k in the tangents of sliding contacts: velocity . way.  Way 0 is that from `start` to
+   the impulses, the others are given; all are laid out like the impulses. */
+KERNEL_DECLARE(void, solver_slide,
+               (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *way,
+                double sum[SWEEP_WAYS]));
+/* Products of bodies [first, end), eight at a time, weighted by their mass and inertia.  Ways as above, rows of
+   velocities. */
+KERNEL_DECLARE(way_products, solver_products,
+               (const double *velocity, const double *start, double *const *way, const double *mass,
+                const double *inertia, int32_t first, int32_t end));
+/* x, start and ways are vectors alike.  x goes on by share[k] of way k; `kept` becomes the old x, start the new one;
+   the way from the old start to the new one takes the place of the last way. */
+KERNEL_DECLARE(void, solver_combine,
+               (double *x, double *start, double *kept, double *const *way, const double share[SWEEP_WAYS],
+                int64_t first, int64_t end));
+
+#endif
