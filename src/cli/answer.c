@@ -96,6 +96,8 @@ static void member(json *j, const char *key)
     if (!j->first)
         fputc(',', j->file);
     j->first = false;
+    if (!key)
+        return; /* an element of a list */
     quoted(j->file, key);
     fputc(':', j->file);
 }
@@ -167,5 +169,18 @@ void json_open(json *j, const char *key)
 void json_close(json *j)
 {
     fputc('}', j->file);
+    j->first = false;
+}
+
+void json_open_list(json *j, const char *key)
+{
+    member(j, key);
+    fputc('[', j->file);
+    j->first = true;
+}
+
+void json_close_list(json *j)
+{
+    fputc(']', j->file);
     j->first = false;
 }

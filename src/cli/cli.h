@@ -81,6 +81,9 @@ void json_reals(json *j, const char *key, const double *values, int count);
 /* A nested object: begin, members, end. */
 void json_open(json *j, const char *key);
 void json_close(json *j);
+/* A list: begin, elements that are objects (json_open with key NULL), end. */
+void json_open_list(json *j, const char *key);
+void json_close_list(json *j);
 
 /* --- session.c --- */
 
@@ -108,5 +111,6 @@ int command_view(const command_row *self, int argc, char **argv);
 int command_keys(const command_row *self, int argc, char **argv);
 int command_ice(const command_row *self, int argc, char **argv);
 int command_hull(const command_row *self, int argc, char **argv);
+int command_field(const command_row *self, int argc, char **argv);
 
 #endif

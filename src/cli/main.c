@@ -34,6 +34,11 @@ static const command_row commands[] = {
      "  fram hull ship.obj --mass 9.5e6 --kg 8.2 --repair -o closed.stl\n"
      "  fram hull --length 100 --beam 20 --draught 7 --stem-angle-deg 30 --block-coefficient 0.62 -o ship.stl\n",
      command_hull},
+    {"field", "FILE.geojson", "report an ice field of observed floes: scale, cut, mend, draw and write it",
+     "  fram field floes.geojson\n"
+     "  fram field floes.geojson --scale 0.01 --crop -300,-200,300,200 --smallest 20 --draw field.png\n"
+     "  fram field outlines.geojson --bad repair --simplify 0.5 -o clean.geojson --json\n",
+     command_field},
     {"ice", "wedge | sheet | break",
      "calculate how floating ice breaks at its edge: a wedge, a sheet, or a load on ice of given properties",
      "  fram ice wedge --a-over-l 0.1\n"

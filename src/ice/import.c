@@ -1,4 +1,4 @@
-#include "ice/import.h"
+#include "ice/import_parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,6 +37,7 @@ const char *import_event_text(import_event event)
         [IMPORT_NOTE_SMALL] = "is under the smallest area",
         [IMPORT_NOTE_OUTSIDE] = "is outside the domain",
         [IMPORT_NOTE_KEPT_OUT] = "is in the way of the vessel",
+        [IMPORT_NOTE_OVERLAP] = "overlaps a smaller floe",
     };
     return text[event];
 }
@@ -287,6 +288,8 @@ fram_status import_field_make(context *ctx, overlay *o, const import_rings *ring
     fram_status status = FRAM_OK;
     for (; status == FRAM_OK && m.ring < rings->place.count; m.ring++)
         status = import_ring(&m);
+    if (status == FRAM_OK && options->bad == IMPORT_REPAIR)
+        status = import_cut_overlaps(ctx, o, options->smallest_area, out, error);
     if (status == FRAM_OK && polygon_list_count(&out->outlines) == 0)
         status = refuse_empty(&m);
     array_free(ctx, &m.vertex);

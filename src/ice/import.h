@@ -53,6 +53,7 @@ typedef enum import_event {
     IMPORT_NOTE_SMALL,    /* under the smallest area, whole or as a cut piece */
     IMPORT_NOTE_OUTSIDE,  /* outside the domain */
     IMPORT_NOTE_KEPT_OUT, /* in a keep-out zone */
+    IMPORT_NOTE_OVERLAP,  /* repair: what it shares with a smaller floe is left to that one */
     IMPORT_EVENT_COUNT
 } import_event;
 /* "crosses or touches itself" */

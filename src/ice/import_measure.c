@@ -1,26 +1,9 @@
 /* What a field of outlines is: sizes, overlaps, histogram. */
-#include "ice/import.h"
+#include "ice/import_parts.h"
 
 #include "base/transcendental.h"
 
 #include <math.h>
-#include <stdlib.h>
-
-/* Common area under this part of the areas of both outlines is rounding (polygon_overlap_area: about 1e-15). */
-#define OVERLAP_ROUNDING 1e-12
-
-typedef struct sweep_entry {
-    box2 box;
-    int32_t outline;
-} sweep_entry;
-
-static int by_left_end(const void *a, const void *b)
-{
-    const sweep_entry *p = a, *q = b;
-    if (p->box.lo.x != q->box.lo.x)
-        return p->box.lo.x < q->box.lo.x ? -1 : 1;
-    return (p->outline > q->outline) - (p->outline < q->outline);
-}
 
 /* The least width of what two outlines have in common. */
 static fram_status common_width(context *ctx, overlay *o, polygon a, polygon b, double *width, fram_error *error)
@@ -39,42 +22,24 @@ static fram_status common_width(context *ctx, overlay *o, polygon a, polygon b, 
     return status;
 }
 
-static fram_status measure_pair(context *ctx, overlay *o, const polygon_list *outlines, int32_t i, int32_t k,
-                                import_measure *out, fram_error *error)
-{
-    polygon a = polygon_list_get(outlines, i < k ? i : k), b = polygon_list_get(outlines, i < k ? k : i);
-    double area = polygon_overlap_area(a, b);
-    if (!(area > OVERLAP_ROUNDING * (polygon_area(a) + polygon_area(b))))
-        return FRAM_OK;
-    out->overlaps++;
-    out->overlap_area += area;
-    if (area > out->largest_overlap) {
-        out->largest_overlap = area;
-        out->overlap_pair[0] = i < k ? i : k;
-        out->overlap_pair[1] = i < k ? k : i;
-    }
-    return common_width(ctx, o, a, b, &out->overlap_width, error);
-}
-
-/* Pairs whose boxes meet, by a sweep along x. */
 static fram_status measure_overlaps(context *ctx, overlay *o, const polygon_list *outlines, import_measure *out,
                                     fram_error *error)
 {
-    int32_t count = polygon_list_count(outlines);
-    sweep_entry *entry = memory_array(ctx, (size_t)count, sizeof *entry);
-    if (!entry)
-        return error_memory(error);
-    for (int32_t i = 0; i < count; i++)
-        entry[i] = (sweep_entry){polygon_bounds(polygon_list_get(outlines, i)), i};
-    qsort(entry, (size_t)count, sizeof *entry, by_left_end);
-    fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < count; i++) {
-        for (int32_t k = i + 1; status == FRAM_OK && k < count && entry[k].box.lo.x < entry[i].box.hi.x; k++) {
-            if (entry[k].box.lo.y < entry[i].box.hi.y && entry[i].box.lo.y < entry[k].box.hi.y)
-                status = measure_pair(ctx, o, outlines, entry[i].outline, entry[k].outline, out, error);
+    import_pair_array pairs = {0};
+    fram_status status = import_pairs(ctx, outlines, &pairs, error);
+    out->overlaps = pairs.count;
+    for (int32_t i = 0; status == FRAM_OK && i < pairs.count; i++) {
+        const import_pair *p = &pairs.data[i];
+        out->overlap_area += p->area;
+        if (p->area > out->largest_overlap) {
+            out->largest_overlap = p->area;
+            out->overlap_pair[0] = p->a;
+            out->overlap_pair[1] = p->b;
         }
+        status = common_width(ctx, o, polygon_list_get(outlines, p->a), polygon_list_get(outlines, p->b),
+                              &out->overlap_width, error);
     }
-    memory_free(ctx, entry);
+    array_free(ctx, &pairs);
     return status;
 }
 

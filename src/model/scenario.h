@@ -7,12 +7,13 @@
 #include "base/array.h"
 #include "dynamics/solver.h"
 #include "ice/fracture.h"
+#include "ice/import.h"
 #include "model/scenario_keys.h"
 #include "vessel/mooring.h"
 #include "vessel/station.h"
 
 /* Where the ice comes from. */
-typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE } ice_source;
+typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE, ICE_FILE } ice_source;
 typedef enum floe_shape { FLOE_RECTANGLE = 0, FLOE_REGULAR } floe_shape;
 /* Where a vessel's added mass and damping come from, and the axes of given matrices. */
 typedef enum hydrodynamics_source {

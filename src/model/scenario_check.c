@@ -192,6 +192,10 @@ static fram_status check_ice(const scenario *s, fram_error *error)
     if (!listed && ice->floes.count > 0)
         return fault(s, error, "ice.floes", "expected no floes, since ice.source is not floes, found %d",
                      (int)ice->floes.count);
+    if (ice->source == ICE_FILE && !ice->file[0])
+        return fault(s, error, "ice.file", "expected the path of a GeoJSON file, since ice.source is file");
+    if (ice->source != ICE_FILE && ice->file[0])
+        return fault(s, error, "ice.file", "expected no file, since ice.source is not file, found %.200s", ice->file);
     fram_status status = check_friction(s, error);
     if (status == FRAM_OK && ice->source == ICE_VORONOI)
         status = check_field(s, error);

@@ -109,8 +109,19 @@
     X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
 #define SCENARIO_ICE_KEYS(X)                                                                                        \
-    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none"), "",                                            \
-      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water")                 \
+    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file"), "",                                       \
+      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed " \
+      "floes, cut at the edge of the domain")                                                                       \
+    X(file, PATH(""), "",                                                                                           \
+      "file: GeoJSON of the floes in planar lengths; a thickness property goes before ice.thickness")               \
+    X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                       \
+    X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                               \
+    X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                               \
+    X(file_centre, BOOLEAN(false), "", "file: the centre of all floes goes there instead of its origin")            \
+    X(simplify, REAL(0, 0, 1e6), "m", "file: vertices are left out, moving no edge by more")                        \
+    X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                       \
+      "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts " \
+      "overlapping floes apart")                                                                                    \
     X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi: ice area over the area free for ice")                       \
     X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")         \
     X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                 \

@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Choices are read and written as int32_t. */
-_Static_assert(sizeof(ice_source) == sizeof(int32_t), "an enum is 4 bytes");
+_Static_assert(sizeof(ice_source) == sizeof(int32_t) && sizeof(import_bad) == sizeof(int32_t), "an enum is 4 bytes");
 _Static_assert(sizeof(solver_kind) == sizeof(int32_t), "an enum is 4 bytes");
 _Static_assert(sizeof(vessel_mode) == sizeof(int32_t), "an enum is 4 bytes");
 

@@ -2,7 +2,10 @@
 
 #include "base/transcendental.h"
 #include "geometry/space_curve.h"
+#include "ice/import.h"
+#include "io/geojson.h"
 
+#include <math.h>
 #include <string.h>
 
 static ice_material material_of(const scenario *s)
@@ -69,20 +72,19 @@ static int32_t *memory_order(context *ctx, const polygon_list *outlines)
     return order;
 }
 
+/* thickness: of each outline, NaN or the array NULL for that of the scenario. */
 static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines,
-                                   fram_error *error)
+                                   const double *thickness, fram_error *error)
 {
-    floe_definition d = {.thickness = s->ice.thickness,
-                         .material = material_of(s),
-                         .breakable = s->ice.breakable,
-                         .motion = MOTION_DYNAMIC,
-                         .elevation = floating_elevation(s, s->ice.thickness),
-                         .parent = -1};
+    floe_definition d = {
+        .material = material_of(s), .breakable = s->ice.breakable, .motion = MOTION_DYNAMIC, .parent = -1};
     int32_t *order = memory_order(ctx, outlines);
     fram_status status = order ? FRAM_OK : error_memory(error);
     for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
         int32_t row;
         d.outline = polygon_list_get(outlines, order[i]);
+        d.thickness = thickness ? automatic_or(thickness[order[i]], s->ice.thickness) : s->ice.thickness;
+        d.elevation = floating_elevation(s, d.thickness);
         status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
                              &w->clock.next_floe[0], &row, error);
     }
@@ -90,17 +92,30 @@ static fram_status add_field_floes(context *ctx, const scenario *s, world *w, co
     return status;
 }
 
-static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+static box2 domain_of(const scenario *s)
 {
-    polygon_list keep_out = {0}, outlines = {0};
+    return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
+}
+
+/* Footprints of the vessels. */
+static fram_status find_keep_out(context *ctx, const world *w, polygon_list *out, fram_error *error)
+{
     vec2_array footprint = {0};
     fram_status status = FRAM_OK;
     for (int32_t i = 0; status == FRAM_OK && i < w->vessels.count; i++) {
         status = build_footprint(ctx, w, w->vessels.body[i], false, &footprint, error);
-        if (status == FRAM_OK && !polygon_list_push(ctx, &keep_out, (polygon){footprint.data, footprint.count}))
+        if (status == FRAM_OK && !polygon_list_push(ctx, out, (polygon){footprint.data, footprint.count}))
             status = error_memory(error);
     }
-    field_request request = {.domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+    array_free(ctx, &footprint);
+    return status;
+}
+
+static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+{
+    polygon_list keep_out = {0}, outlines = {0};
+    fram_status status = find_keep_out(ctx, w, &keep_out, error);
+    field_request request = {.domain = domain_of(s),
                              .concentration = s->ice.concentration,
                              .mean_area = s->ice.mean_floe_area,
                              .size_deviation = s->ice.size_deviation,
@@ -112,10 +127,89 @@ static fram_status build_voronoi(context *ctx, const scenario *s, world *w, fiel
     if (status == FRAM_OK)
         status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
     if (status == FRAM_OK)
-        status = add_field_floes(ctx, s, w, &outlines, error);
-    array_free(ctx, &footprint);
+        status = add_field_floes(ctx, s, w, &outlines, NULL, error);
     polygon_list_free(ctx, &keep_out);
     polygon_list_free(ctx, &outlines);
+    return status;
+}
+
+/* ---- observed floes ---- */
+
+static void log_notes(context *ctx, const import_rings *rings, const import_field *field)
+{
+    for (int32_t i = 0; i < field->notes.count; i++) {
+        const import_note *n = &field->notes.data[i];
+        char name[IMPORT_NAME_SIZE];
+        import_place_name(&rings->place.data[n->ring], name);
+        log_write(ctx, LOG_DEBUG, "%s (%.6g, %.6g): %s; %s", name, n->at.x, n->at.y, import_event_text(n->event),
+                  n->dropped ? "left out" : "mended");
+    }
+}
+
+/* What became of the file: counts of what was left out and mended, overlaps, concentration. */
+static fram_status report_import(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
+                                 const import_field *field, field_report *report, fram_error *error)
+{
+    import_measure m;
+    fram_status status = import_field_measure(ctx, w->scratch.plane, &field->outlines, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    box2 d = domain_of(s);
+    const vec2 corner[4] = {d.lo, {d.hi.x, d.lo.y}, d.hi, {d.lo.x, d.hi.y}};
+    double free_area = polygon_area((polygon){corner, 4});
+    for (int32_t i = 0; i < polygon_list_count(keep_out); i++)
+        free_area -= polygon_overlap_area(polygon_list_get(keep_out, i), (polygon){corner, 4});
+    *report = (field_report){.floes = m.floes,
+                             .concentration = m.area / free_area,
+                             .free_area = free_area,
+                             .largest_overlap = m.overlap_width};
+    int32_t dropped = 0;
+    for (int32_t i = 0; i < field->notes.count; i++)
+        dropped += field->notes.data[i].dropped;
+    log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mended",
+              (int)m.floes, s->ice.file, (int)m.concave, (int)dropped, (int)(field->notes.count - dropped));
+    if (m.overlaps)
+        log_write(
+            ctx, LOG_WARNING,
+            "%d pairs of floes overlap, by %.3g m at most: they will push each other apart; ice.bad_rings: repair "
+            "cuts them apart",
+            (int)m.overlaps, m.overlap_width);
+    return FRAM_OK;
+}
+
+static fram_status build_file(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+{
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, s->ice.file, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
+    polygon_list keep_out = {0};
+    import_rings rings = {0};
+    import_field field = {0};
+    const import_options options = {.name = path,
+                                    .scale = s->ice.file_scale,
+                                    .centre = s->ice.file_centre,
+                                    .offset = {s->ice.file_x, s->ice.file_y},
+                                    .crop = true,
+                                    .domain = domain_of(s),
+                                    .simplify = s->ice.simplify,
+                                    .bad = s->ice.bad_rings,
+                                    .smallest_area = s->ice.smallest_floe_area,
+                                    .keep_out = &keep_out,
+                                    .keep_out_margin = s->ice.keep_out_margin};
+    fram_status status = find_keep_out(ctx, w, &keep_out, error);
+    if (status == FRAM_OK)
+        status = geojson_read(ctx, path, &rings, error);
+    if (status == FRAM_OK)
+        status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
+    if (status == FRAM_OK) {
+        log_notes(ctx, &rings, &field);
+        status = report_import(ctx, s, w, &keep_out, &field, report, error);
+    }
+    if (status == FRAM_OK)
+        status = add_field_floes(ctx, s, w, &field.outlines, field.thickness.data, error);
+    import_rings_free(ctx, &rings);
+    import_field_free(ctx, &field);
+    polygon_list_free(ctx, &keep_out);
     return status;
 }
 
@@ -173,6 +267,8 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
 {
     if (s->ice.source == ICE_VORONOI)
         return build_voronoi(ctx, s, w, report, error);
+    if (s->ice.source == ICE_FILE)
+        return build_file(ctx, s, w, report, error);
     if (s->ice.source == ICE_NONE)
         return FRAM_OK;
     for (int32_t i = 0; i < s->ice.floes.count; i++) {

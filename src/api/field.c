@@ -1,0 +1,208 @@
+/* Ice fields of the public API. */
+#include "fram/field.h"
+
+#include "api/handles.h"
+#include "io/geojson.h"
+#include "io/plan_view.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { PICTURE_PIXELS = 1600 };
+
+struct fram_field {
+    fram_context *context;
+    import_rings source;
+    import_field floes;
+    fram_field_definition made;
+    fram_field_summary about;
+};
+
+_Static_assert((int)FRAM_FIELD_BINS == (int)IMPORT_HISTOGRAM_BINS, "one number of bins");
+_Static_assert((int)FRAM_FIELD_REPAIR == (int)IMPORT_REPAIR, "the same order of choices");
+
+void fram_field_default(fram_field_definition *d) { *d = (fram_field_definition){.size = sizeof *d, .scale = 1}; }
+
+/* ---- making ---- */
+
+static fram_status refuse(fram_error *error, const char *key, const char *expected, double found)
+{
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", expected, found);
+}
+
+static fram_status check(const fram_field_definition *d, fram_error *error)
+{
+    if (!(d->scale > 0 && d->scale < HUGE_VAL))
+        return refuse(error, "scale", "a number over 0", d->scale);
+    if (!(d->simplify >= 0 && d->simplify < HUGE_VAL))
+        return refuse(error, "simplify", "a distance of 0 m or more", d->simplify);
+    if (!(d->smallest_area >= 0 && d->smallest_area < HUGE_VAL))
+        return refuse(error, "smallest_area", "an area of 0 m2 or more", d->smallest_area);
+    if ((int)d->bad < FRAM_FIELD_REFUSE || d->bad > FRAM_FIELD_REPAIR)
+        return refuse(error, "bad", "one of fram_field_bad", (double)(int)d->bad);
+    for (int k = 0; k < 2; k++) {
+        if (!isfinite(d->offset[k]))
+            return refuse(error, "offset", "finite lengths", d->offset[k]);
+        if (d->crop && !(isfinite(d->crop_lo[k]) && isfinite(d->crop_hi[k]) && d->crop_lo[k] < d->crop_hi[k]))
+            return refuse(error, "crop", "a window whose lower corner is below its upper one", d->crop_lo[k]);
+    }
+    return FRAM_OK;
+}
+
+static box2 window_of(const fram_field_definition *d)
+{
+    return (box2){{d->crop_lo[0], d->crop_lo[1]}, {d->crop_hi[0], d->crop_hi[1]}};
+}
+
+static double box_area(box2 b) { return (b.hi.x - b.lo.x) * (b.hi.y - b.lo.y); }
+
+static int feature_of(const fram_field *f, int32_t floe)
+{
+    return floe < 0 ? 0 : (int)f->source.place.data[f->floes.ring.data[floe]].feature;
+}
+
+static void describe(fram_field *f, const import_measure *m)
+{
+    double window = box_area(f->made.crop ? window_of(&f->made) : m->bounds);
+    f->about = (fram_field_summary){
+        .rings = f->source.place.count,
+        .floes = m->floes,
+        .vertices = m->vertices,
+        .concave = m->concave,
+        .lo = {m->bounds.lo.x, m->bounds.lo.y},
+        .hi = {m->bounds.hi.x, m->bounds.hi.y},
+        .area = m->area,
+        .concentration = m->area / window,
+        .largest_diameter = m->largest_diameter,
+        .smallest_area = m->smallest_area,
+        .largest_area = m->largest_area,
+        .overlaps = m->overlaps,
+        .overlap_area = m->overlap_area,
+        .overlap_width = m->overlap_width,
+        .overlap_features = {feature_of(f, m->overlap_pair[0]), feature_of(f, m->overlap_pair[1])},
+    };
+    for (int32_t i = 0; i < f->floes.notes.count; i++)
+        *(f->floes.notes.data[i].dropped ? &f->about.dropped : &f->about.repaired) += 1;
+    for (int i = 0; i <= FRAM_FIELD_BINS; i++)
+        f->about.bin_edge[i] = m->edge[i];
+    for (int i = 0; i < FRAM_FIELD_BINS; i++)
+        f->about.bin[i] = m->bin[i];
+}
+
+static fram_status make(fram_field *f, overlay *plane, const char *path, fram_error *error)
+{
+    context *ctx = &f->context->inner;
+    const fram_field_definition *d = &f->made;
+    const import_options options = {.name = path,
+                                    .scale = d->scale,
+                                    .centre = d->centre,
+                                    .offset = {d->offset[0], d->offset[1]},
+                                    .crop = d->crop,
+                                    .domain = window_of(d),
+                                    .simplify = d->simplify,
+                                    .bad = (import_bad)d->bad,
+                                    .smallest_area = d->smallest_area};
+    import_measure measure;
+    fram_status status = geojson_read(ctx, path, &f->source, error);
+    if (status == FRAM_OK)
+        status = import_field_make(ctx, plane, &f->source, &options, &f->floes, error);
+    if (status == FRAM_OK)
+        status = import_field_measure(ctx, plane, &f->floes.outlines, &measure, error);
+    if (status == FRAM_OK)
+        describe(f, &measure);
+    return status;
+}
+
+fram_status fram_field_load(fram_context *c, const char *path, const fram_field_definition *definition,
+                            fram_field **out, fram_error *error)
+{
+    context *ctx = &c->inner;
+    fram_field_definition d;
+    fram_field_default(&d);
+    if (definition)
+        d = *definition;
+    fram_status status = check(&d, error);
+    if (status != FRAM_OK)
+        return status;
+    fram_field *f = memory_array(ctx, 1, sizeof *f);
+    overlay *plane = f ? overlay_create(ctx) : NULL;
+    if (f) {
+        f->context = c;
+        f->made = d;
+    }
+    status = plane ? make(f, plane, path, error) : error_memory(error);
+    if (plane)
+        overlay_free(plane);
+    if (status == FRAM_OK)
+        *out = f;
+    else
+        fram_field_destroy(f);
+    return status;
+}
+
+void fram_field_destroy(fram_field *f)
+{
+    if (!f)
+        return;
+    context *ctx = &f->context->inner;
+    import_rings_free(ctx, &f->source);
+    import_field_free(ctx, &f->floes);
+    memory_free(ctx, f);
+}
+
+/* ---- what it is ---- */
+
+void fram_field_summary_get(const fram_field *f, fram_field_summary *summary) { *summary = f->about; }
+
+int fram_field_notes(const fram_field *f, fram_field_note *notes, int room)
+{
+    for (int32_t i = 0; i < f->floes.notes.count && i < room; i++) {
+        const import_note *note = &f->floes.notes.data[i];
+        const import_place *place = &f->source.place.data[note->ring];
+        notes[i] = (fram_field_note){place->feature, place->polygon, place->ring,
+                                     place->line,    note->dropped,  import_event_text(note->event)};
+    }
+    return f->floes.notes.count;
+}
+
+int fram_field_outline(const fram_field *f, int floe, double *vertices, int room)
+{
+    if (floe < 0 || floe >= polygon_list_count(&f->floes.outlines))
+        return 0;
+    polygon p = polygon_list_get(&f->floes.outlines, floe);
+    for (int32_t i = 0; i < p.count && i < room; i++) {
+        vertices[2 * (size_t)i] = p.vertex[i].x;
+        vertices[2 * (size_t)i + 1] = p.vertex[i].y;
+    }
+    return p.count;
+}
+
+/* ---- drawings, files ---- */
+
+fram_status fram_field_draw(const fram_field *f, const char *title, const char *path, fram_error *error)
+{
+    context *ctx = &f->context->inner;
+    const fram_field_summary *a = &f->about;
+    box2 window = f->made.crop ? window_of(&f->made) : (box2){{a->lo[0], a->lo[1]}, {a->hi[0], a->hi[1]}};
+    plan_shape *shapes = memory_array(ctx, (size_t)a->floes, sizeof *shapes);
+    if (!shapes)
+        return error_memory(error);
+    for (int i = 0; i < a->floes; i++)
+        shapes[i] = (plan_shape){polygon_list_get(&f->floes.outlines, i), PLAN_FLOE};
+    char caption[160];
+    snprintf(caption, sizeof caption, "%d floes, %.4g km\302\262, concentration %.1f %%, largest %.4g m across",
+             a->floes, a->area / 1e6, 100 * a->concentration, a->largest_diameter);
+    const plan_view view = {.window = window,
+                            .title = title ? title : "Ice field",
+                            .caption = caption,
+                            .shapes = shapes,
+                            .shape_count = a->floes};
+    fram_status status = plan_view_write(ctx, &view, path, PICTURE_PIXELS, error);
+    memory_free(ctx, shapes);
+    return status;
+}
+
+fram_status fram_field_save(const fram_field *f, const char *path, fram_error *error)
+{
+    return geojson_write(&f->context->inner, path, &f->floes.outlines, f->floes.thickness.data, error);
+}

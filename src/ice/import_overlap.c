@@ -1,0 +1,184 @@
+/* Floes that overlap: which do, and cutting them apart. */
+#include "ice/import_parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Common area under this part of the areas of both outlines is rounding (polygon_overlap_area: about 1e-15). */
+#define OVERLAP_ROUNDING 1e-12
+/* A cut piece under this part of its floe is a sliver of two digitised edges, no floe. */
+#define SLIVER 1e-3
+
+/* ---- pairs ---- */
+
+typedef struct sweep_entry {
+    box2 box;
+    int32_t outline;
+} sweep_entry;
+
+static int by_left_end(const void *a, const void *b)
+{
+    const sweep_entry *p = a, *q = b;
+    if (p->box.lo.x != q->box.lo.x)
+        return p->box.lo.x < q->box.lo.x ? -1 : 1;
+    return (p->outline > q->outline) - (p->outline < q->outline);
+}
+
+static int by_outlines(const void *a, const void *b)
+{
+    const import_pair *p = a, *q = b;
+    if (p->a != q->a)
+        return p->a < q->a ? -1 : 1;
+    return (p->b > q->b) - (p->b < q->b);
+}
+
+static bool add_if_common(context *ctx, const polygon_list *outlines, int32_t i, int32_t k, import_pair_array *out)
+{
+    import_pair pair = {i < k ? i : k, i < k ? k : i, 0};
+    polygon a = polygon_list_get(outlines, pair.a), b = polygon_list_get(outlines, pair.b);
+    pair.area = polygon_overlap_area(a, b);
+    return !(pair.area > OVERLAP_ROUNDING * (polygon_area(a) + polygon_area(b))) || array_push(ctx, out, pair);
+}
+
+fram_status import_pairs(context *ctx, const polygon_list *outlines, import_pair_array *out, fram_error *error)
+{
+    int32_t count = polygon_list_count(outlines);
+    array_clear(out);
+    if (count == 0)
+        return FRAM_OK;
+    sweep_entry *entry = memory_array(ctx, (size_t)count, sizeof *entry);
+    if (!entry)
+        return error_memory(error);
+    for (int32_t i = 0; i < count; i++)
+        entry[i] = (sweep_entry){polygon_bounds(polygon_list_get(outlines, i)), i};
+    qsort(entry, (size_t)count, sizeof *entry, by_left_end);
+    bool good = true;
+    for (int32_t i = 0; i < count; i++) {
+        for (int32_t k = i + 1; good && k < count && entry[k].box.lo.x < entry[i].box.hi.x; k++) {
+            if (entry[k].box.lo.y < entry[i].box.hi.y && entry[i].box.lo.y < entry[k].box.hi.y)
+                good = add_if_common(ctx, outlines, entry[i].outline, entry[k].outline, out);
+        }
+    }
+    memory_free(ctx, entry);
+    if (good && out->count > 0)
+        qsort(out->data, (size_t)out->count, sizeof *out->data, by_outlines);
+    return good ? FRAM_OK : error_memory(error);
+}
+
+/* ---- cutting ---- */
+
+/* One round of cutting: the field as it was, and as it becomes. */
+typedef struct cutting {
+    context *ctx;
+    overlay *plane;
+    double smallest_area;
+    import_field *was, now;
+    import_pair_array pairs;
+    int32_array larger; /* of each pair: the floe that is cut */
+    polygon_list pieces, rest;
+    fram_error *error;
+} cutting;
+
+static fram_status add_note(cutting *c, int32_t floe, import_event event, bool dropped, vec2 at)
+{
+    const import_note note = {c->was->ring.data[floe], event, dropped, at};
+    return array_push(c->ctx, &c->was->notes, note) ? FRAM_OK : error_memory(c->error);
+}
+
+static bool keep(cutting *c, int32_t floe, polygon p)
+{
+    return polygon_list_push(c->ctx, &c->now.outlines, p) &&
+           array_push(c->ctx, &c->now.ring, c->was->ring.data[floe]) &&
+           array_push(c->ctx, &c->now.thickness, c->was->thickness.data[floe]);
+}
+
+/* c->pieces without what they share with p. */
+static fram_status subtract(cutting *c, polygon p)
+{
+    fram_status status = FRAM_OK;
+    polygon_list_clear(&c->rest);
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++)
+        status = overlay_difference(c->plane, polygon_list_get(&c->pieces, i), p, &c->rest, c->error);
+    polygon_list swap = c->pieces;
+    c->pieces = c->rest;
+    c->rest = swap;
+    return status;
+}
+
+static fram_status cut_floe(cutting *c, int32_t floe, bool *touched)
+{
+    polygon whole = polygon_list_get(&c->was->outlines, floe);
+    fram_status status = FRAM_OK;
+    *touched = false;
+    polygon_list_clear(&c->pieces);
+    if (!polygon_list_push(c->ctx, &c->pieces, whole))
+        return error_memory(c->error);
+    for (int32_t i = 0; status == FRAM_OK && i < c->pairs.count; i++) {
+        const import_pair *pair = &c->pairs.data[i];
+        if (c->larger.data[i] != floe)
+            continue;
+        *touched = true;
+        status = subtract(c, polygon_list_get(&c->was->outlines, pair->a == floe ? pair->b : pair->a));
+    }
+    return status;
+}
+
+static fram_status replace_floe(cutting *c, int32_t floe)
+{
+    polygon whole = polygon_list_get(&c->was->outlines, floe);
+    bool touched;
+    fram_status status = cut_floe(c, floe, &touched);
+    if (status != FRAM_OK || !touched)
+        return status != FRAM_OK ? status : keep(c, floe, whole) ? FRAM_OK : error_memory(c->error);
+    double least = fmax(c->smallest_area, SLIVER * polygon_area(whole));
+    status = add_note(c, floe, IMPORT_NOTE_OVERLAP, polygon_list_count(&c->pieces) == 0, whole.vertex[0]);
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++) {
+        polygon p = polygon_list_get(&c->pieces, i);
+        if (polygon_area(p) < least)
+            status = add_note(c, floe, IMPORT_NOTE_SMALL, true, p.vertex[0]);
+        else if (!keep(c, floe, p))
+            status = error_memory(c->error);
+    }
+    return status;
+}
+
+static fram_status cut_all(cutting *c)
+{
+    fram_status status = import_pairs(c->ctx, &c->was->outlines, &c->pairs, c->error);
+    for (int32_t i = 0; status == FRAM_OK && i < c->pairs.count; i++) {
+        const import_pair *p = &c->pairs.data[i];
+        double a = polygon_area(polygon_list_get(&c->was->outlines, p->a));
+        double b = polygon_area(polygon_list_get(&c->was->outlines, p->b));
+        if (!array_push(c->ctx, &c->larger, a > b ? p->a : p->b))
+            status = error_memory(c->error);
+    }
+    int32_t count = c->pairs.count > 0 ? polygon_list_count(&c->was->outlines) : 0;
+    for (int32_t i = 0; status == FRAM_OK && i < count; i++)
+        status = replace_floe(c, i);
+    return status;
+}
+
+/* The new floes take the place of the old ones; the notes stay. */
+static void exchange(cutting *c)
+{
+    import_field old = *c->was;
+    *c->was = c->now;
+    c->was->notes = old.notes;
+    c->now = old;
+    c->now.notes.data = NULL;
+    c->now.notes.count = c->now.notes.capacity = 0;
+}
+
+fram_status import_cut_overlaps(context *ctx, overlay *o, double smallest_area, import_field *field, fram_error *error)
+{
+    cutting c = {.ctx = ctx, .plane = o, .smallest_area = smallest_area, .was = field, .error = error};
+    fram_status status = cut_all(&c);
+    if (status == FRAM_OK && c.pairs.count > 0)
+        exchange(&c);
+    import_field_free(ctx, &c.now);
+    array_free(ctx, &c.pairs);
+    array_free(ctx, &c.larger);
+    polygon_list_free(ctx, &c.pieces);
+    polygon_list_free(ctx, &c.rest);
+    return status;
+}

@@ -1,0 +1,21 @@
+/* What the files of the import share, inside ice/import*.c. */
+#ifndef ICE_IMPORT_PARTS_H
+#define ICE_IMPORT_PARTS_H
+
+#include "ice/import.h"
+
+/* Two outlines, a < b, that have more in common than rounding. */
+typedef struct import_pair {
+    int32_t a, b;
+    double area; /* in common [m2] */
+} import_pair;
+typedef ARRAY(import_pair) import_pair_array;
+
+/* All such pairs, ordered by a, then b. */
+fram_status import_pairs(context *ctx, const polygon_list *outlines, import_pair_array *out, fram_error *error);
+
+/* What two floes have in common goes to the smaller one (of equal ones to the first): the larger is cut, and noted.
+   Cut pieces under smallest_area or a thousandth of their floe are left out. */
+fram_status import_cut_overlaps(context *ctx, overlay *o, double smallest_area, import_field *field, fram_error *error);
+
+#endif
