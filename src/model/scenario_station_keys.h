@@ -60,7 +60,7 @@
     X(active, BOOLEAN(false), "", "dynamic positioning holds the vessel, or moves it along the way points")           \
     X(interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between calls of the controller; at least a time step")           \
     X(sample_interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between measurements")                                     \
-    X(noise_position, SCALED(0.05, 30, 1, 0, 1e3), "m", "standard deviation of the measured position")                 \
+    X(noise_position, SCALED(0.05, 30, 1, 0, 1e3), "m", "standard deviation of the measured position")                \
     X(noise_heading_deg, REAL(0.05, 0, 90), "deg", "standard deviation of the measured heading")                      \
     X(observer, CHOICE(observer_kind, OBSERVER_PASSIVE, "passive kalman"), "",                                        \
       "passive: nonlinear passive observer without wave filter; kalman: extended Kalman filter")                      \
