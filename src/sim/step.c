@@ -157,7 +157,8 @@ static fram_status check_state(const step_settings *s, const world *w, fram_erro
             continue;
         return error_set(
             error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
-            "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m moves at (%g, %g, %g) "
+            "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m moves at "
+            "(%g, %g, %g) "
             "m/s, (%g, %g, %g) rad/s; the limit run.speed_limit is %g m/s. A smaller run.time_step may help",
             (long long)w->clock.step[0], w->clock.time[0], (int)i,
             w->bodies.material[i] == MATERIAL_ICE ? "floe" : "vessel or wall", w->bodies.mass[i], r.x, r.y, r.z, v.x,

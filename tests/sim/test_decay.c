@@ -8,8 +8,8 @@
     "run: {time_step: 0.01}\nice: {source: none}\ndomain: {boundary: open}\n" \
     "environment: {hull_drag: {water_form: 0, water_skin: 0, air_form: 0, air_skin: 0}}\n"
 
-static const char box[] =
-    "vessel: {mode: free, centre_of_gravity_z: 1, hull: {form: box, length: 60, beam: 18, draught: 4, freeboard: 6}%s}\n";
+static const char box[] = "vessel: {mode: free, centre_of_gravity_z: 1, "
+                          "hull: {form: box, length: 60, beam: 18, draught: 4, freeboard: 6}%s}\n";
 static const char ship[] =
     "vessel: {mode: free, centre_of_gravity_z: 0, hull: {form: icebreaker, length: 200, beam: 44, draught: 12, "
     "freeboard: 10, flare_angle_deg: 0, stem_angle_deg: 60, entrance_angle_deg: 50, parallel_midbody: 0.7}%s}\n";

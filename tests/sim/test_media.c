@@ -35,8 +35,9 @@ static void remove_folder(const sea *k)
     rmdir(k->folder);
 }
 
-#define ONE_FLOE                                                                                                                     \
-    "run: {time_step: 0.05}\nvessel: {present: false}\ndomain: {boundary: open, x_min: -1e4, x_max: 1e4, y_min: -1e4, y_max: 1e4}\n" \
+#define ONE_FLOE                                                                   \
+    "run: {time_step: 0.05}\nvessel: {present: false}\n"                           \
+    "domain: {boundary: open, x_min: -1e4, x_max: 1e4, y_min: -1e4, y_max: 1e4}\n" \
     "ice: {source: floes, floes: [{}]}\n"
 
 static fram_status open_sea(sea *k, const char *environment, const char *series, fram_error *error)

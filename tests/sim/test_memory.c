@@ -19,7 +19,8 @@ static const char held[] =
     "run:\n  duration: 0.1\n  time_step: 0.02\n"
     "vessel:\n  mode: free\n"
     "  hull:\n    length: 24\n    beam: 6\n    draught: 2\n    freeboard: 1\n    parallel_midbody: 0.3\n"
-    "  mooring:\n    lines:\n      - {count: 3, spacing_deg: 120, distance: 400, pretension: 2.0e5, release_time: 0.05}\n"
+    "  mooring:\n    lines:\n      - {count: 3, spacing_deg: 120, distance: 400, "
+    "pretension: 2.0e5, release_time: 0.05}\n"
     "  thrusters:\n    - {x: 9, failure_time: 0.03}\n    - {x: -9}\n"
     "  positioning: {active: true, waypoints: [{time: 0.05}]}\n"
     "ice:\n  source: none\n";
