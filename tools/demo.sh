@@ -13,7 +13,9 @@ echo
 echo "The demo is in out/demo. Look at:"
 for file in out/demo/*; do
     case ${file##*/} in
-    *.csv) meaning="time series: one row a step, one column per quantity and unit" ;;
+    series*.csv) meaning="time series: one row a step, one column per quantity and unit" ;;
+    fractures*.csv) meaning="every floe that broke: when, where, how" ;;
+    *.csv) meaning="table" ;;
     plan*.png) meaning="the hull and the ice seen from above" ;;
     load*.png) meaning="the ice load on the hull over time" ;;
     *.png) meaning="picture" ;;
