@@ -43,6 +43,16 @@ static bool count_touch(context *ctx, batch_plan *plan, const body_table *bodies
     return plan->degree.data[slot]++ > 0 || array_push(ctx, &plan->touched, slot);
 }
 
+/* Contact i belongs to the last group. */
+static bool continues_group(const batch_plan *plan, const contact_array *contacts, int32_t i)
+{
+    if (plan->groups.count == 0)
+        return false;
+    const contact_group *last = &plan->groups.data[plan->groups.count - 1];
+    return last->first + last->count == i && last->count < BATCH_MOST_POINTS &&
+           same_group(&contacts->data[i - 1], &contacts->data[i]);
+}
+
 static bool find_groups(context *ctx, batch_plan *plan, const body_table *bodies, const contact_array *contacts)
 {
     int32_t slots = bodies->count;
@@ -59,9 +69,8 @@ static bool find_groups(context *ctx, batch_plan *plan, const body_table *bodies
         const contact *c = &contacts->data[i];
         if (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b))
             continue;
-        contact_group *last = plan->groups.count > 0 ? &plan->groups.data[plan->groups.count - 1] : NULL;
-        if (last && last->first + last->count == i && last->count < BATCH_MOST_POINTS && same_group(c - 1, c)) {
-            last->count++;
+        if (continues_group(plan, contacts, i)) {
+            plan->groups.data[plan->groups.count - 1].count++;
             continue;
         }
         if (!array_push(ctx, &plan->groups, (contact_group){i, 1, -1}) || !count_touch(ctx, plan, bodies, c->a) ||

@@ -82,11 +82,11 @@ fram_status json_walk_kind(json_walk *w, json_kind *kind, fram_error *error)
         *kind = JSON_NULL;
         return FRAM_OK;
     default:
+        *kind = JSON_NUMBER;
         break;
     }
     if (w->at == w->end || !(*w->at == '-' || (*w->at >= '0' && *w->at <= '9')))
         return refuse_next(w, error, "a value");
-    *kind = JSON_NUMBER;
     return FRAM_OK;
 }
 

@@ -2,6 +2,7 @@
 
 #include "fluid/added_mass.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* ---- matrices of the scenario ---- */
@@ -23,7 +24,7 @@ static matrix6 rows_of(const scenario_matrix_row_list *rows)
 static fram_status fault(const scenario *s, const char *key, fram_error *error)
 {
     if (error) {
-        strcpy(error->key, key);
+        snprintf(error->key, sizeof error->key, "%.100s", key);
         scenario_locate(s, error);
     }
     return FRAM_ERROR_INPUT;
