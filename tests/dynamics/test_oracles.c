@@ -212,12 +212,14 @@ END_TEST
 
 START_TEST(many_floes_keep_momentum_and_lose_energy)
 {
-    enum { SIDE = 8 };
+    /* The accurate solver takes a hundred times as long over the same heap. */
+    int side = rig_kind == SOLVER_ACCURATE ? 5 : 8;
+    double centre = 0.5 * (side - 1);
     rig r = rig_make(0.02);
     r.gravity = vec3_make(0, 0, 0);
     rig_friction(&r, 0.3, 0.3);
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        int x = i % SIDE, y = i / SIDE;
+    for (int i = 0; i < side * side; i++) {
+        int x = i % side, y = i / side;
         double n = 3 + i % 5, turn = 0.7 * i;
         vec2 corner[8];
         for (int k = 0; k < (int)n; k++) {
@@ -225,7 +227,7 @@ START_TEST(many_floes_keep_momentum_and_lose_energy)
             corner[k] = vec2_make(2.4 * real_cos(angle), 2.4 * real_sin(angle));
         }
         int32_t slot = rig_prism(&r, MOTION_DYNAMIC, (polygon){corner, (int32_t)n}, 1, 900,
-                                 vec3_make(5.0 * (x - 3.5), 5.0 * (y - 3.5), 0.02 * (i % 3)));
+                                 vec3_make(5 * (x - centre), 5 * (y - centre), 0.02 * (i % 3)));
         vec3 in = vec3_scale(r.bodies.position[slot], -0.1);
         r.bodies.velocity[slot] = vec3_make(in.x + 0.3, in.y - 0.1, 0);
         r.bodies.angular_velocity[slot].z = 0.02 * (i % 7 - 3);
