@@ -19,6 +19,7 @@ core python3            cmd:python3
 core libgeos-dev        pc:geos
 core libfyaml-dev       pc:libfyaml
 core libcairo2-dev      pc:cairo
+core libnetcdf-dev      pc:netcdf
 core zlib1g-dev         pc:zlib
 core nettle-dev         pc:nettle
 core check              pc:check
@@ -38,6 +39,12 @@ dev  g++                cmd:g++
 viewer nodejs           cmd:node
 viewer npm              cmd:npm
 views  chromium         cmd:chromium
+views  ffmpeg           cmd:ffmpeg
+views  python3-vtk9     deb:python3-vtk9
+views  python3-h5py     deb:python3-h5py
+views  python3-pandas   deb:python3-pandas
+views  python3-xarray   deb:python3-xarray
+views  python3-netcdf4  deb:python3-netcdf4
 peers g++               cmd:g++
 peers libbullet-dev     pc:bullet-float64
 peers libode-dev        pc:ode

@@ -21,6 +21,13 @@
 #else
 #define PART_LIBFYAML ""
 #endif
+#ifdef FRAM_HAVE_NETCDF
+#define PART_NETCDF ", netcdf " FRAM_HAVE_NETCDF
+#define LACK_NETCDF ""
+#else
+#define PART_NETCDF ""
+#define LACK_NETCDF ", netcdf"
+#endif
 #ifdef FRAM_HAVE_NETTLE
 #define PART_NETTLE ", nettle " FRAM_HAVE_NETTLE
 #else
@@ -32,8 +39,8 @@
 #define PART_ZLIB ""
 #endif
 
-static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_NETTLE PART_ZLIB;
-static const char lacks[] = LACK_CAIRO;
+static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_NETCDF PART_NETTLE PART_ZLIB;
+static const char lacks[] = LACK_CAIRO LACK_NETCDF;
 
 const char *build_parts(void) { return sizeof parts > 2 ? parts + 2 : "none"; }
 

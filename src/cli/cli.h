@@ -112,5 +112,6 @@ int command_keys(const command_row *self, int argc, char **argv);
 int command_ice(const command_row *self, int argc, char **argv);
 int command_hull(const command_row *self, int argc, char **argv);
 int command_field(const command_row *self, int argc, char **argv);
+int command_export(const command_row *self, int argc, char **argv);
 
 #endif

@@ -27,6 +27,11 @@ static const command_row commands[] = {
      "  fram view out/demo                      writes out/demo/playback.html\n"
      "  fram view out/demo -o demo.html\n",
      command_view},
+    {"export", "RUN --vtk | --netcdf | --geojson", "write a run's results in the formats of other programs",
+     "  fram export out/demo --vtk                       for ParaView: out/demo/vtk/run.pvd\n"
+     "  fram export out/demo --netcdf                    for xarray and h5py: out/demo/run.nc\n"
+     "  fram export out/demo --geojson --time 30         the field at 30 s\n",
+     command_export},
     {"hull", "[FILE]",
      "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
      "  fram hull ship.stl --draught 7.5\n"

@@ -82,6 +82,22 @@ void atomic_file_abandon(atomic_file *a)
     a->path = NULL;
 }
 
+fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error)
+{
+    int descriptor = open(temporary, O_RDONLY | O_CLOEXEC);
+    fram_status status = FRAM_OK;
+    if (descriptor < 0 || fsync(descriptor) != 0)
+        status = file_error(error, temporary, "write to the disk", errno);
+    if (descriptor >= 0)
+        close(descriptor);
+    if (status == FRAM_OK && rename(temporary, path) != 0)
+        status = file_error(error, path, "replace", errno);
+    if (status == FRAM_OK)
+        return sync_folder(ctx, path, error);
+    unlink(temporary);
+    return status;
+}
+
 fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error)
 {
     atomic_file a;

@@ -16,7 +16,11 @@ fram_status atomic_file_commit(atomic_file *a, fram_error *error);
 /* Remove the temporary file. */
 void atomic_file_abandon(atomic_file *a);
 
-/* All three. */
+/* For a file that something else wrote and closed as PATH.new (`temporary`): sync, rename, sync the folder; on an error
+   the temporary file is removed. */
+fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error);
+
+/* Begin, write and commit. */
 fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error);
 
 #endif

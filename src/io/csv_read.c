@@ -58,12 +58,14 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
     return FRAM_OK;
 }
 
-fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
-                     fram_error *error)
+/* What becomes of the lines of a file. */
+typedef struct line_reader {
+    fram_status (*read)(void *user, const char *path, int line, const char *text, fram_error *error);
+    void *user;
+} line_reader;
+
+static fram_status read_lines(const char *path, const line_reader *reader, fram_error *error)
 {
-    int32_t at[NAMES_MOST] = {0};
-    if (count > NAMES_MOST)
-        return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "too many columns are asked for");
     FILE *file = fopen(path, "r");
     if (!file)
         return file_error(error, path, "open", errno);
@@ -76,16 +78,126 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
             break; /* cut short */
         line[length - 1] = '\0';
         number++;
-        if (strlen(line) + 1 != (size_t)length) {
+        if (strlen(line) + 1 != (size_t)length)
             status = error_set(error, FRAM_ERROR_INPUT, path, number, NULL, "expected text, found a NUL byte");
-            break;
-        }
-        status = number == 1 ? find_columns(path, line, names, count, at, error)
-                             : read_row(ctx, path, number, line, at, count, columns, error);
+        else
+            status = reader->read(reader->user, path, number, line, error);
     }
     if (status == FRAM_OK && number == 0)
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "the file has no header row");
     free(line);
     fclose(file);
     return status;
+}
+
+/* ---- some columns ---- */
+
+typedef struct column_reader {
+    context *ctx;
+    const char *const *names;
+    int32_t count;
+    int32_t at[NAMES_MOST];
+    double_array *columns;
+} column_reader;
+
+static fram_status read_columns(void *user, const char *path, int line, const char *text, fram_error *error)
+{
+    column_reader *r = user;
+    return line == 1 ? find_columns(path, text, r->names, r->count, r->at, error)
+                     : read_row(r->ctx, path, line, text, r->at, r->count, r->columns, error);
+}
+
+fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
+                     fram_error *error)
+{
+    column_reader r = {.ctx = ctx, .names = names, .count = count, .columns = columns};
+    if (count > NAMES_MOST)
+        return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "too many columns are asked for");
+    const line_reader reader = {read_columns, &r};
+    return read_lines(path, &reader, error);
+}
+
+/* ---- all columns ---- */
+
+typedef struct table_reader {
+    context *ctx;
+    csv_table *out;
+} table_reader;
+
+/* "name[unit]" */
+static fram_status read_header(const table_reader *r, const char *path, const char *text, fram_error *error)
+{
+    for (const char *c = text;; c++) {
+        size_t whole = strcspn(c, ","), name = strcspn(c, ",["), unit = 0;
+        const char *unit_at = c + name;
+        if (*unit_at == '[') {
+            unit_at++;
+            unit = strcspn(unit_at, "],");
+        }
+        while (name > 0 && c[name - 1] == ' ')
+            name--;
+        csv_table_column column = {.name = ""};
+        if (name >= sizeof column.name || unit >= sizeof column.unit)
+            return error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "column %d: its name or unit is too long",
+                             (int)r->out->columns.count + 1);
+        memcpy(column.name, c, name);
+        memcpy(column.unit, unit_at, unit);
+        if (!array_push(r->ctx, &r->out->columns, column))
+            return error_memory(error);
+        c += whole;
+        if (!*c)
+            return FRAM_OK;
+    }
+}
+
+static fram_status read_values(const table_reader *r, const char *path, int line, const char *text, fram_error *error)
+{
+    const char *c = text;
+    for (int32_t k = 0; k < r->out->columns.count; k++) {
+        bool last = k + 1 == r->out->columns.count;
+        char *end;
+        double value = strtod(c, &end);
+        if (end == c || *end != (last ? '\0' : ','))
+            return error_set(error, FRAM_ERROR_INPUT, path, line, r->out->columns.data[k].name,
+                             "expected a number and then %s", last ? "the end of the row" : "a comma");
+        if (!array_push(r->ctx, &r->out->columns.data[k].value, value))
+            return error_memory(error);
+        c = end + 1;
+    }
+    r->out->rows++;
+    return FRAM_OK;
+}
+
+static fram_status read_table_line(void *user, const char *path, int line, const char *text, fram_error *error)
+{
+    const table_reader *r = user;
+    return line == 1 ? read_header(r, path, text, error) : read_values(r, path, line, text, error);
+}
+
+fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error)
+{
+    *out = (csv_table){0};
+    table_reader r = {ctx, out};
+    const line_reader reader = {read_table_line, &r};
+    fram_status status = read_lines(path, &reader, error);
+    if (status != FRAM_OK)
+        csv_table_free(ctx, out);
+    return status;
+}
+
+void csv_table_free(context *ctx, csv_table *t)
+{
+    for (int32_t k = 0; k < t->columns.count; k++)
+        array_free(ctx, &t->columns.data[k].value);
+    array_free(ctx, &t->columns);
+    t->rows = 0;
+}
+
+const csv_table_column *csv_table_find(const csv_table *t, const char *name)
+{
+    for (int32_t k = 0; k < t->columns.count; k++) {
+        if (strcmp(t->columns.data[k].name, name) == 0)
+            return &t->columns.data[k];
+    }
+    return NULL;
 }

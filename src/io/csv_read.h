@@ -12,4 +12,20 @@ typedef ARRAY(double) double_array;
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
 
+/* A whole file: every column with its name and unit. */
+typedef struct csv_table_column {
+    char name[48], unit[16];
+    double_array value;
+} csv_table_column;
+typedef struct csv_table {
+    ARRAY(csv_table_column) columns;
+    int32_t rows;
+} csv_table;
+
+/* FRAM_ERROR_INPUT as csv_read, and for a name that is too long.  On failure the table is empty. */
+fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error);
+void csv_table_free(context *ctx, csv_table *t);
+/* NULL when there is none of this name. */
+const csv_table_column *csv_table_find(const csv_table *t, const char *name);
+
 #endif

@@ -375,18 +375,33 @@ static void add_ring(context *ctx, text_buffer *b, polygon p)
     }
 }
 
-fram_status geojson_write(context *ctx, const char *path, const polygon_list *outlines, const double *thickness,
-                          fram_error *error)
+static void add_property(context *ctx, text_buffer *b, const geojson_property *p, int32_t row)
+{
+    if (p->text) {
+        text_format(ctx, b, ",\"%s\":\"%s\"", p->name, p->text[row]);
+    } else if (!isnan(p->value[row])) {
+        text_format(ctx, b, ",\"%s\":", p->name);
+        add_number(ctx, b, p->value[row]);
+    }
+}
+
+fram_status geojson_write_properties(context *ctx, const char *path, const polygon_list *outlines,
+                                     const geojson_property *properties, int32_t property_count, double time,
+                                     fram_error *error)
 {
     text_buffer b = {0};
     int32_t count = polygon_list_count(outlines);
-    text_add(ctx, &b, "{\"type\":\"FeatureCollection\",\"features\":[\n");
+    text_add(ctx, &b, "{\"type\":\"FeatureCollection\",");
+    if (!isnan(time)) {
+        text_add(ctx, &b, "\"time\":");
+        add_number(ctx, &b, time);
+        text_add(ctx, &b, ",");
+    }
+    text_add(ctx, &b, "\"features\":[\n");
     for (int32_t i = 0; i < count; i++) {
         text_format(ctx, &b, "{\"type\":\"Feature\",\"properties\":{\"id\":%d", (int)i);
-        if (thickness && !isnan(thickness[i])) {
-            text_add(ctx, &b, ",\"thickness\":");
-            add_number(ctx, &b, thickness[i]);
-        }
+        for (int32_t k = 0; k < property_count; k++)
+            add_property(ctx, &b, &properties[k], i);
         text_add(ctx, &b, "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[");
         add_ring(ctx, &b, polygon_list_get(outlines, i));
         text_add(ctx, &b, i + 1 < count ? "]]}},\n" : "]]}}\n");
@@ -395,4 +410,11 @@ fram_status geojson_write(context *ctx, const char *path, const polygon_list *ou
     fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);
     return status;
+}
+
+fram_status geojson_write(context *ctx, const char *path, const polygon_list *outlines, const double *thickness,
+                          fram_error *error)
+{
+    const geojson_property property = {.name = "thickness", .value = thickness};
+    return geojson_write_properties(ctx, path, outlines, &property, thickness ? 1 : 0, NAN, error);
 }

@@ -30,4 +30,16 @@ fram_status geojson_parse(context *ctx, const char *name, const char *data, size
 fram_status geojson_write(context *ctx, const char *path, const polygon_list *outlines, const double *thickness,
                           fram_error *error);
 
+/* A property of every feature: numbers (a NaN leaves it out) or, when `text` is not NULL, texts without characters that
+   JSON escapes. */
+typedef struct geojson_property {
+    const char *name;
+    const double *value;
+    const char *const *text;
+} geojson_property;
+/* The same with any properties, and a member "time" of the collection when time is not NaN [s]. */
+fram_status geojson_write_properties(context *ctx, const char *path, const polygon_list *outlines,
+                                     const geojson_property *properties, int32_t property_count, double time,
+                                     fram_error *error);
+
 #endif

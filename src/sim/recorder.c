@@ -1,6 +1,8 @@
 #include "sim/recorder.h"
 
+#include "base/transcendental.h"
 #include "sim/ice_loads.h"
+#include "sim/record_pose.h"
 #include "sim/series.h"
 
 #include <stdio.h>
@@ -20,6 +22,7 @@ static void set_intervals(recorder *r, const scenario *s)
     if (r->series_every == 0)
         r->series_every = 1;
     r->frame_every = interval_steps(s->output.frame_interval, s->run.time_step);
+    r->time_step = s->run.time_step;
 }
 
 static fram_status stream_path(const char *folder, const char *name, char out[1024], fram_error *error)
@@ -113,15 +116,13 @@ static bool put_f32(recorder *r, double v)
 static bool put_f64(recorder *r, double v) { return put(r, &v, sizeof v); }
 static void set_i32(recorder *r, int32_t at, int32_t v) { memcpy(r->block.data + at, &v, sizeof v); }
 
+static bool put_vec3(recorder *r, vec3 v) { return put_f32(r, v.x) && put_f32(r, v.y) && put_f32(r, v.z); }
+
 static bool put_pose(recorder *r, const world *w, int32_t slot)
 {
-    vec3 p = w->bodies.position[slot];
-    quat q = w->bodies.orientation[slot];
-    const double part[4] = {q.w, q.x, q.y, q.z};
-    int16_t packed[4];
-    for (int i = 0; i < 4; i++)
-        packed[i] = (int16_t)floor(part[i] * 32767 + 0.5);
-    return put_f32(r, p.x) && put_f32(r, p.y) && put_f32(r, p.z) && put(r, packed, sizeof packed);
+    unsigned char packed[RECORD_POSE_SIZE];
+    record_pose_pack(w->bodies.position[slot], w->bodies.orientation[slot], packed);
+    return put(r, packed, sizeof packed);
 }
 
 static fram_status append(recorder *r, uint32_t type, fram_error *error)
@@ -173,9 +174,15 @@ static fram_status write_deaths(recorder *r, world *w, fram_error *error)
 static bool put_birth(recorder *r, const world *w, int32_t slot)
 {
     polygon outline = shape_outline(&w->shapes, w->bodies.shape[slot]);
-    const unsigned char kind[4] = {w->bodies.material[slot], moves(w, slot), 0, 0};
+    bool ice = w->bodies.material[slot] == MATERIAL_ICE;
+    int32_t floe = ice ? w->bodies.owner[slot] : -1;
+    double thickness = 2 * w->shapes.shapes.half_height[w->bodies.shape[slot]];
+    const unsigned char kind[4] = {w->bodies.material[slot], moves(w, slot), floe >= 0 ? w->floes.breakable[floe] : 0,
+                                   0};
     bool good = put_i32(r, slot) && put_u32(r, w->bodies.generation[slot]) && put(r, kind, 4) &&
-                put_f32(r, 2 * w->shapes.shapes.half_height[w->bodies.shape[slot]]) && put_i32(r, outline.count);
+                put_f32(r, thickness) && put_f32(r, floe >= 0 ? w->floes.material[floe].density : 0) &&
+                put_i32(r, floe >= 0 ? w->floes.number[floe] : -1) &&
+                put_i32(r, floe >= 0 ? w->floes.parent[floe] : -1) && put_i32(r, outline.count);
     for (int32_t i = 0; i < outline.count && good; i++)
         good = put_f32(r, outline.vertex[i].x) && put_f32(r, outline.vertex[i].y);
     return good && (moves(w, slot) || put_pose(r, w, slot));
@@ -208,7 +215,7 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
                 put_i32(r, m->face.count);
     for (int32_t i = 0; i < m->vertex.count && good; i++) {
         vec3 v = m->vertex.data[i];
-        good = put_f32(r, v.x) && put_f32(r, v.y) && put_f32(r, v.z);
+        good = put_vec3(r, v);
     }
     good = good && put(r, m->face.data, (size_t)m->face.count * sizeof *m->face.data);
     if (!good)
@@ -216,6 +223,69 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
     w->recorded.generation[slot] = w->bodies.generation[slot];
     return append(r, BLOCK_SOLID, error);
 }
+
+/* ---- forces on the first vessel ---- */
+
+static bool put_force(recorder *r, int32_t kind, int32_t which, vec3 point, vec3 force)
+{
+    return put_i32(r, kind) && put_i32(r, which) && put_vec3(r, point) && put_vec3(r, force);
+}
+
+static bool put_line_forces(recorder *r, const world *w, int32_t *count)
+{
+    bool good = true;
+    for (int32_t i = 0; i < w->lines.count && good; i++) {
+        if (w->lines.vessel[i] != 0 || w->lines.broken[i])
+            continue;
+        int32_t body = w->vessels.body[0];
+        line_pull pull = mooring_line_pull(&w->lines, i, w->bodies.position[body], w->bodies.orientation[body]);
+        good = put_force(r, RECORD_FORCE_LINE, i + 1, pull.point, pull.force);
+        ++*count;
+    }
+    return good;
+}
+
+static bool put_thruster_forces(recorder *r, const world *w, int32_t *count)
+{
+    bool good = true;
+    for (int32_t i = 0; i < w->thrusters.count && good; i++) {
+        if (w->thrusters.vessel[i] != 0 || w->thrusters.failed[i])
+            continue;
+        int32_t body = w->vessels.body[0];
+        double thrust = w->thrusters.thrust[i], angle = w->thrusters.angle[i];
+        vec3 force = vec3_make(thrust * real_cos(angle), thrust * real_sin(angle), 0);
+        good = put_force(r, RECORD_FORCE_THRUSTER, i + 1, body_to_global(&w->bodies, body, w->thrusters.place[i]),
+                         mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), force));
+        ++*count;
+    }
+    return good;
+}
+
+static fram_status write_forces(recorder *r, const world *w, fram_error *error)
+{
+    if (w->vessels.count == 0)
+        return FRAM_OK;
+    int32_t count = 0;
+    const int32_t head[2] = {0, 0};
+    bool good = put(r, head, sizeof head);
+    for (int32_t i = 0; i < r->sums.count && good; i++) {
+        const contact_sum *s = &r->sums.data[i];
+        if (s->weight == 0)
+            continue;
+        good = put_force(r, RECORD_FORCE_ICE, i, vec3_scale(s->moment, 1 / s->weight), s->on_vessel);
+        count++;
+    }
+    good = good && put_line_forces(r, w, &count) && put_thruster_forces(r, w, &count);
+    if (!good)
+        return error_memory(error);
+    set_i32(r, 0, count);
+    if (count > 0)
+        return append(r, BLOCK_FORCES, error);
+    array_clear(&r->block);
+    return FRAM_OK;
+}
+
+/* ---- frames ---- */
 
 /* Deaths, births and solids since the last frame, then the poses of all that move. */
 static fram_status write_frame(recorder *r, world *w, fram_error *error)
@@ -229,6 +299,10 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     }
     if (status == FRAM_OK)
         status = write_births(r, w, error);
+    if (status == FRAM_OK && !contact_sums_of(r->ctx, w, r->time_step, &r->sums))
+        status = error_memory(error);
+    if (status == FRAM_OK)
+        status = write_forces(r, w, error);
     if (status != FRAM_OK)
         return status;
 
@@ -240,7 +314,8 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     for (int32_t i = 0; i < w->bodies.count && good; i++) {
         if (!body_is_alive(&w->bodies, i) || w->bodies.shape[i] < 0 || !moves(w, i))
             continue;
-        good = put_pose(r, w, i);
+        uint16_t touched = half_from_real(r->sums.data[i].magnitude * 1e-3);
+        good = put_pose(r, w, i) && put(r, &touched, sizeof touched);
         count++;
     }
     if (!good)
@@ -265,8 +340,8 @@ static fram_status write_fractures(recorder *r, const world *w, fram_error *erro
         if (status != FRAM_OK)
             return status;
         good = good && put_f64(r, time) && put_i32(r, e->kind) && put_i32(r, e->floe) && put_i32(r, e->pieces) &&
-               put_i32(r, 0) && put_f32(r, e->place.x) && put_f32(r, e->place.y) && put_f32(r, e->place.z) &&
-               put_f32(r, e->load) && put_f32(r, e->crack_length) && put_f32(r, e->parent_area);
+               put_i32(r, 0) && put_vec3(r, e->place) && put_f32(r, e->load) && put_f32(r, e->crack_length) &&
+               put_f32(r, e->parent_area);
     }
     return good ? append(r, BLOCK_FRACTURES, error) : error_memory(error);
 }
@@ -298,6 +373,7 @@ fram_status recorder_flush(recorder *r, fram_error *error)
 fram_status recorder_close(recorder *r, fram_error *error)
 {
     array_free(r->ctx, &r->block);
+    array_free(r->ctx, &r->sums);
     fram_status series = csv_close(&r->series, error);
     fram_status fractures = csv_close(&r->fractures, series == FRAM_OK ? error : NULL);
     series = series == FRAM_OK ? fractures : series;

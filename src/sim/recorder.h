@@ -1,20 +1,25 @@
 /* The recorder reads the world and writes the streams of a run: series.csv (one row a step, or every csv_interval) and
    record.fram (frames for playback), and fractures.csv (one row a broken floe).  It never changes what moves.
 
-   Blocks of the record, numbers in the byte order of its head:
+   Blocks of the record, numbers in the byte order of its head; poses are packed as sim/record_pose.h says, 16 bytes:
      1 scenario  the effective scenario, text
      2 solid     i32 slot, u32 generation, i32 vertices, i32 triangles; f32 x y z per vertex (body frame);
                  i32 a b c per triangle
-     3 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 0, u8 0, f32 thickness,
-                 i32 vertices; f32 x y per outline vertex (body frame); a body that does not move adds its pose (as in
-                 a frame)
      4 deaths    i32 count; i32 slot each
-     5 frame     i64 step, f64 time, f64 x 3 averaged ice force on the vessel [N], i32 count, i32 0; per moving body, by
-                 ascending slot: f32 x y z, i16 x 4 orientation w x y z times 32767 (20 bytes)
      6 fractures i32 count, i32 0; per floe that broke since the block before: f64 time, i32 kind (1 split, 2 bending),
                  i32 number of the floe, i32 pieces, i32 0; f32 x y z of the crack's start, load [N], crack length [m],
                  area of the floe [m2]; before the first frame at or after the event
-   Solids are announced by block 2 and take part in frames when they move. */
+     7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 0, f32
+   thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none), i32 vertices; f32 x y per
+                 outline vertex (body frame); a body that does not move adds its pose
+     8 frame     i64 step, f64 time, f64 x 3 averaged ice force on the vessel [N], i32 count, i32 0; per moving body, by
+                 ascending slot: its pose and u16 contact force, the sum of the magnitudes at its contacts, a half float
+                 of kN (18 bytes)
+     9 forces    i32 count, i32 0; per force on the first vessel in the last step: i32 kind (1 ice, all contacts with
+   one floe; 2 mooring line; 3 thruster), i32 slot of the floe or number of line or thruster (from 1), f32 x y z of the
+   point, f32 x y z of the force [N], global frame; before the frame it belongs to Types 3 and 5 were births and frames
+   of an earlier layout and are not written any more. Solids are announced by block 2 and take part in frames when they
+   move. */
 #ifndef SIM_RECORDER_H
 #define SIM_RECORDER_H
 
@@ -22,15 +27,31 @@
 #include "io/record.h"
 #include "model/scenario.h"
 #include "model/world.h"
+#include "sim/contact_sums.h"
 
-enum { BLOCK_SCENARIO = 1, BLOCK_SOLID, BLOCK_BIRTHS, BLOCK_DEATHS, BLOCK_FRAME, BLOCK_FRACTURES };
+enum {
+    BLOCK_SCENARIO = 1,
+    BLOCK_SOLID = 2,
+    BLOCK_EARLIER_BIRTHS = 3,
+    BLOCK_DEATHS = 4,
+    BLOCK_EARLIER_FRAME = 5,
+    BLOCK_FRACTURES = 6,
+    BLOCK_BIRTHS = 7,
+    BLOCK_FRAME = 8,
+    BLOCK_FORCES = 9
+};
+
+/* Kinds of a force on the vessel. */
+typedef enum record_force_kind { RECORD_FORCE_ICE = 1, RECORD_FORCE_LINE, RECORD_FORCE_THRUSTER } record_force_kind;
 
 typedef struct recorder {
     context *ctx;
     csv_writer series, fractures;
     record_writer record;
     int64_t series_every, frame_every; /* steps; 0: no frames */
+    double time_step;                  /* [s] */
     ARRAY(unsigned char) block;        /* scratch */
+    contact_sum_array sums;            /* scratch, per body slot */
 } recorder;
 
 /* New files in folder. */

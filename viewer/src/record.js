@@ -2,7 +2,7 @@
 // (payloads); this file follows them and knows nothing of drawing.
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
-const SCENARIO = 1, SOLID = 2, BIRTHS = 3, DEATHS = 4, FRAME = 5;
+const SCENARIO = 1, SOLID = 2, DEATHS = 4, BIRTHS = 7, FRAME = 8, EARLIER = [3, 5];
 const MATERIALS = ['ice', 'hull', 'wall'];
 const NEVER = Infinity;
 
@@ -10,18 +10,29 @@ const NEVER = Infinity;
 class Cursor {
     constructor(view, offset) { this.view = view; this.at = offset; }
     u8() { return this.view.getUint8(this.at++); }
-    i16() { this.at += 2; return this.view.getInt16(this.at - 2, true); }
+    u16() { this.at += 2; return this.view.getUint16(this.at - 2, true); }
     i32() { this.at += 4; return this.view.getInt32(this.at - 4, true); }
     u32() { this.at += 4; return this.view.getUint32(this.at - 4, true); }
     i64() { this.at += 8; return Number(this.view.getBigInt64(this.at - 8, true)); }
     f32() { this.at += 4; return this.view.getFloat32(this.at - 4, true); }
     f64() { this.at += 8; return this.view.getFloat64(this.at - 8, true); }
-    /** x y z, then the unit quaternion as x y z w (the order of three.js). */
+    half() {
+        const h = this.u16(), field = h >> 10 & 31;
+        return (h & 0x8000 ? -1 : 1) * ((h & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 25);
+    }
+    /** Packed as src/sim/record_pose.h says: x y z, then the unit quaternion as x y z w (the order of three.js). */
     pose() {
-        const p = [this.f32(), this.f32(), this.f32()];
-        const [w, x, y, z] = [this.i16(), this.i16(), this.i16(), this.i16()];
-        const n = Math.hypot(w, x, y, z) || 1;
-        return [...p, x / n, y / n, z / n, w / n];
+        const out = [this.f32(), this.f32(), this.half()], word = [this.u16(), this.u16(), this.u16()];
+        const largest = word[0] >> 15 << 1 | word[1] >> 15, part = [0, 0, 0, 0];
+        let sum = 0;
+        for (let i = 0, k = 0; i < 4; i++) {
+            if (i === largest) continue;
+            part[i] = ((word[k++] & 32767) - 16383) * Math.SQRT1_2 / 16383;
+            sum += part[i] ** 2;
+        }
+        part[largest] = Math.sqrt(Math.max(0, 1 - sum));
+        const [w, x, y, z] = part;
+        return [...out, x, y, z, w];
     }
 }
 
@@ -56,6 +67,8 @@ function readBlock(record, alive, type, c, buffer, size) {
     case SOLID: addBody(record, alive, readSolid(c)); break;
     case BIRTHS: for (let n = c.i32(); n > 0; n--) addBody(record, alive, readPrism(c)); break;
     case DEATHS: for (let n = c.i32(); n > 0; n--) removeBody(record, alive, c.i32()); break;
+    case EARLIER[0]:
+    case EARLIER[1]: throw new Error('an earlier version of Fram wrote it; run the scenario again');
     case FRAME: record.frames.push(readFrame(c, alive)); break;
     }
 }
@@ -84,8 +97,12 @@ function readSolid(c) {
 
 function readPrism(c) {
     const body = { slot: c.i32(), generation: c.u32(), material: MATERIALS[c.u8()], moves: c.u8() !== 0 };
-    c.at += 2;
+    body.breakable = c.u8() !== 0;
+    c.at += 1;
     body.thickness = c.f32();
+    body.density = c.f32();
+    body.number = c.i32();
+    body.parent = c.i32();
     body.outline = Array.from({ length: c.i32() }, () => [c.f32(), c.f32()]);
     if (!body.moves) body.pose = c.pose();
     return body;
@@ -101,7 +118,10 @@ function readFrame(c, alive) {
         throw new Error(`frame at ${frame.time} s has ${count} poses for ${moving.length} bodies`);
     frame.order = Uint32Array.from(moving, (b) => b.index);
     frame.poses = new Float32Array(7 * count);
-    for (let i = 0; i < count; i++) frame.poses.set(c.pose(), 7 * i);
+    for (let i = 0; i < count; i++) {
+        frame.poses.set(c.pose(), 7 * i);
+        c.half();
+    }
     return frame;
 }
 

@@ -1,0 +1,64 @@
+/* fram export: results in the formats of other programs. */
+#include "cli/cli.h"
+
+#include "fram/results.h"
+#include <math.h>
+
+static void print_result(const common_options *common, const fram_result *r, const char *advice)
+{
+    if (!common->quiet)
+        fprintf(stderr, "%s: %lld frame%s; %s\n", r->path, (long long)r->frames, r->frames == 1 ? "" : "s", advice);
+    if (!common->json)
+        return;
+    json j = json_begin();
+    json_text(&j, "file", r->path);
+    json_integer(&j, "frames", r->frames);
+    json_real(&j, "time_s", r->time);
+    json_end(&j);
+}
+
+int command_export(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run = NULL, *output = NULL;
+    bool vtk = false, geojson = false, netcdf = false;
+    double time = (double)NAN;
+    int every = 1;
+    const option_row rows[] = {
+        {"--vtk", NULL, OPTION_FLAG, &vtk, NULL,
+         "for ParaView: floes, hull and forces of every frame (RUN/vtk/run.pvd)"},
+        {"--netcdf", NULL, OPTION_FLAG, &netcdf, NULL,
+         "NetCDF-4 for xarray and h5py: all channels and floes (RUN/run.nc)"},
+        {"--geojson", NULL, OPTION_FLAG, &geojson, NULL, "outlines at one time (RUN/field-T.geojson)"},
+        {"--time", NULL, OPTION_REAL, &time, "T", "the time of --geojson [s]"},
+        {"--every", NULL, OPTION_INTEGER, &every, "N", "every N-th frame only, for --vtk (1)"},
+        {"--output", "-o", OPTION_TEXT, &output, "PATH", "the file, or the folder of --vtk"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    if (vtk + geojson + netcdf != 1)
+        return answer_usage(&common, "export", "name one format: --vtk, --netcdf or --geojson");
+    if (geojson == isnan(time))
+        return answer_usage(&common, "--time",
+                            geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
+    if (every < 1)
+        return answer_usage(&common, "--every", "must be at least 1");
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    fram_result result = {0};
+    fram_error error = {0};
+    fram_status status = vtk      ? fram_export_vtk(context, run, output, every, &result, &error)
+                         : netcdf ? fram_export_netcdf(context, run, output, &result, &error)
+                                  : fram_export_geojson(context, run, output, time, &result, &error);
+    if (status == FRAM_OK)
+        print_result(&common, &result,
+                     vtk      ? "open it in ParaView"
+                     : netcdf ? "xarray.open_dataset reads it"
+                              : "any GIS, geopandas and fram itself read it");
+    code = status == FRAM_OK ? EXIT_GOOD : answer_error(&common, &error);
+    fram_context_destroy(context);
+    return code;
+}

@@ -1,0 +1,160 @@
+#include "io/netcdf_file.h"
+
+#include "io/atomic_file.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#ifdef FRAM_HAVE_NETCDF
+#include <netcdf.h>
+
+/* Shuffled and deflated at level 1: columns of slow change shrink to a third, and writing stays bound by the disk. */
+enum { SHUFFLE = 1, DEFLATE = 1, LEVEL = 1 };
+
+static void keep(netcdf_file *f, int code)
+{
+    if (code != NC_NOERR && f->failed == NC_NOERR)
+        f->failed = code;
+}
+
+static void forget(netcdf_file *f)
+{
+    memory_free(f->ctx, f->path);
+    memory_free(f->ctx, f->temporary);
+    memset(f, 0, sizeof *f);
+}
+
+fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error)
+{
+    size_t length = strlen(path);
+    memset(f, 0, sizeof *f);
+    f->ctx = ctx;
+    f->path = memory_string(ctx, path);
+    f->temporary = memory_array(ctx, length + 5, 1);
+    if (!f->path || !f->temporary) {
+        forget(f);
+        return error_memory(error);
+    }
+    snprintf(f->temporary, length + 5, "%s.new", path);
+    int code = nc_create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
+    if (code != NC_NOERR) {
+        fram_status status = error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", nc_strerror(code));
+        forget(f);
+        return status;
+    }
+    f->open = true;
+    return FRAM_OK;
+}
+
+int netcdf_dimension(netcdf_file *f, const char *name, size_t length)
+{
+    int dimension = 0;
+    if (!f->failed)
+        keep(f, nc_def_dim(f->id, name, length, &dimension));
+    return dimension;
+}
+
+static void put_text(netcdf_file *f, int variable, const char *name, const char *text)
+{
+    if (!f->failed && *text)
+        keep(f, nc_put_att_text(f->id, variable, name, strlen(text), text));
+}
+
+int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const int *dimensions, int count,
+                    const char *units, const char *meaning)
+{
+    static const nc_type types[] = {[NETCDF_F64] = NC_DOUBLE, [NETCDF_F32] = NC_FLOAT, [NETCDF_I32] = NC_INT};
+    int variable = 0;
+    if (f->failed)
+        return variable;
+    keep(f, nc_def_var(f->id, name, types[type], count, dimensions, &variable));
+    size_t length = 0;
+    if (!f->failed && count > 0) {
+        keep(f, nc_inq_dimlen(f->id, dimensions[count - 1], &length));
+        keep(f, nc_def_var_deflate(f->id, variable, SHUFFLE, DEFLATE, LEVEL));
+    }
+    if (!f->failed && count == 2) {
+        const size_t chunk[2] = {1, length > 0 ? length : 1};
+        keep(f, nc_def_var_chunking(f->id, variable, NC_CHUNKED, chunk));
+    }
+    put_text(f, variable, "units", units);
+    put_text(f, variable, "long_name", meaning);
+    return variable;
+}
+
+void netcdf_attribute(netcdf_file *f, const char *name, const char *text) { put_text(f, NC_GLOBAL, name, text); }
+
+void netcdf_put_f64(netcdf_file *f, int variable, const double *values)
+{
+    if (!f->failed)
+        keep(f, nc_put_var_double(f->id, variable, values));
+}
+
+void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values)
+{
+    if (!f->failed)
+        keep(f, nc_put_var_int(f->id, variable, values));
+}
+
+void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
+{
+    const size_t start[2] = {row, 0}, edge[2] = {1, count};
+    if (!f->failed && count > 0)
+        keep(f, nc_put_vara_float(f->id, variable, start, edge, values));
+}
+
+fram_status netcdf_end(netcdf_file *f, fram_error *error)
+{
+    keep(f, nc_close(f->id));
+    f->open = false;
+    fram_status status = FRAM_OK;
+    if (f->failed == NC_NOERR)
+        status = atomic_file_adopt(f->ctx, f->temporary, f->path, error);
+    else
+        status = error_set(error, FRAM_ERROR_IO, f->path, 0, NULL, "cannot write: %s", nc_strerror(f->failed));
+    if (f->failed != NC_NOERR)
+        unlink(f->temporary);
+    forget(f);
+    return status;
+}
+
+void netcdf_abandon(netcdf_file *f)
+{
+    if (!f->open)
+        return;
+    nc_close(f->id);
+    unlink(f->temporary);
+    forget(f);
+}
+
+#else
+
+fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error)
+{
+    (void)ctx;
+    memset(f, 0, sizeof *f);
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL,
+                     "this build has no NetCDF (Debian: libnetcdf-dev), so it writes no .nc files");
+}
+int netcdf_dimension(netcdf_file *f, const char *name, size_t length) { return (void)f, (void)name, (int)length; }
+int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const int *dimensions, int count,
+                    const char *units, const char *meaning)
+{
+    return (void)f, (void)name, (void)type, (void)dimensions, (void)units, (void)meaning, count;
+}
+void netcdf_attribute(netcdf_file *f, const char *name, const char *text) { (void)f, (void)name, (void)text; }
+void netcdf_put_f64(netcdf_file *f, int variable, const double *values) { (void)f, (void)variable, (void)values; }
+void netcdf_put_i32(netcdf_file *f, int variable, const int32_t *values) { (void)f, (void)variable, (void)values; }
+void netcdf_put_row(netcdf_file *f, int variable, size_t row, const float *values, size_t count)
+{
+    (void)f, (void)variable, (void)row, (void)values, (void)count;
+}
+fram_status netcdf_end(netcdf_file *f, fram_error *error)
+{
+    (void)f;
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, NULL, 0, NULL, "this build has no NetCDF");
+}
+void netcdf_abandon(netcdf_file *f) { (void)f; }
+
+#endif

@@ -1,0 +1,216 @@
+/* The record read back: poses to the precision that is stated, forces, births and deaths, velocities, damage. */
+#include "scene.h"
+
+#include "sim/record_pose.h"
+#include "sim/replay_moment.h"
+#include "sim/run.h"
+
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH = 512 };
+
+START_TEST(half_floats_are_those_of_the_standard)
+{
+    static const struct {
+        double value;
+        uint16_t half;
+    } known[] = {{0, 0x0000},     {1, 0x3c00},       {-2, 0xc000},
+                 {65504, 0x7bff}, {1e9, 0x7bff},     {-1e9, 0xfbff},
+                 {0.5, 0x3800},   {1.0 / 3, 0x3555}, {5.9604644775390625e-8, 0x0001},
+                 {2049, 0x6800},  {2051, 0x6802},    {6.103515625e-5, 0x0400}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        ck_assert_uint_eq(half_from_real(known[i].value), known[i].half);
+    for (uint32_t h = 0; h < 0x7c00; h++)
+        ck_assert_uint_eq(half_from_real(real_from_half((uint16_t)h)), h);
+}
+END_TEST
+
+START_TEST(poses_keep_their_precision)
+{
+    for (int i = 0; i < 2000; i++) {
+        double a = 0.37 * i, b = 0.11 * i * i;
+        vec3 at = vec3_make(731.25 * (a - floor(a)), -412.0, 0.9 * (b - floor(b)));
+        quat q = quat_from_roll_pitch_yaw(6 * (a - floor(a)) - 3, 3 * (b - floor(b)) - 1.5, 0.01 * i - 10);
+        unsigned char packed[RECORD_POSE_SIZE];
+        vec3 back;
+        quat turned;
+        record_pose_pack(at, q, packed);
+        record_pose_unpack(packed, &back, &turned);
+        ck_assert_double_le(fabs(back.x - at.x), 1e-4);
+        ck_assert_double_le(fabs(back.z - at.z), 0.0005);
+        double dot = fabs(q.w * turned.w + q.x * turned.x + q.y * turned.y + q.z * turned.z);
+        ck_assert_double_le(2 * sqrt(fmax(0, 2 * (1 - dot))), 3e-4);
+    }
+    unsigned char packed[RECORD_POSE_SIZE];
+    vec3 back;
+    quat level;
+    record_pose_pack(vec3_make(1, 2, 0), quat_identity(), packed);
+    record_pose_unpack(packed, &back, &level);
+    ck_assert(level.w == 1 && level.x == 0 && level.y == 0 && level.z == 0);
+}
+END_TEST
+
+static const char text[] = "run:\n  duration: 6\n  time_step: 0.02\n"
+                           "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.5\n"
+                           "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+                           "ice:\n  source: floes\n  thickness: 0.5\n  breakable: true\n  floes:\n"
+                           "    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}\n"
+                           "    - {length: 40, width: 20, x: 20.5, y: -11, velocity_y: -0.25}\n"
+                           "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
+                           "output:\n  frame_interval: 0.2\n";
+
+static void run_scene(context *ctx, char folder[PATH])
+{
+    const char *base = getenv("TMPDIR");
+    fram_error error = {0};
+    scenario s = {0};
+    run_result result = {0};
+    snprintf(folder, PATH, "%s/fram-replay-XXXXXX", base && *base ? base : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    assert_ok(scenario_parse(ctx, "scene.yaml", text, strlen(text), NULL, &s, &error), error);
+    run_options options = {.folder = folder};
+    assert_ok(run_start(ctx, &s, &options, &result, &error), error);
+    scenario_free(ctx, &s);
+}
+
+static void remove_folder(const char *folder)
+{
+    char command[PATH + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    ck_assert_int_eq(system(command), 0);
+}
+
+START_TEST(a_run_is_read_back)
+{
+    context ctx;
+    char folder[PATH];
+    context_init(&ctx);
+    run_scene(&ctx, folder);
+    replay r;
+    fram_error error = {0};
+    bool found = true;
+    int64_t frames = 0;
+    int32_t pieces = 0, touched = 0;
+    double area[2] = {0};
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    ck_assert_ptr_nonnull(strstr(r.scenario, "source: floes"));
+    while (true) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        if (!found)
+            break;
+        ck_assert_double_le(fabs(r.frame.time - 0.2 * (double)frames), 1e-9);
+        ck_assert_int_eq(r.frame.number, frames);
+        double sum = 0, on_floes = 0, on_vessel = 0;
+        for (int32_t i = 0; i < r.frame.poses.count; i++) {
+            const replay_pose *p = &r.frame.poses.data[i];
+            const replay_body *b = &r.bodies.data[p->body];
+            sum += b->material == MATERIAL_ICE ? b->area : 0;
+            if (b->material == MATERIAL_ICE)
+                on_floes += p->contact_force;
+            if (b->solid)
+                ck_assert_double_le(fabs(p->velocity.y), 1e-3);
+            if (b->number == 1 && frames == 0)
+                ck_assert_double_le(fabs(p->velocity.y + 0.25), 0.05);
+        }
+        for (int32_t i = 0; i < r.frame.forces.count; i++) {
+            ck_assert_int_eq(r.frame.forces.data[i].kind, RECORD_FORCE_ICE);
+            ck_assert_int_ge(r.frame.forces.data[i].which, 0);
+            if (r.bodies.data[r.frame.forces.data[i].which].moves)
+                on_vessel += vec3_length(r.frame.forces.data[i].force);
+        }
+        /* Every newton on the vessel is one on a floe that moves or on one that is fixed; forces of one floe at several
+         * points partly cancel. */
+        ck_assert_double_le(on_vessel, 1.01 * on_floes + 1);
+        touched += r.frame.forces.count;
+        area[frames > 0] = sum;
+        frames++;
+    }
+    ck_assert_int_eq(frames, 31);
+    ck_assert_int_gt(touched, 5);
+    ck_assert_int_gt(r.fractures.count, 0);
+    for (int32_t i = 0; i < r.bodies.count; i++)
+        pieces += r.bodies.data[i].parent >= 0;
+    ck_assert_int_ge(pieces, 2);
+    /* Breaking loses next to no area, and births and deaths are in step. */
+    ck_assert_double_le(fabs(area[1] / area[0] - 1), 0.01);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
+START_TEST(a_moment_lies_between_its_frames)
+{
+    context ctx;
+    char folder[PATH];
+    context_init(&ctx);
+    run_scene(&ctx, folder);
+    replay r;
+    replay_moment m = {0};
+    fram_error error = {0};
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    double before = 0;
+    for (double t = 2; t < 2.6; t += 0.1) {
+        assert_ok(replay_moment_at(&r, t, &m, &error), error);
+        ck_assert_double_le(fabs(m.time - t), 1e-6);
+        for (int32_t i = 0; i < m.poses.count; i++) {
+            if (!r.bodies.data[m.poses.data[i].body].solid)
+                continue;
+            double x = m.poses.data[i].position.x;
+            if (t > 2)
+                ck_assert_double_le(fabs(x - before - 0.3), 1e-3);
+            before = x;
+        }
+    }
+    ck_assert_int_eq(replay_moment_at(&r, 99, &m, &error), FRAM_ERROR_INPUT);
+    replay_moment_free(&ctx, &m);
+    replay_close(&r);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    ck_assert_int_eq(replay_moment_at(&r, -1, &m, &error), FRAM_ERROR_INPUT);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
+static fram_status write_one(context *ctx, const char *folder, uint32_t type, const void *data, size_t size)
+{
+    char path[PATH + 32];
+    record_writer w;
+    record_part part = {data, size};
+    fram_error error = {0};
+    replay r;
+    snprintf(path, sizeof path, "%s/record.fram", folder);
+    assert_ok(record_create(ctx, path, &w, &error), error);
+    assert_ok(record_append(&w, type, &part, 1, &error), error);
+    assert_ok(record_close(&w, &error), error);
+    fram_status status = replay_open(ctx, folder, &r, &error);
+    if (status == FRAM_OK)
+        replay_close(&r);
+    return status;
+}
+
+START_TEST(records_that_lie_are_refused)
+{
+    context ctx;
+    context_init(&ctx);
+    char folder[PATH];
+    snprintf(folder, sizeof folder, "/tmp/fram-replay-XXXXXX");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    const int32_t births[] = {1000000, 0, 0, 0}, slot[] = {1, -5, 1, 0, 0, 0, 0, 0, 0},
+                  closed[] = {0, 1, 1, 1, 0, 0, 0, 0, 9, 0};
+    const int32_t many[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7, 0};
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_BIRTHS, births, sizeof births), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_BIRTHS, slot, sizeof slot), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_SOLID, closed, sizeof closed), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FORCES, births, sizeof births), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRACTURES, births, sizeof births), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_EARLIER_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, 77, many, sizeof many), FRAM_ERROR_INPUT); /* no frame */
+    remove_folder(folder);
+}
+END_TEST
+
+TEST_MAIN("replay", half_floats_are_those_of_the_standard, poses_keep_their_precision, a_run_is_read_back,
+          a_moment_lies_between_its_frames, records_that_lie_are_refused)
