@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Exports read by the programs they are for: VTK's own readers, xarray, h5py, pandas.
 
-A run with breaking ice, mooring and thrusters is exported and read back; the numbers are compared with series.csv and with
-each other.  Readers that are missing are skipped by name; without any the test is skipped (77).
+A run with breaking ice, mooring and thrusters is exported and read back; the numbers are compared with series.csv and
+with each other.  Readers that are missing are skipped by name; without any the test is skipped (77).
 """
 import importlib.util
 import json
@@ -37,7 +37,7 @@ def have(name):
 def use_system_python():
     """Debian's modules belong to Debian's Python, which need not be the first on the path."""
     system = "/usr/bin/python3"
-    if not have("vtkmodules") and sys.executable != system and os.path.exists(system) and "FRAM_TRIED" not in os.environ:
+    if not have("vtkmodules") and os.path.exists(system) and "FRAM_TRIED" not in os.environ:
         os.execve(system, [system, *sys.argv], {**os.environ, "FRAM_TRIED": "1"})
 
 
