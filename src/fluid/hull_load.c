@@ -85,6 +85,8 @@ static void flush(const hull_walk *w, const point_stream *s, point_run *run, poi
 static void add_run(const hull_walk *w, const point_stream *s, int32_t first, int32_t end, point_run *run,
                     point_sums *sums)
 {
+    if (first == end)
+        return;
     if (first != run->end) {
         flush(w, s, run, sums);
         run->first = first;
@@ -94,22 +96,42 @@ static void add_run(const hull_walk *w, const point_stream *s, int32_t first, in
 
 /* ---- single facets ---- */
 
-static vec3 mean_of(const vec3 *vertex, int n)
+/* Small facets that stand for one point together: twice their area vectors, and six times their first moments weighted
+   by how far they face along `normal`, global axes. */
+typedef struct patch {
+    vec3 normal; /* unit */
+    vec3 area, first;
+    double weight;
+} patch;
+
+static void patch_add(patch *p, const vec3 *vertex, int n)
 {
-    vec3 sum = {0, 0, 0};
-    for (int i = 0; i < n; i++)
-        sum = vec3_add(sum, vertex[i]);
-    return vec3_scale(sum, 1.0 / n);
+    for (int i = 1; i + 1 < n; i++) {
+        vec3 a = vertex[0], b = vertex[i], c = vertex[i + 1];
+        vec3 area = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+        double weight = vec3_dot(area, p->normal);
+        p->area = vec3_add(p->area, area);
+        p->first = vec3_mad(p->first, vec3_add(a, vec3_add(b, c)), weight);
+        p->weight += weight;
+    }
 }
 
-/* Drag of a small facet as of one point: the middle of its triangle, or the mean of its vertices. */
-static void add_small(wrench *load, const stream *s, const vec3 *vertex, int n)
+/* A whole node by its moments, body axes. */
+static void patch_add_moments(patch *p, mat3 rotation, const surface_moments *m)
 {
-    vec3 area = {0, 0, 0}, middle = mean_of(vertex, n);
-    for (int i = 1; i + 1 < n; i++)
-        area = vec3_add(area, vec3_cross(vec3_sub(vertex[i], vertex[0]), vec3_sub(vertex[i + 1], vertex[0])));
-    double size = 0.5 * vec3_length(area);
-    vec3 normal = vec3_unit(area), v = vec3_add(s->velocity, vec3_cross(s->spin, middle));
+    vec3 normal = mat3_tmul_vec(rotation, p->normal);
+    p->area = vec3_mad(p->area, mat3_mul_vec(rotation, m->area), 2);
+    p->first = vec3_mad(p->first, mat3_mul_vec(rotation, mat3_tmul_vec(m->area_first, normal)), 6);
+    p->weight += 2 * vec3_dot(m->area, normal);
+}
+
+static void patch_drag(wrench *load, const stream *s, const patch *p)
+{
+    if (!(p->weight > 0))
+        return;
+    vec3 middle = vec3_scale(p->first, 1 / (3 * p->weight));
+    double size = 0.5 * vec3_length(p->area);
+    vec3 normal = vec3_unit(p->area), v = vec3_add(s->velocity, vec3_cross(s->spin, middle));
     double into = vec3_dot(v, normal), push = into > 0 ? s->form * into * into : 0;
     vec3 along = vec3_mad(v, normal, -into);
     vec3 force = vec3_scale(vec3_mad(vec3_scale(normal, push), along, s->skin * vec3_length(along)), -size);
@@ -117,15 +139,19 @@ static void add_small(wrench *load, const stream *s, const vec3 *vertex, int n)
     load->moment = vec3_add(load->moment, vec3_cross(middle, force));
 }
 
+/* small: as of one point. */
 static void add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, bool small)
 {
     if (n < 3)
         return;
-    if (small)
-        add_small(load, s, vertex, n);
-    else
+    if (small) {
+        patch p = {.normal = vec3_unit(vec3_cross(vec3_sub(vertex[1], vertex[0]), vec3_sub(vertex[2], vertex[0])))};
+        patch_add(&p, vertex, n);
+        patch_drag(load, s, &p);
+    } else {
         facet_add_drag(load, s, vertex, n,
                        vec3_unit(vec3_cross(vec3_sub(vertex[1], vertex[0]), vec3_sub(vertex[2], vertex[0]))));
+    }
 }
 
 static void corners_of(const hull_walk *w, int32_t place, vec3 corner[3])
@@ -148,34 +174,51 @@ static void add_large(const hull_walk *w, int32_t first, int32_t end, bool under
     }
 }
 
-/* A triangle of a node that the water plane may cut.  It is small when one point would stand for it or for more. */
-static void add_place(const hull_walk *w, int32_t place, bool joined, branch_sums *sums)
+static double low_of(const vec3 v[3]) { return v[0].z < v[1].z ? fmin(v[0].z, v[2].z) : fmin(v[1].z, v[2].z); }
+static double high_of(const vec3 v[3]) { return v[0].z > v[1].z ? fmax(v[0].z, v[2].z) : fmax(v[1].z, v[2].z); }
+
+/* Cuts a triangle at the water plane: n_wet vertices below it, whose pressure is added, n_dry above it. */
+static void cut_triangle(const hull_walk *w, const vec3 corner[3], vec3 wet[4], int *n_wet, vec3 dry[4], int *n_dry,
+                         branch_sums *sums)
+{
+    double height = w->state->position.z;
+    *n_wet = *n_dry = 0;
+    if (low_of(corner) + height < 0) {
+        *n_wet = triangle_clip_below(corner, -height, wet);
+        facet_add_pressure(&sums->pressure, wet, *n_wet, height);
+    }
+    if (w->dry)
+        *n_dry = facet_clip(corner, 3, vec3_make(0, 0, -1), height, dry);
+}
+
+/* A triangle of a leaf that the water plane may cut. */
+static void add_place(const hull_walk *w, int32_t place, branch_sums *sums)
 {
     const mesh_integrals *all = &w->body->integrals;
     double height = w->state->position.z;
     int32_t first = all->point_first.data[place], end = all->point_first.data[place + 1];
-    bool small = joined || end - first == 1;
-    vec3 corner[3], part[4];
+    vec3 corner[3], wet[4], dry[4];
     corners_of(w, place, corner);
-    double low = fmin(corner[0].z, fmin(corner[1].z, corner[2].z)) + height;
-    double high = fmax(corner[0].z, fmax(corner[1].z, corner[2].z)) + height;
-    if (high <= 0) {
+    bool under = high_of(corner) + height <= 0, over = low_of(corner) + height >= 0;
+    if (under)
         facet_add_pressure(&sums->pressure, corner, 3, height);
-        stream s = water_at(w, corner, 3);
-        if (w->wet)
-            add_drag(&sums->water, &s, corner, 3, small);
+    if (under && w->wet) {
+        add_run(w, &w->water_points, first, end, &sums->water_run, &sums->water_points);
+        add_large(w, place, place + 1, true, sums);
+    }
+    if (over && w->dry) {
+        add_run(w, &w->air_points, first, end, &sums->air_run, &sums->air_points);
+        add_large(w, place, place + 1, false, sums);
+    }
+    if (under || over)
         return;
+    int n_wet, n_dry;
+    cut_triangle(w, corner, wet, &n_wet, dry, &n_dry, sums);
+    if (w->wet && n_wet >= 3) {
+        stream s = water_at(w, wet, n_wet);
+        add_drag(&sums->water, &s, wet, n_wet, end - first == 1);
     }
-    if (low < 0) {
-        int n = triangle_clip_below(corner, -height, part);
-        facet_add_pressure(&sums->pressure, part, n, height);
-        if (w->wet && n >= 3) {
-            stream s = water_at(w, part, n);
-            add_drag(&sums->water, &s, part, n, small);
-        }
-    }
-    if (w->dry)
-        add_drag(&sums->air, &w->air, part, facet_clip(corner, 3, vec3_make(0, 0, -1), height, part), small);
+    add_drag(&sums->air, &w->air, dry, n_dry, end - first == 1);
 }
 
 /* ---- the tree ---- */
@@ -231,6 +274,47 @@ static bool is_joined(const mesh_integrals *all, const mesh_bvh_node *node)
            all->large_first.data[end] == all->large_first.data[node->first];
 }
 
+/* A joined node or a part of one, leaf by leaf where the water plane cuts it. */
+static void add_joined_part(const hull_walk *w, int32_t n, patch *wet, patch *dry, branch_sums *sums)
+{
+    const mesh_bvh_node *node = &w->body->tree.node.data[n];
+    const surface_moments *m = &w->body->integrals.moments.data[n];
+    double reach, height = box_height(w, node->box, &reach);
+    if (height + reach <= 0) {
+        sums->wet = add_moments(&sums->wet, m);
+        patch_add_moments(wet, w->state->rotation, m);
+    } else if (height - reach >= 0) {
+        patch_add_moments(dry, w->state->rotation, m);
+    } else if (node->next >= 0) {
+        add_joined_part(w, n + 1, wet, dry, sums);
+        add_joined_part(w, node->next, wet, dry, sums);
+    } else {
+        for (int32_t i = node->first; i < node->first + node->count; i++) {
+            vec3 corner[3], below[4], above[4];
+            int n_below, n_above;
+            corners_of(w, i, corner);
+            cut_triangle(w, corner, below, &n_below, above, &n_above, sums);
+            patch_add(wet, below, n_below);
+            patch_add(dry, above, n_above);
+        }
+    }
+}
+
+/* A joined node that the water plane may cut: its wet part stands for one point, and its dry part. */
+static void add_joined(const hull_walk *w, int32_t n, branch_sums *sums)
+{
+    patch wet = {.normal = mat3_mul_vec(w->state->rotation, vec3_unit(w->body->integrals.moments.data[n].area))};
+    patch dry = wet;
+    add_joined_part(w, n, &wet, &dry, sums);
+    if (w->wet && wet.weight > 0) {
+        vec3 middle = vec3_scale(wet.first, 1 / (3 * wet.weight));
+        stream s = water_at(w, &middle, 1);
+        patch_drag(&sums->water, &s, &wet);
+    }
+    if (w->dry)
+        patch_drag(&sums->air, &w->air, &dry);
+}
+
 static void add_node(const hull_walk *w, int32_t n, branch_sums *sums)
 {
     const mesh_bvh_node *node = &w->body->tree.node.data[n];
@@ -244,10 +328,13 @@ static void add_node(const hull_walk *w, int32_t n, branch_sums *sums)
             add_dry_node(w, n, sums);
         return;
     }
-    bool joined = is_joined(&w->body->integrals, node);
-    if (joined || node->next < 0) {
+    if (is_joined(&w->body->integrals, node)) {
+        add_joined(w, n, sums);
+        return;
+    }
+    if (node->next < 0) {
         for (int32_t i = node->first; i < node->first + node->count; i++)
-            add_place(w, i, joined, sums);
+            add_place(w, i, sums);
         return;
     }
     add_node(w, n + 1, sums);

@@ -61,7 +61,7 @@ typedef struct point_maker {
     const mesh *mesh;
     const mesh_bvh *tree;
     mesh_integrals *out;
-    double spacing;
+    double spacing, part;
     double *area_before; /* per place, and one more: area of the faces before it */
 } point_maker;
 
@@ -74,43 +74,48 @@ static bool add_point(point_maker *p, vec3 place, vec3 normal, double area)
            array_push(ctx, &o->nz, normal.z) && array_push(ctx, &o->area, area);
 }
 
-static double longest_edge(const vec3 v[3])
+/* The points of a triangle, or of a part of it, halved across its longest edge until that is short enough: slivers are
+   cut along their length only.  What is beyond `most` points is left out; returns how many there would be, at least. */
+static int32_t add_parts(point_maker *p, const vec3 v[3], vec3 normal, int32_t most, bool *ok)
 {
+    int longest = 0;
     double square = 0;
     for (int k = 0; k < 3; k++) {
         vec3 edge = vec3_sub(v[(k + 1) % 3], v[k]);
-        square = fmax(square, vec3_dot(edge, edge));
-    }
-    return sqrt(square);
-}
-
-/* The centres of the parts^2 equal triangles into which lines parallel to its sides cut a triangle. */
-static bool add_parts(point_maker *p, const vec3 v[3], int parts)
-{
-    vec3 normal = vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0]));
-    double area = 0.5 * vec3_length(normal) / (parts * parts), step = 1.0 / (3 * parts);
-    normal = vec3_unit(normal);
-    vec3 a = vec3_scale(vec3_sub(v[1], v[0]), step), b = vec3_scale(vec3_sub(v[2], v[0]), step);
-    for (int i = 0; i < parts; i++) {
-        for (int j = 0; i + j < parts; j++) {
-            vec3 corner = vec3_mad(vec3_mad(v[0], a, 3 * i), b, 3 * j);
-            if (!add_point(p, vec3_add(corner, vec3_add(a, b)), normal, area))
-                return false;
-            if (i + j + 1 < parts && !add_point(p, vec3_mad(vec3_mad(corner, a, 2), b, 2), normal, area))
-                return false;
+        if (vec3_dot(edge, edge) > square) {
+            square = vec3_dot(edge, edge);
+            longest = k;
         }
     }
-    return true;
+    if (square <= p->part * p->part || most < 1) {
+        vec3 middle = vec3_scale(vec3_add(v[0], vec3_add(v[1], v[2])), 1.0 / 3);
+        double area = 0.5 * vec3_length(vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0])));
+        *ok = *ok && (most < 1 || add_point(p, middle, normal, area));
+        return 1;
+    }
+    vec3 a = v[longest], b = v[(longest + 1) % 3], c = v[(longest + 2) % 3];
+    vec3 middle = vec3_scale(vec3_add(a, b), 0.5);
+    const vec3 left[3] = {a, middle, c}, right[3] = {middle, b, c};
+    int32_t count = add_parts(p, left, normal, most, ok);
+    return count + add_parts(p, right, normal, most - count, ok);
+}
+
+static void drop_points(mesh_integrals *o, int32_t count)
+{
+    o->x.count = o->y.count = o->z.count = o->nx.count = o->ny.count = o->nz.count = o->area.count = count;
 }
 
 static bool add_face(point_maker *p, int32_t place)
 {
     vec3 v[3];
+    bool ok = true;
     mesh_face_points(p->mesh, p->tree->face.data[place], v);
-    double parts = ceil(longest_edge(v) / p->spacing);
-    if (parts * parts > MESH_MOST_PARTS)
-        return array_push(p->ctx, &p->out->large, place);
-    return add_parts(p, v, parts < 1 ? 1 : (int)parts);
+    vec3 normal = vec3_unit(vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0])));
+    int32_t before = p->out->x.count;
+    if (add_parts(p, v, normal, MESH_MOST_PARTS, &ok) <= MESH_MOST_PARTS)
+        return ok;
+    drop_points(p->out, before);
+    return ok && array_push(p->ctx, &p->out->large, place);
 }
 
 /* One point for a small and nearly flat node.  Its place is the centre of its area, its area that of the faces. */
@@ -180,7 +185,8 @@ static double radius_of(const mesh *m)
 
 bool mesh_integrals_build(context *ctx, const mesh *m, const mesh_bvh *tree, mesh_integrals *out)
 {
-    *out = (mesh_integrals){.spacing = MESH_SPACING * radius_of(m)};
+    *out = (mesh_integrals){0};
+    double radius = radius_of(m);
     int32_t faces = tree->face.count;
     double *area_before = memory_array(ctx, (size_t)faces + 1, sizeof *area_before);
     bool ok = area_before && array_resize(ctx, &out->moments, tree->node.count) &&
@@ -189,7 +195,7 @@ bool mesh_integrals_build(context *ctx, const mesh *m, const mesh_bvh *tree, mes
         for (int32_t i = 0; i < faces; i++)
             area_before[i + 1] = area_before[i] + vec3_length(mesh_area_vector(m, tree->face.data[i]));
         find_moments(m, tree, out);
-        ok = find_points(&(point_maker){ctx, m, tree, out, out->spacing, area_before});
+        ok = find_points(&(point_maker){ctx, m, tree, out, MESH_SPACING * radius, MESH_PART * radius, area_before});
     }
     memory_free(ctx, area_before);
     if (!ok)

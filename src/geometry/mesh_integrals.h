@@ -17,7 +17,7 @@ typedef struct surface_moments {
 /* Points that stand for flat parts of the surface, in the order of the tree: several small triangles that lie nearly in
    one plane, one triangle, or a part of a large one.  A triangle so large that more than MESH_MOST_PARTS points would
    be needed has none and stands in `large`. */
-enum { MESH_MOST_PARTS = 100 };
+enum { MESH_MOST_PARTS = 128 };
 
 typedef struct mesh_integrals {
     ARRAY(surface_moments) moments; /* per node of the tree */
@@ -28,14 +28,15 @@ typedef struct mesh_integrals {
                                        part of a point */
     int32_array large;              /* places in tree.face, ascending */
     int32_array large_first;        /* per place, and one more: the same for `large` */
-    double spacing;                 /* no point stands for anything larger across than this [m] */
 } mesh_integrals;
 
-/* Largest part a point stands for, over the radius of the mesh about its origin: the midpoint rule then errs by about
-   1e-4 of what turns with the body.  Triangles are joined when the length of their summed area vectors is more than
-   MESH_FLATNESS of the sum of their areas, which is when their normals differ by a degree or two. */
-#define MESH_SPACING (1.0 / 32)
-#define MESH_FLATNESS 0.9998
+/* A point stands for no more than this, over the radius of the mesh about its origin: for several triangles that are
+   joined, whose normals differ, and for a part of one triangle, where only what turns with the body is not uniform: the
+   midpoint rule then errs by (1/8)^2 / 24 of that.  Triangles are joined when the length of their summed area vectors
+   is more than MESH_FLATNESS of the sum of their areas, which is when their normals differ by three degrees or so. */
+#define MESH_SPACING (1.0 / 16)
+#define MESH_PART (1.0 / 8)
+#define MESH_FLATNESS 0.998
 
 /* The moments of one triangle. */
 surface_moments triangle_moments(const vec3 corner[3]);
