@@ -52,6 +52,7 @@ static bool run_case(const char *vessel, const water_case *c, int mode, double d
     decay d;
     fram_error error = {0};
     char text[2000];
+    *line = (chart_line){c->name, NULL, NULL, 0, false};
     int size = snprintf(text, sizeof text, SCENE, c->form, c->skin);
     snprintf(text + size, sizeof text - (size_t)size, vessel, c->keys);
     if (decay_open(&d, text, &error) != FRAM_OK) {
@@ -60,7 +61,7 @@ static bool run_case(const char *vessel, const water_case *c, int mode, double d
     }
     double dt = d.settings.time_step, theory = d.period[modes[mode].mode];
     int steps = (int)(fmax(duration, 4.2 * theory) / dt);
-    double *value = malloc((size_t)(steps + 1) * sizeof *value), *time = malloc((size_t)(steps + 1) * sizeof *time);
+    double *value = calloc((size_t)steps + 1, sizeof *value), *time = calloc((size_t)steps + 1, sizeof *time);
     bool ok = value && time;
     double period = ok ? decay_run(&d, modes[mode].mode, modes[mode].amplitude, steps, value, &error) : 0;
     for (int i = 0; ok && i <= steps; i++) {
@@ -79,23 +80,23 @@ static bool draw_mode(context *ctx, const char *vessel, const char *name, int mo
     chart_line lines[CASES];
     char path[600], subtitle[200];
     double duration = mode == 1 ? 60 : 40;
+    bool ok = true;
     for (int i = 0; i < CASES; i++)
-        if (!run_case(vessel, &cases[i], mode, duration, &lines[i]))
-            return false;
+        ok = run_case(vessel, &cases[i], mode, duration, &lines[i]) && ok;
     lines[0].thick = true;
     snprintf(path, sizeof path, "%s/%s_%s_decay.png", folder, name, modes[mode].name);
     snprintf(subtitle, sizeof subtitle, "%s, from rest at a small amplitude", name);
     const chart c = {modes[mode].title, subtitle, "time [s]", "part of the amplitude", lines, CASES};
     fram_error error = {0};
-    if (chart_write(ctx, &c, path, 800, 320, &error) != FRAM_OK) {
+    if (ok && chart_write(ctx, &c, path, 800, 320, &error) != FRAM_OK) {
         fprintf(stderr, "decay_bench: %s\n", error.message);
-        return false;
+        ok = false;
     }
     for (int i = 0; i < CASES; i++) {
         free((void *)(uintptr_t)lines[i].x);
         free((void *)(uintptr_t)lines[i].y);
     }
-    return true;
+    return ok;
 }
 
 int main(int argc, char **argv)
