@@ -36,7 +36,7 @@ typedef struct field {
     shape_store shapes;
     pose *poses;
     wrench *peer, *loads;
-    fluid_load *detail;
+    double *volume;
     unsigned char *other; /* memory of other stages */
 } field;
 
@@ -82,9 +82,9 @@ static bool make_field(context *ctx, field *f)
     f->poses = memory_array(ctx, n, sizeof *f->poses);
     f->peer = memory_array(ctx, n, sizeof *f->peer);
     f->loads = memory_array(ctx, n, sizeof *f->loads);
-    f->detail = memory_array(ctx, n, sizeof *f->detail);
+    f->volume = memory_array(ctx, n, sizeof *f->volume);
     f->other = memory_array(ctx, COLD_BYTES, 1);
-    bool ok = f->poses && f->peer && f->loads && f->detail && f->other;
+    bool ok = f->poses && f->peer && f->loads && f->volume && f->other;
     random_stream r = random_begin(1, 0, 0);
     for (int i = 0; i < f->scene.n && ok; i++)
         ok = add_floe(ctx, f, &r, i);
@@ -135,7 +135,7 @@ static timing measure(context *ctx, field *f, bool air, bool cold, int rounds)
         if (cold)
             cool(f);
         start = sc_cpu();
-        fluid_apply(ctx, &m, c, &f->bodies, &f->shapes, f->loads, f->detail, &error);
+        fluid_apply(ctx, &m, c, &f->bodies, &f->shapes, f->loads, &(fluid_details){.volume = f->volume}, &error);
         fluid[i] = sc_cpu() - start;
     }
     return (timing){sc_q(peers, rounds, 0.5), sc_q(fluid, rounds, 0.5)};

@@ -11,7 +11,7 @@ typedef struct fluid_work {
     const body_table *bodies;
     const shape_store *shapes;
     wrench *loads;
-    fluid_load *detail;
+    fluid_details details;
 } fluid_work;
 
 static fluid_motion motion_of(const body_table *b, int32_t slot)
@@ -35,13 +35,21 @@ static fluid_load load_of_body(const fluid_work *w, int32_t slot)
     return load;
 }
 
-static wrench total_of(const fluid_work *w, int32_t slot, const fluid_load *load)
+/* Of water and air; in the order of level_kernel.h. */
+static wrench total_of(const fluid_load *load)
 {
     wrench sum = load->hydrostatic;
     sum.force = vec3_add(sum.force, vec3_add(load->water_drag.force, load->wind_drag.force));
     sum.moment = vec3_add(sum.moment, vec3_add(load->water_drag.moment, load->wind_drag.moment));
-    sum.force.z -= w->bodies->mass[slot] * w->media->gravity;
     return sum;
+}
+
+static void clear_slot(const level_output *out, int32_t at)
+{
+    out->total[at] = (wrench){{0, 0, 0}, {0, 0, 0}};
+    out->volume[at] = 0;
+    if (out->load)
+        out->load[at] = (fluid_load){0};
 }
 
 /* Level floes together, all others one by one. */
@@ -49,51 +57,62 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const fluid_work *w = arg;
+    const fluid_details *d = &w->details;
     int32_t first = block * LEVEL_BLOCK, end = first + LEVEL_BLOCK, rest[LEVEL_BLOCK];
     if (end > w->bodies->count)
         end = w->bodies->count;
-    fluid_load own[LEVEL_BLOCK], *load = w->detail ? w->detail + first : own;
-    int32_t left = level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, first, end, load, rest);
-    for (int32_t i = 0; i < left; i++)
-        load[rest[i] - first] = load_of_body(w, rest[i]);
+    double own[LEVEL_BLOCK];
+    const level_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL};
+    int32_t left = level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, first, end, &out, rest);
+    for (int32_t i = 0; i < left; i++) {
+        fluid_load load = load_of_body(w, rest[i]);
+        int32_t at = rest[i] - first;
+        out.total[at] = total_of(&load);
+        out.volume[at] = load.submerged_volume;
+        if (out.load)
+            out.load[at] = load;
+    }
     for (int32_t slot = first; slot < end; slot++) {
-        fluid_load *here = &load[slot - first];
-        if (body_is_dynamic(w->bodies, slot)) {
-            w->loads[slot] = total_of(w, slot, here);
-        } else {
-            *here = (fluid_load){0};
-            w->loads[slot] = (wrench){{0, 0, 0}, {0, 0, 0}};
-        }
+        if (body_is_dynamic(w->bodies, slot))
+            w->loads[slot].force.z -= w->bodies->mass[slot] * w->media->gravity;
+        else
+            clear_slot(&out, slot - first);
     }
 }
 
-static void apply_solids(const fluid_work *w)
+static void apply_solid(const fluid_work *w, int32_t slot, int32_t row)
 {
     const body_table *b = w->bodies;
-    const shape_store *s = w->shapes;
-    for (int32_t slot = 0; slot < b->count; slot++) {
-        int32_t shape = b->shape[slot];
-        if (!body_is_dynamic(b, slot) || shape < 0 || s->shapes.kind[shape] != SHAPE_SOLID)
-            continue;
-        fluid_motion state = motion_of(b, slot);
-        fluid_load load;
-        fluid_load_solid(w->ctx, w->media, &w->coefficients[b->material[slot]], &s->solids.data[s->shapes.solid[shape]],
-                         &state, &load);
-        w->loads[slot] = total_of(w, slot, &load);
-        if (w->detail)
-            w->detail[slot] = load;
-    }
+    const fluid_details *d = &w->details;
+    fluid_motion state = motion_of(b, slot);
+    fluid_load load;
+    fluid_load_solid(w->ctx, w->media, &w->coefficients[b->material[slot]], &w->shapes->solids.data[row], &state,
+                     &load);
+    w->loads[slot] = total_of(&load);
+    w->loads[slot].force.z -= b->mass[slot] * w->media->gravity;
+    if (d->volume)
+        d->volume[slot] = load.submerged_volume;
+    if (d->solids)
+        d->solids[row] = load;
+    if (d->all)
+        d->all[slot] = load;
 }
 
 fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                        const body_table *bodies, const shape_store *shapes, wrench *loads, fluid_load *detail,
-                        fram_error *error)
+                        const body_table *bodies, const shape_store *shapes, wrench *loads,
+                        const fluid_details *details, fram_error *error)
 {
     (void)error;
-    fluid_work work = {ctx, m, coefficients, bodies, shapes, loads, detail};
+    fluid_work work = {ctx, m, coefficients, bodies, shapes, loads, {0}};
+    if (details)
+        work.details = *details;
     int32_t blocks = bodies->count / LEVEL_BLOCK + (bodies->count % LEVEL_BLOCK != 0);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);
-    apply_solids(&work);
+    for (int32_t slot = 0; slot < bodies->count; slot++) {
+        int32_t shape = bodies->shape[slot];
+        if (body_is_dynamic(bodies, slot) && shape >= 0 && shapes->shapes.kind[shape] == SHAPE_SOLID)
+            apply_solid(&work, slot, shapes->shapes.solid[shape]);
+    }
     return FRAM_OK;
 }

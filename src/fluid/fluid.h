@@ -16,6 +16,14 @@ typedef struct fluid_load {
     double submerged_volume; /* [m3] */
 } fluid_load;
 
+/* What else fluid_apply is to write, without gravity; NULL where it is not wanted.  All of the split of 10,000 floes is
+   so much memory that writing it takes a quarter of the time of reckoning it. */
+typedef struct fluid_details {
+    double *volume;     /* submerged, per body slot [m3]; zero for bodies that are not dynamic */
+    fluid_load *solids; /* per row of the store's solids; rows without a dynamic body are left as they are */
+    fluid_load *all;    /* per body slot; zero for bodies that are not dynamic */
+} fluid_details;
+
 typedef struct fluid_motion {
     vec3 position;
     mat3 rotation;
@@ -41,10 +49,9 @@ void fluid_load_prism(const media *m, const drag_coefficients *c, polygon outlin
                       const fluid_motion *state, fluid_load *load);
 
 /* Wrench of fluid and gravity on every dynamic body (gravity alone on one without a shape) and zero on every other
-   slot, written (not added) to loads[slot]; parallel over blocks of slots.  coefficients[material].  detail (may be
-   NULL) gets the split per slot, without gravity. */
+   slot, written (not added) to loads[slot]; parallel over blocks of slots.  coefficients[material]. */
 fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                        const body_table *bodies, const shape_store *shapes, wrench *loads, fluid_load *detail,
-                        fram_error *error);
+                        const body_table *bodies, const shape_store *shapes, wrench *loads,
+                        const fluid_details *details, fram_error *error);
 
 #endif

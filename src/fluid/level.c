@@ -6,12 +6,15 @@
 
 /* Outlines of few vertices have long edges, on which the quadrature of skin drag is coarse: they are cut in half. */
 enum { FEW_VERTICES = 4 };
+/* Corners in a line of the cache of 64 bytes. */
+enum { CORNERS_IN_A_LINE = 4 };
 
 static int32_t points_of(int32_t vertices) { return vertices <= FEW_VERTICES ? 2 * vertices : vertices; }
 
 typedef struct level_work {
     const media *media;
     drag_coefficients half[MATERIAL_COUNT]; /* 1/2 rho C [kg/m3] */
+    bool wet, dry;                          /* media whose drag is wanted by any material */
     const body_table *bodies;
     const shape_store *shapes;
 } level_work;
@@ -25,12 +28,6 @@ static void set_lane(level_lane *to, int lane, vec3 v)
 
 static vec3 get_lane(const level_lane *from, int lane) { return (vec3){from[0][lane], from[1][lane], from[2][lane]}; }
 
-static void set_point(level_batch *b, int32_t k, int lane, vec2 p)
-{
-    b->x[k][lane] = p.x;
-    b->y[k][lane] = p.y;
-}
-
 /* The outline, its first vertex again, and that as often as the longest outline of the batch asks for: edges without
    length add nothing. */
 static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n)
@@ -38,15 +35,15 @@ static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n
     int32_t points = points_of(n);
     if (points == n) {
         for (int32_t k = 0; k < n; k++)
-            set_point(b, k, lane, vertex[k]);
+            b->corner[k][lane] = vertex[k];
     } else {
         for (int32_t k = 0; k < n; k++) {
-            set_point(b, 2 * k, lane, vertex[k]);
-            set_point(b, 2 * k + 1, lane, vec2_scale(vec2_add(vertex[k], vertex[k + 1 < n ? k + 1 : 0]), 0.5));
+            b->corner[2 * k][lane] = vertex[k];
+            b->corner[2 * k + 1][lane] = vec2_scale(vec2_add(vertex[k], vertex[k + 1 < n ? k + 1 : 0]), 0.5);
         }
     }
     for (int32_t k = points; k <= b->sides; k++)
-        set_point(b, k, lane, vertex[0]);
+        b->corner[k][lane] = vertex[0];
 }
 
 static vec3 current_at(const level_work *w, int32_t slot)
@@ -75,11 +72,11 @@ static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
     set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], current_at(w, slot)));
     b->water.form[lane] = c->water_form;
     b->water.skin[lane] = c->water_skin;
-    set_lane(b->air.velocity, lane, vec3_sub(t->velocity[slot], w->media->wind));
-    b->air.form[lane] = c->air_form;
-    b->air.skin[lane] = c->air_skin;
-    b->wet = b->wet || c->water_form > 0 || c->water_skin > 0;
-    b->dry = b->dry || c->air_form > 0 || c->air_skin > 0;
+    if (w->dry) {
+        set_lane(b->air.velocity, lane, vec3_sub(t->velocity[slot], w->media->wind));
+        b->air.form[lane] = c->air_form;
+        b->air.skin[lane] = c->air_skin;
+    }
     pack_outline(b, lane, w->shapes->vertices.point + s->outline_first[shape], s->outline_count[shape]);
 }
 
@@ -88,9 +85,14 @@ static wrench unpack_wrench(const level_wrench *from, int lane)
     return (wrench){get_lane(from->force, lane), get_lane(from->moment, lane)};
 }
 
-static void unpack(const level_batch *b, int lane, fluid_load *load)
+static void unpack(const level_batch *b, int lane, const level_output *out, int32_t to)
 {
     static const wrench none = {{0, 0, 0}, {0, 0, 0}};
+    out->total[to] = unpack_wrench(&b->total, lane);
+    out->volume[to] = b->volume[lane];
+    if (!out->load)
+        return;
+    fluid_load *load = &out->load[to];
     load->hydrostatic = unpack_wrench(&b->hydrostatic, lane);
     load->submerged_volume = b->volume[lane];
     load->water_drag = b->wet ? unpack_wrench(&b->water_drag, lane) : none;
@@ -117,7 +119,9 @@ static int32_t find_floes(const level_work *w, int32_t first, int32_t end, level
             if (shape >= 0 && s->kind[shape] == SHAPE_PRISM && s->outline_count[shape] <= LEVEL_VERTICES) {
                 n = points_of(s->outline_count[shape]);
                 /* Outlines lie in the order in which floes were made: waiting for them took a tenth of the time. */
-                __builtin_prefetch(w->shapes->vertices.point + s->outline_first[shape]);
+                const vec2 *outline = w->shapes->vertices.point + s->outline_first[shape];
+                __builtin_prefetch(outline);
+                __builtin_prefetch(outline + CORNERS_IN_A_LINE);
             } else {
                 rest[left++] = slot;
             }
@@ -146,31 +150,49 @@ static drag_coefficients half_of(const media *m, const drag_coefficients *c)
     return (drag_coefficients){water * c->water_form, water * c->water_skin, air * c->air_form, air * c->air_skin};
 }
 
+/* The floes `from` and on.  Sorted: the last one has the most points.  Lanes beyond the last floe repeat it. */
+static void pack_batch(const level_work *w, const level_list *list, int32_t from, level_batch *b)
+{
+    int32_t last = (from + LEVEL_LANES < list->count ? from + LEVEL_LANES : list->count) - 1;
+    b->sides = list->points[last];
+    b->wet = w->wet;
+    b->dry = w->dry;
+    for (int lane = 0; lane < LEVEL_LANES; lane++)
+        pack(w, b, lane, list->slot[from + lane < last ? from + lane : last]);
+}
+
+/* Floes that are not level go to rest. */
+static int32_t run_batch(context *ctx, const level_list *list, int32_t from, level_batch *b, int32_t first,
+                         const level_output *out, int32_t *rest, int32_t left)
+{
+    KERNEL_PICK(ctx, level_loads)(b);
+    for (int32_t k = from; k < list->count && k < from + LEVEL_LANES; k++) {
+        if (b->level >> (k - from) & 1)
+            unpack(b, (int)(k - from), out, list->slot[k] - first);
+        else
+            rest[left++] = list->slot[k];
+    }
+    return left;
+}
+
 int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end, fluid_load *load,
-                    int32_t rest[LEVEL_BLOCK])
+                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end,
+                    const level_output *out, int32_t rest[LEVEL_BLOCK])
 {
     level_work w = {.media = m, .bodies = bodies, .shapes = shapes};
-    for (int i = 0; i < MATERIAL_COUNT; i++)
+    for (int i = 0; i < MATERIAL_COUNT; i++) {
+        const drag_coefficients *c = &w.half[i];
         w.half[i] = half_of(m, &coefficients[i]);
+        w.wet = w.wet || c->water_form > 0 || c->water_skin > 0;
+        w.dry = w.dry || c->air_form > 0 || c->air_skin > 0;
+    }
     level_list list;
     int32_t left = find_floes(&w, first, end, &list, rest);
     level_batch batch;
     batch.weight = m->water_density * m->gravity;
     for (int32_t i = 0; i < list.count; i += LEVEL_LANES) {
-        int32_t last = i + LEVEL_LANES < list.count ? i + LEVEL_LANES : list.count;
-        /* Sorted: the last one has the most points.  Lanes beyond the last floe repeat it. */
-        batch.sides = list.points[last - 1];
-        batch.wet = batch.dry = false;
-        for (int lane = 0; lane < LEVEL_LANES; lane++)
-            pack(&w, &batch, lane, list.slot[i + lane < last ? i + lane : last - 1]);
-        KERNEL_PICK(ctx, level_loads)(&batch);
-        for (int32_t k = i; k < last; k++) {
-            if (batch.level >> (k - i) & 1)
-                unpack(&batch, (int)(k - i), &load[list.slot[k] - first]);
-            else
-                rest[left++] = list.slot[k];
-        }
+        pack_batch(&w, &list, i, &batch);
+        left = run_batch(ctx, &list, i, &batch, first, out, rest, left);
     }
     return left;
 }

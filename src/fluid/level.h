@@ -7,11 +7,17 @@
 /* Body slots that are worked on together. */
 enum { LEVEL_BLOCK = 256 };
 
-/* Loads of the floes that float level among the slots first..end-1, at most LEVEL_BLOCK of them, written to
-   load[slot - first].  The load of a floe depends on that floe alone.  The other dynamic bodies' slots go to rest;
-   returns how many they are. */
+/* Where the loads of a block go, at [slot - first]. */
+typedef struct level_output {
+    wrench *total;    /* of water and air, without gravity */
+    double *volume;   /* submerged [m3] */
+    fluid_load *load; /* may be NULL */
+} level_output;
+
+/* Loads of the floes that float level among the slots first..end-1, at most LEVEL_BLOCK of them.  The load of a floe
+   depends on that floe alone.  The other dynamic bodies' slots go to rest; returns how many they are. */
 int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end, fluid_load *load,
-                    int32_t rest[LEVEL_BLOCK]);
+                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end,
+                    const level_output *out, int32_t rest[LEVEL_BLOCK]);
 
 #endif

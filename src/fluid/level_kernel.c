@@ -9,6 +9,9 @@
 #define RADIAL_FAR 0.84494897427831781
 #define RADIAL_NEAR_WEIGHT 0.18195861825602283
 #define RADIAL_FAR_WEIGHT 0.31804138174397717
+/* Where the least inflow of a cap is more than this part of the largest, int p^2 over |g|^2 loses digits and the
+   moments of the outline take over; below it both are good to a few roundings, and few caps need another pass. */
+#define NEARLY_EVEN 0.875
 /* Squared length of an edge below which it is none: a padded one [m2]. */
 #define NO_LENGTH 1e-300
 
@@ -47,6 +50,7 @@ typedef struct level_floes {
     real half;
     real water0, waterx, watery; /* height of the water plane in the body's z: water0 + waterx x + watery y */
     real3 spin;
+    real x[LEVEL_VERTICES + 1], y[LEVEL_VERTICES + 1]; /* outline */
 } level_floes;
 
 /* Force and moment in the body's axes. */
@@ -73,6 +77,20 @@ V8_INLINE void store_global(const level_floes *f, level_lane *out, real3 v)
         store(out[i], f->at, f->r[i][0] * v.x + f->r[i][1] * v.y + f->r[i][2] * v.z);
 }
 
+/* The same order for every floe: hydrostatics + (water + air). */
+V8_INLINE void add_up(const level_batch *b, level_batch *out, int at)
+{
+    const real none = zero();
+    for (int i = 0; i < 3; i++) {
+        real water = b->wet ? load(b->water_drag.force[i], at) : none;
+        real air = b->dry ? load(b->air_drag.force[i], at) : none;
+        store(out->total.force[i], at, load(b->hydrostatic.force[i], at) + (water + air));
+        water = b->wet ? load(b->water_drag.moment[i], at) : none;
+        air = b->dry ? load(b->air_drag.moment[i], at) : none;
+        store(out->total.moment[i], at, load(b->hydrostatic.moment[i], at) + (water + air));
+    }
+}
+
 V8_INLINE void read_floes(const level_batch *b, level_floes *f)
 {
     real w = load(b->turn[0], f->at), x = load(b->turn[1], f->at), y = load(b->turn[2], f->at),
@@ -87,6 +105,8 @@ V8_INLINE void read_floes(const level_batch *b, level_floes *f)
     f->water0 = load(b->height, f->at) * scale;
     f->waterx = f->r[2][0] * scale;
     f->watery = f->r[2][1] * scale;
+    for (int32_t k = 0; k <= b->sides; k++)
+        v8_part_load_pairs(&b->corner[k][f->at].x, &f->x[k], &f->y[k]);
 }
 
 /* The waterline's height on each corner, and which floes are level: all corners between the caps, top side up. */
@@ -94,7 +114,7 @@ V8_INLINE unsigned find_waterline(const level_batch *b, const level_floes *f, re
 {
     real low = set(HUGE_VAL), high = set(-HUGE_VAL);
     for (int32_t k = 0; k <= b->sides; k++) {
-        real z = f->water0 + (f->waterx * load(b->x[k], f->at) + f->watery * load(b->y[k], f->at));
+        real z = f->water0 + (f->waterx * f->x[k] + f->watery * f->y[k]);
         line[k] = z;
         low = minimum(low, z);
         high = maximum(high, z);
@@ -113,9 +133,9 @@ typedef struct level_moments {
 V8_INLINE level_moments outline_moments(const level_batch *b, const level_floes *f)
 {
     level_moments m = {zero(), zero(), zero(), zero(), zero(), zero()};
-    real xa = load(b->x[0], f->at), ya = load(b->y[0], f->at);
+    real xa = f->x[0], ya = f->y[0];
     for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = load(b->x[k], f->at), yb = load(b->y[k], f->at);
+        real xb = f->x[k], yb = f->y[k];
         real cross = xa * yb - xb * ya, x = xa + xb, y = ya + yb;
         m.area += cross;
         m.x += cross * x;
@@ -179,13 +199,13 @@ V8_INLINE part positive_part(real a, real b)
                   maximum(a, zero()), maximum(b, zero())};
 }
 
-/* f of one sign: by the moments of the outline up to the third. */
+/* f of one sign and nearly even: by the moments of the outline up to the third. */
 V8_INLINE cap_form whole_cap(const level_batch *b, const level_floes *f, real level, real gx, real gy)
 {
     cap_form sum = {zero(), zero(), zero()};
-    real xa = load(b->x[0], f->at), ya = load(b->y[0], f->at), fa = level + (gx * xa + gy * ya);
+    real xa = f->x[0], ya = f->y[0], fa = level + (gx * xa + gy * ya);
     for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = load(b->x[k], f->at), yb = load(b->y[k], f->at), fb = level + (gx * xb + gy * yb);
+        real xb = f->x[k], yb = f->y[k], fb = level + (gx * xb + gy * yb);
         /* The triangle from the origin, with f = level there: oracles' rule for int f^2 and int f^2 r. */
         real cross = xa * yb - xb * ya, s = level + (fa + fb), q = level * level + (fa * fa + fb * fb),
              both = s * s + q;
@@ -200,14 +220,14 @@ V8_INLINE cap_form whole_cap(const level_batch *b, const level_floes *f, real le
     return (cap_form){sum.square * (1.0 / 24), sum.x * (1.0 / 120), sum.y * (1.0 / 120)};
 }
 
-/* f of both signs.  With p = f where it is positive: p^2 = div(p^3 g / 3) / |g|^2, and
-   p^2 r = [div(p^3 r g / 3) - p^3 g / 3] / |g|^2, int p^3 / 3 the same way from p^4 / 12. */
+/* f of both signs, or of one that differs over the cap.  With p = f where it is positive: p^2 = div(p^3 g / 3) / |g|^2,
+   and p^2 r = [div(p^3 r g / 3) - p^3 g / 3] / |g|^2, int p^3 / 3 the same way from p^4 / 12. */
 V8_INLINE cap_form parted_cap(const level_batch *b, const level_floes *f, real level, real gx, real gy)
 {
     real cubes = zero(), cubes_x = zero(), cubes_y = zero(), fourths = zero();
-    real xa = load(b->x[0], f->at), ya = load(b->y[0], f->at), fa = level + (gx * xa + gy * ya);
+    real xa = f->x[0], ya = f->y[0], fa = level + (gx * xa + gy * ya);
     for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = load(b->x[k], f->at), yb = load(b->y[k], f->at), fb = level + (gx * xb + gy * yb);
+        real xb = f->x[k], yb = f->y[k], fb = level + (gx * xb + gy * yb);
         real ex = xb - xa, ey = yb - ya;
         part p = positive_part(fa, fb);
         real flux = (gx * ey - gy * ex) * (p.to - p.from);
@@ -236,11 +256,11 @@ V8_INLINE void add_cap_form(const level_batch *b, const level_floes *f, real3 ve
     real level = side * velocity.z, gx = -side * f->spin.y, gy = side * f->spin.x;
     real low = set(HUGE_VAL), high = set(-HUGE_VAL);
     for (int32_t k = 0; k < b->sides; k++) {
-        real inflow = level + (gx * load(b->x[k], f->at) + gy * load(b->y[k], f->at));
+        real inflow = level + (gx * f->x[k] + gy * f->y[k]);
         low = minimum(low, inflow);
         high = maximum(high, inflow);
     }
-    mask into = less(zero(), high), parted = into & less(low, zero());
+    mask into = less(zero(), high), parted = into & less(low, NEARLY_EVEN * high);
     cap_form c = {zero(), zero(), zero()};
     if (v8_part_bits(parted))
         c = parted_cap(b, f, level, gx, gy);
@@ -286,9 +306,9 @@ V8_INLINE void add_cap_skin(const level_batch *b, const level_floes *f, real3 ve
     real ux = velocity.x + f->spin.y * z, uy = velocity.y - f->spin.x * z, turn = f->spin.z;
     real u2 = ux * ux + uy * uy, bx = 2 * turn * uy, by = -2 * turn * ux, spin2 = turn * turn;
     cap_skin c = {zero(), zero(), zero(), zero()};
-    real xa = load(b->x[0], f->at), ya = load(b->y[0], f->at);
+    real xa = f->x[0], ya = f->y[0];
     for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = load(b->x[k], f->at), yb = load(b->y[k], f->at), cross = xa * yb - xb * ya;
+        real xb = f->x[k], yb = f->y[k], cross = xa * yb - xb * ya;
         real ex = GAUSS_NEAR * (xb - xa), ey = GAUSS_NEAR * (yb - ya);
         add_ray(&c, xa + ex, ya + ey, cross, u2, bx, by, spin2);
         add_ray(&c, xb - ex, yb - ey, cross, u2, bx, by, spin2);
@@ -353,9 +373,8 @@ V8_INLINE void add_side_form(const level_floes *f, real3 velocity, const level_s
     sum->moment.z += along_a * p0 + (1.0 / lines) * p1;
 }
 
-V8_INLINE void add_side_skin(const level_floes *f, real3 velocity, const level_side *e, int lines, level_sum *sum)
+V8_INLINE void add_side_skin(const level_floes *f, real3 velocity, const level_side *e, level_sum *sum)
 {
-    static const double point[2][2] = {{0.5, 0}, {GAUSS_NEAR, GAUSS_FAR}};
     real cross = e->xa * e->ey - e->ya * e->ex; /* of the edge about the axis */
     /* Speed along the edge times its length, at z = 0, and its change with z; vertical speed at both ends. */
     real q0 = e->ex * velocity.x + e->ey * velocity.y + f->spin.z * cross;
@@ -365,24 +384,18 @@ V8_INLINE void add_side_skin(const level_floes *f, real3 velocity, const level_s
     for (int i = 0; i < 2; i++) {
         double s = i ? GAUSS_FAR : GAUSS_NEAR;
         real depth = e->depth_a + s * (e->depth_b - e->depth_a), base = e->base_a + s * (e->base_b - e->base_a);
-        real w = wa + s * dw, w2 = e->length2 * (w * w), up_here = zero();
-        for (int j = 0; j < lines; j++) {
-            real z = base + point[lines - 1][j] * depth, q = q0 + z * qz;
-            real speed = depth * root(q * q + w2), push = speed * q;
-            along += push;
-            along_z += push * z;
-            up_here += speed;
-        }
-        up_here *= w;
-        up += up_here;
-        up_s += s * up_here;
+        real w = wa + s * dw, z = base + 0.5 * depth, q = q0 + z * qz;
+        real speed = depth * root(q * q + e->length2 * (w * w)), push = speed * q, lift = speed * w;
+        along += push;
+        along_z += push * z;
+        up += lift;
+        up_s += s * lift;
     }
-    double share = 0.5 / lines;
-    real scale = share * e->inverse2;
+    real scale = 0.5 * e->inverse2;
     along *= scale;
     along_z *= scale;
-    up *= share;
-    up_s *= share;
+    up *= 0.5;
+    up_s *= 0.5;
     sum->force.x -= e->ex * along;
     sum->force.y -= e->ey * along;
     sum->force.z -= up;
@@ -397,16 +410,16 @@ V8_INLINE void add_scaled(level_sum *to, const level_sum *add, real by)
     to->moment.x += by * add->moment.x, to->moment.y += by * add->moment.y, to->moment.z += by * add->moment.z;
 }
 
-/* side: -1 for the wet part between the bottom and the waterline, +1 for the dry one above it. */
+/* side: -1 for the wet part between the bottom and the waterline, +1 for the dry one above it; lines: of form drag. */
 V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const level_stream *medium, const real *line,
                             double side, int lines)
 {
     level_sum sum = {{zero(), zero(), zero()}, {zero(), zero(), zero()}}, form_sum = sum, skin_sum = sum;
     real3 velocity = to_body(f, load_vec(medium->velocity, f->at));
     real form = load(medium->form, f->at), skin = load(medium->skin, f->at);
-    real xa = load(b->x[0], f->at), ya = load(b->y[0], f->at), la = line[0];
+    real xa = f->x[0], ya = f->y[0], la = line[0];
     for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = load(b->x[k], f->at), yb = load(b->y[k], f->at), lb = line[k];
+        real xb = f->x[k], yb = f->y[k], lb = line[k];
         level_side e = {.xa = xa, .ya = ya, .ex = xb - xa, .ey = yb - ya};
         e.length2 = e.ex * e.ex + e.ey * e.ey;
         e.inverse2 = 1 / maximum(e.length2, set(NO_LENGTH));
@@ -415,7 +428,7 @@ V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const le
         e.depth_a = f->half - side * la;
         e.depth_b = f->half - side * lb;
         add_side_form(f, velocity, &e, lines, &form_sum);
-        add_side_skin(f, velocity, &e, lines, &skin_sum);
+        add_side_skin(f, velocity, &e, &skin_sum);
         xa = xb;
         ya = yb;
         la = lb;
@@ -430,7 +443,8 @@ V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const le
 /* The floes of one part; bit i of the result: floe at + i is level. */
 static unsigned part_loads(level_batch *b, int at)
 {
-    level_floes f = {.at = at};
+    level_floes f;
+    f.at = at;
     read_floes(b, &f);
     real line[LEVEL_VERTICES + 1];
     unsigned level = find_waterline(b, &f, line);
@@ -447,6 +461,7 @@ static unsigned part_loads(level_batch *b, int at)
         store_global(&f, b->air_drag.force, air.force);
         store_global(&f, b->air_drag.moment, air.moment);
     }
+    add_up(b, b, at);
     return level;
 }
 

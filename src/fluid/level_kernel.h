@@ -10,12 +10,13 @@
    Form drag of a side is exact along the edge; over the depth it is a rule of two Gauss points, which is exact too
    unless the side's motion changes its sign over the depth.
    Skin drag is a quadrature: two Gauss points along each edge, times two Gauss-Jacobi points from the origin to the rim
-   (caps) or two Gauss points over the depth (sides).  Over the air 1/800 as dense, the dry sides have one point each
-   over their height. */
+   (caps) or the middle of the depth (sides).  Over the air 1/800 as dense, form drag of the dry sides is taken at the
+   middle of their height too. */
 #ifndef FLUID_LEVEL_KERNEL_H
 #define FLUID_LEVEL_KERNEL_H
 
 #include "base/kernel.h"
+#include "base/vec.h"
 
 /* Most vertices of an outline, and floes of a batch. */
 enum { LEVEL_VERTICES = 24, LEVEL_LANES = 8 };
@@ -43,12 +44,13 @@ typedef struct level_batch {
     level_lane spin[3]; /* angular velocity, global axes [rad/s] */
     level_lane half;    /* half the thickness [m] */
     level_stream water, air;
-    level_lane x[LEVEL_VERTICES + 1], y[LEVEL_VERTICES + 1]; /* outline, closed by its first vertex [m] */
+    vec2 corner[LEVEL_VERTICES + 1][LEVEL_LANES]; /* outline, closed by its first vertex [m] */
 
     /* Out. */
-    unsigned level;    /* bit i: floe i floats level; the loads of others mean nothing */
-    level_lane volume; /* submerged [m3] */
-    level_wrench hydrostatic, water_drag, air_drag;
+    unsigned level;                                 /* bit i: floe i floats level; the loads of others mean nothing */
+    level_lane volume;                              /* submerged [m3] */
+    level_wrench hydrostatic, water_drag, air_drag; /* drag: only where it is wanted */
+    level_wrench total;
 } level_batch;
 
 KERNEL_DECLARE(void, level_loads, (level_batch * batch));

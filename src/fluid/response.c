@@ -17,7 +17,7 @@ typedef struct response_work {
     double time_step;
     body_table *bodies;
     const shape_store *shapes;
-    const fluid_load *detail;
+    const double *volume;
     wrench *loads;
 } response_work;
 
@@ -95,13 +95,13 @@ static double implicit_part(double bound, double mass, double time_step)
 static double wave_share(const response_work *w, int32_t slot, const prism_view *v)
 {
     double whole = 2 * v->half_height * v->area;
-    return fmax(0, fmin(1, (whole - w->detail[slot].submerged_volume) / (WAVES_FROM * whole)));
+    return fmax(0, fmin(1, (whole - w->volume[slot]) / (WAVES_FROM * whole)));
 }
 
 static double wet_share(const response_work *w, int32_t slot, const prism_view *v)
 {
     double whole = 2 * v->half_height * v->area;
-    return fmax(0, fmin(1, w->detail[slot].submerged_volume / (WHOLE_FROM * whole)));
+    return fmax(0, fmin(1, w->volume[slot] / (WHOLE_FROM * whole)));
 }
 
 /* How much of the added mass came over the last step, as if the floe sank evenly over its height. */
@@ -187,9 +187,9 @@ static void respond_block(void *arg, int32_t block, int32_t thread)
 
 void prisms_respond(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
                     const prism_response *settings, double time_step, body_table *bodies, const shape_store *shapes,
-                    const fluid_load *detail, wrench *loads)
+                    const double *volume, wrench *loads)
 {
-    response_work w = {m, coefficients, settings, time_step, bodies, shapes, detail, loads};
+    response_work w = {m, coefficients, settings, time_step, bodies, shapes, volume, loads};
     pool_run(ctx, respond_block, &w, bodies->count / BLOCK_SLOTS + (bodies->count % BLOCK_SLOTS != 0));
 }
 

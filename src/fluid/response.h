@@ -19,7 +19,7 @@ typedef struct prism_response {
 #define EXPLICIT_DRAG 0.05
 
 /* For every dynamic prism: sets its added mass and inertia in `bodies`, and adds to its load what added mass and
-   damping exert.  detail: what fluid_apply gave of this step.
+   damping exert.  volume: submerged, per slot, as fluid_apply gave it in this step.
 
    Damping is that of the waves that a floe makes: it fades as the last twentieth of a floe goes under.
    Added mass acts in proportion to the submerged part while that is small (a quarter of the body), so that floes that
@@ -34,7 +34,7 @@ typedef struct prism_response {
    nothing. */
 void prisms_respond(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
                     const prism_response *settings, double time_step, body_table *bodies, const shape_store *shapes,
-                    const fluid_load *detail, wrench *loads);
+                    const double *volume, wrench *loads);
 
 /* ---- vessels: matrices ---- */
 

@@ -65,6 +65,7 @@ static void scratch_free(context *ctx, world *w)
 {
     array_free(ctx, &w->scratch.loads);
     array_free(ctx, &w->scratch.outside);
+    array_free(ctx, &w->scratch.submerged);
     array_free(ctx, &w->scratch.fluid);
     array_free(ctx, &w->scratch.contacts);
     array_free(ctx, &w->scratch.patch_pairs);
@@ -94,6 +95,7 @@ void world_poison_scratch(world *w)
 {
 #define POISON(a) poison(w->scratch.a.data, w->scratch.a.capacity, sizeof *w->scratch.a.data)
     POISON(loads);
+    POISON(submerged);
     POISON(fluid);
     POISON(contacts);
     POISON(patch_pairs);

@@ -77,7 +77,8 @@ typedef struct world {
     struct {
         ARRAY(wrench) loads;     /* one per body slot */
         ARRAY(wrench) outside;   /* wrenches given from outside through the API, used once */
-        ARRAY(fluid_load) fluid; /* one per body slot */
+        ARRAY(double) submerged; /* volume, one per body slot [m3] */
+        ARRAY(fluid_load) fluid; /* one per solid of the shape store; rows of static bodies mean nothing */
         contact_array contacts;
         index_array patch_pairs;
         crushing_patch_array patches;

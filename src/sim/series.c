@@ -64,8 +64,9 @@ static vessel_channels vessel_channels_of(const world *w)
         c.joint_force = w->joints.reaction_force[joint];
         c.joint_moment = w->joints.reaction_moment[joint];
     }
-    if (w->scratch.fluid.count > body) {
-        const fluid_load *f = &w->scratch.fluid.data[body];
+    int32_t shape = w->bodies.shape[body], row = shape >= 0 ? w->shapes.shapes.solid[shape] : -1;
+    if (row >= 0 && w->scratch.fluid.count > row && body_is_dynamic(&w->bodies, body)) {
+        const fluid_load *f = &w->scratch.fluid.data[row];
         c.fluid.force = vec3_add(vec3_add(f->hydrostatic.force, f->water_drag.force), f->wind_drag.force);
         c.fluid.moment = vec3_add(vec3_add(f->hydrostatic.moment, f->water_drag.moment), f->wind_drag.moment);
     }

@@ -16,10 +16,13 @@ static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, 
     case FORCES_NONE:
         break;
     case FORCES_FLUID:
-        if (!array_resize(ctx, &w->scratch.fluid, slots))
+        if (!array_resize(ctx, &w->scratch.submerged, slots) ||
+            !array_resize(ctx, &w->scratch.fluid, w->shapes.solids.count))
             return error_memory(error);
         now = media_at(&s->media, &w->media, w->clock.time[0]);
-        return fluid_apply(ctx, &now, s->drag, &w->bodies, &w->shapes, loads, w->scratch.fluid.data, error);
+        return fluid_apply(ctx, &now, s->drag, &w->bodies, &w->shapes, loads,
+                           &(fluid_details){.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data},
+                           error);
     case FORCES_COLUMNS:
         if (!s->columns || s->columns->slots != slots)
             return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL,
@@ -37,8 +40,8 @@ static void respond(context *ctx, const step_settings *s, world *w)
 {
     media now = media_at(&s->media, &w->media, w->clock.time[0]);
     wrench *loads = w->scratch.loads.data;
-    prisms_respond(ctx, &now, s->drag, &s->floe_response, s->time_step, &w->bodies, &w->shapes, w->scratch.fluid.data,
-                   loads);
+    prisms_respond(ctx, &now, s->drag, &s->floe_response, s->time_step, &w->bodies, &w->shapes,
+                   w->scratch.submerged.data, loads);
     if (!w->has_hydrodynamics || w->vessels.count == 0 || w->vessels.mode[0] == VESSEL_PRESCRIBED)
         return;
     int32_t body = w->vessels.body[0];

@@ -62,12 +62,16 @@ START_TEST(slots)
     body_remove(&s.bodies, gone);
 
     wrench loads[6];
-    fluid_load detail[6];
+    fluid_load detail[6], hull;
+    double volume[6];
+    memset(volume, 0xff, sizeof volume);
     memset(loads, 0xff, sizeof loads);
     memset(detail, 0xff, sizeof detail);
     media windy = still_water;
     windy.wind.x = 8;
-    assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, loads, detail, &error), error);
+    assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, loads,
+                          &(fluid_details){volume, &hull, detail}, &error),
+              error);
 
     for (int k = 0; k < 2; k++) {
         int32_t slot = k ? ship : floe;
@@ -82,6 +86,7 @@ START_TEST(slots)
         }
         const fluid_load *got = &detail[slot];
         assert_relative(got->submerged_volume, load.submerged_volume, 1e-13);
+        ck_assert(volume[slot] == got->submerged_volume);
         assert_vec3_close(got->hydrostatic.force, load.hydrostatic.force, 1e-13 * load.hydrostatic.force.z);
         assert_vec3_close(got->hydrostatic.moment, load.hydrostatic.moment, 1e-12 * load.hydrostatic.force.z);
         assert_vec3_close(got->water_drag.force, load.water_drag.force, 3e-3 * vec3_length(load.water_drag.force));
@@ -95,8 +100,10 @@ START_TEST(slots)
     const int32_t unloaded[3] = {wall, driven, gone};
     for (int k = 0; k < 3; k++) {
         assert_array_bits(&loads[unloaded[k]].force.x, nothing, 6);
+        ck_assert(volume[unloaded[k]] == 0);
         assert_array_bits(&detail[unloaded[k]].hydrostatic.force.x, nothing, sizeof nothing / sizeof *nothing);
     }
+    assert_array_bits(&hull.hydrostatic.force.x, &detail[ship].hydrostatic.force.x, sizeof nothing / sizeof *nothing);
     assert_vec3_close(loads[bare].force, vec3_make(0, 0, -9.81 * s.bodies.mass[bare]), 0);
 
     /* Without detail the same loads. */

@@ -182,10 +182,11 @@ static const drag_coefficients drag[MATERIAL_COUNT] = {{.water_form = 1, .water_
 static void step_floe(rig *k, const media *m, const prism_response *settings, double dt)
 {
     wrench load;
-    fluid_load detail;
+    double volume;
     fram_error error = {0};
-    assert_ok(fluid_apply(&k->ctx, m, drag, &k->bodies, &k->shapes, &load, &detail, &error), error);
-    prisms_respond(&k->ctx, m, drag, settings, dt, &k->bodies, &k->shapes, &detail, &load);
+    assert_ok(fluid_apply(&k->ctx, m, drag, &k->bodies, &k->shapes, &load, &(fluid_details){.volume = &volume}, &error),
+              error);
+    prisms_respond(&k->ctx, m, drag, settings, dt, &k->bodies, &k->shapes, &volume, &load);
     step(&k->bodies, 0, &load, dt);
 }
 
@@ -198,8 +199,8 @@ START_TEST(weak_drag_is_left_alone)
     k.bodies.angular_velocity[slot] = vec3_make(0.005, 0, 0.02);
     k.bodies.added_mass[slot] = vec3_make(7, 7, 7);
     wrench load = {{1, 2, 3}, {4, 5, 6}};
-    fluid_load detail = {.submerged_volume = 80};
-    prisms_respond(&k.ctx, &still_water, drag, &(prism_response){false, 0}, 0.01, &k.bodies, &k.shapes, &detail, &load);
+    double volume = 80;
+    prisms_respond(&k.ctx, &still_water, drag, &(prism_response){false, 0}, 0.01, &k.bodies, &k.shapes, &volume, &load);
     assert_vec3_close(load.force, vec3_make(1, 2, 3), 0);
     assert_vec3_close(load.moment, vec3_make(4, 5, 6), 0);
     assert_vec3_close(k.bodies.added_mass[slot], vec3_make(0, 0, 0), 0);
@@ -253,11 +254,13 @@ START_TEST(strong_drag_is_right)
         double dt = n ? 5 : 0.05, push = 5000;
         for (int i = 0; i < 400; i++) {
             wrench load;
-            fluid_load detail;
+            double volume;
             fram_error error = {0};
-            assert_ok(fluid_apply(&k.ctx, &m, drag, &k.bodies, &k.shapes, &load, &detail, &error), error);
+            assert_ok(
+                fluid_apply(&k.ctx, &m, drag, &k.bodies, &k.shapes, &load, &(fluid_details){.volume = &volume}, &error),
+                error);
             load.force.z -= push;
-            prisms_respond(&k.ctx, &m, drag, &(prism_response){false, 0}, dt, &k.bodies, &k.shapes, &detail, &load);
+            prisms_respond(&k.ctx, &m, drag, &(prism_response){false, 0}, dt, &k.bodies, &k.shapes, &volume, &load);
             step(&k.bodies, slot, &load, dt);
         }
         double sides = 0.01 * 4 * 10 * 0.01; /* their skin */
@@ -297,10 +300,12 @@ START_TEST(floe_with_added_mass)
     for (int i = 1; crossings < 4; i++) {
         ck_assert_int_lt(i, 20000);
         wrench load;
-        fluid_load detail;
+        double volume;
         fram_error error = {0};
-        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load, &detail, &error), error);
-        prisms_respond(&k.ctx, &still_water, none, &(prism_response){true, 0}, dt, &k.bodies, &k.shapes, &detail,
+        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load,
+                              &(fluid_details){.volume = &volume}, &error),
+                  error);
+        prisms_respond(&k.ctx, &still_water, none, &(prism_response){true, 0}, dt, &k.bodies, &k.shapes, &volume,
                        &load);
         step(&k.bodies, slot, &load, dt);
         double now = k.bodies.position[slot].z - rest;
@@ -328,10 +333,12 @@ START_TEST(floe_with_damping)
     k.bodies.position[slot].z += 0.05;
     for (int i = 0; i * dt < 1.5; i++) {
         wrench load;
-        fluid_load detail;
+        double volume;
         fram_error error = {0};
-        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load, &detail, &error), error);
-        prisms_respond(&k.ctx, &still_water, none, &(prism_response){false, ratio}, dt, &k.bodies, &k.shapes, &detail,
+        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load,
+                              &(fluid_details){.volume = &volume}, &error),
+                  error);
+        prisms_respond(&k.ctx, &still_water, none, &(prism_response){false, ratio}, dt, &k.bodies, &k.shapes, &volume,
                        &load);
         step(&k.bodies, slot, &load, dt);
         lowest = fmin(lowest, k.bodies.position[slot].z - rest);
