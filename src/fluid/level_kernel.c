@@ -355,6 +355,7 @@ V8_INLINE void add_side_form(const level_floes *f, real3 velocity, const level_s
     real ga = (e->ey * velocity.x - e->ex * velocity.y) - f->spin.z * along_a, gb = ga - f->spin.z * e->length2;
     real gz = e->ey * f->spin.y + e->ex * f->spin.x;
     real p0 = zero(), p1 = zero(), pz = zero();
+#pragma GCC unroll 2
     for (int i = 0; i < lines; i++) {
         double at = point[lines - 1][i];
         real za = e->base_a + at * e->depth_a, zb = e->base_b + at * e->depth_b, s0, s1;
@@ -381,6 +382,7 @@ V8_INLINE void add_side_skin(const level_floes *f, real3 velocity, const level_s
     real qz = e->ex * f->spin.y - e->ey * f->spin.x;
     real wa = velocity.z + f->spin.x * e->ya - f->spin.y * e->xa, dw = f->spin.x * e->ey - f->spin.y * e->ex;
     real along = zero(), along_z = zero(), up = zero(), up_s = zero();
+#pragma GCC unroll 2
     for (int i = 0; i < 2; i++) {
         double s = i ? GAUSS_FAR : GAUSS_NEAR;
         real depth = e->depth_a + s * (e->depth_b - e->depth_a), base = e->base_a + s * (e->base_b - e->base_a);
