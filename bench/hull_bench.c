@@ -94,7 +94,7 @@ int main(int argc, char **argv)
     mesh surface = {0};
     hull_file_report made;
     fram_error error = {0};
-    const hull_file_options options = {.scale = 1, .seal_width = NAN, .freeboard = 10};
+    const hull_file_options options = {.scale = 1, .seal_width = (double)NAN, .freeboard = 10};
     fram_status status = hull_file_read(&ctx, argv[1], &options, &surface, &made, &error);
     double step_ms = argc > 2 ? atof(argv[2]) : 0;
     printf("# compiler %s, instruction set %s, medians of %d\n", build_compiler(), isa_name(ctx.isa), (int)ROUNDS);
