@@ -6,6 +6,8 @@ void media_history_free(context *ctx, media_history *h)
     memory_free(ctx, h->current.velocity);
     memory_free(ctx, h->wind.time);
     memory_free(ctx, h->wind.velocity);
+    memory_free(ctx, h->drift.time);
+    memory_free(ctx, h->drift.velocity);
     *h = (media_history){0};
 }
 

@@ -27,6 +27,7 @@ typedef struct velocity_series {
 /* What is known of the media beforehand, beyond what stays as it is. */
 typedef struct media_history {
     velocity_series current, wind; /* in place of the constant ones */
+    velocity_series drift;         /* of ice far away; none: it goes as the scenario says */
     current_profile profile;
 } media_history;
 

@@ -50,8 +50,31 @@ static fram_status request_check(const field_request *r, fram_error *error)
 /* A coordinate that the scatter took out of [lo, hi] comes back from the edge as from a mirror. */
 static double reflect(double x, double lo, double hi) { return x < lo ? 2 * lo - x : x > hi ? 2 * hi - x : x; }
 
-/* Rows of a triangular grid, whose Voronoi cells are hexagons, each site moved at random within its grid cell. */
-static bool scatter_sites(context *ctx, const field_request *r, vec2_array *sites)
+/* Sites and their copies in the neighbouring tiles are looked for this many grid cells beyond the edge: far enough that
+   nothing farther off has a say in a cell. */
+enum { PERIODIC_CELLS = 4 };
+
+/* Copies of the sites around the domain, as they repeat themselves; box: what they fill. */
+static bool repeat_sites(context *ctx, const field_request *r, vec2 step, vec2_array *sites, box2 *box)
+{
+    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
+    vec2 rim = vec2_make(fmin(PERIODIC_CELLS * step.x, size.x / 2), fmin(PERIODIC_CELLS * step.y, size.y / 2));
+    *box = (box2){vec2_sub(r->domain.lo, rim), vec2_add(r->domain.hi, rim)};
+    int32_t own = sites->count;
+    for (int j = -1; j <= 1; j++)
+        for (int i = -1; i <= 1; i++)
+            for (int32_t k = 0; (i || j) && k < own; k++) {
+                vec2 p = vec2_add(sites->data[k], vec2_make(i * size.x, j * size.y));
+                bool near = p.x >= box->lo.x && p.x <= box->hi.x && p.y >= box->lo.y && p.y <= box->hi.y;
+                if (near && !array_push(ctx, sites, p))
+                    return false;
+            }
+    return true;
+}
+
+/* Rows of a triangular grid, whose Voronoi cells are hexagons, each site moved at random within its grid cell.
+   own: their number, without copies; box: what cells and copies fill. */
+static bool scatter_sites(context *ctx, const field_request *r, vec2_array *sites, int32_t *own, box2 *box)
 {
     vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
     /* A domain narrower than a cell is one row: no more columns than cells. */
@@ -59,6 +82,8 @@ static bool scatter_sites(context *ctx, const field_request *r, vec2_array *site
     int32_t nx = columns < 1 ? 1 : (int32_t)columns;
     double rows = floor(size.x * size.y / (r->mean_area * nx) + 0.5);
     int32_t ny = rows < 1 ? 1 : (int32_t)rows;
+    if (r->periodic && ny % 2)
+        ny++; /* every other row is staggered, across the seam too */
     vec2 step = {size.x / nx, size.y / ny};
     if (!array_reserve(ctx, sites, nx * ny))
         return false;
@@ -70,10 +95,14 @@ static bool scatter_sites(context *ctx, const field_request *r, vec2_array *site
             double stagger = ny == 1 ? 0.5 : j % 2 ? 0.75 : 0.25;
             vec2 site = {r->domain.lo.x + (i + stagger + r->size_deviation * u) * step.x,
                          r->domain.lo.y + (j + 0.5 + r->size_deviation * v) * step.y};
-            sites->data[sites->count++] = (vec2){reflect(site.x, r->domain.lo.x, r->domain.hi.x),
-                                                 reflect(site.y, r->domain.lo.y, r->domain.hi.y)};
+            if (!r->periodic)
+                site = vec2_make(reflect(site.x, r->domain.lo.x, r->domain.hi.x),
+                                 reflect(site.y, r->domain.lo.y, r->domain.hi.y));
+            sites->data[sites->count++] = site;
         }
-    return true;
+    *own = sites->count;
+    *box = r->domain;
+    return !r->periodic || repeat_sites(ctx, r, step, sites, box);
 }
 
 /* Scratch of one generation. */
@@ -156,12 +185,19 @@ static fram_status shrink_to_target(context *ctx, const field_request *r, field_
 static fram_status make_floes(context *ctx, const field_request *r, field_work *w, field_report *report,
                               fram_error *error)
 {
-    if (!scatter_sites(ctx, r, &w->sites) ||
+    box2 box;
+    int32_t own = 0;
+    if (!scatter_sites(ctx, r, &w->sites, &own, &box) ||
         (r->keep_out && !zones_grow(ctx, r->keep_out, r->keep_out_margin, &w->zones)))
         return error_memory(error);
-    fram_status status = voronoi_cells(ctx, w->sites.data, NULL, w->sites.count, r->domain, &w->voronoi, error);
+    fram_status status = voronoi_cells(ctx, w->sites.data, NULL, w->sites.count, box, &w->voronoi, error);
     if (status != FRAM_OK)
         return status;
+    if (r->periodic) {
+        /* The copies have shaped the cells along the seams, and come after all others. */
+        w->voronoi.start.count = own + 1;
+        w->voronoi.vertex.count = w->voronoi.start.data[own];
+    }
     if (!cells_outside_zones(ctx, &w->voronoi, &w->zones, &w->scratch, &w->parts))
         return error_memory(error);
     /* The cells tile the domain, so that what is left of them is the free area. */

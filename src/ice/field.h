@@ -19,6 +19,7 @@ typedef struct field_request {
     double smallest_area;         /* floes under it are not made [m2] */
     const polygon_list *keep_out; /* convex zones that stay free of ice; may be NULL */
     double keep_out_margin;       /* the zones are grown by it all around [m] */
+    bool periodic; /* Voronoi: the field repeats itself seamlessly beyond the domain, whose edge floes may reach over */
 } field_request;
 
 typedef struct field_report {

@@ -81,6 +81,26 @@ static fram_status check_run(const scenario *s, fram_error *error)
     return status;
 }
 
+/* An endless field is made from a law or from a file, and only it drifts. */
+static fram_status check_feeding(const scenario *s, fram_error *error)
+{
+    const scenario_domain *d = &s->domain;
+    if (d->boundary == DOMAIN_FEEDING) {
+        if (s->ice.source == ICE_NONE || s->ice.source == ICE_FLOES)
+            return fault(s, error, "ice.source",
+                         "expected a field that can go on without end, since domain.boundary is feeding, found %s",
+                         s->ice.source == ICE_NONE ? "none" : "floes");
+        return FRAM_OK;
+    }
+    if (d->drift_file[0])
+        return fault(s, error, "domain.drift_file",
+                     "expected nothing, since domain.boundary is not feeding, found %.200s", d->drift_file);
+    if (!is_automatic(d->drift_speed))
+        return fault(s, error, "domain.drift_speed",
+                     "expected auto, since domain.boundary is not feeding, found %g m/s", d->drift_speed);
+    return FRAM_OK;
+}
+
 static fram_status check_domain(const scenario *s, fram_error *error)
 {
     const scenario_domain *d = &s->domain;
@@ -91,7 +111,7 @@ static fram_status check_domain(const scenario *s, fram_error *error)
     fram_status status = check_order(s, "domain.x_min", d->x_min, "domain.x_max", d->x_max, error);
     if (status == FRAM_OK)
         status = check_order(s, "domain.y_min", d->y_min, "domain.y_max", d->y_max, error);
-    return status;
+    return status == FRAM_OK ? check_feeding(s, error) : status;
 }
 
 static bool inside_domain(const scenario *s, double x, double y)

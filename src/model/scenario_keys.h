@@ -186,14 +186,25 @@
     X(spin, REAL(0, -1e3, 1e3), "rad/s", "about the vertical, at the start")                               \
     X(fixed, BOOLEAN(false), "", "never moves")
 
-#define SCENARIO_DOMAIN_KEYS(X)                                                                      \
-    X(x_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                     \
-    X(x_max, REAL(300, -1e7, 1e7), "m", "edge")                                                      \
-    X(y_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                     \
-    X(y_max, REAL(100, -1e7, 1e7), "m", "edge")                                                      \
-    X(boundary, CHOICE(domain_boundary, DOMAIN_WALLS, "walls open"), "",                             \
-      "walls: a basin; open: ice that leaves is removed")                                            \
-    X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water") \
+#define SCENARIO_DOMAIN_KEYS(X)                                                                                     \
+    X(x_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                                    \
+    X(x_max, REAL(300, -1e7, 1e7), "m", "edge")                                                                     \
+    X(y_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                                    \
+    X(y_max, REAL(100, -1e7, 1e7), "m", "edge")                                                                     \
+    X(boundary, CHOICE(domain_boundary, DOMAIN_WALLS, "walls open feeding"), "",                                    \
+      "walls: a basin; open: ice that leaves is removed; feeding: an endless field drifts through")                 \
+    X(drift_speed, AUTOMATIC(0, 100), "m/s", "feeding: of the field; auto: that of the current at the surface")     \
+    X(drift_direction_deg, REAL(0, -360, 360), "deg", "feeding: direction the field drifts to, with a drift_speed") \
+    X(drift_file, PATH(""), "",                                                                                     \
+      "feeding: CSV of a drift that changes with time: time [s], x, y [m/s]; instead of drift_speed")               \
+    X(band, AUTOMATIC(1e-3, 1e6), "m",                                                                              \
+      "feeding: width of the outer band whose floes go with the field, whatever pushes; auto: 1.5 times the "       \
+      "radius of the largest floe")                                                                                 \
+    X(tile_x, AUTOMATIC(1e-3, 1e7), "m",                                                                            \
+      "feeding: the field repeats itself after this length along x; auto: 1.25 times the domain, and six mean "     \
+      "floes more than it at least")                                                                                \
+    X(tile_y, AUTOMATIC(1e-3, 1e7), "m", "feeding: and after this length along y")                                  \
+    X(wall_height, SCALED(20, 30, 1, 1e-6, 1e4), "m", "height of the walls, half of it under water")                \
     X(wall_thickness, SCALED(10, 30, 1, 1e-6, 1e4), "m", "thickness of the walls, outside the domain")
 
 #define SCENARIO_ENVIRONMENT_KEYS(X)                                                                                \

@@ -41,6 +41,9 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(waypoint, waypoints),
         STATE(station, stations),
         STATE(event, events),
+        STATE(feeding, feeding),
+        STATE(pattern, pattern),
+        STATE(pattern_vertex, pattern_vertices),
     };
     memcpy(out, list, sizeof list);
 }

@@ -9,6 +9,7 @@
 #include "fluid/fluid.h"
 #include "fluid/response.h"
 #include "ice/crushing.h"
+#include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
 #include "vessel/mooring.h"
@@ -67,6 +68,9 @@ typedef struct world {
     waypoint_table waypoints;
     station_table stations; /* row i belongs to vessel i */
     event_table events;
+    feeding_table feeding; /* one row, or none */
+    pattern_table pattern;
+    pattern_vertex_table pattern_vertices;
 
     /* Not state, as solids are not: made from the scenario again on resume. */
     media_history media;
@@ -98,7 +102,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 18 };
+enum { WORLD_TABLE_COUNT = 21 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -1,6 +1,7 @@
 #include "sim/build.h"
 
 #include "base/transcendental.h"
+#include "sim/build_feeding.h"
 #include "sim/build_hull.h"
 #include "sim/build_hydrodynamics.h"
 #include "sim/build_ice.h"
@@ -57,8 +58,13 @@ step_settings build_settings(const scenario *s)
                    v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
         .boundary = s->domain.boundary,
         .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+        .drift_given = !is_automatic(s->domain.drift_speed),
         .speed_limit = s->run.speed_limit,
     };
+    if (out.drift_given) {
+        vec3 drift = horizontal(s->domain.drift_speed, s->domain.drift_direction_deg);
+        out.drift = vec2_make(drift.x, drift.y);
+    }
     const scenario_ice_drag *di = &e->ice_drag;
     const scenario_hull_drag *dh = &e->hull_drag;
     out.drag[MATERIAL_ICE] = (drag_coefficients){di->water_form, di->water_skin, di->air_form, di->air_skin};
@@ -158,6 +164,7 @@ static fram_status start_load_window(context *ctx, const scenario *s, world *w, 
 fram_status build_world(context *ctx, const scenario *s, world *w, build_report *report, fram_error *error)
 {
     *report = (build_report){0};
+    const step_settings settings = build_settings(s);
     fram_status status = world_init(ctx, w, error);
     if (status != FRAM_OK)
         return status;
@@ -172,7 +179,6 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
         if (status == FRAM_OK)
             status = add_vessel(ctx, s, w, &hull, error);
         if (status == FRAM_OK) {
-            step_settings settings = build_settings(s);
             status = build_station(ctx, s, &settings, w, error);
         }
         report->displaced_mass = hull.displaced_mass;
@@ -180,7 +186,7 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     if (status == FRAM_OK)
         status = add_walls(ctx, s, w, error);
     if (status == FRAM_OK)
-        status = name_key(s, build_ice(ctx, s, w, &report->field, error), "ice", error);
+        status = name_key(s, build_field(ctx, s, &settings, w, &report->field, error), "ice", error);
     if (status != FRAM_OK)
         world_free(ctx, w);
     return status;

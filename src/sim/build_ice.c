@@ -97,8 +97,7 @@ static box2 domain_of(const scenario *s)
     return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
 }
 
-/* Footprints of the vessels. */
-static fram_status find_keep_out(context *ctx, const world *w, polygon_list *out, fram_error *error)
+fram_status build_keep_out(context *ctx, const world *w, polygon_list *out, fram_error *error)
 {
     vec2_array footprint = {0};
     fram_status status = FRAM_OK;
@@ -111,10 +110,16 @@ static fram_status find_keep_out(context *ctx, const world *w, polygon_list *out
     return status;
 }
 
+/* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
+static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+{
+    return s->domain.boundary == DOMAIN_FEEDING ? FRAM_OK : build_keep_out(ctx, w, out, error);
+}
+
 static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
 {
     polygon_list keep_out = {0}, outlines = {0};
-    fram_status status = find_keep_out(ctx, w, &keep_out, error);
+    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
     field_request request = {.domain = domain_of(s),
                              .concentration = s->ice.concentration,
                              .mean_area = s->ice.mean_floe_area,
@@ -123,7 +128,8 @@ static fram_status build_voronoi(context *ctx, const scenario *s, world *w, fiel
                              .seed = (uint64_t)s->run.seed,
                              .smallest_area = s->ice.smallest_floe_area,
                              .keep_out = &keep_out,
-                             .keep_out_margin = s->ice.keep_out_margin};
+                             .keep_out_margin = s->ice.keep_out_margin,
+                             .periodic = s->domain.boundary == DOMAIN_FEEDING};
     if (status == FRAM_OK)
         status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
     if (status == FRAM_OK)
@@ -196,7 +202,7 @@ static fram_status build_file(context *ctx, const scenario *s, world *w, field_r
                                     .smallest_area = s->ice.smallest_floe_area,
                                     .keep_out = &keep_out,
                                     .keep_out_margin = s->ice.keep_out_margin};
-    fram_status status = find_keep_out(ctx, w, &keep_out, error);
+    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
     if (status == FRAM_OK)
         status = geojson_read(ctx, path, &rings, error);
     if (status == FRAM_OK)

@@ -14,4 +14,7 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
                             fram_error *error);
 
+/* The footprints of all vessels, appended. */
+fram_status build_keep_out(context *ctx, const world *w, polygon_list *out, fram_error *error);
+
 #endif

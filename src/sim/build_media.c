@@ -96,6 +96,8 @@ fram_status build_media(context *ctx, const scenario *s, media_history *out, fra
     if (status == FRAM_OK)
         status = read_series(ctx, s, e->wind_file, &out->wind, error);
     if (status == FRAM_OK)
+        status = read_series(ctx, s, s->domain.drift_file, &out->drift, error);
+    if (status == FRAM_OK)
         status = read_profile(ctx, s, e->current_profile_file, &out->profile, error);
     return status;
 }

@@ -76,6 +76,8 @@ static vessel_channels vessel_channels_of(const world *w)
 
 typedef struct count_channels {
     int32_t bodies, floes;
+    double entered, held_back; /* with feeding, otherwise 0 */
+    vec2 drift;
 } count_channels;
 
 static count_channels counts_of(const world *w)
@@ -85,6 +87,11 @@ static count_channels counts_of(const world *w)
         n.bodies += body_is_alive(&w->bodies, i);
     for (int32_t i = 0; i < w->floes.count; i++)
         n.floes += w->floes.body[i] >= 0;
+    if (w->feeding.count > 0) {
+        n.entered = w->feeding.entered[0];
+        n.held_back = w->feeding.held_back[0];
+        n.drift = w->feeding.velocity[0];
+    }
     return n;
 }
 
@@ -140,7 +147,11 @@ static count_channels counts_of(const world *w)
     X("vessel_contacts", "1", c.ice.contacts)                         \
     X("crushing_patches", "1", w->scratch.patches.count)              \
     X("ice_mass_left", "kg", w->clock.ice_left[0])                    \
+    X("ice_mass_entered", "kg", n.entered)                            \
+    X("ice_mass_held_back", "kg", n.held_back)                        \
     X("ice_mass_lost", "kg", w->clock.ice_lost[0])                    \
+    X("drift_x", "m/s", n.drift.x)                                    \
+    X("drift_y", "m/s", n.drift.y)                                    \
     X("ice_mass_gained", "kg", w->clock.ice_gained[0])                \
     X("splits", "1", (double)w->clock.splits[0])                      \
     X("bendings", "1", (double)w->clock.bendings[0])                  \

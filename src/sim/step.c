@@ -1,5 +1,6 @@
 #include "sim/step.h"
 
+#include "sim/feed.h"
 #include "sim/ice_loads.h"
 #include "sim/station_forces.h"
 
@@ -69,6 +70,7 @@ static fram_status external_forces(context *ctx, const step_settings *s, world *
     if (s->forces == FORCES_FLUID)
         respond(ctx, s, w);
     vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + s->time_step);
+    feed_drive(s, w, w->clock.time[0] + s->time_step);
     return FRAM_OK;
 }
 
@@ -125,10 +127,8 @@ static fram_status integrate(context *ctx, const step_settings *s, world *w, fra
 }
 
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked. */
-static fram_status remove_strays(context *ctx, const step_settings *s, world *w, fram_error *error)
+static void remove_strays(const step_settings *s, world *w)
 {
-    if (s->boundary != DOMAIN_OPEN)
-        return FRAM_OK;
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
         if (body < 0)
@@ -141,6 +141,18 @@ static fram_status remove_strays(context *ctx, const step_settings *s, world *w,
         w->clock.ice_left[0] += w->bodies.mass[body];
         floe_remove(&w->bodies, &w->shapes, &w->floes, i);
     }
+}
+
+/* What the edge of the domain takes, and gives. */
+static fram_status cross_edge(context *ctx, const step_settings *s, world *w, fram_error *error)
+{
+    if (s->boundary == DOMAIN_WALLS)
+        return FRAM_OK;
+    if (s->boundary == DOMAIN_OPEN)
+        remove_strays(s, w);
+    fram_status status = s->boundary == DOMAIN_FEEDING ? feed_step(ctx, s, w, error) : FRAM_OK;
+    if (status != FRAM_OK)
+        return status;
     return shape_compact(ctx, &w->shapes) == FRAM_OK ? FRAM_OK : error_memory(error);
 }
 
@@ -178,7 +190,7 @@ fram_status world_step_watched(context *ctx, const step_settings *s, world *w, c
     static const stage stages[STAGE_COUNT] = {
         [STAGE_FORCES] = external_forces, [STAGE_DETECTION] = detect_contacts, [STAGE_CRUSHING] = limit_crushing,
         [STAGE_SOLVE] = solve_velocities, [STAGE_LOADS] = sum_ice_loads,       [STAGE_FRACTURE] = break_floes,
-        [STAGE_INTEGRATION] = integrate,  [STAGE_STRAYS] = remove_strays,
+        [STAGE_INTEGRATION] = integrate,  [STAGE_STRAYS] = cross_edge,
     };
 #ifndef NDEBUG
     world_poison_scratch(w);

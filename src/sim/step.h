@@ -28,6 +28,8 @@ typedef struct step_settings {
     solver_settings solver;
     domain_boundary boundary;
     box2 domain;        /* [m] */
+    bool drift_given;   /* an endless field goes with `drift`, otherwise with the current at the surface */
+    vec2 drift;         /* [m/s] */
     double speed_limit; /* a faster body means that the run went wrong [m/s] */
 } step_settings;
 

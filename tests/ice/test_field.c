@@ -404,5 +404,38 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("field", concentrations, twenty_seeds, deterministic, sizes, roundness, keep_out_zones, zones_grow_all_around,
-          impossible_targets, wrong_requests, few_cells, memory_runs_out)
+/* A field that repeats itself: floes beside the seams stand as far from the copies as from other neighbours. */
+START_TEST(periodic_fields)
+{
+    context ctx;
+    context_init(&ctx);
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        field_request q = request_of(0.9, seed);
+        q.periodic = true;
+        q.mean_area = seed == 5 ? 10000 : 200; /* six cells: every one its own neighbour's neighbour */
+        polygon_list floes = {0}, all = {0};
+        field_report r;
+        fram_error e = {0};
+        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_relative(r.concentration, 0.9, 1e-6);
+        assert_relative(r.free_area, 60000, 1e-9);
+        for (int copy = 0; copy < 9; copy++)
+            for (int32_t i = 0; i < r.floes; i++) {
+                polygon p = polygon_list_get(&floes, i);
+                vec2 moved[64];
+                ck_assert_int_le(p.count, 64);
+                for (int32_t k = 0; k < p.count; k++)
+                    moved[k] = vec2_add(p.vertex[k], vec2_make(300 * (copy % 3), 200.0 * (copy / 3)));
+                ck_assert(polygon_list_push(&ctx, &all, (polygon){moved, p.count}));
+            }
+        assert_bits(cells_largest_overlap(&ctx, &all), 0);
+        double least = least_gap(&all);
+        ck_assert_msg(least <= r.gap * (1 + 1e-6) && least > 0.6 * r.gap, "gap %g, least %g", r.gap, least);
+        polygon_list_free(&ctx, &floes);
+        polygon_list_free(&ctx, &all);
+    }
+}
+END_TEST
+
+TEST_MAIN("field", concentrations, twenty_seeds, periodic_fields, deterministic, sizes, roundness, keep_out_zones,
+          zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out)

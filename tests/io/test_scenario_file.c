@@ -163,7 +163,17 @@ START_TEST(random_scenarios_survive_printing)
         scenario_defaults(&s, 30);
         assert_ok(scenario_walk(&s, scatter, &random, &error), error);
         s.run.time_step = s.run.transient = s.run.duration / 7;
-        s.domain = (scenario_domain){-7.1e6, 1e7 / 3, -1e6, 1e5 / 3, DOMAIN_OPEN, 1, 1};
+        s.domain = (scenario_domain){.x_min = -7.1e6,
+                                     .x_max = 1e7 / 3,
+                                     .y_min = -1e6,
+                                     .y_max = 1e5 / 3,
+                                     .boundary = DOMAIN_OPEN,
+                                     .drift_speed = NAN, /* with feeding only */
+                                     .band = 10.0 / 3,
+                                     .tile_x = NAN,
+                                     .tile_y = 1e7 / 3,
+                                     .wall_height = 1,
+                                     .wall_thickness = 1};
         s.ice.source = ICE_NONE;
         s.vessel.positioning.active = false; /* needs thrusters */
         s.ice.friction = (scenario_friction){0.7, 0.6, 0.5, 0.4, 0.3, 0.2};

@@ -34,6 +34,14 @@ static const char *const scenes[] = {
     "ice:\n  concentration: 0.7\n  mean_floe_area: 64\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
     "environment:\n  current_speed: 1\n  current_direction_deg: 160\n",
+    /* an endless field that drifts past a moored hull, against the current, and breaks */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 4\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
+    "ice:\n  concentration: 0.85\n  mean_floe_area: 64\n  thickness: 0.4\n  breakable: true\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n  drift_speed: 3\n"
+    "  drift_direction_deg: 200\n"
+    "environment:\n  current_speed: 1\n  current_direction_deg: 40\n",
     /* floes that break, level ice among them */
     "run:\n  duration: 4\n  time_step: 0.02\n"
     "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.5\n"

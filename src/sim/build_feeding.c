@@ -1,0 +1,90 @@
+#include "sim/build_feeding.h"
+
+#include "sim/build_ice.h"
+#include "sim/feed.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The tile, where the scenario does not say: larger than the window by this factor, so that the ice does not come back
+   with the same neighbours at once, and by this many mean floes at least. */
+#define TILE_FACTOR 1.25
+#define TILE_FLOES 6
+
+static double tile_length(const scenario *s, double given, double window)
+{
+    double spare = fmax((TILE_FACTOR - 1) * window, TILE_FLOES * sqrt(s->ice.mean_floe_area));
+    return automatic_or(given, window + spare);
+}
+
+/* tile and band are keys of the domain. */
+static fram_status name_key(const scenario *s, fram_status status, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT || !error)
+        return status;
+    if (strcmp(error->key, "tile") == 0)
+        snprintf(error->key, sizeof error->key, "domain.tile_x");
+    else if (strcmp(error->key, "band") == 0)
+        snprintf(error->key, sizeof error->key, "domain.band");
+    scenario_locate(s, error);
+    return status;
+}
+
+/* A vessel must lie inside the band at the start. */
+static fram_status check_place(const world *w, const polygon_list *keep_out, fram_error *error)
+{
+    double band = w->feeding.band[0];
+    for (int32_t i = 0; i < polygon_list_count(keep_out); i++) {
+        box2 box = polygon_bounds(polygon_list_get(keep_out, i));
+        double room = fmin(fmin(box.lo.x - w->feeding.lo[0].x, w->feeding.hi[0].x - box.hi.x),
+                           fmin(box.lo.y - w->feeding.lo[0].y, w->feeding.hi[0].y - box.hi.y));
+        if (room < band)
+            return error_set(
+                error, FRAM_ERROR_INPUT, NULL, 0, "band",
+                "expected the vessel inside the band of %.4g m whose floes go with the field, found %.4g m "
+                "between it and the edge of the domain; make the domain larger or the band narrower",
+                band, room);
+    }
+    return FRAM_OK;
+}
+
+static fram_status begin(context *ctx, const scenario *s, const step_settings *settings, vec2 tile, world *w,
+                         fram_error *error)
+{
+    polygon_list keep_out = {0};
+    fram_status status = build_keep_out(ctx, w, &keep_out, error);
+    feeding_definition d = {.window = settings->domain,
+                            .tile = tile,
+                            .band = s->domain.band,
+                            .velocity = feed_drift(settings, w, 0),
+                            .keep_out = &keep_out,
+                            .keep_out_margin = s->ice.keep_out_margin,
+                            .smallest_area = s->ice.smallest_floe_area,
+                            .piece_area_limit = s->ice.smallest_piece_area};
+    feeding_world fed = feed_world(w);
+    if (status == FRAM_OK)
+        status = feeding_begin(ctx, w->scratch.plane, &d, &fed, error);
+    if (status == FRAM_OK)
+        status = check_place(w, &keep_out, error);
+    polygon_list_free(ctx, &keep_out);
+    return name_key(s, status, error);
+}
+
+fram_status build_field(context *ctx, const scenario *s, const step_settings *settings, world *w, field_report *report,
+                        fram_error *error)
+{
+    if (s->domain.boundary != DOMAIN_FEEDING)
+        return build_ice(ctx, s, w, report, error);
+    box2 window = settings->domain;
+    vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5);
+    vec2 tile = {tile_length(s, s->domain.tile_x, window.hi.x - window.lo.x),
+                 tile_length(s, s->domain.tile_y, window.hi.y - window.lo.y)};
+    /* The same ice in a larger domain; what is shared with the scenario is only read. */
+    scenario larger = *s;
+    larger.domain.x_min = middle.x - tile.x / 2;
+    larger.domain.x_max = middle.x + tile.x / 2;
+    larger.domain.y_min = middle.y - tile.y / 2;
+    larger.domain.y_max = middle.y + tile.y / 2;
+    fram_status status = build_ice(ctx, &larger, w, report, error);
+    return status == FRAM_OK ? begin(ctx, s, settings, tile, w, error) : status;
+}

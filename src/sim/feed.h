@@ -1,0 +1,17 @@
+/* The endless field in a step (ice/feeding.h): how fast it drifts, and who is fed. */
+#ifndef SIM_FEED_H
+#define SIM_FEED_H
+
+#include "sim/step.h"
+
+/* The parts of a world that feeding reads and changes. */
+feeding_world feed_world(world *w);
+/* Velocity of the far field at a time: its own history, what the scenario gives, or the current at the surface [m/s].
+ */
+vec2 feed_drift(const step_settings *settings, const world *w, double time);
+/* Before the solve of the step that ends at `time`. */
+void feed_drive(const step_settings *settings, world *w, double time);
+/* At the end of the step. */
+fram_status feed_step(context *ctx, const step_settings *settings, world *w, fram_error *error);
+
+#endif

@@ -1,0 +1,298 @@
+/* An endless field that drifts through the domain: hours of it, turning and reversing, its books, its refusals. */
+#include "scene.h"
+
+#include "base/transcendental.h"
+
+#include <stdio.h>
+
+/* Ice alone, at rest in the water that carries it; air would hold it back. */
+static const char alone[] = "run:\n  duration: 7200\n  time_step: 0.2\n  seed: 5\n"
+                            "vessel:\n  present: false\n"
+                            "ice:\n  concentration: 0.8\n  mean_floe_area: 40\n  size_deviation: 0.8\n"
+                            "domain:\n  x_min: -40\n  x_max: 40\n  y_min: -25\n  y_max: 25\n  boundary: feeding\n"
+                            "environment:\n  current_speed: 0.5\n  current_direction_deg: 160\n  air_density: 0\n";
+
+/* A box at rest in the middle of the drift. */
+static const char around[] = "run:\n  duration: 600\n  time_step: 0.05\n  seed: 5\n"
+                             "vessel:\n  mode: prescribed\n  hull:\n    form: box\n    length: 24\n    beam: 10\n"
+                             "    draught: 4\n    freeboard: 3\n"
+                             "ice:\n  concentration: 0.85\n  mean_floe_area: 40\n  size_deviation: 0.8\n"
+                             "domain:\n  x_min: -50\n  x_max: 50\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n"
+                             "environment:\n  current_speed: 0.6\n  current_direction_deg: 180\n";
+
+/* ---- the field by itself ---- */
+
+static int32_t living_floes(const world *w)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->floes.count; i++)
+        count += w->floes.body[i] >= 0;
+    return count;
+}
+
+static double pattern_area(const world *w)
+{
+    double area = 0;
+    for (int32_t i = 0; i < w->pattern.count; i++)
+        area += w->pattern.area[i];
+    return area;
+}
+
+/* What was there, entered and left is what is there now. */
+static void check_books(const scene *k, double mass_at_start)
+{
+    const world *w = &k->w;
+    double now = floes_mass(&w->bodies, &w->floes);
+    double booked =
+        mass_at_start + w->feeding.entered[0] + w->clock.ice_gained[0] - w->clock.ice_left[0] - w->clock.ice_lost[0];
+    assert_relative(now, booked, 1e-11);
+}
+
+START_TEST(the_pattern_has_the_concentration_and_no_seam)
+{
+    scene k;
+    scene_open(&k, alone);
+    const world *w = &k.w;
+    vec2 tile = w->feeding.tile[0];
+    assert_relative(pattern_area(w), 0.8 * tile.x * tile.y, 1e-9);
+    ck_assert(tile.x > 80 + 2 * feeding_band(0) && tile.y > 50);
+    /* Every floe against every copy of every other: neighbours across the seam stand as far apart as any. */
+    double nearest = HUGE_VAL;
+    for (int32_t a = 0; a < w->pattern.count; a++)
+        for (int32_t b = 0; b < w->pattern.count; b++)
+            for (int copy = 0; copy < 9; copy++) {
+                vec2 shift = {(copy % 3 - 1) * tile.x, (copy / 3 - 1) * tile.y};
+                vec2 apart = vec2_sub(vec2_add(w->pattern.place[b], shift), w->pattern.place[a]);
+                if (a == b || vec2_length(apart) > w->pattern.radius[a] + w->pattern.radius[b])
+                    continue;
+                vec2 one[64], two[64];
+                int32_t n = w->pattern.size[a], m = w->pattern.size[b];
+                ck_assert(n <= 64 && m <= 64);
+                for (int32_t i = 0; i < n; i++)
+                    one[i] = w->pattern_vertices.point[w->pattern.first[a] + i];
+                for (int32_t i = 0; i < m; i++)
+                    two[i] = vec2_add(w->pattern_vertices.point[w->pattern.first[b] + i], apart);
+                nearest = fmin(nearest, -polygon_convex_depth((polygon){one, n}, (polygon){two, m}, NULL));
+            }
+    ck_assert_msg(nearest > 0.3 && nearest < 2, "neighbours are %g m apart", nearest);
+    scene_close(&k);
+}
+END_TEST
+
+/* Two hours of drift.  Nothing disturbs the field, so that every floe stays at its place in the sheet; what has entered
+   is the ice of the area that was swept. */
+START_TEST(hours_of_drift_keep_the_field)
+{
+    scene k;
+    scene_open(&k, alone);
+    double start = floes_mass(&k.w.bodies, &k.w.floes);
+    int32_t most = 0, slots = k.w.bodies.count;
+    int64_t steps = getenv("FRAM_TEST_SHORT") ? 3600 : 36000;
+    for (int64_t i = 0; i < steps; i += 100) {
+        scene_steps(&k, 100);
+        int32_t floes = living_floes(&k.w);
+        most = floes > most ? floes : most;
+    }
+    const world *w = &k.w;
+    ck_assert_msg(most <= w->pattern.count && w->bodies.count <= slots + 1, "%d floes, %d slots", most,
+                  w->bodies.count);
+    ck_assert_int_eq(w->feeding.held_back_floes[0], 0);
+    check_books(&k, start);
+
+    double angle = radians(160), time = w->clock.time[0], vx = 0.5 * real_cos(angle), vy = 0.5 * real_sin(angle);
+    /* A floe enters when it reaches the window: the window is, on average, larger by the floes' radius all around. */
+    double swept = (fabs(vx) * 50 + fabs(vy) * 80) * time, reach = 0;
+    for (int32_t i = 0; i < w->pattern.count; i++)
+        reach += 2 * w->pattern.radius[i] * w->pattern.area[i] / pattern_area(w);
+    swept += (fabs(vx) + fabs(vy)) * reach * time;
+    ck_assert_msg(fabs(w->feeding.entered_area[0] / swept - 0.8) < 0.8 * (steps < 36000 ? 0.1 : 0.01),
+                  "the ice that entered has a concentration of %g", w->feeding.entered_area[0] / swept);
+
+    int32_t seen = 0;
+    for (int32_t row = 0; row < w->pattern.count; row++) {
+        int32_t body = w->pattern.body[row];
+        if (w->pattern.state[row] != PATTERN_INSIDE || w->bodies.generation[body] != w->pattern.generation[row])
+            continue;
+        vec2 off = vec2_sub(vec2_add(w->pattern.place[row], w->feeding.displacement[0]),
+                            vec2_make(w->bodies.position[body].x, w->bodies.position[body].y));
+        vec2 tile = w->feeding.tile[0];
+        off = vec2_make(off.x - tile.x * floor(off.x / tile.x + 0.5), off.y - tile.y * floor(off.y / tile.y + 0.5));
+        ck_assert_msg(vec2_length(off) < 1e-6, "floe %d is %g m from its place", row, vec2_length(off));
+        seen++;
+    }
+    ck_assert_int_eq(seen, living_floes(w));
+    scene_close(&k);
+}
+END_TEST
+
+/* ---- around a vessel ---- */
+
+static void outline_of(const world *w, int32_t body, vec2 out[64], polygon *p)
+{
+    polygon own = shape_outline(&w->shapes, w->bodies.shape[body]);
+    ck_assert_int_le(own.count, 64);
+    for (int32_t i = 0; i < own.count; i++) {
+        vec3 g = body_to_global(&w->bodies, body, vec3_make(own.vertex[i].x, own.vertex[i].y, 0));
+        out[i] = vec2_make(g.x, g.y);
+    }
+    *p = (polygon){out, own.count};
+}
+
+/* Floes that are new overlap nothing. */
+static void check_newcomers(const world *w, int32_t first_number)
+{
+    vec2 one[64], two[64];
+    polygon a, b;
+    for (int32_t i = 0; i < w->floes.count; i++) {
+        if (w->floes.body[i] < 0 || w->floes.number[i] < first_number)
+            continue;
+        outline_of(w, w->floes.body[i], one, &a);
+        for (int32_t j = 0; j < w->floes.count; j++) {
+            if (j == i || w->floes.body[j] < 0)
+                continue;
+            outline_of(w, w->floes.body[j], two, &b);
+            double depth = polygon_convex_depth(a, b, NULL);
+            ck_assert_msg(depth < 1e-2, "floe %d entered %g m into floe %d", w->floes.number[i], depth,
+                          w->floes.number[j]);
+        }
+    }
+}
+
+/* Floes in the band go with the sheet, those inside are free, and all reach into the window. */
+static void check_band(const world *w)
+{
+    double band = w->feeding.band[0];
+    vec2 lo = w->feeding.lo[0], hi = w->feeding.hi[0], v = w->feeding.velocity[0];
+    for (int32_t i = 0; i < w->floes.count; i++) {
+        int32_t body = w->floes.body[i];
+        if (body < 0)
+            continue;
+        vec3 r = w->bodies.position[body];
+        double depth = fmin(fmin(r.x - lo.x, hi.x - r.x), fmin(r.y - lo.y, hi.y - r.y));
+        ck_assert_int_eq(w->bodies.motion[body], depth < band ? MOTION_PRESCRIBED : MOTION_DYNAMIC);
+        if (depth < band)
+            ck_assert(w->bodies.velocity[body].x == v.x && w->bodies.velocity[body].y == v.y);
+        ck_assert(depth + w->shapes.shapes.radius[w->bodies.shape[body]] > -0.1 * band);
+    }
+}
+
+/* Drift that turns once around, then to and fro, past a vessel that stirs the ice. */
+START_TEST(drift_turns_and_reverses)
+{
+    scene k;
+    scene_open(&k, around);
+    double start = floes_mass(&k.w.bodies, &k.w.floes), reached = 0;
+    int32_t most = 0;
+    int steps = getenv("FRAM_TEST_SHORT") ? 1500 : 8000;
+    k.settings.drift_given = true;
+    for (int i = 0; i < steps; i++) {
+        double t = (double)i / steps, angle = t < 0.6 ? 2 * PI * t / 0.6 : 0;
+        double speed = t < 0.6 ? 0.6 : 0.6 * real_sin(12 * PI * t);
+        k.settings.drift = vec2_make(speed * real_cos(angle), speed * real_sin(angle));
+        k.settings.media.current = vec3_make(k.settings.drift.x, k.settings.drift.y, 0);
+        int32_t next = k.w.clock.next_floe[0];
+        scene_steps(&k, 1);
+        check_newcomers(&k.w, next);
+        if (i % 50 == 0)
+            check_band(&k.w);
+        if (k.w.scratch.ice_loads.count > 0)
+            reached = fmax(reached, vec3_length(k.w.scratch.ice_loads.data[0].total.force));
+        int32_t floes = living_floes(&k.w);
+        most = floes > most ? floes : most;
+    }
+    check_books(&k, start);
+    ck_assert_msg(reached > 1e4, "the vessel met %g N", reached);
+    ck_assert_int_le(most, k.w.pattern.count + k.w.pattern.count / 8);
+    /* To and fro neither pumps ice in nor loses it. */
+    double mass = floes_mass(&k.w.bodies, &k.w.floes);
+    ck_assert_msg(mass > 0.85 * start && mass < 1.15 * start, "%g t at the start, %g t at the end", start * 1e-3,
+                  mass * 1e-3);
+    scene_close(&k);
+}
+END_TEST
+
+/* Mean load along the drift on the vessel. */
+static double mean_load(const char *const *overrides, int count)
+{
+    scene k;
+    scene_open_with(&k, around, overrides, count);
+    double sum = 0;
+    int steps = 3000;
+    for (int i = 0; i < steps; i++) {
+        scene_steps(&k, 1);
+        if (i >= steps / 4)
+            sum -= k.w.scratch.ice_loads.data[0].total.force.x;
+    }
+    scene_close(&k);
+    return sum / (0.75 * steps);
+}
+
+/* Ice that is driven presses harder than ice that the water alone moves. */
+START_TEST(driven_ice_presses)
+{
+    static const char *const open[] = {"domain.boundary=open"};
+    static const char *const against[] = {"domain.drift_speed=0.6", "domain.drift_direction_deg=180",
+                                          "environment.current_speed=0"};
+    double driven = mean_load(NULL, 0), loose = mean_load(open, 1), still = mean_load(against, 3);
+    ck_assert_msg(driven > 1.5 * loose && loose > 0, "driven %g kN, loose %g kN", driven * 1e-3, loose * 1e-3);
+    /* Without the help of the water the sheet still drives it. */
+    ck_assert_msg(still > 0.3 * driven, "without a current %g kN", still * 1e-3);
+}
+END_TEST
+
+START_TEST(cut_at_the_vessel)
+{
+    scene k;
+    scene_open(&k, around);
+    vec2 one[64];
+    polygon p;
+    const vec2 ship[4] = {{-12, -5}, {12, -5}, {12, 5}, {-12, 5}};
+    for (int32_t i = 0; i < k.w.floes.count; i++) {
+        if (k.w.floes.body[i] < 0)
+            continue;
+        outline_of(&k.w, k.w.floes.body[i], one, &p);
+        /* keep_out_margin is 1 m at this scale */
+        ck_assert(polygon_convex_depth(p, (polygon){ship, 4}, NULL) < -1 + 1e-9);
+    }
+    scene_close(&k);
+}
+END_TEST
+
+/* ---- what is refused ---- */
+
+static void check_refusal(const char *text, const char *const *overrides, int count, const char *key)
+{
+    context ctx;
+    scenario s = {0};
+    world w;
+    fram_error error = {0};
+    build_report report;
+    const scenario_overrides list = {overrides, count};
+    context_init(&ctx);
+    fram_status status = scenario_parse(&ctx, "scene.yaml", text, strlen(text), &list, &s, &error);
+    if (status == FRAM_OK)
+        status = build_world(&ctx, &s, &w, &report, &error);
+    ck_assert_int_eq(status, FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, key);
+    scenario_free(&ctx, &s);
+}
+
+START_TEST(refusals_name_their_key)
+{
+    static const char *const small_tile[] = {"domain.tile_x=82"}, *const thin[] = {"domain.band=1"},
+                             *const wide[] = {"domain.band=30"}, *const none[] = {"ice.source=none"},
+                             *const walls[] = {"domain.boundary=walls", "domain.drift_speed=1"},
+                             *const file[] = {"domain.boundary=open", "domain.drift_file=drift.csv"};
+    check_refusal(alone, small_tile, 1, "domain.tile_x");
+    check_refusal(alone, thin, 1, "domain.band");
+    check_refusal(alone, wide, 1, "domain.band");
+    check_refusal(alone, none, 1, "ice.source");
+    check_refusal(alone, walls, 2, "domain.drift_speed");
+    check_refusal(alone, file, 2, "domain.drift_file");
+    static const char *const aside[] = {"vessel.x=35"};
+    check_refusal(around, aside, 1, "domain.band");
+}
+END_TEST
+
+TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, hours_of_drift_keep_the_field,
+          drift_turns_and_reverses, driven_ice_presses, cut_at_the_vessel, refusals_name_their_key)
