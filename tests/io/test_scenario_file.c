@@ -168,9 +168,9 @@ START_TEST(random_scenarios_survive_printing)
                                      .y_min = -1e6,
                                      .y_max = 1e5 / 3,
                                      .boundary = DOMAIN_OPEN,
-                                     .drift_speed = NAN, /* with feeding only */
+                                     .drift_speed = (double)NAN, /* with feeding only */
                                      .band = 10.0 / 3,
-                                     .tile_x = NAN,
+                                     .tile_x = (double)NAN,
                                      .tile_y = 1e7 / 3,
                                      .wall_height = 1,
                                      .wall_thickness = 1};
