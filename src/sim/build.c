@@ -149,6 +149,30 @@ static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_err
     return FRAM_OK;
 }
 
+/* A hull inside a wall would be thrown out of it by the first step. */
+static fram_status check_clear_of_walls(context *ctx, const scenario *s, const world *w, fram_error *error)
+{
+    if (s->domain.boundary != DOMAIN_WALLS || w->vessels.count == 0)
+        return FRAM_OK;
+    const scenario_domain *d = &s->domain;
+    vec2_array plan = {0};
+    fram_status status = build_footprint(ctx, w, w->vessels.body[0], false, &plan, error);
+    if (status != FRAM_OK)
+        return status;
+    box2 hull = polygon_bounds((polygon){plan.data, plan.count});
+    array_free(ctx, &plan);
+    bool inside_x = hull.lo.x >= d->x_min && hull.hi.x <= d->x_max;
+    bool inside_y = hull.lo.y >= d->y_min && hull.hi.y <= d->y_max;
+    if (inside_x && inside_y)
+        return FRAM_OK;
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, inside_x ? "vessel.y" : "vessel.x",
+              "the hull covers x from %.5g to %.5g m, y from %.5g to %.5g m, and so reaches into the walls of the "
+              "domain: move it or the walls, or choose domain.boundary: open",
+              hull.lo.x, hull.hi.x, hull.lo.y, hull.hi.y);
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
+}
+
 /* ------------------------------------------------------------------------------------------------------------- world
  */
 
@@ -185,6 +209,8 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     }
     if (status == FRAM_OK)
         status = add_walls(ctx, s, w, error);
+    if (status == FRAM_OK)
+        status = check_clear_of_walls(ctx, s, w, error);
     if (status == FRAM_OK)
         status = name_key(s, build_field(ctx, s, &settings, w, &report->field, error), "ice", error);
     if (status != FRAM_OK)

@@ -80,6 +80,9 @@ expect 2 "$FRAM" check missing.yaml
 expect 2 "$FRAM" check scene.yaml --set ice.thickness=-1 --json
 same "$(value '["error"]["key"]')" ice.thickness "key of a bad override"
 [ ! -e a ] || fail "a refused scenario left a folder"
+expect 2 "$FRAM" run scene.yaml -o a --set vessel.x=-40 --json
+same "$(value '["error"]["key"]')" vessel.x "key of a hull inside a wall"
+same "$(value '["error"]["file"]')" --set "place of a hull inside a wall"
 
 # check prints a scenario that reads back as itself.
 expect 0 "$FRAM" check scene.yaml --set run.seed=7

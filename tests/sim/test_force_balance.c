@@ -1,0 +1,57 @@
+/* A hull towed slowly through a field: in every step what the carriage, the ice, the water, the air and gravity exert,
+   each from the channel that is recorded, accounts for the change of the hull's momentum. */
+#include "scene.h"
+
+static const char field[] = "run: {duration: 100, time_step: 0.02, seed: 7, scale: 30}\n"
+                            "vessel: {mode: towed, x: -40, speed: 1, ramp: 1, "
+                            "hull: {length: 48, beam: 12, draught: 4, freeboard: 3}}\n"
+                            "ice: {concentration: 0.8, mean_floe_area: 64, thickness: 1}\n"
+                            "domain: {x_min: -72, x_max: 72, y_min: -40, y_max: 40}\n"
+                            "environment: {current_speed: 0.2, current_direction_deg: 90, wind_speed: 8}\n";
+
+typedef struct balance {
+    double worst; /* largest imbalance of a step [N] */
+    double peak;  /* largest force of the carriage [N] */
+    double ice;   /* largest ice load [N] */
+} balance;
+
+static balance towed_balance(const char *kind, int steps)
+{
+    scene k;
+    const char *keys[] = {kind, "run.solver.iterations=60"};
+    scene_open_with(&k, field, keys, 2);
+    int32_t hull = k.w.vessels.body[0], joint = k.w.vessels.joint[0];
+    double mass = k.w.bodies.mass[hull];
+    vec3 weight = vec3_make(0, 0, -mass * k.settings.media.gravity);
+    balance b = {0};
+    for (int i = 0; i < steps; i++) {
+        vec3 before = k.w.bodies.velocity[hull];
+        scene_steps(&k, 1);
+        const fluid_load *f = &k.w.scratch.fluid.data[hull];
+        vec3 ice = k.w.scratch.ice_loads.data[0].total.force, tow = k.w.joints.reaction_force[joint];
+        vec3 fluid = vec3_add(f->hydrostatic.force, vec3_add(f->water_drag.force, f->wind_drag.force));
+        vec3 gain = vec3_scale(vec3_sub(k.w.bodies.velocity[hull], before), mass / k.settings.time_step);
+        vec3 rest = vec3_sub(vec3_add(vec3_add(tow, ice), vec3_add(fluid, weight)), gain);
+        b.worst = fmax(b.worst, vec3_length(rest));
+        b.peak = fmax(b.peak, vec3_length(tow));
+        b.ice = fmax(b.ice, vec3_length(ice));
+    }
+    scene_close(&k);
+    return b;
+}
+
+static void check_balance(const char *kind, int steps, double tolerance)
+{
+    balance b = towed_balance(kind, steps);
+    ck_assert_msg(b.ice > 1e4, "the hull met no ice (%g N)", b.ice);
+    ck_assert_msg(b.worst <= tolerance * b.peak, "%s: %g N of %g N are not accounted for", kind, b.worst, b.peak);
+}
+
+START_TEST(accurate_solver) { check_balance("run.solver.kind=accurate", 500, 1e-6); }
+END_TEST
+START_TEST(sequential_solver) { check_balance("run.solver.kind=sequential", 1500, 1e-2); }
+END_TEST
+START_TEST(fast_solver) { check_balance("run.solver.kind=fast", 1500, 1e-2); }
+END_TEST
+
+TEST_MAIN("force_balance", accurate_solver, sequential_solver, fast_solver)
