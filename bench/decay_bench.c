@@ -1,10 +1,10 @@
 /* Free decay of a box and of an FPSO in heave, roll and pitch, without and with added mass: measured periods beside
-   those of the theory of small motions, as a table and as pictures.
+   those of the theory of small motions, as a table and as a picture.
 
-       decay_bench FOLDER [HULL]        HULL: mesh of the FPSO (GDF, STL, OBJ); without it a form of its size */
+       decay_bench PICTURE.png [HULL]        HULL: mesh of the FPSO (GDF, STL, OBJ); without it a form of its size */
 #include "../tests/sim/decay.h"
 
-#include "io/chart.h"
+#include "io/page.h"
 
 #include <stdio.h>
 
@@ -41,13 +41,21 @@ static const struct {
     const char *name, *title;
     int mode;
     double amplitude;
-} modes[] = {{"heave", "Heave decay", DECAY_HEAVE, 0.02},
-             {"roll", "Roll decay", DECAY_ROLL, 1e-3},
-             {"pitch", "Pitch decay", DECAY_PITCH, 2e-4}};
+} modes[] = {
+    {"heave", "heave", DECAY_HEAVE, 0.02}, {"roll", "roll", DECAY_ROLL, 1e-3}, {"pitch", "pitch", DECAY_PITCH, 2e-4}};
 enum { MODES = sizeof modes / sizeof *modes };
 
+enum { PANEL_WIDTH = 720, PANEL_HEIGHT = 280, TOP = 40 };
+
+/* What one panel shows. */
+typedef struct picture {
+    char title[40], subtitle[200];
+    chart_line lines[CASES];
+} picture;
+
 /* One decay over `duration` seconds, in parts of its amplitude; false with a message. */
-static bool run_case(const char *vessel, const water_case *c, int mode, double duration, chart_line *line)
+static bool run_case(const char *vessel, const water_case *c, int mode, double duration, chart_line *line,
+                     double period[2])
 {
     decay d;
     fram_error error = {0};
@@ -63,60 +71,84 @@ static bool run_case(const char *vessel, const water_case *c, int mode, double d
     int steps = (int)(fmax(duration, 4.2 * theory) / dt);
     double *value = calloc((size_t)steps + 1, sizeof *value), *time = calloc((size_t)steps + 1, sizeof *time);
     bool ok = value && time;
-    double period = ok ? decay_run(&d, modes[mode].mode, modes[mode].amplitude, steps, value, &error) : 0;
+    period[0] = theory;
+    period[1] = ok ? decay_run(&d, modes[mode].mode, modes[mode].amplitude, steps, value, &error) : 0;
     for (int i = 0; ok && i <= steps; i++) {
         time[i] = i * dt;
         value[i] /= modes[mode].amplitude;
     }
-    printf("| %-5s | %-22s | %8.4f | %8.4f | %8.2g |\n", modes[mode].name, c->name, theory, period,
-           period / theory - 1);
+    printf("| %-5s | %-22s | %8.4f | %8.4f | %8.2g |\n", modes[mode].name, c->name, theory, period[1],
+           period[1] / theory - 1);
     *line = (chart_line){c->name, time, value, (int32_t)(duration / dt), false};
     decay_close(&d);
-    return ok && period > 0;
+    return ok && period[1] > 0;
 }
 
-static bool draw_mode(context *ctx, const char *vessel, const char *name, int mode, const char *folder)
+static bool run_mode(const char *vessel, const char *name, int mode, picture *out)
 {
-    chart_line lines[CASES];
-    char path[600], subtitle[200];
-    double duration = mode == 1 ? 60 : 40;
+    double duration = mode == 1 ? 60 : 40, period[CASES][2] = {{0}};
     bool ok = true;
     for (int i = 0; i < CASES; i++)
-        ok = run_case(vessel, &cases[i], mode, duration, &lines[i]) && ok;
-    lines[0].thick = true;
-    snprintf(path, sizeof path, "%s/%s_%s_decay.png", folder, name, modes[mode].name);
-    snprintf(subtitle, sizeof subtitle, "%s, from rest at a small amplitude", name);
-    const chart c = {modes[mode].title, subtitle, "time [s]", "part of the amplitude", lines, CASES};
-    fram_error error = {0};
-    if (ok && chart_write(ctx, &c, path, 800, 320, &error) != FRAM_OK) {
-        fprintf(stderr, "decay_bench: %s\n", error.message);
-        ok = false;
-    }
-    for (int i = 0; i < CASES; i++) {
-        free((void *)(uintptr_t)lines[i].x);
-        free((void *)(uintptr_t)lines[i].y);
-    }
+        ok = run_case(vessel, &cases[i], mode, duration, &out->lines[i], period[i]) && ok;
+    out->lines[0].thick = true;
+    snprintf(out->title, sizeof out->title, "%s, %s", name, modes[mode].title);
+    snprintf(out->subtitle, sizeof out->subtitle,
+             "period by theory and measured: %.4f and %.4f s; with added mass %.4f and %.4f s", period[0][0],
+             period[0][1], period[1][0], period[1][1]);
     return ok;
+}
+
+static bool draw(const picture *pictures, const char *path)
+{
+    page_panel panels[2 * MODES];
+    for (int i = 0; i < 2 * MODES; i++)
+        panels[i] = (page_panel){
+            {pictures[i].title, pictures[i].subtitle, "time [s]", "part of amplitude", pictures[i].lines, CASES},
+            i / MODES * PANEL_WIDTH,
+            TOP + i % MODES * PANEL_HEIGHT,
+            PANEL_WIDTH,
+            PANEL_HEIGHT,
+            false};
+    const page p = {"Free decay from rest at a small amplitude",
+                    panels,
+                    2 * MODES,
+                    "",
+                    0,
+                    0,
+                    2 * PANEL_WIDTH,
+                    TOP + MODES * PANEL_HEIGHT};
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    if (page_write(&ctx, &p, path, &error) == FRAM_OK)
+        return true;
+    fprintf(stderr, "decay_bench: %s\n", error.message);
+    return false;
 }
 
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(stderr, "usage: decay_bench FOLDER [HULL]\n");
+        fprintf(stderr, "usage: decay_bench PICTURE.png [HULL]\n");
         return 2;
     }
     char from_file[1000];
     snprintf(from_file, sizeof from_file, FROM_FILE, argc > 2 ? argv[2] : "");
     const struct {
         const char *name, *vessel;
-    } vessels[] = {{"box", BOX}, {"fpso", argc > 2 ? from_file : FORM}};
-    context ctx;
-    context_init(&ctx);
+    } vessels[] = {{"Box", BOX}, {"FPSO", argc > 2 ? from_file : FORM}};
+    static picture pictures[2 * MODES];
+    bool ok = true;
     for (int v = 0; v < 2; v++) {
         printf("%s\n| mode  | water                  | theory s | measured | apart    |\n", vessels[v].name);
         for (int m = 0; m < MODES; m++)
-            if (!draw_mode(&ctx, vessels[v].vessel, vessels[v].name, m, argv[1]))
-                return 1;
+            ok = run_mode(vessels[v].vessel, vessels[v].name, m, &pictures[v * MODES + m]) && ok;
     }
-    return 0;
+    ok = ok && draw(pictures, argv[1]);
+    for (int i = 0; i < 2 * MODES * CASES; i++) {
+        const chart_line *line = &pictures[i / CASES].lines[i % CASES];
+        free((void *)(uintptr_t)line->x);
+        free((void *)(uintptr_t)line->y);
+    }
+    return ok ? 0 : 1;
 }
