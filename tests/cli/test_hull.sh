@@ -54,6 +54,19 @@ expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.9
 same "$(value 'j["error"]["key"]')" block_coefficient "key"
 says "can be 0.3750 to 0.5661" err
 
+# A ship with bulb, flare and transom: cut as finely as it is told, and symmetric.
+ship=$FRAM_SOURCE/examples/hulls/ship_with_bulb.obj
+before=0
+for tolerance in 1 0.25; do
+    expect 0 "$FRAM" hull "$ship" --tolerance "$tolerance" --json
+    same "$(value 'j["convex_pieces"]["largest_distance_m"] <= '"$tolerance")" True "pieces within $tolerance m"
+    same "$(value 'j["convex_pieces"]["count"] > '"$before")" True "more pieces for less distance"
+    before=$(value 'j["convex_pieces"]["count"]')
+    same "$(value '1 <= j["convex_pieces"]["volume_m3"] / j["enclosed_volume_m3"] < 1.01 + 0.02 * '"$tolerance")" True \
+        "volume of the pieces"
+done
+same "$(value 'j["level_m"], abs(j["centre_of_buoyancy_m"][1]) < 1e-9, j["stable"]')" "0 True True" "the ship at z = 0"
+
 # A drawing.
 if "$FRAM" --version | grep -q pictures; then
     expect 0 "$FRAM" hull ship.obj --draw ship.png

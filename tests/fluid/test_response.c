@@ -98,6 +98,56 @@ START_TEST(whole_matrix_accelerates)
 }
 END_TEST
 
+/* Velocity of a point along n after a unit push there. */
+static double answer(const matrix6 *mass, vec3 n, vec3 point)
+{
+    pair6 push = {n, vec3_cross(point, n)}, v;
+    ck_assert(matrix6_solve(mass, push, &v));
+    return vec3_dot(n, v.line) + vec3_dot(push.turn, v.turn);
+}
+
+/* Contacts know the diagonal of the added mass only.  FPSO, supply ship, box: how a push by ice at stem, shoulder,
+   side, flare, bilge and quarter is answered, against all of the matrix. */
+START_TEST(contacts_meet_the_diagonal)
+{
+    static const struct {
+        double length, beam, draught, block, up, forward, bound;
+    } ships[] = {{200, 44, 12, 0.93, -1, 0.8, 0.03},
+                 {76.2, 18.8, 6.55, 0.62, 0.5, 0, 0.03},
+                 {60, 18, 4, 1, 1, 0, 0.035},
+                 {76.2, 18.8, 6.55, 0.62, 2, -2, 0.075}};
+    double apart = 0;
+    for (size_t i = 0; i < sizeof ships / sizeof *ships; i++) {
+        double l = ships[i].length, b = ships[i].beam, t = ships[i].draught, up = ships[i].up;
+        double volume = l * b * t * ships[i].block, m = 1025 * volume, roll = 0.35 * b, turn = 0.25 * l;
+        matrix6 added = ellipsoid_added_mass(vec3_make(0.5 * l, 0.5 * b, t), volume, 1025), diagonal = {0};
+        added = matrix6_moved(&added, vec3_make(-ships[i].forward, 0, -up));
+        for (int k = 0; k < 6; k++)
+            diagonal.m[k][k] = added.m[k][k];
+        const matrix6 rigid = {{{m},
+                                {0, m},
+                                {0, 0, m},
+                                {0, 0, 0, m * roll * roll},
+                                {0, 0, 0, 0, m * turn * turn},
+                                {0, 0, 0, 0, 0, m * turn * turn}}};
+        matrix6 whole = matrix6_sum(&rigid, &added, 1), known = matrix6_sum(&rigid, &diagonal, 1);
+        const vec3 pushes[][2] = {{{-1, 0, 0}, {0.5 * l, 0, -up}},
+                                  {{-0.7071, 0, 0.7071}, {0.5 * l, 0, -up}},
+                                  {{-0.7071, 0.7071, 0}, {0.4 * l, -0.4 * b, -up}},
+                                  {{0, 1, 0}, {0, -0.5 * b, -up}},
+                                  {{0, 0.95, 0.31}, {0, -0.5 * b, -up}},
+                                  {{0, 0.7071, 0.7071}, {0, -0.5 * b, -t - up}},
+                                  {{0, 1, 0}, {-0.4 * l, -0.5 * b, -up}}};
+        for (size_t k = 0; k < sizeof pushes / sizeof *pushes; k++) {
+            double ratio = answer(&known, pushes[k][0], pushes[k][1]) / answer(&whole, pushes[k][0], pushes[k][1]);
+            ck_assert_msg(fabs(ratio - 1) < ships[i].bound, "ship %d, push %d: %g", (int)i, (int)k, ratio);
+            apart = fmax(apart, fabs(ratio - 1));
+        }
+    }
+    ck_assert_msg(apart > 0.01, "%g: the diagonal would be all there is", apart);
+}
+END_TEST
+
 /* Kirchhoff: a body coasting and tumbling in an ideal fluid keeps its energy, fluid included; the step's error is of
    first order. */
 static double energy_drift(double dt)
@@ -348,5 +398,6 @@ START_TEST(floe_with_damping)
 }
 END_TEST
 
-TEST_MAIN("response", whole_matrix_accelerates, coasting_keeps_energy, damping_of_any_strength, weak_drag_is_left_alone,
-          strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
+TEST_MAIN("response", whole_matrix_accelerates, contacts_meet_the_diagonal, coasting_keeps_energy,
+          damping_of_any_strength, weak_drag_is_left_alone, strong_drag_is_stable, strong_drag_is_right,
+          floe_with_added_mass, floe_with_damping)
