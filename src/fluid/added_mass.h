@@ -19,11 +19,11 @@ typedef struct plate_added_mass {
    none: a plate is thin. */
 plate_added_mass plate_added_mass_of(const polygon_moments *outline, double water_density);
 
-/* The lower half of an ellipsoid of semi-axes a, b, c along x, y, z, its middle plane in still water: half of that of the
-   whole ellipsoid, for a volume of `volume` instead of (2/3) pi a b c, about its centre (Lamb 1932, sections 114 and
-   115, with Carlson's integral for alpha_0).  The whole one's flow does not cross the middle plane in surge, sway and
-   yaw, which is right for slow motion (rigid lid); in heave, roll and pitch it has no potential there, which is right
-   for quick motion. */
+/* The lower half of an ellipsoid of semi-axes a, b, c along x, y, z, its middle plane in still water: half of that of
+   the whole ellipsoid, for a volume of `volume` instead of (2/3) pi a b c, about its centre (Lamb 1932, sections 114
+   and 115, with Carlson's integral for alpha_0).  The whole one's flow does not cross the middle plane in surge, sway
+   and yaw, which is right for slow motion (rigid lid); in heave, roll and pitch it has no potential there, which is
+   right for quick motion. */
 matrix6 ellipsoid_added_mass(vec3 semi_axes, double volume, double water_density);
 
 #endif
