@@ -6,12 +6,15 @@ DESTDIR ?=
 FUZZ_SECONDS ?= 20
 BENCH_SCENE ?= scenes/demo.yaml
 BENCH_FLAGS ?=
+VALIDATE_FLAGS ?=
+# Debian's own Python knows Debian's packages.
+PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 CTEST = ctest --output-on-failure --no-label-summary -j$(JOBS)
 STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers coverage install deps clean help
+.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers validate coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -67,6 +70,9 @@ bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `
 
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)
+
+validate: build | $(STAMPS)/validate ## the validation book, docs/validation (VALIDATE_FLAGS=--quick: its short cases)
+	@$(PYTHON) validation/run.py $(VALIDATE_FLAGS)
 
 coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by the tests
 	@cmake --build --preset coverage -j$(JOBS)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
 #
@@ -74,9 +74,9 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers) groups="$groups $word" ;;
+    core | dev | viewer | views | peers | validate) groups="$groups $word" ;;
     *)
-        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers]" >&2
+        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate]" >&2
         exit 2
         ;;
     esac

@@ -1,0 +1,141 @@
+"""What every case of the validation ladder uses: the command, its channels, tables, figures and the verdict."""
+
+import concurrent.futures
+import csv
+import dataclasses
+import json
+import math
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FRAM = ROOT / "build" / "release" / "fram"
+WORK = ROOT / "build" / "validation"
+DATA = ROOT.parent / "shared" / "data"
+
+
+class Skipped(Exception):
+    """The case cannot run here, and says why."""
+
+
+@dataclasses.dataclass
+class Case:
+    """One page entry.  A check that fails is a finding, told beside the others; it is never removed."""
+
+    title: str
+    rung: int
+    tests: str  # what is tested
+    source: str  # where the numbers come from
+    expected: str  # which agreement is expected, and why
+    header: list = dataclasses.field(default_factory=list)
+    rows: list = dataclasses.field(default_factory=list)
+    checks: list = dataclasses.field(default_factory=list)  # (what, good)
+    found: str = ""
+    figures: list = dataclasses.field(default_factory=list)  # (file name, caption)
+
+    def check(self, good, what):
+        self.checks.append((what, bool(good)))
+
+    @property
+    def good(self):
+        return bool(self.checks) and all(good for _, good in self.checks)
+
+
+def answer(*words):
+    """The JSON object with which a Fram command ends."""
+    done = subprocess.run([str(FRAM), *map(str, words), "--json"], capture_output=True, text=True)
+    last = json.loads(done.stdout.splitlines()[-1])
+    if done.returncode != 0:
+        raise RuntimeError(f"fram {' '.join(map(str, words))}: {last['error']['message']}")
+    return last
+
+
+def run(scenario, name, **keys):
+    """Runs a scenario (a path, or text) with keys replaced ("__" for "."), and returns its channels.
+
+    A finished run of the same program, scenario and keys is read again instead: a ladder that was stopped goes on.
+    """
+    folder = WORK / name
+    if not isinstance(scenario, pathlib.Path):
+        path = WORK / f"{name}.yaml"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(scenario)
+        scenario = path
+    sets = [f"--set={key.replace('__', '.')}={value}" for key, value in keys.items()]
+    mark = json.dumps([sets, scenario.read_text(), os.stat(FRAM).st_mtime])
+    done = folder / "validated"
+    if not done.exists() or done.read_text() != mark:
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        answer("run", scenario, "-o", folder, "--quiet", "--threads", 1, *sets)
+        done.write_text(mark)
+    return channels(folder)
+
+
+def run_all(jobs):
+    """Runs (scenario, name, keys) side by side, one thread each, and returns their channels in the order given."""
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        return list(pool.map(lambda job: run(job[0], job[1], **job[2]), jobs))
+
+
+def channels(folder):
+    """The columns of series.csv as lists of numbers, by name without unit."""
+    with open(folder / "series.csv", newline="") as file:
+        reader = csv.reader(file)
+        names = [head.split("[")[0] for head in next(reader)]
+        columns = list(zip(*([float(value) for value in row] for row in reader)))
+    return dict(zip(names, columns))
+
+
+def after(series, name, start):
+    """Values of a channel from a time on."""
+    return [v for t, v in zip(series["time"], series[name]) if t >= start]
+
+
+def mean_and_error(values):
+    """Mean and its standard error."""
+    spread = statistics.stdev(values) if len(values) > 1 else math.nan
+    return statistics.fmean(values), spread / math.sqrt(len(values))
+
+
+def significant(values):
+    """The mean of the highest third of the peaks between upcrossings of the mean."""
+    level, peaks, peak = statistics.fmean(values), [], -math.inf
+    for before, now in zip(values, values[1:]):
+        if before <= level < now:
+            peak = now
+        elif now > level:
+            peak = max(peak, now)
+        elif before > level and peak > -math.inf:
+            peaks.append(peak)
+            peak = -math.inf
+    peaks.sort(reverse=True)
+    top = peaks[: max(1, len(peaks) // 3)]
+    return statistics.fmean(top) if top else math.nan
+
+
+def observed_order(errors):
+    """Orders of convergence from errors at steps that are halved each time."""
+    return [math.log2(a / b) if a > 0 and b > 0 else math.nan for a, b in zip(errors, errors[1:])]
+
+
+def number(value, digits=4):
+    return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
+
+
+def figure(case, out, name, caption, draw, size=(7.2, 3.4)):
+    """One picture: draw(axes) fills it."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "figure.dpi": 110})
+    picture, axes = plt.subplots(figsize=size, layout="constrained")
+    draw(axes)
+    picture.savefig(out / f"{name}.png", metadata={"Software": None})
+    plt.close(picture)
+    case.figures.append((f"{name}.png", caption))
