@@ -97,6 +97,8 @@ bool polygon_convex_hull(context *ctx, polygon p, vec2_array *out);
    lets a fine arc collapse. out may end with fewer than 3 vertices only if p had; it must not hold p. false when
    there is no memory. */
 bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out);
+/* The same for a ring inside a box, of which the vertices on the box's sides stay whatever they are. */
+bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_array *out);
 
 /* Sutherland-Hodgman by one half plane: keeps n . x <= d, n of any length.  Exact for convex p; the pieces of a
    concave one stay joined along the line.  Both halves of a cut get the same new vertices, to the bit. out is empty

@@ -17,9 +17,16 @@ typedef struct clean_node {
 typedef struct cleaning {
     polygon p;
     double edge;
+    const box2 *box; /* vertices on its sides stay; NULL: all may go */
     clean_node *node;
     int32_t first, left;
 } cleaning;
+
+static bool stays(const cleaning *c, int32_t i)
+{
+    vec2 v = c->p.vertex[i];
+    return c->box && (v.x <= c->box->lo.x || v.x >= c->box->hi.x || v.y <= c->box->lo.y || v.y >= c->box->hi.y);
+}
 
 /* Every vertex merged between the kept ones a and b, and those between them now, lie within the edge threshold of
    the chord ab. */
@@ -35,10 +42,12 @@ static bool chord_serves(const cleaning *c, int32_t a, int32_t b)
     return true;
 }
 
-/* Which vertex of the short edge from i goes. */
+/* Which vertex of the short edge from i goes; -1 when both must stay. */
 static int32_t short_edge_victim(const cleaning *c, int32_t i)
 {
     int32_t next = c->node[i].next;
+    if (stays(c, i) || stays(c, next))
+        return !stays(c, i) ? i : !stays(c, next) ? next : -1;
     if (!chord_serves(c, c->node[i].previous, next) && chord_serves(c, i, c->node[next].next))
         return next;
     return i;
@@ -53,8 +62,8 @@ static int32_t victim_at(const cleaning *c, int32_t i, fate *why)
     *why = FATE_MERGED;
     if (l1 < c->edge || l1 == 0)
         return short_edge_victim(c, i);
-    if (l0 == 0)
-        return -1; /* the vertex before goes, in its turn */
+    if (l0 == 0 || stays(c, i))
+        return -1; /* of a doubled vertex the one before goes, in its turn */
     double cosine = vec2_dot(e0, e1) / (l0 * l1);
     if (cosine < -TURN_COSINE) {
         *why = FATE_SPIKE;
@@ -89,12 +98,12 @@ static bool clean_pass(cleaning *c)
     return c->left < before;
 }
 
-bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out)
+static bool clean(context *ctx, polygon p, double edge, const box2 *box, vec2_array *out)
 {
     array_clear(out);
     if (p.count == 0)
         return true;
-    cleaning c = {.p = p, .edge = edge, .left = p.count};
+    cleaning c = {.p = p, .edge = edge, .box = box, .left = p.count};
     c.node = memory_array(ctx, (size_t)p.count, sizeof *c.node);
     if (!c.node || !array_reserve(ctx, out, p.count)) {
         memory_free(ctx, c.node);
@@ -109,4 +118,11 @@ bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out)
             out->data[out->count++] = p.vertex[i];
     memory_free(ctx, c.node);
     return true;
+}
+
+bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out) { return clean(ctx, p, edge, NULL, out); }
+
+bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_array *out)
+{
+    return clean(ctx, p, edge, &box, out);
 }

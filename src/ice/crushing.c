@@ -224,6 +224,7 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .area = area,
                             .horizontal_area = fabs(c->area.z),
                             .pressure = pair_pressure(j, p, area),
+                            .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
     patch.contact_count = patch_points(c, normal, point);

@@ -27,6 +27,7 @@ typedef struct crushing_patch {
     double area;            /* A_c [m2] */
     double horizontal_area; /* A_h [m2], in the floe's plane */
     double pressure;        /* sigma_c(A_c) [Pa] */
+    box2 plan;              /* bounds of the patch in the floe's own plane [m] */
     int32_t contact_first, contact_count; /* rows of the contact array */
     int32_t component;                    /* number of the component inside its pair, by least triangle */
 } crushing_patch;

@@ -110,6 +110,7 @@ fram_status floe_create(context *ctx, const floe_definition *d, double piece_are
     floes->material[at] = d->material;
     floes->breakable[at] = d->breakable;
     floes->parent[at] = d->parent;
+    floes->tile[at] = d->tile;
     floes->number[at] = (*next_number)++;
     *row = at;
     return FRAM_OK;
@@ -125,5 +126,5 @@ void floe_remove(body_table *bodies, shape_store *shapes, floe_table *floes, int
     floes->thickness[row] = floes->area[row] = 0;
     floes->material[row] = (ice_material){0};
     floes->breakable[row] = 0;
-    floes->parent[row] = floes->number[row] = 0;
+    floes->parent[row] = floes->number[row] = floes->tile[row] = 0;
 }

@@ -15,7 +15,8 @@
     X(material, ice_material, FIELD_F64, 6, "SI", "density, E, nu, sigma_f, sigma_c, exponent") \
     X(breakable, uint8_t, FIELD_U8, 1, "1", "1: may break in bending and splitting")            \
     X(parent, int32_t, FIELD_I32, 1, "1", "number of the floe it broke from, -1: original")     \
-    X(number, int32_t, FIELD_I32, 1, "1", "running number, never used twice")
+    X(number, int32_t, FIELD_I32, 1, "1", "running number, never used twice")                   \
+    X(tile, int32_t, FIELD_I32, 1, "1", "cell of the level sheet it is a part of, plus 1; 0: of none")
 TABLE_DECLARE(floe, FLOE_FIELDS)
 
 typedef struct floe_definition {
@@ -27,6 +28,7 @@ typedef struct floe_definition {
     double elevation; /* z of the centre of mass; floating: see floe_floating_elevation */
     double yaw;       /* orientation given to the body; the outline is turned into the body frame by it [rad] */
     int32_t parent;
+    int32_t tile; /* cell of the level sheet plus 1 (ice/tiles.h), 0 for any other floe */
 } floe_definition;
 
 /* Height of the centre of a level floe at rest in still water [m]: h/2 - h rho_i/rho_w. */

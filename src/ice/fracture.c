@@ -29,19 +29,14 @@ void fracture_scratch_free(context *ctx, fracture_scratch *s)
     array_free(ctx, &s->ring);
     array_free(ctx, &s->clean);
     array_free(ctx, &s->forgotten);
+    tile_index_free(ctx, &s->index);
+    array_free(ctx, &s->boundary);
+    array_free(ctx, &s->starts);
+    array_free(ctx, &s->touched);
+    array_free(ctx, &s->mark);
+    array_free(ctx, &s->front);
     memory_free(ctx, s);
 }
-
-/* What one call works on. */
-typedef struct fracture_job {
-    context *ctx;
-    fracture_scratch *scratch;
-    const fracture_settings *settings;
-    overlay *plane;
-    const fracture_state *state;
-    fracture_event_array *events;
-    fram_error *error;
-} fracture_job;
 
 /* The failing loads of one floe. */
 typedef struct floe_loads {
@@ -54,13 +49,12 @@ static crack_start start_of(polygon p, const fracture_load *l)
     return crack_start_of(p, l->place, CORNER_REACH * l->stress.breaking_radius);
 }
 
-static fracture_event event_of(const fracture_job *j, const fracture_load *l, const crack_start *start,
-                               fracture_kind kind, double length)
+fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_kind kind, double length)
 {
     bool split = kind == FRACTURE_SPLIT;
     return (fracture_event){
         .kind = (int32_t)kind,
-        .place = body_to_global(j->state->bodies, l->body, (vec3){start->point.x, start->point.y, 0}),
+        .place = place,
         .load = l->force,
         .crack_length = length,
         .stress_ratio = split ? l->radial_ratio : l->wedge_ratio,
@@ -68,12 +62,23 @@ static fracture_event event_of(const fracture_job *j, const fracture_load *l, co
     };
 }
 
+static fracture_event event_of(const fracture_job *j, const fracture_load *l, const crack_start *start,
+                               fracture_kind kind, double length)
+{
+    vec3 place = body_to_global(j->state->bodies, l->body, (vec3){start->point.x, start->point.y, 0});
+    return fracture_event_of(l, place, kind, length);
+}
+
 static fram_status commit(const fracture_job *j, const fracture_load *l, fracture_event *event)
 {
     fracture_scratch *s = j->scratch;
     bool broke;
-    fram_status status = fracture_birth(j->ctx, s, j->settings, j->plane, j->state, l->floe, &s->whole, &s->wedges,
-                                        event, &broke, j->error);
+    polygon_list_clear(&s->outlines);
+    array_clear(&s->cut);
+    if (!fracture_gather(j->ctx, s, &s->whole, (motion)j->state->bodies->motion[l->body], 0, 0) ||
+        !fracture_gather(j->ctx, s, &s->wedges, MOTION_DYNAMIC, 0, 1))
+        return error_memory(j->error);
+    fram_status status = fracture_birth(j, &l->floe, 1, 2, event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     s->broken.data[l->body] = 1;
@@ -275,12 +280,19 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
     if (!array_resize(ctx, &scratch->broken, slots))
         return error_memory(error);
     memset(scratch->broken.data, 0, (size_t)slots);
-    for (int32_t i = 0, end; i < loads->count; i = end) {
-        for (end = i + 1; end < loads->count && loads->data[end].body == loads->data[i].body; end++)
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0, end; i < loads->count && status == FRAM_OK; i = end) {
+        const fracture_load *l = &loads->data[i];
+        if (l->tile) {
+            end = loads->count;
+            status = fracture_break_sheet(&j, l, end - i);
             continue;
-        fram_status status = break_floe(&j, (floe_loads){&loads->data[i], end - i});
-        if (status != FRAM_OK)
-            return status;
+        }
+        for (end = i + 1; end < loads->count && !loads->data[end].tile && loads->data[end].body == l->body; end++)
+            continue;
+        status = break_floe(&j, (floe_loads){l, end - i});
     }
+    if (status != FRAM_OK)
+        return status;
     return events->count == had || void_contacts(&j) ? FRAM_OK : error_memory(error);
 }

@@ -7,13 +7,20 @@
         (fracture_split.c);
      3. otherwise wedges break off when sigma_wedge >= sigma_f (fracture_bend.c);
      4. the parent goes, its pieces are cleaned and become floes, and what was lost is booked (fracture_birth.c).
-   Floes are treated by ascending body slot, patches of a floe by falling stress over strength. */
+   Floes are treated by ascending body slot, patches of a floe by falling stress over strength.
+   The tiles of a level sheet are one floe, treated last (fracture_sheet.c): patches that a seam divides are one load,
+   and only the tiles that a stencil reaches are cut; its radial cracks do not run through. */
 #ifndef ICE_FRACTURE_H
 #define ICE_FRACTURE_H
 
 #include "ice/crushing.h"
+#include "ice/tiles.h"
 
-typedef enum fracture_kind { FRACTURE_SPLIT = 1, FRACTURE_BENDING = 2 } fracture_kind;
+typedef enum fracture_kind {
+    FRACTURE_SPLIT = 1,
+    FRACTURE_BENDING = 2,
+    FRACTURE_RELEASE = 3 /* a part of a level sheet hangs on no anchored side any more, and drifts */
+} fracture_kind;
 
 /* What decides whether a radial crack runs through. */
 typedef enum splitting_rule {
@@ -37,6 +44,7 @@ typedef struct fracture_settings {
     bool thick_plate_radius;    /* small loads act as on a radius that grows with the thickness (Westergaard) */
     bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
     bool under_ice_contacts;    /* option: patches between floes break them too */
+    tile_grid tiles;            /* level sheet, if there is one */
 } fracture_settings;
 
 /* One event: a floe that broke.  Scratch row, made anew each step. */

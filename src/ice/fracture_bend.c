@@ -15,9 +15,8 @@ int fracture_stencil(int32_t wedges, double radius, const crack_start *start, ve
     return count;
 }
 
-/* The part of one wedge inside the ring; a convex ring needs no general overlay. */
-static fram_status cut_wedge(context *ctx, overlay *plane, polygon ring, bool convex, const vec2 tip[3],
-                             polygon_list *wedges, fram_error *error)
+fram_status fracture_cut_wedge(context *ctx, overlay *plane, polygon ring, bool convex, const vec2 tip[3],
+                               polygon_list *wedges, fram_error *error)
 {
     polygon corner = {tip, 3};
     if (!convex)
@@ -39,7 +38,7 @@ fram_status fracture_bend(context *ctx, overlay *plane, const fracture_settings 
     fram_status status = overlay_difference(plane, ring, (polygon){stencil, count}, remnants, error);
     for (int i = 0; i < count && status == FRAM_OK; i++) {
         const vec2 tip[3] = {start->point, stencil[i], stencil[i + 1 < count ? i + 1 : 0]};
-        status = cut_wedge(ctx, plane, ring, convex, tip, wedges, error);
+        status = fracture_cut_wedge(ctx, plane, ring, convex, tip, wedges, error);
     }
     return status;
 }

@@ -12,30 +12,29 @@ typedef struct parent {
 
 /* What one birth works on. */
 typedef struct birth {
-    context *ctx;
-    fracture_scratch *scratch;
-    const fracture_settings *settings;
-    overlay *plane;
-    const fracture_state *state;
+    const fracture_job *job;
     parent from;
     fracture_event *event;
-    fram_error *error;
 } birth;
 
-static parent parent_of(const fracture_state *state, int32_t floe)
+/* The tiles of a sheet break in the global plan: level, unturned, at rest. */
+static parent parent_of(const fracture_job *j, int32_t floe)
 {
-    const body_table *b = state->bodies;
-    int32_t body = state->floes->body[floe];
-    parent p = {.definition = {.thickness = state->floes->thickness[floe],
-                               .material = state->floes->material[floe],
-                               .breakable = state->floes->breakable[floe] != 0,
-                               .parent = state->floes->number[floe]},
-                .motion = b->motion[body],
+    const body_table *b = j->state->bodies;
+    const floe_table *f = j->state->floes;
+    int32_t body = f->body[floe];
+    bool tile = f->tile[floe] != 0;
+    parent p = {.definition = {.thickness = f->thickness[floe],
+                               .material = f->material[floe],
+                               .breakable = f->breakable[floe] != 0,
+                               .parent = f->number[floe]},
                 .position = b->position[body],
                 .velocity = b->velocity[body],
                 .angular_velocity = b->angular_velocity[body],
                 .orientation = b->orientation[body],
                 .rotation = quat_matrix(b->orientation[body])};
+    if (tile)
+        p.position.x = p.position.y = 0;
     return p;
 }
 
@@ -43,7 +42,7 @@ static parent parent_of(const fracture_state *state, int32_t floe)
    ice moved: v_new = v_old + Omega x (r_new - r_old). */
 static void place_child(const birth *b, int32_t body)
 {
-    body_table *bodies = b->state->bodies;
+    body_table *bodies = b->job->state->bodies;
     vec3 arm = mat3_mul_vec(b->from.rotation, bodies->position[body]);
     bodies->position[body] = vec3_add(b->from.position, arm);
     bodies->orientation[body] = b->from.orientation;
@@ -53,19 +52,22 @@ static void place_child(const birth *b, int32_t body)
     bodies->angular_velocity[body] = b->from.angular_velocity;
 }
 
-static fram_status make_floe(const birth *b, polygon outline, motion kind)
+static fram_status make_floe(const birth *b, polygon outline, const cut_piece *piece)
 {
+    const fracture_job *j = b->job;
+    const fracture_state *to = j->state;
     floe_definition d = b->from.definition;
     int32_t row;
     d.outline = outline;
-    d.motion = kind;
-    fram_status status = floe_create(b->ctx, &d, b->settings->smallest_piece_area, b->plane, b->state->bodies,
-                                     b->state->shapes, b->state->floes, b->state->next_number, &row, b->error);
+    d.motion = (motion)piece->motion;
+    d.tile = piece->motion == MOTION_DYNAMIC ? 0 : piece->tile;
+    fram_status status = floe_create(j->ctx, &d, j->settings->smallest_piece_area, j->plane, to->bodies, to->shapes,
+                                     to->floes, to->next_number, &row, j->error);
     if (status != FRAM_OK)
         return status;
-    place_child(b, b->state->floes->body[row]);
+    place_child(b, to->floes->body[row]);
     b->event->pieces++;
-    b->event->piece_area += b->state->floes->area[row];
+    b->event->piece_area += to->floes->area[row];
     return FRAM_OK;
 }
 
@@ -82,103 +84,118 @@ static const double MOST_BOOKED = 1e-3;
 /* Cleaning that would book more is repeated with half the edge, so often. */
 enum { FINER_CLEANINGS = 4 };
 
-/* The outline cleaned as far as the budget of booked area [m2] allows, ring itself where nothing does, in *out; without
-   vertices when none is sound.  false: no memory. */
-static bool clean_within(const birth *b, polygon ring, double budget, polygon *out)
+/* What is on the sides of a tile's cell stays there: the neighbours fit to it. */
+static bool clean_piece(const fracture_job *j, const cut_piece *piece, polygon ring, double edge)
 {
-    vec2_array *clean = &b->scratch->clean;
-    double area = polygon_area(ring), edge = b->settings->edge_threshold;
+    vec2_array *clean = &j->scratch->clean;
+    if (piece->tile == 0 || piece->motion == MOTION_DYNAMIC)
+        return polygon_clean(j->ctx, ring, edge, clean);
+    return polygon_clean_inside(j->ctx, ring, edge, tile_cell(&j->settings->tiles, piece->tile - 1), clean);
+}
+
+/* The piece's outline cleaned as far as the budget of booked area [m2] allows, itself where nothing does, in *out;
+   without vertices when none is sound.  false: no memory. */
+static bool clean_within(const fracture_job *j, const cut_piece *piece, double budget, polygon *out)
+{
+    polygon ring = polygon_list_get(&j->scratch->outlines, piece->ring);
+    double area = polygon_area(ring), edge = j->settings->edge_threshold;
     for (int turn = 0; turn <= FINER_CLEANINGS; turn++, edge /= 2) {
-        if (!polygon_clean(b->ctx, ring, edge, clean))
+        if (!clean_piece(j, piece, ring, edge))
             return false;
-        *out = (polygon){clean->data, clean->count};
+        *out = (polygon){j->scratch->clean.data, j->scratch->clean.count};
         double after = polygon_area(*out);
-        if (fabs(after - area) <= budget && after >= b->settings->smallest_floe_area &&
-            fracture_outline_is_sound(b->ctx, *out))
+        if (fabs(after - area) <= budget && after >= j->settings->smallest_floe_area &&
+            fracture_outline_is_sound(j->ctx, *out))
             return true;
     }
-    *out = fracture_outline_is_sound(b->ctx, ring) ? ring : (polygon){0};
+    *out = fracture_outline_is_sound(j->ctx, ring) ? ring : (polygon){0};
     return true;
 }
 
 /* Area of the pieces that no sibling took: they will be lost [m2]. */
-static double dust_of(const birth *b)
+static double dust_of(const fracture_job *j)
 {
     double sum = 0;
-    for (int32_t i = 0; i < b->scratch->cut.count; i++)
-        if (b->scratch->cut.data[i].area < b->settings->smallest_floe_area)
-            sum += b->scratch->cut.data[i].area;
+    for (int32_t i = 0; i < j->scratch->cut.count; i++)
+        if (j->scratch->cut.data[i].area < j->settings->smallest_floe_area)
+            sum += j->scratch->cut.data[i].area;
     return sum;
 }
 
 /* All pieces cleaned, within the budget together; *sound is false when one cannot be.  Dust is left for the books. */
-static bool clean_pieces(const birth *b, double budget, bool *sound)
+static bool clean_pieces(const fracture_job *j, double budget, bool *sound)
 {
-    fracture_scratch *s = b->scratch;
+    fracture_scratch *s = j->scratch;
     *sound = true;
     for (int32_t i = 0; i < s->cut.count; i++) {
         cut_piece *c = &s->cut.data[i];
-        if (c->area < b->settings->smallest_floe_area)
+        if (c->area < j->settings->smallest_floe_area)
             continue;
         polygon outline;
-        if (!clean_within(b, polygon_list_get(&s->outlines, c->ring), fmax(budget, 0) / (s->cut.count - i), &outline))
+        if (!clean_within(j, c, fmax(budget, 0) / (s->cut.count - i), &outline))
             return false;
         *sound = outline.count > 0;
         if (!*sound)
             return true;
         budget -= fabs(polygon_area(outline) - c->area);
         c->ring = polygon_list_count(&s->outlines);
-        if (!polygon_list_push(b->ctx, &s->outlines, outline))
+        if (!polygon_list_push(j->ctx, &s->outlines, outline))
             return false;
     }
     return true;
 }
 
-static bool gather(const birth *b, const polygon_list *rings, motion kind)
+bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
+                     int32_t wedge)
 {
-    fracture_scratch *s = b->scratch;
     for (int32_t i = 0; i < polygon_list_count(rings); i++) {
         polygon ring = polygon_list_get(rings, i);
-        cut_piece piece = {polygon_list_count(&s->outlines), (uint8_t)kind, polygon_area(ring)};
-        if (!polygon_list_push(b->ctx, &s->outlines, ring) || !array_push(b->ctx, &s->cut, piece))
+        cut_piece piece = {polygon_list_count(&s->outlines), (uint8_t)kind, tile, wedge, polygon_area(ring)};
+        if (!polygon_list_push(ctx, &s->outlines, ring) || !array_push(ctx, &s->cut, piece))
             return false;
     }
     return true;
 }
 
-fram_status fracture_birth(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
-                           const fracture_state *state, int32_t floe, const polygon_list *remnants,
-                           const polygon_list *wedges, fracture_event *event, bool *broke, fram_error *error)
+static fram_status make_pieces(const birth *b)
 {
-    birth b = {ctx, s, settings, plane, state, parent_of(state, floe), event, error};
-    polygon_list_clear(&s->outlines);
-    array_clear(&s->cut);
+    const fracture_job *j = b->job;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < j->scratch->cut.count && status == FRAM_OK; i++) {
+        const cut_piece *c = &j->scratch->cut.data[i];
+        polygon outline = polygon_list_get(&j->scratch->outlines, c->ring);
+        bool dust = c->area < j->settings->smallest_floe_area;
+        book(b, c->area, dust ? 0 : polygon_area(outline));
+        if (!dust)
+            status = make_floe(b, outline, c);
+    }
+    double line = b->from.definition.material.density * b->from.definition.thickness;
+    b->event->mass_lost = line * b->event->area_lost;
+    b->event->mass_gained = line * b->event->area_gained;
+    return status;
+}
+
+fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least,
+                           fracture_event *event, bool *broke)
+{
+    fracture_scratch *s = j->scratch;
+    birth b = {j, parent_of(j, parents[0]), event};
     *broke = false;
-    if (!gather(&b, remnants, (motion)b.from.motion) || !gather(&b, wedges, MOTION_DYNAMIC))
-        return error_memory(error);
-    fram_status status = fracture_join_dust(ctx, s, settings, plane, error);
-    double smallest = settings->smallest_floe_area, parent_area = state->floes->area[floe];
-    double budget = MOST_BOOKED * parent_area - dust_of(&b);
-    if (status != FRAM_OK || s->cut.count < 2 || budget < 0)
+    double parent_area = 0;
+    for (int32_t i = 0; i < count; i++)
+        parent_area += j->state->floes->area[parents[i]];
+    fram_status status = fracture_join_dust(j->ctx, s, j->settings, j->plane, j->error);
+    double budget = MOST_BOOKED * parent_area - dust_of(j);
+    if (status != FRAM_OK || s->cut.count < least || budget < 0)
         return status;
-    if (!clean_pieces(&b, budget, broke))
-        return error_memory(error);
+    if (!clean_pieces(j, budget, broke))
+        return error_memory(j->error);
     if (!*broke)
         return FRAM_OK;
     event->floe = b.from.definition.parent;
-    event->first_piece = *state->next_number;
+    event->first_piece = *j->state->next_number;
     event->parent_area = parent_area;
-    floe_remove(state->bodies, state->shapes, state->floes, floe);
-    for (int32_t i = 0; i < s->cut.count && status == FRAM_OK; i++) {
-        const cut_piece *c = &s->cut.data[i];
-        polygon outline = polygon_list_get(&s->outlines, c->ring);
-        bool dust = c->area < smallest;
-        book(&b, c->area, dust ? 0 : polygon_area(outline));
-        if (!dust)
-            status = make_floe(&b, outline, (motion)c->motion);
-    }
-    double line = b.from.definition.material.density * b.from.definition.thickness;
-    event->mass_lost = line * event->area_lost;
-    event->mass_gained = line * event->area_gained;
-    return status;
+    for (int32_t i = 0; i < count; i++)
+        floe_remove(j->state->bodies, j->state->shapes, j->state->floes, parents[i]);
+    return make_pieces(&b);
 }

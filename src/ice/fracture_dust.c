@@ -54,13 +54,20 @@ static double shared_length(const fracture_scratch *s, int32_t i, int32_t k)
     return fmax(length_on(a, b), length_on(b, a));
 }
 
+/* A tile stays inside its cell. */
+static bool may_join(const fracture_scratch *s, int32_t i, int32_t k)
+{
+    const cut_piece *a = &s->cut.data[i], *b = &s->cut.data[k];
+    return b->motion == MOTION_DYNAMIC || b->tile == a->tile;
+}
+
 /* The sibling of piece i with the longest common boundary, but shorter than `under`; -1 when there is none. */
 static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
 {
     int32_t best = -1;
     double longest = 0;
     for (int32_t k = 0; k < s->cut.count; k++) {
-        double length = k == i ? 0 : shared_length(s, i, k);
+        double length = k == i || !may_join(s, i, k) ? 0 : shared_length(s, i, k);
         if (length > longest && length < *under) {
             longest = length;
             best = k;
@@ -70,9 +77,8 @@ static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
     return best;
 }
 
-/* Unite pieces i and k; *joined says whether that gave one ring, which then is piece k's. */
-static fram_status unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
-                         fram_error *error)
+fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
+                           fram_error *error)
 {
     *joined = false;
     polygon_list_clear(&s->pair);
@@ -95,8 +101,17 @@ static fram_status unite(context *ctx, fracture_scratch *s, overlay *plane, int3
         return FRAM_OK;
     s->cut.data[k].ring = polygon_list_count(&s->outlines);
     s->cut.data[k].area = polygon_area(ring);
+    if (s->cut.data[k].tile != s->cut.data[i].tile)
+        s->cut.data[k].tile = 0;
     *joined = true;
     return polygon_list_push(ctx, &s->outlines, ring) ? FRAM_OK : error_memory(error);
+}
+
+void fracture_drop_piece(fracture_scratch *s, int32_t i)
+{
+    for (int32_t m = i; m + 1 < s->cut.count; m++)
+        s->cut.data[m] = s->cut.data[m + 1];
+    s->cut.count--;
 }
 
 /* Piece i joined to the first neighbour that takes it; -1 when none does. */
@@ -105,7 +120,7 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
     double under = HUGE_VAL;
     for (int32_t k = neighbour_of(s, i, &under); k >= 0; k = neighbour_of(s, i, &under)) {
         bool joined;
-        fram_status status = unite(ctx, s, plane, i, k, &joined, error);
+        fram_status status = fracture_unite(ctx, s, plane, i, k, &joined, error);
         *to = k;
         if (status != FRAM_OK || joined)
             return status;
@@ -144,9 +159,7 @@ fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture
             i++;
             continue;
         }
-        for (int32_t m = i; m + 1 < s->cut.count; m++)
-            s->cut.data[m] = s->cut.data[m + 1];
-        s->cut.count--;
+        fracture_drop_piece(s, i);
         /* The neighbour may still be too small, and may stand before. */
         if (to < i)
             i = to;

@@ -12,6 +12,9 @@ static const double THICK_PLATE_LIMIT = 1.724;
 /* A load that is a point makes infinite stress in a thin plate; this a/l is a point. */
 static const double POINT_LOAD = 1e-3;
 
+/* Patches nearer than this part of a cell to one another meet on its side. */
+static const double SAME_LINE = 1e-7;
+
 double fracture_wedge_width(int32_t wedges) { return 2 * real_tan(PI / (2.0 * wedges)); }
 
 double fracture_loaded_radius(double area, double share, double thickness, bool thick)
@@ -47,13 +50,6 @@ static vec3 patch_impulse(const crushing_patch *p, const contact_array *contacts
     return sum;
 }
 
-/* Loads under this part of the strength fail in no way: 6/b0 eta'' and sigma_yy h^2/P are both under 12 for a/l of
-   POINT_LOAD and more, and fall from there. */
-static bool may_fail(const fracture_load *l, const ice_material *m, double thickness)
-{
-    return 12 * l->force >= m->flexural_strength * thickness * thickness;
-}
-
 /* The load of a patch on one of its two bodies. */
 static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings *settings,
                      const crushing_patch_array *patches, int32_t patch, const fracture_state *state, int32_t body)
@@ -62,25 +58,116 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
     int32_t floe = state->bodies->owner[body];
     if (!state->floes->breakable[floe])
         return true;
-    const ice_material *ice = &state->floes->material[floe];
-    double thickness = state->floes->thickness[floe];
+    int32_t tile = state->floes->tile[floe];
     mat3 rotation = quat_matrix(state->bodies->orientation[body]);
-    vec3 force = vec3_scale(mat3_tmul_vec(rotation, patch_impulse(p, state->contacts)), 1 / settings->time_step);
-    vec3 place = body_to_local(state->bodies, body, p->centre);
-    double up = fabs(mat3_tmul_vec(rotation, p->normal).z);
-    double area = body == p->floe_body ? p->horizontal_area : p->area * up;
-    fracture_load l = {.body = body,
-                       .floe = floe,
-                       .patch = patch,
-                       .force = fabs(force.z),
-                       .plane_force = sqrt(force.x * force.x + force.y * force.y),
-                       .place = {place.x, place.y}};
-    if (!may_fail(&l, ice, thickness))
-        return true;
-    l.stress = fracture_edge_stress(settings, ice, thickness, l.force, area);
-    l.radial_ratio = l.stress.radial_stress / ice->flexural_strength;
-    l.wedge_ratio = l.stress.wedge_stress / ice->flexural_strength;
-    return (l.radial_ratio < 1 && l.wedge_ratio < 1) || array_push(ctx, &s->loads, l);
+    vec3 place = tile ? p->centre : body_to_local(state->bodies, body, p->centre), at = state->bodies->position[body];
+    bool own = body == p->floe_body;
+    fracture_load l = {
+        .body = body,
+        .floe = floe,
+        .patch = patch,
+        .tile = tile,
+        .surface = own ? p->surface_body : p->floe_body,
+        .vector = vec3_scale(mat3_tmul_vec(rotation, patch_impulse(p, state->contacts)), 1 / settings->time_step),
+        .place = {place.x, place.y},
+        .plan = {{p->plan.lo.x + at.x, p->plan.lo.y + at.y}, {p->plan.hi.x + at.x, p->plan.hi.y + at.y}},
+        .area = p->area,
+        .horizontal_area = own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
+        .thickness = state->floes->thickness[floe],
+        .ice = state->floes->material[floe]};
+    return array_push(ctx, &s->loads, l);
+}
+
+/* ---- patches that a seam divides ---- */
+
+static double gap(double lo, double hi, double other_lo, double other_hi)
+{
+    return fmax(lo - other_hi, other_lo - hi);
+}
+
+/* Two patches of one surface in neighbouring cells that both reach the line between these, at the same place. */
+static bool is_one_patch(const tile_grid *g, const fracture_load *a, const fracture_load *b)
+{
+    int32_t i = (b->tile - 1) % g->columns - (a->tile - 1) % g->columns;
+    int32_t k = (b->tile - 1) / g->columns - (a->tile - 1) / g->columns;
+    if (a->surface != b->surface || i * i + k * k != 1)
+        return false;
+    box2 cell = tile_cell(g, a->tile - 1);
+    double reach = SAME_LINE * (cell.hi.x - cell.lo.x + cell.hi.y - cell.lo.y);
+    return gap(a->plan.lo.x, a->plan.hi.x, b->plan.lo.x, b->plan.hi.x) <= reach &&
+           gap(a->plan.lo.y, a->plan.hi.y, b->plan.lo.y, b->plan.hi.y) <= reach;
+}
+
+static void merge_into(fracture_load *a, const fracture_load *b)
+{
+    double area = a->area + b->area, share = area > 0 ? b->area / area : 0.5;
+    a->vector = vec3_add(a->vector, b->vector);
+    a->place = vec2_add(a->place, vec2_scale(vec2_sub(b->place, a->place), share));
+    a->plan.lo = (vec2){fmin(a->plan.lo.x, b->plan.lo.x), fmin(a->plan.lo.y, b->plan.lo.y)};
+    a->plan.hi = (vec2){fmax(a->plan.hi.x, b->plan.hi.x), fmax(a->plan.hi.y, b->plan.hi.y)};
+    a->area = area;
+    a->horizontal_area += b->horizontal_area;
+}
+
+/* The least load that is one with load i. */
+static int32_t root_of(const int32_t *root, int32_t i)
+{
+    while (root[i] != i)
+        i = root[i];
+    return i;
+}
+
+static bool merge_seams(context *ctx, fracture_scratch *s, const tile_grid *g)
+{
+    fracture_load_array *l = &s->loads;
+    if (!array_resize(ctx, &s->front, l->count))
+        return false;
+    int32_t *root = s->front.data, kept = 0;
+    for (int32_t i = 0; i < l->count; i++) {
+        root[i] = i;
+        for (int32_t k = 0; k < i; k++) {
+            if (!l->data[i].tile || !l->data[k].tile || !is_one_patch(g, &l->data[k], &l->data[i]))
+                continue;
+            int32_t a = root_of(root, i), b = root_of(root, k);
+            root[a > b ? a : b] = a > b ? b : a;
+        }
+    }
+    for (int32_t i = 0; i < l->count; i++)
+        if (root_of(root, i) != i)
+            merge_into(&l->data[root_of(root, i)], &l->data[i]);
+    for (int32_t i = 0; i < l->count; i++)
+        if (root_of(root, i) == i)
+            l->data[kept++] = l->data[i];
+    l->count = kept;
+    return true;
+}
+
+/* ---- which fail ---- */
+
+/* Loads under this part of the strength fail in no way: 6/b0 eta'' and sigma_yy h^2/P are both under 12 for a/l of
+   POINT_LOAD and more, and fall from there. */
+static bool may_fail(const fracture_load *l)
+{
+    return 12 * l->force >= l->ice.flexural_strength * l->thickness * l->thickness;
+}
+
+/* Stresses of all loads; those that fail in no way go. */
+static void keep_failing(fracture_scratch *s, const fracture_settings *settings)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < s->loads.count; i++) {
+        fracture_load l = s->loads.data[i];
+        l.force = fabs(l.vector.z);
+        l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
+        if (!may_fail(&l))
+            continue;
+        l.stress = fracture_edge_stress(settings, &l.ice, l.thickness, l.force, l.horizontal_area);
+        l.radial_ratio = l.stress.radial_stress / l.ice.flexural_strength;
+        l.wedge_ratio = l.stress.wedge_stress / l.ice.flexural_strength;
+        if (l.radial_ratio >= 1 || l.wedge_ratio >= 1)
+            s->loads.data[kept++] = l;
+    }
+    s->loads.count = kept;
 }
 
 static double severity(const fracture_load *l) { return fmax(l->radial_ratio, l->wedge_ratio); }
@@ -88,7 +175,9 @@ static double severity(const fracture_load *l) { return fmax(l->radial_ratio, l-
 static int compare_loads(const void *a, const void *b)
 {
     const fracture_load *x = a, *y = b;
-    if (x->body != y->body)
+    if (!x->tile != !y->tile)
+        return x->tile ? 1 : -1;
+    if (!x->tile && x->body != y->body)
         return x->body < y->body ? -1 : 1;
     if (severity(x) != severity(y))
         return severity(x) > severity(y) ? -1 : 1;
@@ -109,6 +198,9 @@ bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *
         if (other == MATERIAL_ICE && !add_load(ctx, s, settings, patches, i, state, p->surface_body))
             return false;
     }
+    if (!merge_seams(ctx, s, &settings->tiles))
+        return false;
+    keep_failing(s, settings);
     if (s->loads.count > 1)
         qsort(s->loads.data, (size_t)s->loads.count, sizeof *s->loads.data, compare_loads);
     return true;

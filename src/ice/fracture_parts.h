@@ -3,23 +3,53 @@
 #define ICE_FRACTURE_PARTS_H
 
 #include "ice/fracture.h"
+#include "ice/tiles.h"
 
-/* A patch as a load on a floe, in the floe's own frame. */
+/* What one call works on. */
+typedef struct fracture_job {
+    context *ctx;
+    fracture_scratch *scratch;
+    const fracture_settings *settings;
+    overlay *plane;
+    const fracture_state *state;
+    fracture_event_array *events;
+    fram_error *error;
+} fracture_job;
+
+/* A patch as a load on a floe, in the floe's own frame; of a level sheet, in the global plan, with what the patch has
+   in other tiles. */
 typedef struct fracture_load {
-    int32_t body, floe; /* slot and row */
+    int32_t body, floe; /* slot and row; of a sheet those of one of its tiles */
     int32_t patch;      /* row, for ties */
+    int32_t tile;       /* cell of the sheet plus 1, 0: a floe of its own */
+    int32_t surface;    /* slot of the body that pushes */
+    vec3 vector;        /* force on the floe, floe frame [N] */
     double force;       /* P: along the floe's own z [N] */
     double plane_force; /* in its plane [N] */
     vec2 place;         /* r_break [m] */
+    box2 plan;          /* of a sheet: bounds of the patch, global [m] */
+    double area, horizontal_area; /* of the patch [m2] */
+    double thickness;             /* of the floe [m] */
+    ice_material ice;
     edge_stress stress;
     double radial_ratio, wedge_ratio; /* stress over flexural strength */
 } fracture_load;
 typedef ARRAY(fracture_load) fracture_load_array;
 
+/* Where a crack starts: the boundary point nearest to a load. */
+typedef struct crack_start {
+    vec2 point;      /* r_start [m] */
+    int32_t edge;    /* index of the edge it is on; of its first edge where it is a vertex */
+    vec2 direction;  /* unit, into the ice: theta_crack (Algorithm 7) */
+    double distance; /* from the load's place [m] */
+} crack_start;
+
 /* An outline on its way to become a floe. */
 typedef struct cut_piece {
     int32_t ring;   /* in fracture_scratch.outlines */
     uint8_t motion; /* enum motion of the floe to be */
+    int32_t tile;   /* cell of the sheet that it lies in plus 1; 0: of no sheet, or in several */
+    int32_t wedge;  /* number in the stencil plus 1; 0: what is left of the floe */
     double area;    /* [m2] */
 } cut_piece;
 typedef ARRAY(cut_piece) cut_piece_array;
@@ -36,6 +66,16 @@ struct fracture_scratch {
     cut_piece_array cut;
     vec2_array ring, clean;
     ARRAY(uint8_t) forgotten; /* rows of the contact memory */
+
+    /* Level ice. */
+    tile_index index;
+    bool index_is_made;
+    tile_segment_array boundary;
+    ARRAY(crack_start) starts;
+    int32_array touched; /* floe rows that the crack at hand reaches, or that come loose */
+    ARRAY(uint8_t) mark; /* one per floe row */
+    int32_array front;   /* of a flood */
+    tile_range changed;  /* cells in which something broke in this step */
 };
 
 /* Loads of this step on breakable floes that fail in one way at least, by ascending slot, then falling stress over
@@ -43,13 +83,6 @@ struct fracture_scratch {
 bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *settings,
                     const crushing_patch_array *patches, const fracture_state *state);
 
-/* Where a crack starts: the boundary point nearest to a load. */
-typedef struct crack_start {
-    vec2 point;      /* r_start [m] */
-    int32_t edge;    /* index of the edge it is on; of its first edge where it is a vertex */
-    vec2 direction;  /* unit, into the ice: theta_crack (Algorithm 7) */
-    double distance; /* from the load's place [m] */
-} crack_start;
 crack_start crack_start_of(polygon p, vec2 load, double snap);
 
 /* Way of a ray from the start to where it first leaves the polygon; edge gets the edge met, -1 when there is none. */
@@ -74,16 +107,36 @@ fram_status fracture_bend(context *ctx, overlay *plane, const fracture_settings 
 /* Simple, and by so much that rounding in a shift of the origin does not spoil it. */
 bool fracture_outline_is_sound(context *ctx, polygon p);
 
+/* The part of one wedge inside a ring, appended to wedges; a convex ring needs no general overlay. */
+fram_status fracture_cut_wedge(context *ctx, overlay *plane, polygon ring, bool convex, const vec2 tip[3],
+                               polygon_list *wedges, fram_error *error);
+
+/* Unite pieces i and k; *joined says whether that gave one ring, which then is piece k's. */
+fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
+                           fram_error *error);
+void fracture_drop_piece(fracture_scratch *s, int32_t i);
+
 /* Pieces that are too small or too narrow to be floes are joined to the neighbour that they share the most boundary
    with, so that no ice is lost; those without one stay.  Pieces keep their order. */
 fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
                                fram_error *error);
 
-/* The parent goes; cleaned remnants and wedges become floes, and the event's books are filled in.  *broke is false, and
-   nothing has changed, when the pieces are too small to part, or so small that more than the booked area of SPEC 8.8
-   would be lost with them. */
-fram_status fracture_birth(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
-                           const fracture_state *state, int32_t floe, const polygon_list *remnants,
-                           const polygon_list *wedges, fracture_event *event, bool *broke, fram_error *error);
+/* Outlines become the cut pieces: remnants with this motion and the wedges of a floe. */
+bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
+                     int32_t wedge);
+
+/* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes, and
+   the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than `least`,
+   or when they are so small that more than the booked area of SPEC 8.8 would be lost with them. */
+fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least,
+                           fracture_event *event, bool *broke);
+
+/* An event as its load tells it; place is global. */
+fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_kind kind, double length);
+
+/* Bending of a level sheet under its failing loads, by falling stress over strength. */
+fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count);
+/* What hangs on no anchored side any more drifts; seams are marked anew.  After all loads of a step. */
+fram_status fracture_release(const fracture_job *j);
 
 #endif

@@ -337,6 +337,12 @@ static void connect_parts(patch_scratch *s, const patch_surface *surface, const 
     }
 }
 
+static void box_take(box2 *b, vec3 r)
+{
+    b->lo = (vec2){fmin(b->lo.x, r.x), fmin(b->lo.y, r.y)};
+    b->hi = (vec2){fmax(b->hi.x, r.x), fmax(b->hi.y, r.y)};
+}
+
 /* Sums over the parts of each component: areas and first moments, then second moments about the centroid. */
 static bool sum_components(context *ctx, patch_scratch *s)
 {
@@ -345,7 +351,8 @@ static bool sum_components(context *ctx, patch_scratch *s)
         patch_part *part = &s->parts.data[i];
         if (root == i) {
             part->component = s->components.count;
-            if (!array_push(ctx, &s->components, (patch_component){.surface = 0}))
+            const box2 nothing = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+            if (!array_push(ctx, &s->components, (patch_component){.plan = nothing}))
                 return false;
         }
         part->component = s->parts.data[root].component;
@@ -354,6 +361,8 @@ static bool sum_components(context *ctx, patch_scratch *s)
         c->area = vec3_add(c->area, part->area);
         c->surface += part->surface;
         c->centre = vec3_mad(c->centre, reach, part->surface);
+        for (int32_t k = part->first; k < part->first + part->count; k++)
+            box_take(&c->plan, s->corners.data[k]);
     }
     for (int32_t i = 0; i < s->parts.count; i++)
         if (find_root(s, i) == i) {

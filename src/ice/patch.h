@@ -27,6 +27,7 @@ typedef struct patch_component {
     double surface; /* sum of areas, at least |N| [m2] */
     vec3 centre;    /* area-weighted centroid [m] */
     sym3 spread;    /* mean of (r - centre)(r - centre)^T over the area [m2] */
+    box2 plan;      /* bounds in the floe's plane [m] */
 } patch_component;
 typedef ARRAY(patch_component) patch_component_array;
 

@@ -13,7 +13,7 @@
 #include "vessel/station.h"
 
 /* Where the ice comes from. */
-typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE, ICE_FILE } ice_source;
+typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE, ICE_FILE, ICE_LEVEL } ice_source;
 typedef enum floe_shape { FLOE_RECTANGLE = 0, FLOE_REGULAR } floe_shape;
 /* Where a vessel's added mass and damping come from, and the axes of given matrices. */
 typedef enum hydrodynamics_source {

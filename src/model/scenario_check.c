@@ -20,6 +20,9 @@ static fram_status fault(const scenario *s, fram_error *error, const char *key, 
     return FRAM_ERROR_INPUT;
 }
 
+/* More tiles than this are a slip of the pen: a sheet of a million ship lengths squared. */
+enum { MOST_TILES = 1000000 };
+
 /* ---- ranges ---- */
 
 static const char *unit_text(const scenario_key *key) { return strcmp(key->unit, "1") == 0 ? "" : key->unit; }
@@ -203,6 +206,28 @@ static fram_status check_floes(const scenario *s, fram_error *error)
     return FRAM_OK;
 }
 
+static fram_status check_level(const scenario *s, fram_error *error)
+{
+    const scenario_level *l = &s->ice.level;
+    if (s->ice.source != ICE_LEVEL) {
+        if (l->openings.count == 0)
+            return FRAM_OK;
+        return fault(s, error, "ice.level.openings", "expected none, since ice.source is not level, found %d",
+                     (int)l->openings.count);
+    }
+    double x_min = automatic_or(l->x_min, s->domain.x_min), x_max = automatic_or(l->x_max, s->domain.x_max);
+    double y_min = automatic_or(l->y_min, s->domain.y_min), y_max = automatic_or(l->y_max, s->domain.y_max);
+    if (!(x_min < x_max))
+        return fault(s, error, "ice.level.x_max", "expected more than ice.level.x_min, %g, found %g", x_min, x_max);
+    if (!(y_min < y_max))
+        return fault(s, error, "ice.level.y_max", "expected more than ice.level.y_min, %g, found %g", y_min, y_max);
+    double size = automatic_or(l->tile_size, x_max - x_min);
+    if ((x_max - x_min) / size * ((y_max - y_min) / size) > MOST_TILES)
+        return fault(s, error, "ice.level.tile_size",
+                     "expected tiles so large that the sheet has no more than %d, found %g m", MOST_TILES, size);
+    return FRAM_OK;
+}
+
 static fram_status check_ice(const scenario *s, fram_error *error)
 {
     const scenario_ice *ice = &s->ice;
@@ -221,6 +246,8 @@ static fram_status check_ice(const scenario *s, fram_error *error)
         status = check_field(s, error);
     if (status == FRAM_OK)
         status = check_floes(s, error);
+    if (status == FRAM_OK)
+        status = check_level(s, error);
     if (status != FRAM_OK || ice->source == ICE_NONE || !s->environment.water)
         return status;
     if (ice->density < s->environment.water_density)

@@ -109,9 +109,10 @@
     X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
 #define SCENARIO_ICE_KEYS(X)                                                                                        \
-    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file"), "",                                       \
+    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level"), "",                                 \
       "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed " \
-      "floes, cut at the edge of the domain")                                                                       \
+      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides")                            \
+    X(level, SECTION(level), "", "the sheet, for source level")                                                     \
     X(file, PATH(""), "",                                                                                           \
       "file: GeoJSON of the floes in planar lengths; a thickness property goes before ice.thickness")               \
     X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                       \
@@ -166,6 +167,27 @@
     X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")    \
     X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")      \
     X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")
+
+#define SCENARIO_LEVEL_KEYS(X)                                                                                \
+    X(x_min, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
+    X(x_max, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
+    X(y_min, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
+    X(y_max, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
+    X(anchored_x_min, BOOLEAN(true), "", "the sheet is held at this edge; what hangs on no held edge drifts") \
+    X(anchored_x_max, BOOLEAN(true), "", "the sheet is held at this edge")                                    \
+    X(anchored_y_min, BOOLEAN(true), "", "the sheet is held at this edge")                                    \
+    X(anchored_y_max, BOOLEAN(true), "", "the sheet is held at this edge")                                    \
+    X(tile_size, AUTOMATIC(1e-6, 1e7), "m",                                                                   \
+      "the sheet is held in square tiles of about this size, and an event touches only those it reaches; "    \
+      "auto: twice the characteristic length, four breaking radii")                                           \
+    X(openings, LIST(opening, 100), "", "open water in the sheet at the start: channels, leads, basins")
+
+#define SCENARIO_OPENING_KEYS(X)                                                        \
+    X(x, REAL(0, -1e7, 1e7), "m", "centre")                                             \
+    X(y, REAL(0, -1e7, 1e7), "m", "centre")                                             \
+    X(length, REAL(10, 1e-6, 1e7), "m", "along its own x")                              \
+    X(width, REAL(10, 1e-6, 1e7), "m", "along its own y")                               \
+    X(angle_deg, REAL(0, -360, 360), "deg", "of its own x, counter-clockwise from X")
 
 #define SCENARIO_FLOE_KEYS(X)                                                                              \
     X(shape, CHOICE(floe_shape, FLOE_RECTANGLE, "rectangle regular"), "", "rectangle, or regular polygon") \
@@ -256,6 +278,8 @@
     S(friction, SCENARIO_FRICTION_KEYS)       \
     S(fracture, SCENARIO_FRACTURE_KEYS)       \
     S(floe, SCENARIO_FLOE_KEYS)               \
+    S(opening, SCENARIO_OPENING_KEYS)         \
+    S(level, SCENARIO_LEVEL_KEYS)             \
     S(ice, SCENARIO_ICE_KEYS)                 \
     S(domain, SCENARIO_DOMAIN_KEYS)           \
     S(ice_drag, SCENARIO_ICE_DRAG_KEYS)       \

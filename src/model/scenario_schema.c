@@ -71,6 +71,12 @@ SECTION_DEFINE(fracture, SCENARIO_FRACTURE_KEYS)
 #define SELF scenario_floe
 SECTION_DEFINE(floe, SCENARIO_FLOE_KEYS)
 #undef SELF
+#define SELF scenario_opening
+SECTION_DEFINE(opening, SCENARIO_OPENING_KEYS)
+#undef SELF
+#define SELF scenario_level
+SECTION_DEFINE(level, SCENARIO_LEVEL_KEYS)
+#undef SELF
 #define SELF scenario_ice
 SECTION_DEFINE(ice, SCENARIO_ICE_KEYS)
 #undef SELF

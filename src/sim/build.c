@@ -65,6 +65,7 @@ step_settings build_settings(const scenario *s)
         vec3 drift = horizontal(s->domain.drift_speed, s->domain.drift_direction_deg);
         out.drift = vec2_make(drift.x, drift.y);
     }
+    out.fracture.tiles = build_tiles(s);
     const scenario_ice_drag *di = &e->ice_drag;
     const scenario_hull_drag *dh = &e->hull_drag;
     out.drag[MATERIAL_ICE] = (drag_coefficients){di->water_form, di->water_skin, di->air_form, di->air_skin};

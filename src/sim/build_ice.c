@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "geometry/space_curve.h"
 #include "ice/import.h"
+#include "ice/tiles.h"
 #include "io/geojson.h"
 
 #include <math.h>
@@ -219,6 +220,111 @@ static fram_status build_file(context *ctx, const scenario *s, world *w, field_r
     return status;
 }
 
+/* ---- level ice ---- */
+
+/* Tiles of about four breaking radii: R_bending is about half the characteristic length under the loads that break
+   (oracles section 1, a/l near 0.1). */
+static const double TILE_LENGTHS = 2;
+
+tile_grid build_tiles(const scenario *s)
+{
+    const scenario_level *l = &s->ice.level;
+    if (s->ice.source != ICE_LEVEL)
+        return (tile_grid){.columns = 0};
+    box2 plan = {{automatic_or(l->x_min, s->domain.x_min), automatic_or(l->y_min, s->domain.y_min)},
+                 {automatic_or(l->x_max, s->domain.x_max), automatic_or(l->y_max, s->domain.y_max)}};
+    ice_material ice = material_of(s);
+    double length =
+        ice_characteristic_length(&ice, s->ice.thickness, s->environment.water_density, s->environment.gravity);
+    tile_grid g = tile_grid_over(plan, automatic_or(l->tile_size, TILE_LENGTHS * length));
+    g.anchored[SHEET_X_MIN] = l->anchored_x_min;
+    g.anchored[SHEET_X_MAX] = l->anchored_x_max;
+    g.anchored[SHEET_Y_MIN] = l->anchored_y_min;
+    g.anchored[SHEET_Y_MAX] = l->anchored_y_max;
+    g.least_seam = s->ice.edge_threshold;
+    return g;
+}
+
+/* The vessels' footprints with their margin, and what the scenario opens. */
+static fram_status find_openings(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+{
+    polygon_list footprints = {0};
+    vec2_array wide = {0};
+    fram_status status = find_keep_out(ctx, w, &footprints, error);
+    for (int32_t i = 0; i < polygon_list_count(&footprints) && status == FRAM_OK; i++) {
+        vec2_array corners = {0};
+        polygon p = polygon_list_get(&footprints, i);
+        double m = s->ice.keep_out_margin;
+        const vec2 shift[4] = {{-m, -m}, {m, -m}, {m, m}, {-m, m}};
+        bool good = true;
+        for (int32_t k = 0; k < p.count && good; k++)
+            for (int n = 0; n < 4 && good; n++)
+                good = array_push(ctx, &corners, vec2_add(p.vertex[k], shift[n]));
+        good = good && polygon_convex_hull(ctx, (polygon){corners.data, corners.count}, &wide) &&
+               polygon_list_push(ctx, out, (polygon){wide.data, wide.count});
+        array_free(ctx, &corners);
+        status = good ? FRAM_OK : error_memory(error);
+    }
+    for (int32_t i = 0; i < s->ice.level.openings.count && status == FRAM_OK; i++) {
+        const scenario_opening *o = &s->ice.level.openings.data[i];
+        double x = o->length / 2, y = o->width / 2, angle = radians(o->angle_deg);
+        vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+        for (int k = 0; k < 4; k++)
+            corner[k] = (vec2){o->x + real_cos(angle) * corner[k].x - real_sin(angle) * corner[k].y,
+                               o->y + real_sin(angle) * corner[k].x + real_cos(angle) * corner[k].y};
+        if (!polygon_list_push(ctx, out, (polygon){corner, 4}))
+            status = error_memory(error);
+    }
+    polygon_list_free(ctx, &footprints);
+    array_free(ctx, &wide);
+    return status;
+}
+
+static fram_status mark_seams(context *ctx, const tile_grid *g, world *w, fram_error *error)
+{
+    tile_index index = {0};
+    bool good = tile_index_build(ctx, &index, g, &w->floes);
+    tile_sheet_view v = {g, &index, &w->bodies, &w->shapes, &w->floes};
+    if (good)
+        tile_mark_seams(&v, &w->shapes, (tile_range){0, g->columns - 1, 0, g->rows - 1});
+    tile_index_free(ctx, &index);
+    return good ? FRAM_OK : error_memory(error);
+}
+
+static fram_status build_level(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+{
+    tile_grid g = build_tiles(s);
+    polygon_list openings = {0}, outlines = {0};
+    int32_array cells = {0};
+    floe_definition d = {.material = material_of(s),
+                         .breakable = s->ice.breakable,
+                         .motion = MOTION_STATIC,
+                         .thickness = s->ice.thickness,
+                         .elevation = floating_elevation(s, s->ice.thickness),
+                         .parent = -1};
+    fram_status status = find_openings(ctx, s, w, &openings, error);
+    if (status == FRAM_OK)
+        status = tile_sheet(ctx, &g, w->scratch.plane, &openings, s->ice.smallest_floe_area, &outlines, &cells, error);
+    double area = 0;
+    for (int32_t i = 0; i < polygon_list_count(&outlines) && status == FRAM_OK; i++) {
+        int32_t row;
+        d.outline = polygon_list_get(&outlines, i);
+        d.tile = cells.data[i] + 1;
+        area += polygon_area(d.outline);
+        status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
+                             &w->clock.next_floe[0], &row, error);
+    }
+    if (status == FRAM_OK)
+        status = mark_seams(ctx, &g, w, error);
+    double whole = (g.plan.hi.x - g.plan.lo.x) * (g.plan.hi.y - g.plan.lo.y);
+    *report = (field_report){
+        .floes = polygon_list_count(&outlines), .concentration = area / whole, .free_area = whole};
+    polygon_list_free(ctx, &openings);
+    polygon_list_free(ctx, &outlines);
+    array_free(ctx, &cells);
+    return status;
+}
+
 /* ---- single floes ---- */
 
 enum { SINGLE_FLOE_VERTICES = 64 };
@@ -275,6 +381,8 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
         return build_voronoi(ctx, s, w, report, error);
     if (s->ice.source == ICE_FILE)
         return build_file(ctx, s, w, report, error);
+    if (s->ice.source == ICE_LEVEL)
+        return build_level(ctx, s, w, report, error);
     if (s->ice.source == ICE_NONE)
         return FRAM_OK;
     for (int32_t i = 0; i < s->ice.floes.count; i++) {

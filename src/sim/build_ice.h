@@ -9,6 +9,9 @@
 /* Adds the scenario's floes to a world whose vessel is in place (its footprint stays clear). */
 fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error);
 
+/* The grid of a level sheet; without cells for any other source. */
+tile_grid build_tiles(const scenario *s);
+
 /* Plan outlines, global [m], of what is drawn or kept clear: the convex hull of all of a solid body seen from above,
    and of its part below still water. */
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,

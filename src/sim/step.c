@@ -111,7 +111,8 @@ static fram_status break_floes(context *ctx, const step_settings *s, world *w, f
                                       &state, &w->scratch.fractures, error);
     for (int32_t i = 0; i < w->scratch.fractures.count; i++) {
         const fracture_event *e = &w->scratch.fractures.data[i];
-        *(e->kind == FRACTURE_SPLIT ? w->clock.splits : w->clock.bendings) += 1;
+        w->clock.splits[0] += e->kind == FRACTURE_SPLIT;
+        w->clock.bendings[0] += e->kind == FRACTURE_BENDING;
         w->clock.ice_lost[0] += e->mass_lost;
         w->clock.ice_gained[0] += e->mass_gained;
     }

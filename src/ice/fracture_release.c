@@ -1,0 +1,215 @@
+/* What a level sheet lets go of (SPEC 8.6): tiles that no chain of seams joins to an anchored side become one floe, which
+   drifts.  Before an event every tile hangs on an anchored side, so only the neighbourhood of what changed is looked at
+   as long as that holds together. */
+#include "ice/fracture_parts.h"
+
+#include <string.h>
+
+/* Cells around those that changed whose tiles must hold together. */
+enum { NEIGHBOURHOOD = 2 };
+/* Marks of floe rows. */
+enum { MARK_NONE = 0, MARK_HELD, MARK_LOOSE };
+
+static tile_sheet_view view_of(const fracture_job *j)
+{
+    const fracture_state *s = j->state;
+    return (tile_sheet_view){&j->settings->tiles, &j->scratch->index, s->bodies, s->shapes, s->floes};
+}
+
+static tile_range grown(const tile_grid *g, tile_range r, int32_t by)
+{
+    r.column_first = r.column_first > by ? r.column_first - by : 0;
+    r.row_first = r.row_first > by ? r.row_first - by : 0;
+    r.column_last = r.column_last + by < g->columns ? r.column_last + by : g->columns - 1;
+    r.row_last = r.row_last + by < g->rows ? r.row_last + by : g->rows - 1;
+    return r;
+}
+
+static bool holds(const tile_range *r, int32_t column, int32_t row)
+{
+    return column >= r->column_first && column <= r->column_last && row >= r->row_first && row <= r->row_last;
+}
+
+/* Marks all tiles within the range that hang together with those on the front, which is used up; all of a mark are
+   appended to `out` when it is given. */
+static bool flood(const fracture_job *j, const tile_range *within, uint8_t mark, int32_array *out)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = view_of(j);
+    const int32_t step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    while (s->front.count > 0) {
+        int32_t row = s->front.data[--s->front.count], cell = v.floes->tile[row] - 1;
+        if (out && !array_push(j->ctx, out, row))
+            return false;
+        for (int k = 0; k < 4; k++) {
+            int32_t column = cell % v.grid->columns + step[k][0], line = cell / v.grid->columns + step[k][1];
+            if (!holds(within, column, line))
+                continue;
+            int32_t other = v.index->first.data[column + line * v.grid->columns];
+            for (; other >= 0; other = v.index->next.data[other]) {
+                if (s->mark.data[other] != MARK_NONE || !(tile_seam(&v, row, other) > v.grid->least_seam))
+                    continue;
+                s->mark.data[other] = mark;
+                if (!array_push(j->ctx, &s->front, other))
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool start_marks(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    int32_t rows = j->state->floes->count;
+    array_clear(&s->front);
+    if (!array_resize(j->ctx, &s->mark, rows))
+        return false;
+    if (rows > 0)
+        memset(s->mark.data, MARK_NONE, (size_t)rows);
+    return true;
+}
+
+static int32_t first_of(const tile_sheet_view *v, int32_t column, int32_t row)
+{
+    return v->index->first.data[column + row * v->grid->columns];
+}
+
+static bool on_anchored_side(const tile_grid *g, const tile_range *r)
+{
+    return (r->column_first == 0 && g->anchored[SHEET_X_MIN]) || (r->row_first == 0 && g->anchored[SHEET_Y_MIN]) ||
+           (r->column_last == g->columns - 1 && g->anchored[SHEET_X_MAX]) ||
+           (r->row_last == g->rows - 1 && g->anchored[SHEET_Y_MAX]);
+}
+
+/* Whether the tiles around the change hang together without a look at the rest: then each of them still hangs on what
+   it hung on before, by the last place where its way to the anchored side left the neighbourhood. */
+static bool hangs_together(const fracture_job *j, bool *together)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = view_of(j);
+    tile_range around = grown(v.grid, s->changed, NEIGHBOURHOOD);
+    *together = !on_anchored_side(v.grid, &s->changed);
+    if (!*together)
+        return true;
+    if (!start_marks(j))
+        return false;
+    for (int32_t k = around.row_first; k <= around.row_last; k++)
+        for (int32_t i = around.column_first; i <= around.column_last; i++) {
+            int32_t row = first_of(&v, i, k);
+            if (row >= 0 && s->front.count == 0) {
+                s->mark.data[row] = MARK_HELD;
+                if (!array_push(j->ctx, &s->front, row))
+                    return false;
+            }
+        }
+    if (!flood(j, &around, MARK_HELD, NULL))
+        return false;
+    for (int32_t k = around.row_first; k <= around.row_last; k++)
+        for (int32_t i = around.column_first; i <= around.column_last; i++)
+            for (int32_t row = first_of(&v, i, k); row >= 0; row = v.index->next.data[row])
+                *together = *together && s->mark.data[row] == MARK_HELD;
+    return true;
+}
+
+/* Marks all that hangs on an anchored side. */
+static bool mark_held(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = view_of(j);
+    tile_range all = {0, v.grid->columns - 1, 0, v.grid->rows - 1};
+    if (!start_marks(j))
+        return false;
+    for (int32_t row = 0; row < v.floes->count; row++) {
+        if (v.floes->body[row] < 0 || v.floes->tile[row] == 0 || !tile_is_anchored(&v, row))
+            continue;
+        s->mark.data[row] = MARK_HELD;
+        if (!array_push(j->ctx, &s->front, row))
+            return false;
+    }
+    return flood(j, &all, MARK_HELD, NULL);
+}
+
+/* One outline for the tiles in s->touched where there is one, theirs otherwise, as pieces that move. */
+static fram_status gather_loose(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = view_of(j);
+    polygon_list_clear(&s->outlines);
+    array_clear(&s->cut);
+    polygon_list_clear(&s->pair);
+    polygon_list_clear(&s->joined);
+    for (int32_t i = 0; i < s->touched.count; i++)
+        if (!tile_outline(j->ctx, &v, s->touched.data[i], &s->ring) ||
+            !polygon_list_push(j->ctx, &s->pair, (polygon){s->ring.data, s->ring.count}))
+            return error_memory(j->error);
+    fram_status status = overlay_union(j->plane, &s->pair, &s->joined, j->error);
+    if (status == FRAM_ERROR_MEMORY)
+        return status;
+    const polygon_list *rings = status == FRAM_OK ? &s->joined : &s->pair;
+    return fracture_gather(j->ctx, s, rings, MOTION_DYNAMIC, 0, 0) ? FRAM_OK : error_memory(j->error);
+}
+
+static fram_status let_go(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    fram_status status = gather_loose(j);
+    if (status != FRAM_OK)
+        return status;
+    polygon first = polygon_list_get(&s->outlines, 0);
+    vec2 centre = polygon_moments_of(first).centroid;
+    fracture_event event = {.kind = FRACTURE_RELEASE,
+                            .place = {centre.x, centre.y,
+                                      j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z}};
+    for (int32_t i = 0; i < s->touched.count; i++) {
+        int32_t body = j->state->floes->body[s->touched.data[i]];
+        if (body < s->broken.count)
+            s->broken.data[body] = 1;
+    }
+    bool broke;
+    status = fracture_birth(j, s->touched.data, s->touched.count, 1, &event, &broke);
+    if (status != FRAM_OK || !broke)
+        return status;
+    return array_push(j->ctx, j->events, event) ? FRAM_OK : error_memory(j->error);
+}
+
+/* Every part that came loose becomes a floe.  Parts are found first, since floes that are made reuse rows. */
+static fram_status release_loose(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    const floe_table *floes = j->state->floes;
+    tile_range all = {0, j->settings->tiles.columns - 1, 0, j->settings->tiles.rows - 1};
+    for (int32_t row = 0; row < s->mark.count; row++) {
+        if (s->mark.data[row] != MARK_NONE || floes->body[row] < 0 || floes->tile[row] == 0)
+            continue;
+        array_clear(&s->touched);
+        s->mark.data[row] = MARK_LOOSE;
+        if (!array_push(j->ctx, &s->front, row) || !flood(j, &all, MARK_LOOSE, &s->touched))
+            return error_memory(j->error);
+        fram_status status = let_go(j);
+        if (status != FRAM_OK)
+            return status;
+        /* What was made stands in rows that were marked, or behind them, and is of no sheet. */
+        if (!tile_index_build(j->ctx, &s->index, &j->settings->tiles, floes))
+            return error_memory(j->error);
+    }
+    return FRAM_OK;
+}
+
+fram_status fracture_release(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    bool together;
+    if (!hangs_together(j, &together))
+        return error_memory(j->error);
+    if (!together) {
+        if (!mark_held(j))
+            return error_memory(j->error);
+        fram_status status = release_loose(j);
+        if (status != FRAM_OK)
+            return status;
+    }
+    tile_sheet_view v = view_of(j);
+    tile_mark_seams(&v, j->state->shapes, grown(v.grid, s->changed, 1));
+    return FRAM_OK;
+}

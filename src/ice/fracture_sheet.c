@@ -1,0 +1,320 @@
+/* Level ice breaks (SPEC 8.6): the stencil of a load cuts the tiles that it reaches, and no others; what it takes out of
+   several tiles is one piece.  All in the global plan. */
+#include "ice/fracture_parts.h"
+
+#include "base/transcendental.h"
+
+#include <string.h>
+
+/* A crack starts at a corner when it is nearer to it than this part of R_bending; an r_start is gone when the boundary
+   that is left is farther from it. */
+static const double CORNER_REACH = 1e-6, GONE_REACH = 1e-6;
+
+static tile_sheet_view view_of(const fracture_job *j)
+{
+    const fracture_state *s = j->state;
+    return (tile_sheet_view){&j->settings->tiles, &j->scratch->index, s->bodies, s->shapes, s->floes};
+}
+
+static fram_status make_index(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    if (!s->index_is_made &&
+        !tile_index_build(j->ctx, &s->index, &j->settings->tiles, j->state->floes))
+        return error_memory(j->error);
+    s->index_is_made = true;
+    return FRAM_OK;
+}
+
+static double cell_size(const tile_grid *g)
+{
+    return fmin((g->plan.hi.x - g->plan.lo.x) / g->columns, (g->plan.hi.y - g->plan.lo.y) / g->rows);
+}
+
+static box2 box_around(vec2 centre, double reach)
+{
+    return (box2){{centre.x - reach, centre.y - reach}, {centre.x + reach, centre.y + reach}};
+}
+
+/* ---- where cracks start ---- */
+
+/* The nearest of the boundary's points, and the mean of the inward normals there.  false: there is none within reach. */
+static bool nearest_start(const tile_segment_array *boundary, vec2 load, double reach, double snap, crack_start *start)
+{
+    const tile_segment *best = NULL;
+    double least = reach;
+    for (int32_t i = 0; i < boundary->count; i++) {
+        const tile_segment *e = &boundary->data[i];
+        vec2 near = segment_nearest(e->a, e->b, load);
+        double distance = vec2_length(vec2_sub(near, load));
+        if (distance < least) {
+            least = distance;
+            best = e;
+            *start = (crack_start){near, -1, e->normal, distance};
+        }
+    }
+    if (!best)
+        return false;
+    for (int k = 0; k < 2; k++) {
+        vec2 corner = k ? best->b : best->a;
+        if (vec2_length(vec2_sub(corner, start->point)) <= snap)
+            start->point = corner;
+    }
+    vec2 sum = {0, 0};
+    for (int32_t i = 0; i < boundary->count; i++) {
+        const tile_segment *e = &boundary->data[i];
+        if (vec2_length(vec2_sub(segment_nearest(e->a, e->b, start->point), start->point)) <= snap)
+            sum = vec2_add(sum, e->normal);
+    }
+    double length = vec2_length(sum);
+    if (length > 0)
+        start->direction = vec2_scale(sum, 1 / length);
+    return true;
+}
+
+/* The start of a load's crack on the sheet as it stands.  A load farther from any boundary than a cell is wide breaks
+   nothing: an edge is what it would bend. */
+static fram_status find_start(const fracture_job *j, vec2 load, double reach, double radius, crack_start *start,
+                              bool *found)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = view_of(j);
+    tile_range range;
+    *found = false;
+    array_clear(&s->boundary);
+    if (!tile_range_of(v.grid, box_around(load, reach), &range))
+        return FRAM_OK;
+    if (!tile_boundary(j->ctx, &v, range, &s->boundary))
+        return error_memory(j->error);
+    *found = nearest_start(&s->boundary, load, reach, CORNER_REACH * radius, start);
+    return FRAM_OK;
+}
+
+/* Way of the crack's ray to the boundary within the range at hand (option wedge_room). */
+static double way_to_boundary(const tile_segment_array *boundary, const crack_start *start, double snap)
+{
+    double least = HUGE_VAL;
+    for (int32_t i = 0; i < boundary->count; i++) {
+        const tile_segment *e = &boundary->data[i];
+        if (vec2_length(vec2_sub(segment_nearest(e->a, e->b, start->point), start->point)) <= snap)
+            continue;
+        vec2 a = vec2_sub(e->a, start->point), b = vec2_sub(e->b, start->point);
+        double side_a = vec2_cross(start->direction, a), side_b = vec2_cross(start->direction, b);
+        if ((side_a > 0) == (side_b > 0))
+            continue;
+        double share = side_a / (side_a - side_b);
+        double way = (1 - share) * vec2_dot(start->direction, a) + share * vec2_dot(start->direction, b);
+        if (way > 0 && way < least)
+            least = way;
+    }
+    return least;
+}
+
+/* ---- cutting ---- */
+
+/* Rings of the list that rounding moved off the cell's sides go back there. */
+static bool snap_rings(const fracture_job *j, polygon_list *rings, int32_t cell)
+{
+    fracture_scratch *s = j->scratch;
+    polygon_list_clear(&s->pair);
+    for (int32_t i = 0; i < polygon_list_count(rings); i++) {
+        polygon p = polygon_list_get(rings, i);
+        if (!array_resize(j->ctx, &s->clean, p.count))
+            return false;
+        memcpy(s->clean.data, p.vertex, (size_t)p.count * sizeof *p.vertex);
+        tile_snap(&j->settings->tiles, cell, &s->clean);
+        p = (polygon){s->clean.data, s->clean.count};
+        if (p.count >= 3 && polygon_area(p) > 0 && !polygon_list_push(j->ctx, &s->pair, p))
+            return false;
+    }
+    polygon_list swap = *rings;
+    *rings = s->pair;
+    s->pair = swap;
+    return true;
+}
+
+/* One tile under the stencil: its remnants and the parts of the wedges inside it join the cut pieces. */
+static fram_status cut_tile(const fracture_job *j, int32_t row, const vec2 *stencil, int count, vec2 centre)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = view_of(j);
+    int32_t tile = j->state->floes->tile[row];
+    if (!tile_outline(j->ctx, &v, row, &s->ring))
+        return error_memory(j->error);
+    polygon ring = {s->ring.data, s->ring.count};
+    if (!(polygon_overlap_area(ring, (polygon){stencil, count}) > 0))
+        return FRAM_OK;
+    polygon_list_clear(&s->remnants);
+    fram_status status = overlay_difference(j->plane, ring, (polygon){stencil, count}, &s->remnants, j->error);
+    if (status != FRAM_OK)
+        return status;
+    if (!array_push(j->ctx, &s->touched, row) || !snap_rings(j, &s->remnants, tile - 1) ||
+        !fracture_gather(j->ctx, s, &s->remnants, MOTION_STATIC, tile, 0))
+        return error_memory(j->error);
+    bool convex = polygon_is_convex(ring);
+    for (int i = 0; i < count; i++) {
+        const vec2 tip[3] = {centre, stencil[i], stencil[i + 1 < count ? i + 1 : 0]};
+        polygon_list_clear(&s->pieces);
+        status = fracture_cut_wedge(j->ctx, j->plane, ring, convex, tip, &s->pieces, j->error);
+        if (status != FRAM_OK)
+            return status;
+        if (!snap_rings(j, &s->pieces, tile - 1) ||
+            !fracture_gather(j->ctx, s, &s->pieces, MOTION_DYNAMIC, tile, i + 1))
+            return error_memory(j->error);
+    }
+    return FRAM_OK;
+}
+
+/* Parts of one wedge on both sides of a seam become one again. */
+static fram_status unite_wedges(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    for (int32_t i = 0; i < s->cut.count; i++) {
+        for (int32_t k = 0; k < s->cut.count; k++) {
+            const cut_piece *a = &s->cut.data[i], *b = &s->cut.data[k];
+            bool joined = false;
+            if (i == k || a->wedge == 0 || a->wedge != b->wedge || (a->tile != 0 && a->tile == b->tile))
+                continue;
+            fram_status status = fracture_unite(j->ctx, s, j->plane, i, k, &joined, j->error);
+            if (status != FRAM_OK)
+                return status;
+            if (!joined)
+                continue;
+            fracture_drop_piece(s, i);
+            i = -1; /* from the beginning: there are few */
+            break;
+        }
+    }
+    return FRAM_OK;
+}
+
+static void grow_changed(const fracture_job *j, bool first)
+{
+    fracture_scratch *s = j->scratch;
+    for (int32_t i = 0; i < s->touched.count; i++) {
+        int32_t cell = j->state->floes->tile[s->touched.data[i]] - 1;
+        int32_t column = cell % j->settings->tiles.columns, row = cell / j->settings->tiles.columns;
+        tile_range *c = &s->changed;
+        if (first && i == 0)
+            *c = (tile_range){column, column, row, row};
+        c->column_first = column < c->column_first ? column : c->column_first;
+        c->column_last = column > c->column_last ? column : c->column_last;
+        c->row_first = row < c->row_first ? row : c->row_first;
+        c->row_last = row > c->row_last ? row : c->row_last;
+    }
+}
+
+static void mark_broken(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    for (int32_t i = 0; i < s->touched.count; i++) {
+        int32_t body = j->state->floes->body[s->touched.data[i]];
+        if (body < s->broken.count)
+            s->broken.data[body] = 1;
+    }
+}
+
+/* A geometry that admits no sound cut leaves the sheet as it is, for this step. */
+static fram_status or_refuse(const fracture_job *j, fram_status status, bool *refused)
+{
+    *refused = status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT;
+    if (*refused)
+        log_write(j->ctx, LOG_DEBUG, "level ice could not be cut in bending: %s", j->error ? j->error->message : "");
+    return *refused ? FRAM_OK : status;
+}
+
+static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, const crack_start *start, bool first,
+                             bool *broke)
+{
+    fracture_scratch *s = j->scratch;
+    const tile_grid *g = &j->settings->tiles;
+    double radius = l->stress.breaking_radius;
+    vec2 stencil[MOST_STENCIL];
+    int count = fracture_stencil(j->settings->wedges, radius, start, stencil);
+    tile_range range;
+    bool refused = false;
+    *broke = false;
+    polygon_list_clear(&s->outlines);
+    array_clear(&s->cut);
+    array_clear(&s->touched);
+    if (!tile_range_of(g, box_around(start->point, radius), &range))
+        return FRAM_OK;
+    fram_status status = FRAM_OK;
+    for (int32_t k = range.row_first; k <= range.row_last; k++)
+        for (int32_t i = range.column_first; i <= range.column_last; i++)
+            for (int32_t row = s->index.first.data[i + k * g->columns]; row >= 0; row = s->index.next.data[row]) {
+                status = or_refuse(j, cut_tile(j, row, stencil, count, start->point), &refused);
+                if (status != FRAM_OK || refused)
+                    return status;
+            }
+    if (s->touched.count == 0)
+        return FRAM_OK;
+    status = unite_wedges(j);
+    if (status != FRAM_OK)
+        return status;
+    double z = j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z;
+    vec3 place = {start->point.x, start->point.y, z};
+    fracture_event event = fracture_event_of(l, place, FRACTURE_BENDING, radius);
+    grow_changed(j, first);
+    mark_broken(j);
+    status = fracture_birth(j, s->touched.data, s->touched.count, 2, &event, broke);
+    if (status != FRAM_OK || !*broke)
+        return status;
+    s->index_is_made = false;
+    return array_push(j->ctx, j->events, event) ? make_index(j) : error_memory(j->error);
+}
+
+/* ---- all loads of the sheet ---- */
+
+static fram_status find_starts(const fracture_job *j, const fracture_load *load, int32_t count)
+{
+    fracture_scratch *s = j->scratch;
+    double reach = cell_size(&j->settings->tiles);
+    if (!array_resize(j->ctx, &s->starts, count))
+        return error_memory(j->error);
+    for (int32_t i = 0; i < count; i++) {
+        bool found;
+        fram_status status =
+            find_start(j, load[i].place, reach, load[i].stress.breaking_radius, &s->starts.data[i], &found);
+        if (status != FRAM_OK)
+            return status;
+        if (!found)
+            s->starts.data[i].distance = -1;
+    }
+    return FRAM_OK;
+}
+
+/* The crack's start, unless an earlier stencil took it; its direction on the boundary that is left. */
+static fram_status renew_start(const fracture_job *j, const fracture_load *l, crack_start *start, bool *is_there)
+{
+    double radius = l->stress.breaking_radius, distance = start->distance;
+    vec2 point = start->point;
+    fram_status status = find_start(j, point, radius, radius, start, is_there);
+    if (status != FRAM_OK || !*is_there)
+        return status;
+    *is_there = start->distance <= GONE_REACH * radius;
+    if (*is_there && j->settings->wedge_room)
+        *is_there = way_to_boundary(&j->scratch->boundary, start, CORNER_REACH * radius) > radius;
+    start->distance = distance;
+    return FRAM_OK;
+}
+
+fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count)
+{
+    j->scratch->index_is_made = false;
+    fram_status status = make_index(j);
+    if (status == FRAM_OK)
+        status = find_starts(j, load, count);
+    bool any = false;
+    for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
+        crack_start start = j->scratch->starts.data[i];
+        bool there, broke = false;
+        if (load[i].wedge_ratio < 1 || start.distance < 0)
+            continue;
+        status = renew_start(j, &load[i], &start, &there);
+        if (status == FRAM_OK && there)
+            status = cut_sheet(j, &load[i], &start, !any, &broke);
+        any = any || broke;
+    }
+    return status == FRAM_OK && any ? fracture_release(j) : status;
+}
