@@ -104,7 +104,7 @@ static bool clean_within(const fracture_job *j, const cut_piece *piece, double b
             return false;
         *out = (polygon){j->scratch->clean.data, j->scratch->clean.count};
         double after = polygon_area(*out);
-        if (fabs(after - area) <= budget && after >= j->settings->smallest_floe_area &&
+        if (fabs(after - area) <= budget && after >= fmin(area, j->settings->smallest_floe_area) &&
             fracture_outline_is_sound(j->ctx, *out))
             return true;
     }
@@ -112,12 +112,27 @@ static bool clean_within(const fracture_job *j, const cut_piece *piece, double b
     return true;
 }
 
+bool fracture_is_dust(const fracture_settings *settings, const cut_piece *piece, polygon ring)
+{
+    if (piece->motion == MOTION_DYNAMIC || piece->tile == 0)
+        return piece->area < settings->smallest_floe_area;
+    if (piece->area >= settings->smallest_floe_area)
+        return false;
+    return piece->area < settings->smallest_piece_area ||
+           !(tile_side_length(&settings->tiles, piece->tile - 1, ring) > settings->tiles.least_seam);
+}
+
+static bool is_dust(const fracture_job *j, const cut_piece *piece)
+{
+    return fracture_is_dust(j->settings, piece, polygon_list_get(&j->scratch->outlines, piece->ring));
+}
+
 /* Area of the pieces that no sibling took: they will be lost [m2]. */
 static double dust_of(const fracture_job *j)
 {
     double sum = 0;
     for (int32_t i = 0; i < j->scratch->cut.count; i++)
-        if (j->scratch->cut.data[i].area < j->settings->smallest_floe_area)
+        if (is_dust(j, &j->scratch->cut.data[i]))
             sum += j->scratch->cut.data[i].area;
     return sum;
 }
@@ -129,7 +144,7 @@ static bool clean_pieces(const fracture_job *j, double budget, bool *sound)
     *sound = true;
     for (int32_t i = 0; i < s->cut.count; i++) {
         cut_piece *c = &s->cut.data[i];
-        if (c->area < j->settings->smallest_floe_area)
+        if (is_dust(j, c))
             continue;
         polygon outline;
         if (!clean_within(j, c, fmax(budget, 0) / (s->cut.count - i), &outline))
@@ -164,7 +179,7 @@ static fram_status make_pieces(const birth *b)
     for (int32_t i = 0; i < j->scratch->cut.count && status == FRAM_OK; i++) {
         const cut_piece *c = &j->scratch->cut.data[i];
         polygon outline = polygon_list_get(&j->scratch->outlines, c->ring);
-        bool dust = c->area < j->settings->smallest_floe_area;
+        bool dust = is_dust(j, c);
         book(b, c->area, dust ? 0 : polygon_area(outline));
         if (!dust)
             status = make_floe(b, outline, c);
@@ -186,7 +201,8 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
         parent_area += j->state->floes->area[parents[i]];
     fram_status status = fracture_join_dust(j->ctx, s, j->settings, j->plane, j->error);
     double budget = MOST_BOOKED * parent_area - dust_of(j);
-    if (status != FRAM_OK || s->cut.count < least || budget < 0)
+    /* What comes loose may be dust itself: nothing holds it. */
+    if (status != FRAM_OK || s->cut.count < least || (budget < 0 && least > 1))
         return status;
     if (!clean_pieces(j, budget, broke))
         return error_memory(j->error);

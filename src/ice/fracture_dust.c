@@ -134,8 +134,9 @@ static fram_status judge(context *ctx, fracture_scratch *s, const fracture_setti
                          fram_error *error)
 {
     double area = s->cut.data[i].area;
-    *dust = area < settings->smallest_floe_area;
-    if (*dust)
+    const cut_piece *piece = &s->cut.data[i];
+    *dust = fracture_is_dust(settings, piece, polygon_list_get(&s->outlines, piece->ring));
+    if (*dust || (piece->tile != 0 && piece->motion != MOTION_DYNAMIC))
         return FRAM_OK;
     if (!polygon_clean(ctx, polygon_list_get(&s->outlines, s->cut.data[i].ring), settings->edge_threshold, &s->clean))
         return error_memory(error);

@@ -80,10 +80,7 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
 
 /* ---- patches that a seam divides ---- */
 
-static double gap(double lo, double hi, double other_lo, double other_hi)
-{
-    return fmax(lo - other_hi, other_lo - hi);
-}
+static double gap(double lo, double hi, double other_lo, double other_hi) { return fmax(lo - other_hi, other_lo - hi); }
 
 /* Two patches of one surface in neighbouring cells that both reach the line between these, at the same place. */
 static bool is_one_patch(const tile_grid *g, const fracture_load *a, const fracture_load *b)

@@ -19,15 +19,15 @@ typedef struct fracture_job {
 /* A patch as a load on a floe, in the floe's own frame; of a level sheet, in the global plan, with what the patch has
    in other tiles. */
 typedef struct fracture_load {
-    int32_t body, floe; /* slot and row; of a sheet those of one of its tiles */
-    int32_t patch;      /* row, for ties */
-    int32_t tile;       /* cell of the sheet plus 1, 0: a floe of its own */
-    int32_t surface;    /* slot of the body that pushes */
-    vec3 vector;        /* force on the floe, floe frame [N] */
-    double force;       /* P: along the floe's own z [N] */
-    double plane_force; /* in its plane [N] */
-    vec2 place;         /* r_break [m] */
-    box2 plan;          /* of a sheet: bounds of the patch, global [m] */
+    int32_t body, floe;           /* slot and row; of a sheet those of one of its tiles */
+    int32_t patch;                /* row, for ties */
+    int32_t tile;                 /* cell of the sheet plus 1, 0: a floe of its own */
+    int32_t surface;              /* slot of the body that pushes */
+    vec3 vector;                  /* force on the floe, floe frame [N] */
+    double force;                 /* P: along the floe's own z [N] */
+    double plane_force;           /* in its plane [N] */
+    vec2 place;                   /* r_break [m] */
+    box2 plan;                    /* of a sheet: bounds of the patch, global [m] */
     double area, horizontal_area; /* of the patch [m2] */
     double thickness;             /* of the floe [m] */
     ice_material ice;
@@ -125,9 +125,12 @@ fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture
 bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
                      int32_t wedge);
 
-/* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes, and
-   the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than `least`,
-   or when they are so small that more than the booked area of SPEC 8.8 would be lost with them. */
+/* Too small to be a floe.  A part of a sheet need not be one, as long as it has a seam to hang on. */
+bool fracture_is_dust(const fracture_settings *settings, const cut_piece *piece, polygon ring);
+
+/* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,
+   and the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than
+   `least`, or when they are so small that more than the booked area of SPEC 8.8 would be lost with them. */
 fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least,
                            fracture_event *event, bool *broke);
 

@@ -1,6 +1,6 @@
-/* What a level sheet lets go of (SPEC 8.6): tiles that no chain of seams joins to an anchored side become one floe, which
-   drifts.  Before an event every tile hangs on an anchored side, so only the neighbourhood of what changed is looked at
-   as long as that holds together. */
+/* What a level sheet lets go of (SPEC 8.6): tiles that no chain of seams joins to an anchored side become one floe,
+   which drifts.  Before an event every tile hangs on an anchored side, so only the neighbourhood of what changed is
+   looked at as long as that holds together. */
 #include "ice/fracture_parts.h"
 
 #include <string.h>
@@ -158,9 +158,9 @@ static fram_status let_go(const fracture_job *j)
         return status;
     polygon first = polygon_list_get(&s->outlines, 0);
     vec2 centre = polygon_moments_of(first).centroid;
-    fracture_event event = {.kind = FRACTURE_RELEASE,
-                            .place = {centre.x, centre.y,
-                                      j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z}};
+    fracture_event event = {
+        .kind = FRACTURE_RELEASE,
+        .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z}};
     for (int32_t i = 0; i < s->touched.count; i++) {
         int32_t body = j->state->floes->body[s->touched.data[i]];
         if (body < s->broken.count)

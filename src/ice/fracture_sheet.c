@@ -1,5 +1,5 @@
-/* Level ice breaks (SPEC 8.6): the stencil of a load cuts the tiles that it reaches, and no others; what it takes out of
-   several tiles is one piece.  All in the global plan. */
+/* Level ice breaks (SPEC 8.6): the stencil of a load cuts the tiles that it reaches, and no others; what it takes out
+   of several tiles is one piece.  All in the global plan. */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"
@@ -19,8 +19,7 @@ static tile_sheet_view view_of(const fracture_job *j)
 static fram_status make_index(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    if (!s->index_is_made &&
-        !tile_index_build(j->ctx, &s->index, &j->settings->tiles, j->state->floes))
+    if (!s->index_is_made && !tile_index_build(j->ctx, &s->index, &j->settings->tiles, j->state->floes))
         return error_memory(j->error);
     s->index_is_made = true;
     return FRAM_OK;
@@ -38,7 +37,8 @@ static box2 box_around(vec2 centre, double reach)
 
 /* ---- where cracks start ---- */
 
-/* The nearest of the boundary's points, and the mean of the inward normals there.  false: there is none within reach. */
+/* The nearest of the boundary's points, and the mean of the inward normals there.  false: there is none within reach.
+ */
 static bool nearest_start(const tile_segment_array *boundary, vec2 load, double reach, double snap, crack_start *start)
 {
     const tile_segment *best = NULL;

@@ -1,7 +1,8 @@
 /* The tiles of level ice; see tiles.h. */
 #include "ice/tiles.h"
 
-/* A vertex this near to a side of its cell, as a part of the cell, lies on it: far over rounding, far under any edge. */
+/* A vertex this near to a side of its cell, as a part of the cell, lies on it: far over rounding, far under any edge.
+ */
 static const double ON_SIDE = 1e-9;
 
 /* ---- the grid ---- */
@@ -24,9 +25,9 @@ static double line_at(double lo, double hi, int32_t i, int32_t count)
 box2 tile_cell(const tile_grid *g, int32_t cell)
 {
     int32_t i = cell % g->columns, k = cell / g->columns;
-    return (box2){{line_at(g->plan.lo.x, g->plan.hi.x, i, g->columns), line_at(g->plan.lo.y, g->plan.hi.y, k, g->rows)},
-                  {line_at(g->plan.lo.x, g->plan.hi.x, i + 1, g->columns),
-                   line_at(g->plan.lo.y, g->plan.hi.y, k + 1, g->rows)}};
+    return (box2){
+        {line_at(g->plan.lo.x, g->plan.hi.x, i, g->columns), line_at(g->plan.lo.y, g->plan.hi.y, k, g->rows)},
+        {line_at(g->plan.lo.x, g->plan.hi.x, i + 1, g->columns), line_at(g->plan.lo.y, g->plan.hi.y, k + 1, g->rows)}};
 }
 
 static int32_t place_in(double x, double lo, double hi, int32_t count)
@@ -37,8 +38,7 @@ static int32_t place_in(double x, double lo, double hi, int32_t count)
 
 bool tile_range_of(const tile_grid *g, box2 box, tile_range *range)
 {
-    if (!(box.hi.x >= g->plan.lo.x && box.lo.x <= g->plan.hi.x && box.hi.y >= g->plan.lo.y &&
-          box.lo.y <= g->plan.hi.y))
+    if (!(box.hi.x >= g->plan.lo.x && box.lo.x <= g->plan.hi.x && box.hi.y >= g->plan.lo.y && box.lo.y <= g->plan.hi.y))
         return false;
     *range = (tile_range){place_in(box.lo.x, g->plan.lo.x, g->plan.hi.x, g->columns),
                           place_in(box.hi.x, g->plan.lo.x, g->plan.hi.x, g->columns),
@@ -215,6 +215,19 @@ static int32_t cell_beyond(const tile_grid *g, int32_t cell, int side)
 static int opposite(int side) { return side ^ 1; }
 
 static double along(int side, vec2 v) { return side == SHEET_X_MIN || side == SHEET_X_MAX ? v.y : v.x; }
+
+double tile_side_length(const tile_grid *g, int32_t cell, polygon ring)
+{
+    box2 box = tile_cell(g, cell);
+    double sum = 0;
+    for (int32_t i = 0; i < ring.count; i++) {
+        vec2 a = ring.vertex[i], b = ring.vertex[i + 1 < ring.count ? i + 1 : 0];
+        int side = side_of(box, a, b);
+        if (side >= 0 && (cell_beyond(g, cell, side) >= 0 || g->anchored[side]))
+            sum += vec2_length(vec2_sub(b, a));
+    }
+    return sum;
+}
 
 typedef struct interval {
     double lo, hi;

@@ -32,6 +32,9 @@ bool tile_range_of(const tile_grid *g, box2 box, tile_range *range);
 fram_status tile_sheet(context *ctx, const tile_grid *g, overlay *plane, const polygon_list *openings, double smallest,
                        polygon_list *outlines, int32_array *cells, fram_error *error);
 
+/* Length that a ring has on the sides of its cell that have a neighbour beyond, or are held [m]. */
+double tile_side_length(const tile_grid *g, int32_t cell, polygon ring);
+
 /* ---- the sheet as it stands ---- */
 
 /* The floe rows of every cell: first[cell], then next[row], -1 at the end. */

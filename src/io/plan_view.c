@@ -14,6 +14,8 @@ typedef struct plan_look {
 
 static const plan_look looks[PLAN_STYLE_COUNT] = {
     [PLAN_FLOE] = {{0.95, 0.97, 0.99}, {0.36, 0.48, 0.60}, "floe"},
+    /* Its tiles show no seams: they are neither boundary nor crack. */
+    [PLAN_LEVEL_ICE] = {{0.82, 0.89, 0.95}, {0.82, 0.89, 0.95}, "level ice"},
     [PLAN_FIXED_ICE] = {{0.82, 0.89, 0.95}, {0.30, 0.42, 0.55}, "fixed ice"},
     [PLAN_WALL] = {{0.45, 0.42, 0.40}, {0.30, 0.28, 0.26}, "wall"},
     [PLAN_DECK] = {{0.80, 0.28, 0.18}, {0.35, 0.08, 0.05}, "vessel"},

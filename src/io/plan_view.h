@@ -7,6 +7,7 @@
 
 typedef enum plan_style {
     PLAN_FLOE = 0,
+    PLAN_LEVEL_ICE,
     PLAN_FIXED_ICE,
     PLAN_WALL,
     PLAN_DECK,

@@ -182,11 +182,11 @@
       "auto: twice the characteristic length, four breaking radii")                                           \
     X(openings, LIST(opening, 100), "", "open water in the sheet at the start: channels, leads, basins")
 
-#define SCENARIO_OPENING_KEYS(X)                                                        \
-    X(x, REAL(0, -1e7, 1e7), "m", "centre")                                             \
-    X(y, REAL(0, -1e7, 1e7), "m", "centre")                                             \
-    X(length, REAL(10, 1e-6, 1e7), "m", "along its own x")                              \
-    X(width, REAL(10, 1e-6, 1e7), "m", "along its own y")                               \
+#define SCENARIO_OPENING_KEYS(X)                           \
+    X(x, REAL(0, -1e7, 1e7), "m", "centre")                \
+    X(y, REAL(0, -1e7, 1e7), "m", "centre")                \
+    X(length, REAL(10, 1e-6, 1e7), "m", "along its own x") \
+    X(width, REAL(10, 1e-6, 1e7), "m", "along its own y")  \
     X(angle_deg, REAL(0, -360, 360), "deg", "of its own x, counter-clockwise from X")
 
 #define SCENARIO_FLOE_KEYS(X)                                                                              \

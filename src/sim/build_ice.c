@@ -317,8 +317,7 @@ static fram_status build_level(context *ctx, const scenario *s, world *w, field_
     if (status == FRAM_OK)
         status = mark_seams(ctx, &g, w, error);
     double whole = (g.plan.hi.x - g.plan.lo.x) * (g.plan.hi.y - g.plan.lo.y);
-    *report = (field_report){
-        .floes = polygon_list_count(&outlines), .concentration = area / whole, .free_area = whole};
+    *report = (field_report){.floes = polygon_list_count(&outlines), .concentration = area / whole, .free_area = whole};
     polygon_list_free(ctx, &openings);
     polygon_list_free(ctx, &outlines);
     array_free(ctx, &cells);

@@ -28,7 +28,10 @@ static void plan_store_free(context *ctx, plan_store *p)
 static bool add_prism(context *ctx, plan_store *p, const world *w, int32_t body)
 {
     polygon outline = shape_outline(&w->shapes, w->bodies.shape[body]);
-    uint8_t style = w->bodies.material[body] == MATERIAL_WALL ? PLAN_WALL
+    bool wall = w->bodies.material[body] == MATERIAL_WALL;
+    int32_t owner = w->bodies.owner[body];
+    uint8_t style = wall                                      ? PLAN_WALL
+                    : owner >= 0 && w->floes.tile[owner] != 0 ? PLAN_LEVEL_ICE
                     : w->bodies.motion[body] == MOTION_STATIC ? PLAN_FIXED_ICE
                                                               : PLAN_FLOE;
     bool good = array_push(ctx, &p->start, p->vertex.count) && array_push(ctx, &p->style, style);

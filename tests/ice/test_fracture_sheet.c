@@ -1,0 +1,349 @@
+/* Level ice held in tiles: the same breaks as in one floe, in the tiles that are reached and in no others. */
+#include "sheet_rig.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double AREA = 1, LOAD = 1e7;
+
+static const box2 PLAN = {{-60, 0}, {60, 90}};
+
+static int compare_areas(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Areas of the floes that broke off, ascending. */
+static int piece_areas(const fracture_rig *r, double *out)
+{
+    int n = 0;
+    for (int32_t i = 0; i < r->floes.count; i++)
+        if (r->floes.body[i] >= 0 && r->bodies.motion[r->floes.body[i]] == MOTION_DYNAMIC)
+            out[n++] = r->floes.area[i];
+    qsort(out, (size_t)n, sizeof *out, compare_areas);
+    return n;
+}
+
+/* Every tile is sound, lies in its cell, and hangs on an anchored side; nothing overlaps. */
+static void check_sheet(fracture_rig *r)
+{
+    tile_index index = sheet_index(r);
+    tile_sheet_view v = sheet_view(r, &index);
+    vec2_array ring = {0};
+    int32_t rows = r->floes.count;
+    uint8_t *held = calloc((size_t)rows, 1);
+    bool more = true;
+    for (int32_t i = 0; i < rows; i++) {
+        if (r->floes.body[i] < 0 || r->floes.tile[i] == 0)
+            continue;
+        ck_assert(tile_outline(&r->ctx, &v, i, &ring));
+        polygon p = {ring.data, ring.count};
+        char reason[128];
+        ck_assert_msg(overlay_is_valid(r->plane, p, reason, NULL), "%s", reason);
+        box2 cell = tile_cell(v.grid, r->floes.tile[i] - 1), box = polygon_bounds(p);
+        ck_assert(box.lo.x >= cell.lo.x && box.hi.x <= cell.hi.x && box.lo.y >= cell.lo.y && box.hi.y <= cell.hi.y);
+        ck_assert_int_eq(r->bodies.motion[r->floes.body[i]], MOTION_STATIC);
+        held[i] = tile_is_anchored(&v, i);
+    }
+    while (more) {
+        more = false;
+        for (int32_t i = 0; i < rows; i++)
+            for (int32_t k = 0; k < rows && !held[i] && r->floes.body[i] >= 0 && r->floes.tile[i]; k++)
+                if (held[k] && tile_seam(&v, i, k) > v.grid->least_seam)
+                    held[i] = 1, more = true;
+    }
+    for (int32_t i = 0; i < rows; i++)
+        ck_assert(held[i] || r->floes.body[i] < 0 || r->floes.tile[i] == 0);
+    free(held);
+    array_free(&r->ctx, &ring);
+    tile_index_free(&r->ctx, &index);
+}
+
+/* ---- tiles ---- */
+
+/* The sheet's boundary is that of the rectangle and of the opening, whatever the tiles. */
+START_TEST(boundary)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    polygon_list openings = {0};
+    const vec2 hole[4] = {{-11, 30}, {13, 30}, {13, 47}, {-11, 47}};
+    ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){hole, 4}));
+    const double sizes[] = {200, 45, 30, 17, 11.3};
+    for (int i = 0; i < 5; i++) {
+        sheet_make(&r, PLAN, sizes[i], &openings);
+        assert_relative(sheet_area(&r, true), 120 * 90 - 24 * 17, 1e-12);
+        tile_index index = sheet_index(&r);
+        tile_sheet_view v = sheet_view(&r, &index);
+        tile_segment_array segments = {0};
+        const tile_grid *g = v.grid;
+        ck_assert(tile_boundary(&r.ctx, &v, (tile_range){0, g->columns - 1, 0, g->rows - 1}, &segments));
+        double length = 0;
+        for (int32_t k = 0; k < segments.count; k++)
+            length += vec2_length(vec2_sub(segments.data[k].b, segments.data[k].a));
+        /* A ring with a hole is cut along a bridge, which is a seam inside one tile and counts as boundary there. */
+        if (sizes[i] < 40)
+            assert_relative(length, 2 * (120 + 90) + 2 * (24 + 17), 1e-9);
+        array_free(&r.ctx, &segments);
+        tile_index_free(&r.ctx, &index);
+        check_sheet(&r);
+        fracture_rig_remove_all(&r);
+    }
+    polygon_list_free(&r.ctx, &openings);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* The same load breaks the same pieces off a sheet of any tiles as off one floe: on an edge, on a seam, at a crossing.
+ */
+START_TEST(tiles_do_not_matter)
+{
+    const double at[] = {0, 7.5, 15, 15.0001, 12.3, -30, 29.999, 41};
+    for (int i = 0; i < 8; i++) {
+        double one[64], many[64];
+        int count = 0;
+        for (int tiled = 0; tiled < 3; tiled++) {
+            fracture_rig r;
+            fracture_rig_make(&r);
+            r.settings.splitting = SPLITTING_NONE;
+            if (tiled) {
+                sheet_make(&r, PLAN, tiled == 1 ? 30 : 4, NULL);
+                ck_assert(sheet_load(&r, (vec2){at[i], 0.3}, LOAD, AREA));
+            } else {
+                const vec2 corner[4] = {{-60, 0}, {60, 0}, {60, 90}, {-60, 90}};
+                int32_t row = fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_STATIC);
+                ck_assert(fracture_rig_load(&r, row, (vec2){at[i], 0.3 - 45}, LOAD, AREA));
+            }
+            ck_assert_int_eq(fracture_rig_break(&r), 1);
+            assert_vec3_close(r.events.data[0].place, ((vec3){at[i], 0, 0}), 1e-9);
+            assert_absolute(fracture_rig_area(&r), 120 * 90 - r.events.data[0].area_lost + r.events.data[0].area_gained,
+                            1e-7);
+            int n = piece_areas(&r, tiled ? many : one);
+            if (tiled) {
+                ck_assert_int_eq(n, count);
+                for (int k = 0; k < n; k++)
+                    assert_relative(many[k], one[k], 1e-9);
+                check_sheet(&r);
+            }
+            count = n;
+            fracture_rig_free(&r);
+        }
+    }
+}
+END_TEST
+
+/* Tiles that the stencil does not reach keep their floes. */
+START_TEST(other_tiles_stay)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    sheet_make(&r, PLAN, 15, NULL);
+    int before = sheet_count(&r, true), same = 0;
+    ck_assert_int_eq(before, 48);
+    ck_assert(sheet_load(&r, (vec2){7, 0}, LOAD, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    for (int32_t i = 0; i < r.floes.count; i++)
+        same += r.floes.body[i] >= 0 && r.floes.number[i] < before;
+    ck_assert_int_ge(same, 45);
+    ck_assert_int_eq(sheet_count(&r, true), before);
+    ck_assert_int_eq(r.events.data[0].kind, FRACTURE_BENDING);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* Seams are no faces of the convex pieces, until the neighbour is gone. */
+START_TEST(seams)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    sheet_make(&r, (box2){{0, 0}, {40, 20}}, 20, NULL);
+    int32_t left = sheet_tile_at(&r, (vec2){10, 10}), right = sheet_tile_at(&r, (vec2){30, 10});
+    int32_t shape = r.bodies.shape[r.floes.body[left]];
+    ck_assert_uint_ne(r.shapes.pieces.inner_edges[r.shapes.shapes.piece_first[shape]], 0);
+    floe_remove(&r.bodies, &r.shapes, &r.floes, right);
+    tile_index index = sheet_index(&r);
+    tile_sheet_view v = sheet_view(&r, &index);
+    tile_mark_seams(&v, &r.shapes, (tile_range){0, 1, 0, 0});
+    ck_assert_uint_eq(r.shapes.pieces.inner_edges[r.shapes.shapes.piece_first[shape]], 0);
+    tile_index_free(&r.ctx, &index);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* A patch that a seam divides is one load: its halves alone would not break the ice. */
+START_TEST(patch_across_a_seam)
+{
+    for (int touching = 0; touching < 2; touching++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        sheet_make(&r, PLAN, 30, NULL);
+        edge_stress whole = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 2 * AREA);
+        for (int side = -1; side <= 1; side += 2) {
+            ck_assert(sheet_load(&r, (vec2){0.5 * side, 0.4}, 0.51 * whole.wedge_capacity, AREA));
+            crushing_patch *p = &r.patches.data[r.patches.count - 1];
+            vec3 at = r.bodies.position[p->floe_body];
+            double seam = touching ? 0 : 0.1 * side, far = 1.0 * side;
+            p->plan = (box2){{fmin(seam, far) - at.x, -at.y}, {fmax(seam, far) - at.x, 0.8 - at.y}};
+        }
+        ck_assert_int_eq(fracture_rig_break(&r), touching);
+        if (touching) {
+            assert_relative(r.events.data[0].load, 1.02 * whole.wedge_capacity, 1e-12);
+            assert_vec3_close(r.events.data[0].place, ((vec3){0, 0, 0}), 1e-9);
+        }
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
+/* A load far from every boundary breaks nothing: an edge is what it would bend. */
+START_TEST(inner_load)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    sheet_make(&r, PLAN, 30, NULL);
+    ck_assert(sheet_load(&r, (vec2){5, 45}, LOAD, AREA));
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* ---- what comes loose ---- */
+
+/* Channels bitten along the two free sides of a rectangle and across cut a block out: it drifts, with its area. */
+START_TEST(island)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    sheet_make(&r, (box2){{0, 0}, {160, 120}}, 20, NULL);
+    r.settings.tiles.anchored[SHEET_Y_MIN] = false;
+    const vec2 corner[] = {{60, 0}, {60, 70}, {120, 70}, {120, -2}};
+    int released = 0;
+    double loose = 0;
+    for (int leg = 0; leg < 3 && !released; leg++) {
+        vec2 way = vec2_sub(corner[leg + 1], corner[leg]);
+        double length = vec2_length(way);
+        for (double s = 0; s < length && !released; s += 1.5) {
+            vec2 place = vec2_add(corner[leg], vec2_scale(way, s / length));
+            ck_assert(sheet_load(&r, place, LOAD, 3));
+            fracture_rig_break(&r);
+            for (int32_t i = 0; i < r.events.count; i++) {
+                const fracture_event *e = &r.events.data[i];
+                assert_absolute(e->parent_area, e->piece_area + e->area_lost - e->area_gained, 1e-9 * e->parent_area);
+                if (e->kind != FRACTURE_RELEASE || e->parent_area < 1000)
+                    continue;
+                released++;
+                loose = e->parent_area;
+                ck_assert_int_eq(e->pieces, 1);
+                for (int32_t k = 0; k < r.floes.count; k++)
+                    if (r.floes.body[k] >= 0 && r.floes.number[k] == e->first_piece) {
+                        ck_assert_int_eq(r.bodies.motion[r.floes.body[k]], MOTION_DYNAMIC);
+                        ck_assert_int_eq(r.floes.tile[k], 0);
+                        assert_relative(r.floes.area[k], e->piece_area, 1e-12);
+                    }
+            }
+            if (!released)
+                sheet_clear_pieces(&r);
+        }
+    }
+    ck_assert_int_eq(released, 1);
+    ck_assert(loose > 1500 && loose < 60 * 70);
+    check_sheet(&r);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* A side that does not hold: what hangs on it alone drifts with the first bite next to it. */
+START_TEST(anchored_sides)
+{
+    for (int held = 0; held < 2; held++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        polygon_list openings = {0};
+        const vec2 channel[4] = {{-1, 20}, {101, 20}, {101, 40}, {-1, 40}};
+        ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){channel, 4}));
+        sheet_make(&r, (box2){{0, 0}, {100, 60}}, 20, &openings);
+        r.settings.tiles.anchored[SHEET_X_MIN] = r.settings.tiles.anchored[SHEET_X_MAX] = false;
+        r.settings.tiles.anchored[SHEET_Y_MIN] = held;
+        ck_assert(sheet_load(&r, (vec2){50, 20}, LOAD, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), held ? 1 : 2);
+        ck_assert_int_eq(sheet_count(&r, true), held ? 10 : 5);
+        if (!held)
+            assert_relative(sheet_area(&r, true), 2000, 1e-12);
+        polygon_list_free(&r.ctx, &openings);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
+/* ---- many ---- */
+
+/* Random bites all over a sheet until little is left: sound tiles, exact books, nothing hangs in the air. */
+START_TEST(random_bites)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    random_stream s = random_begin(11, 1, 0);
+    int events = 0, releases = 0, bites = getenv("FRAM_TEST_SHORT") ? 300 : 1500;
+    double booked = 0, broken = 0;
+    for (int turn = 0; events < bites; turn++) {
+        if (turn % 400 == 0) {
+            fracture_rig_remove_all(&r);
+            sheet_make(&r, (box2){{-50, -30}, {50, 30}}, random_uniform(&s, 7, 35), NULL);
+            r.settings.wedges = 2 + (int32_t)random_uniform(&s, 0, 4);
+        }
+        if (sheet_count(&r, true) == 0)
+            continue;
+        double before = fracture_rig_area(&r), lost = 0;
+        int loads = 1 + (int)random_uniform(&s, 0, 2.5);
+        for (int i = 0; i < loads; i++)
+            ck_assert(sheet_load(&r, (vec2){random_uniform(&s, -50, 50), random_uniform(&s, -30, 30)}, LOAD,
+                                 random_power_law(&s, 0.01, 8, 0)));
+        fracture_rig_break(&r);
+        for (int32_t i = 0; i < r.events.count; i++) {
+            const fracture_event *e = &r.events.data[i];
+            assert_absolute(e->parent_area, e->piece_area + e->area_lost - e->area_gained, 1e-9 * e->parent_area);
+            /* Dust that comes loose is lost. */
+            ck_assert(e->pieces == 0 || e->area_lost + e->area_gained <= 1e-3 * e->parent_area * (1 + 1e-9));
+            ck_assert(e->pieces > 0 || e->parent_area < r.settings.smallest_floe_area);
+            lost += e->area_lost - e->area_gained;
+            booked += e->area_lost + e->area_gained;
+            broken += e->parent_area;
+            releases += e->kind == FRACTURE_RELEASE;
+        }
+        events += r.events.count;
+        assert_absolute(fracture_rig_area(&r), before - lost, 1e-7);
+        check_sheet(&r);
+        sheet_clear_pieces(&r);
+    }
+    printf("%d events, %d of them releases; %.4f %% of the area is booked\n", events, releases, 100 * booked / broken);
+    ck_assert_int_gt(releases, 5);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+START_TEST(memory_runs_out)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        fracture_rig r;
+        fram_error e = {0};
+        fram_status status = FRAM_ERROR_MEMORY;
+        bool good = fracture_rig_start(&r, failing_context(&memory, n)) &&
+                    sheet_try(&r, (box2){{0, 0}, {40, 20}}, 20, NULL, &e);
+        r.settings.tiles.anchored[SHEET_X_MIN] = r.settings.tiles.anchored[SHEET_Y_MIN] = false;
+        if (good && sheet_load(&r, (vec2){20, 0}, LOAD, AREA))
+            status = fracture_rig_try(&r, &e);
+        fracture_rig_free(&r);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            assert_ok(status, e);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, other_tiles_stay, seams, patch_across_a_seam, inner_load,
+          island, anchored_sides, random_bites, memory_runs_out)
