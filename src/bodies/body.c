@@ -51,21 +51,25 @@ vec3 body_to_global(const body_table *b, int32_t slot, vec3 point)
     return vec3_add(b->position[slot], mat3_mul_vec(quat_matrix(b->orientation[slot]), point));
 }
 
+void body_books_add(const body_table *b, int32_t slot, body_books *sum)
+{
+    if (!body_is_dynamic(b, slot))
+        return;
+    mat3 r = quat_matrix(b->orientation[slot]);
+    vec3 spin = mat3_tmul_vec(r, b->angular_velocity[slot]);
+    vec3 spin_momentum = sym3_mul_vec(b->inertia[slot], spin); /* body frame */
+    vec3 momentum = vec3_scale(b->velocity[slot], b->mass[slot]);
+    sum->mass += b->mass[slot];
+    sum->kinetic_energy += 0.5 * (vec3_dot(momentum, b->velocity[slot]) + vec3_dot(spin_momentum, spin));
+    sum->momentum = vec3_add(sum->momentum, momentum);
+    sum->angular_momentum = vec3_add(sum->angular_momentum,
+                                     vec3_add(vec3_cross(b->position[slot], momentum), mat3_mul_vec(r, spin_momentum)));
+}
+
 body_books body_books_of(const body_table *b)
 {
     body_books sum = {0};
-    for (int32_t i = 0; i < b->count; i++) {
-        if (!body_is_dynamic(b, i))
-            continue;
-        mat3 r = quat_matrix(b->orientation[i]);
-        vec3 spin = mat3_tmul_vec(r, b->angular_velocity[i]);
-        vec3 spin_momentum = sym3_mul_vec(b->inertia[i], spin); /* body frame */
-        vec3 momentum = vec3_scale(b->velocity[i], b->mass[i]);
-        sum.mass += b->mass[i];
-        sum.kinetic_energy += 0.5 * (vec3_dot(momentum, b->velocity[i]) + vec3_dot(spin_momentum, spin));
-        sum.momentum = vec3_add(sum.momentum, momentum);
-        sum.angular_momentum = vec3_add(sum.angular_momentum,
-                                        vec3_add(vec3_cross(b->position[i], momentum), mat3_mul_vec(r, spin_momentum)));
-    }
+    for (int32_t i = 0; i < b->count; i++)
+        body_books_add(b, i, &sum);
     return sum;
 }

@@ -111,6 +111,7 @@ fram_status floe_create(context *ctx, const floe_definition *d, double piece_are
     floes->breakable[at] = d->breakable;
     floes->parent[at] = d->parent;
     floes->tile[at] = d->tile;
+    floes->retreat[at] = (vec3){0, 0, 0};
     floes->number[at] = (*next_number)++;
     *row = at;
     return FRAM_OK;
@@ -124,6 +125,7 @@ void floe_remove(body_table *bodies, shape_store *shapes, floe_table *floes, int
     /* A free row is the same to the bit however it came to be free: the state's hash sees it. */
     floes->body[row] = -1;
     floes->thickness[row] = floes->area[row] = 0;
+    floes->retreat[row] = (vec3){0, 0, 0};
     floes->material[row] = (ice_material){0};
     floes->breakable[row] = 0;
     floes->parent[row] = floes->number[row] = floes->tile[row] = 0;

@@ -35,6 +35,11 @@ void fracture_scratch_free(context *ctx, fracture_scratch *s)
     array_free(ctx, &s->touched);
     array_free(ctx, &s->mark);
     array_free(ctx, &s->front);
+    mesh_free(ctx, &s->hull);
+    polygon_list_free(ctx, &s->top);
+    polygon_list_free(ctx, &s->bottom);
+    polygon_list_free(ctx, &s->inner);
+    polygon_list_free(ctx, &s->gone);
     memory_free(ctx, s);
 }
 
@@ -266,6 +271,24 @@ static fram_status break_floe(const fracture_job *j, floe_loads loads)
     return status != FRAM_OK || split ? status : bend_floe(j, outline, loads);
 }
 
+static fram_status break_all(const fracture_job *j)
+{
+    const fracture_load_array *loads = &j->scratch->loads;
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0, end; i < loads->count && status == FRAM_OK; i = end) {
+        const fracture_load *l = &loads->data[i];
+        if (l->tile) {
+            end = loads->count;
+            status = fracture_break_sheet(j, l, end - i);
+            continue;
+        }
+        for (end = i + 1; end < loads->count && !loads->data[end].tile && loads->data[end].body == l->body; end++)
+            continue;
+        status = break_floe(j, (floe_loads){l, end - i});
+    }
+    return status;
+}
+
 fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture_settings *settings, overlay *plane,
                          const crushing_patch_array *patches, const fracture_state *state, fracture_event_array *events,
                          fram_error *error)
@@ -273,26 +296,20 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
     fracture_job j = {ctx, scratch, settings, plane, state, events, error};
     if (!fracture_loads(ctx, scratch, settings, patches, state))
         return error_memory(error);
-    const fracture_load_array *loads = &scratch->loads;
-    if (loads->count == 0)
+    bool trims = settings->crush_trims && patches->count > 0, trimmed = false;
+    if (scratch->loads.count == 0 && !trims)
         return FRAM_OK;
     int32_t slots = state->bodies->count, had = events->count;
     if (!array_resize(ctx, &scratch->broken, slots))
         return error_memory(error);
     memset(scratch->broken.data, 0, (size_t)slots);
-    fram_status status = FRAM_OK;
-    for (int32_t i = 0, end; i < loads->count && status == FRAM_OK; i = end) {
-        const fracture_load *l = &loads->data[i];
-        if (l->tile) {
-            end = loads->count;
-            status = fracture_break_sheet(&j, l, end - i);
-            continue;
-        }
-        for (end = i + 1; end < loads->count && !loads->data[end].tile && loads->data[end].body == l->body; end++)
-            continue;
-        status = break_floe(&j, (floe_loads){l, end - i});
-    }
+    scratch->index_is_made = scratch->has_changed = false;
+    fram_status status = break_all(&j);
+    if (status == FRAM_OK && trims)
+        status = fracture_trim(&j, patches, &trimmed);
+    if (status == FRAM_OK && scratch->has_changed)
+        status = fracture_release(&j);
     if (status != FRAM_OK)
         return status;
-    return events->count == had || void_contacts(&j) ? FRAM_OK : error_memory(error);
+    return (events->count == had && !trimmed) || void_contacts(&j) ? FRAM_OK : error_memory(error);
 }

@@ -45,6 +45,7 @@ typedef struct fracture_settings {
     bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
     bool under_ice_contacts;    /* option: patches between floes break them too */
     tile_grid tiles;            /* level sheet, if there is one */
+    bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 
 /* One event: a floe that broke.  Scratch row, made anew each step. */
@@ -61,6 +62,8 @@ typedef struct fracture_event {
     double parent_area, piece_area; /* of the parent, and of all pieces together [m2] */
     double area_lost, area_gained;  /* parent = pieces + lost - gained, to rounding [m2] */
     double mass_lost, mass_gained;  /* [kg] */
+    vec3 momentum_lost;             /* of the parent less that of the pieces [N s] */
+    vec3 angular_momentum_lost;     /* the same about the global origin [N m s] */
 } fracture_event;
 typedef ARRAY(fracture_event) fracture_event_array;
 
@@ -76,6 +79,7 @@ typedef struct fracture_state {
     contact_array *contacts;
     contact_memory_table *memory;
     int32_t *next_number;
+    double *crushed; /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
 } fracture_state;
 
 /* All fracture of one step.  Children keep the parent's orientation, material, thickness and motion of their material

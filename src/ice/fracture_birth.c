@@ -15,6 +15,7 @@ typedef struct birth {
     const fracture_job *job;
     parent from;
     fracture_event *event;
+    body_books before, after; /* of the parents and of the pieces */
 } birth;
 
 /* The tiles of a sheet break in the global plan: level, unturned, at rest. */
@@ -52,7 +53,7 @@ static void place_child(const birth *b, int32_t body)
     bodies->angular_velocity[body] = b->from.angular_velocity;
 }
 
-static fram_status make_floe(const birth *b, polygon outline, const cut_piece *piece)
+static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece)
 {
     const fracture_job *j = b->job;
     const fracture_state *to = j->state;
@@ -66,6 +67,8 @@ static fram_status make_floe(const birth *b, polygon outline, const cut_piece *p
     if (status != FRAM_OK)
         return status;
     place_child(b, to->floes->body[row]);
+    /* A part of static ice that begins to move brings no momentum, and takes none. */
+    body_books_add(to->bodies, to->floes->body[row], &b->after);
     b->event->pieces++;
     b->event->piece_area += to->floes->area[row];
     return FRAM_OK;
@@ -172,7 +175,7 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
     return true;
 }
 
-static fram_status make_pieces(const birth *b)
+static fram_status make_pieces(birth *b)
 {
     const fracture_job *j = b->job;
     fram_status status = FRAM_OK;
@@ -187,6 +190,8 @@ static fram_status make_pieces(const birth *b)
     double line = b->from.definition.material.density * b->from.definition.thickness;
     b->event->mass_lost = line * b->event->area_lost;
     b->event->mass_gained = line * b->event->area_gained;
+    b->event->momentum_lost = vec3_sub(b->before.momentum, b->after.momentum);
+    b->event->angular_momentum_lost = vec3_sub(b->before.angular_momentum, b->after.angular_momentum);
     return status;
 }
 
@@ -194,7 +199,7 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
                            fracture_event *event, bool *broke)
 {
     fracture_scratch *s = j->scratch;
-    birth b = {j, parent_of(j, parents[0]), event};
+    birth b = {.job = j, .from = parent_of(j, parents[0]), .event = event};
     *broke = false;
     double parent_area = 0;
     for (int32_t i = 0; i < count; i++)
@@ -211,6 +216,8 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     event->floe = b.from.definition.parent;
     event->first_piece = *j->state->next_number;
     event->parent_area = parent_area;
+    for (int32_t i = 0; i < count; i++)
+        body_books_add(j->state->bodies, j->state->floes->body[parents[i]], &b.before);
     for (int32_t i = 0; i < count; i++)
         floe_remove(j->state->bodies, j->state->shapes, j->state->floes, parents[i]);
     return make_pieces(&b);

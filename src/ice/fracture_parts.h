@@ -75,7 +75,10 @@ struct fracture_scratch {
     int32_array touched; /* floe rows that the crack at hand reaches, or that come loose */
     ARRAY(uint8_t) mark; /* one per floe row */
     int32_array front;   /* of a flood */
-    tile_range changed;  /* cells in which something broke in this step */
+    tile_range changed;  /* cells in which something broke in this step, */
+    bool has_changed;    /* if there are any */
+    mesh hull;           /* a hull in the frame of the floe at hand */
+    polygon_list top, bottom, inner, gone;
 };
 
 /* Loads of this step on breakable floes that fail in one way at least, by ascending slot, then falling stress over
@@ -139,6 +142,12 @@ fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_ki
 
 /* Bending of a level sheet under its failing loads, by falling stress over strength. */
 fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count);
+/* Static floes lose the ice whose place a hull has taken (SPEC 6); *trimmed says whether any did. */
+fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *patches, bool *trimmed);
+/* After a change of the sheet: the index anew, and the cells of s->touched among those that changed. */
+fram_status fracture_sheet_changed(const fracture_job *j);
+void fracture_sheet_touch(const fracture_job *j);
+
 /* What hangs on no anchored side any more drifts; seams are marked anew.  After all loads of a step. */
 fram_status fracture_release(const fracture_job *j);
 

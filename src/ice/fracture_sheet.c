@@ -188,20 +188,27 @@ static fram_status unite_wedges(const fracture_job *j)
     return FRAM_OK;
 }
 
-static void grow_changed(const fracture_job *j, bool first)
+void fracture_sheet_touch(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
+    tile_range *c = &s->changed;
     for (int32_t i = 0; i < s->touched.count; i++) {
         int32_t cell = j->state->floes->tile[s->touched.data[i]] - 1;
         int32_t column = cell % j->settings->tiles.columns, row = cell / j->settings->tiles.columns;
-        tile_range *c = &s->changed;
-        if (first && i == 0)
+        if (!s->has_changed)
             *c = (tile_range){column, column, row, row};
+        s->has_changed = true;
         c->column_first = column < c->column_first ? column : c->column_first;
         c->column_last = column > c->column_last ? column : c->column_last;
         c->row_first = row < c->row_first ? row : c->row_first;
         c->row_last = row > c->row_last ? row : c->row_last;
     }
+}
+
+fram_status fracture_sheet_changed(const fracture_job *j)
+{
+    j->scratch->index_is_made = false;
+    return make_index(j);
 }
 
 static void mark_broken(const fracture_job *j)
@@ -223,8 +230,7 @@ static fram_status or_refuse(const fracture_job *j, fram_status status, bool *re
     return *refused ? FRAM_OK : status;
 }
 
-static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, const crack_start *start, bool first,
-                             bool *broke)
+static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
     fracture_scratch *s = j->scratch;
     const tile_grid *g = &j->settings->tiles;
@@ -232,8 +238,7 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     vec2 stencil[MOST_STENCIL];
     int count = fracture_stencil(j->settings->wedges, radius, start, stencil);
     tile_range range;
-    bool refused = false;
-    *broke = false;
+    bool refused = false, broke;
     polygon_list_clear(&s->outlines);
     array_clear(&s->cut);
     array_clear(&s->touched);
@@ -255,13 +260,12 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     double z = j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z;
     vec3 place = {start->point.x, start->point.y, z};
     fracture_event event = fracture_event_of(l, place, FRACTURE_BENDING, radius);
-    grow_changed(j, first);
+    fracture_sheet_touch(j);
     mark_broken(j);
-    status = fracture_birth(j, s->touched.data, s->touched.count, 2, &event, broke);
-    if (status != FRAM_OK || !*broke)
+    status = fracture_birth(j, s->touched.data, s->touched.count, 2, &event, &broke);
+    if (status != FRAM_OK || !broke)
         return status;
-    s->index_is_made = false;
-    return array_push(j->ctx, j->events, event) ? make_index(j) : error_memory(j->error);
+    return array_push(j->ctx, j->events, event) ? fracture_sheet_changed(j) : error_memory(j->error);
 }
 
 /* ---- all loads of the sheet ---- */
@@ -301,20 +305,17 @@ static fram_status renew_start(const fracture_job *j, const fracture_load *l, cr
 
 fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count)
 {
-    j->scratch->index_is_made = false;
     fram_status status = make_index(j);
     if (status == FRAM_OK)
         status = find_starts(j, load, count);
-    bool any = false;
     for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
         crack_start start = j->scratch->starts.data[i];
-        bool there, broke = false;
+        bool there;
         if (load[i].wedge_ratio < 1 || start.distance < 0)
             continue;
         status = renew_start(j, &load[i], &start, &there);
         if (status == FRAM_OK && there)
-            status = cut_sheet(j, &load[i], &start, !any, &broke);
-        any = any || broke;
+            status = cut_sheet(j, &load[i], &start);
     }
-    return status == FRAM_OK && any ? fracture_release(j) : status;
+    return status;
 }

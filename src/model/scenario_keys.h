@@ -108,42 +108,44 @@
       "form file: largest distance of the convex pieces for contact to the mesh; auto: a hundredth of the beam")   \
     X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
-#define SCENARIO_ICE_KEYS(X)                                                                                        \
-    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level"), "",                                 \
-      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed " \
-      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides")                            \
-    X(level, SECTION(level), "", "the sheet, for source level")                                                     \
-    X(file, PATH(""), "",                                                                                           \
-      "file: GeoJSON of the floes in planar lengths; a thickness property goes before ice.thickness")               \
-    X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                       \
-    X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                               \
-    X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                               \
-    X(file_centre, BOOLEAN(false), "", "file: the centre of all floes goes there instead of its origin")            \
-    X(simplify, REAL(0, 0, 1e6), "m", "file: vertices are left out, moving no edge by more")                        \
-    X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                       \
-      "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts " \
-      "overlapping floes apart")                                                                                    \
-    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi: ice area over the area free for ice")                       \
-    X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")         \
-    X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                 \
-    X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")    \
-    X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m", "clear distance between the vessel and the field")            \
-    X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                              \
-    X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                              \
-    X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                               \
-    X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                   \
-    X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                           \
-    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")          \
-    X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")  \
-    X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                            \
-    X(cap_ice_ice, BOOLEAN(false), "", "crushing limits contacts between floes too")                                \
-    X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                  \
-    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane") \
-    X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")            \
-    X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")     \
-    X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                   \
-    X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                \
-    X(fracture, SECTION(fracture), "", "how breakable floes break")                                                 \
+#define SCENARIO_ICE_KEYS(X)                                                                                          \
+    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level"), "",                                   \
+      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed "   \
+      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides")                              \
+    X(level, SECTION(level), "", "the sheet, for source level")                                                       \
+    X(file, PATH(""), "",                                                                                             \
+      "file: GeoJSON of the floes in planar lengths; a thickness property goes before ice.thickness")                 \
+    X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                         \
+    X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
+    X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
+    X(file_centre, BOOLEAN(false), "", "file: the centre of all floes goes there instead of its origin")              \
+    X(simplify, REAL(0, 0, 1e6), "m", "file: vertices are left out, moving no edge by more")                          \
+    X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                         \
+      "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts "   \
+      "overlapping floes apart")                                                                                      \
+    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi: ice area over the area free for ice")                         \
+    X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")           \
+    X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                   \
+    X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")      \
+    X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m", "clear distance between the vessel and the field")              \
+    X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                                \
+    X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                                \
+    X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                                 \
+    X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                     \
+    X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                             \
+    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")            \
+    X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")    \
+    X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                              \
+    X(cap_ice_ice, BOOLEAN(false), "", "crushing limits contacts between floes too")                                  \
+    X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                    \
+    X(crush_trims, BOOLEAN(true), "",                                                                                 \
+      "level and fixed ice: where the hull has been there is no ice any more; what is cut away is booked as crushed") \
+    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")   \
+    X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")              \
+    X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")       \
+    X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                     \
+    X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                  \
+    X(fracture, SECTION(fracture), "", "how breakable floes break")                                                   \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
 #define SCENARIO_FRICTION_KEYS(X)                                            \
@@ -166,7 +168,9 @@
       "widths")                                                                                                 \
     X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")    \
     X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")      \
-    X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")
+    X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")            \
+    X(brash, BOOLEAN(false), "",                                                                                \
+      "pieces under smallest_floe_area are booked as brash, with their momentum, not as lost")
 
 #define SCENARIO_LEVEL_KEYS(X)                                                                                \
     X(x_min, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \

@@ -16,15 +16,18 @@
 #include "vessel/station.h"
 
 /* One row. */
-#define CLOCK_FIELDS(X)                                                                            \
-    X(step, int64_t, FIELD_I64, 1, "1", "steps done")                                              \
-    X(time, double, FIELD_F64, 1, "s", "simulated time = step * time step")                        \
-    X(next_floe, int32_t, FIELD_I32, 1, "1", "next running number of a floe")                      \
-    X(ice_left, double, FIELD_F64, 1, "kg", "mass of ice that left through an open boundary")      \
-    X(ice_lost, double, FIELD_F64, 1, "kg", "mass of ice booked as lost in fracture")              \
-    X(ice_gained, double, FIELD_F64, 1, "kg", "mass booked as gained where outlines were cleaned") \
-    X(splits, int64_t, FIELD_I64, 1, "1", "floes that split")                                      \
-    X(bendings, int64_t, FIELD_I64, 1, "1", "floes that broke in bending")                         \
+#define CLOCK_FIELDS(X)                                                                                 \
+    X(step, int64_t, FIELD_I64, 1, "1", "steps done")                                                   \
+    X(time, double, FIELD_F64, 1, "s", "simulated time = step * time step")                             \
+    X(next_floe, int32_t, FIELD_I32, 1, "1", "next running number of a floe")                           \
+    X(ice_left, double, FIELD_F64, 1, "kg", "mass of ice that left through an open boundary")           \
+    X(ice_lost, double, FIELD_F64, 1, "kg", "mass of ice booked as lost in fracture")                   \
+    X(ice_gained, double, FIELD_F64, 1, "kg", "mass booked as gained where outlines were cleaned")      \
+    X(ice_crushed, double, FIELD_F64, 1, "kg", "mass of static ice cut away where the hull had been")   \
+    X(brash_mass, double, FIELD_F64, 1, "kg", "mass of pieces too small to be floes, kept as brash")    \
+    X(brash_momentum, vec3, FIELD_F64, 3, "N s", "their momentum when they became brash, global frame") \
+    X(splits, int64_t, FIELD_I64, 1, "1", "floes that split")                                           \
+    X(bendings, int64_t, FIELD_I64, 1, "1", "floes that broke in bending")                              \
     X(work_crushed, double, FIELD_F64, 1, "J", "energy dissipated by rows at their crushing limit")
 TABLE_DECLARE(clock, CLOCK_FIELDS)
 

@@ -54,6 +54,7 @@ step_settings build_settings(const scenario *s)
                      .thick_plate_radius = s->ice.fracture.thick_plate_radius,
                      .wedge_room = s->ice.fracture.wedge_room,
                      .under_ice_contacts = s->ice.fracture.under_ice_contacts},
+        .brash = s->ice.fracture.brash,
         .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
                    v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
         .boundary = s->domain.boundary,
@@ -66,6 +67,7 @@ step_settings build_settings(const scenario *s)
         out.drift = vec2_make(drift.x, drift.y);
     }
     out.fracture.tiles = build_tiles(s);
+    out.fracture.crush_trims = s->ice.crush_trims;
     const scenario_ice_drag *di = &e->ice_drag;
     const scenario_hull_drag *dh = &e->hull_drag;
     out.drag[MATERIAL_ICE] = (drag_coefficients){di->water_form, di->water_skin, di->air_form, di->air_skin};

@@ -153,6 +153,9 @@ static count_channels counts_of(const world *w)
     X("drift_x", "m/s", n.drift.x)                                    \
     X("drift_y", "m/s", n.drift.y)                                    \
     X("ice_mass_gained", "kg", w->clock.ice_gained[0])                \
+    X("ice_mass_crushed", "kg", w->clock.ice_crushed[0])              \
+    X("brash_mass", "kg", w->clock.brash_mass[0])                     \
+    V3(X, "brash_momentum", "N s", w->clock.brash_momentum[0])        \
     X("splits", "1", (double)w->clock.splits[0])                      \
     X("bendings", "1", (double)w->clock.bendings[0])                  \
     X("crushing_work", "J", w->clock.work_crushed[0])                 \
@@ -211,7 +214,8 @@ void series_row(const world *w, double wall, double out[SERIES_ROOM])
 
 /* ---- broken floes ---- */
 
-/* kind: 1 split, 2 bending.  Numbers of floes are never used twice; the pieces have first_piece and those after it. */
+/* kind: 1 split, 2 bending, 3 release of a part of a level sheet.  Numbers of floes are never used twice; the pieces
+ * have first_piece and those after it. */
 #define FRACTURE(X)                                 \
     X("time", "s", time)                            \
     X("kind", "1", e->kind)                         \
@@ -228,7 +232,9 @@ void series_row(const world *w, double wall, double out[SERIES_ROOM])
     X("area_lost", "m2", e->area_lost)              \
     X("area_gained", "m2", e->area_gained)          \
     X("mass_lost", "kg", e->mass_lost)              \
-    X("mass_gained", "kg", e->mass_gained)
+    X("mass_gained", "kg", e->mass_gained)          \
+    V3(X, "momentum_lost", "N s", e->momentum_lost) \
+    V3(X, "angular_momentum_lost", "N m s", e->angular_momentum_lost)
 
 static const csv_column broken_columns[] = {FRACTURE(COLUMN)};
 enum { BROKEN_COUNT = sizeof broken_columns / sizeof *broken_columns };

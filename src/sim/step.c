@@ -105,7 +105,8 @@ static fram_status solve_velocities(context *ctx, const step_settings *s, world 
 /* 5. Fracture of breakable floes, from the solved impulses. */
 static fram_status break_floes(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
-    fracture_state state = {&w->bodies, &w->shapes, &w->floes, &w->scratch.contacts, &w->memory, w->clock.next_floe};
+    fracture_state state = {&w->bodies, &w->shapes,         &w->floes,           &w->scratch.contacts,
+                            &w->memory, w->clock.next_floe, w->clock.ice_crushed};
     array_clear(&w->scratch.fractures);
     fram_status status = fracture_run(ctx, w->scratch.fracture, &s->fracture, w->scratch.plane, &w->scratch.patches,
                                       &state, &w->scratch.fractures, error);
@@ -113,8 +114,10 @@ static fram_status break_floes(context *ctx, const step_settings *s, world *w, f
         const fracture_event *e = &w->scratch.fractures.data[i];
         w->clock.splits[0] += e->kind == FRACTURE_SPLIT;
         w->clock.bendings[0] += e->kind == FRACTURE_BENDING;
-        w->clock.ice_lost[0] += e->mass_lost;
         w->clock.ice_gained[0] += e->mass_gained;
+        *(s->brash ? w->clock.brash_mass : w->clock.ice_lost) += e->mass_lost;
+        if (s->brash)
+            w->clock.brash_momentum[0] = vec3_add(w->clock.brash_momentum[0], e->momentum_lost);
     }
     return status;
 }

@@ -25,6 +25,7 @@ typedef struct step_settings {
     pair_policies policies;
     crushing_settings crushing;
     fracture_settings fracture;
+    bool brash; /* what fracture loses goes to the brash account */
     solver_settings solver;
     domain_boundary boundary;
     box2 domain;        /* [m] */

@@ -20,6 +20,7 @@ typedef struct fracture_rig {
     fracture_scratch *scratch;
     overlay *plane;
     int32_t next_number, hull;
+    double crushed;
 } fracture_rig;
 
 static const ice_material FRACTURE_RIG_ICE = {
@@ -118,7 +119,7 @@ static inline bool fracture_rig_load(fracture_rig *r, int32_t row, vec2 place, d
 
 static inline fram_status fracture_rig_try(fracture_rig *r, fram_error *e)
 {
-    fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number};
+    fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number, &r->crushed};
     array_clear(&r->events);
     return fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, e);
 }

@@ -1,0 +1,231 @@
+/* Crushed ice goes (SPEC 6, crush_trims): a static floe keeps no ice where a hull has been, so that a hull that comes
+   again meets nothing before the old face, and so that cracks start at the face, not at an edge the hull has long
+   passed.
+
+   While the hull presses on, only what it fills over the whole thickness is cut away, less a rim of the edge threshold:
+   the hull's surface inside the floe, and so patch and load, stay what they were.  When it has drawn back from its
+   patch by more than the edge threshold, all goes that its section had reached at the top or the bottom of the floe. */
+#include "ice/fracture_parts.h"
+
+#include <string.h>
+
+/* One hull against one static floe. */
+typedef struct trim_pair {
+    int32_t floe, surface;
+    bool retreats; /* the hull has left */
+    vec3 back;     /* from where it stands to where it was when it last pressed on, global [m] */
+} trim_pair;
+
+/* The hull as it last pressed on, in the floe's frame; a tile's is the global plan at its own height. */
+static bool place_hull(const fracture_job *j, const trim_pair *p)
+{
+    const body_table *b = j->state->bodies;
+    const shape_store *shapes = j->state->shapes;
+    int32_t body = j->state->floes->body[p->floe];
+    const solid *hull = &shapes->solids.data[shapes->shapes.solid[b->shape[p->surface]]];
+    mesh *m = &j->scratch->hull;
+    if (!mesh_copy(j->ctx, m, &hull->surface))
+        return false;
+    mat3 turn = mat3_transpose(quat_matrix(b->orientation[body]));
+    mat3 rotation = mat3_mul(turn, quat_matrix(b->orientation[p->surface]));
+    vec3 origin = b->position[body];
+    if (j->state->floes->tile[p->floe] != 0)
+        origin.x = origin.y = 0;
+    vec3 offset = mat3_mul_vec(turn, vec3_sub(vec3_add(b->position[p->surface], p->back), origin));
+    for (int32_t i = 0; i < m->vertex.count; i++)
+        m->vertex.data[i] = vec3_add(mat3_mul_vec(rotation, m->vertex.data[i]), offset);
+    return true;
+}
+
+/* Rings moved inwards by `rim` [m]; of a concave ring that part which is inside all its edges' lines, moved. */
+static bool inset(const fracture_job *j, const polygon_list *rings, double rim, polygon_list *out)
+{
+    vec2_array *from = &j->scratch->ring, *to = &j->scratch->clean;
+    polygon_list_clear(out);
+    for (int32_t i = 0; i < polygon_list_count(rings); i++) {
+        polygon p = polygon_list_get(rings, i);
+        if (!(polygon_area(p) > 0))
+            continue;
+        if (!array_resize(j->ctx, from, p.count))
+            return false;
+        memcpy(from->data, p.vertex, (size_t)p.count * sizeof *p.vertex);
+        for (int32_t k = 0; k < p.count && from->count > 0; k++) {
+            vec2 e = vec2_sub(p.vertex[k + 1 < p.count ? k + 1 : 0], p.vertex[k]);
+            double length = vec2_length(e);
+            if (!(length > 0))
+                continue;
+            vec2 n = {e.y / length, -e.x / length};
+            if (!polygon_clip_half_plane(j->ctx, (polygon){from->data, from->count}, n, vec2_dot(n, p.vertex[k]) - rim,
+                                         to))
+                return false;
+            vec2_array swap = *from;
+            *from = *to;
+            *to = swap;
+        }
+        if (from->count >= 3 && polygon_area((polygon){from->data, from->count}) > 0 &&
+            !polygon_list_push(j->ctx, out, (polygon){from->data, from->count}))
+            return false;
+    }
+    return true;
+}
+
+/* What may go of the floe, into s->gone: rings of the hull's sections at its two faces. */
+static fram_status find_gone(const fracture_job *j, const trim_pair *p)
+{
+    fracture_scratch *s = j->scratch;
+    double half = j->state->floes->thickness[p->floe] / 2;
+    if (!place_hull(j, p))
+        return error_memory(j->error);
+    polygon_list_clear(&s->top);
+    polygon_list_clear(&s->bottom);
+    polygon_list_clear(&s->gone);
+    fram_status status = mesh_section(j->ctx, &s->hull, half, &s->top, j->error);
+    if (status == FRAM_OK)
+        status = mesh_section(j->ctx, &s->hull, -half, &s->bottom, j->error);
+    if (status != FRAM_OK)
+        return status;
+    if (p->retreats) {
+        for (int k = 0; k < 2; k++) {
+            const polygon_list *rings = k ? &s->bottom : &s->top;
+            for (int32_t i = 0; i < polygon_list_count(rings); i++)
+                if (polygon_area(polygon_list_get(rings, i)) > 0 &&
+                    !polygon_list_push(j->ctx, &s->gone, polygon_list_get(rings, i)))
+                    return error_memory(j->error);
+        }
+        return FRAM_OK;
+    }
+    if (!inset(j, &s->top, j->settings->edge_threshold, &s->inner))
+        return error_memory(j->error);
+    polygon_list swap = s->top;
+    s->top = s->inner;
+    s->inner = swap;
+    if (!inset(j, &s->bottom, j->settings->edge_threshold, &s->inner))
+        return error_memory(j->error);
+    for (int32_t i = 0; i < polygon_list_count(&s->top); i++)
+        for (int32_t k = 0; k < polygon_list_count(&s->inner) && status == FRAM_OK; k++)
+            status = overlay_intersection(j->plane, polygon_list_get(&s->top, i), polygon_list_get(&s->inner, k),
+                                          &s->gone, j->error);
+    return status;
+}
+
+static bool floe_ring(const fracture_job *j, int32_t floe, vec2_array *out)
+{
+    const fracture_state *st = j->state;
+    tile_sheet_view v = {&j->settings->tiles, &j->scratch->index, st->bodies, st->shapes, st->floes};
+    if (st->floes->tile[floe] != 0)
+        return tile_outline(j->ctx, &v, floe, out);
+    polygon p = shape_outline(st->shapes, st->bodies->shape[st->floes->body[floe]]);
+    if (!array_resize(j->ctx, out, p.count))
+        return false;
+    memcpy(out->data, p.vertex, (size_t)p.count * sizeof *p.vertex);
+    return true;
+}
+
+/* The floe's rings less one of the gone rings, in s->remnants; s->pieces is the spare. */
+static fram_status take_off(const fracture_job *j, polygon gone)
+{
+    fracture_scratch *s = j->scratch;
+    polygon_list_clear(&s->pieces);
+    for (int32_t i = 0; i < polygon_list_count(&s->remnants); i++) {
+        fram_status status =
+            overlay_difference(j->plane, polygon_list_get(&s->remnants, i), gone, &s->pieces, j->error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    polygon_list swap = s->remnants;
+    s->remnants = s->pieces;
+    s->pieces = swap;
+    return FRAM_OK;
+}
+
+/* What is left becomes floes again, all of it static; the rest is crushed. */
+static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
+{
+    fracture_scratch *s = j->scratch;
+    const floe_table *f = j->state->floes;
+    int32_t tile = f->tile[floe], body = f->body[floe];
+    double line = f->material[floe].density * f->thickness[floe], area = f->area[floe];
+    array_clear(&s->touched);
+    polygon_list_clear(&s->outlines);
+    array_clear(&s->cut);
+    if (!array_push(j->ctx, &s->touched, floe) || !fracture_gather(j->ctx, s, &s->remnants, MOTION_STATIC, tile, 0))
+        return error_memory(j->error);
+    fracture_event event = {0};
+    bool broke;
+    if (tile)
+        fracture_sheet_touch(j);
+    fram_status status = fracture_birth(j, s->touched.data, 1, 0, &event, &broke);
+    if (status != FRAM_OK || !broke)
+        return status;
+    *trimmed = true;
+    if (body < s->broken.count)
+        s->broken.data[body] = 1;
+    if (j->state->crushed)
+        *j->state->crushed += line * (area - event.piece_area);
+    return tile ? fracture_sheet_changed(j) : FRAM_OK;
+}
+
+static fram_status trim_floe(const fracture_job *j, const trim_pair *p, bool *trimmed)
+{
+    fracture_scratch *s = j->scratch;
+    fram_status status = find_gone(j, p);
+    if (status != FRAM_OK)
+        return status;
+    if (!floe_ring(j, p->floe, &s->ring))
+        return error_memory(j->error);
+    polygon ring = {s->ring.data, s->ring.count};
+    double overlap = 0;
+    for (int32_t i = 0; i < polygon_list_count(&s->gone); i++)
+        overlap += polygon_overlap_area(ring, polygon_list_get(&s->gone, i));
+    /* Less than a floe is not worth a cut; the next one takes it. */
+    if (!(overlap > (p->retreats ? 0 : j->settings->smallest_floe_area)))
+        return FRAM_OK;
+    polygon_list_clear(&s->remnants);
+    if (!polygon_list_push(j->ctx, &s->remnants, ring))
+        return error_memory(j->error);
+    for (int32_t i = 0; i < polygon_list_count(&s->gone) && status == FRAM_OK; i++)
+        status = take_off(j, polygon_list_get(&s->gone, i));
+    return status == FRAM_OK ? commit(j, p->floe, trimmed) : status;
+}
+
+/* Static ice under a hull, not broken in this step. */
+static bool may_trim(const fracture_job *j, const crushing_patch *p)
+{
+    const fracture_state *s = j->state;
+    return s->bodies->motion[p->floe_body] == MOTION_STATIC && s->bodies->material[p->surface_body] == MATERIAL_HULL &&
+           s->shapes->shapes.kind[s->bodies->shape[p->surface_body]] == SHAPE_SOLID &&
+           !j->scratch->broken.data[p->floe_body];
+}
+
+/* The way that the hull has gone since it last pressed on; each floe's first patch in a step counts. */
+static trim_pair pair_of(const fracture_job *j, const crushing_patch *p, bool first)
+{
+    vec3 v = body_point_velocity(j->state->bodies, p->surface_body, p->centre);
+    vec3 *retreat = &j->state->floes->retreat[p->floe];
+    if (vec3_dot(v, p->normal) >= 0)
+        *retreat = (vec3){0, 0, 0};
+    else if (first)
+        *retreat = vec3_mad(*retreat, v, j->settings->time_step);
+    bool left = -vec3_dot(*retreat, p->normal) > j->settings->edge_threshold;
+    return (trim_pair){p->floe, p->surface_body, left, left ? vec3_neg(*retreat) : (vec3){0, 0, 0}};
+}
+
+fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *patches, bool *trimmed)
+{
+    fram_status status = FRAM_OK;
+    int32_t last = -1;
+    for (int32_t i = 0; i < patches->count && status == FRAM_OK; i++) {
+        const crushing_patch *p = &patches->data[i];
+        if (!may_trim(j, p))
+            continue;
+        trim_pair pair = pair_of(j, p, p->floe != last);
+        last = p->floe;
+        status = trim_floe(j, &pair, trimmed);
+        /* No sound cut: the ice stays as it is for this step. */
+        if (status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT) {
+            log_write(j->ctx, LOG_DEBUG, "crushed ice could not be cut away: %s", j->error ? j->error->message : "");
+            status = FRAM_OK;
+        }
+    }
+    return status;
+}

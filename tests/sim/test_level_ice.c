@@ -1,0 +1,209 @@
+/* Level ice in whole scenes: channels, ramming, crushed ice, brash, islands. */
+#include "scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { TEXT_SIZE = 4096 };
+
+/* A driven icebreaker in front of a sheet that begins at x = 0. */
+static const char *const SHIP = "run: {duration: 100, time_step: 0.02, scale: 30}\n"
+                                "vessel:\n  mode: prescribed\n  x: -22\n  speed: 1\n"
+                                "  hull: {form: icebreaker, length: 40, beam: 10, draught: 4, freeboard: 3,\n"
+                                "         stem_angle_deg: 30, entrance_angle_deg: 35, flare_angle_deg: 12,\n"
+                                "         stern_angle_deg: 35, parallel_midbody: 0.4}\n"
+                                "ice: {source: level, thickness: 0.5, breakable: true, level: {x_min: 0}}\n"
+                                "domain: {x_min: -60, x_max: 90, y_min: -40, y_max: 40, boundary: open}\n";
+
+static double ice_force(const scene *k) { return vec3_length(k->w.scratch.ice_loads.data[0].total.force); }
+
+/* Mass of all floes, moving or not. */
+static double ice_mass(const scene *k)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < k->w.floes.count; i++)
+        if (k->w.floes.body[i] >= 0)
+            sum += k->w.bodies.mass[k->w.floes.body[i]];
+    return sum;
+}
+
+static double booked_mass(const scene *k)
+{
+    const clock_table *c = &k->w.clock;
+    return c->ice_left[0] + c->ice_lost[0] - c->ice_gained[0] + c->ice_crushed[0] + c->brash_mass[0];
+}
+
+/* Plan extent across of the water that was cut out of the sheet at x. */
+static double channel_width(const scene *k, double x)
+{
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (double y = -39.95; y < 40; y += 0.1) {
+        bool ice = false;
+        for (int32_t i = 0; i < k->w.floes.count && !ice; i++) {
+            int32_t body = k->w.floes.body[i];
+            if (body < 0 || k->w.floes.tile[i] == 0)
+                continue;
+            vec3 at = k->w.bodies.position[body];
+            polygon p = shape_outline(&k->w.shapes, k->w.bodies.shape[body]);
+            ice = polygon_contains(p, (vec2){x - at.x, y - at.y});
+        }
+        if (ice)
+            continue;
+        lo = fmin(lo, y);
+        hi = fmax(hi, y);
+    }
+    return hi - lo + 0.1;
+}
+
+/* The channel is as wide as the hull, and wider by less than the breaking radius on each side; the books close. */
+START_TEST(a_channel_as_wide_as_the_hull)
+{
+    scene k;
+    scene_open(&k, SHIP);
+    double before = ice_mass(&k), radius = 0;
+    int64_t breaks = 0;
+    int steps = getenv("FRAM_TEST_SHORT") ? 1000 : 2000;
+    for (int i = 0; i < steps; i++) {
+        scene_steps(&k, 1);
+        for (int32_t e = 0; e < k.w.scratch.fractures.count; e++) {
+            const fracture_event *f = &k.w.scratch.fractures.data[e];
+            if (f->kind != FRACTURE_BENDING || f->parent_area < 100)
+                continue;
+            radius = fmax(radius, f->crack_length);
+            breaks++;
+        }
+        assert_relative(ice_mass(&k) + booked_mass(&k), before, 1e-12);
+    }
+    ck_assert_int_gt(breaks, 20);
+    ck_assert_int_eq(k.w.clock.splits[0] > 1000, 0);
+    double end = k.w.bodies.position[k.w.vessels.body[0]].x;
+    for (double x = 2; x < end - 12; x += 1) {
+        double width = channel_width(&k, x);
+        ck_assert_msg(width >= 10 - 2 * 0.15 && width <= 10 + 2 * radius, "the channel is %g m wide at x = %g", width,
+                      x);
+    }
+    ck_assert(k.w.clock.ice_lost[0] < 0.005 * before);
+    scene_close(&k);
+}
+END_TEST
+
+/* Ram, back off, return: nothing before the old face, and ice again at it. */
+START_TEST(ram_back_off_return)
+{
+    for (int trims = 0; trims < 2; trims++) {
+        const char *strong[] = {"ice.flexural_strength=1e9", trims ? "ice.crush_trims=true" : "ice.crush_trims=false",
+                                "vessel.ramp=0"};
+        scene k;
+        scene_open_with(&k, SHIP, strong, 3);
+        double before = ice_mass(&k);
+        int32_t hull = k.w.vessels.body[0];
+        /* Into the edge by a few metres: the ice crushes and does not bend. */
+        scene_steps(&k, 500);
+        double face = k.w.bodies.position[hull].x;
+        ck_assert(ice_force(&k) > 1e5);
+        /* Back by 4 m, then forth again. */
+        k.w.vessels.tow_velocity[0] = vec3_make(-1, 0, 0);
+        scene_steps(&k, 200);
+        ck_assert(ice_force(&k) < 1);
+        k.w.vessels.tow_velocity[0] = vec3_make(1, 0, 0);
+        double least = HUGE_VAL;
+        for (int i = 0; i < 210; i++) {
+            scene_steps(&k, 1);
+            double way = k.w.bodies.position[hull].x - face;
+            if (ice_force(&k) > 1 && way < least)
+                least = way;
+        }
+        if (trims) {
+            ck_assert_msg(fabs(least) < 0.15 + 0.04, "ice %g m from the old face", least);
+            ck_assert(k.w.clock.ice_crushed[0] > 0);
+        } else {
+            ck_assert(least < -0.5);
+        }
+        assert_relative(ice_mass(&k) + booked_mass(&k), before, 1e-12);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+/* What a pressing hull trims is nothing that carries: the load is the same with and without. */
+START_TEST(trimming_keeps_the_load)
+{
+    scene k[2];
+    const char *options[2][2] = {{"ice.flexural_strength=1e9", "ice.crush_trims=false"},
+                                 {"ice.flexural_strength=1e9", "ice.crush_trims=true"}};
+    for (int i = 0; i < 2; i++)
+        scene_open_with(&k[i], SHIP, options[i], 2);
+    double most = 0;
+    for (int step = 0; step < 700; step++) {
+        for (int i = 0; i < 2; i++)
+            scene_steps(&k[i], 1);
+        most = fmax(most, ice_force(&k[0]));
+        if (ice_force(&k[0]) > 1e5)
+            assert_relative(ice_force(&k[1]), ice_force(&k[0]), 0.01);
+    }
+    ck_assert(most > 1e6);
+    ck_assert(k[1].w.clock.ice_crushed[0] > 0);
+    for (int i = 0; i < 2; i++)
+        scene_close(&k[i]);
+}
+END_TEST
+
+/* Small pieces become brash: their mass and momentum are kept, nothing is lost. */
+START_TEST(brash)
+{
+    scene k[2];
+    const char *options[2][2] = {{"ice.smallest_floe_area=1.5", "ice.fracture.brash=false"},
+                                 {"ice.smallest_floe_area=1.5", "ice.fracture.brash=true"}};
+    for (int i = 0; i < 2; i++) {
+        scene_open_with(&k[i], SHIP, options[i], 2);
+        scene_steps(&k[i], 700);
+    }
+    ck_assert(k[0].w.clock.ice_lost[0] > 0);
+    assert_bits(k[1].w.clock.brash_mass[0], k[0].w.clock.ice_lost[0]);
+    assert_bits(k[1].w.clock.ice_lost[0], 0);
+    assert_bits(k[0].w.clock.brash_mass[0], 0);
+    for (int i = 0; i < 2; i++)
+        scene_close(&k[i]);
+}
+END_TEST
+
+/* Two open channels and the ship's own cut a block out of the sheet: it drifts in the current. */
+START_TEST(an_island_drifts)
+{
+    const char *text = "run: {duration: 100, time_step: 0.02, scale: 30}\n"
+                       "vessel:\n  mode: prescribed\n  x: -22\n  speed: 2\n"
+                       "  hull: {form: icebreaker, length: 40, beam: 10, draught: 4, freeboard: 3,\n"
+                       "         stem_angle_deg: 30, entrance_angle_deg: 35, flare_angle_deg: 12,\n"
+                       "         stern_angle_deg: 35, parallel_midbody: 0.4}\n"
+                       "environment: {current_speed: 0.5, current_direction_deg: 90}\n"
+                       "ice:\n  source: level\n  thickness: 0.5\n  breakable: true\n"
+                       "  level:\n    x_min: 0\n    anchored_x_min: false\n    openings:\n"
+                       "      - {x: 20, y: 22, length: 50, width: 8}\n"
+                       "      - {x: 40, y: 5, length: 8, width: 42}\n"
+                       "domain: {x_min: -60, x_max: 90, y_min: -40, y_max: 40, boundary: open}\n";
+    scene k;
+    scene_open(&k, text);
+    int32_t island = -1;
+    for (int i = 0; i < 2000 && island < 0; i++) {
+        scene_steps(&k, 1);
+        for (int32_t e = 0; e < k.w.scratch.fractures.count; e++)
+            if (k.w.scratch.fractures.data[e].kind == FRACTURE_RELEASE &&
+                k.w.scratch.fractures.data[e].parent_area > 100)
+                island = k.w.scratch.fractures.data[e].first_piece;
+    }
+    ck_assert_int_ge(island, 0);
+    int32_t body = -1;
+    for (int32_t i = 0; i < k.w.floes.count; i++)
+        if (k.w.floes.body[i] >= 0 && k.w.floes.number[i] == island)
+            body = k.w.floes.body[i];
+    ck_assert_int_ge(body, 0);
+    ck_assert_int_eq(k.w.bodies.motion[body], MOTION_DYNAMIC);
+    double y = k.w.bodies.position[body].y;
+    scene_steps(&k, 400);
+    ck_assert_msg(k.w.bodies.position[body].y > y + 0.05, "it drifted by %g m", k.w.bodies.position[body].y - y);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("level_ice", a_channel_as_wide_as_the_hull, ram_back_off_return, trimming_keeps_the_load, brash,
+          an_island_drifts)
