@@ -250,7 +250,7 @@ static fram_status find_openings(context *ctx, const scenario *s, const world *w
 {
     polygon_list footprints = {0};
     vec2_array wide = {0};
-    fram_status status = find_keep_out(ctx, w, &footprints, error);
+    fram_status status = build_keep_out(ctx, w, &footprints, error);
     for (int32_t i = 0; i < polygon_list_count(&footprints) && status == FRAM_OK; i++) {
         vec2_array corners = {0};
         polygon p = polygon_list_get(&footprints, i);
