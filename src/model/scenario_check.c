@@ -89,10 +89,12 @@ static fram_status check_feeding(const scenario *s, fram_error *error)
 {
     const scenario_domain *d = &s->domain;
     if (d->boundary == DOMAIN_FEEDING) {
-        if (s->ice.source == ICE_NONE || s->ice.source == ICE_FLOES)
+        if (s->ice.source == ICE_NONE || s->ice.source == ICE_FLOES || s->ice.source == ICE_LEVEL)
             return fault(s, error, "ice.source",
                          "expected a field that can go on without end, since domain.boundary is feeding, found %s",
-                         s->ice.source == ICE_NONE ? "none" : "floes");
+                         s->ice.source == ICE_NONE    ? "none"
+                         : s->ice.source == ICE_FLOES ? "floes"
+                                                      : "level");
         return FRAM_OK;
     }
     if (d->drift_file[0])

@@ -74,12 +74,14 @@ static void circle(drawing *d, vec2 p, double radius, const char *style)
 }
 
 static const char *const HEAD =
-    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\" font-size=\"14\">\n"
+    "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\""
+    " font-family=\"sans-serif\" font-size=\"14\">\n"
     "<style>polygon,line,circle{stroke-width:1.5;stroke-linejoin:round}.floe{fill:#d2e6f5;stroke:#33658a}"
     ".one{fill:#9fc5e8;stroke:#1c4587}.two{fill:#f4b6a6;stroke:#a61c00}.wedge{fill:#7fd6c2;stroke:#0b6e5a}"
     ".gone{fill:none;stroke:#1a237e;stroke-dasharray:5 4}.crack{stroke:#d00000;stroke-width:3}"
     ".ray{stroke:#888;stroke-dasharray:3 3}.hit{fill:#fff;stroke:#d00000}.load{fill:#d00000;stroke:none}"
-    ".reach{fill:none;stroke:#666;stroke-dasharray:4 4}.spike{fill:#d00000;stroke:none}.merged{fill:#2e9e3f;stroke:none}"
+    ".reach{fill:none;stroke:#666;stroke-dasharray:4 4}.spike{fill:#d00000;stroke:none}"
+    ".merged{fill:#2e9e3f;stroke:none}"
     ".smooth{fill:#1f5fd0;stroke:none}</style>\n<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n";
 
 /* ---- figures ---- */
@@ -126,7 +128,7 @@ static void figure_23(drawing *d, const crack_start *start)
     int32_t edge;
     way = crack_length(p, start, &edge);
     fracture_load load = {.radial_ratio = 2, .stress = {.breaking_radius = way / 2}};
-    panel(d, 1, 0, 11, "23  S_k R: too short to split, and far enough");
+    panel(d, 1, 0, 6.5, "23  S_k R: too short, and far enough");
     ring(d, p, "floe");
     const double factors[] = {1.5, 2.6};
     for (int i = 0; i < 2; i++) {
@@ -188,7 +190,7 @@ static void bending(drawing *d, int column, const char *title, polygon p, vec2 l
     crack_start start = crack_start_of(p, load, 1e-9);
     vec2 stencil[MOST_STENCIL];
     int count = fracture_stencil(3, radius, &start, stencil);
-    panel(d, column, 1, 11, title);
+    panel(d, column, 1, 9.5, title);
     assert_ok(fracture_bend(&ctx, plane, &settings, radius, p, &start, &left, &wedges, &e), e);
     ck_assert_int_eq(polygon_list_count(&left), remnants);
     double area = 0;
@@ -216,7 +218,7 @@ static void figure_28(drawing *d)
     polygon p = {dirty, sizeof dirty / sizeof *dirty};
     vec2_array out = {0};
     ck_assert(polygon_clean(&ctx, p, 0.15, &out));
-    panel(d, 2, 1, 11, "28  cleaning");
+    panel(d, 2, 1, 8, "28  cleaning");
     ring(d, p, "gone");
     ring(d, (polygon){out.data, out.count}, "floe");
     dot(d, dirty[1], "smooth");

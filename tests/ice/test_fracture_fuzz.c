@@ -143,7 +143,9 @@ static void check_children(fracture_rig *r, const fracture_event *e, fuzz_books 
             double overlap = polygon_overlap_area(child[i], child[k]);
             double edge = overlap / (0.5 * fmin(polygon_perimeter(child[i]), polygon_perimeter(child[k])));
             books->worst_overlap = fmax(books->worst_overlap, edge);
-            ck_assert_msg(edge <= r->settings.edge_threshold + 1e-6, "siblings overlap by %g m", edge);
+            /* Beyond the threshold: where dust was joined, corners nearer than 1e-7 of the perimeter became one. */
+            double joints = 1e-7 * fmax(polygon_perimeter(child[i]), polygon_perimeter(child[k]));
+            ck_assert_msg(edge <= r->settings.edge_threshold + joints, "siblings overlap by %g m", edge);
         }
     double lost = (e->area_lost + e->area_gained) / e->parent_area;
     books->worst_lost = fmax(books->worst_lost, lost);
@@ -171,9 +173,10 @@ static void check_momentum(body_books before, body_books after, const fracture_e
     if (cleaned || e->area_lost + e->area_gained > 1e-12 * e->parent_area)
         return;
     double p = vec3_length(vec3_sub(after.momentum, before.momentum));
-    ck_assert_msg(p <= 1e-9 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
+    ck_assert_msg(p <= 1e-11 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
     double h = vec3_length(vec3_sub(after.angular_momentum, before.angular_momentum));
-    ck_assert_msg(h <= 1e-9 * (vec3_length(before.angular_momentum) + mass * speed),
+    /* Corners of joined dust that became one move ice by 1e-7 of the perimeter, without changing the area. */
+    ck_assert_msg(h <= 1e-10 * (vec3_length(before.angular_momentum) + mass * speed),
                   "angular momentum changes by %g of %g", h, vec3_length(before.angular_momentum));
 }
 

@@ -1,0 +1,309 @@
+/* The cost of fracture:  fracture_bench [ROUNDS]
+
+   1. A bending event (a floe of 16 vertices, N = 3), re-meshing included, beside the bare GEOS calls of the same cuts:
+      one difference and six intersections, geometries made and read back, on the same outline, interleaved.
+   2. Bites along a channel in a level sheet: time of an event and size of the shape store as the channel grows. */
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "ice/fracture.h"
+#include "ice/fracture_parts.h"
+
+#include <geos_c.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { CORNERS = 16, WEDGES = 3, STENCIL = 2 * WEDGES, SAMPLES = 20000, BITES = 5100, NEAR = 200 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+static double median(double *x, int n)
+{
+    qsort(x, (size_t)n, sizeof *x, compare);
+    return n > 0 ? x[n / 2] : 0;
+}
+
+/* ---- a world of floes and loads ---- */
+
+typedef struct rig {
+    context ctx;
+    body_table bodies;
+    shape_store shapes;
+    floe_table floes;
+    contact_array contacts;
+    contact_memory_table memory;
+    crushing_patch_array patches;
+    fracture_event_array events;
+    fracture_settings settings;
+    fracture_scratch *scratch;
+    overlay *plane;
+    int32_t next_number, hull;
+} rig;
+
+static const ice_material ICE = {
+    .density = 920, .elastic_modulus = 5e9, .poisson_ratio = 0.3, .flexural_strength = 0.5e6, .crushing_strength = 2e6};
+
+static void stop(const char *what)
+{
+    fprintf(stderr, "fracture_bench: %s\n", what);
+    exit(EXIT_FAILURE);
+}
+
+static void rig_make(rig *r)
+{
+    *r = (rig){.settings = {.time_step = 0.01,
+                            .water_density = 1025,
+                            .gravity = 9.81,
+                            .wedges = WEDGES,
+                            .splitting = SPLITTING_NONE,
+                            .splitting_factor = 3,
+                            .narrowness = 4,
+                            .smallest_floe_area = 0.18,
+                            .smallest_piece_area = 0.009,
+                            .edge_threshold = 0.15,
+                            .thick_plate_radius = true}};
+    context_init(&r->ctx);
+    r->scratch = fracture_scratch_create(&r->ctx);
+    r->plane = overlay_create(&r->ctx);
+    r->hull = body_create(&r->ctx, &r->bodies, MOTION_PRESCRIBED, MATERIAL_HULL);
+    if (!r->scratch || !r->plane || r->hull < 0)
+        stop("no memory");
+}
+
+static int32_t add_floe(rig *r, polygon outline, motion kind, int32_t tile)
+{
+    int32_t row = -1;
+    fram_error e = {0};
+    floe_definition d = {.outline = outline,
+                         .thickness = 1,
+                         .material = ICE,
+                         .breakable = true,
+                         .motion = kind,
+                         .parent = -1,
+                         .tile = tile};
+    if (floe_create(&r->ctx, &d, r->settings.smallest_piece_area, r->plane, &r->bodies, &r->shapes, &r->floes,
+                    &r->next_number, &row, &e) != FRAM_OK)
+        stop(e.message);
+    return row;
+}
+
+static void add_load(rig *r, int32_t row, vec2 place, double load, double area)
+{
+    int32_t body = r->floes.body[row];
+    vec3 at = r->bodies.position[body], point = {place.x, place.y, at.z};
+    contact c = {.a = body,
+                 .b = r->hull,
+                 .point = point,
+                 .normal = {0, 0, -1},
+                 .impulse = {load * r->settings.time_step, 0, 0},
+                 .key = 1};
+    crushing_patch p = {.floe = row,
+                        .floe_body = body,
+                        .surface_body = r->hull,
+                        .normal = {0, 0, -1},
+                        .centre = point,
+                        .area = area,
+                        .horizontal_area = area,
+                        .plan = {{place.x - at.x, place.y - at.y}, {place.x - at.x, place.y - at.y}},
+                        .contact_count = 1};
+    array_clear(&r->contacts);
+    array_clear(&r->patches);
+    if (!array_push(&r->ctx, &r->contacts, c) || !array_push(&r->ctx, &r->patches, p))
+        stop("no memory");
+}
+
+/* Returns the time [s]. */
+static double break_once(rig *r)
+{
+    fram_error e = {0};
+    fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number, NULL};
+    array_clear(&r->events);
+    double begin = now();
+    if (fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, &e) != FRAM_OK)
+        stop(e.message);
+    return now() - begin;
+}
+
+static void remove_moving(rig *r)
+{
+    for (int32_t i = 0; i < r->floes.count; i++)
+        if (r->floes.body[i] >= 0 && r->bodies.motion[r->floes.body[i]] == MOTION_DYNAMIC)
+            floe_remove(&r->bodies, &r->shapes, &r->floes, i);
+    if (shape_compact(&r->ctx, &r->shapes) != FRAM_OK)
+        stop("no memory");
+}
+
+/* ---- bare GEOS ---- */
+
+static void quiet(const char *format, ...) { (void)format; }
+
+static GEOSGeometry *geometry_of(GEOSContextHandle_t g, polygon p)
+{
+    GEOSCoordSequence *c = GEOSCoordSeq_create_r(g, (unsigned)p.count + 1, 2);
+    for (int32_t i = 0; i <= p.count; i++)
+        GEOSCoordSeq_setXY_r(g, c, (unsigned)i, p.vertex[i % p.count].x, p.vertex[i % p.count].y);
+    return GEOSGeom_createPolygon_r(g, GEOSGeom_createLinearRing_r(g, c), NULL, 0);
+}
+
+static double read_back(GEOSContextHandle_t g, const GEOSGeometry *made)
+{
+    double sum = 0;
+    for (int i = 0; i < GEOSGetNumGeometries_r(g, made); i++) {
+        const GEOSGeometry *part = GEOSGetGeometryN_r(g, made, i);
+        if (GEOSGeomTypeId_r(g, part) != GEOS_POLYGON)
+            continue;
+        const GEOSCoordSequence *c = GEOSGeom_getCoordSeq_r(g, GEOSGetExteriorRing_r(g, part));
+        unsigned n = 0;
+        GEOSCoordSeq_getSize_r(g, c, &n);
+        for (unsigned k = 0; k < n; k++) {
+            double x, y;
+            GEOSCoordSeq_getXY_r(g, c, k, &x, &y);
+            sum += x + y;
+        }
+    }
+    return sum;
+}
+
+static double bare(GEOSContextHandle_t g, polygon floe, const vec2 stencil[STENCIL], vec2 tip, double *check)
+{
+    double begin = now();
+    GEOSGeometry *subject = geometry_of(g, floe);
+    GEOSGeometry *clip = geometry_of(g, (polygon){stencil, STENCIL}), *made = GEOSDifference_r(g, subject, clip);
+    *check += read_back(g, made);
+    GEOSGeom_destroy_r(g, made);
+    GEOSGeom_destroy_r(g, clip);
+    for (int i = 0; i < STENCIL; i++) {
+        const vec2 wedge[3] = {tip, stencil[i], stencil[(i + 1) % STENCIL]};
+        clip = geometry_of(g, (polygon){wedge, 3});
+        made = GEOSIntersection_r(g, subject, clip);
+        *check += read_back(g, made);
+        GEOSGeom_destroy_r(g, made);
+        GEOSGeom_destroy_r(g, clip);
+    }
+    GEOSGeom_destroy_r(g, subject);
+    return now() - begin;
+}
+
+static void bench_event(int rounds, bool concave)
+{
+    rig r;
+    rig_make(&r);
+    GEOSContextHandle_t g = GEOS_init_r();
+    GEOSContext_setNoticeHandler_r(g, quiet);
+    GEOSContext_setErrorHandler_r(g, quiet);
+    double *ours = calloc((size_t)rounds, sizeof *ours), *theirs = calloc((size_t)rounds, sizeof *theirs), check = 0;
+    int n = 0;
+    for (int i = 0; i < rounds; i++) {
+        random_stream s = random_begin(1, 1, (uint32_t)i);
+        vec2 outline[CORNERS];
+        for (int k = 0; k < CORNERS; k++) {
+            double angle = 2 * PI * (k + 0.5 * random_unit(&s)) / CORNERS;
+            double radius = concave ? random_uniform(&s, 24, 30) : 30;
+            outline[k] = (vec2){radius * real_cos(angle), radius * real_sin(angle)};
+        }
+        int32_t row = add_floe(&r, (polygon){outline, CORNERS}, MOTION_DYNAMIC, 0);
+        vec2 load = vec2_scale(outline[i % CORNERS], 0.98);
+        add_load(&r, row, load, 1e7, 1);
+        double time = break_once(&r);
+        if (r.events.count == 1) {
+            crack_start start = crack_start_of((polygon){outline, CORNERS}, load, 1e-6);
+            vec2 stencil[MOST_STENCIL];
+            fracture_stencil(WEDGES, r.events.data[0].crack_length, &start, stencil);
+            ours[n] = time;
+            theirs[n++] = bare(g, (polygon){outline, CORNERS}, stencil, start.point, &check);
+        }
+        remove_moving(&r);
+    }
+    double a = median(ours, n), b = median(theirs, n);
+    printf("%s floe, 16 vertices, N = 3: event %.1f us, bare GEOS %.1f us, ratio %.2f (%d events)\n",
+           concave ? "concave" : "convex", 1e6 * a, 1e6 * b, a / b, n);
+    free(ours);
+    free(theirs);
+    GEOS_finish_r(g);
+}
+
+/* ---- a channel ---- */
+
+static int32_t tile_at(const rig *r, vec2 place)
+{
+    int32_t best = -1;
+    double least = HUGE_VAL;
+    for (int32_t i = 0; i < r->floes.count; i++) {
+        if (r->floes.body[i] < 0 || r->floes.tile[i] == 0)
+            continue;
+        vec3 at = r->bodies.position[r->floes.body[i]];
+        if (fabs(at.x - place.x) + fabs(at.y - place.y) > 100)
+            continue;
+        polygon p = shape_outline(&r->shapes, r->bodies.shape[r->floes.body[i]]);
+        vec2 local = {place.x - at.x, place.y - at.y}, near = polygon_nearest_boundary(p, local, NULL);
+        double way = polygon_contains(p, local) ? 0 : vec2_length(vec2_sub(near, local));
+        if (way < least) {
+            least = way;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static void bench_channel(void)
+{
+    rig r;
+    rig_make(&r);
+    polygon_list none = {0}, outlines = {0};
+    int32_array cells = {0};
+    fram_error e = {0};
+    tile_grid g = tile_grid_over((box2){{0, -100}, {8000, 100}}, 28);
+    for (int i = 0; i < SHEET_SIDES; i++)
+        g.anchored[i] = true;
+    g.least_seam = r.settings.edge_threshold;
+    r.settings.tiles = g;
+    if (tile_sheet(&r.ctx, &g, r.plane, &none, r.settings.smallest_floe_area, &outlines, &cells, &e) != FRAM_OK)
+        stop(e.message);
+    for (int32_t i = 0; i < polygon_list_count(&outlines); i++)
+        add_floe(&r, polygon_list_get(&outlines, i), MOTION_STATIC, cells.data[i] + 1);
+    static double time[BITES];
+    static int vertices[BITES];
+    int bites = 0;
+    random_stream s = random_begin(3, 1, 0);
+    for (int turn = 0; bites < BITES && turn < 40 * BITES; turn++) {
+        vec2 place = {1.0 * turn, random_uniform(&s, -7, 7)};
+        if (place.x > 7900)
+            break;
+        int32_t row = tile_at(&r, place);
+        if (row < 0)
+            continue;
+        add_load(&r, row, place, 1e7, 1);
+        double taken = break_once(&r);
+        if (r.events.count == 0)
+            continue;
+        time[bites] = taken;
+        remove_moving(&r);
+        vertices[bites++] = r.shapes.vertices.count;
+    }
+    double early = median(time, NEAR), late = median(time + bites - NEAR, NEAR);
+    printf(
+        "channel: %d bites in a sheet of %d tiles; event %.1f us in the first %d, %.1f us in the last (ratio %.3f)\n",
+        bites, (int)polygon_list_count(&outlines), 1e6 * early, NEAR, 1e6 * late, late / early);
+    printf("shape store: %d vertices at the 100th bite, %d at the last (ratio %.3f)\n", vertices[99],
+           vertices[bites - 1], (double)vertices[bites - 1] / vertices[99]);
+}
+
+int main(int count, char **value)
+{
+    int rounds = count > 1 ? atoi(value[1]) : SAMPLES;
+    bench_event(rounds, false);
+    bench_event(rounds, true);
+    bench_channel();
+    return EXIT_SUCCESS;
+}
