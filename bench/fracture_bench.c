@@ -2,11 +2,15 @@
 
    1. A bending event (a floe of 16 vertices, N = 3), re-meshing included, beside the bare GEOS calls of the same cuts:
       one difference and six intersections, geometries made and read back, on the same outline, interleaved.
-   2. Bites along a channel in a level sheet: time of an event and size of the shape store as the channel grows. */
+   2. Bites along a channel in a level sheet: time of an event and size of the shape store as the channel grows.
+   3. Fracture's share of the steps of scenes/level_ice.yaml (run it in the folder of the sources). */
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "ice/fracture.h"
 #include "ice/fracture_parts.h"
+#include "io/scenario_file.h"
+#include "sim/build.h"
+#include "sim/step.h"
 
 #include <geos_c.h>
 #include <stdio.h>
@@ -299,11 +303,61 @@ static void bench_channel(void)
            vertices[bites - 1], (double)vertices[bites - 1] / vertices[99]);
 }
 
+/* ---- a scene ---- */
+
+enum { WARM_STEPS = 2500, MEASURED_STEPS = 1000 };
+
+typedef struct stage_clock {
+    double last, part[STAGE_COUNT];
+} stage_clock;
+
+static void stage_done(void *user, step_stage stage)
+{
+    stage_clock *c = user;
+    double t = now();
+    c->part[stage] += t - c->last;
+    c->last = t;
+}
+
+static void bench_scene(const char *path)
+{
+    context ctx;
+    scenario s;
+    world w;
+    build_report report;
+    fram_error e = {0};
+    context_init(&ctx);
+    if (scenario_read(&ctx, path, NULL, &s, &e) != FRAM_OK || build_world(&ctx, &s, &w, &report, &e) != FRAM_OK)
+        stop(e.message);
+    step_settings settings = build_settings(&s);
+    stage_clock clock = {0};
+    const step_watch watch = {stage_done, &clock};
+    int64_t before = 0;
+    for (int i = 0; i < WARM_STEPS + MEASURED_STEPS; i++) {
+        if (i == WARM_STEPS) {
+            clock = (stage_clock){0};
+            before = w.clock.bendings[0];
+        }
+        clock.last = now();
+        if (world_step_watched(&ctx, &settings, &w, &watch, &e) != FRAM_OK)
+            stop(e.message);
+    }
+    double sum = 0;
+    for (int i = 0; i < STAGE_COUNT; i++)
+        sum += clock.part[i];
+    printf("%s: %.2f ms a step, fracture %.3f ms, %.1f %% (%d events in %d steps)\n", path, 1e3 * sum / MEASURED_STEPS,
+           1e3 * clock.part[STAGE_FRACTURE] / MEASURED_STEPS, 100 * clock.part[STAGE_FRACTURE] / sum,
+           (int)(w.clock.bendings[0] - before), MEASURED_STEPS);
+    world_free(&ctx, &w);
+    scenario_free(&ctx, &s);
+}
+
 int main(int count, char **value)
 {
     int rounds = count > 1 ? atoi(value[1]) : SAMPLES;
     bench_event(rounds, false);
     bench_event(rounds, true);
     bench_channel();
+    bench_scene("scenes/level_ice.yaml");
     return EXIT_SUCCESS;
 }

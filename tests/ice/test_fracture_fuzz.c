@@ -173,9 +173,10 @@ static void check_momentum(body_books before, body_books after, const fracture_e
     if (cleaned || e->area_lost + e->area_gained > 1e-12 * e->parent_area)
         return;
     double p = vec3_length(vec3_sub(after.momentum, before.momentum));
-    ck_assert_msg(p <= 1e-11 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
+    /* Corners of joined dust that became one move ice by 1e-7 of the perimeter, without changing the area: the centroid
+       of all pieces shifts by up to some 1e-11 of the floe's size. */
+    ck_assert_msg(p <= 1e-10 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
     double h = vec3_length(vec3_sub(after.angular_momentum, before.angular_momentum));
-    /* Corners of joined dust that became one move ice by 1e-7 of the perimeter, without changing the area. */
     ck_assert_msg(h <= 1e-10 * (vec3_length(before.angular_momentum) + mass * speed),
                   "angular momentum changes by %g of %g", h, vec3_length(before.angular_momentum));
 }
