@@ -238,8 +238,22 @@ static pair6 pair_sum(pair6 a, pair6 b, double scale)
     return (pair6){vec3_mad(a.line, b.line, scale), vec3_mad(a.turn, b.turn, scale)};
 }
 
+/* Part of the contacts' load of the step before that is made up for.  In units in which the known matrix is 1 the whole
+   one is 1 + K, and a load is made up for by -K / (1 + K) of it; held against a contact this repeats itself from step
+   to step and must shrink.  No eigenvalue of K is under -f, f = |K| / sqrt 2 for couplings in pairs. */
+static double deferred_share(const matrix6 *whole, const matrix6 *known)
+{
+    const double shrink = 0.9; /* from one step to the next, at most */
+    double sum = 0;
+    for (int i = 0; i < 6; i++)
+        for (int j = 0; j < i; j++)
+            sum += whole->m[i][j] * whole->m[j][i] / (known->m[i][i] * known->m[j][j]);
+    double f = sqrt(fmax(0, sum));
+    return f < 1 ? fmin(1, shrink * (1 - f) / fmax(f, 1e-300)) : 0;
+}
+
 void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
-                           const body_table *bodies, int32_t slot, wrench *load)
+                           const body_table *bodies, int32_t slot, const wrench *contacts, wrench *load)
 {
     mat3 r = quat_matrix(bodies->orientation[slot]);
     pair6 v = relative_velocity(m, bodies, slot, r);
@@ -247,20 +261,24 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
     matrix6 added = coupled ? h->added_mass : diagonal, damping = coupled ? h->damping : diagonal_of(&h->damping);
     pair6 force = {mat3_tmul_vec(r, load->force), mat3_tmul_vec(r, load->moment)};
     force = pair_sum(force, matrix6_mul(&damping, v), -1);
+    matrix6 known = matrix6_sum(&rigid, &diagonal, 1), whole = matrix6_sum(&rigid, &added, 1);
+    whole = matrix6_sum(&whole, &damping, time_step);
     vec3 gyroscopic = {0, 0, 0};
+    pair6 deferred = {{0, 0, 0}, {0, 0, 0}};
     if (coupled) {
+        double share = deferred_share(&whole, &known);
+        deferred.line = mat3_tmul_vec(r, vec3_scale(contacts->force, share));
+        deferred.turn = mat3_tmul_vec(r, vec3_scale(contacts->moment, share));
         /* Known to the dynamics, who divide it by what they know: it must be divided by all, and then put back. */
-        vec3 known = matrix6_mul(&diagonal, v).turn;
-        gyroscopic = vec3_cross(v.turn, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.turn), known));
+        vec3 turning = matrix6_mul(&diagonal, v).turn;
+        gyroscopic = vec3_cross(v.turn, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.turn), turning));
         force = pair_sum(force, turning_terms(&added, v), 1);
         force.turn = vec3_sub(force.turn, gyroscopic);
     }
-    matrix6 known = matrix6_sum(&rigid, &diagonal, 1), whole = matrix6_sum(&rigid, &added, 1);
-    whole = matrix6_sum(&whole, &damping, time_step);
     pair6 acceleration;
-    if (!matrix6_solve(&whole, force, &acceleration))
+    if (!matrix6_solve(&whole, pair_sum(force, deferred, 1), &acceleration))
         return;
-    pair6 changed = matrix6_mul(&known, acceleration);
+    pair6 changed = pair_sum(matrix6_mul(&known, acceleration), deferred, -1);
     load->force = mat3_mul_vec(r, changed.line);
     load->moment = mat3_mul_vec(r, vec3_add(changed.turn, gyroscopic));
 }

@@ -46,10 +46,14 @@ typedef struct hydrodynamics {
 
 /* Changes the load of a dynamic body, whose added mass and inertia in `bodies` must be the diagonal of h->added_mass:
    its acceleration under the changed load by mass and diagonal is what (M + A + dt D) a = F - D v - (Kirchhoff's
-   terms) gives, with all of A and D.  Contacts and joints then meet the diagonal only.  coupled: false leaves out all
-   but the diagonals, for a body that a joint allows to heave only. */
+   terms) gives, with all of A and D.  Contacts and joints then meet the diagonal only.
+   contacts: what the contacts exerted in the step before, global axes, about the centre of mass.  They moved the body
+   by the diagonal; what all of M + A + dt D would have made of them is made up for now, so that over time the body
+   answers to them by all of it too.  With a lag of a step this converges while the couplings are weak against the
+   diagonal, as those of ships are; where they are not, that much of it is left out as might not. coupled: false leaves
+   out all but the diagonals, for a body that a joint allows to heave only. */
 void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
-                           const body_table *bodies, int32_t slot, wrench *load);
+                           const body_table *bodies, int32_t slot, const wrench *contacts, wrench *load);
 
 /* The energy [J] of the water that moves with a body: half of v' A v, for the books. */
 double hydrodynamics_energy(const hydrodynamics *h, const media *m, const body_table *bodies, int32_t slot);

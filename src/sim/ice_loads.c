@@ -59,6 +59,15 @@ fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w,
     return FRAM_OK;
 }
 
+wrench last_ice_load(const world *w, int32_t vessel)
+{
+    int32_t rows = w->load_window.count;
+    if (vessel != 0 || rows == 0 || w->clock.step[0] == 0)
+        return (wrench){0};
+    int64_t row = (w->clock.step[0] - 1) % rows;
+    return (wrench){w->load_window.force[row], w->load_window.moment[row]};
+}
+
 wrench load_window_average(const world *w)
 {
     wrench sum = {0};

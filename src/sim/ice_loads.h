@@ -8,6 +8,10 @@
    window's row of this step. */
 fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w, fram_error *error);
 
+/* Load of the contacts on a vessel in the step before, zero for others than the first: the window's row of that step.
+ */
+wrench last_ice_load(const world *w, int32_t vessel);
+
 /* Average of the load window [N], [N m] over the steps done so far in it, at most its whole length. */
 wrench load_window_average(const world *w);
 

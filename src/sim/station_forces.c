@@ -1,16 +1,8 @@
 #include "sim/station_forces.h"
 
-#include <string.h>
+#include "sim/ice_loads.h"
 
-/* Load of the ice in the step before; the window's row of that step. */
-static wrench last_ice_load(const world *w, int32_t vessel)
-{
-    int32_t rows = w->load_window.count;
-    if (vessel != 0 || rows == 0 || w->clock.step[0] == 0)
-        return (wrench){0};
-    int64_t row = (w->clock.step[0] - 1) % rows;
-    return (wrench){w->load_window.force[row], w->load_window.moment[row]};
-}
+#include <string.h>
 
 static void tell(context *ctx, const world *w, int32_t from)
 {

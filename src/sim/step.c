@@ -46,8 +46,9 @@ static void respond(context *ctx, const step_settings *s, world *w)
     if (!w->has_hydrodynamics || w->vessels.count == 0 || w->vessels.mode[0] == VESSEL_PRESCRIBED)
         return;
     int32_t body = w->vessels.body[0];
+    wrench contacts = last_ice_load(w, 0);
     hydrodynamics_respond(&w->hydrodynamics, w->vessels.mode[0] == VESSEL_FREE, &now, s->time_step, &w->bodies, body,
-                          &loads[body]);
+                          &contacts, &loads[body]);
 }
 
 static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)

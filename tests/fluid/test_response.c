@@ -47,6 +47,8 @@ static void set_diagonal(body_table *b, int32_t slot, const matrix6 *a)
     b->added_inertia[slot] = vec3_make(a->m[3][3], a->m[4][4], a->m[5][5]);
 }
 
+static const wrench nothing = {{0, 0, 0}, {0, 0, 0}};
+
 /* A step as the dynamics take it: global velocities by mass and added mass along body axes, turning with the
    gyroscopic term of all inertia that they know. */
 static void step(body_table *b, int32_t slot, const wrench *load, double dt)
@@ -84,13 +86,13 @@ START_TEST(whole_matrix_accelerates)
         f.line = vec3_mad(f.line, a.line, 900);
         f.turn = vec3_add(f.turn, sym3_mul_vec(k.bodies.inertia[slot], a.turn));
         wrench load = {mat3_mul_vec(turn, f.line), mat3_mul_vec(turn, f.turn)};
-        hydrodynamics_respond(&h, true, &still_water, 1e-3, &k.bodies, slot, &load);
+        hydrodynamics_respond(&h, true, &still_water, 1e-3, &k.bodies, slot, &nothing, &load);
         step(&k.bodies, slot, &load, 1);
         assert_vec3_close(mat3_tmul_vec(turn, k.bodies.velocity[slot]), a.line, 1e-12);
         wrench none = {{0, 0, 0}, {0, 0, 0}};
         rig still;
         slot = rig_open(&still, 900, (sym3){800, 900, 1000, 20, -30, 10});
-        hydrodynamics_respond(&h, true, &still_water, 1e-3, &still.bodies, slot, &none);
+        hydrodynamics_respond(&h, true, &still_water, 1e-3, &still.bodies, slot, &nothing, &none);
         ck_assert(vec3_length(none.force) == 0 && vec3_length(none.moment) == 0);
         rig_close(&still);
         rig_close(&k);
@@ -148,6 +150,89 @@ START_TEST(contacts_meet_the_diagonal)
 }
 END_TEST
 
+/* Sway and yaw coupled as those of the supply ship of the oracles are, about a centre of mass 2 m ahead of amidships.
+ */
+static int32_t open_ship(rig *k, hydrodynamics *h)
+{
+    int32_t slot = rig_open(k, 6e6, (sym3){2.6e8, 2.2e9, 2.2e9, 0, 0, 0});
+    *h = (hydrodynamics){.added_mass = {{{7.6e5},
+                                         {0, 5.3e6, 0, 0, 0, 5.7e7},
+                                         {0, 0, 7.6e6},
+                                         {0, 0, 0, 1.9e7},
+                                         {0, 0, 0, 0, 1.8e9},
+                                         {0, 5.7e7, 0, 0, 0, 2.2e9}}}};
+    set_diagonal(&k->bodies, slot, &h->added_mass);
+    return slot;
+}
+
+static matrix6 ship_matrix(const rig *k, int32_t slot, const hydrodynamics *h)
+{
+    double m = k->bodies.mass[slot];
+    sym3 i = k->bodies.inertia[slot];
+    const matrix6 rigid = {{{m}, {0, m}, {0, 0, m}, {0, 0, 0, i.xx}, {0, 0, 0, 0, i.yy}, {0, 0, 0, 0, 0, i.zz}}};
+    return matrix6_sum(&rigid, &h->added_mass, 1);
+}
+
+/* Ice that pushes the bow aside, step after step: but for a step's lag the ship goes as all of M + A says, where the
+   diagonal alone would be a tenth and more off. */
+START_TEST(contacts_meet_all_of_it_in_time)
+{
+    rig k;
+    hydrodynamics h;
+    int32_t slot = open_ship(&k, &h), steps = 400;
+    wrench contact = {{0, 1, 0}, {0, 0, 36}}; /* so little that nothing turns */
+    for (int i = 0; i < steps; i++) {
+        wrench load = nothing;
+        hydrodynamics_respond(&h, true, &still_water, 0.05, &k.bodies, slot, i ? &contact : &nothing, &load);
+        load.force = vec3_add(load.force, contact.force);
+        load.moment = vec3_add(load.moment, contact.moment);
+        step(&k.bodies, slot, &load, 0.05);
+    }
+    matrix6 whole = ship_matrix(&k, slot, &h);
+    pair6 v;
+    ck_assert(matrix6_solve(&whole, (pair6){contact.force, contact.moment}, &v));
+    double time = 0.05 * steps, by_diagonal = time / (6e6 + 5.3e6);
+    assert_relative(k.bodies.velocity[slot].y, time * v.line.y, 2.0 / steps);
+    assert_relative(k.bodies.angular_velocity[slot].z, time * v.turn.z, 2.0 / steps);
+    ck_assert(fabs(by_diagonal / k.bodies.velocity[slot].y - 1) > 0.1);
+    rig_close(&k);
+}
+END_TEST
+
+/* The bow leans on a wall: the contact's force settles, without swinging, at what all of M + A asks for. */
+START_TEST(contacts_settle_at_a_wall)
+{
+    rig k;
+    hydrodynamics h;
+    int32_t slot = open_ship(&k, &h);
+    matrix6 whole = ship_matrix(&k, slot, &h), known = {0};
+    for (int i = 0; i < 6; i++)
+        known.m[i][i] = whole.m[i][i];
+    const vec3 bow = {36, 0, 0}, along = {0, 1, 0};
+    const wrench thrust = {{0, -1, 0}, {0, 0, 10}};
+    pair6 free;
+    ck_assert(matrix6_solve(&whole, (pair6){thrust.force, thrust.moment}, &free));
+    double wanted = -(free.line.y + 36 * free.turn.z) / answer(&whole, along, bow), miss = HUGE_VAL;
+    wrench contact = nothing;
+    for (int i = 0; i < 60; i++) {
+        wrench load = thrust;
+        hydrodynamics_respond(&h, true, &still_water, 0.05, &k.bodies, slot, &contact, &load);
+        step(&k.bodies, slot, &load, 0.05);
+        /* What the solver does: an impulse that stops the bow, by the diagonal. */
+        double speed = k.bodies.velocity[slot].y + 36 * k.bodies.angular_velocity[slot].z;
+        double force = -speed / (0.05 * answer(&known, along, bow));
+        contact = (wrench){vec3_scale(along, force), vec3_make(0, 0, 36 * force)};
+        k.bodies.velocity[slot].y += 0.05 * force / known.m[1][1];
+        k.bodies.angular_velocity[slot].z += 0.05 * 36 * force / known.m[5][5];
+        ck_assert_msg(fabs(force - wanted) <= 0.5 * miss || miss < 1e-9, "step %d: %g N instead of %g", i, force,
+                      wanted);
+        miss = fabs(force - wanted);
+    }
+    ck_assert_msg(miss < 1e-6 * fabs(wanted), "%g N are missing of %g", miss, wanted);
+    rig_close(&k);
+}
+END_TEST
+
 /* Kirchhoff: a body coasting and tumbling in an ideal fluid keeps its energy, fluid included; the step's error is of
    first order. */
 static double energy_drift(double dt)
@@ -170,7 +255,7 @@ static double energy_drift(double dt)
         start = i == 0 ? energy : start;
         worst = fmax(worst, fabs(energy / start - 1));
         wrench load = {{0, 0, 0}, {0, 0, 0}};
-        hydrodynamics_respond(&h, true, &m, dt, &k.bodies, slot, &load);
+        hydrodynamics_respond(&h, true, &m, dt, &k.bodies, slot, &nothing, &load);
         step(&k.bodies, slot, &load, dt);
     }
     rig_close(&k);
@@ -199,7 +284,7 @@ START_TEST(damping_of_any_strength)
                 k.bodies.angular_velocity[slot].x = 0, k.bodies.orientation[slot] = quat_identity();
             double before = k.bodies.velocity[slot].z, turned = k.bodies.angular_velocity[slot].x;
             wrench load = {{0, 0, 0}, {0, 0, 0}};
-            hydrodynamics_respond(&h, coupled, &still_water, 0.1, &k.bodies, slot, &load);
+            hydrodynamics_respond(&h, coupled, &still_water, 0.1, &k.bodies, slot, &nothing, &load);
             step(&k.bodies, slot, &load, 0.1);
             assert_relative(k.bodies.velocity[slot].z, before / (1 + 0.1 * rate / 1000), 1e-9);
             if (!coupled)
@@ -398,6 +483,6 @@ START_TEST(floe_with_damping)
 }
 END_TEST
 
-TEST_MAIN("response", whole_matrix_accelerates, contacts_meet_the_diagonal, coasting_keeps_energy,
-          damping_of_any_strength, weak_drag_is_left_alone, strong_drag_is_stable, strong_drag_is_right,
-          floe_with_added_mass, floe_with_damping)
+TEST_MAIN("response", whole_matrix_accelerates, contacts_meet_the_diagonal, contacts_meet_all_of_it_in_time,
+          contacts_settle_at_a_wall, coasting_keeps_energy, damping_of_any_strength, weak_drag_is_left_alone,
+          strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
