@@ -125,7 +125,7 @@ fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_be
 void fram_bench_scene_default(fram_bench_scene_definition *definition)
 {
     *definition = (fram_bench_scene_definition){
-        .size = sizeof *definition, .time_step = 0.02, .warm = 5, .time = 20, .iterations = 10, .solver = "sequential"};
+        .size = sizeof *definition, .time_step = 0.02, .warm = 5, .time = 20, .iterations = 10, .solver = "fast"};
 }
 
 /* Times so that the number of steps is an ordinary one. */

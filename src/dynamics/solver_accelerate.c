@@ -1,14 +1,15 @@
 /* Faster than sweep by sweep.  A velocity is a linear function of the impulses, v = v0 + M^-1 J^T p, and where no bound
-   is active the solution makes f(p) = v.M v / 2 - wanted.p least.  After every other sweep p goes on by the combination
-   of its last ways that makes f least: conjugate gradients with the sweep as preconditioner, of which the three-term
-   recurrence is widened to four ways.  All scalar products are ones of velocities, hence sums over bodies, far fewer
-   than contacts; p and v go on by the same shares, and stay true to each other.
+   is active the solution makes f(p) = v.M v / 2 - wanted.p least (driven bodies have no mass and are not in v; what
+   they bring to a row counts as wanted of it).  After every other sweep p goes on by the combination of its last ways
+   that makes f least: conjugate gradients with the sweep as preconditioner, of which the three-term recurrence is
+   widened to four ways.  All scalar products are ones of velocities, hence sums over bodies, far fewer than contacts; p
+   and v go on by the same shares, and stay true to each other.
 
-   Bounds.  The next sweep draws p back into its bounds.  A step that did more harm than good - f and the sweeps' energy
-   both above those before it - is put back.  Sliding friction is no minimum of f: its impulse follows the normal one.
-   So the work of ways in the tangents of sliding contacts is left out of the gradient; otherwise friction would come
-   out too strong.  (After Silcowitz, Niebe and Erleben 2010, who take the ratio of two sweeps' squares in place of the
-   products.) */
+   Bounds.  The next sweep draws p back into its bounds.  A step that did more harm than good - the sweeps after it take
+   more energy than those before it, and f has grown or they take much more - is put back, and the next comes later.
+   Sliding friction is no minimum of f: its impulse follows the normal one.  So the work of ways in the tangents of
+   sliding contacts is left out of the gradient; otherwise friction would come out too strong.  (After Silcowitz, Niebe
+   and Erleben 2010, who take the ratio of two sweeps' squares in place of the products.) */
 #include "base/pool.h"
 #include "dynamics/solver_fast.h"
 
@@ -21,11 +22,18 @@
 #define REACH_FACTOR 8.0
 #define LAST_REACH 1e6
 #define WORTH_REACHING 1e-9 /* of the bodies' energy: less is promised by rounding as well */
+#define ROUNDING 1e-14
 /* A pull below this share of the bodies' energy is rounding: a small way of large velocities is known no better. */
 #define PULL_ROUNDING 1e-14
 /* Sweeps that take less than this share of the bodies' energy work on rounding errors: velocities are right to 1e-13.
  */
 #define NOTHING_LEFT 1e-26
+/* Sweeps from one step to the next: the ways of two tell nearly as much as twice the number of single ones.  Twice as
+   many after a step that failed. */
+enum { SHORTEST_PAUSE = 2, LONGEST_PAUSE = 64 };
+/* A step after which sweeps take more than so many times what they took before is put back though f has become less: it
+   leaves friction so far from right that few bodies come to rest later than without any steps. */
+#define MUCH_MORE 4.0
 /* A way that repeats others to within this share of its square adds nothing. */
 #define DEPENDENT_WAY 1e-10
 
@@ -69,16 +77,21 @@ static void scatter_joints(solver *s)
         memcpy(s->joints.data[i].impulse, row_of(&s->fast->joint_impulse, i), sizeof s->joints.data[i].impulse);
 }
 
-static double wanted_of(const stage *st, const double *impulses)
+static void wanted_task(const stage *st, batch_task *task)
 {
-    const fast_rows *f = st->s->fast;
+    task->wanted = KERNEL_PICK(st->s->ctx, solver_wanted)(&st->view, task->first, task->end);
+}
+
+/* Of the impulses before the first sweep; the position correction starts without any. */
+static double wanted_at_start(stage *st)
+{
+    const batch_plan *plan = &st->s->fast->plan;
     double sum = 0;
-    for (int32_t k = 0; k < f->plan.points; k++) {
-        const double *normal = impulses + (ptrdiff_t)BATCH_LANES * k * (st->positions ? 1 : IMPULSE_ROWS);
-        const double *bias = st->positions ? row_of(&f->bias, k) : row_of(&f->point, POINT_ROWS * k + POINT_BIAS);
-        for (int lane = 0; lane < BATCH_LANES; lane++)
-            sum += normal[lane] * bias[lane];
-    }
+    if (st->positions)
+        return sum;
+    stage_run(st, wanted_task);
+    for (int32_t t = 0; t < plan->tasks.count; t++)
+        sum += plan->tasks.data[t].wanted;
     return sum;
 }
 
@@ -97,7 +110,18 @@ static void products_of_block(void *arg, int32_t block, int32_t thread)
         f->velocity.rows, v->start.rows, v->way, f->mass.rows, f->inertia.rows, first, end < all ? end : all);
 }
 
-/* Products of velocities, and what soft joints add to them.  value: f. */
+/* A body if nothing can move it, else one at rest. */
+static solver_body fixed_part(const solver_body *body)
+{
+    solver_body part = {.slot = body->slot};
+    if (body->inverse_mass.xx == 0) {
+        part.velocity = body->velocity;
+        part.angular_velocity = body->angular_velocity;
+    }
+    return part;
+}
+
+/* Products of velocities, and what joints add to them: softness, and what they and fixed bodies ask for.  value: f. */
 static way_products products_of(stage *st, double wanted, double *value)
 {
     solver *s = st->s;
@@ -115,14 +139,16 @@ static way_products products_of(stage *st, double wanted, double *value)
     *value = 0.5 * sum.square - wanted;
     for (int32_t i = 0; i < s->joints.count; i++) {
         const joint_block *j = &s->joints.data[i];
+        solver_body body = fixed_part(&s->bodies.data[j->body]), base = fixed_part(&s->bodies.data[j->base]);
         for (int r = 0; r < j->count; r++) {
             ptrdiff_t at = (ptrdiff_t)BATCH_LANES * i + r;
             double now = j->impulse[r] - v->start.rows[at];
-            *value += (j->bias[r] + 0.5 * j->softness * j->impulse[r]) * j->impulse[r];
+            double bias = j->bias[r] + row_axis_velocity(&j->axis[r], &body, &base);
+            *value += (bias + 0.5 * j->softness * j->impulse[r]) * j->impulse[r];
             for (int w = 0; w < SWEEP_WAYS; w++) {
                 double way = w == 0 ? now : v->way[w][at];
                 sum.way[w] += j->softness * now * way;
-                sum.velocity[w] += (j->bias[r] + j->softness * j->impulse[r]) * way;
+                sum.velocity[w] += (bias + j->softness * j->impulse[r]) * way;
             }
         }
     }
@@ -145,14 +171,16 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
     a->ways = 0;
     a->reach = FIRST_REACH;
     a->promised = 0;
-    a->wanted_start = wanted_of(st, x->rows);
+    a->pause = SHORTEST_PAUSE;
+    a->wanted_start = wanted_at_start(st);
     memset(a->product, 0, sizeof a->product);
     if (!vector_begin(s->ctx, &a->vector[VECTOR_VELOCITY], &f->velocity, bodies) ||
         !vector_begin(s->ctx, &a->vector[VECTOR_IMPULSE], x, rows) ||
         !vector_begin(s->ctx, &a->vector[VECTOR_JOINT], &f->joint_impulse, joints))
         return false;
     double value;
-    a->scale = products_of(st, a->wanted_start, &value).square;
+    a->scale = fmax(2 * st->free_energy, products_of(st, a->wanted_start, &value).square);
+    a->free_value = st->free_energy + ROUNDING * a->scale;
     return true;
 }
 
@@ -287,9 +315,10 @@ static void remember_way(acceleration *a, const double share[SWEEP_WAYS])
     a->ways = a->ways < SWEEP_WAYS - 1 ? a->ways + 1 : SWEEP_WAYS - 1;
 }
 
+/* Without friction f tells alone, and energies go up and down on the way. */
 static bool failed(const acceleration *a, double value, double energy)
 {
-    return a->ways > 0 && value > a->kept_value && energy > a->kept_energy;
+    return a->ways > 0 && energy > (value > a->kept_value ? 1 : MUCH_MORE) * a->kept_energy;
 }
 
 static void put_back(solver *s)
@@ -320,6 +349,7 @@ bool acceleration_go_on(stage *st, double energy, double wanted)
         a->wanted_start = a->kept_wanted;
         a->reach = fmax(1, a->reach / REACH_FACTOR);
         a->promised = 0;
+        a->pause = 2 * a->pause < LONGEST_PAUSE ? 2 * a->pause : LONGEST_PAUSE;
         return true;
     }
     if (!st->positions)
@@ -342,17 +372,20 @@ bool acceleration_go_on(stage *st, double energy, double wanted)
     a->kept_value = value;
     a->kept_energy = energy;
     a->kept_wanted = wanted;
+    a->pause = a->pause > 2 * SHORTEST_PAUSE ? a->pause / 2 : SHORTEST_PAUSE;
     return true;
 }
 
-void acceleration_end(stage *st, double energy, double wanted)
+bool acceleration_end(stage *st, double energy, double wanted)
 {
     solver *s = st->s;
+    acceleration *a = &s->fast->acceleration;
     double value;
-    if (s->fast->acceleration.ways == 0)
-        return;
     gather_joints(s);
     products_of(st, wanted, &value);
-    if (failed(&s->fast->acceleration, value, energy))
+    if (a->ways > 0 && (value > a->free_value || failed(a, value, energy))) {
         put_back(s);
+        value = a->kept_value;
+    }
+    return value <= a->free_value;
 }

@@ -81,9 +81,6 @@ static double sweep_joints(solver *s)
 
 /* ---- sweeps ---- */
 
-/* Sweeps between accelerations: the ways of two tell nearly as much as twice the number of single ones. */
-enum { SWEEPS_OF_A_WAY = 2 };
-
 static sweep_sums sweep_once(stage *st, void (*sweep)(const stage *, batch_task *))
 {
     const batch_plan *plan = &st->s->fast->plan;
@@ -94,25 +91,6 @@ static sweep_sums sweep_once(stage *st, void (*sweep)(const stage *, batch_task 
         sums.wanted += plan->tasks.data[t].wanted;
     }
     return sums;
-}
-
-/* At most so many sweeps; fewer when nothing is left to do.  x: multipliers of contacts, `rows` of them. */
-static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), aligned_rows *x, int64_t rows, int32_t most,
-                    int32_t *iterations)
-{
-    sweep_sums sums = {.energy = 1};
-    if (!acceleration_begin(st, x, rows))
-        return false;
-    for (*iterations = 0; *iterations < most && sums.energy != 0;) {
-        sums = sweep_once(st, sweep);
-        ++*iterations;
-        /* Afterwards the same number of sweeps must be left to draw all back into its bounds. */
-        if (*iterations % SWEEPS_OF_A_WAY == 0 && *iterations + SWEEPS_OF_A_WAY <= most &&
-            !acceleration_go_on(st, sums.energy, sums.wanted))
-            return true;
-    }
-    acceleration_end(st, sums.energy, sums.wanted);
-    return true;
 }
 
 static void keep_sums(batch_task *task, sweep_sums sums)
@@ -136,6 +114,37 @@ static void correct_task(const stage *st, batch_task *task)
 static void residual_task(const stage *st, batch_task *task)
 {
     task->residual = KERNEL_PICK(st->s->ctx, solver_residual)(&st->view, task->first, task->end);
+}
+
+/* Sweeps that may follow the last one while impulses give energy, which is rare. */
+enum { MOST_AFTERWARDS = 32 };
+
+/* At most so many sweeps; fewer when nothing is left to do.  x: multipliers of contacts, `rows` of them. */
+static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), aligned_rows *x, int64_t rows, int32_t most,
+                    int32_t *iterations)
+{
+    sweep_sums sums = {.energy = 1};
+    acceleration *a = &st->s->fast->acceleration;
+    if (!acceleration_begin(st, x, rows))
+        return false;
+    int32_t next = a->pause;
+    for (*iterations = 0; *iterations < most && sums.energy != 0;) {
+        sums = sweep_once(st, sweep);
+        ++*iterations;
+        /* As many sweeps must be left to draw all back into its bounds. */
+        if (*iterations < next || *iterations + a->pause > most || sums.energy == 0)
+            continue;
+        if (!acceleration_go_on(st, sums.energy, sums.wanted))
+            return true;
+        next = *iterations + a->pause;
+    }
+    /* Sweeps alone never give energy for long. */
+    for (int32_t i = 0; !acceleration_end(st, sums.energy, sums.wanted) && i < MOST_AFTERWARDS; i++) {
+        a->ways = 0;
+        sums = sweep_once(st, sweep);
+        ++*iterations;
+    }
+    return true;
 }
 
 static bool fast_rows_begin(solver *s)
@@ -221,6 +230,8 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         return error_memory(error);
     bodies_accelerate(bodies, loads, dt);
     fast_velocities_load(f, bodies);
+    fast_velocities_centre(f);
+    st.free_energy = fast_energy(f);
     if (settings->warm_start) {
         joint_rows_recall(s, joints);
         if (!fast_warm_start(&st))

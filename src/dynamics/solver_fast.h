@@ -30,10 +30,12 @@ typedef struct acceleration {
     double product[SWEEP_WAYS][SWEEP_WAYS]; /* of ways */
     double wanted_way[SWEEP_WAYS], wanted_start;
     double kept_value, kept_energy, kept_wanted;
-    double reach;    /* longest step, in ways */
-    double promised; /* decrease of f by the last step if it was shortened, else 0 */
-    double scale;    /* largest product of the velocities with themselves */
-    int32_t ways;    /* remembered */
+    double free_value; /* f without impulses */
+    double reach;      /* longest step, in ways */
+    double promised;   /* decrease of f by the last step if it was shortened, else 0 */
+    double scale;      /* largest product of the velocities with themselves */
+    int32_t ways;      /* remembered */
+    int32_t pause;     /* sweeps to the next step */
 } acceleration;
 
 typedef struct fast_rows {
@@ -64,6 +66,7 @@ typedef struct stage {
     const solver_settings *settings;
     double dt;
     const double *share; /* of solver_push */
+    double free_energy;  /* of the bodies without impulses */
     bool positions;      /* position correction, not velocities */
     int32_t first_task;
     void (*run)(const struct stage *, batch_task *);
@@ -93,6 +96,11 @@ batch_view fast_view(const fast_rows *f);
 bool fast_bodies_make(stage *st);
 void fast_velocities_load(fast_rows *f, const body_table *bodies);
 void fast_velocities_store(const fast_rows *f, body_table *bodies);
+/* From here on velocities, those of bodies that nothing moves included, are relative to the mean of all that is
+   movable: what is judged by energies is then the same in every frame, and a common drift costs no digits. */
+void fast_velocities_centre(fast_rows *f);
+/* Kinetic energy of the body rows. */
+double fast_energy(const fast_rows *f);
 /* The body slot in a lane; that of the hub for its copies. */
 int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t row);
 /* Rows of bodies and contacts. */
@@ -115,8 +123,8 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows);
 /* After sweeps that took `energy` and left `wanted`: goes on by what their ways tell, or puts back what failed.  false:
    nothing is left to do. */
 bool acceleration_go_on(stage *st, double energy, double wanted);
-/* After the last sweep. */
-void acceleration_end(stage *st, double energy, double wanted);
+/* After the last sweep: puts back what failed.  false: the impulses still give energy to the bodies. */
+bool acceleration_end(stage *st, double energy, double wanted);
 void acceleration_free(context *ctx, acceleration *a);
 
 #endif

@@ -154,6 +154,39 @@ void fast_velocities_store(const fast_rows *f, body_table *bodies)
     }
 }
 
+void fast_velocities_centre(fast_rows *f)
+{
+    vec3 sum = vec3_make(0, 0, 0);
+    double all = 0;
+    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+        const double *r = row_of(&f->velocity, row), *m = row_of(&f->mass, row);
+        double weight = m[0] + m[1] + m[2];
+        all += weight;
+        sum = vec3_mad(sum, vec3_make(r[BODY_VELOCITY], r[BODY_VELOCITY + 1], r[BODY_VELOCITY + 2]), weight);
+    }
+    if (all == 0)
+        return;
+    const double mean[3] = {sum.x / all, sum.y / all, sum.z / all};
+    for (int32_t row = 0; row < f->plan.slot.count; row++)
+        for (int k = 0; k < 3; k++)
+            row_of(&f->velocity, row)[BODY_VELOCITY + k] -= mean[k];
+}
+
+static sym3 tensor_of(const double *row) { return (sym3){row[0], row[1], row[2], row[3], row[4], row[5]}; }
+
+double fast_energy(const fast_rows *f)
+{
+    double sum = 0;
+    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+        const double *r = row_of(&f->velocity, row);
+        vec3 v = {r[BODY_VELOCITY], r[BODY_VELOCITY + 1], r[BODY_VELOCITY + 2]};
+        vec3 w = {r[BODY_SPIN], r[BODY_SPIN + 1], r[BODY_SPIN + 2]};
+        sum += 0.5 * vec3_dot(v, sym3_mul_vec(tensor_of(row_of(&f->mass, row)), v));
+        sum += 0.5 * vec3_dot(w, sym3_mul_vec(tensor_of(row_of(&f->inertia, row)), w));
+    }
+    return sum;
+}
+
 /* ---- contacts into rows ---- */
 
 static void put3(double *rows, int at, int32_t lane, vec3 v)
@@ -213,12 +246,25 @@ static bool has_general(const fast_rows *f, const contact_batch *batch)
     return general;
 }
 
+/* Not only driven bodies: in the frame of the solve walls move too. */
+static bool has_fixed(const stage *st, const contact_batch *batch)
+{
+    bool fixed = false;
+    for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+        int32_t number = batch->contact[0][lane];
+        const contact *c = number < 0 ? NULL : &st->contacts->data[number];
+        fixed = fixed || (c && (!body_is_dynamic(st->bodies, c->a) || !body_is_dynamic(st->bodies, c->b)));
+    }
+    return fixed;
+}
+
 static void fill_task(const stage *st, batch_task *task)
 {
     fast_rows *f = st->s->fast;
     for (int32_t i = task->first; i < task->end; i++) {
         contact_batch *batch = &f->plan.batches.data[i];
         batch->general = has_general(f, batch);
+        batch->fixed = has_fixed(st, batch);
         for (int32_t lane = 0; lane < BATCH_LANES; lane++)
             fill_lane(st, batch, row_of(&f->frame, FRAME_ROWS * i), lane);
     }

@@ -317,7 +317,7 @@ double KERNEL(solver_residual)(const batch_view *view, int32_t first, int32_t en
     return most;
 }
 
-/* ---- solver_sweep ---- */
+/* ---- solver_sweep, solver_correct ---- */
 
 /* Sticking impulse by the exact 2 x 2 block; where that leaves the cone, a projected step (see solver_contacts.c).  u1,
    u2: velocities along the tangents. */
@@ -340,6 +340,47 @@ V8_INLINE void solve_friction(const double *p, v8 radius, v8 u1, v8 u2, v8 *p1, 
 typedef struct lanes_sums {
     v8 energy, wanted;
 } lanes_sums;
+
+/* A body if nothing can move it, else one at rest. */
+V8_INLINE lanes_body fixed_part(const lanes_body *body)
+{
+    v8 zero = v8_set(0);
+    v8_mask fixed = v8_less_equal(body->mass[0], zero);
+    lanes3 v = body->velocity, w = body->spin;
+    return (lanes_body){
+        .velocity = {v8_select(fixed, v.x, zero), v8_select(fixed, v.y, zero), v8_select(fixed, v.z, zero)},
+        .spin = {v8_select(fixed, w.x, zero), v8_select(fixed, w.y, zero), v8_select(fixed, w.z, zero)}};
+}
+
+/* What the impulses of a batch do at the velocities of bodies that nothing can move. */
+static v8 fixed_work(const batch_view *view, int32_t number)
+{
+    const contact_batch *batch = &view->batch[number];
+    lanes_body a = body_load(view, batch->a, false), b = body_load(view, batch->b, false);
+    lanes_frame f = frame_load(view, number);
+    v8 sum = v8_set(0);
+    a = fixed_part(&a);
+    b = fixed_part(&b);
+    for (int32_t point = batch->first; point < batch->first + batch->points; point++) {
+        const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
+        lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
+        sum = sum + dot(u, composed(&f, row(impulse, 0), row(impulse, 1), row(impulse, 2)));
+    }
+    return sum;
+}
+
+double KERNEL(solver_wanted)(const batch_view *view, int32_t first, int32_t end)
+{
+    v8 sum = v8_set(0);
+    for (int32_t i = first; i < end; i++) {
+        const contact_batch *batch = &view->batch[i];
+        for (int32_t point = batch->first; point < batch->first + batch->points; point++)
+            sum = sum + row(impulse_rows(view, point), 0) * row(point_rows(view, point), POINT_BIAS);
+        if (batch->fixed)
+            sum = sum - fixed_work(view, i);
+    }
+    return v8_sum(sum);
+}
 
 V8_INLINE void sweep_batch(const batch_view *view, int32_t number, bool general, lanes_sums *sums)
 {
@@ -383,11 +424,11 @@ sweep_sums KERNEL(solver_sweep)(const batch_view *view, int32_t first, int32_t e
             sweep_batch(view, i, true, &sums);
         else
             sweep_batch(view, i, false, &sums);
+        if (view->batch[i].fixed)
+            sums.wanted = sums.wanted - fixed_work(view, i);
     }
     return (sweep_sums){v8_sum(sums.energy), v8_sum(sums.wanted)};
 }
-
-/* ---- solver_correct ---- */
 
 V8_INLINE void correct_batch(const batch_view *view, int32_t number, const double *bias, double *impulse, bool general,
                              lanes_sums *sums)
@@ -431,21 +472,33 @@ sweep_sums KERNEL(solver_correct)(const batch_view *view, int32_t first, int32_t
 /* On the cone but for rounding. */
 #define ON_CONE (1 - 1e-9)
 
-static void slide_point(const batch_view *view, int32_t number, int32_t k, v8_mask slides, const double *start,
-                        double *const *way, v8 sum[SWEEP_WAYS])
+V8_INLINE v8_mask slides_of(const batch_view *view, const friction_lanes *mu, int32_t point)
+{
+    const double *impulse = impulse_rows(view, point);
+    v8 radius = radius_of(mu, row(point_rows(view, point), POINT_SLIP), row(impulse, 0));
+    v8 p1 = row(impulse, 1), p2 = row(impulse, 2);
+    return v8_less(ON_CONE * radius * radius, p1 * p1 + p2 * p2);
+}
+
+V8_INLINE void slide_batch(const batch_view *view, int32_t number, const friction_lanes *mu, const double *start,
+                           double *const *way, v8 sum[SWEEP_WAYS])
 {
     const contact_batch *batch = &view->batch[number];
-    int32_t point = batch->first + k;
-    const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
-    const ptrdiff_t at = (ptrdiff_t)IMPULSE_ROWS * BATCH_LANES * point;
+    hub_spread(view, batch);
     lanes_body a = body_load(view, batch->a, false), b = body_load(view, batch->b, false);
     lanes_frame f = frame_load(view, number);
-    lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
-    v8 zero = v8_set(0), u1 = dot(f.tangent[0], u), u2 = dot(f.tangent[1], u);
-    v8 way1 = row(impulse, 1) - row(start + at, 1), way2 = row(impulse, 2) - row(start + at, 2);
-    sum[0] = sum[0] + v8_select(slides, u1 * way1 + u2 * way2, zero);
-    for (int w = 1; w < SWEEP_WAYS; w++)
-        sum[w] = sum[w] + v8_select(slides, u1 * row(way[w] + at, 1) + u2 * row(way[w] + at, 2), zero);
+    v8 zero = v8_set(0);
+    for (int32_t point = batch->first; point < batch->first + batch->points; point++) {
+        v8_mask slides = slides_of(view, mu, point);
+        const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
+        const ptrdiff_t at = (ptrdiff_t)IMPULSE_ROWS * BATCH_LANES * point;
+        lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
+        v8 u1 = v8_select(slides, dot(f.tangent[0], u), zero), u2 = v8_select(slides, dot(f.tangent[1], u), zero);
+        v8 way1 = row(impulse, 1) - row(start + at, 1), way2 = row(impulse, 2) - row(start + at, 2);
+        sum[0] = sum[0] + (u1 * way1 + u2 * way2);
+        for (int w = 1; w < SWEEP_WAYS; w++)
+            sum[w] = sum[w] + (u1 * row(way[w] + at, 1) + u2 * row(way[w] + at, 2));
+    }
 }
 
 void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, const double *start, double *const *way,
@@ -455,15 +508,11 @@ void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, co
     for (int32_t i = first; i < end; i++) {
         const contact_batch *batch = &view->batch[i];
         friction_lanes mu = friction_load(view, i);
-        hub_spread(view, batch);
-        for (int32_t k = 0; k < batch->points; k++) {
-            const double *impulse = impulse_rows(view, batch->first + k);
-            v8 radius = radius_of(&mu, row(point_rows(view, batch->first + k), POINT_SLIP), row(impulse, 0));
-            v8 p1 = row(impulse, 1), p2 = row(impulse, 2);
-            v8_mask slides = v8_less(ON_CONE * radius * radius, p1 * p1 + p2 * p2);
-            if (v8_any(slides))
-                slide_point(view, i, k, slides, start, way, lanes);
-        }
+        bool slides = false;
+        for (int32_t k = 0; k < batch->points; k++)
+            slides = slides || v8_any(slides_of(view, &mu, batch->first + k));
+        if (slides)
+            slide_batch(view, i, &mu, start, way, lanes);
     }
     for (int w = 0; w < SWEEP_WAYS; w++)
         sum[w] = v8_sum(lanes[w]);

@@ -7,7 +7,8 @@
 #include "dynamics/solver_batch.h"
 
 /* energy: minus the sum of changes of impulses times the velocities that asked for them, never negative, zero when
-   nothing is left to do.  wanted: the sum of normal impulses times the velocities that are wanted. */
+   nothing is left to do.  wanted: the work of impulses at the velocities that are wanted: those of normals, less what
+   bodies bring that nothing can move. */
 typedef struct sweep_sums {
     double energy, wanted;
 } sweep_sums;
@@ -29,6 +30,8 @@ KERNEL_DECLARE(void, solver_recall, (const batch_view *view, int32_t first, int3
 KERNEL_DECLARE(void, solver_work, (const batch_view *view, int32_t first, int32_t end, double *work));
 /* Applies share[8 batch + lane] of the impulses to the bodies; share NULL: all. */
 KERNEL_DECLARE(void, solver_push, (const batch_view *view, int32_t first, int32_t end, const double *share));
+/* The sum `wanted` of the impulses as they stand. */
+KERNEL_DECLARE(double, solver_wanted, (const batch_view *view, int32_t first, int32_t end));
 /* One sweep of projected Gauss-Seidel. */
 KERNEL_DECLARE(sweep_sums, solver_sweep, (const batch_view *view, int32_t first, int32_t end));
 /* Largest complementarity residual of the normal rows [m/s]. */
@@ -39,8 +42,8 @@ KERNEL_DECLARE(sweep_sums, solver_correct,
 
 /* ---- for solver_accelerate.c ---- */
 
-/* Adds to sum[k] the work of way k in the tangents of sliding contacts: velocity . way.  Way 0 is that from `start` to
-   the impulses, the others are given; all are laid out like the impulses. */
+/* sum[k] = velocity . way k over the tangents of sliding contacts.  Way 0 is that from `start` to the impulses, the
+   others are given; all are laid out like the impulses. */
 KERNEL_DECLARE(void, solver_slide,
                (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *way,
                 double sum[SWEEP_WAYS]));

@@ -47,9 +47,9 @@
     X(solver, SECTION(solver), "", "the multibody solver")
 
 #define SCENARIO_SOLVER_KEYS(X)                                                                                   \
-    X(kind, CHOICE(solver_kind, SOLVER_SEQUENTIAL, "sequential fast accurate"), "",                               \
-      "sequential: projected Gauss-Seidel in contact order, the reference; fast: batched; accurate: run to "      \
-      "the tolerance, to judge the others by")                                                                    \
+    X(kind, CHOICE(solver_kind, SOLVER_FAST, "sequential fast accurate"), "",                                     \
+      "fast: batched and accelerated; sequential: projected Gauss-Seidel in contact order, the reference; "       \
+      "accurate: run to the tolerance, to judge the others by")                                                   \
     X(iterations, INTEGER(30, 1, 1000000), "1", "velocity sweeps of a step")                                      \
     X(position_iterations, INTEGER(10, 0, 1000000), "1", "position correction sweeps of a step")                  \
     X(warm_start, BOOLEAN(true), "", "begin from the impulses of the last step")                                  \

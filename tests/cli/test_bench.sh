@@ -38,11 +38,11 @@ done
 tunables=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable,-AVX512F
 same "$(GLIBC_TUNABLES=$tunables bench | value state_hash)" "$tunables"
 
-# Poses, and how deep they overlap.
-bench --dump "$scratch/poses.csv" >/dev/null
+# Poses, and how deep they overlap.  The ship has jammed the floes against the walls by then: enough sweeps for that.
+bench --iterations 30 --dump "$scratch/poses.csv" >/dev/null
 [ "$(wc -l <"$scratch/poses.csv")" = 151 ] || fail "the poses have not one line a floe"
 python3 "$FRAM_SOURCE/bench/penetration.py" "$scene" "$scratch/poses.csv" | value max_m >"$scratch/overlap"
-python3 -c 'import sys; sys.exit(not 0 <= float(open(sys.argv[1]).read()) < 0.5)' "$scratch/overlap" ||
+python3 -c 'import sys; sys.exit(not 0 <= float(open(sys.argv[1]).read()) < 0.2)' "$scratch/overlap" ||
     fail "overlap of $(cat "$scratch/overlap") m"
 
 refuses() {

@@ -37,7 +37,7 @@ static inline bool ice_rig_start(ice_rig *r, context ctx, double dt)
     for (int i = 0; i < MATERIAL_COUNT; i++)
         for (int k = 0; k < MATERIAL_COUNT; k++)
             r->policies.of[i][k] = (pair_policy){0, 0, true};
-    r->solver = (solver_settings){.kind = SOLVER_SEQUENTIAL,
+    r->solver = (solver_settings){.kind = SOLVER_FAST,
                                   .iterations = 60,
                                   .position_iterations = 20,
                                   .correction_rate = 0.8,

@@ -56,7 +56,7 @@ START_TEST(defaults_of_the_specification)
     assert_bits(s.environment.ice_drag.water_form, 1.0);
     assert_bits(s.ice.crushing_exponent, 0.0);
     ck_assert_int_eq(s.run.solver.baumgarte, false);
-    ck_assert_int_eq(s.run.solver.kind, SOLVER_SEQUENTIAL);
+    ck_assert_int_eq(s.run.solver.kind, SOLVER_FAST);
     ck_assert(is_automatic(s.vessel.mass));
     assert_bits(automatic_or(s.vessel.mass, 7), 7.0);
     assert_bits(automatic_or(3, 7), 3.0);

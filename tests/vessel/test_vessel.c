@@ -129,7 +129,7 @@ END_TEST
 
 static void step(context *ctx, scene *s, solver *solve, const media *m, double time, double dt)
 {
-    static const solver_settings settings = {.kind = SOLVER_SEQUENTIAL, .iterations = 20, .warm_start = true};
+    static const solver_settings settings = {.kind = SOLVER_FAST, .iterations = 20, .warm_start = true};
     static const drag_coefficients drag[MATERIAL_COUNT] = {[MATERIAL_HULL] = {.water_form = 1, .water_skin = 0.004}};
     wrench loads[2];
     contact_array contacts = {0};
