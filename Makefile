@@ -14,7 +14,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers validate coverage install deps clean help
+.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers soak validate coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -73,6 +73,10 @@ bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same s
 
 validate: build | $(STAMPS)/validate ## the validation book, docs/validation (VALIDATE_FLAGS=--quick: its short cases)
 	@$(PYTHON) validation/run.py $(VALIDATE_FLAGS)
+
+soak: build/release/build.ninja ## a million steps of a small packed field: no jitter, no drift (a few minutes)
+	@cmake --build --preset release -j$(JOBS) --target test_dynamics_packed
+	@FRAM_SOAK_STEPS=1000000 CK_FORK=no build/release/tests/test_dynamics_packed
 
 coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by the tests
 	@cmake --build --preset coverage -j$(JOBS)

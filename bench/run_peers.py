@@ -1,19 +1,24 @@
 #!/usr/bin/env python3
 """Fram beside Bullet and ODE on the same scenes, in the same run.
 
-  bench/run_peers.py [--repeat R] [--sizes N ...] [--covers C ...] [--solver NAME] [--core K] [--out BASE]
-      speed: every program on every scene in turn, R times, one thread on one core; BASE.md and BASE.json
+  bench/run_peers.py [--repeat R] [--sizes N ...] [--covers C ...] [--programs P ...] [--core K] [--out BASE]
+      speed: every program on every scene in turn, R times, one thread on one core
   bench/run_peers.py --threads-only [--sizes N ...]
       two threads against one on two cores, and whether two copies of one thread reach 1.9 at the same time
   bench/run_peers.py --loads SEEDS
       mean ship load over seeds of Fram, Bullet and ODE, with their spread
 
+Results go to BASE.md, BASE.csv and BASE.json.  What BASE.json holds already is kept unless it is measured again, so
+that a long table can be made in pieces; --fresh begins anew.
+
 Ratios are taken inside each round and their median is told: the machine's speed may change between rounds.
 """
 
 import argparse
+import csv
 import datetime
 import json
+import math
 import os
 import pathlib
 import re
@@ -94,7 +99,7 @@ def contestants(options, peers):
             options, scene, options.core, "--isa", options.isa, "--dump", dump)
     for name, program in peers.items():
         list_of[name] = lambda scene, dump, program=program: run_peer(options, program, scene, "--dump", dump)
-    return list_of
+    return {name: run for name, run in list_of.items() if not options.programs or name in options.programs}
 
 
 def machine():
@@ -135,15 +140,17 @@ def measure_speed(options):
                     "ms_least": min(ms),
                     "us_per_floe": 1e3 * statistics.median(ms) / size,
                     "fram_is_faster_by": statistics.median(
-                        a["ms_per_step_median"] / b["ms_per_step_median"] for a, b in zip(r, rounds["fram"])),
+                        a["ms_per_step_median"] / b["ms_per_step_median"] for a, b in zip(r, rounds["fram"]))
+                    if "fram" in rounds else math.nan,
                     **{k: median_of(r, k) for k in ("collide_ms", "solve_ms", "forces_ms", "contact_points", "pairs",
                                                     "ship_force_kN")},
                     "penetration": depth[name],
                 }
-            scenes.append({"floes": size, "cover": cover, "programs": rows})
+            scenes.append({"floes": size, "cover": cover, "programs": rows,
+                           "options": {k: getattr(options, k) for k in
+                                       ("repeat", "dt", "iterations", "warm", "time", "solver")}})
             print_scene(scenes[-1], sys.stderr)
-    return {"machine": machine(), "options": {k: getattr(options, k) for k in
-            ("repeat", "dt", "iterations", "warm", "time", "solver")}, "scenes": scenes}
+    return {"scenes": scenes}
 
 
 HEAD = ("| program | ms a step | us per floe | Fram is faster by | collide | solve | forces | points | pairs |"
@@ -152,7 +159,10 @@ HEAD = ("| program | ms a step | us per floe | Fram is faster by | collide | sol
 
 
 def print_scene(scene, file):
+    o = scene["options"]
     print(f"\n### {scene['floes']} floes, {scene['cover']} % cover\n", file=file)
+    print(f"Median of {o['repeat']} interleaved runs; time step {o['dt']} s, {o['iterations']} iterations,"
+          f" {o['time']:g} s of which {o['warm']:g} s unmeasured; Fram's solver: {o['solver']}.\n", file=file)
     print(HEAD, file=file)
     print("|" + "---|" * 13, file=file)
     for name, r in scene["programs"].items():
@@ -165,24 +175,69 @@ def print_scene(scene, file):
               file=file, flush=True)
 
 
-def write_report(result, base):
-    base = pathlib.Path(base)
+def same_row(a, b, keys):
+    return all(a.get(k) == b.get(k) for k in keys)
+
+
+def merged(old, new):
+    """What was measured before and not again, and what is new."""
+    out = {"machine": machine()}
+    for part, keys in (("scenes", ("floes", "cover")), ("threads", ("floes",)),
+                       ("loads", ("floes", "cover", "program"))):
+        fresh = new.get(part, [])
+        kept = [r for r in old.get(part, []) if not any(same_row(r, f, keys) for f in fresh)]
+        out[part] = sorted(kept + fresh, key=lambda r: [str(r[k]).zfill(9) for k in keys])
+    return out
+
+
+def write_csv(result, path):
+    columns = ("ms", "ms_least", "us_per_floe", "fram_is_faster_by", "collide_ms", "solve_ms", "forces_ms",
+               "contact_points", "pairs", "ship_force_kN")
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(("floes", "cover", "program", *columns, "overlap_mean_m", "overlap_p99_m", "overlap_max_m"))
+        for scene in result["scenes"]:
+            for name, r in scene["programs"].items():
+                p = r["penetration"]
+                out.writerow((scene["floes"], scene["cover"], name, *(f"{r[c]:.6g}" for c in columns),
+                              *(f"{p[k]:.6g}" for k in ("mean_m", "p99_m", "max_m"))))
+
+
+def write_report(new, options):
+    base = pathlib.Path(options.out)
     base.parent.mkdir(parents=True, exist_ok=True)
-    base.with_suffix(".json").write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    store = base.with_suffix(".json")
+    old = json.loads(store.read_text(encoding="utf-8")) if store.exists() and not options.fresh else {}
+    result = merged(old, new)
+    store.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    write_csv(result, base.with_suffix(".csv"))
     with open(base.with_suffix(".md"), "w", encoding="utf-8") as file:
-        m, o = result["machine"], result["options"]
+        m = result["machine"]
         print(f"# Fram beside Bullet and ODE, {m['date']}\n", file=file)
-        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}.",
-              file=file)
-        print(f"One thread on one core; median of {o['repeat']} interleaved runs; time step {o['dt']} s,"
-              f" {o['iterations']} iterations, {o['time']} s of which {o['warm']} s unmeasured;"
-              f" Fram's solver: {o['solver']}.", file=file)
+        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}.  One"
+              " thread on one core unless told; ratios are medians of those inside each round.", file=file)
         for scene in result["scenes"]:
             print_scene(scene, file)
+        if result["loads"]:
+            print("\n### Mean load on the ship over seeds\n", file=file)
+            print("| floes | cover % | program | seeds | mean kN | coefficient of variation | least | largest |\n"
+                  "|---|---|---|---|---|---|---|---|", file=file)
+        for r in result["loads"]:
+            print(f"| {r['floes']} | {r['cover']} | {r['program']} | {len(r['kN'])} | {statistics.mean(r['kN']):.0f} |"
+                  f" {statistics.stdev(r['kN']) / statistics.mean(r['kN']):.3f} | {min(r['kN']):.0f} |"
+                  f" {max(r['kN']):.0f} |", file=file)
+        if result["threads"]:
+            print("\n### Two threads, 90 % cover\n", file=file)
+            print("| floes | rounds | two threads against one | two copies of one thread |\n|---|---|---|---|",
+                  file=file)
+        for r in result["threads"]:
+            print(f"| {r['floes']} | {len(r['gain'])} | {statistics.median(r['gain']):.2f} |"
+                  f" {statistics.median(r['copies']):.2f} |", file=file)
 
 
 def measure_threads(options):
     """Two threads against one, and what two independent copies can reach at the same time."""
+    rows = []
     for size in options.sizes:
         scene = scene_of(size, 90)
         gains, copies = [], []
@@ -199,24 +254,23 @@ def measure_threads(options):
             gains.append(one / two)
             copies.append(sum(one / w for w in walls))
             print(f"{size} floes: two threads {gains[-1]:.2f} times one, two copies {copies[-1]:.2f}", flush=True)
-        print(f"{size} floes: median {statistics.median(gains):.2f}, two copies {statistics.median(copies):.2f}")
+        rows.append({"floes": size, "gain": gains, "copies": copies})
+    return {"threads": rows}
 
 
 def measure_loads(options):
     """Mean ship load of each program over seeds of the scene."""
-    peers = build_peers()
+    programs = contestants(options, build_peers())
+    rows = []
     for size in options.sizes:
         for cover in options.covers:
-            loads = {}
+            loads = {name: [] for name in programs}
             for seed in range(1, options.loads + 1):
                 scene = scene_of(size, cover, seed)
-                loads.setdefault("fram", []).append(run_fram(options, scene, options.core)["ship_force_kN"])
-                for name, program in peers.items():
-                    loads.setdefault(name, []).append(run_peer(options, program, scene)["ship_force_kN"])
-            for name, values in loads.items():
-                mean, deviation = statistics.mean(values), statistics.stdev(values)
-                print(f"{size} floes, {cover} %: {name:10} mean {mean:8.1f} kN, coefficient of variation"
-                      f" {deviation / mean:.3f}, from {min(values):.0f} to {max(values):.0f}", flush=True)
+                for name, run in programs.items():
+                    loads[name].append(run(scene, WORK / "poses.csv")["ship_force_kN"])
+            rows += [{"floes": size, "cover": cover, "program": name, "kN": kN} for name, kN in loads.items()]
+    return {"loads": rows}
 
 
 def main():
@@ -231,17 +285,20 @@ def main():
     words.add_argument("--solver", default="fast")
     words.add_argument("--isa", default="baseline", help="the second row of Fram; empty: none")
     words.add_argument("--core", default="1")
+    words.add_argument("--programs", nargs="+", metavar="P",
+                       help="some of fram, 'fram baseline', bullet_f32, bullet_f64 and ode")
+    words.add_argument("--fresh", action="store_true", help="forget what was measured before")
     words.add_argument("--fram", default=str(ROOT / "build" / "release" / "fram"))
     words.add_argument("--out", default=str(WORK / "peers"))
     words.add_argument("--threads-only", action="store_true")
     words.add_argument("--loads", type=int, default=0, metavar="SEEDS")
     options = words.parse_args()
     if options.threads_only:
-        measure_threads(options)
+        write_report(measure_threads(options), options)
     elif options.loads:
-        measure_loads(options)
+        write_report(measure_loads(options), options)
     else:
-        write_report(measure_speed(options), options.out)
+        write_report(measure_speed(options), options)
 
 
 if __name__ == "__main__":
