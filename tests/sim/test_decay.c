@@ -87,6 +87,49 @@ START_TEST(given_matrices_are_moved)
 }
 END_TEST
 
+/* The vessel of a shipped scene, without its ice. */
+static void open_scene(decay *d, const char *path)
+{
+    static char text[20000];
+    fram_error error = {0};
+    FILE *file = fopen(path, "r");
+    ck_assert_msg(file != NULL, "%s is not there", path);
+    size_t size = fread(text, 1, sizeof text - 1, file);
+    fclose(file);
+    text[size] = 0;
+    char *ice = strstr(text, "\nice:");
+    ck_assert_ptr_nonnull(ice);
+    snprintf(ice, sizeof text - (size_t)(ice - text), "\nice: {source: none}\ndomain: {boundary: open}\n");
+    assert_ok(decay_open(d, text, &error), error);
+}
+
+/* The shipped supply ship, about amidships with z down, has the published matrices of surge, sway and yaw (oracles
+   section 7), its own mass included. */
+START_TEST(supply_ship_of_the_scene)
+{
+    static const double mass[3][3] = {{6.7644e6, 0, 0}, {0, 1.13412e7, -3.401568e7}, {0, -3.401568e7, 4.452378e9}};
+    static const double damping[3][3] = {
+        {7.707105e4, 0, 0}, {0, 2.546789e5, -2.034159e6}, {0, -6.725849e5, 3.850073e8}};
+    static const int place[3] = {0, 1, 5};
+    decay d;
+    open_scene(&d, "scenes/supply_ship.yaml");
+    vec3 arm = d.w.vessels.centre[0];
+    arm.z = 0;
+    matrix6 m = matrix6_moved(&d.mass, arm), c = matrix6_moved(&d.w.hydrodynamics.damping, arm);
+    m = matrix6_turned_over(&m);
+    c = matrix6_turned_over(&c);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++) {
+            int a = place[i], b = place[j];
+            double scale = sqrt(mass[i][i] * mass[j][j]), part = sqrt(damping[i][i] * damping[j][j]);
+            assert_absolute(m.m[a][b], mass[i][j], 1e-4 * scale);
+            assert_absolute(c.m[a][b], damping[i][j], 1e-9 * part);
+        }
+    }
+    decay_close(&d);
+}
+END_TEST
+
 START_TEST(wrong_matrices)
 {
     static const struct {
@@ -127,4 +170,5 @@ START_TEST(estimated_damping)
 }
 END_TEST
 
-TEST_MAIN("decay", box_periods, ship_periods, given_matrices_are_moved, wrong_matrices, estimated_damping)
+TEST_MAIN("decay", box_periods, ship_periods, given_matrices_are_moved, supply_ship_of_the_scene, wrong_matrices,
+          estimated_damping)
