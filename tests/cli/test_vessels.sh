@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Ready vessels (scenes/vessels): each is a scenario that runs, floats where its file says, and keeps still or goes ahead.
+# Ready vessels (scenes/vessels): each is a scenario that runs, floats where its file says, and keeps still or goes
+# ahead.
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
