@@ -67,6 +67,22 @@ for tolerance in 1 0.25; do
 done
 same "$(value 'j["level_m"], abs(j["centre_of_buoyancy_m"][1]) < 1e-9, j["stable"]')" "0 True True" "the ship at z = 0"
 
+# The FPSO of the Marine Systems Simulator, where it is there: cracks sealed and told, integrals that agree, at z = 0 of
+# the file and in its frame (an independent computation and WAMIT's printout; see tests/io/test_observed_hull.c).
+fpso=$FRAM_SOURCE/../shared/data/hulls/fpso_low.gdf
+if [ -r "$fpso" ]; then
+    expect 0 "$FRAM" hull "$fpso" --json
+    same "$(value 'abs(j["volume_m3"] / 97947.92 - 1) < 1e-5, abs(j["volume_m3"] / 97960.9 - 1) < 5e-3')" "True True" \
+        "volume of the FPSO"
+    same "$(value 'max(j["volume_integrals_m3"]) / min(j["volume_integrals_m3"]) - 1 < 1e-6')" True "three integrals"
+    same "$(value 'abs(j["centre_of_buoyancy_m"][2] / -5.922808 - 1) < 1e-5, j["level_m"]')" "True 0" "its frame"
+    same "$(value 'abs(j["waterplane_area_m2"] / 8315.66 - 1) < 1e-5')" True "water plane"
+    same "$(value '0.03 < j["seal"]["widest_crack_m"] < 0.05, abs(j["seal"]["area_vector_m2"][2] + 0.828) < 1e-3')" \
+        "True True" "cracks"
+    same "$(value 'j["enclosed_volume_m3"] > j["volume_m3"], j["mirrored_y"], j["topsides_raised_by_m"] > 0')" \
+        "True True True" "topsides"
+fi
+
 # A drawing.
 if "$FRAM" --version | grep -q pictures; then
     expect 0 "$FRAM" hull ship.obj --draw ship.png

@@ -233,6 +233,38 @@ START_TEST(contacts_settle_at_a_wall)
 }
 END_TEST
 
+/* However strong the coupling, of either sign, and wherever it is held: the force at the wall settles. */
+START_TEST(strong_coupling_does_not_swing)
+{
+    for (int n = 0; n < 2 * 5 * 3; n++) {
+        static const double part[] = {0.3, 0.5, 0.7, 0.9, 0.99}, at[] = {-36, 5, 36};
+        rig k;
+        hydrodynamics h;
+        int32_t slot = open_ship(&k, &h);
+        matrix6 known = ship_matrix(&k, slot, &h);
+        double coupling = (n % 2 ? -1 : 1) * part[n / 2 % 5] * sqrt(known.m[1][1] * known.m[5][5]), x = at[n / 10];
+        h.added_mass.m[1][5] = h.added_mass.m[5][1] = coupling;
+        known.m[1][5] = known.m[5][1] = 0;
+        double give = answer(&known, vec3_make(0, 1, 0), vec3_make(x, 0, 0)), before = 0, force = 0;
+        wrench contact = nothing;
+        for (int i = 0; i < 300; i++) {
+            wrench load = {{0, -1, 0}, {0, 0, 10}};
+            hydrodynamics_respond(&h, true, &still_water, 0.05, &k.bodies, slot, &contact, &load);
+            step(&k.bodies, slot, &load, 0.05);
+            double speed = k.bodies.velocity[slot].y + x * k.bodies.angular_velocity[slot].z;
+            before = force;
+            force = -speed / (0.05 * give);
+            contact = (wrench){{0, force, 0}, {0, 0, x * force}};
+            k.bodies.velocity[slot].y += 0.05 * force / known.m[1][1];
+            k.bodies.angular_velocity[slot].z += 0.05 * x * force / known.m[5][5];
+        }
+        ck_assert_msg(fabs(force) < 100 && fabs(force - before) < 1e-6, "coupling %g at %g m: %g N after %g", coupling,
+                      x, force, before);
+        rig_close(&k);
+    }
+}
+END_TEST
+
 /* Kirchhoff: a body coasting and tumbling in an ideal fluid keeps its energy, fluid included; the step's error is of
    first order. */
 static double energy_drift(double dt)
@@ -484,5 +516,5 @@ START_TEST(floe_with_damping)
 END_TEST
 
 TEST_MAIN("response", whole_matrix_accelerates, contacts_meet_the_diagonal, contacts_meet_all_of_it_in_time,
-          contacts_settle_at_a_wall, coasting_keeps_energy, damping_of_any_strength, weak_drag_is_left_alone,
-          strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
+          contacts_settle_at_a_wall, strong_coupling_does_not_swing, coasting_keeps_energy, damping_of_any_strength,
+          weak_drag_is_left_alone, strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
