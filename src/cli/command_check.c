@@ -58,6 +58,15 @@ int command_keys(const command_row *self, int argc, char **argv)
     } else {
         code = EXIT_GOOD;
         fputs(text, stdout);
+        if (common.json) {
+            int lines = 0;
+            for (const char *c = text; *c; c++)
+                lines += *c == '\n';
+            json j = json_begin();
+            json_text(&j, "format", "Markdown");
+            json_integer(&j, "lines", lines);
+            json_end(&j);
+        }
         fram_text_free(context, text);
     }
     fram_context_destroy(context);

@@ -1,6 +1,9 @@
 /* fram run and fram resume: a simulation with results on disk. */
 #include "cli/cli.h"
 
+/* Later than any scenario ends. */
+#define TO_THE_END 1e12
+
 static void print_result(const common_options *common, const char *folder, const fram_run_result *r)
 {
     if (!common->quiet) {
@@ -33,11 +36,18 @@ static int finish(const common_options *common, fram_status status, const fram_e
     return EXIT_GOOD;
 }
 
+/* Where to stop: by default the end of the scenario.  -1: good, otherwise an exit code. */
+static int check_until(const common_options *common, double until)
+{
+    return until > 0 ? -1 : answer_usage(common, "--until", "must be a time after 0 s");
+}
+
 int command_run(const command_row *self, int argc, char **argv)
 {
     common_options common;
     fram_run_definition definition;
     fram_run_default(&definition);
+    definition.until = TO_THE_END;
     option_list overrides = {0};
     const char *path = NULL;
     const option_row rows[] = {
@@ -47,6 +57,8 @@ int command_run(const command_row *self, int argc, char **argv)
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
+    if (code < 0)
+        code = check_until(&common, definition.until);
     if (code >= 0)
         return code;
     if (!definition.folder)
@@ -80,10 +92,13 @@ int command_resume(const command_row *self, int argc, char **argv)
     common_options common;
     fram_run_definition definition;
     fram_run_default(&definition);
+    definition.until = TO_THE_END;
     const option_row rows[] = {
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &definition.folder, 1);
+    if (code < 0)
+        code = check_until(&common, definition.until);
     if (code >= 0)
         return code;
 

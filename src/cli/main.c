@@ -62,7 +62,7 @@ static void print_help(FILE *file)
         "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n",
         file);
     for (int i = 0; i < COMMAND_COUNT; i++)
-        fprintf(file, "  %-8s %-18s %s\n", commands[i].name, commands[i].arguments, commands[i].summary);
+        fprintf(file, "  %-8s %s\n", commands[i].name, commands[i].summary);
     fputs("\nA first run, from the folder of the sources:\n"
           "  fram check scenes/demo.yaml                what will be simulated\n"
           "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"
@@ -75,12 +75,44 @@ static void print_help(FILE *file)
           file);
 }
 
-static int print_version(void)
+static int answer_help(const common_options *common)
+{
+    print_help(stdout);
+    if (common->json) {
+        json j = json_begin();
+        json_text(&j, "help", "fram");
+        json_end(&j);
+    }
+    return EXIT_GOOD;
+}
+
+static int answer_version(const common_options *common)
 {
     const char *features = fram_features();
+    if (common->json) {
+        json j = json_begin();
+        json_text(&j, "version", fram_version());
+        json_text(&j, "optional_parts", features);
+        json_end(&j);
+        return EXIT_GOOD;
+    }
     printf("fram %s\n", fram_version());
     printf("optional parts: %s\n", *features ? features : "none");
     return EXIT_GOOD;
+}
+
+static int run_words(const common_options *common, int argc, char **argv)
+{
+    const char *word = argv[1];
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
+        return answer_help(common);
+    if (strcmp(word, "--version") == 0)
+        return answer_version(common);
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (strcmp(word, commands[i].name) == 0)
+            return commands[i].run(&commands[i], argc - 2, argv + 2);
+    }
+    return answer_usage(common, word, "is not a command; fram --help lists them");
 }
 
 int main(int argc, char **argv)
@@ -89,19 +121,14 @@ int main(int argc, char **argv)
         print_help(stderr);
         return EXIT_BAD_INPUT;
     }
-    const char *word = argv[1];
-    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0) {
-        print_help(stdout);
-        return EXIT_GOOD;
-    }
-    if (strcmp(word, "--version") == 0)
-        return print_version();
-    for (int i = 0; i < COMMAND_COUNT; i++) {
-        if (strcmp(word, commands[i].name) == 0)
-            return commands[i].run(&commands[i], argc - 2, argv + 2);
-    }
     common_options common = {0};
-    for (int i = 2; i < argc; i++)
+    for (int i = 1; i < argc; i++)
         common.json = common.json || strcmp(argv[i], "--json") == 0;
-    return answer_usage(&common, word, "is not a command; fram --help lists them");
+    int code = run_words(&common, argc, argv);
+    /* A full disk or a closed pipe shows here at the latest. */
+    bool lost = ferror(stdout) != 0;
+    if (fflush(stdout) == 0 && !lost)
+        return code;
+    fputs("fram: standard output: cannot be written; the answer is not complete\n", stderr);
+    return code == EXIT_GOOD ? EXIT_RUN_FAILED : code;
 }

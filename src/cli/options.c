@@ -151,6 +151,11 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
     }
     if (common->help) {
         print_command_help(command, rows, row_count, shared);
+        if (common->json) {
+            json j = json_begin();
+            json_text(&j, "help", command->name);
+            json_end(&j);
+        }
         return EXIT_GOOD;
     }
     if (common->threads < 1 || common->threads > 256)

@@ -13,8 +13,8 @@ fram_status file_error(fram_error *error, const char *path, const char *attempt,
     char text[128];
     if (strerror_r(number, text, sizeof text) != 0)
         text[0] = '\0';
-    bool missing = number == ENOENT || number == ENOTDIR;
-    return error_set(error, missing ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
+    bool name = number == ENOENT || number == ENOTDIR || number == EACCES || number == ELOOP || number == ENAMETOOLONG;
+    return error_set(error, name ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
 }
 
 /* open() again when a signal came between. */
@@ -42,6 +42,12 @@ fram_status file_read_at(int descriptor, const char *path, uint64_t offset, void
         done += (size_t)got;
     }
     return FRAM_OK;
+}
+
+bool file_is_readable(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISREG(about.st_mode) && access(path, R_OK) == 0;
 }
 
 static fram_status read_regular(context *ctx, int descriptor, const char *path, uint64_t limit, char **data,

@@ -5,8 +5,12 @@
 
 #include "base/context.h"
 
-/* FRAM_ERROR_IO with the file's name, what was tried ("write") and the text of an errno value. */
+/* The file's name, what was tried ("write") and the text of an errno value.  FRAM_ERROR_INPUT when the name is at
+   fault: nothing there, too long, no permission; otherwise FRAM_ERROR_IO. */
 fram_status file_error(fram_error *error, const char *path, const char *attempt, int number);
+
+/* Whether a regular file is there and may be read. */
+bool file_is_readable(const char *path);
 
 /* The whole of a regular file and a NUL after it, in memory of ctx.  FRAM_ERROR_INPUT when it is not there, is no
    regular file, or is longer than `limit` bytes. */

@@ -408,6 +408,25 @@ fram_status scenario_parse(context *ctx, const char *name, const char *text, siz
     return status;
 }
 
+/* Every file that is named must be there: better told here, with the key, than by whoever reads it. */
+static fram_status look_for_file(void *user, const scenario_key *key, const void *member, const char *name,
+                                 fram_error *error)
+{
+    const scenario *s = user;
+    const char *given = member;
+    if (key->kind != KEY_PATH || !*given)
+        return FRAM_OK;
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, given, path, sizeof path))
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a shorter path");
+    else if (!file_is_readable(path))
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a file that can be read, found none at %s", path);
+    else
+        return FRAM_OK;
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
+}
+
 fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
                           fram_error *error)
 {
@@ -418,5 +437,10 @@ fram_status scenario_read(context *ctx, const char *path, const scenario_overrid
         return status;
     status = scenario_parse(ctx, path, text, size, overrides, s, error);
     memory_free(ctx, text);
+    if (status != FRAM_OK)
+        return status;
+    status = scenario_walk(s, look_for_file, s, error);
+    if (status != FRAM_OK)
+        scenario_free(ctx, s);
     return status;
 }

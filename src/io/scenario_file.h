@@ -19,8 +19,8 @@ typedef struct scenario_overrides {
     int32_t count;
 } scenario_overrides;
 
-/* Reads and checks a file.  overrides may be NULL.  On success free with scenario_free; on failure nothing is left to
- * free. */
+/* Reads and checks a file; the files that it names must be there.  overrides may be NULL.  On success free with
+   scenario_free; on failure nothing is left to free. */
 fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
                           fram_error *error);
 /* The same from memory; `name` stands for the file in errors and for relative paths. */
@@ -35,6 +35,10 @@ typedef struct scenario_print_options {
    bit. options NULL: comments, paths as given. */
 fram_status scenario_print(context *ctx, const scenario *s, const scenario_print_options *options, text_buffer *out,
                            fram_error *error);
+/* The path of a file that the scenario names under `key`, the same from every folder.  FRAM_ERROR_INPUT when it is too
+   long for a scenario, or cannot be written into one. */
+fram_status scenario_absolute_path(const scenario *s, const char *key, const char *path, char out[SCENARIO_TEXT_SIZE],
+                                   fram_error *error);
 /* SHA-256 of the effective scenario without comments and with files by their name alone, hexadecimal: the same wherever
    the files lie.  Their contents are to be hashed on their own. */
 fram_status scenario_hash(context *ctx, const scenario *s, char out[65], fram_error *error);

@@ -2,6 +2,7 @@
 #include "base/hash.h"
 #include "base/number_text.h"
 #include "io/scenario_file.h"
+#include "io/utf8.h"
 #include "model/scenario_schema.h"
 #include <stdio.h>
 #include <string.h>
@@ -47,17 +48,39 @@ static bool working_folder(const char *path, char *out, size_t size)
     return true;
 }
 
-static void print_absolute(printer *p, const char *key, const char *path)
+/* One line of printable UTF-8, as the reader of scenarios asks for it. */
+static bool is_printable(const char *text)
+{
+    for (const char *end = text + strlen(text); text < end;) {
+        if (!utf8_is_printable(utf8_next(&text, end)))
+            return false;
+    }
+    return true;
+}
+
+fram_status scenario_absolute_path(const scenario *s, const char *key, const char *path, char out[SCENARIO_TEXT_SIZE],
+                                   fram_error *error)
 {
     char folder[SCENARIO_TEXT_SIZE], inside[2 * SCENARIO_TEXT_SIZE], absolute[3 * SCENARIO_TEXT_SIZE];
-    bool fits = scenario_resolve_path(p->scenario, path, inside, sizeof inside) &&
-                working_folder(inside, folder, sizeof folder);
+    bool fits = scenario_resolve_path(s, path, inside, sizeof inside) && working_folder(inside, folder, sizeof folder);
     int length = fits ? snprintf(absolute, sizeof absolute, "%s%s", folder, inside) : -1;
-    if (length >= 0 && length < SCENARIO_TEXT_SIZE)
+    if (length < 0 || length >= SCENARIO_TEXT_SIZE)
+        return error_set(error, FRAM_ERROR_INPUT, s->file, 0, key,
+                         "expected a path of at most %d bytes together with its folder", SCENARIO_TEXT_SIZE - 1);
+    if (!is_printable(absolute))
+        return error_set(error, FRAM_ERROR_INPUT, s->file, 0, key,
+                         "expected the folder of the file to have a name in printable UTF-8, found other bytes");
+    memcpy(out, absolute, (size_t)length + 1);
+    return FRAM_OK;
+}
+
+static void print_absolute(printer *p, const char *key, const char *path)
+{
+    char absolute[SCENARIO_TEXT_SIZE];
+    if (p->status == FRAM_OK)
+        p->status = scenario_absolute_path(p->scenario, key, path, absolute, p->error);
+    if (p->status == FRAM_OK)
         print_quoted(p, absolute);
-    else if (p->status == FRAM_OK)
-        p->status = error_set(p->error, FRAM_ERROR_INPUT, p->scenario->file, 0, key,
-                              "expected a path of at most %d bytes together with its folder", SCENARIO_TEXT_SIZE - 1);
 }
 
 static void print_path(printer *p, const char *key, const char *path)

@@ -58,7 +58,8 @@ static void set_schedule(run *r)
     double dt = r->s->run.time_step;
     r->end_step = step_at(r->s->run.duration, dt);
     r->stop_step = r->end_step;
-    if (r->options->until > 0 && step_at(r->options->until, dt) < r->end_step)
+    /* Times first: the step of one far behind the end may be no integer of 64 bits. */
+    if (r->options->until > 0 && r->options->until < r->s->run.duration)
         r->stop_step = step_at(r->options->until, dt);
     r->checkpoint_every = interval_steps(r->s->output.checkpoint_interval, dt);
     r->picture_every = interval_steps(r->s->output.picture_interval, dt);
@@ -305,8 +306,10 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     text_buffer text = {0};
     build_report report = {0};
     set_schedule(&r);
-    fram_status status = identify(&r, error);
-    /* The world first: a scenario that cannot be made leaves the folder as it was. */
+    fram_status status = run_folder_check(options->folder, options->force, error);
+    if (status == FRAM_OK)
+        status = identify(&r, error);
+    /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK)
         status = build_world(ctx, s, &r.world, &report, error);
     if (status != FRAM_OK) {
@@ -336,6 +339,10 @@ static fram_status resume_world(run *r, run_result *result, fram_error *error)
     fram_status status = checkpoint_read_newest(r->ctx, r->options->folder, &r->world, &note, error);
     if (status != FRAM_OK)
         return status;
+    if (r->stop_step < r->world.clock.step[0])
+        return error_set(error, FRAM_ERROR_USAGE, r->options->folder, 0, "--until",
+                         "expected a time from %g s on, where the newest checkpoint is; found %g s",
+                         r->world.clock.time[0], r->options->until);
     log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);
     recorder_lengths lengths = {note.series_length, note.record_length, note.fractures_length};
     status = recorder_continue(r->ctx, r->s, r->options->folder, &lengths, &r->recorder, error);

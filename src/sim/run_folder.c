@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
+#include "io/scenario_file.h"
 #include "model/scenario_schema.h"
 #include "sim/checkpoint.h"
 
@@ -39,12 +40,15 @@ static fram_status make_folders(const char *folder, fram_error *error)
     return FRAM_OK;
 }
 
+/* A folder that is not there is empty too. */
 static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
 {
+    *empty = true;
     DIR *dir = opendir(folder);
+    if (!dir && errno == ENOENT)
+        return FRAM_OK;
     if (!dir)
         return file_error(error, folder, "open the folder", errno);
-    *empty = true;
     for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
         if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
             *empty = false;
@@ -53,18 +57,38 @@ static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
     return FRAM_OK;
 }
 
-fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error)
+fram_status run_folder_check(const char *folder, bool force, fram_error *error)
 {
     bool empty = true;
+    fram_status status = is_empty(folder, &empty, error);
+    if (status != FRAM_OK || empty || force)
+        return status;
+    return error_set(error, FRAM_ERROR_USAGE, folder, 0, "--output",
+                     "the folder is not empty; name another one, or give --force to overwrite the results in it");
+}
+
+/* Results that a new run may not write, or only at its end: next to its other files they would be taken for its own. */
+static void remove_results(const char *folder)
+{
+    static const char *const names[] = {"failed.fram", "plan.png",     "loads.png",
+                                        "station.png", "station.json", "playback.html"};
+    char path[PATH_SIZE];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        int n = snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        if (n > 0 && n < PATH_SIZE)
+            (void)unlink(path);
+    }
+}
+
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error)
+{
     fram_status status = make_folders(folder, error);
     if (status == FRAM_OK)
-        status = is_empty(folder, &empty, error);
+        status = run_folder_check(folder, force, error);
     if (status != FRAM_OK)
         return status;
-    if (!empty && !force)
-        return error_set(error, FRAM_ERROR_USAGE, folder, 0, "--output",
-                         "the folder is not empty; name another one, or give --force to overwrite the results in it");
     checkpoint_remove_all(ctx, folder);
+    remove_results(folder);
     return FRAM_OK;
 }
 
@@ -79,17 +103,17 @@ typedef struct input_list {
 static fram_status add_input(void *user, const scenario_key *key, const void *member, const char *name,
                              fram_error *error)
 {
-    (void)name;
     input_list *list = user;
     const char *given = member;
     if (key->kind != KEY_PATH || !*given)
         return FRAM_OK;
-    char path[PATH_SIZE], digest[65];
+    char path[SCENARIO_TEXT_SIZE], digest[65];
     char *data = NULL;
     size_t size = 0;
-    if (!scenario_resolve_path(list->s, given, path, sizeof path))
-        return error_set(error, FRAM_ERROR_INPUT, given, 0, NULL, "the path is too long");
-    fram_status status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
+    /* Absolute, as in the run folder's scenario: the run is resumed from any folder. */
+    fram_status status = scenario_absolute_path(list->s, name, given, path, error);
+    if (status == FRAM_OK)
+        status = file_read(list->ctx, path, INPUT_LIMIT, &data, &size, error);
     if (status != FRAM_OK)
         return status;
     sha256_text(data, size, digest);

@@ -7,11 +7,13 @@
 #include "model/scenario.h"
 #include "model/world.h"
 
-/* Make the folder and those above it.  One that is not empty is refused without `force`;
-   with it, the checkpoints of an earlier run are removed, so that they are never mixed with the new one's. */
+/* FRAM_ERROR_USAGE for a folder that is not empty, without `force`; nothing is touched. */
+fram_status run_folder_check(const char *folder, bool force, fram_error *error);
+/* Make the folder and those above it, after the same check.  With `force`, checkpoints, pictures and pages of an
+   earlier run are removed, so that they are never mixed with the new one's. */
 fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error);
 
-/* "sha256  path" of every file the scenario names, a line each. */
+/* "sha256  path" of every file the scenario names, a line each, the paths absolute. */
 fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out, fram_error *error);
 
 /* How a run stands, for run.json. */

@@ -58,11 +58,34 @@ expect 2 "$FRAM"
 expect 2 "$FRAM" sail --json
 same "$(value '["error"]["key"]')" sail "key of an unknown command"
 
+# --json ends with one object whatever is asked, and is UTF-8 whatever the words are.
+for words in "--help" "--version" "run --help" "keys" "check scene.yaml"; do
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $words --json
+    value "" >/dev/null || fail "$words --json ends with no JSON object"
+done
+expect 2 "$FRAM" --json
+value '["error"]["message"]' >/dev/null || fail "a missing command is no JSON error"
+expect 2 "$FRAM" check $'\xff\xc3\xa9.yaml' --json
+same "$(value '["error"]["file"]')" $'\xef\xbf\xbd\xc3\xa9.yaml' "a file name that is no UTF-8"
+
+# An answer that cannot be written is a failure.
+if [ -c /dev/full ]; then
+    for words in "--version" "keys" "check scene.yaml --json"; do
+        # shellcheck disable=SC2086
+        code=0 && "$FRAM" $words >/dev/full 2>err || code=$?
+        same "$code" 1 "exit code of $words on a full disk"
+    done
+fi
+
 # Usage errors.
 expect 2 "$FRAM" run scene.yaml --json
 same "$(value '["error"]["key"]')" --output "missing -o"
 expect 2 "$FRAM" run scene.yaml -o a --wrong
 expect 2 "$FRAM" run scene.yaml -o a --until soon
+expect 2 "$FRAM" run scene.yaml -o a --until 0
+expect 2 "$FRAM" run scene.yaml -o a --until -1 --json
+same "$(value '["error"]["key"]')" --until "key of a time before the start"
 expect 2 "$FRAM" run scene.yaml more words -o a
 expect 2 "$FRAM" run -o a
 expect 2 "$FRAM" run scene.yaml -o a --threads 0
@@ -77,6 +100,10 @@ same "$(value '["error"]["line"]')" 8 "line of an input error"
 same "$(value '["error"]["key"]')" vessel.sped "key of an input error"
 says "wrong.yaml:8"
 expect 2 "$FRAM" check missing.yaml
+sed 's/    length: 48/    form: file\n    file: hull.stl/; /beam:/d; /draught:/d; /freeboard:/d' scene.yaml >hull.yaml
+expect 2 "$FRAM" check hull.yaml --json
+same "$(value '["error"]["line"]')" 11 "line of a missing file"
+same "$(value '["error"]["key"]')" vessel.hull.file "key of a missing file"
 expect 2 "$FRAM" check scene.yaml --set ice.thickness=-1 --json
 same "$(value '["error"]["key"]')" ice.thickness "key of a bad override"
 [ ! -e a ] || fail "a refused scenario left a folder"
@@ -106,8 +133,13 @@ expect 0 "$FRAM" check straight/scenario.yaml
 # A folder that is not empty.
 expect 2 "$FRAM" run scene.yaml -o straight
 says "--force"
+expect 2 "$FRAM" run scene.yaml -o scene.yaml
+touch straight/failed.fram straight/station.json
 expect 0 "$FRAM" run scene.yaml -o straight --force --json
 same "$(value '["state_hash"]')" "$hash" "hash of the second run"
+for file in failed.fram station.json; do
+    [ ! -e "straight/$file" ] || fail "--force leaves $file of the run before"
+done
 
 # Stop half way, resume, resume again; threads and instruction sets change nothing.
 expect 0 "$FRAM" run scene.yaml -o halves --until 1 --json
@@ -119,6 +151,25 @@ same "$(value '["state_hash"]')" "$hash" "hash of the resumed run"
 same "$(value '["finished"]')" True "finished"
 cmp -s straight/record.fram halves/record.fram || fail "the records of a straight and a resumed run differ"
 same "$(cut -d, -f1-70 straight/series.csv | md5sum)" "$(cut -d, -f1-70 halves/series.csv | md5sum)" "time series"
+
+# Going back is refused; far behind the end is the end.
+expect 2 "$FRAM" resume halves --until 1.5 --json
+same "$(value '["error"]["key"]')" --until "key of a time before the checkpoint"
+expect 0 "$FRAM" resume halves --until 1e200 --json
+same "$(value '["state_hash"]')" "$hash" "hash of a run that was finished before"
+
+# A scenario and its files are found from any folder, and a run that used them resumes from any.
+mkdir -p "files/the \"hull\""
+expect 0 "$FRAM" hull --length 48 --beam 12 --draught 4 -o "files/the \"hull\"/hull.stl"
+cp hull.yaml "files/the \"hull\""
+expect 0 "$FRAM" run "files/the \"hull\"/hull.yaml" -o files/straight --json
+hull_hash=$(value '["state_hash"]')
+(cd files && expect 0 "$FRAM" run "the \"hull\"/hull.yaml" -o halves --until 1)
+mv files/halves moved
+(cd / && "$FRAM" resume "$scratch/moved" --json) >out 2>err || fail "a run with files was not resumed: $(cat err)"
+same "$(value '["state_hash"]')" "$hull_hash" "hash of a resumed run with files"
+printf 'x' >>"files/the \"hull\"/hull.stl"
+expect 2 "$FRAM" resume moved
 
 # Resuming what cannot be resumed.
 expect 2 "$FRAM" resume nowhere
