@@ -15,12 +15,21 @@ int fracture_stencil(int32_t wedges, double radius, const crack_start *start, ve
     return count;
 }
 
+/* A wedge that has no more than this part of it inside the ring, or outside, is not cut at all: most are not. */
+static const double NOTHING = 1e-13;
+
 fram_status fracture_cut_wedge(context *ctx, overlay *plane, polygon ring, bool convex, const vec2 tip[3],
                                polygon_list *wedges, fram_error *error)
 {
     polygon corner = {tip, 3};
-    if (!convex)
+    if (!convex) {
+        double area = polygon_area(corner), common = polygon_overlap_area(ring, corner);
+        if (common <= NOTHING * area)
+            return FRAM_OK;
+        if (area - common <= NOTHING * area)
+            return polygon_list_push(ctx, wedges, corner) ? FRAM_OK : error_memory(error);
         return overlay_intersection(plane, ring, corner, wedges, error);
+    }
     vec2_array part = {0};
     bool good = polygon_clip_convex(ctx, ring, corner, &part);
     if (good && part.count >= 3)

@@ -7,6 +7,10 @@
 /* Boundaries nearer than this part of a ring's size are the same. */
 static const double SAME_BOUNDARY = 1e-7;
 
+/* Corners of a union nearer than this part of its size are one corner: far over rounding, and so little that the
+   centroid does not notice. */
+static const double SAME_CORNER = 1e-9;
+
 /* A union has the area of its parts, but for this part of it. */
 static const double SAME_AREA = 1e-11;
 
@@ -93,7 +97,7 @@ fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, in
         return FRAM_OK;
     /* Corners of both that differ by rounding become one. */
     polygon ring = polygon_list_get(&s->joined, 0);
-    if (!polygon_clean(ctx, ring, SAME_BOUNDARY * polygon_perimeter(ring), &s->clean))
+    if (!polygon_clean(ctx, ring, SAME_CORNER * polygon_perimeter(ring), &s->clean))
         return error_memory(error);
     ring = (polygon){s->clean.data, s->clean.count};
     double area = s->cut.data[i].area + s->cut.data[k].area;
