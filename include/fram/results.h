@@ -30,6 +30,50 @@ FRAM_API fram_status fram_export_geojson(fram_context *context, const char *run,
 FRAM_API fram_status fram_export_netcdf(fram_context *context, const char *run, const char *output, fram_result *result,
                                         fram_error *error);
 
+/* ---- For people ---- */
+
+/* One self-contained HTML page about the run (RUN/report.html): scenario, loads with exceedance and confidence, field,
+   fractures, station, books, solver quality, origin. */
+FRAM_API fram_status fram_report(fram_context *context, const char *run, const char *output, fram_result *result,
+                                 fram_error *error);
+
+/* Channels of series.csv over time, those of one unit in one panel, from time `from` to `to` [s] (NaN: all), as SVG
+   when output ends in .svg, else as PNG.  FRAM_ERROR_INPUT names a channel that the run does not have. */
+FRAM_API fram_status fram_plot(fram_context *context, const char *run, const char *const *channels, int channel_count,
+                               double from, double to, const char *output, fram_error *error);
+/* "name [unit]" of every channel, a line each; the caller frees it with fram_text_free. */
+FRAM_API fram_status fram_channels(fram_context *context, const char *run, char **text, fram_error *error);
+
+typedef struct fram_comparison_row {
+    const char *name, *unit; /* valid until the comparison is freed */
+    double a, b;             /* NaN where a run does not have it */
+} fram_comparison_row;
+typedef struct fram_comparison {
+    const fram_comparison_row *rows;
+    int count;
+    bool same_scenario, same_state; /* by hash */
+    void *inside;
+} fram_comparison;
+/* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
+FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,
+                                  fram_comparison *comparison, fram_error *error);
+FRAM_API void fram_comparison_free(fram_context *context, fram_comparison *comparison);
+
+typedef struct fram_video_definition {
+    size_t size;           /* of this struct, set by fram_video_default */
+    const char *output;    /* NULL: RUN/run.mp4, or the folder RUN/video */
+    const char *colour;    /* "plain", "speed", "force", "thickness", "age" */
+    double speed;          /* simulated seconds a second; <= 0: such that it lasts 30 s at most */
+    double span;           /* metres across, following the vessel; <= 0: the whole domain */
+    int frames_per_second; /* 25 */
+    int width, height;     /* 1280 x 720, even [pixels] */
+    bool pictures;         /* numbered PNG files instead of a video: needs no ffmpeg */
+} fram_video_definition;
+FRAM_API void fram_video_default(fram_video_definition *definition);
+/* The field from above as MP4.  FRAM_ERROR_UNSUPPORTED when ffmpeg is not installed. */
+FRAM_API fram_status fram_video(fram_context *context, const char *run, const fram_video_definition *definition,
+                                fram_result *result, fram_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -188,7 +188,7 @@ fram_status fram_field_draw(const fram_field *f, const char *title, const char *
     if (!shapes)
         return error_memory(error);
     for (int i = 0; i < a->floes; i++)
-        shapes[i] = (plan_shape){polygon_list_get(&f->floes.outlines, i), PLAN_FLOE};
+        shapes[i] = (plan_shape){.outline = polygon_list_get(&f->floes.outlines, i), .style = PLAN_FLOE};
     char caption[160];
     snprintf(caption, sizeof caption, "%d floes, %.4g km\302\262, concentration %.1f %%, largest %.4g m across",
              a->floes, a->area / 1e6, 100 * a->concentration, a->largest_diameter);

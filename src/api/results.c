@@ -3,7 +3,11 @@
 
 #include "api/handles.h"
 #include "sim/export.h"
+#include "sim/plot.h"
+#include "sim/report.h"
+#include "sim/video.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static fram_status answer(fram_status status, const export_report *from, fram_result *to)
@@ -34,4 +38,104 @@ fram_status fram_export_netcdf(fram_context *c, const char *run, const char *out
 {
     export_report report;
     return answer(export_netcdf(&c->inner, run, output, &report, error), &report, result);
+}
+
+fram_status fram_report(fram_context *c, const char *run, const char *output, fram_result *result, fram_error *error)
+{
+    export_report report = {.frames = 0};
+    fram_status status = report_write(&c->inner, run, output, error);
+    snprintf(report.path, sizeof report.path, output ? "%s" : "%s/report.html", output ? output : run);
+    return answer(status, &report, result);
+}
+
+fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,
+                      double to, const char *output, fram_error *error)
+{
+    return plot_channels(&c->inner, run, channels, channel_count, from, to, output, error);
+}
+
+fram_status fram_channels(fram_context *c, const char *run, char **text, fram_error *error)
+{
+    text_buffer out = {0};
+    fram_status status = plot_list(&c->inner, run, &out, error);
+    if (status == FRAM_OK)
+        *text = out.data;
+    else
+        text_free(&c->inner, &out);
+    return status;
+}
+
+/* ---- comparison ---- */
+
+typedef struct comparison_inside {
+    compare_result result;
+    fram_comparison_row rows[COMPARE_ROWS_MOST];
+} comparison_inside;
+
+fram_status fram_compare(fram_context *c, const char *run_a, const char *run_b, const char *output,
+                         fram_comparison *comparison, fram_error *error)
+{
+    comparison_inside *in = memory_array(&c->inner, 1, sizeof *in);
+    if (!in)
+        return error_memory(error);
+    fram_status status = compare_runs(&c->inner, run_a, run_b, output, &in->result, error);
+    if (status != FRAM_OK) {
+        memory_free(&c->inner, in);
+        return status;
+    }
+    for (int32_t i = 0; i < in->result.count; i++) {
+        const compare_row *row = &in->result.row[i];
+        in->rows[i] = (fram_comparison_row){row->name, row->unit, row->a, row->b};
+    }
+    *comparison = (fram_comparison){in->rows, in->result.count, in->result.same_scenario, in->result.same_state, in};
+    return FRAM_OK;
+}
+
+void fram_comparison_free(fram_context *c, fram_comparison *comparison)
+{
+    memory_free(&c->inner, comparison->inside);
+    *comparison = (fram_comparison){0};
+}
+
+/* ---- video ---- */
+
+void fram_video_default(fram_video_definition *definition)
+{
+    *definition = (fram_video_definition){
+        .size = sizeof *definition, .colour = "speed", .frames_per_second = 25, .width = 1280, .height = 720};
+}
+
+static fram_status find_colour(const char *name, plan_colour *colour, fram_error *error)
+{
+    for (int i = 0; i < PLAN_COLOUR_COUNT; i++) {
+        if (name && strcmp(name, plan_colour_name((plan_colour)i)) == 0) {
+            *colour = (plan_colour)i;
+            return FRAM_OK;
+        }
+    }
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "colour", "expected plain, speed, force, thickness or age");
+}
+
+fram_status fram_video(fram_context *c, const char *run, const fram_video_definition *d, fram_result *result,
+                       fram_error *error)
+{
+    if (d->size != sizeof *d)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_video_definition.size",
+                         "the definition was not filled by fram_video_default of this version");
+    if (d->width < 320 || d->width > 7680 || d->height < 320 || d->height > 4320 || d->width % 2 || d->height % 2)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "width", "expected even sizes from 320 to 7680 x 4320");
+    if (d->frames_per_second < 1 || d->frames_per_second > 120)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "frames_per_second", "expected 1 to 120");
+    video_options options = {.output = d->output,
+                             .speed = d->speed,
+                             .span = d->span,
+                             .frames_per_second = d->frames_per_second,
+                             .width = d->width,
+                             .height = d->height,
+                             .pictures = d->pictures};
+    export_report report = {.frames = 0};
+    fram_status status = find_colour(d->colour, &options.colour, error);
+    if (status == FRAM_OK)
+        status = video_write(&c->inner, run, &options, &report.frames, report.path, error);
+    return answer(status, &report, result);
 }

@@ -113,5 +113,9 @@ int command_ice(const command_row *self, int argc, char **argv);
 int command_hull(const command_row *self, int argc, char **argv);
 int command_field(const command_row *self, int argc, char **argv);
 int command_export(const command_row *self, int argc, char **argv);
+int command_report(const command_row *self, int argc, char **argv);
+int command_plot(const command_row *self, int argc, char **argv);
+int command_compare(const command_row *self, int argc, char **argv);
+int command_video(const command_row *self, int argc, char **argv);
 
 #endif

@@ -32,6 +32,23 @@ static const command_row commands[] = {
      "  fram export out/demo --netcdf                    for xarray and h5py: out/demo/run.nc\n"
      "  fram export out/demo --geojson --time 30         the field at 30 s\n",
      command_export},
+    {"report", "RUN", "one page about a run: loads, field, fractures, station, books, quality; prints well",
+     "  fram report out/demo                    writes out/demo/report.html\n", command_report},
+    {"plot", "RUN [CHANNEL...] -o FILE",
+     "draw channels of a run over time, as PNG or SVG; without a channel, list them",
+     "  fram plot out/demo\n"
+     "  fram plot out/demo ice_force_averaged_x ice_force_averaged_y -o load.svg\n"
+     "  fram plot out/demo ice_force_x roll pitch --from 20 --to 40 -o part.png\n",
+     command_plot},
+    {"compare", "RUN RUN", "two runs beside each other, in numbers and plots",
+     "  fram compare out/demo out/thick\n"
+     "  fram compare out/demo out/thick -o both.html\n",
+     command_compare},
+    {"video", "RUN", "make an MP4 of a run seen from above; needs ffmpeg, but no screen",
+     "  fram video out/demo\n"
+     "  fram video out/demo --colour force --span 200 -o bow.mp4\n"
+     "  fram video out/demo --pictures -o frames\n",
+     command_video},
     {"hull", "[FILE]",
      "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
      "  fram hull ship.stl --draught 7.5\n"

@@ -1,10 +1,13 @@
 #include "io/chart.h"
 
+#include "base/transcendental.h"
+#include "io/atomic_file.h"
 #include "io/image.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #ifdef FRAM_HAVE_CAIRO
 
@@ -14,127 +17,287 @@ static const image_colour palette[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {
 enum { PALETTE_SIZE = sizeof palette / sizeof *palette };
 /* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
 enum { MOST_TICKS = 50 };
+static const image_colour ink = {0.2, 0.2, 0.2}, grid = {0.90, 0.91, 0.92};
+static const double log_of_ten = 2.302585092994045684;
 
 typedef struct frame {
     double left, right, top, bottom; /* pixels */
-    double x0, x1, y0, y1;           /* data */
+    double x0, x1, y0, y1;           /* data; decades on a logarithmic axis */
+    bool log_x, log_y;
 } frame;
 
-static double to_px(const frame *f, double x) { return f->left + (x - f->x0) / (f->x1 - f->x0) * (f->right - f->left); }
-static double to_py(const frame *f, double y)
+/* A value as its axis counts it; a NaN cannot be shown. */
+static double on_axis(double value, bool logarithmic)
+{
+    if (!logarithmic)
+        return isfinite(value) ? value : (double)NAN;
+    return value > 0 && value <= DBL_MAX ? real_log(value) / log_of_ten : (double)NAN;
+}
+
+static double axis_to_px(const frame *f, double x)
+{
+    return f->left + (x - f->x0) / (f->x1 - f->x0) * (f->right - f->left);
+}
+static double axis_to_py(const frame *f, double y)
 {
     return f->bottom - (y - f->y0) / (f->y1 - f->y0) * (f->bottom - f->top);
 }
+static double to_px(const frame *f, double x) { return axis_to_px(f, on_axis(x, f->log_x)); }
+static double to_py(const frame *f, double y) { return axis_to_py(f, on_axis(y, f->log_y)); }
 
-/* Data range of all lines, never empty, zero included on the y axis. */
-static void find_range(const chart *c, frame *f)
+static bool can_show(const frame *f, double x, double y)
 {
-    f->x0 = DBL_MAX, f->x1 = -DBL_MAX, f->y0 = 0, f->y1 = 0;
-    for (int32_t k = 0; k < c->line_count; k++) {
-        for (int32_t i = 0; i < c->lines[k].count; i++) {
-            double x = c->lines[k].x[i], y = c->lines[k].y[i];
-            if (!isfinite(x) || !isfinite(y))
-                continue;
-            f->x0 = fmin(f->x0, x), f->x1 = fmax(f->x1, x);
-            f->y0 = fmin(f->y0, y), f->y1 = fmax(f->y1, y);
-        }
-    }
-    if (!(f->x1 > f->x0))
-        f->x0 = f->x0 > DBL_MAX / 2 ? 0 : f->x0 - 0.5, f->x1 = f->x0 + 1;
-    if (!(f->y1 > f->y0))
-        f->y1 = f->y0 + 1;
-    double pad = 0.05 * (f->y1 - f->y0);
-    f->y1 += pad;
-    if (f->y0 < 0)
-        f->y0 -= pad;
+    double a = on_axis(x, f->log_x), b = on_axis(y, f->log_y);
+    return a == a && b == b;
 }
 
-static void format_tick(char text[32], double value, double step)
+static void widen(double *lo, double *hi, double value)
 {
-    snprintf(text, 32, "%.6g", fabs(value) < step * 1e-6 ? 0.0 : value);
+    if (value != value)
+        return;
+    *lo = fmin(*lo, value);
+    *hi = fmax(*hi, value);
+}
+
+/* Never empty; a plain y axis holds zero unless it is free. */
+static void settle(double *lo, double *hi, bool logarithmic)
+{
+    if (*lo > *hi)
+        *lo = 0, *hi = 1;
+    if (logarithmic) {
+        *lo = floor(*lo + 1e-9), *hi = ceil(*hi - 1e-9);
+        if (!(*hi > *lo))
+            *hi = *lo + 1;
+    } else if (!(*hi > *lo)) {
+        *lo -= 0.5, *hi = *lo + 1;
+    }
+}
+
+static void find_range(const chart *c, frame *f)
+{
+    f->log_x = c->log_x, f->log_y = c->log_y;
+    f->x0 = f->y0 = DBL_MAX, f->x1 = f->y1 = -DBL_MAX;
+    if (!c->log_y && !c->free_y)
+        f->y0 = f->y1 = 0;
+    for (int32_t k = 0; k < c->line_count; k++) {
+        const chart_line *l = &c->lines[k];
+        for (int32_t i = 0; i < l->count; i++) {
+            if (!can_show(f, l->x[i], l->y[i]))
+                continue;
+            widen(&f->x0, &f->x1, on_axis(l->x[i], c->log_x));
+            widen(&f->y0, &f->y1, on_axis(l->y[i], c->log_y));
+            if (l->style == CHART_BAND)
+                widen(&f->y0, &f->y1, on_axis(l->y2[i], c->log_y));
+        }
+    }
+    settle(&f->x0, &f->x1, c->log_x);
+    settle(&f->y0, &f->y1, c->log_y);
+    double pad = c->log_y ? 0 : 0.05 * (f->y1 - f->y0);
+    f->y1 += f->y1 > 0 || c->free_y ? pad : 0;
+    f->y0 -= f->y0 < 0 || c->free_y ? pad : 0;
+}
+
+/* ---- axes ---- */
+
+/* What stands at the ticks of an axis: values on the axis, and how they are told. */
+typedef struct tick_row {
+    double first, step;
+    int count;
+    bool logarithmic;
+} tick_row;
+
+static tick_row ticks_of(double lo, double hi, int parts, bool logarithmic)
+{
+    double step = logarithmic ? fmax(1, ceil((hi - lo) / parts)) : image_round_step(hi - lo, parts);
+    double first = ceil(lo / step - 1e-9) * step;
+    int count = (int)fmin(floor((hi - first) / step + 1e-9), MOST_TICKS) + 1;
+    return (tick_row){first, step, count, logarithmic};
+}
+
+static void tick_text(const tick_row *t, double at, char text[32])
+{
+    if (t->logarithmic && fabs(at) > 4)
+        snprintf(text, 32, "1e%.0f", at);
+    else if (t->logarithmic)
+        snprintf(text, 32, "%.6g", real_pow(10, at));
+    else
+        snprintf(text, 32, "%.6g", fabs(at) < t->step * 1e-6 ? 0.0 : at);
+}
+
+static void draw_y_axis(cairo_t *page, const frame *f)
+{
+    char text[32];
+    tick_row t = ticks_of(f->y0, f->y1, 6, f->log_y);
+    for (int i = 0; i < t.count; i++) {
+        double y = t.first + i * t.step, py = floor(axis_to_py(f, y)) + 0.5;
+        image_set_colour(page, grid);
+        cairo_move_to(page, f->left, py);
+        cairo_line_to(page, f->right, py);
+        cairo_stroke(page);
+        image_set_colour(page, ink);
+        tick_text(&t, y, text);
+        image_text(page, f->left - 7, py + 4, 12, ALIGN_RIGHT, false, text);
+    }
+}
+
+static void draw_x_axis(cairo_t *page, const frame *f)
+{
+    char text[32];
+    tick_row t = ticks_of(f->x0, f->x1, 10, f->log_x);
+    for (int i = 0; i < t.count; i++) {
+        double x = t.first + i * t.step, px = floor(axis_to_px(f, x)) + 0.5;
+        image_set_colour(page, grid);
+        cairo_move_to(page, px, f->top);
+        cairo_line_to(page, px, f->bottom);
+        cairo_stroke(page);
+        image_set_colour(page, ink);
+        cairo_move_to(page, px, f->bottom);
+        cairo_line_to(page, px, f->bottom + 5);
+        cairo_stroke(page);
+        tick_text(&t, x, text);
+        image_text(page, px, f->bottom + 19, 12, ALIGN_CENTRE, false, text);
+    }
 }
 
 static void draw_axes(cairo_t *page, const chart *c, const frame *f)
 {
-    char text[32];
     cairo_set_line_width(page, 1);
-    double step = image_round_step(f->y1 - f->y0, 6);
-    double first = ceil(f->y0 / step) * step;
-    int more = (int)fmin(floor((f->y1 - first) / step), MOST_TICKS);
-    for (int i = 0; i <= more; i++) {
-        double y = first + i * step, py = floor(to_py(f, y)) + 0.5;
-        image_set_colour(page, (image_colour){0.88, 0.88, 0.88});
-        cairo_move_to(page, f->left, py);
-        cairo_line_to(page, f->right, py);
-        cairo_stroke(page);
-        image_set_colour(page, (image_colour){0.2, 0.2, 0.2});
-        format_tick(text, y, step);
-        image_text(page, f->left - 6, py + 4, 12, ALIGN_RIGHT, false, text);
-    }
-    step = image_round_step(f->x1 - f->x0, 10);
-    first = ceil(f->x0 / step) * step;
-    more = (int)fmin(floor((f->x1 - first) / step), MOST_TICKS);
-    for (int i = 0; i <= more; i++) {
-        double x = first + i * step, px = floor(to_px(f, x)) + 0.5;
-        cairo_move_to(page, px, f->bottom);
-        cairo_line_to(page, px, f->bottom + 5);
-        cairo_stroke(page);
-        format_tick(text, x, step);
-        image_text(page, px, f->bottom + 19, 12, ALIGN_CENTRE, false, text);
-    }
-    cairo_rectangle(page, floor(f->left) + 0.5, floor(f->top) + 0.5, floor(f->right - f->left),
-                    floor(f->bottom - f->top));
+    draw_y_axis(page, f);
+    draw_x_axis(page, f);
+    image_set_colour(page, (image_colour){0.55, 0.57, 0.6});
+    cairo_move_to(page, floor(f->left) + 0.5, f->top);
+    cairo_line_to(page, floor(f->left) + 0.5, floor(f->bottom) + 0.5);
+    cairo_line_to(page, f->right, floor(f->bottom) + 0.5);
     cairo_stroke(page);
+    image_set_colour(page, ink);
     image_text(page, (f->left + f->right) / 2, f->bottom + 40, 13, ALIGN_CENTRE, false, c->x_label);
     cairo_save(page);
     cairo_move_to(page, 18, (f->top + f->bottom) / 2);
-    cairo_rotate(page, -1.5707963267948966);
+    cairo_rotate(page, -PI / 2);
     cairo_rel_move_to(page, -image_text_width(page, 13, false, c->y_label) / 2, 0);
     cairo_show_text(page, c->y_label);
     cairo_restore(page);
 }
 
+/* ---- lines ---- */
+
 /* Each pixel column gets the first, least, greatest and last value in it. */
-static void draw_line(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
+static void draw_line(cairo_t *page, const frame *f, const chart_line *line)
 {
-    image_set_colour(page, colour);
     cairo_set_line_width(page, line->thick ? 2 : 1);
     bool pen_down = false;
     for (int32_t i = 0; i < line->count;) {
-        if (!isfinite(line->x[i]) || !isfinite(line->y[i])) {
+        if (!can_show(f, line->x[i], line->y[i])) {
             pen_down = false;
             i++;
             continue;
         }
         double px = to_px(f, line->x[i]), column = floor(px);
-        double first = line->y[i], least = first, greatest = first, last = first;
-        for (; i < line->count && isfinite(line->x[i]) && isfinite(line->y[i]) && floor(to_px(f, line->x[i])) == column;
-             i++) {
-            last = line->y[i];
+        double first = to_py(f, line->y[i]), least = first, greatest = first, last = first;
+        for (; i < line->count && can_show(f, line->x[i], line->y[i]) && floor(to_px(f, line->x[i])) == column; i++) {
+            last = to_py(f, line->y[i]);
             least = fmin(least, last), greatest = fmax(greatest, last);
         }
         if (pen_down)
-            cairo_line_to(page, px, to_py(f, first));
+            cairo_line_to(page, px, first);
         else
-            cairo_move_to(page, px, to_py(f, first));
+            cairo_move_to(page, px, first);
         if (greatest > least) {
-            cairo_line_to(page, px, to_py(f, least));
-            cairo_line_to(page, px, to_py(f, greatest));
-            cairo_line_to(page, px, to_py(f, last));
+            cairo_line_to(page, px, least);
+            cairo_line_to(page, px, greatest);
+            cairo_line_to(page, px, last);
         }
         pen_down = true;
     }
     cairo_stroke(page);
 }
 
+/* A track turns back: it is drawn point by point. */
+static void draw_track(cairo_t *page, const frame *f, const chart_line *line)
+{
+    cairo_set_line_width(page, line->thick ? 2 : 1);
+    for (int32_t i = 0; i < line->count; i++) {
+        if (can_show(f, line->x[i], line->y[i]))
+            cairo_line_to(page, to_px(f, line->x[i]), to_py(f, line->y[i]));
+    }
+    cairo_stroke(page);
+}
+
+/* A bound that a logarithmic axis cannot show lies at its end. */
+static double bound_py(const frame *f, double y)
+{
+    double at = on_axis(y, f->log_y);
+    return at == at ? axis_to_py(f, at) : f->bottom;
+}
+
+static void draw_band(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
+{
+    for (int32_t i = 0; i < line->count; i++)
+        cairo_line_to(page, to_px(f, line->x[i]), bound_py(f, line->y[i]));
+    for (int32_t i = line->count - 1; i >= 0; i--)
+        cairo_line_to(page, to_px(f, line->x[i]), bound_py(f, line->y2[i]));
+    cairo_close_path(page);
+    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, 0.18);
+    cairo_fill(page);
+}
+
+static void draw_bars(cairo_t *page, const frame *f, const chart_line *line)
+{
+    double base = f->log_y ? f->bottom : axis_to_py(f, fmax(f->y0, fmin(0, f->y1)));
+    for (int32_t i = 0; i + 1 < line->count; i++) {
+        if (!can_show(f, line->x[i], line->y[i]))
+            continue;
+        double left = to_px(f, line->x[i]), right = to_px(f, line->x[i + 1]), top = to_py(f, line->y[i]);
+        cairo_rectangle(page, left + 0.5, fmin(top, base), fmax(right - left - 1, 0.5), fabs(base - top));
+    }
+    cairo_fill(page);
+}
+
+static void draw_points(cairo_t *page, const frame *f, const chart_line *line)
+{
+    for (int32_t i = 0; i < line->count; i++) {
+        if (!can_show(f, line->x[i], line->y[i]))
+            continue;
+        cairo_new_sub_path(page);
+        cairo_arc(page, to_px(f, line->x[i]), to_py(f, line->y[i]), line->thick ? 3.5 : 2.2, 0, 2 * PI);
+    }
+    cairo_fill(page);
+}
+
+static image_colour colour_of(const chart_line *line, int32_t place)
+{
+    return palette[(line->colour > 0 ? line->colour - 1 : place) % PALETTE_SIZE];
+}
+
+static void draw_one(cairo_t *page, const frame *f, const chart_line *line, image_colour colour, bool track)
+{
+    image_set_colour(page, colour);
+    switch (line->style) {
+    case CHART_LINE:
+        (track ? draw_track : draw_line)(page, f, line);
+        break;
+    case CHART_BAND:
+        draw_band(page, f, line, colour);
+        break;
+    case CHART_BARS:
+        draw_bars(page, f, line);
+        break;
+    case CHART_POINTS:
+        draw_points(page, f, line);
+        break;
+    }
+}
+
 static void draw_legend(cairo_t *page, const chart *c, const frame *f)
 {
     double x = f->right;
     for (int32_t k = c->line_count - 1; k >= 0; k--) {
+        if (!c->lines[k].name[0])
+            continue;
         x -= image_text_width(page, 12, false, c->lines[k].name);
-        image_set_colour(page, (image_colour){0.2, 0.2, 0.2});
+        image_set_colour(page, ink);
         image_text(page, x, f->top - 8, 12, ALIGN_LEFT, false, c->lines[k].name);
-        image_set_colour(page, palette[k % PALETTE_SIZE]);
+        image_set_colour(page, colour_of(&c->lines[k], k));
         cairo_set_line_width(page, 3);
         cairo_move_to(page, x - 26, f->top - 12);
         cairo_line_to(page, x - 6, f->top - 12);
@@ -154,20 +317,10 @@ static void equalise(frame *f)
     f->y0 = y - half_y, f->y1 = y + half_y;
 }
 
-/* A track turns back: it is drawn point by point. */
-static void draw_track(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
-{
-    image_set_colour(page, colour);
-    cairo_set_line_width(page, line->thick ? 2 : 1);
-    for (int32_t i = 0; i < line->count; i++)
-        if (isfinite(line->x[i]) && isfinite(line->y[i]))
-            cairo_line_to(page, to_px(f, line->x[i]), to_py(f, line->y[i]));
-    cairo_stroke(page);
-}
-
 void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)
 {
-    frame f = {.left = 86, .right = width - 22, .top = 78, .bottom = height - 58};
+    bool has_subtitle = c->subtitle[0] != '\0';
+    frame f = {.left = 86, .right = width - 22, .top = has_subtitle ? 78 : 58, .bottom = height - 58};
     find_range(c, &f);
     if (equal)
         equalise(&f);
@@ -180,27 +333,85 @@ void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal
     cairo_clip(page);
     cairo_set_line_join(page, CAIRO_LINE_JOIN_ROUND);
     for (int32_t k = 0; k < c->line_count; k++)
-        (equal ? draw_track : draw_line)(page, &f, &c->lines[k], palette[k % PALETTE_SIZE]);
+        draw_one(page, &f, &c->lines[k], colour_of(&c->lines[k], k), equal);
     cairo_restore(page);
     draw_legend(page, c, &f);
 }
 
-fram_status chart_write(context *ctx, const chart *c, const char *path, int width, int height, fram_error *error)
+static void draw_stack(cairo_t *page, const chart *charts, int32_t count, int width, int height)
 {
-    cairo_t *page = NULL;
-    fram_status status = image_begin(width, height, &page, error);
+    for (int32_t i = 0; i < count; i++) {
+        cairo_save(page);
+        cairo_translate(page, 0, (double)i * height);
+        chart_draw(page, &charts[i], width, height, false);
+        cairo_restore(page);
+    }
+}
+
+static bool wants_svg(const char *path)
+{
+    size_t length = strlen(path);
+    return length >= 4 && strcmp(path + length - 4, ".svg") == 0;
+}
+
+static fram_status stack_svg(context *ctx, const chart *charts, int32_t count, int width, int height, text_buffer *out,
+                             fram_error *error)
+{
+    image_vector v;
+    fram_status status = image_vector_begin(ctx, width, height * count, &v, error);
     if (status != FRAM_OK)
         return status;
-    chart_draw(page, c, width, height, false);
+    cairo_set_source_rgb(v.page, 1, 1, 1);
+    cairo_paint(v.page);
+    draw_stack(v.page, charts, count, width, height);
+    return image_vector_end(&v, out, error);
+}
+
+fram_status chart_svg(context *ctx, const chart *c, int width, int height, text_buffer *out, fram_error *error)
+{
+    return stack_svg(ctx, c, 1, width, height, out, error);
+}
+
+fram_status chart_stack_write(context *ctx, const chart *charts, int32_t count, const char *path, int width, int height,
+                              fram_error *error)
+{
+    if (wants_svg(path)) {
+        text_buffer text = {0};
+        fram_status status = stack_svg(ctx, charts, count, width, height, &text, error);
+        if (status == FRAM_OK)
+            status = atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
+        text_free(ctx, &text);
+        return status;
+    }
+    cairo_t *page = NULL;
+    fram_status status = image_begin(width, height * count, &page, error);
+    if (status != FRAM_OK)
+        return status;
+    draw_stack(page, charts, count, width, height);
     return image_write(ctx, page, path, error);
 }
 
 #else
 
-fram_status chart_write(context *ctx, const chart *c, const char *path, int width, int height, fram_error *error)
+static fram_status no_charts(const char *path, fram_error *error)
 {
-    (void)ctx, (void)c, (void)width, (void)height;
     return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL, "this build has no cairo, so it draws no charts");
+}
+fram_status chart_stack_write(context *ctx, const chart *charts, int32_t count, const char *path, int width, int height,
+                              fram_error *error)
+{
+    (void)ctx, (void)charts, (void)count, (void)width, (void)height;
+    return no_charts(path, error);
+}
+fram_status chart_svg(context *ctx, const chart *c, int width, int height, text_buffer *out, fram_error *error)
+{
+    (void)ctx, (void)c, (void)width, (void)height, (void)out;
+    return no_charts(NULL, error);
 }
 
 #endif
+
+fram_status chart_write(context *ctx, const chart *c, const char *path, int width, int height, fram_error *error)
+{
+    return chart_stack_write(ctx, c, 1, path, width, height, error);
+}

@@ -18,10 +18,20 @@ double image_round_step(double span, int parts)
     return raw <= 5 * power ? 5 * power : 10 * power;
 }
 
+void image_ramp(double t, double rgb[3])
+{
+    static const double low[3] = {0.23, 0.44, 0.69}, middle[3] = {0.96, 0.96, 0.93}, high[3] = {0.72, 0.20, 0.12};
+    double x = fmin(fmax(t, 0), 1), part = x < 0.5 ? 2 * x : 2 * x - 1;
+    const double *from = x < 0.5 ? low : middle, *to = x < 0.5 ? middle : high;
+    for (int k = 0; k < 3; k++)
+        rgb[k] = from[k] + part * (to[k] - from[k]);
+}
+
 #ifdef FRAM_HAVE_CAIRO
 
-#include "base/array.h"
 #include "io/atomic_file.h"
+
+#include <cairo-svg.h>
 
 bool image_available(void) { return true; }
 
@@ -40,35 +50,67 @@ fram_status image_begin(int width, int height, cairo_t **page, fram_error *error
     return FRAM_OK;
 }
 
-typedef ARRAY(unsigned char) byte_array;
 typedef struct png_sink {
     context *ctx;
-    byte_array bytes;
+    text_buffer *out;
 } png_sink;
 
 static cairo_status_t collect(void *closure, const unsigned char *data, unsigned int length)
 {
     png_sink *sink = closure;
-    int32_t at = sink->bytes.count;
-    if (length > (unsigned)(INT32_MAX - at) || !array_resize(sink->ctx, &sink->bytes, at + (int32_t)length))
-        return CAIRO_STATUS_NO_MEMORY;
-    for (unsigned i = 0; i < length; i++)
-        sink->bytes.data[at + (int32_t)i] = data[i];
-    return CAIRO_STATUS_SUCCESS;
+    text_add_bytes(sink->ctx, sink->out, (const char *)data, length);
+    return sink->out->failed ? CAIRO_STATUS_NO_MEMORY : CAIRO_STATUS_SUCCESS;
+}
+
+fram_status image_png(context *ctx, cairo_t *page, text_buffer *out, fram_error *error)
+{
+    png_sink sink = {ctx, out};
+    cairo_surface_flush(cairo_get_target(page));
+    cairo_status_t status = cairo_surface_write_to_png_stream(cairo_get_target(page), collect, &sink);
+    cairo_destroy(page);
+    return status == CAIRO_STATUS_SUCCESS ? FRAM_OK : error_memory(error);
 }
 
 fram_status image_write(context *ctx, cairo_t *page, const char *path, fram_error *error)
 {
-    png_sink sink = {.ctx = ctx};
-    fram_status status = FRAM_OK;
-    cairo_surface_flush(cairo_get_target(page));
-    if (cairo_surface_write_to_png_stream(cairo_get_target(page), collect, &sink) != CAIRO_STATUS_SUCCESS)
-        status = error_memory(error);
-    else
-        status = atomic_file_write(ctx, path, sink.bytes.data, (size_t)sink.bytes.count, error);
-    array_free(ctx, &sink.bytes);
-    cairo_destroy(page);
+    text_buffer bytes = {0};
+    fram_status status = image_png(ctx, page, &bytes, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(ctx, path, bytes.data, (size_t)bytes.count, error);
+    text_free(ctx, &bytes);
     return status;
+}
+
+static cairo_status_t collect_text(void *closure, const unsigned char *data, unsigned int length)
+{
+    image_vector *v = closure;
+    text_add_bytes(v->ctx, &v->text, (const char *)data, length);
+    return v->text.failed ? CAIRO_STATUS_NO_MEMORY : CAIRO_STATUS_SUCCESS;
+}
+
+fram_status image_vector_begin(context *ctx, int width, int height, image_vector *v, fram_error *error)
+{
+    *v = (image_vector){.ctx = ctx};
+    cairo_surface_t *surface = cairo_svg_surface_create_for_stream(collect_text, v, width, height);
+    v->page = cairo_create(surface);
+    cairo_surface_destroy(surface); /* the page holds it */
+    if (cairo_status(v->page) == CAIRO_STATUS_SUCCESS) {
+        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+        return FRAM_OK;
+    }
+    cairo_destroy(v->page);
+    return error_memory(error);
+}
+
+fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *error)
+{
+    cairo_surface_finish(cairo_get_target(v->page));
+    bool good = cairo_status(v->page) == CAIRO_STATUS_SUCCESS && !v->text.failed;
+    cairo_destroy(v->page);
+    if (good && out)
+        text_add_bytes(v->ctx, out, v->text.data, (size_t)v->text.count);
+    text_free(v->ctx, &v->text);
+    return good && (!out || !out->failed) ? FRAM_OK : error_memory(error);
 }
 
 void image_set_colour(cairo_t *page, image_colour c) { cairo_set_source_rgb(page, c.r, c.g, c.b); }

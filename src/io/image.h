@@ -3,7 +3,7 @@
 #ifndef IO_IMAGE_H
 #define IO_IMAGE_H
 
-#include "base/context.h"
+#include "io/text_buffer.h"
 
 /* True when this build can make pictures. */
 bool image_available(void);
@@ -19,12 +19,26 @@ typedef struct image_colour {
 fram_status image_begin(int width, int height, cairo_t **page, fram_error *error);
 /* Write the page to `path` and free it; frees it on failure too. */
 fram_status image_write(context *ctx, cairo_t *page, const char *path, fram_error *error);
+/* A page drawn as SVG text.  The struct must not be moved between the two calls; image_vector_end appends the text to
+   out (nothing when it is NULL) and frees the page. */
+typedef struct image_vector {
+    cairo_t *page;
+    text_buffer text;
+    context *ctx;
+} image_vector;
+fram_status image_vector_begin(context *ctx, int width, int height, image_vector *v, fram_error *error);
+fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *error);
+/* The page as PNG, appended to out; frees the page, also on failure. */
+fram_status image_png(context *ctx, cairo_t *page, text_buffer *out, fram_error *error);
 void image_set_colour(cairo_t *page, image_colour c);
 typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
 /* Text with its baseline at (x, y). */
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
 #endif
+
+/* Colours of a scale from 0 (blue) over 0.5 (white) to 1 (red), the same as in the playback page; r g b from 0 to 1. */
+void image_ramp(double t, double rgb[3]);
 
 /* A round step (1, 2 or 5 times a power of ten) that divides `span` into about `parts`. */
 double image_round_step(double span, int parts);

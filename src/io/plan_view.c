@@ -44,7 +44,13 @@ static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool
         const plan_shape *s = &view->shapes[i];
         used[s->style] = true;
         trace(page, m, s->outline);
-        image_set_colour(page, looks[s->style].fill);
+        image_colour fill = looks[s->style].fill;
+        if (s->has_value) {
+            double rgb[3];
+            image_ramp((double)s->value, rgb);
+            fill = (image_colour){rgb[0], rgb[1], rgb[2]};
+        }
+        image_set_colour(page, fill);
         cairo_fill_preserve(page);
         image_set_colour(page, looks[s->style].line);
         cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
@@ -57,6 +63,65 @@ static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool
     cairo_set_source_rgba(page, 0.85, 0.1, 0.1, 0.8);
     cairo_set_line_width(page, 1.2);
     cairo_stroke(page);
+}
+
+static void draw_marks(cairo_t *page, const map *m, const plan_view *view)
+{
+    cairo_set_source_rgb(page, 0.90, 0.45, 0.0);
+    cairo_set_line_width(page, 1.6);
+    for (int32_t i = 0; i < view->mark_count; i++) {
+        double x = map_x(m, view->marks[i]), y = map_y(m, view->marks[i]), r = 3.5;
+        cairo_move_to(page, x - r, y - r);
+        cairo_line_to(page, x + r, y + r);
+        cairo_move_to(page, x - r, y + r);
+        cairo_line_to(page, x + r, y - r);
+    }
+    cairo_stroke(page);
+}
+
+static void draw_arrows(cairo_t *page, const map *m, const plan_view *view)
+{
+    cairo_set_source_rgb(page, 0.75, 0.05, 0.25);
+    for (int32_t i = 0; i < view->arrow_count; i++) {
+        double x0 = map_x(m, view->arrows[i].from), y0 = map_y(m, view->arrows[i].from);
+        double x1 = map_x(m, view->arrows[i].to), y1 = map_y(m, view->arrows[i].to);
+        double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), head = fmin(9, 0.4 * length);
+        if (!(length > 2))
+            continue;
+        double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
+        cairo_set_line_width(page, 2);
+        cairo_move_to(page, x0, y0);
+        cairo_line_to(page, x1 - ux * head, y1 - uy * head);
+        cairo_stroke(page);
+        cairo_move_to(page, x1, y1);
+        cairo_line_to(page, x1 - ux * head - uy * head * 0.5, y1 - uy * head + ux * head * 0.5);
+        cairo_line_to(page, x1 - ux * head + uy * head * 0.5, y1 - uy * head - ux * head * 0.5);
+        cairo_close_path(page);
+        cairo_fill(page);
+    }
+}
+
+/* Colours of the shapes' values, from least to greatest. */
+static void draw_colour_scale(cairo_t *page, const plan_view *view, double right, double y)
+{
+    enum { BAR = 150, STEPS = 50 };
+    char text[32];
+    snprintf(text, sizeof text, "%.3g", view->scale_hi);
+    image_set_colour(page, ink);
+    right -= image_text_width(page, 12, false, text);
+    image_text(page, right, y, 12, ALIGN_LEFT, false, text);
+    right -= BAR + 8;
+    for (int i = 0; i < STEPS; i++) {
+        double rgb[3];
+        image_ramp((i + 0.5) / STEPS, rgb);
+        cairo_set_source_rgb(page, rgb[0], rgb[1], rgb[2]);
+        cairo_rectangle(page, right + i * BAR / STEPS, y - 11, (double)BAR / STEPS + 0.5, 12);
+        cairo_fill(page);
+    }
+    image_set_colour(page, ink);
+    snprintf(text, sizeof text, "%.3g", view->scale_lo);
+    image_text(page, right - 8, y, 12, ALIGN_RIGHT, false, text);
+    image_text(page, right - 16 - image_text_width(page, 12, false, text), y, 12, ALIGN_RIGHT, false, view->scale_name);
 }
 
 static void draw_scale_bar(cairo_t *page, const map *m, double x, double y)
@@ -105,19 +170,14 @@ static void draw_legend(cairo_t *page, const bool used[PLAN_STYLE_COUNT], double
     }
 }
 
-fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
+enum { MARGIN = 14, ABOVE = 64, BELOW = 44, LEAST_WIDTH = 720 };
+
+void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
 {
     double w = view->window.hi.x - view->window.lo.x, h = view->window.hi.y - view->window.lo.y;
-    if (!(w > 0 && h > 0))
-        return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "the plan view's window is empty");
-    map m = {.left = 14, .top = 64, .scale = longest / fmax(w, h), .window = view->window};
-    int width = (int)fmax(w * m.scale + 28, 720), height = (int)(h * m.scale + 64 + 44);
+    map m = {.top = ABOVE, .window = view->window};
+    m.scale = fmin((width - 2 * MARGIN) / w, (height - ABOVE - BELOW) / h);
     m.left = (width - w * m.scale) / 2;
-    cairo_t *page = NULL;
-    fram_status status = image_begin(width, height, &page, error);
-    if (status != FRAM_OK)
-        return status;
-
     bool used[PLAN_STYLE_COUNT] = {false};
     cairo_save(page);
     cairo_rectangle(page, m.left, m.top, w * m.scale, h * m.scale);
@@ -125,6 +185,8 @@ fram_status plan_view_write(context *ctx, const plan_view *view, const char *pat
     image_set_colour(page, water);
     cairo_paint(page);
     draw_shapes(page, &m, view, used);
+    draw_marks(page, &m, view);
+    draw_arrows(page, &m, view);
     cairo_restore(page);
 
     double below = m.top + h * m.scale + 28;
@@ -133,8 +195,37 @@ fram_status plan_view_write(context *ctx, const plan_view *view, const char *pat
     image_text(page, m.left, 48, 12.5, ALIGN_LEFT, false, view->caption);
     draw_scale_bar(page, &m, m.left, below);
     draw_axes(page, width - 60, 44);
-    draw_legend(page, used, m.left + w * m.scale, below);
-    return image_write(ctx, page, path, error);
+    if (view->scale_name)
+        draw_colour_scale(page, view, m.left + w * m.scale, below);
+    else
+        draw_legend(page, used, m.left + w * m.scale, below);
+}
+
+static fram_status draw_page(const plan_view *view, int longest, cairo_t **page, fram_error *error)
+{
+    double w = view->window.hi.x - view->window.lo.x, h = view->window.hi.y - view->window.lo.y;
+    if (!(w > 0 && h > 0))
+        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the plan view's window is empty");
+    double scale = longest / fmax(w, h);
+    int width = (int)fmax(w * scale + 2 * MARGIN, LEAST_WIDTH), height = (int)(h * scale + ABOVE + BELOW);
+    fram_status status = image_begin(width, height, page, error);
+    if (status == FRAM_OK)
+        plan_view_draw(*page, view, width, height);
+    return status;
+}
+
+fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
+{
+    cairo_t *page = NULL;
+    fram_status status = draw_page(view, longest, &page, error);
+    return status == FRAM_OK ? image_write(ctx, page, path, error) : status;
+}
+
+fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text_buffer *out, fram_error *error)
+{
+    cairo_t *page = NULL;
+    fram_status status = draw_page(view, longest, &page, error);
+    return status == FRAM_OK ? image_png(ctx, page, out, error) : status;
 }
 
 #else
@@ -144,6 +235,12 @@ fram_status plan_view_write(context *ctx, const plan_view *view, const char *pat
     (void)ctx, (void)view, (void)longest;
     return error_set(error, FRAM_ERROR_UNSUPPORTED, path, 0, NULL,
                      "this build has no cairo, so it draws no plan views");
+}
+
+fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text_buffer *out, fram_error *error)
+{
+    (void)out;
+    return plan_view_write(ctx, view, "picture", longest, error);
 }
 
 #endif

@@ -4,6 +4,7 @@
 #define IO_PLAN_VIEW_H
 
 #include "geometry/polygon.h"
+#include "io/text_buffer.h"
 
 typedef enum plan_style {
     PLAN_FLOE = 0,
@@ -18,7 +19,13 @@ typedef enum plan_style {
 typedef struct plan_shape {
     polygon outline; /* global plan coordinates [m] */
     plan_style style;
+    bool has_value; /* filled by `value`, 0 to 1, on the colours of image_ramp instead of its style's colour */
+    float value;
 } plan_shape;
+
+typedef struct plan_arrow {
+    vec2 from, to;
+} plan_arrow;
 
 typedef struct plan_view {
     box2 window; /* shown part [m] */
@@ -28,9 +35,24 @@ typedef struct plan_view {
     int32_t shape_count;
     const vec2 *track; /* path of the vessel [m] */
     int32_t track_count;
+    const vec2 *marks; /* of events: crosses [m] */
+    int32_t mark_count;
+    const plan_arrow *arrows; /* of forces [m] */
+    int32_t arrow_count;
+    const char *scale_name; /* of the shapes' values, with unit; NULL: none */
+    double scale_lo, scale_hi;
 } plan_view;
 
 /* `longest`: pixels of the longer side.  FRAM_ERROR_UNSUPPORTED without cairo. */
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error);
+
+/* The same as PNG in memory, appended to out. */
+fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text_buffer *out, fram_error *error);
+
+#ifdef FRAM_HAVE_CAIRO
+#include <cairo.h>
+/* Into the rectangle of width x height pixels from the origin of a page, title and legend included. */
+void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height);
+#endif
 
 #endif

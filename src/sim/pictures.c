@@ -81,7 +81,7 @@ static fram_status collect(context *ctx, plan_store *p, const world *w, fram_err
     }
     for (int32_t k = 0; k < p->start.count; k++) {
         int32_t first = p->start.data[k], end = k + 1 < p->start.count ? p->start.data[k + 1] : p->vertex.count;
-        plan_shape shape = {{p->vertex.data + first, end - first}, (plan_style)p->style.data[k]};
+        plan_shape shape = {.outline = {p->vertex.data + first, end - first}, .style = (plan_style)p->style.data[k]};
         if (!array_push(ctx, &p->shape, shape))
             return error_memory(error);
     }
@@ -142,16 +142,16 @@ fram_status picture_loads(context *ctx, const scenario *s, const char *folder, f
         }
         int32_t rows = column[TIME].count;
         const chart_line lines[] = {
-            {"along the vessel, each step", column[TIME].data, column[RAW_X].data, rows, false},
-            {"along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true},
-            {"along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true},
+            chart_line_make("along the vessel, each step", column[TIME].data, column[RAW_X].data, rows, false),
+            chart_line_make("along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true),
+            chart_line_make("along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true),
         };
         char subtitle[256];
         snprintf(
             subtitle, sizeof subtitle,
             "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s; a resisting load is negative",
             s->output.averaging_window, mean * 1e-3, s->run.transient);
-        chart c = {"Ice load on the vessel", subtitle, "time [s]", "force [kN]", lines, 3};
+        chart c = chart_make("Ice load on the vessel", subtitle, "time [s]", "force [kN]", lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }
     for (int k = 0; k < COUNT; k++)

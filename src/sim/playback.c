@@ -1,6 +1,7 @@
 #include "sim/playback.h"
 
 #include "io/atomic_file.h"
+#include "io/base64.h"
 #include "io/record.h"
 #include "sim/recorder.h"
 
@@ -10,53 +11,6 @@
 
 enum { PATH_SIZE = 1024, TEMPLATE_LIMIT = 16 << 20 };
 static const char marker[] = "<!--RECORD-->";
-
-/* Bytes as base64 into a file, three at a time with what is left over kept for the next call. */
-typedef struct base64_writer {
-    file_writer *file;
-    unsigned char rest[3];
-    int held;
-} base64_writer;
-
-static void encode(const unsigned char in[3], int count, char out[4])
-{
-    static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    unsigned v = (unsigned)in[0] << 16 | (unsigned)(count > 1 ? in[1] : 0) << 8 | (count > 2 ? in[2] : 0);
-    for (int i = 0; i < 4; i++)
-        out[i] = i <= count ? letters[v >> (18 - 6 * i) & 63] : '=';
-}
-
-static fram_status base64_write(base64_writer *b, const void *data, size_t size, fram_error *error)
-{
-    const unsigned char *bytes = data;
-    char text[4096];
-    size_t filled = 0;
-    for (size_t i = 0; i < size; i++) {
-        b->rest[b->held++] = bytes[i];
-        if (b->held < 3)
-            continue;
-        encode(b->rest, 3, text + filled);
-        filled += 4;
-        b->held = 0;
-        if (filled < sizeof text)
-            continue;
-        fram_status status = file_write(b->file, text, filled, error);
-        if (status != FRAM_OK)
-            return status;
-        filled = 0;
-    }
-    return file_write(b->file, text, filled, error);
-}
-
-static fram_status base64_end(base64_writer *b, fram_error *error)
-{
-    char text[4];
-    if (b->held == 0)
-        return FRAM_OK;
-    encode(b->rest, b->held, text);
-    b->held = 0;
-    return file_write(b->file, text, sizeof text, error);
-}
 
 /* ---- which frames ---- */
 

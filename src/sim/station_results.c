@@ -321,28 +321,26 @@ static fram_status draw(context *ctx, const scenario *s, const station_data *d, 
     }
     const double *time = d->column[TIME].data;
     int32_t n = d->rows;
-    const chart_line footprint[2] = {{"track", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, false},
-                                     {"limit", round_x, round_y, CIRCLE, true}};
-    const chart_line offsets[2] = {{"along X", time, d->column[OFFSET_X].data, n, true},
-                                   {"along Y", time, d->column[OFFSET_Y].data, n, true}};
-    const chart_line heading = {"heading", time, d->column[HEADING].data, n, true};
-    const chart_line loads[2] = {{"along X", time, d->column[LOAD_X].data, n, false},
-                                 {"along Y", time, d->column[LOAD_Y].data, n, true}};
-    const chart_line tension = {"largest of all lines", time, d->column[TENSION].data, n, true};
-    const chart_line power = {"thruster power", time, d->column[POWER].data, n, true};
+    const chart_line footprint[2] = {
+        chart_line_make("track", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, false),
+        chart_line_make("limit", round_x, round_y, CIRCLE, true)};
+    const chart_line offsets[2] = {chart_line_make("along X", time, d->column[OFFSET_X].data, n, true),
+                                   chart_line_make("along Y", time, d->column[OFFSET_Y].data, n, true)};
+    const chart_line heading = chart_line_make("heading", time, d->column[HEADING].data, n, true);
+    const chart_line loads[2] = {chart_line_make("along X", time, d->column[LOAD_X].data, n, false),
+                                 chart_line_make("along Y", time, d->column[LOAD_Y].data, n, true)};
+    const chart_line tension = chart_line_make("largest of all lines", time, d->column[TENSION].data, n, true);
+    const chart_line power = chart_line_make("thruster power", time, d->column[POWER].data, n, true);
     const page_panel panels[5] = {
-        {{"Footprint", "offset of the watched point", "X [m]", "Y [m]", footprint, limit > 0 ? 2 : 1},
-         20,
-         60,
-         620,
-         560,
-         true},
-        {{"Offset", "", "time [s]", "offset [m]", offsets, 2}, 660, 60, 920, 270, false},
-        {{"Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1}, 660, 320, 920, 270, false},
-        {{"Ice load", "averaged", "time [s]", "force [kN]", loads, 2}, 660, 580, 920, 270, false},
+        {chart_make("Footprint", "offset of the watched point", "X [m]", "Y [m]", footprint, limit > 0 ? 2 : 1), 20, 60,
+         620, 560, true},
+        {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},
+        {chart_make("Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1), 660, 320, 920, 270, false},
+        {chart_make("Ice load", "averaged", "time [s]", "force [kN]", loads, 2), 660, 580, 920, 270, false},
         d->lines > 0
-            ? (page_panel){{"Line tension", "", "time [s]", "tension [kN]", &tension, 1}, 660, 840, 920, 270, false}
-            : (page_panel){{"Power", "", "time [s]", "power [MW]", &power, 1}, 660, 840, 920, 270, false},
+            ? (page_panel){chart_make("Line tension", "", "time [s]", "tension [kN]", &tension, 1), 660, 840, 920, 270,
+                           false}
+            : (page_panel){chart_make("Power", "", "time [s]", "power [MW]", &power, 1), 660, 840, 920, 270, false},
     };
     const page p = {s->title[0] ? s->title : "Fram", panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
     return page_write(ctx, &p, path, error);

@@ -1,0 +1,193 @@
+/* fram report, plot, compare and video: results for people. */
+#include "cli/cli.h"
+
+#include "fram/results.h"
+#include <math.h>
+#include <string.h>
+
+static void print_file(const common_options *common, const char *path, const char *advice)
+{
+    if (!common->quiet)
+        fprintf(stderr, "%s%s\n", path, advice);
+    if (!common->json)
+        return;
+    json j = json_begin();
+    json_text(&j, "file", path);
+    json_end(&j);
+}
+
+int command_report(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run = NULL, *output = NULL;
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &output, "FILE", "the page (RUN/report.html)"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    fram_result result = {0};
+    fram_error error = {0};
+    if (fram_report(context, run, output, &result, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = EXIT_GOOD;
+        print_file(&common, result.path, ": open it in a browser, or print it");
+    }
+    fram_context_destroy(context);
+    return code;
+}
+
+/* ---- plot ---- */
+
+enum { CHANNELS_MOST = 64 };
+
+static fram_status list_channels(fram_context *context, const char *run, fram_error *error)
+{
+    char *text = NULL;
+    fram_status status = fram_channels(context, run, &text, error);
+    if (status == FRAM_OK)
+        fputs(text, stdout);
+    fram_text_free(context, text);
+    return status;
+}
+
+int command_plot(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *word[1 + CHANNELS_MOST] = {NULL}, *output = NULL;
+    double from = (double)NAN, to = (double)NAN;
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &output, "FILE", "the picture, .png or .svg (required with channels)"},
+        {"--from", NULL, OPTION_REAL, &from, "T", "begin at this time [s]"},
+        {"--to", NULL, OPTION_REAL, &to, "T", "end at this time [s]"},
+    };
+    int code =
+        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, word, 1, 1 + CHANNELS_MOST);
+    if (code >= 0)
+        return code;
+    int count = 0;
+    while (count < CHANNELS_MOST && word[1 + count])
+        count++;
+    if (count > 0 && !output)
+        return answer_usage(&common, "--output", "is missing: name the picture, -o FILE.png or FILE.svg");
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    fram_error error = {0};
+    fram_status status = count == 0 ? list_channels(context, word[0], &error)
+                                    : fram_plot(context, word[0], word + 1, count, from, to, output, &error);
+    code = status == FRAM_OK ? EXIT_GOOD : answer_error(&common, &error);
+    if (status == FRAM_OK && count > 0)
+        print_file(&common, output, "");
+    fram_context_destroy(context);
+    return code;
+}
+
+/* ---- compare ---- */
+
+static void print_rows(const fram_comparison *c)
+{
+    printf("%-38s %14s %14s %14s\n", "after the transient", "A", "B", "B - A");
+    for (int i = 0; i < c->count; i++) {
+        const fram_comparison_row *row = &c->rows[i];
+        char name[96];
+        snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
+        printf("%-38s %14.6g %14.6g %14.4g\n", name, row->a, row->b, row->b - row->a);
+    }
+    printf("scenarios: %s; states at the end: %s\n", c->same_scenario ? "the same" : "different",
+           c->same_state ? "the same to the bit" : "different");
+}
+
+static void print_comparison(const common_options *common, const fram_comparison *c, const char *output)
+{
+    if (!common->json) {
+        print_rows(c);
+        if (output && !common->quiet)
+            fprintf(stderr, "%s: open it in a browser\n", output);
+        return;
+    }
+    json j = json_begin();
+    json_boolean(&j, "same_scenario", c->same_scenario);
+    json_boolean(&j, "same_state", c->same_state);
+    json_open_list(&j, "rows");
+    for (int i = 0; i < c->count; i++) {
+        json_open(&j, NULL);
+        json_text(&j, "name", c->rows[i].name);
+        json_text(&j, "unit", c->rows[i].unit);
+        json_real(&j, "a", c->rows[i].a);
+        json_real(&j, "b", c->rows[i].b);
+        json_close(&j);
+    }
+    json_close_list(&j);
+    json_end(&j);
+}
+
+int command_compare(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run[2] = {NULL, NULL}, *output = NULL;
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &output, "FILE", "also a page with plots of both, .html"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, run, 2);
+    if (code >= 0)
+        return code;
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    fram_comparison comparison;
+    fram_error error = {0};
+    if (fram_compare(context, run[0], run[1], output, &comparison, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = EXIT_GOOD;
+        print_comparison(&common, &comparison, output);
+        fram_comparison_free(context, &comparison);
+    }
+    fram_context_destroy(context);
+    return code;
+}
+
+/* ---- video ---- */
+
+int command_video(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run = NULL;
+    fram_video_definition d;
+    fram_video_default(&d);
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the video (RUN/run.mp4), or the folder of --pictures"},
+        {"--colour", NULL, OPTION_TEXT, &d.colour, "NAME", "plain, speed (default), force, thickness or age"},
+        {"--speed", NULL, OPTION_REAL, &d.speed, "X", "simulated seconds a second (as many as make 30 s at most)"},
+        {"--span", NULL, OPTION_REAL, &d.span, "M", "follow the vessel, M metres across"},
+        {"--fps", NULL, OPTION_INTEGER, &d.frames_per_second, "N", "frames a second (25)"},
+        {"--width", NULL, OPTION_INTEGER, &d.width, "PX", "pixels across (1280)"},
+        {"--height", NULL, OPTION_INTEGER, &d.height, "PX", "pixels upwards (720)"},
+        {"--pictures", NULL, OPTION_FLAG, &d.pictures, NULL, "numbered PNG files instead; needs no ffmpeg"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    fram_result result = {0};
+    fram_error error = {0};
+    if (fram_video(context, run, &d, &result, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = EXIT_GOOD;
+        print_file(&common, result.path, "");
+    }
+    fram_context_destroy(context);
+    return code;
+}

@@ -1,0 +1,220 @@
+#include "io/html_page.h"
+
+#include "io/base64.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const char style[] =
+    "<style>\n"
+    ":root{--ink:#15222e;--soft:#5b6b7a;--line:#dde4ea;--blue:#00457f;--pale:#f4f7fa}\n"
+    "*{box-sizing:border-box}\n"
+    "body{margin:0 auto;max-width:1120px;padding:36px 40px 60px;color:var(--ink);background:#fff;"
+    "font:15px/1.5 system-ui,-apple-system,\"Segoe UI\",\"DejaVu Sans\",sans-serif}\n"
+    "header{border-bottom:3px solid var(--blue);padding-bottom:14px;margin-bottom:22px}\n"
+    "h1{font-size:28px;line-height:1.2;margin:0 0 6px}\n"
+    "header p{margin:0;color:var(--soft)}\n"
+    "h2{font-size:19px;margin:38px 0 12px;color:var(--blue);border-bottom:1px solid var(--line);padding-bottom:5px;"
+    "break-after:avoid}\n"
+    "p{margin:8px 0;max-width:86ch}\n"
+    ".figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(165px,1fr));gap:12px;margin:14px 0}\n"
+    ".figure{background:var(--pale);border:1px solid var(--line);border-radius:8px;padding:11px 14px;"
+    "break-inside:avoid}\n"
+    ".figure b{display:block;font-size:23px;line-height:1.25;font-variant-numeric:tabular-nums}\n"
+    ".figure b small{font-size:14px;font-weight:500;color:var(--soft)}\n"
+    ".figure span{font-size:12.5px;color:var(--soft)}\n"
+    "table{border-collapse:collapse;width:100%;margin:10px 0 16px;font-size:13.5px;font-variant-numeric:tabular-nums}\n"
+    "th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1.5px solid var(--line);padding:5px 10px 5px 0}\n"
+    "td{border-bottom:1px solid var(--line);padding:5px 10px 5px 0;vertical-align:top;overflow-wrap:anywhere}\n"
+    "td.n{text-align:right}th.n{text-align:right}\n"
+    "tr{break-inside:avoid}\n"
+    ".grid{display:grid;grid-template-columns:1fr 1fr;gap:16px;margin:12px 0}\n"
+    ".grid figure{margin:0;break-inside:avoid}.grid figure.wide{grid-column:1/-1}\n"
+    "figure img{width:100%;height:auto;display:block;border:1px solid var(--line);border-radius:8px}\n"
+    "figcaption{font-size:12.5px;color:var(--soft);padding-top:4px}\n"
+    "pre{font:11px/1.45 ui-monospace,\"DejaVu Sans Mono\",monospace;background:var(--pale);border:1px solid var(--line);"
+    "border-radius:8px;padding:12px 14px;white-space:pre-wrap;overflow-wrap:anywhere;columns:2;column-gap:28px}\n"
+    "@media(max-width:760px){.grid{grid-template-columns:1fr}body{padding:20px}pre{columns:1}}\n"
+    "@media print{@page{size:A4;margin:14mm}body{padding:0;max-width:none;font-size:10.5pt}h2{margin-top:20pt}"
+    "table{font-size:9pt}.figure b{font-size:15pt}pre{font-size:6.5pt;border:none;padding:0}"
+    "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}\n"
+    "</style>\n";
+
+static void add(html_page *p, const char *text) { text_add(p->ctx, &p->text, text); }
+
+void html_escaped(html_page *p, const char *text)
+{
+    for (const char *c = text; *c; c++) {
+        if (*c == '&')
+            add(p, "&amp;");
+        else if (*c == '<')
+            add(p, "&lt;");
+        else if (*c == '>')
+            add(p, "&gt;");
+        else if (*c == '"')
+            add(p, "&quot;");
+        else
+            text_add_bytes(p->ctx, &p->text, c, 1);
+    }
+}
+
+void html_begin(html_page *p, const char *title, const char *subtitle)
+{
+    add(p, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
+    html_escaped(p, title);
+    add(p, "</title>\n");
+    add(p, style);
+    add(p, "</head>\n<body>\n<header>\n<h1>");
+    html_escaped(p, title);
+    add(p, "</h1>\n<p>");
+    html_escaped(p, subtitle);
+    add(p, "</p>\n</header>\n");
+}
+
+void html_end(html_page *p) { add(p, "</body>\n</html>\n"); }
+
+void html_free(html_page *p) { text_free(p->ctx, &p->text); }
+
+void html_section(html_page *p, const char *title)
+{
+    add(p, "<h2>");
+    html_escaped(p, title);
+    add(p, "</h2>\n");
+}
+
+/* The text of a printf, escaped; longer than any line of a page is cut. */
+static void add_formatted(html_page *p, const char *format, va_list arguments)
+{
+    char text[2048];
+    vsnprintf(text, sizeof text, format, arguments);
+    html_escaped(p, text);
+}
+
+void html_paragraph(html_page *p, const char *format, ...)
+{
+    va_list arguments;
+    add(p, "<p>");
+    va_start(arguments, format);
+    add_formatted(p, format, arguments);
+    va_end(arguments);
+    add(p, "</p>\n");
+}
+
+void html_figures_begin(html_page *p) { add(p, "<div class=\"figures\">\n"); }
+
+void html_figure(html_page *p, const char *name, const char *value, const char *unit)
+{
+    add(p, "<div class=\"figure\"><b>");
+    html_escaped(p, value);
+    add(p, " <small>");
+    html_escaped(p, unit);
+    add(p, "</small></b><span>");
+    html_escaped(p, name);
+    add(p, "</span></div>\n");
+}
+
+void html_figures_end(html_page *p) { add(p, "</div>\n"); }
+
+/* The first column holds names, the others numbers. */
+void html_table_begin(html_page *p, const char *const *heads, int32_t count)
+{
+    add(p, "<table>\n");
+    if (count > 0)
+        add(p, "<thead><tr>");
+    for (int32_t i = 0; i < count; i++) {
+        add(p, i > 0 ? "<th class=\"n\">" : "<th>");
+        html_escaped(p, heads[i]);
+        add(p, "</th>");
+    }
+    add(p, count > 0 ? "</tr></thead>\n<tbody>\n" : "<tbody>\n");
+}
+
+void html_row_begin(html_page *p) { add(p, "<tr>"); }
+
+void html_cell(html_page *p, const char *text)
+{
+    add(p, "<td>");
+    html_escaped(p, text);
+    add(p, "</td>");
+}
+
+void html_number_text(double value, char out[32])
+{
+    double size = fabs(value);
+    if (value != value)
+        snprintf(out, 32, "\xe2\x80\x93");
+    else if (size >= 1e6 || (size > 0 && size < 1e-3))
+        snprintf(out, 32, "%.3e", value);
+    else if (size >= 1000)
+        snprintf(out, 32, "%.0f", value);
+    else
+        snprintf(out, 32, "%.4g", value);
+}
+
+void html_number(html_page *p, double value)
+{
+    char text[32];
+    html_number_text(value, text);
+    add(p, "<td class=\"n\">");
+    add(p, text);
+    add(p, "</td>");
+}
+
+void html_row_end(html_page *p) { add(p, "</tr>\n"); }
+
+void html_table_end(html_page *p) { add(p, "</tbody>\n</table>\n"); }
+
+void html_fact(html_page *p, const char *name, const char *format, ...)
+{
+    va_list arguments;
+    html_row_begin(p);
+    html_cell(p, name);
+    add(p, "<td>");
+    va_start(arguments, format);
+    add_formatted(p, format, arguments);
+    va_end(arguments);
+    add(p, "</td>");
+    html_row_end(p);
+}
+
+void html_grid_begin(html_page *p) { add(p, "<div class=\"grid\">\n"); }
+void html_grid_end(html_page *p) { add(p, "</div>\n"); }
+
+fram_status html_chart(html_page *p, const chart *c, bool wide, fram_error *error)
+{
+    enum { HALF = 620, WHOLE = 1240, HEIGHT = 400 };
+    text_buffer svg = {0};
+    fram_status status = chart_svg(p->ctx, c, wide ? WHOLE : HALF, HEIGHT, &svg, error);
+    if (status == FRAM_OK) {
+        add(p, wide ? "<figure class=\"wide\"><img alt=\"" : "<figure><img alt=\"");
+        html_escaped(p, c->title);
+        add(p, "\" src=\"data:image/svg+xml;base64,");
+        base64_text(p->ctx, &p->text, svg.data, (size_t)svg.count);
+        add(p, "\"></figure>\n");
+    } else if (status == FRAM_ERROR_UNSUPPORTED) {
+        html_paragraph(p, "%s: not drawn, for this build has no cairo.", c->title);
+        status = FRAM_OK;
+    }
+    text_free(p->ctx, &svg);
+    return status;
+}
+
+void html_picture(html_page *p, const void *png, size_t size, const char *caption)
+{
+    add(p, "<figure><img alt=\"");
+    html_escaped(p, caption);
+    add(p, "\" src=\"data:image/png;base64,");
+    base64_text(p->ctx, &p->text, png, size);
+    add(p, "\"><figcaption>");
+    html_escaped(p, caption);
+    add(p, "</figcaption></figure>\n");
+}
+
+void html_verbatim(html_page *p, const char *text)
+{
+    add(p, "<pre>");
+    html_escaped(p, text);
+    add(p, "</pre>\n");
+}

@@ -1,0 +1,53 @@
+/* Pages for people: one self-contained HTML file with headings, tables, figures of numbers, charts (SVG inside) and
+   pictures (PNG inside); no script, nothing fetched; laid out for the screen and for A4.  Knows the form; must not know
+   what a page is about.  Failures of memory are kept in the text buffer. */
+#ifndef IO_HTML_PAGE_H
+#define IO_HTML_PAGE_H
+
+#include "io/chart.h"
+
+typedef struct html_page {
+    context *ctx;
+    text_buffer text;
+} html_page;
+
+/* The head and the heading; subtitle may be "". */
+void html_begin(html_page *p, const char *title, const char *subtitle);
+void html_end(html_page *p);
+void html_free(html_page *p);
+
+void html_section(html_page *p, const char *title);
+/* printf; the text is escaped. */
+void html_paragraph(html_page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void html_escaped(html_page *p, const char *text);
+
+/* A row of large figures: begin, figures, end. */
+void html_figures_begin(html_page *p);
+void html_figure(html_page *p, const char *name, const char *value, const char *unit);
+void html_figures_end(html_page *p);
+
+/* A table: begin with the columns' heads; cells row by row; numbers stand right. */
+void html_table_begin(html_page *p, const char *const *heads, int32_t count);
+void html_row_begin(html_page *p);
+void html_cell(html_page *p, const char *text);
+/* To four significant digits; a NaN is a dash. */
+void html_number(html_page *p, double value);
+void html_row_end(html_page *p);
+void html_table_end(html_page *p);
+/* Two cells: a name and a text. */
+void html_fact(html_page *p, const char *name, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Charts and pictures stand side by side in a grid where there is room. */
+void html_grid_begin(html_page *p);
+void html_grid_end(html_page *p);
+/* Without cairo a note stands in its place.  wide: over the whole width of the page. */
+fram_status html_chart(html_page *p, const chart *c, bool wide, fram_error *error);
+/* A PNG. */
+void html_picture(html_page *p, const void *png, size_t size, const char *caption);
+/* Text as it stands, in small type. */
+void html_verbatim(html_page *p, const char *text);
+
+/* A number to four significant digits, as html_number writes it. */
+void html_number_text(double value, char out[32]);
+
+#endif

@@ -1,0 +1,126 @@
+#include "io/video_file.h"
+
+#include "io/atomic_file.h"
+
+#include <errno.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+static void forget(video_file *v)
+{
+    if (v->socket >= 0)
+        close(v->socket);
+    memory_free(v->ctx, v->path);
+    memory_free(v->ctx, v->temporary);
+    *v = (video_file){.socket = -1};
+}
+
+/* A socket, not a pipe: writing to an ffmpeg that went away is an error (MSG_NOSIGNAL), not a signal to the caller. */
+static fram_status start(video_file *v, char *const *arguments, fram_error *error)
+{
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0)
+        return file_error(error, v->path, "make a pipe", errno);
+    posix_spawn_file_actions_t actions;
+    pid_t process = 0;
+    int code = posix_spawn_file_actions_init(&actions);
+    if (code == 0) {
+        code = posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
+        if (code == 0)
+            code = posix_spawn_file_actions_addclose(&actions, ends[0]);
+        if (code == 0)
+            code = posix_spawnp(&process, arguments[0], &actions, NULL, arguments, environ);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+    close(ends[1]);
+    v->socket = ends[0];
+    v->process = (int)process;
+    if (code == 0)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, v->path, 0, NULL,
+                     "a video needs ffmpeg, which cannot be started (%s); install it (Debian: apt install ffmpeg)",
+                     strerror(code));
+}
+
+fram_status video_begin(context *ctx, const char *path, int width, int height, int frames_per_second, video_file *v,
+                        fram_error *error)
+{
+    size_t length = strlen(path) + 5;
+    *v = (video_file){.ctx = ctx, .socket = -1, .path = memory_string(ctx, path)};
+    v->temporary = memory_array(ctx, length, 1);
+    if (!v->path || !v->temporary) {
+        forget(v);
+        return error_memory(error);
+    }
+    snprintf(v->temporary, length, "%s.new", path);
+    char size[32], rate[16];
+    snprintf(size, sizeof size, "%dx%d", width, height);
+    snprintf(rate, sizeof rate, "%d", frames_per_second);
+    /* What spawn takes is not const, and it changes nothing. */
+    char *const arguments[] = {"ffmpeg",    "-y",         "-loglevel", "error",    "-f",         "rawvideo", "-pix_fmt",
+                               "bgr0",      "-s",         size,        "-r",       rate,         "-i",       "pipe:0",
+                               "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p",    "-crf",     "21",
+                               "-movflags", "+faststart", "-f",        "mp4",      v->temporary, NULL};
+    fram_status status = start(v, arguments, error);
+    if (status != FRAM_OK)
+        forget(v);
+    return status;
+}
+
+fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_error *error)
+{
+    const char *at = pixels;
+    while (size > 0) {
+        ssize_t sent = send(v->socket, at, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            return error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "ffmpeg stopped taking frames; see what it said");
+        at += sent;
+        size -= (size_t)sent;
+    }
+    return FRAM_OK;
+}
+
+/* True when it ended well. */
+static bool wait_for(const video_file *v)
+{
+    int how = 0;
+    while (waitpid((pid_t)v->process, &how, 0) < 0) {
+        if (errno != EINTR)
+            return false;
+    }
+    return WIFEXITED(how) && WEXITSTATUS(how) == 0;
+}
+
+fram_status video_end(video_file *v, fram_error *error)
+{
+    close(v->socket);
+    v->socket = -1;
+    fram_status status = FRAM_OK;
+    if (wait_for(v)) {
+        status = atomic_file_adopt(v->ctx, v->temporary, v->path, error);
+    } else {
+        unlink(v->temporary);
+        status = error_set(error, FRAM_ERROR_IO, v->path, 0, NULL, "ffmpeg could not make the video; see what it said");
+    }
+    forget(v);
+    return status;
+}
+
+void video_abandon(video_file *v)
+{
+    if (!v->path)
+        return;
+    kill((pid_t)v->process, SIGTERM);
+    (void)wait_for(v);
+    unlink(v->temporary);
+    forget(v);
+}

@@ -1,0 +1,23 @@
+/* MP4 files: frames of pixels piped to ffmpeg, which must be installed.  The file is whole or not there. */
+#ifndef IO_VIDEO_FILE_H
+#define IO_VIDEO_FILE_H
+
+#include "base/context.h"
+
+typedef struct video_file {
+    context *ctx;
+    char *path, *temporary;
+    int socket; /* to ffmpeg's standard input */
+    int process;
+} video_file;
+
+/* FRAM_ERROR_UNSUPPORTED when ffmpeg cannot be started.  width and height: even. */
+fram_status video_begin(context *ctx, const char *path, int width, int height, int frames_per_second, video_file *v,
+                        fram_error *error);
+/* One frame of width x height pixels of 4 bytes: blue, green, red, unused. */
+fram_status video_frame(video_file *v, const void *pixels, size_t size, fram_error *error);
+/* Wait for ffmpeg and give the file its name. */
+fram_status video_end(video_file *v, fram_error *error);
+void video_abandon(video_file *v);
+
+#endif

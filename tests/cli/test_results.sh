@@ -1,0 +1,133 @@
+#!/usr/bin/env bash
+# export, report, plot, compare and video as a user meets them; what other programs read is looked at in tests/views.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+expect() {
+    local wanted=$1 code=0
+    shift
+    "$@" >out 2>err || code=$?
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
+}
+says() { grep -q -- "$1" err || fail "standard error lacks '$1': $(cat err)"; }
+holds() { grep -q -- "$2" "$1" || fail "$1 lacks '$2'"; }
+
+cat >scene.yaml <<'YAML'
+title: A <short> run & its results
+run: {duration: 3, time_step: 0.02}
+vessel:
+  mode: towed
+  x: -26
+  speed: 3
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+ice:
+  source: floes
+  thickness: 0.5
+  breakable: true
+  floes:
+    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}
+    - {length: 40, width: 20, x: 20.5, y: -11}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}
+output: {frame_interval: 0.5}
+YAML
+"$FRAM" run scene.yaml -o run -q
+"$FRAM" run scene.yaml -o thin -q --set ice.thickness=0.4
+pictures=no
+! "$FRAM" --version | grep -q cairo || pictures=yes
+
+# Help, and words that do not fit.
+for command in export report plot compare video; do
+    expect 0 "$FRAM" $command --help
+    grep -q "Examples:" out || fail "$command --help shows no example"
+    expect 2 "$FRAM" $command
+    expect 2 "$FRAM" $command nowhere thin -o "$scratch/x.html" --vtk
+done
+expect 2 "$FRAM" export run
+says "name one format"
+expect 2 "$FRAM" export run --geojson
+says "--time T"
+expect 2 "$FRAM" export run --vtk --time 3
+expect 2 "$FRAM" export run --vtk --every 0
+expect 2 "$FRAM" export scene.yaml --vtk
+
+# Export.
+expect 0 "$FRAM" export run --vtk --json
+holds out '"frames":7'
+holds run/vtk/run.pvd 'data/hull_000006.vtp'
+expect 0 "$FRAM" export run --geojson --time 1.25 -o half.geojson -q
+python3 -c 'import json; f = json.load(open("half.geojson")); assert abs(f["time"] - 1.25) < 1e-9 and len(f["features"]) > 3'
+if "$FRAM" --version | grep -q netcdf; then
+    expect 0 "$FRAM" export run --netcdf -q
+    [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
+else
+    expect 1 "$FRAM" export run --netcdf -q
+fi
+
+# A report says all that it should, holds all that it shows, and fetches nothing.
+expect 0 "$FRAM" report run
+for part in "A &lt;short&gt; run &amp; its results" "<h2>Scenario" "<h2>Ice load" "<h2>Ice field" "<h2>Fracture" \
+    "<h2>Mass and energy" "<h2>Quality of the solution" "<h2>Origin" "not accounted for" "SHA-256"; do
+    holds run/report.html "$part"
+done
+grep -oE '(src|href)="[^"]{0,20}' run/report.html | grep -v '"data:image' && fail "the report fetches something"
+! grep -q '<script' run/report.html || fail "the report has a script"
+[ $pictures = no ] || holds run/report.html 'data:image/svg+xml;base64'
+python3 - <<'PY' || fail "the report's HTML does not nest"
+from html.parser import HTMLParser
+class Nest(HTMLParser):
+    stack = []
+    def handle_starttag(self, tag, attrs):
+        if tag not in ("meta", "img"): self.stack.append(tag)
+    def handle_endtag(self, tag):
+        assert self.stack.pop() == tag, tag
+n = Nest()
+n.feed(open("run/report.html").read())
+assert not n.stack
+PY
+
+# Plots.
+expect 0 "$FRAM" plot run
+holds out '^position_x \[m\]$'
+if [ $pictures = yes ]; then
+    expect 0 "$FRAM" plot run roll ice_force_averaged_x -o two.png --from 1 --to 2
+    [ "$(head -c 4 two.png | tail -c 3)" = PNG ] || fail "two.png is no PNG"
+    expect 0 "$FRAM" plot run roll -o one.svg
+    holds one.svg "<svg"
+    expect 2 "$FRAM" plot run rolll -o no.png
+    says "did you mean roll"
+    expect 2 "$FRAM" plot run roll -o no.png --from 9
+fi
+expect 2 "$FRAM" plot run roll
+says "--output"
+
+# Two runs.
+expect 0 "$FRAM" compare run run --json
+holds out '"same_state":true'
+expect 0 "$FRAM" compare run thin -o both.html
+holds out "scenarios: different"
+holds out "ice load along X, mean"
+holds both.html "Two runs beside each other"
+
+# Video: frames without ffmpeg; with ffmpeg the file; without it a clear word.
+if [ $pictures = yes ]; then
+    expect 0 "$FRAM" video run --pictures --fps 2 --colour force --width 640 --height 480 -o frames
+    [ "$(find frames -name 'frame-*.png' | wc -l)" = 7 ] || fail "not 7 frames: $(ls frames)"
+    expect 2 "$FRAM" video run --colour red
+    expect 2 "$FRAM" video run --width 641
+    expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4
+    says "needs ffmpeg"
+    if command -v ffmpeg >/dev/null; then
+        expect 0 "$FRAM" video run --fps 4 --width 640 --height 480 --span 80 -o run.mp4
+        [ "$(head -c 8 run.mp4 | tail -c 4)" = ftyp ] || fail "run.mp4 is no MP4"
+    fi
+fi
+[ -z "$(find . -name '*.new')" ] || fail "half-written files are left: $(find . -name '*.new')"
+
+[ $failures = 0 ] || exit 1
+echo "results are as a user expects them"
