@@ -115,7 +115,7 @@ static void draw_colour_scale(cairo_t *page, const plan_view *view, double right
         double rgb[3];
         image_ramp((i + 0.5) / STEPS, rgb);
         cairo_set_source_rgb(page, rgb[0], rgb[1], rgb[2]);
-        cairo_rectangle(page, right + i * BAR / STEPS, y - 11, (double)BAR / STEPS + 0.5, 12);
+        cairo_rectangle(page, right + (double)i * BAR / STEPS, y - 11, (double)BAR / STEPS + 0.5, 12);
         cairo_fill(page);
     }
     image_set_colour(page, ink);

@@ -110,7 +110,7 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
         status = error_memory(error);
     else if (!p.time)
         status = no_channel(&d, "time", error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && p.time)
         choose_rows(&p, from, to, d.series.rows);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++)
         status = add_channel(&p, &d, channels[i], error);

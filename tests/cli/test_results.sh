@@ -61,7 +61,11 @@ expect 0 "$FRAM" export run --vtk --json
 holds out '"frames":7'
 holds run/vtk/run.pvd 'data/hull_000006.vtp'
 expect 0 "$FRAM" export run --geojson --time 1.25 -o half.geojson -q
-python3 -c 'import json; f = json.load(open("half.geojson")); assert abs(f["time"] - 1.25) < 1e-9 and len(f["features"]) > 3'
+python3 - <<'PY' || fail "half.geojson is not the field at 1.25 s"
+import json
+field = json.load(open("half.geojson"))
+assert abs(field["time"] - 1.25) < 1e-9 and len(field["features"]) > 3
+PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"

@@ -1,38 +1,54 @@
 // The page: reads the record that stands in it, and plays it.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { History } from './history.js';
 import { Poses } from './poses.js';
-import { readRecord, titleOf } from './record.js';
-import { Scene } from './scene.js';
+import { bytesOf, Chunks, FrameStore, readRecord, titleOf } from './record.js';
+import { own, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
 
 const $ = (id) => document.getElementById(id);
 const SPEEDS = [0.25, 0.5, 1, 2, 5, 10, 20, 60];
-
-function bytesOf(base64) {
-    const text = atob(base64.trim()), bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
-    return bytes.buffer;
-}
+const MARKED = 10; // seconds that a fracture stays marked
+const COLOURS = {
+    plain: { unit: null },
+    speed: { unit: 'speed [m/s]' },
+    force: { unit: 'contact force [kN]' },
+    thickness: { unit: 'thickness [m]' },
+    age: { unit: 'time since it broke off [s]' },
+};
 
 class Player {
     constructor(record) {
         this.record = record;
-        this.poses = new Poses(record);
-        this.scene = new Scene($('view'), record, this.poses);
-        this.controls = new OrbitControls(this.scene.camera, $('view'));
-        this.timeline = new Timeline($('timeline'), record.frames, (t) => { this.time = t; this.dirty = true; });
+        this.store = new FrameStore(record, new Chunks($('record').dataset.beside || '', () => { this.dirty = true; }));
+        this.poses = new Poses(record, this.store);
         this.time = record.frames[0].time;
         this.end = record.frames.at(-1).time;
-        this.hull = record.bodies.find((b) => b.material === 'hull');
-        this.ranges = { thickness: this.range((b) => b.thickness), speed: [0, this.topSpeed()] };
         this.playing = false;
+        this.picked = null;
         this.dirty = true;
         $('title').textContent = titleOf(record) || 'Fram';
+        this.begin();
+    }
+
+    /** When the first frame is there, which may lie in a file beside the page. */
+    begin() {
+        const { record } = this, first = this.store.get(0);
+        if (!first) { setTimeout(() => this.begin(), 20); return; }
+        this.scene = new Scene($('view'), record, this.poses, first);
+        this.controls = new OrbitControls(this.scene.camera, $('view'));
+        this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t));
+        this.history = new History($('history'), record, this.store);
+        this.hull = record.bodies.find((b) => b.material === 'hull');
+        this.rgb = new Float32Array(3 * record.bodies.length);
+        this.poses.show(0);
+        this.findRanges();
         this.connect();
         this.placeCamera();
         this.resize();
         this.legend();
+        this.ready = true;
         requestAnimationFrame((now) => this.tick(now));
     }
 
@@ -41,38 +57,79 @@ class Player {
         $('play').onclick = () => this.toggle();
         $('camera').onchange = () => this.placeCamera();
         $('colour').onchange = () => { this.legend(); this.dirty = true; };
+        $('forces').onchange = () => { this.legend(); this.dirty = true; };
+        $('still').onclick = () => this.still();
+        $('film').onclick = () => this.film();
         this.controls.addEventListener('change', () => { this.dirty = true; });
         window.addEventListener('resize', () => this.resize());
-        window.addEventListener('keydown', (e) => { if (e.code === 'Space') { e.preventDefault(); this.toggle(); } });
+        window.addEventListener('keydown', (e) => this.key(e));
+        const canvas = $('view');
+        canvas.addEventListener('pointerdown', (e) => { this.pressed = [e.clientX, e.clientY]; });
+        canvas.addEventListener('pointerup', (e) => {
+            const [x, y] = this.pressed ?? [0, 0];
+            if (Math.hypot(e.clientX - x, e.clientY - y) < 4) this.pickAt(e.clientX, e.clientY);
+        });
+    }
+
+    key(e) {
+        const frames = this.record.frames, now = Math.round(this.frameAt(this.time));
+        if (e.code === 'Space') this.toggle();
+        else if (e.code === 'ArrowRight') this.seek(frames[Math.min(now + 1, frames.length - 1)].time);
+        else if (e.code === 'ArrowLeft') this.seek(frames[Math.max(now - 1, 0)].time);
+        else if (e.code === 'Home') this.seek(frames[0].time);
+        else if (e.code === 'End') this.seek(this.end);
+        else return;
+        e.preventDefault();
+    }
+
+    seek(time) {
+        this.time = Math.min(this.end, Math.max(this.record.frames[0].time, time));
+        this.dirty = true;
     }
 
     toggle() {
         if (this.time >= this.end) this.time = this.record.frames[0].time;
         this.playing = !this.playing;
+        this.dirty = true;
         $('play').innerHTML = this.playing ? '&#10074;&#10074;' : '&#9654;';
     }
 
-    range(value) {
-        const all = this.record.bodies.filter((b) => b.material === 'ice').map(value);
-        return all.length ? [Math.min(...all), Math.max(...all)] : [0, 1];
-    }
-
-    /** The 99th percentile of the floes' speeds at some frames. */
-    topSpeed() {
-        const all = [], n = this.record.frames.length;
+    /** Ends of the colours: the 99th percentile of some frames that need no file from beside the page. */
+    findRanges() {
+        const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
+        const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [], force = [];
+        let strongest = 0;
         for (let k = 0; k < Math.min(n, 12); k++) {
-            this.poses.show(Math.floor(k * (n - 1) / 12));
-            for (const b of this.record.bodies)
-                if (b.material === 'ice' && this.poses.shown[b.index]) all.push(this.poses.speed[b.index]);
+            const f = Math.floor(k * (n - 1) / 12);
+            if (!record.frames[f].view || !poses.show(f)) continue;
+            for (const b of ice) {
+                if (!poses.shown[b.index]) continue;
+                speed.push(poses.speed[b.index]);
+                if (poses.contact[b.index] > 0) force.push(poses.contact[b.index]);
+            }
+            for (const f of poses.forces) strongest = Math.max(strongest, Math.hypot(...f.force));
         }
-        all.sort((a, b) => a - b);
-        return Math.max(0.05, all[Math.floor(0.99 * (all.length - 1))] || 0);
+        const high = (all, least) => Math.max(least,
+            Float64Array.from(all).sort()[Math.floor(0.99 * (all.length - 1))] || 0);
+        const least = (all) => all.reduce((a, b) => Math.min(a, b), Infinity);
+        const most = (all) => all.reduce((a, b) => Math.max(a, b), -Infinity);
+        this.ranges = {
+            speed: [0, high(speed, 0.05)],
+            force: [0, high(force, 1)],
+            thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
+            age: [0, Math.max(10, 0.25 * (this.end - this.time))],
+        };
+        const size = this.scene.box.getSize(new THREE.Vector3());
+        const forces = most(record.frames.map((f) => Math.hypot(...f.force)));
+        this.strongest = Math.max(strongest, forces, 1);
+        this.arrowScale = 0.12 * Math.max(size.x, size.y) / this.strongest;
+        this.scene.arrowWidth = 0.05 * Math.max(size.x, size.y);
     }
 
     centre() {
         if (this.hull) {
             const at = 7 * this.hull.index;
-            return new THREE.Vector3(...this.poses.pose.subarray(at, at + 2), 0);
+            return new THREE.Vector3(this.poses.pose[at], this.poses.pose[at + 1], 0);
         }
         return this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
     }
@@ -103,33 +160,145 @@ class Player {
         return span > 0 ? lo + Math.min(1, Math.max(0, (time - frames[lo].time) / span)) : lo;
     }
 
-    colour(body) {
-        const mode = $('colour').value;
-        if (mode === 'plain' || body.material !== 'ice') return null;
-        const [lo, hi] = this.ranges[mode], value = mode === 'speed' ? this.poses.speed[body.index] : body.thickness;
-        return ramp(hi > lo ? (value - lo) / (hi - lo) : 0);
+    // ---- colours ----
+
+    colourBodies(time) {
+        const mode = $('colour').value, [lo, hi] = this.ranges[mode] ?? [0, 1], { rgb, poses } = this;
+        const { frames, bodies } = this.record, per = hi > lo ? 255 / (hi - lo) : 0;
+        for (const b of bodies) {
+            const k = b.index;
+            let value = NaN;
+            if (b.material === 'ice') {
+                if (mode === 'speed') value = poses.speed[k];
+                else if (mode === 'force') value = poses.contact[k];
+                else if (mode === 'thickness') value = b.thickness;
+                else if (mode === 'age' && b.parent >= 0) value = hi - (time - frames[b.birth].time); // new is red
+            }
+            if (value === value) {
+                const c = 3 * Math.min(255, Math.max(0, Math.round((value - lo) * per)));
+                rgb[3 * k] = RAMP[c]; rgb[3 * k + 1] = RAMP[c + 1]; rgb[3 * k + 2] = RAMP[c + 2];
+            } else {
+                const c = own(b);
+                rgb[3 * k] = c.r; rgb[3 * k + 1] = c.g; rgb[3 * k + 2] = c.b;
+            }
+        }
     }
 
     legend() {
-        const mode = $('colour').value, unit = { speed: 'speed [m/s]', thickness: 'thickness [m]' }[mode];
+        const mode = $('colour').value, { unit } = COLOURS[mode], ends = [...this.ranges[mode] ?? [0, 1]];
         const stops = [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`).join(',');
-        const [lo, hi] = this.ranges[mode] ?? [];
+        if (mode === 'age') ends.reverse();
         const bar = () => `${unit}<div class="bar" style="background:linear-gradient(90deg,${stops})"></div>
-            <div class="ends"><span>${lo.toPrecision(2)}</span><span>${hi.toPrecision(2)}</span></div>`;
-        $('legend').innerHTML = (unit ? bar() : 'floes white, vessel red')
-            + '<div class="scale" id="scale"></div><span id="scale-text"></span>';
+            <div class="ends"><span>${ends[0].toPrecision(2)}</span><span>${ends[1].toPrecision(2)}</span></div>`;
+        const arrows = this.record.frames.some((f) => f.view === undefined || f.forces >= 0) && $('forces').checked
+            ? `<div class="key"><i style="background:#c2185b"></i>ice <i style="background:#1b7f3b"></i>line
+               <i style="background:#6a3fb5"></i>thruster</div>` : '';
+        const broke = this.record.fractures.length
+            ? `<div class="key"><i style="background:#d9730d"></i>a floe broke in the last ${MARKED} s</div>` : '';
+        $('legend').innerHTML = `${unit ? bar() : 'floes white, vessel red'}${arrows}${broke}
+            <div class="foot"><div><div class="scale" id="scale"></div><span id="scale-text"></span></div>
+            <svg id="north" viewBox="-20 -20 40 40"><g><path d="M0 12V-12M-5 -6L0 -13L5 -6"/>
+            <text y="-14">Y</text></g></svg>
+            </div>`;
         this.dirty = true;
     }
 
-    /** The scale bar holds at the point the camera looks at. */
+    /** The scale bar holds at the point the camera looks at; the arrow points along global Y as it is seen there. */
     drawScale() {
         const camera = this.scene.camera, distance = camera.position.distanceTo(this.controls.target);
         const perPixel = 2 * distance * Math.tan(camera.fov * Math.PI / 360) / $('view').clientHeight;
-        const raw = 150 * perPixel, power = 10 ** Math.floor(Math.log10(raw));
+        const raw = 130 * perPixel, power = 10 ** Math.floor(Math.log10(raw));
         const length = power * [5, 2, 1].find((m) => m * power <= raw);
         $('scale').style.width = `${length / perPixel}px`;
         $('scale-text').textContent = `${length} m`;
+        const at = this.controls.target.clone().project(camera);
+        const to = this.controls.target.clone().add(new THREE.Vector3(0, 0.05 * distance, 0)).project(camera);
+        const angle = Math.atan2((to.x - at.x) * camera.aspect, to.y - at.y) * 180 / Math.PI;
+        $('north').firstElementChild.setAttribute('transform', `rotate(${angle})`);
     }
+
+    // ---- picking and export ----
+
+    pickAt(clientX, clientY) {
+        const box = $('view').getBoundingClientRect();
+        const x = 2 * (clientX - box.left) / box.width - 1, y = 1 - 2 * (clientY - box.top) / box.height;
+        this.pick(this.scene.bodyAt(x, y));
+    }
+
+    pick(body) {
+        this.picked = body;
+        this.scene.pick(body);
+        this.history.show(body);
+        this.dirty = true;
+    }
+
+    /** The picture as it stands, with legend and clock drawn in: a canvas. */
+    snapshot() {
+        this.draw();
+        const from = $('view'), out = document.createElement('canvas'), ratio = from.width / from.clientWidth;
+        out.width = from.width; out.height = from.height;
+        const g = out.getContext('2d');
+        g.drawImage(from, 0, 0);
+        g.scale(ratio, ratio);
+        g.fillStyle = '#ffffffd0';
+        g.fillRect(12, 10, 420, 50);
+        g.fillStyle = '#15222e';
+        g.font = 'bold 16px system-ui, "DejaVu Sans", sans-serif';
+        g.fillText($('title').textContent, 20, 30, 404);
+        g.font = '13px system-ui, "DejaVu Sans", sans-serif';
+        g.fillText(`${$('clock').textContent}; ${$('load').textContent}`, 20, 50, 404);
+        const { unit } = COLOURS[$('colour').value];
+        if (unit) this.stampLegend(g, unit, from.clientWidth - 200);
+        return out;
+    }
+
+    stampLegend(g, unit, x) {
+        const mode = $('colour').value, ends = [...this.ranges[mode]];
+        if (mode === 'age') ends.reverse();
+        g.fillStyle = '#ffffffd0';
+        g.fillRect(x - 8, 10, 196, 50);
+        for (let i = 0; i < 180; i++) {
+            g.fillStyle = `#${ramp(i / 179).getHexString()}`;
+            g.fillRect(x + i, 32, 1.5, 9);
+        }
+        g.fillStyle = '#15222e';
+        g.fillText(unit, x, 26);
+        g.fillText(ends[0].toPrecision(2), x, 54);
+        const last = ends[1].toPrecision(2);
+        g.fillText(last, x + 180 - g.measureText(last).width, 54);
+    }
+
+    still() {
+        return new Promise((done) => {
+            this.snapshot().toBlob((blob) => { download(blob, `fram-${this.time.toFixed(1)}s.png`); done(blob); });
+        });
+    }
+
+    /** Records the canvas while the run plays to its end; a second click ends it. */
+    film() {
+        if (this.recorder) { this.recorder.stop(); return this.filmed; }
+        const type = ['video/webm;codecs=vp9', 'video/webm;codecs=vp8', 'video/mp4']
+            .find((t) => window.MediaRecorder?.isTypeSupported(t));
+        if (!type) { note('This browser cannot record video; fram video makes one.'); return Promise.resolve(null); }
+        const parts = [];
+        this.recorder = new MediaRecorder($('view').captureStream(25), { mimeType: type, videoBitsPerSecond: 8e6 });
+        this.recorder.ondataavailable = (e) => parts.push(e.data);
+        this.filmed = new Promise((done) => {
+            this.recorder.onstop = () => {
+                const blob = new Blob(parts, { type });
+                this.recorder = null;
+                $('film').textContent = 'video';
+                download(blob, `fram.${type.includes('mp4') ? 'mp4' : 'webm'}`);
+                done(blob);
+            };
+        });
+        this.recorder.start(500);
+        $('film').textContent = 'stop';
+        if (!this.playing) this.toggle();
+        return this.filmed;
+    }
+
+    // ---- the loop ----
 
     resize() {
         this.scene.resize(window.innerWidth, window.innerHeight);
@@ -139,34 +308,65 @@ class Player {
     tick(now) {
         const passed = this.last ? (now - this.last) / 1000 : 0;
         this.last = now;
-        if (this.playing) {
+        if (this.playing && !this.waiting) {
             this.time = Math.min(this.end, this.time + passed * Number($('speed').value));
-            if (this.time >= this.end) this.toggle();
+            if (this.time >= this.end) {
+                this.toggle();
+                if (this.recorder) this.recorder.stop();
+            }
             this.dirty = true;
         }
         if (this.dirty) this.draw();
         requestAnimationFrame((t) => this.tick(t));
     }
 
+    /** What a frame costs this script, without the drawing itself, is measured in prepare(). */
     draw() {
         this.dirty = false;
+        if (this.prepare()) this.scene.render();
+    }
+
+    prepare() {
         const before = this.hull && this.centre();
         const state = this.poses.show(this.frameAt(this.time));
+        this.waiting = !state;
+        $('waiting').hidden = !this.waiting;
+        if (!state) return false;
         if ($('camera').value === 'follow' && before) {
             const moved = this.centre().sub(before);
             this.scene.camera.position.add(moved);
             this.controls.target.add(moved);
         }
-        this.scene.update((b) => this.colour(b));
-        this.scene.render();
+        this.colourBodies(state.time);
+        this.scene.update(this.rgb);
+        this.scene.showForces($('forces').checked ? this.poses.forces : [], this.arrowScale);
+        this.scene.showMarkers(state.time, MARKED);
+        if (this.picked) this.scene.placeRing(this.picked);
+        this.history.draw(state.time);
         this.timeline.draw(this.time);
         this.drawScale();
-        const floes = this.record.bodies.reduce((n, b) => n + (b.material === 'ice' && this.poses.shown[b.index]), 0);
+        this.tell(state);
+        return true;
+    }
+
+    tell(state) {
+        let floes = 0;
+        for (const b of this.record.bodies) floes += b.material === 'ice' ? this.poses.shown[b.index] : 0;
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
         const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
         $('load').textContent = `ice force X ${x} kN, Y ${y} kN`;
     }
 }
+
+function download(blob, name) {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+function note(text) { $('note').textContent = text; setTimeout(() => { $('note').textContent = ''; }, 6000); }
 
 /** Blue over white to red: slow or thin to fast or thick. */
 function ramp(t) {
@@ -174,6 +374,7 @@ function ramp(t) {
     return x < 0.5 ? new THREE.Color(0x3a6fb0).lerp(new THREE.Color(0xf4f4ee), 2 * x)
         : new THREE.Color(0xf4f4ee).lerp(new THREE.Color(0xb8321e), 2 * x - 1);
 }
+const RAMP = Float32Array.from({ length: 768 }, (_, i) => ramp(Math.floor(i / 3) / 255).toArray()[i % 3]);
 
 try {
     window.fram = new Player(readRecord(bytesOf($('record').textContent)));

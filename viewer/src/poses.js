@@ -1,61 +1,64 @@
-// Where every body is at a moment between two frames: a table of poses that the drawing reads.
+// Where every body is at a moment between two frames: tables that the drawing reads.
 
-/** Seven numbers a body (x y z, quaternion x y z w) and a flag; bodies that are not there are not shown. */
+/** Per body: pose (x y z, quaternion x y z w), shown or not, speed [m/s], contact force [kN]. */
 export class Poses {
-    constructor(record) {
+    constructor(record, store) {
         this.record = record;
-        this.pose = new Float32Array(7 * record.bodies.length);
-        this.shown = new Uint8Array(record.bodies.length);
-        this.speed = new Float32Array(record.bodies.length);
-        // Place of each body in the order of each frame, filled when first needed.
-        this.places = new Map();
+        this.store = store;
+        const n = record.bodies.length;
+        this.pose = new Float32Array(7 * n);
+        this.shown = new Uint8Array(n);
+        this.speed = new Float32Array(n);
+        this.contact = new Float32Array(n);
+        this.forces = [];
+        this.place = new Int32Array(n).fill(-1); // of each body in the order of the later frame
+        this.placedOrder = null;
+        this.frame = -1;
         for (const b of record.bodies) if (b.pose) this.pose.set(b.pose, 7 * b.index);
     }
 
-    placesOf(f) {
-        const order = this.record.frames[f].order;
-        if (!this.places.has(order)) {
-            const last = this.places.size && [...this.places.values()].at(-1);
-            const place = last && sameOrder(last.order, order) ? last.place : inverse(order, this.record.bodies.length);
-            this.places.set(order, { order, place });
+    placesIn(order) {
+        if (this.placedOrder !== order) {
+            this.place.fill(-1);
+            for (let i = 0; i < order.length; i++) this.place[order[i]] = i;
+            this.placedOrder = order;
         }
-        return this.places.get(order).place;
+        return this.place;
     }
 
-    /** Frame number with a fraction. */
+    /** Go to a frame number with a fraction; false when the frames are not there yet. */
     show(when) {
         const { frames, bodies } = this.record;
         const last = frames.length - 1, f = Math.min(Math.floor(when), last), g = Math.min(f + 1, last);
-        const part = when - f;
-        const a = frames[f], b = frames[g], placeB = this.placesOf(g), span = b.time - a.time || 1;
-        for (const body of bodies) this.shown[body.index] = body.birth <= f && f < body.death ? 1 : 0;
-        for (let i = 0; i < a.order.length; i++) {
-            const k = a.order[i], j = placeB[k], to = 7 * k;
-            blend(a.poses, 7 * i, b.poses, j < 0 ? -1 : 7 * j, part, this.pose, to);
-            this.speed[k] = j < 0 ? 0
-                : Math.hypot(b.poses[7 * j] - a.poses[7 * i], b.poses[7 * j + 1] - a.poses[7 * i + 1]) / span;
+        const one = this.store.get(f), two = this.store.get(g);
+        if (!one || !two) return null;
+        const part = when - f, a = frames[f], b = frames[g], place = this.placesIn(b.order);
+        const span = b.time - a.time || 1;
+        if (f !== this.frame) {
+            for (const body of bodies) this.shown[body.index] = body.birth <= f && f < body.death ? 1 : 0;
+            this.frame = f;
         }
+        const P = one.poses, Q = two.poses, out = this.pose;
+        for (let i = 0; i < a.order.length; i++) {
+            const k = a.order[i], j = place[k];
+            blend(P, 7 * i, j < 0 ? P : Q, 7 * (j < 0 ? i : j), part, out, 7 * k);
+            this.speed[k] = j < 0 ? 0 : Math.hypot(Q[7 * j] - P[7 * i], Q[7 * j + 1] - P[7 * i + 1]) / span;
+            this.contact[k] = one.contact[i];
+        }
+        this.forces = part < 0.5 ? one.forces : two.forces;
         const force = a.force.map((v, i) => v + part * (b.force[i] - v));
         return { time: a.time + part * (b.time - a.time), force, frame: f };
     }
 }
 
-function sameOrder(a, b) { return a.length === b.length && a.every((v, i) => v === b[i]); }
-
-function inverse(order, count) {
-    const place = new Int32Array(count).fill(-1);
-    order.forEach((k, i) => { place[k] = i; });
-    return place;
-}
-
 /** Positions on a straight line, quaternions on the shorter way, normalised. */
 function blend(a, i, b, j, part, out, to) {
-    if (j < 0) { out.set(a.subarray(i, i + 7), to); return; }
-    for (let c = 0; c < 3; c++) out[to + c] = a[i + c] + part * (b[j + c] - a[i + c]);
-    let dot = 0, n = 0;
-    for (let c = 3; c < 7; c++) dot += a[i + c] * b[j + c];
-    const sign = dot < 0 ? -1 : 1;
-    for (let c = 3; c < 7; c++) { out[to + c] = a[i + c] + part * (sign * b[j + c] - a[i + c]); n += out[to + c] ** 2; }
-    n = 1 / Math.sqrt(n || 1);
-    for (let c = 3; c < 7; c++) out[to + c] *= n;
+    out[to] = a[i] + part * (b[j] - a[i]);
+    out[to + 1] = a[i + 1] + part * (b[j + 1] - a[i + 1]);
+    out[to + 2] = a[i + 2] + part * (b[j + 2] - a[i + 2]);
+    const s = a[i + 3] * b[j + 3] + a[i + 4] * b[j + 4] + a[i + 5] * b[j + 5] + a[i + 6] * b[j + 6] < 0 ? -1 : 1;
+    const x = a[i + 3] + part * (s * b[j + 3] - a[i + 3]), y = a[i + 4] + part * (s * b[j + 4] - a[i + 4]);
+    const z = a[i + 5] + part * (s * b[j + 5] - a[i + 5]), w = a[i + 6] + part * (s * b[j + 6] - a[i + 6]);
+    const n = 1 / Math.sqrt(x * x + y * y + z * z + w * w || 1);
+    out[to + 3] = x * n; out[to + 4] = y * n; out[to + 5] = z * n; out[to + 6] = w * n;
 }

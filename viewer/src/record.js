@@ -1,94 +1,118 @@
-// Reads a record of a run (record.fram).  The layout stands in src/io/record.h (head and blocks) and src/sim/recorder.h
-// (payloads); this file follows them and knows nothing of drawing.
+// Reads a record of a run (record.fram).  The layout stands in src/io/record.h (head and blocks), src/sim/recorder.h
+// (payloads); this file follows them and knows
+// nothing of drawing.  Frames are found at once and decoded when they are shown.
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
-const SCENARIO = 1, SOLID = 2, DEATHS = 4, BIRTHS = 7, FRAME = 8, EARLIER = [3, 5];
+const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FRAME = 8, FORCES = 9, FRAME_BESIDE = 10;
+const EARLIER = [3, 5];
 const MATERIALS = ['ice', 'hull', 'wall'];
+const HEAD = 24, POSE = 16, ROW = 18, FRAME_HEAD = 48;
 const NEVER = Infinity;
+
+/** Half floats of all 16-bit patterns. */
+const HALF = Float32Array.from({ length: 65536 }, (_, h) => {
+    const field = h >> 10 & 31;
+    return (h & 0x8000 ? -1 : 1) * ((h & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 25);
+});
+
+/** A pose as src/sim/record_pose.h packs it: x y z, then the unit quaternion as x y z w (the order of three.js). */
+function unpackPose(view, at, out, to) {
+    out[to] = view.getFloat32(at, true);
+    out[to + 1] = view.getFloat32(at + 4, true);
+    out[to + 2] = HALF[view.getUint16(at + 8, true)];
+    const s = Math.SQRT1_2 / 16383;
+    const w0 = view.getUint16(at + 10, true), w1 = view.getUint16(at + 12, true), w2 = view.getUint16(at + 14, true);
+    const a = ((w0 & 32767) - 16383) * s, b = ((w1 & 32767) - 16383) * s, c = ((w2 & 32767) - 16383) * s;
+    const d = Math.sqrt(Math.max(0, 1 - a * a - b * b - c * c)), largest = w0 >> 15 << 1 | w1 >> 15;
+    // In the order w x y z the largest one is left out.
+    if (largest === 0) { out[to + 6] = d; out[to + 3] = a; out[to + 4] = b; out[to + 5] = c; }
+    else if (largest === 1) { out[to + 6] = a; out[to + 3] = d; out[to + 4] = b; out[to + 5] = c; }
+    else if (largest === 2) { out[to + 6] = a; out[to + 3] = b; out[to + 4] = d; out[to + 5] = c; }
+    else { out[to + 6] = a; out[to + 3] = b; out[to + 4] = c; out[to + 5] = d; }
+}
 
 /** Walks a DataView from front to back. */
 class Cursor {
     constructor(view, offset) { this.view = view; this.at = offset; }
     u8() { return this.view.getUint8(this.at++); }
-    u16() { this.at += 2; return this.view.getUint16(this.at - 2, true); }
     i32() { this.at += 4; return this.view.getInt32(this.at - 4, true); }
     u32() { this.at += 4; return this.view.getUint32(this.at - 4, true); }
     i64() { this.at += 8; return Number(this.view.getBigInt64(this.at - 8, true)); }
     f32() { this.at += 4; return this.view.getFloat32(this.at - 4, true); }
     f64() { this.at += 8; return this.view.getFloat64(this.at - 8, true); }
-    half() {
-        const h = this.u16(), field = h >> 10 & 31;
-        return (h & 0x8000 ? -1 : 1) * ((h & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 25);
-    }
-    /** Packed as src/sim/record_pose.h says: x y z, then the unit quaternion as x y z w (the order of three.js). */
+    vec3() { return [this.f32(), this.f32(), this.f32()]; }
     pose() {
-        const out = [this.f32(), this.f32(), this.half()], word = [this.u16(), this.u16(), this.u16()];
-        const largest = word[0] >> 15 << 1 | word[1] >> 15, part = [0, 0, 0, 0];
-        let sum = 0;
-        for (let i = 0, k = 0; i < 4; i++) {
-            if (i === largest) continue;
-            part[i] = ((word[k++] & 32767) - 16383) * Math.SQRT1_2 / 16383;
-            sum += part[i] ** 2;
-        }
-        part[largest] = Math.sqrt(Math.max(0, 1 - sum));
-        const [w, x, y, z] = part;
-        return [...out, x, y, z, w];
+        const out = new Float32Array(7);
+        unpackPose(this.view, this.at, out, 0);
+        this.at += POSE;
+        return out;
     }
 }
 
-/** @returns {{scenario: string, bodies: Body[], frames: Frame[]}}
- *  Body: {slot, material, moves, birth, death (frame numbers; death is the first frame without it), thickness and
- *  outline [[x, y], ...] of a prism, or vertices and triangles of a solid, pose of a body that does not move}.
- *  Frame: {time, step, force: [x, y, z], poses: Float32Array, seven numbers for each of `bodies` that moves, in
- *  `order`}. */
+/** @returns {{scenario: string, bodies: Body[], frames: Frame[], fractures: Fracture[]}}
+ *  Body: {index, slot, material, moves, birth, death (frame numbers; death is the first frame without it), number and
+ *  parent of a floe, thickness, area and outline [[x, y], ...] of a prism, or vertices and triangles of a solid, pose
+ *  of a body that does not move}.
+ *  Frame: {time, step, force: [x, y, z], order: bodies that move, view and at of its poses or chunk and offset of a
+ *  file beside the page}.
+ *  Fracture: {time, kind, floe, place, load}. */
 export function readRecord(buffer) {
     const view = new DataView(buffer);
-    if (buffer.byteLength < 24 || text(buffer, 0, 8) !== MAGIC) throw new Error('this is not a record of Fram');
+    if (buffer.byteLength < HEAD || text(buffer, 0, 8) !== MAGIC) throw new Error('this is not a record of Fram');
     if (view.getUint32(12, true) !== 0x01020304) throw new Error('the record was written with another byte order');
-    const record = { scenario: '', bodies: [], frames: [] };
-    const alive = new Map(); // slot -> body
-    let at = 24;
-    while (at + 24 <= buffer.byteLength && view.getUint32(at, true) === BLOCK_MAGIC) {
+    const state = { record: { scenario: '', bodies: [], frames: [], fractures: [] }, alive: new Map(), order: null };
+    eachBlock(view, HEAD, (type, at, size) => readBlock(state, type, new Cursor(view, at), buffer, size));
+    if (!state.record.frames.length) throw new Error('the record holds no frames (output.frame_interval is 0?)');
+    return state.record;
+}
+
+/** Calls visit(type, start of payload, size) until the end, a cut block, or a visit that returns true. */
+function eachBlock(view, at, visit) {
+    while (at + HEAD <= view.byteLength && view.getUint32(at, true) === BLOCK_MAGIC) {
         const type = view.getUint32(at + 4, true), size = Number(view.getBigUint64(at + 8, true));
-        const begin = at + 24;
-        if (begin + size > buffer.byteLength) break; // cut short: what came before is good
-        readBlock(record, alive, type, new Cursor(view, begin), buffer, size);
-        at = begin + Math.ceil(size / 8) * 8;
+        if (at + HEAD + size > view.byteLength) return; // cut short: what came before is good
+        if (visit(type, at + HEAD, size)) return;
+        at += HEAD + Math.ceil(size / 8) * 8;
     }
-    if (!record.frames.length) throw new Error('the record holds no frames (output.frame_interval is 0?)');
-    return record;
 }
 
 function text(buffer, at, size) { return new TextDecoder().decode(new Uint8Array(buffer, at, size)); }
 
-function readBlock(record, alive, type, c, buffer, size) {
+function readBlock(state, type, c, buffer, size) {
+    const { record } = state;
     switch (type) {
     case SCENARIO: record.scenario = text(buffer, c.at, size); break;
-    case SOLID: addBody(record, alive, readSolid(c)); break;
-    case BIRTHS: for (let n = c.i32(); n > 0; n--) addBody(record, alive, readPrism(c)); break;
-    case DEATHS: for (let n = c.i32(); n > 0; n--) removeBody(record, alive, c.i32()); break;
+    case SOLID: addBody(state, readSolid(c)); break;
+    case BIRTHS: for (let n = c.i32(); n > 0; n--) addBody(state, readPrism(c)); break;
+    case DEATHS: for (let n = c.i32(); n > 0; n--) removeBody(state, c.i32()); break;
+    case FRACTURES: for (let n = c.i32(), k = c.i32(); k < n; k++) record.fractures.push(readFracture(c)); break;
+    case FORCES: state.forces = c.at; break;
+    case FRAME: addFrame(state, c, { view: c.view, forces: state.forces ?? -1 }); break;
+    case FRAME_BESIDE: addFrame(state, c, { chunk: c.i32(), offset: c.i32() }); break;
     case EARLIER[0]:
     case EARLIER[1]: throw new Error('an earlier version of Fram wrote it; run the scenario again');
-    case FRAME: record.frames.push(readFrame(c, alive)); break;
     }
 }
 
-function addBody(record, alive, body) {
+function addBody(state, body) {
+    const { record, alive } = state;
     body.index = record.bodies.length;
     body.birth = record.frames.length;
     body.death = NEVER;
     record.bodies.push(body);
     alive.set(body.slot, body);
+    state.order = null;
 }
 
-function removeBody(record, alive, slot) {
-    const body = alive.get(slot);
-    if (body) body.death = record.frames.length;
-    alive.delete(slot);
+function removeBody(state, slot) {
+    const body = state.alive.get(slot);
+    if (body) body.death = state.record.frames.length;
+    state.alive.delete(slot);
+    state.order = null;
 }
 
 function readSolid(c) {
-    const body = { slot: c.i32(), generation: c.u32(), material: 'hull', moves: true };
+    const body = { slot: c.i32(), generation: c.u32(), material: 'hull', moves: true, number: -1, parent: -1 };
     const vertices = c.i32(), triangles = c.i32();
     body.vertices = Float32Array.from({ length: 3 * vertices }, () => c.f32());
     body.triangles = Uint32Array.from({ length: 3 * triangles }, () => c.i32());
@@ -105,24 +129,115 @@ function readPrism(c) {
     body.parent = c.i32();
     body.outline = Array.from({ length: c.i32() }, () => [c.f32(), c.f32()]);
     if (!body.moves) body.pose = c.pose();
+    const ring = body.outline;
+    body.area = ring.reduce((sum, [x, y], i) => {
+        const [u, v] = ring[(i + 1) % ring.length];
+        return sum + (x * v - u * y) / 2;
+    }, 0);
+    body.radius = Math.max(...ring.map(([x, y]) => Math.hypot(x, y)));
     return body;
 }
 
-/** Poses come by ascending slot of the bodies that move. */
-function readFrame(c, alive) {
-    const frame = { step: c.i64(), time: c.f64(), force: [c.f64(), c.f64(), c.f64()] };
+function readFracture(c) {
+    const f = { time: c.f64(), kind: c.i32() === 1 ? 'split' : 'bending', floe: c.i32(), pieces: c.i32() };
+    c.i32();
+    return { ...f, place: c.vec3(), load: c.f32(), crack: c.f32(), area: c.f32() };
+}
+
+/** Poses come by ascending slot of the bodies that move; frames with no birth or death between share
+ *  their order. */
+function addFrame(state, c, place) {
+    const { record, alive } = state;
+    const frame = { number: record.frames.length, step: c.i64(), time: c.f64(), force: [c.f64(), c.f64(), c.f64()] };
     const count = c.i32();
     c.i32();
-    const moving = [...alive.values()].filter((b) => b.moves).sort((a, b) => a.slot - b.slot);
-    if (moving.length !== count)
-        throw new Error(`frame at ${frame.time} s has ${count} poses for ${moving.length} bodies`);
-    frame.order = Uint32Array.from(moving, (b) => b.index);
-    frame.poses = new Float32Array(7 * count);
-    for (let i = 0; i < count; i++) {
-        frame.poses.set(c.pose(), 7 * i);
-        c.half();
+    state.forces = undefined;
+    state.order ??= Uint32Array.from([...alive.values()].filter((b) => b.moves).sort((a, b) => a.slot - b.slot),
+        (b) => b.index);
+    if (state.order.length !== count)
+        throw new Error(`frame at ${frame.time} s has ${count} poses for ${state.order.length} bodies`);
+    record.frames.push(Object.assign(frame, place, { order: state.order, at: c.at }));
+}
+
+/** What a frame holds, decoded: {poses: 7 numbers each in its order, contact: kN each, forces}, or null while the file
+ *  with it is on its way. */
+export class FrameStore {
+    constructor(record, chunks) {
+        this.record = record;
+        this.chunks = chunks;
+        this.kept = new Map();
     }
-    return frame;
+
+    get(number) {
+        const found = this.kept.get(number);
+        if (found) return found;
+        const frame = this.record.frames[number];
+        const decoded = frame.view ? decode(frame.view, frame.at, frame.forces, frame) : this.fromChunk(frame);
+        if (!decoded) return null;
+        if (this.kept.size >= 4) this.kept.delete(this.kept.keys().next().value);
+        this.kept.set(number, decoded);
+        return decoded;
+    }
+
+    fromChunk(frame) {
+        const view = this.chunks.get(frame.chunk);
+        if (!view) return null;
+        let forces = -1, at = -1;
+        eachBlock(view, frame.offset, (type, start) => {
+            if (type === FORCES) forces = start;
+            if (type === FRAME) at = start + FRAME_HEAD;
+            return type === FRAME;
+        });
+        return decode(view, at, forces, frame);
+    }
+}
+
+function decode(view, at, forces, frame) {
+    const count = frame.order.length, poses = new Float32Array(7 * count), contact = new Float32Array(count);
+    for (let i = 0; i < count; i++, at += ROW) {
+        unpackPose(view, at, poses, 7 * i);
+        contact[i] = HALF[view.getUint16(at + POSE, true)];
+    }
+    return { poses, contact, forces: forces < 0 ? [] : readForces(new Cursor(view, forces)) };
+}
+
+const KINDS = ['', 'ice', 'line', 'thruster'];
+function readForces(c) {
+    const count = c.i32();
+    c.i32();
+    return Array.from({ length: count }, () => (
+        { kind: KINDS[c.i32()], which: c.i32(), point: c.vec3(), force: c.vec3() }));
+}
+
+/** Files beside the page, each a script that calls framChunk(number, base64); a few are kept. */
+export class Chunks {
+    constructor(folder, arrived) {
+        this.folder = folder;
+        this.kept = new Map();
+        this.asked = new Map();
+        window.framChunk = (number, base64) => {
+            if (this.kept.size >= 4) this.kept.delete(this.kept.keys().next().value);
+            this.kept.set(number, new DataView(bytesOf(base64)));
+            arrived();
+        };
+    }
+
+    get(number) {
+        const view = this.kept.get(number);
+        if (view || this.asked.has(number)) return view;
+        const script = document.createElement('script');
+        script.src = `${this.folder}/${String(number).padStart(4, '0')}.js`;
+        script.onload = script.onerror = () => { script.remove(); this.asked.delete(number); };
+        this.asked.set(number, script);
+        document.head.append(script);
+        return undefined;
+    }
+}
+
+export function bytesOf(base64) {
+    const binary = atob(base64.trim()), bytes = new Uint8Array(binary.length);
+    for (let i = 0; i < binary.length; i++) bytes[i] = binary.charCodeAt(i);
+    return bytes.buffer;
 }
 
 /** The scenario's title, from its YAML text. */

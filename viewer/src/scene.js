@@ -2,12 +2,14 @@
 // water.
 // Frame: X, Y horizontal, Z up, metres, as in Fram.
 import * as THREE from 'three';
+import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 const WATER = 0x2f6690, SKY = 0xdfe8ef, HULL = 0xb5402a, WALL = 0x7a726c, ICE = 0xf1f6fa;
+const ARROWS = 2048; // at most
 const TEXELS = 3; // a body in the texture: (position, shown), quaternion, colour
 
 export class Scene {
-    constructor(canvas, record, poses) {
+    constructor(canvas, record, poses, first) {
         this.record = record;
         this.poses = poses;
         this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
@@ -17,8 +19,11 @@ export class Scene {
         this.camera = new THREE.PerspectiveCamera(40, 1, 1, 20000);
         this.camera.up.set(0, 0, 1);
         this.addBodies();
-        this.box = this.bounds();
+        this.box = this.bounds(first);
         this.addWaterAndLight();
+        this.addArrows();
+        this.addMarkers();
+        this.addRing();
     }
 
     addWaterAndLight() {
@@ -75,17 +80,117 @@ export class Scene {
                 .replace('#include <color_fragment>', 'diffuseColor.rgb *= bodyColour;');
     }
 
-    /** Poses and colours to the texture. colourOf(body) -> THREE.Color or null for the material's own. */
-    update(colourOf) {
-        const { pose, shown } = this.poses, d = this.data;
-        for (const b of this.record.bodies) {
-            const at = 4 * TEXELS * b.index, p = 7 * b.index;
-            d[at] = pose[p]; d[at + 1] = pose[p + 1]; d[at + 2] = pose[p + 2]; d[at + 3] = shown[b.index];
+    /** Poses and colours to the texture. rgb: three numbers a body. */
+    update(rgb) {
+        const { pose, shown } = this.poses, d = this.data, n = this.record.bodies.length;
+        for (let k = 0, at = 0, p = 0, c = 0; k < n; k++, at += 4 * TEXELS, p += 7, c += 3) {
+            d[at] = pose[p]; d[at + 1] = pose[p + 1]; d[at + 2] = pose[p + 2]; d[at + 3] = shown[k];
             d[at + 4] = pose[p + 3]; d[at + 5] = pose[p + 4]; d[at + 6] = pose[p + 5]; d[at + 7] = pose[p + 6];
-            const c = colourOf(b) ?? own(b);
-            d[at + 8] = c.r; d[at + 9] = c.g; d[at + 10] = c.b;
+            d[at + 8] = rgb[c]; d[at + 9] = rgb[c + 1]; d[at + 10] = rgb[c + 2];
         }
         this.texture.needsUpdate = true;
+    }
+
+    /** Forces on the vessel: one arrow each, in one drawing. */
+    addArrows() {
+        const shaft = new THREE.CylinderGeometry(0.045, 0.045, 0.7, 8).translate(0, 0.35, 0);
+        const head = new THREE.ConeGeometry(0.13, 0.3, 12).translate(0, 0.85, 0);
+        const material = new THREE.MeshBasicMaterial({ depthTest: false, transparent: true });
+        this.arrows = new THREE.InstancedMesh(mergeGeometries([shaft, head]), material, ARROWS);
+        this.arrows.frustumCulled = false;
+        this.arrows.renderOrder = 3;
+        this.arrows.count = 0;
+        this.scene.add(this.arrows);
+    }
+
+    /** Ice pushes: its arrows end where it acts; lines and thrusters pull: theirs begin there.  scale: [m/N] */
+    showForces(forces, scale) {
+        const at = new THREE.Vector3(), way = new THREE.Vector3(), turn = new THREE.Quaternion();
+        const size = new THREE.Vector3(), up = new THREE.Vector3(0, 1, 0), matrix = new THREE.Matrix4();
+        let n = 0;
+        for (const f of forces) {
+            if (n === ARROWS) break;
+            way.set(...f.force);
+            const length = way.length() * scale;
+            if (!(length > 0.2)) continue;
+            way.normalize();
+            turn.setFromUnitVectors(up, way);
+            at.set(...f.point);
+            if (f.kind === 'ice') at.addScaledVector(way, -length);
+            const thick = Math.min(length, this.arrowWidth);
+            matrix.compose(at, turn, size.set(thick, length, thick));
+            this.arrows.setMatrixAt(n, matrix);
+            this.arrows.setColorAt(n++, FORCE[f.kind]);
+        }
+        this.arrows.count = n;
+        this.arrows.instanceMatrix.needsUpdate = true;
+        if (this.arrows.instanceColor) this.arrows.instanceColor.needsUpdate = true;
+    }
+
+    /** Where floes broke: points that are shown once their time has come. */
+    addMarkers() {
+        const { fractures } = this.record, geometry = new THREE.BufferGeometry();
+        const place = fractures.flatMap((f) => [f.place[0], f.place[1], f.place[2] + 1]);
+        geometry.setAttribute('position', new THREE.Float32BufferAttribute(place, 3));
+        geometry.setDrawRange(0, 0);
+        const material = new THREE.PointsMaterial({ color: 0xd9730d, size: 7, sizeAttenuation: false, depthTest: false,
+            transparent: true });
+        this.markers = new THREE.Points(geometry, material);
+        this.markers.frustumCulled = false;
+        this.markers.renderOrder = 2;
+        this.scene.add(this.markers);
+    }
+
+    /** Those of the `span` seconds before `time`; fractures are in the order of time. */
+    showMarkers(time, span) {
+        const { fractures } = this.record, after = (t) => {
+            let lo = 0, hi = fractures.length;
+            while (lo < hi) { const mid = (lo + hi) >> 1; if (fractures[mid].time <= t) lo = mid + 1; else hi = mid; }
+            return lo;
+        };
+        const from = after(time - span);
+        this.markers.geometry.setDrawRange(from, after(time) - from);
+    }
+
+    /** The outline of the picked floe. */
+    addRing() {
+        const material = new THREE.LineBasicMaterial({ color: 0xffc400, depthTest: false, transparent: true });
+        this.ring = new THREE.LineLoop(new THREE.BufferGeometry(), material);
+        this.ring.frustumCulled = false;
+        this.ring.visible = false;
+        this.ring.renderOrder = 4;
+        this.scene.add(this.ring);
+    }
+
+    pick(body) {
+        this.ring.visible = body !== null;
+        if (!body) return;
+        const points = body.outline.flatMap(([x, y]) => [x, y, body.thickness / 2 + 0.05]);
+        this.ring.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+    }
+
+    placeRing(body) {
+        const p = this.poses.pose.subarray(7 * body.index, 7 * body.index + 7);
+        this.ring.position.set(p[0], p[1], p[2]);
+        this.ring.quaternion.set(p[3], p[4], p[5], p[6]);
+        this.ring.visible = this.poses.shown[body.index] === 1;
+    }
+
+    /** The floe under a point of the canvas (-1 to 1 both ways), by its outline seen from above; null: none. */
+    bodyAt(x, y) {
+        const ray = new THREE.Raycaster(), hit = new THREE.Vector3();
+        ray.setFromCamera(new THREE.Vector2(x, y), this.camera);
+        const surface = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);
+        if (!ray.ray.intersectPlane(surface, hit)) return null;
+        for (const b of this.record.bodies) {
+            if (b.material !== 'ice' || !this.poses.shown[b.index]) continue;
+            const p = 7 * b.index, q = this.poses.pose, dx = hit.x - q[p], dy = hit.y - q[p + 1];
+            if (dx * dx + dy * dy > b.radius * b.radius) continue;
+            const turn = new THREE.Quaternion(q[p + 3], q[p + 4], q[p + 5], q[p + 6]).invert();
+            const local = new THREE.Vector3(dx, dy, 0).applyQuaternion(turn);
+            if (inside(b.outline, local.x, local.y)) return b;
+        }
+        return null;
     }
 
     render() { this.renderer.render(this.scene, this.camera); }
@@ -97,10 +202,10 @@ export class Scene {
     }
 
     /** Box around all bodies of the first frame. */
-    bounds() {
-        const box = new THREE.Box3(), first = this.record.frames[0];
-        for (let i = 0; i < first.order.length; i++)
-            box.expandByPoint(new THREE.Vector3(first.poses[7 * i], first.poses[7 * i + 1], 0));
+    bounds(first) {
+        const box = new THREE.Box3(), point = new THREE.Vector3();
+        for (let i = 0; i < first.poses.length; i += 7)
+            box.expandByPoint(point.set(first.poses[i], first.poses[i + 1], 0));
         for (const b of this.record.bodies)
             if (b.pose && b.material !== 'wall') box.expandByPoint(new THREE.Vector3(...b.pose.slice(0, 2), 0));
         if (box.isEmpty()) box.expandByPoint(new THREE.Vector3());
@@ -108,16 +213,28 @@ export class Scene {
     }
 }
 
+const FORCE = { ice: new THREE.Color(0xc2185b), line: new THREE.Color(0x1b7f3b), thruster: new THREE.Color(0x6a3fb5) };
+
+function inside(ring, x, y) {
+    let odd = false;
+    for (let i = 0, j = ring.length - 1; i < ring.length; j = i++) {
+        const [a, b] = ring[i], [c, d] = ring[j];
+        if (b > y !== d > y && x < (c - a) * (y - b) / (d - b) + a) odd = !odd;
+    }
+    return odd;
+}
+
 const OWN = { ice: new THREE.Color(ICE), hull: new THREE.Color(HULL), wall: new THREE.Color(WALL) };
-function own(body) { return OWN[body.material]; }
+/** The colour that a body has by itself. */
+export function own(body) { return OWN[body.material]; }
 
 /** All prisms and solids with their own normals, tagged by body. */
 function mergedGeometry(bodies) {
     const position = [], normal = [], body = [];
     const add = (b, points, n) => {
         for (const p of points) {
-            position.push(...p);
-            normal.push(...n);
+            position.push(p[0], p[1], p[2]);
+            normal.push(n[0], n[1], n[2]);
             body.push(b.index);
         }
     };

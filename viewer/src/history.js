@@ -1,0 +1,77 @@
+// The panel of the picked floe: what it is, where it came from, and its speed and contact force over time, as far as
+// the frames are in the page.
+
+const MOST = 400; // frames that are looked at
+
+export class History {
+    constructor(panel, record, store) {
+        this.panel = panel;
+        this.record = record;
+        this.store = store;
+    }
+
+    show(body) {
+        this.body = body;
+        this.panel.hidden = !body;
+        if (!body) return;
+        const { frames, fractures } = this.record, born = frames[body.birth].time;
+        const death = body.death < frames.length ? frames[body.death].time : null;
+        const origin = body.parent >= 0 ? `broke from floe ${body.parent} at ${born.toFixed(1)} s` : 'original';
+        const crack = fractures.find((f) => f.floe === body.number);
+        const fate = crack ? `broke at ${crack.time.toFixed(1)} s (${crack.kind}, ${(crack.load / 1000).toFixed(0)} kN)`
+            : death !== null ? `left at ${death.toFixed(1)} s` : 'there to the end';
+        this.panel.innerHTML = `<b>Floe ${body.number}</b> ${origin}<br>${body.area.toFixed(1)} m², ${
+            body.thickness.toFixed(2)} m thick, ${(body.area * body.thickness * body.density / 1000).toFixed(1)} t<br>${
+            fate}${body.moves ? '' : '<br>fixed'}<canvas></canvas>`;
+        this.collect();
+        this.back = null;
+    }
+
+    collect() {
+        const { body, record, store } = this, { frames } = record;
+        const last = Math.min(body.death, frames.length), every = Math.max(1, Math.ceil((last - body.birth) / MOST));
+        this.rows = [];
+        let before = null;
+        for (let f = body.birth; f < last && body.moves; f += every) {
+            if (!frames[f].view) continue; // in a file beside the page: not fetched for this
+            const place = frames[f].order.indexOf(body.index), at = store.get(f);
+            if (place < 0) continue;
+            const [x, y] = at.poses.subarray(7 * place, 7 * place + 2), time = frames[f].time;
+            const speed = before ? Math.hypot(x - before.x, y - before.y) / (time - before.time) : 0;
+            this.rows.push(before = { time, x, y, speed, force: at.contact[place] });
+        }
+    }
+
+    curve(g, w, top, h, name, unit, colour, value) {
+        const { rows } = this, most = rows.reduce((m, r) => Math.max(m, value(r)), 1e-9), t0 = rows[0].time;
+        const span = rows.at(-1).time - t0 || 1;
+        this.x = (t) => (t - t0) / span * w;
+        g.strokeStyle = colour;
+        g.lineWidth = 1.4;
+        g.beginPath();
+        rows.forEach((r) => g.lineTo(this.x(r.time), top + h - value(r) / most * (h - 13)));
+        g.stroke();
+        g.fillStyle = '#15222e';
+        g.fillText(`${name}, largest ${most.toPrecision(3)} ${unit}`, 0, top + 9);
+    }
+
+    draw(time) {
+        const canvas = this.panel.querySelector('canvas');
+        if (!this.body || !canvas || !this.rows || this.rows.length < 2) return;
+        const ratio = window.devicePixelRatio, w = canvas.clientWidth, h = canvas.clientHeight;
+        if (!this.back) {
+            this.back = document.createElement('canvas');
+            this.back.width = canvas.width = w * ratio; this.back.height = canvas.height = h * ratio;
+            const g = this.back.getContext('2d');
+            g.scale(ratio, ratio);
+            g.font = '10.5px system-ui, "DejaVu Sans", sans-serif';
+            this.curve(g, w, 0, h / 2 - 3, 'speed', 'm/s', '#00457f', (r) => r.speed);
+            this.curve(g, w, h / 2, h / 2 - 1, 'contact force', 'kN', '#c2185b', (r) => r.force);
+        }
+        const g = canvas.getContext('2d');
+        g.clearRect(0, 0, canvas.width, canvas.height);
+        g.drawImage(this.back, 0, 0);
+        g.fillStyle = '#b03020';
+        g.fillRect(this.x(time) * ratio, 0, 1.5 * ratio, canvas.height);
+    }
+}
