@@ -47,8 +47,16 @@ static void book_channels(report *r, const char *begins, const char *ends, doubl
 static void mass_books(report *r)
 {
     const field_state *a = &r->d.before, *b = &r->d.after;
-    double left = last_of(r, "ice_mass_left"), lost = last_of(r, "ice_mass_lost"),
-           gained = last_of(r, "ice_mass_gained");
+    static const struct {
+        const char *channel;
+        double sign;
+    } books[] = {{"ice_mass_entered", 1}, {"ice_mass_gained", 1},   {"ice_mass_left", -1},
+                 {"ice_mass_lost", -1},   {"ice_mass_crushed", -1}, {"brash_mass", -1}};
+    double open = a->mass - b->mass;
+    for (size_t i = 0; i < sizeof books / sizeof *books; i++) {
+        double value = last_of(r, books[i].channel);
+        open += value == value ? books[i].sign * value : 0;
+    }
     bool know = r->d.frames > 0 && r->d.series.rows > 0;
     const char *const heads[] = {"mass of ice", "at the end"};
     html_table_begin(&r->page, heads, 2);
@@ -56,11 +64,8 @@ static void mass_books(report *r)
         book_row(r, "in the field at the first frame", a->mass * 1e-3, "t");
         book_row(r, "in the field at the last frame", b->mass * 1e-3, "t");
     }
-    book_channels(r, "ice_mass_", "", 1e-3, "t");
-    /* Ice that was let in on the way has a channel of its own in runs that do so. */
-    double fed = last_of(r, "ice_mass_fed");
-    double open = a->mass + gained + (fed == fed ? fed : 0) - b->mass - left - lost;
-    if (know && open == open && a->mass > 0) {
+    book_channels(r, "ice_mass_", "brash_mass", 1e-3, "t");
+    if (know && a->mass > 0) {
         book_row(r, "not accounted for", open * 1e-3, "t");
         book_row(r, "of the mass at the start", 100 * open / a->mass, "%");
     }
