@@ -1,4 +1,5 @@
 /* Poses from velocities, and the free turning of rigid bodies. */
+#include "base/pool.h"
 #include "dynamics/motion.h"
 #include "dynamics/solver.h"
 
@@ -82,13 +83,28 @@ static void move_freely(body_table *bodies, int32_t slot, double dt)
         bodies->angular_velocity[slot] = mat3_mul_vec(quat_matrix(bodies->orientation[slot]), next);
 }
 
-void integrate_poses(context *ctx, body_table *bodies, double dt)
+typedef struct pose_work {
+    body_table *bodies;
+    double dt;
+} pose_work;
+
+static void integrate_block(void *arg, int32_t block, int32_t thread)
 {
-    (void)ctx;
-    for (int32_t i = 0; i < bodies->count; i++) {
+    const pose_work *work = arg;
+    body_table *bodies = work->bodies;
+    double dt = work->dt;
+    int32_t end = (block + 1) * MOTION_BLOCK < bodies->count ? (block + 1) * MOTION_BLOCK : bodies->count;
+    (void)thread;
+    for (int32_t i = block * MOTION_BLOCK; i < end; i++) {
         if (bodies->motion[i] == MOTION_DYNAMIC)
             move_freely(bodies, i, dt);
         else if (bodies->motion[i] == MOTION_PRESCRIBED)
             body_move(bodies, i, bodies->velocity[i], bodies->angular_velocity[i], dt);
     }
+}
+
+void integrate_poses(context *ctx, body_table *bodies, double dt)
+{
+    pose_work work = {bodies, dt};
+    pool_run(ctx, integrate_block, &work, (bodies->count + MOTION_BLOCK - 1) / MOTION_BLOCK);
 }

@@ -4,6 +4,9 @@
 
 #include "bodies/body.h"
 
+/* Bodies that a thread moves at a time. */
+enum { MOTION_BLOCK = 256 };
+
 /* Rigid and added inertia, body frame [kg m2]. */
 sym3 body_total_inertia(const body_table *bodies, int32_t slot);
 /* r += dt v, Q += dt/2 (0, Omega) Q, normalised; velocities in the global frame. */

@@ -93,7 +93,7 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
         status = contact_rows_make(s, settings, dt, bodies, contacts, error);
     if (status != FRAM_OK)
         return status;
-    bodies_accelerate(bodies, loads, dt);
+    bodies_accelerate(s->ctx, bodies, loads, dt);
     solver_bodies_load(s, bodies);
     if (settings->warm_start) {
         joint_rows_recall(s, joints);

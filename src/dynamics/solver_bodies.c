@@ -1,4 +1,5 @@
 /* The bodies of a solve: free motion of all, and the list of those that contacts and joints touch. */
+#include "base/pool.h"
 #include "dynamics/motion.h"
 #include "dynamics/solver_rows.h"
 
@@ -62,17 +63,34 @@ fram_status bodies_check(const body_table *bodies, fram_error *error)
     return FRAM_OK;
 }
 
-void bodies_accelerate(body_table *bodies, const wrench *loads, double dt)
+typedef struct acceleration_work {
+    body_table *bodies;
+    const wrench *loads;
+    double dt;
+} acceleration_work;
+
+static void accelerate_block(void *arg, int32_t block, int32_t thread)
 {
-    for (int32_t i = 0; i < bodies->count; i++) {
+    const acceleration_work *work = arg;
+    body_table *bodies = work->bodies;
+    int32_t end = (block + 1) * MOTION_BLOCK < bodies->count ? (block + 1) * MOTION_BLOCK : bodies->count;
+    (void)thread;
+    for (int32_t i = block * MOTION_BLOCK; i < end; i++) {
         if (!body_is_dynamic(bodies, i))
             continue;
+        const wrench *load = &work->loads[i];
         mat3 r = quat_matrix(bodies->orientation[i]);
-        vec3 push = sym3_mul_vec(inverse_mass_of(bodies, i, r), loads[i].force);
-        vec3 turn = sym3_mul_vec(sym3_inverse(body_total_inertia(bodies, i)), mat3_tmul_vec(r, loads[i].moment));
-        bodies->velocity[i] = vec3_mad(bodies->velocity[i], push, dt);
-        bodies->angular_velocity[i] = vec3_mad(bodies->angular_velocity[i], mat3_mul_vec(r, turn), dt);
+        vec3 push = sym3_mul_vec(inverse_mass_of(bodies, i, r), load->force);
+        vec3 turn = sym3_mul_vec(sym3_inverse(body_total_inertia(bodies, i)), mat3_tmul_vec(r, load->moment));
+        bodies->velocity[i] = vec3_mad(bodies->velocity[i], push, work->dt);
+        bodies->angular_velocity[i] = vec3_mad(bodies->angular_velocity[i], mat3_mul_vec(r, turn), work->dt);
     }
+}
+
+void bodies_accelerate(context *ctx, body_table *bodies, const wrench *loads, double dt)
+{
+    acceleration_work work = {bodies, loads, dt};
+    pool_run(ctx, accelerate_block, &work, (bodies->count + MOTION_BLOCK - 1) / MOTION_BLOCK);
 }
 
 void solver_bodies_load(solver *s, const body_table *bodies)

@@ -228,7 +228,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
     if (!find_contacts(s, st.memory, bodies, contacts) || !batch_plan_make(s->ctx, &f->plan, bodies, contacts) ||
         !fast_rows_make(&st))
         return error_memory(error);
-    bodies_accelerate(bodies, loads, dt);
+    bodies_accelerate(s->ctx, bodies, loads, dt);
     fast_velocities_load(f, bodies);
     fast_velocities_centre(f);
     st.free_energy = fast_energy(f);

@@ -86,7 +86,7 @@ int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot);
 /* Refuses dynamic bodies without mass or inertia. */
 fram_status bodies_check(const body_table *bodies, fram_error *error);
 /* Velocities of all dynamic bodies after dt under the loads alone; the gyroscopic moment acts in integrate_poses. */
-void bodies_accelerate(body_table *bodies, const wrench *loads, double dt);
+void bodies_accelerate(context *ctx, body_table *bodies, const wrench *loads, double dt);
 /* Velocities of the table into the list. */
 void solver_bodies_load(solver *s, const body_table *bodies);
 
