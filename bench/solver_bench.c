@@ -203,7 +203,7 @@ static void print_bandwidth(double contacts)
 
 int main(int argc, char **argv)
 {
-    for (double contacts = 9e3; contacts < 1e6; contacts *= 10)
+    for (int32_t contacts = 9000; contacts < 1000000; contacts *= 10)
         print_bandwidth(contacts);
     printf("\n");
     printf(
