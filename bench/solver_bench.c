@@ -69,7 +69,8 @@ static field field_make(int32_t side)
         if (slot < 0)
             fail("no memory");
         double mass = 91000 * (0.5 + random_unit(&random));
-        f.bodies.position[slot] = vec3_make(10 * (i % side), 10 * (i / side), 0);
+        int32_t row = i / side;
+        f.bodies.position[slot] = vec3_make(10 * (i % side), 10 * row, 0);
         f.bodies.mass[slot] = mass;
         f.bodies.inertia[slot] = (sym3){.xx = 6.3 * mass, .yy = 6.3 * mass, .zz = 12.5 * mass};
         f.bodies.velocity[slot] =
@@ -206,8 +207,7 @@ int main(int argc, char **argv)
     for (int32_t contacts = 9000; contacts < 1000000; contacts *= 10)
         print_bandwidth(contacts);
     printf("\n");
-    printf(
-        "| floes | contacts | solver | set | threads | ns a contact and iteration | ns a contact besides | ms at 30 |\n");
+    printf("| floes | contacts | solver | set | threads | ns a contact, sweep | ns a contact besides | ms at 30 |\n");
     printf("|---|---|---|---|---|---|---|---|\n");
     for (int i = 1; i < argc; i++)
         measure(atoi(argv[i]));
