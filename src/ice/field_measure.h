@@ -1,0 +1,20 @@
+/* What a field of outlines is, measured on the outlines alone: overlap, concentration in windows, cover map.  Must not
+   know how the field was made. */
+#ifndef ICE_FIELD_MEASURE_H
+#define ICE_FIELD_MEASURE_H
+
+#include "geometry/overlay.h"
+
+/* The deepest overlap of any two outlines of `floes`, or of one of `floes` and one of `others` (may be NULL), as the
+   least way that parts their convex pieces [m]; 0 when none overlap.  Pieces of one outline are not compared. */
+fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *floes, const polygon_list *others,
+                                  double *overlap, fram_error *error);
+
+/* Ice area within a window over the window's area; outlines must not overlap. */
+double field_concentration(const polygon_list *floes, box2 window);
+
+/* Concentration in each of nx x ny equal cells of a box, row by row from its lower left corner; cover is of nx ny
+   numbers, and exact. */
+void field_cover_map(const polygon_list *floes, box2 box, int32_t nx, int32_t ny, double *cover);
+
+#endif

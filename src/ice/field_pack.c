@@ -1,0 +1,311 @@
+/* Packed fields; see field_pack.h. */
+#include "ice/field_pack.h"
+
+#include "base/transcendental.h"
+#include "ice/field_cells.h"
+#include "ice/field_measure.h"
+#include "ice/packing.h"
+
+#include <stdio.h>
+
+/* Random streams: sizes and shapes of population p have the number of their stream plus p. */
+enum { STREAM_SIZE = 0x1cf000, STREAM_SHAPE = 0x1d0000, MOST_POPULATIONS = 1000 };
+
+/* Vertices of a piece of a floe that is present: as the packing takes them. */
+enum { PIECE_VERTICES = 24 };
+
+static fram_status refuse(fram_error *error, const char *key, const char *rule, double value)
+{
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s %s; it is %g", key, rule, value);
+}
+
+static fram_status check_population(const field_population *p, int32_t number, fram_error *error)
+{
+    const char *fault = size_law_fault(&p->size);
+    const shape_law *s = &p->shape;
+    if (!fault && !(p->share > 0 && p->share < HUGE_VAL))
+        fault = "the share must be positive";
+    if (!fault && s->templates && polygon_list_count(s->templates) < 1)
+        fault = "there are no templates";
+    if (!fault && !s->templates && !(s->least_vertices >= 3 && s->most_vertices <= SHAPE_MOST_VERTICES))
+        fault = "polygons must have 3 to 64 vertices";
+    if (!fault && !s->templates && s->most_vertices < s->least_vertices)
+        fault = "the largest number of vertices must not be less than the smallest";
+    if (!fault && !s->templates && !(s->elongation >= 1 && s->elongation <= 20))
+        fault = "the elongation must be between 1 and 20";
+    if (!fault)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations", "population %d: %s", number, fault);
+}
+
+static fram_status check_request(const field_packed_request *r, fram_error *error)
+{
+    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
+    if (!(size.x > 0 && size.y > 0 && size.x * size.y < HUGE_VAL))
+        return refuse(error, "domain", "must have an area, in m2", size.x * size.y);
+    if (!(r->concentration > 0 && r->concentration < 1))
+        return refuse(error, "concentration", "must be over 0 and under 1", r->concentration);
+    if (!(r->keep_out_margin >= 0 && r->keep_out_margin < HUGE_VAL))
+        return refuse(error, "keep_out_margin", "must not be negative, in m", r->keep_out_margin);
+    if (r->population_count < 1 || r->population_count > MOST_POPULATIONS)
+        return refuse(error, "populations", "must be 1 to 1000", r->population_count);
+    for (int32_t i = 0; r->keep_out && i < polygon_list_count(r->keep_out); i++) {
+        polygon zone = polygon_list_get(r->keep_out, i);
+        if (!(polygon_area(zone) > 0) || !polygon_is_convex(zone))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
+                             "zone %d must be convex, counter-clockwise and have an area; cut it into convex zones", i);
+    }
+    for (int32_t i = 0; i < r->population_count; i++) {
+        fram_status status = check_population(&r->populations[i], i, error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return FRAM_OK;
+}
+
+/* Scratch of one generation. */
+typedef struct pack_state {
+    polygon_list zones;     /* grown */
+    polygon_list obstacles; /* zones and convex pieces of what is present */
+    polygon_list shapes;    /* about their centroids */
+    int32_array population;
+    packing_pose_array poses;
+    polygon_list floes;
+    vec2_array ring;
+    double free_area, present_area, drawn_area, largest;
+} pack_state;
+
+static void state_free(context *ctx, pack_state *s)
+{
+    polygon_list_free(ctx, &s->zones);
+    polygon_list_free(ctx, &s->obstacles);
+    polygon_list_free(ctx, &s->shapes);
+    array_free(ctx, &s->population);
+    array_free(ctx, &s->poses);
+    polygon_list_free(ctx, &s->floes);
+    array_free(ctx, &s->ring);
+}
+
+static void corners_of(box2 b, vec2 out[4])
+{
+    out[0] = b.lo;
+    out[1] = (vec2){b.hi.x, b.lo.y};
+    out[2] = b.hi;
+    out[3] = (vec2){b.lo.x, b.hi.y};
+}
+
+/* Area of the domain outside all zones. */
+static bool find_free_area(context *ctx, const field_packed_request *r, pack_state *s)
+{
+    polygon_list whole = {0}, parts = {0};
+    cells_scratch scratch = {0};
+    vec2 corner[4];
+    corners_of(r->domain, corner);
+    bool good = polygon_list_push(ctx, &whole, (polygon){corner, 4}) &&
+                cells_outside_zones(ctx, &whole, &s->zones, &scratch, &parts);
+    s->free_area = good ? cells_area(&parts) : 0;
+    polygon_list_free(ctx, &whole);
+    polygon_list_free(ctx, &parts);
+    cells_scratch_free(ctx, &scratch);
+    return good;
+}
+
+/* Zones and floes that are there already. */
+static fram_status find_obstacles(context *ctx, overlay *o, const field_packed_request *r, pack_state *s,
+                                  fram_error *error)
+{
+    if (r->keep_out && !zones_grow(ctx, r->keep_out, r->keep_out_margin, &s->zones))
+        return error_memory(error);
+    for (int32_t i = 0; i < polygon_list_count(&s->zones); i++)
+        if (!polygon_list_push(ctx, &s->obstacles, polygon_list_get(&s->zones, i)))
+            return error_memory(error);
+    vec2 corner[4];
+    corners_of(r->domain, corner);
+    for (int32_t i = 0; r->present && i < polygon_list_count(r->present); i++) {
+        polygon p = polygon_list_get(r->present, i);
+        s->present_area += polygon_overlap_area(p, (polygon){corner, 4});
+        if (!polygon_is_convex(p)) {
+            fram_status status = overlay_convex_pieces(o, p, 0, PIECE_VERTICES, &s->obstacles, NULL, error);
+            if (status != FRAM_OK)
+                return status;
+        } else if (!polygon_list_push(ctx, &s->obstacles, p)) {
+            return error_memory(error);
+        }
+    }
+    return find_free_area(ctx, r, s) ? FRAM_OK : error_memory(error);
+}
+
+/* ---- drawing ---- */
+
+static bool draw_shapes(context *ctx, const field_packed_request *r, int32_t number, const real_array *sizes,
+                        pack_state *s)
+{
+    for (int32_t i = 0; i < sizes->count; i++) {
+        random_stream stream = random_begin(r->seed, (uint32_t)(STREAM_SHAPE + number), (uint32_t)i);
+        if (!shape_draw(ctx, &r->populations[number].shape, sizes->data[i], &stream, &s->ring) ||
+            !polygon_list_push(ctx, &s->shapes, (polygon){s->ring.data, s->ring.count}) ||
+            !array_push(ctx, &s->population, number))
+            return false;
+        double d = sizes->data[i];
+        s->drawn_area += PI / 4 * d * d;
+        s->largest = fmax(s->largest, d);
+    }
+    return true;
+}
+
+static fram_status draw_floes(context *ctx, const field_packed_request *r, pack_state *s, fram_error *error)
+{
+    double wanted = r->concentration * s->free_area - s->present_area, shares = 0;
+    if (!(wanted > 0))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "concentration",
+                         "concentration %g is reached already: the floes that are there cover %.6f of %g m2 of free "
+                         "area; ask for more",
+                         r->concentration, s->free_area > 0 ? s->present_area / s->free_area : 0, s->free_area);
+    for (int32_t p = 0; p < r->population_count; p++)
+        shares += r->populations[p].share;
+    real_array sizes = {0};
+    bool good = true;
+    for (int32_t p = 0; good && p < r->population_count; p++) {
+        array_clear(&sizes);
+        double area = wanted * r->populations[p].share / shares;
+        good = size_law_draw(ctx, &r->populations[p].size, area, r->seed, (uint32_t)(STREAM_SIZE + p), &sizes) &&
+               draw_shapes(ctx, r, p, &sizes, s);
+    }
+    array_free(ctx, &sizes);
+    if (!good)
+        return error_memory(error);
+    double narrow = fmin(r->domain.hi.x - r->domain.lo.x, r->domain.hi.y - r->domain.lo.y);
+    if (s->largest > narrow)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
+                         "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger "
+                         "or the floes smaller",
+                         s->largest, narrow);
+    return FRAM_OK;
+}
+
+/* ---- packing ---- */
+
+static fram_status impossible(const field_packed_request *r, const pack_state *s, const packing_report *p,
+                              fram_error *error)
+{
+    double drawn = (s->present_area + s->drawn_area) / s->free_area;
+    double reached = (s->present_area + p->scale * p->scale * s->drawn_area) / s->free_area;
+    char found[100];
+    if (p->scale > 0)
+        snprintf(found, sizeof found, "concentration %.4f was reached", reached);
+    else
+        snprintf(found, sizeof found, "not even a much lower concentration was reached");
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "concentration",
+                     "concentration %g cannot be reached with these floes: at %.4f, %d floes overlap by up to %.3g m "
+                     "after %d rounds and jam; %s. Rigid floes that are nearly equal or round leave the most water "
+                     "between them: ask for less, or for a wider size law, fewer vertices, or source voronoi",
+                     r->concentration, drawn, polygon_list_count(&s->shapes), p->overlap, p->rounds, found);
+}
+
+static fram_status place_floes(context *ctx, overlay *o, const field_packed_request *r, pack_state *s,
+                               field_packed_report *report, fram_error *error)
+{
+    const packing_request packing = {.domain = r->domain,
+                                     .periodic_x = r->periodic_x,
+                                     .periodic_y = r->periodic_y,
+                                     .shapes = &s->shapes,
+                                     .obstacles = &s->obstacles,
+                                     .seed = r->seed,
+                                     .effort = r->effort};
+    packing_report found;
+    fram_status status = packing_solve(ctx, o, &packing, &s->poses, &found, error);
+    if (status != FRAM_OK)
+        return status;
+    if (!found.done)
+        return impossible(r, s, &found, error);
+    report->rounds = found.rounds;
+    report->moves = found.moves;
+    for (int32_t i = 0; i < polygon_list_count(&s->shapes); i++) {
+        polygon shape = polygon_list_get(&s->shapes, i);
+        if (!packing_outline(ctx, shape, s->poses.data[i], &s->ring) ||
+            !polygon_list_push(ctx, &s->floes, (polygon){s->ring.data, s->ring.count}))
+            return error_memory(error);
+        double drawn = polygon_area(shape), area = polygon_area((polygon){s->ring.data, s->ring.count});
+        report->area_change = fmax(report->area_change, fabs(area - drawn) / drawn);
+        report->vertex_changes += s->ring.count != shape.count;
+    }
+    return FRAM_OK;
+}
+
+/* ---- what came of it ---- */
+
+static bool report_populations(context *ctx, const field_packed_request *r, const pack_state *s,
+                               field_population_report *parts)
+{
+    real_array diameter = {0};
+    bool good = true;
+    for (int32_t p = 0; good && p < r->population_count; p++) {
+        array_clear(&diameter);
+        parts[p] = (field_population_report){0};
+        for (int32_t i = 0; good && i < s->population.count; i++) {
+            if (s->population.data[i] != p)
+                continue;
+            double area = polygon_area(polygon_list_get(&s->floes, i));
+            parts[p].area += area;
+            good = array_push(ctx, &diameter, sqrt(area * 4 / PI));
+        }
+        parts[p].floes = diameter.count;
+        parts[p].size_distance = size_law_distance(&r->populations[p].size, diameter.data, diameter.count);
+    }
+    array_free(ctx, &diameter);
+    return good;
+}
+
+static fram_status report_field(context *ctx, overlay *o, const field_packed_request *r, const pack_state *s,
+                                field_population_report *parts, field_packed_report *report, fram_error *error)
+{
+    if (!report_populations(ctx, r, s, parts))
+        return error_memory(error);
+    double area = s->present_area;
+    for (int32_t p = 0; p < r->population_count; p++)
+        area += parts[p].area;
+    report->drawn_concentration = (s->present_area + s->drawn_area) / s->free_area;
+    report->field = (field_report){
+        .floes = polygon_list_count(&s->floes), .concentration = area / s->free_area, .free_area = s->free_area};
+    return field_largest_overlap(ctx, o, &s->floes, r->present, &report->field.largest_overlap, error);
+}
+
+static bool append_floes(context *ctx, const pack_state *s, polygon_list *outlines, int32_array *population)
+{
+    /* All room is made before anything is appended, so that a failure changes nothing. */
+    if (!array_reserve(ctx, &outlines->vertex, outlines->vertex.count + s->floes.vertex.count) ||
+        !array_reserve(ctx, &outlines->start, outlines->start.count + s->floes.start.count + 1) ||
+        !array_reserve(ctx, population, population->count + s->population.count))
+        return false;
+    for (int32_t i = 0; i < polygon_list_count(&s->floes); i++) {
+        polygon_list_push(ctx, outlines, polygon_list_get(&s->floes, i));
+        population->data[population->count++] = s->population.data[i];
+    }
+    return true;
+}
+
+fram_status field_packed(context *ctx, overlay *o, const field_packed_request *request, polygon_list *outlines,
+                         int32_array *population, field_population_report *parts, field_packed_report *report,
+                         fram_error *error)
+{
+    fram_status status = check_request(request, error);
+    if (status != FRAM_OK)
+        return status;
+    pack_state s = {0};
+    field_packed_report found = {0};
+    status = find_obstacles(ctx, o, request, &s, error);
+    if (status == FRAM_OK && !(s.free_area > 0))
+        status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out", "the keep-out zones leave no free area");
+    if (status == FRAM_OK)
+        status = draw_floes(ctx, request, &s, error);
+    if (status == FRAM_OK)
+        status = place_floes(ctx, o, request, &s, &found, error);
+    if (status == FRAM_OK)
+        status = report_field(ctx, o, request, &s, parts, &found, error);
+    if (status == FRAM_OK && !append_floes(ctx, &s, outlines, population))
+        status = error_memory(error);
+    if (status == FRAM_OK)
+        *report = found;
+    state_free(ctx, &s);
+    return status;
+}

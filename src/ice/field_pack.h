@@ -1,0 +1,54 @@
+/* Packed fields (SPEC 3): floes of one or several populations, drawn by size and shape before and independently of
+   where they go, then brought to places where none overlap, around what is already there.  Same request, same bits.
+   Knows outlines only. */
+#ifndef ICE_FIELD_PACK_H
+#define ICE_FIELD_PACK_H
+
+#include "ice/field.h"
+#include "ice/field_shape.h"
+#include "ice/field_size.h"
+
+/* Floes of one kind. */
+typedef struct field_population {
+    double share; /* of the drawn ice area; any common factor */
+    size_law size;
+    shape_law shape;
+} field_population;
+
+typedef struct field_packed_request {
+    box2 domain;                 /* [m] */
+    bool periodic_x, periodic_y; /* the field continues beyond the edge with itself; otherwise it ends there */
+    double concentration;        /* target, ice area / free area, over 0 and under 1 */
+    const field_population *populations;
+    int32_t population_count;
+    uint64_t seed;
+    const polygon_list *keep_out; /* convex zones that stay free of ice; may be NULL */
+    double keep_out_margin;       /* the zones are grown by it all around [m] */
+    const polygon_list *present;  /* simple outlines of floes that are there already and stay; may be NULL */
+    double effort;                /* see packing.h; 0: 1 */
+} field_packed_request;
+
+/* What came of it, for each population. */
+typedef struct field_population_report {
+    int32_t floes;
+    double area;          /* [m2] */
+    double size_distance; /* Kolmogorov and Smirnov's, of the outlines' equivalent diameters from the law */
+} field_population_report;
+
+typedef struct field_packed_report {
+    field_report field;
+    int32_t rounds, moves;      /* of the packing */
+    double drawn_concentration; /* with all floes that were drawn [1] */
+    double area_change;         /* largest relative change of a floe's area by being moved: rounding */
+    int32_t vertex_changes;     /* floes whose number of vertices changed: 0 */
+} field_packed_report;
+
+/* Appends outlines in the order of the populations, and to `population` the number of each one's population.  parts (of
+   population_count) and report are filled.  The floes that were present are counted in the concentration, not appended.
+   FRAM_ERROR_INPUT for a request that is wrong or cannot be met, saying what was reached and why; outlines and
+   population are then unchanged. */
+fram_status field_packed(context *ctx, overlay *o, const field_packed_request *request, polygon_list *outlines,
+                         int32_array *population, field_population_report *parts, field_packed_report *report,
+                         fram_error *error);
+
+#endif

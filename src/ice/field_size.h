@@ -1,0 +1,46 @@
+/* Laws of floe size: the diameter of the disc of a floe's area, by number.  Knows no shapes and no places. */
+#ifndef ICE_FIELD_SIZE_H
+#define ICE_FIELD_SIZE_H
+
+#include "base/array.h"
+
+typedef ARRAY(double) real_array;
+
+typedef enum size_law_kind {
+    SIZE_CONSTANT = 0, /* mean */
+    SIZE_UNIFORM,      /* lo to hi */
+    SIZE_LOGNORMAL,    /* mean and deviation of the diameter itself, cut to lo .. hi */
+    SIZE_POWER,        /* N(>D) ~ D^-exponent, lo to hi */
+    SIZE_HISTOGRAM     /* bins */
+} size_law_kind;
+
+typedef struct size_law {
+    size_law_kind kind;
+    double mean, deviation; /* [m] */
+    double lo, hi;          /* [m]; hi 0: no limit */
+    double exponent;
+    const double *edge;   /* bins + 1 ascending edges [m] */
+    const double *weight; /* of each bin, any common factor; even within a bin */
+    int32_t bins;
+} size_law;
+
+/* NULL, or what is wrong with the law ("the largest diameter must not be less than the smallest"). */
+const char *size_law_fault(const size_law *law);
+/* The diameter that a part u of all floes is smaller than, 0 <= u <= 1 [m]. */
+double size_law_quantile(const size_law *law, double u);
+/* The part of all floes that is no larger than d. */
+double size_law_part(const size_law *law, double d);
+
+/* The fewest diameters that make up `area` [m2] of discs: one from each of n equal slices of the law, at random within
+   its slice, all moved within their slices by as much as it takes to meet the area.  So the sample follows the law to
+   1/n, whatever the seed, and where the law has any width the area is met: exactly, or to the floe that would have to
+   stand in a gap of the law.  Appended in random order.  false: no memory. */
+bool size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream, real_array *out);
+
+/* Kolmogorov and Smirnov's distance of a sample from the law; the sample is sorted by it. */
+double size_law_distance(const size_law *law, double *sample, int32_t count);
+
+/* Normal distribution function, to about 1e-15 (Hart 1968, algorithm 5666, as given by West 2005). */
+double normal_part(double x);
+
+#endif

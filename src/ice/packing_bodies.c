@@ -1,0 +1,234 @@
+/* Bodies of the packing: convex pieces, seams between them, where they lie. */
+#include "ice/packing_work.h"
+
+#include "geometry/space_curve.h"
+
+#include <string.h>
+
+/* Large floes move as if they were no larger than this many smallest ones, lest they be carried right across those. */
+static const double GRAIN = 10;
+/* Vertices of a convex piece at most: the axis of a pair must fit 16 bits, and contacts cost their product. */
+enum { PIECE_VERTICES = 24 };
+
+static int32_t next_of(int32_t i, int32_t count) { return i + 1 < count ? i + 1 : 0; }
+
+static bool add_piece(pack_work *w, int32_t body, polygon p)
+{
+    pack_piece piece = {.body = body, .first = w->local.count};
+    for (int32_t i = 0; i < p.count; i++) {
+        vec2 edge = vec2_sub(p.vertex[next_of(i, p.count)], p.vertex[i]);
+        double length = vec2_length(edge);
+        if (length == 0)
+            continue; /* a vertex given twice */
+        vec2 n = {edge.y / length, -edge.x / length};
+        if (!array_push(w->ctx, &w->local, p.vertex[i]) || !array_push(w->ctx, &w->local_normal, n) ||
+            !array_push(w->ctx, &w->seam, 0))
+            return false;
+    }
+    piece.count = w->local.count - piece.first;
+    return piece.count < 3 || array_push(w->ctx, &w->pieces, piece);
+}
+
+/* Edges that two pieces of one body have in common are seams. */
+static void mark_seams(pack_work *w, const pack_body *b)
+{
+    const vec2 *v = w->local.data;
+    for (int32_t p = b->piece; p < b->piece + b->piece_count; p++)
+        for (int32_t q = p + 1; q < b->piece + b->piece_count; q++) {
+            const pack_piece *a = &w->pieces.data[p], *c = &w->pieces.data[q];
+            for (int32_t i = 0; i < a->count; i++)
+                for (int32_t k = 0; k < c->count; k++) {
+                    vec2 a0 = v[a->first + i], a1 = v[a->first + next_of(i, a->count)];
+                    vec2 c0 = v[c->first + k], c1 = v[c->first + next_of(k, c->count)];
+                    if (a0.x == c1.x && a0.y == c1.y && a1.x == c0.x && a1.y == c0.y)
+                        w->seam.data[a->first + i] = w->seam.data[c->first + k] = 1;
+                }
+        }
+}
+
+static double farthest(polygon p)
+{
+    double most = 0;
+    for (int32_t i = 0; i < p.count; i++)
+        most = fmax(most, vec2_dot(p.vertex[i], p.vertex[i]));
+    return sqrt(most);
+}
+
+static fram_status add_shape(pack_work *w, overlay *o, polygon shape, polygon_list *pieces, fram_error *error)
+{
+    polygon_moments m = polygon_moments_of(shape);
+    int32_t body = w->bodies.count;
+    double inertia = (m.xx + m.yy) / m.area; /* radius of gyration, squared */
+    pack_body b = {.turn = {1, 0}, .radius = farthest(shape), .size = sqrt(m.area), .piece = w->pieces.count};
+    /* A mass like the diameter, not like the area: a large floe shall give way to many small ones. */
+    b.weight = 1 / b.size;
+    b.spin_weight = b.weight / inertia;
+    polygon_list_clear(pieces);
+    if (polygon_is_convex(shape) && shape.count <= PIECE_VERTICES) {
+        if (!add_piece(w, body, shape))
+            return error_memory(error);
+    } else {
+        if (!o)
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "shapes", "shape %d is concave; it needs an overlay",
+                             (int)body);
+        fram_status status = overlay_convex_pieces(o, shape, 0, PIECE_VERTICES, pieces, NULL, error);
+        if (status != FRAM_OK)
+            return status;
+        for (int32_t i = 0; i < polygon_list_count(pieces); i++)
+            if (!add_piece(w, body, polygon_list_get(pieces, i)))
+                return error_memory(error);
+    }
+    b.piece_count = w->pieces.count - b.piece;
+    if (!array_push(w->ctx, &w->bodies, b))
+        return error_memory(error);
+    mark_seams(w, &b);
+    return FRAM_OK;
+}
+
+/* An obstacle stands where it is given. */
+static fram_status add_obstacle(pack_work *w, polygon zone, fram_error *error)
+{
+    pack_body b = {
+        .turn = {1, 0}, .radius = 0, .size = sqrt(polygon_area(zone)), .piece = w->pieces.count, .piece_count = 1};
+    if (!add_piece(w, w->bodies.count, zone) || !array_push(w->ctx, &w->bodies, b))
+        return error_memory(error);
+    return FRAM_OK;
+}
+
+fram_status pack_bodies_make(pack_work *w, overlay *o, fram_error *error)
+{
+    const packing_request *r = w->request;
+    polygon_list pieces = {0};
+    fram_status status = FRAM_OK;
+    double sum = 0, least = HUGE_VAL;
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(r->shapes); i++) {
+        status = add_shape(w, o, polygon_list_get(r->shapes, i), &pieces, error);
+        if (status == FRAM_OK) {
+            sum += w->bodies.data[i].size;
+            least = fmin(least, w->bodies.data[i].size);
+        }
+    }
+    w->movable = w->bodies.count;
+    w->concave = w->pieces.count > w->bodies.count;
+    w->mean_size = w->movable > 0 ? sum / w->movable : 1;
+    w->least_size = w->movable > 0 ? least : 1;
+    w->grain = fmin(w->mean_size, GRAIN * w->least_size);
+    for (int32_t i = 0; status == FRAM_OK && r->obstacles && i < polygon_list_count(r->obstacles); i++)
+        status = add_obstacle(w, polygon_list_get(r->obstacles, i), error);
+    polygon_list_free(w->ctx, &pieces);
+    if (status != FRAM_OK)
+        return status;
+    if (!array_resize(w->ctx, &w->shape, w->movable) || !array_resize(w->ctx, &w->vertex, w->local.count) ||
+        !array_resize(w->ctx, &w->normal, w->local.count) || !array_resize(w->ctx, &w->steps, w->bodies.count) ||
+        !array_resize(w->ctx, &w->squeeze, w->bodies.count) || !array_resize(w->ctx, &w->pair_centre, w->bodies.count))
+        return error_memory(error);
+    for (int32_t i = 0; i < w->movable; i++)
+        w->shape.data[i] = i;
+    return FRAM_OK;
+}
+
+/* Appends body i of `from` with its pieces; there is room. */
+static void copy_body(pack_work *w, const pack_work *from, int32_t i)
+{
+    pack_body b = from->bodies.data[i];
+    int32_t end = b.piece + b.piece_count, p = b.piece;
+    b.piece = w->pieces.count;
+    for (; p < end; p++) {
+        pack_piece piece = from->pieces.data[p];
+        int32_t first = piece.first, to = w->local.count;
+        for (int32_t k = 0; k < piece.count; k++) {
+            w->local.data[to + k] = from->local.data[first + k];
+            w->local_normal.data[to + k] = from->local_normal.data[first + k];
+            w->seam.data[to + k] = from->seam.data[first + k];
+        }
+        piece.first = to;
+        piece.body = w->bodies.count;
+        w->local.count += piece.count;
+        w->local_normal.count += piece.count;
+        w->seam.count += piece.count;
+        w->pieces.data[w->pieces.count++] = piece;
+    }
+    w->bodies.data[w->bodies.count++] = b;
+}
+
+bool pack_sort_bodies(pack_work *w)
+{
+    context *ctx = w->ctx;
+    pack_work sorted = {.ctx = ctx};
+    vec2 *place = memory_array(ctx, (size_t)w->movable + 1, sizeof *place);
+    int32_t *order = memory_array(ctx, (size_t)w->movable + 1, sizeof *order);
+    bool good = place && order;
+    for (int32_t i = 0; good && i < w->movable; i++)
+        place[i] = w->bodies.data[i].centre;
+    good = good && space_curve_order(ctx, place, w->movable, order) &&
+           array_reserve(ctx, &sorted.bodies, w->bodies.count) && array_reserve(ctx, &sorted.pieces, w->pieces.count) &&
+           array_reserve(ctx, &sorted.local, w->local.count) && array_reserve(ctx, &sorted.seam, w->seam.count) &&
+           array_reserve(ctx, &sorted.local_normal, w->local_normal.count);
+    if (good) {
+        for (int32_t i = 0; i < w->bodies.count; i++)
+            copy_body(&sorted, w, i < w->movable ? order[i] : i);
+        memcpy(w->shape.data, order, (size_t)w->movable * sizeof *order);
+        memcpy(w->bodies.data, sorted.bodies.data, (size_t)w->bodies.count * sizeof *w->bodies.data);
+        memcpy(w->pieces.data, sorted.pieces.data, (size_t)w->pieces.count * sizeof *w->pieces.data);
+        memcpy(w->local.data, sorted.local.data, (size_t)w->local.count * sizeof *w->local.data);
+        memcpy(w->local_normal.data, sorted.local_normal.data,
+               (size_t)w->local_normal.count * sizeof *w->local_normal.data);
+        memcpy(w->seam.data, sorted.seam.data, (size_t)w->seam.count * sizeof *w->seam.data);
+    }
+    pack_work_free(&sorted);
+    memory_free(ctx, place);
+    memory_free(ctx, order);
+    return good;
+}
+
+void pack_place_body(pack_work *w, int32_t body)
+{
+    const pack_body *b = &w->bodies.data[body];
+    double scale = body < w->movable ? w->scale : 1;
+    double c = b->turn.x * scale, s = b->turn.y * scale;
+    for (int32_t p = b->piece; p < b->piece + b->piece_count; p++) {
+        pack_piece *piece = &w->pieces.data[p];
+        box2 box = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+        vec2 sum = {0, 0};
+        for (int32_t i = piece->first; i < piece->first + piece->count; i++) {
+            vec2 v = w->local.data[i], n = w->local_normal.data[i];
+            vec2 at = {b->centre.x + c * v.x - s * v.y, b->centre.y + s * v.x + c * v.y};
+            w->vertex.data[i] = at;
+            w->normal.data[i] = (vec2){b->turn.x * n.x - b->turn.y * n.y, b->turn.y * n.x + b->turn.x * n.y};
+            sum = vec2_add(sum, at);
+            box.lo.x = at.x < box.lo.x ? at.x : box.lo.x;
+            box.lo.y = at.y < box.lo.y ? at.y : box.lo.y;
+            box.hi.x = at.x > box.hi.x ? at.x : box.hi.x;
+            box.hi.y = at.y > box.hi.y ? at.y : box.hi.y;
+        }
+        piece->box = box;
+        piece->middle = vec2_scale(sum, 1.0 / piece->count);
+    }
+}
+
+void pack_place(pack_work *w)
+{
+    for (int32_t i = 0; i < w->bodies.count; i++)
+        pack_place_body(w, i);
+}
+
+void pack_work_free(pack_work *w)
+{
+    context *ctx = w->ctx;
+    array_free(ctx, &w->shape);
+    array_free(ctx, &w->bodies);
+    array_free(ctx, &w->pieces);
+    array_free(ctx, &w->local);
+    array_free(ctx, &w->local_normal);
+    array_free(ctx, &w->vertex);
+    array_free(ctx, &w->normal);
+    array_free(ctx, &w->seam);
+    array_free(ctx, &w->items);
+    array_free(ctx, &w->cell_start);
+    array_free(ctx, &w->cell_item);
+    array_free(ctx, &w->pairs);
+    array_free(ctx, &w->rows);
+    array_free(ctx, &w->steps);
+    array_free(ctx, &w->pair_centre);
+    array_free(ctx, &w->squeeze);
+}

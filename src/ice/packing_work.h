@@ -1,0 +1,125 @@
+/* What the files of the packing share: bodies, their convex pieces, pairs, contact rows.  Not for other files. */
+#ifndef ICE_PACKING_WORK_H
+#define ICE_PACKING_WORK_H
+
+#include "ice/packing.h"
+
+/* Random streams of the packing (base/random.h). */
+enum { PACK_STREAM_START = 0x1ce10, PACK_STREAM_SHAKE, PACK_STREAM_MOVE, PACK_STREAM_HOLE };
+
+/* A floe, or an obstacle (weights 0). */
+typedef struct pack_body {
+    vec2 centre, turn;
+    double weight, spin_weight; /* inverse mass and moment of inertia, in units of their own */
+    double radius;              /* [m] */
+    double size;                /* square root of the area [m] */
+    int32_t piece, piece_count;
+} pack_body;
+
+/* A convex piece. */
+typedef struct pack_piece {
+    int32_t body, first, count; /* vertices */
+    vec2 middle;                /* mean of its vertices as it lies: inside */
+    box2 box;                   /* as it lies */
+} pack_piece;
+
+/* A pair of pieces whose boxes come near; b's piece stands `shift` away from where it is stored. */
+typedef struct pack_pair {
+    int32_t a, b;
+    int8_t shift_x, shift_y; /* in periods */
+    int16_t axis;            /* the edge that parted them last: of a, or of b counted from a's end; -1 */
+} pack_pair;
+
+/* One condition: gap + motion along the normal >= 0. */
+typedef struct pack_row {
+    int32_t a, b; /* bodies; b < 0: a wall */
+    vec2 normal;  /* from a to b, unit */
+    double arm_a, arm_b;
+    double gap;  /* over the wanted one [m] */
+    double mass; /* what a unit push moves the gap, inverse */
+    double push;
+} pack_row;
+
+/* Displacement of one round. */
+typedef struct pack_step {
+    double x, y, turn;
+} pack_step;
+
+/* An entry of the search grid: a piece, or its image. */
+typedef struct pack_item {
+    box2 box;
+    int32_t piece;
+    int8_t shift_x, shift_y;
+} pack_item;
+
+typedef struct pack_grid {
+    vec2 origin;
+    double width;
+    int32_t nx, ny;
+} pack_grid;
+
+typedef struct pack_work {
+    context *ctx;
+    const packing_request *request;
+    vec2 period;       /* 0: walls */
+    int32_t movable;   /* bodies from here on are obstacles */
+    bool concave;      /* some floe has several pieces */
+    int32_array shape; /* of each movable body: the request's */
+    double scale;      /* of the floes: 1 but while concave ones grow, or an impossible field is shrunk until it fits */
+    double gap;        /* clear distance the rounds aim at [m] */
+    double mean_size, least_size; /* [m] */
+    double grain;                 /* what large floes are moved by as if they were of this size [m] */
+
+    ARRAY(pack_body) bodies;
+    ARRAY(pack_piece) pieces;
+    vec2_array local, local_normal; /* vertices, and outward normals of the edges that begin there, body frame */
+    vec2_array vertex, normal;      /* as they lie */
+    ARRAY(uint8_t) seam;            /* 1: the edge is a cut inside its floe */
+
+    ARRAY(pack_item) items;
+    pack_grid grid;
+    int32_array cell_start, cell_item;
+    ARRAY(pack_pair) pairs;
+    ARRAY(pack_row) rows;
+    ARRAY(pack_step) steps;
+    vec2_array pair_centre; /* of the bodies when the pairs were found */
+    ARRAY(double) squeeze;  /* deepest overlap of each body in this round [m] */
+    double reach;           /* pieces nearer than this are pairs [m] */
+
+    double overlap; /* largest of this round; negative: all are apart [m] */
+    int32_t round;
+} pack_work;
+
+/* packing_bodies.c */
+fram_status pack_bodies_make(pack_work *w, overlay *o, fram_error *error);
+void pack_work_free(pack_work *w);
+/* Vertices, normals and boxes as they lie. */
+void pack_place(pack_work *w);
+void pack_place_body(pack_work *w, int32_t body);
+
+/* Stores the bodies anew in the order of their places, so that neighbours in the water are neighbours in memory:
+   w->shape says which shape is where.  false: no memory. */
+bool pack_sort_bodies(pack_work *w);
+
+/* packing_start.c: first places and angles; false: no memory. */
+bool pack_start(pack_work *w);
+
+/* packing_pairs.c: find the pairs anew when bodies may have left the margin of the last search; false: no memory. */
+bool pack_find_pairs(pack_work *w, bool force);
+/* Cells of the grid that a box meets. */
+void pack_grid_range(const pack_grid *g, box2 box, int32_t lo[2], int32_t hi[2]);
+
+/* packing_contacts.c: rows of all pairs and walls; false: no memory. */
+bool pack_find_rows(pack_work *w);
+/* How deep b, moved by shift, is in a; what is less than `enough` may be called 0. */
+double pack_depth(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, double enough);
+
+/* packing_solve.c: displacements that part the rows, added to a random step of `shake` floe sizes, and moving by
+   them. */
+void pack_solve_rows(pack_work *w, double shake);
+
+/* packing_moves.c: carries squeezed floes into open water where that helps; with `hooked`, those that overlap deeply to
+   the widest water there is, whether it helps at once or not.  Adds to *moves; false: no memory. */
+bool pack_move_squeezed(pack_work *w, bool hooked, int32_t *moves);
+
+#endif

@@ -1,0 +1,91 @@
+/* Size laws: quantiles against closed forms, samples against their laws. */
+#include "base/transcendental.h"
+#include "ice/field_size.h"
+#include "testing.h"
+
+/* Values of the normal distribution to 15 digits (Abramowitz and Stegun 1964, table 26.1). */
+START_TEST(the_normal_distribution_is_right)
+{
+    assert_absolute(normal_part(0), 0.5, 1e-16);
+    assert_absolute(normal_part(1), 0.841344746068543, 1e-14);
+    assert_absolute(normal_part(2), 0.977249868051821, 1e-14);
+    assert_absolute(normal_part(-3), 1.34989803163009e-3, 1e-16);
+    assert_relative(normal_part(-8), 6.22096057427178e-16, 1e-6);
+    assert_absolute(normal_part(40), 1, 0);
+    for (int i = -300; i <= 300; i++)
+        assert_absolute(normal_part(i / 50.0), 0.5 * erfc(-i / 50.0 / sqrt(2)), 2e-15);
+}
+END_TEST
+
+static const double edges[] = {2, 4, 8, 16}, weights[] = {1, 0, 3};
+static const size_law laws[] = {
+    {.kind = SIZE_UNIFORM, .lo = 3, .hi = 9},
+    {.kind = SIZE_LOGNORMAL, .mean = 10, .deviation = 5},
+    {.kind = SIZE_LOGNORMAL, .mean = 10, .deviation = 5, .lo = 5, .hi = 30},
+    {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7},
+    {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 0},
+    {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = -1},
+    {.kind = SIZE_HISTOGRAM, .edge = edges, .weight = weights, .bins = 3},
+};
+enum { LAW_COUNT = sizeof laws / sizeof *laws };
+
+START_TEST(part_and_quantile_are_inverse)
+{
+    for (int k = 0; k < LAW_COUNT; k++) {
+        ck_assert_ptr_null(size_law_fault(&laws[k]));
+        for (int i = 1; i < 200; i++)
+            assert_absolute(size_law_part(&laws[k], size_law_quantile(&laws[k], i / 200.0)), i / 200.0, 1e-9);
+    }
+}
+END_TEST
+
+START_TEST(quantiles_have_their_closed_forms)
+{
+    /* (1 - u (1 - 10^-1.7))^(-1/1.7) 4 at the median */
+    assert_relative(size_law_quantile(&laws[3], 0.5), 4 * pow(1 - 0.5 * (1 - pow(10, -1.7)), -1 / 1.7), 1e-13);
+    assert_relative(size_law_quantile(&laws[4], 0.5), 4 * sqrt(10), 1e-13);
+    assert_relative(size_law_quantile(&laws[1], 0.5), 10 / sqrt(1.25), 1e-9);
+    assert_relative(size_law_quantile(&laws[6], 0.125), 3, 1e-13);
+    assert_relative(size_law_quantile(&laws[6], 0.625), 12, 1e-13);
+}
+END_TEST
+
+START_TEST(samples_follow_their_law_and_meet_the_area)
+{
+    context ctx;
+    context_init(&ctx);
+    for (int k = 0; k < LAW_COUNT; k++) {
+        double area = 0, mean = size_law_quantile(&laws[k], 0.5);
+        real_array d = {0};
+        ck_assert(size_law_draw(&ctx, &laws[k], 500 * mean * mean, 9, 1, &d));
+        ck_assert_int_gt(d.count, 100);
+        bool sorted = true;
+        for (int32_t i = 0; i < d.count; i++) {
+            area += PI / 4 * d.data[i] * d.data[i];
+            sorted = sorted && (i == 0 || d.data[i] >= d.data[i - 1]);
+        }
+        ck_assert(!sorted);
+        /* The histogram has a gap that one floe jumps across. */
+        assert_relative(area, 500 * mean * mean, laws[k].kind == SIZE_HISTOGRAM ? 1e-3 : 1e-9);
+        ck_assert_double_le(size_law_distance(&laws[k], d.data, d.count), 1.0001 / d.count);
+        array_free(&ctx, &d);
+    }
+}
+END_TEST
+
+/* A sample of half its diameter is found out. */
+START_TEST(the_distance_sees_a_wrong_sample)
+{
+    double wrong[100];
+    for (int i = 0; i < 100; i++)
+        wrong[i] = 0.5 * size_law_quantile(&laws[0], (i + 0.5) / 100);
+    ck_assert_double_gt(size_law_distance(&laws[0], wrong, 100), 0.7);
+    const size_law constant = {.kind = SIZE_CONSTANT, .mean = 5};
+    double equal[4] = {5, 5, 5, 6};
+    assert_absolute(size_law_distance(&constant, equal, 4), 0.25, 1e-15);
+}
+END_TEST
+
+TEST_MAIN("field_size", the_normal_distribution_is_right, part_and_quantile_are_inverse,
+          quantiles_have_their_closed_forms, samples_follow_their_law_and_meet_the_area,
+          the_distance_sees_a_wrong_sample)
