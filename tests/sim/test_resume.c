@@ -51,6 +51,16 @@ static const char *const scenes[] = {
     "    - {length: 40, width: 20, x: 20.5, y: -11}\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
     "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
+    /* all at once: lines, thrusters on dynamic positioning and floes that break under the hull */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 5\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
+    "  thrusters:\n    - {x: 18}\n    - {x: -18, kind: main, rudder_deg: 25}\n"
+    "  positioning: {active: true}\n"
+    "ice:\n  concentration: 0.8\n  mean_floe_area: 64\n  thickness: 0.3\n  breakable: true\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
+    "environment:\n  current_speed: 3\n  current_direction_deg: 180\n"
+    "output:\n  frame_interval: 0.3\n",
     /* floes without a vessel, crushing each other and the walls */
     "run:\n  duration: 2\n  time_step: 0.01\nvessel:\n  present: false\n"
     "ice:\n  concentration: 0.9\n  mean_floe_area: 30\n  cap_ice_ice: true\n  cap_ice_wall: true\n"
