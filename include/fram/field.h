@@ -45,10 +45,10 @@ typedef struct fram_field_definition {
     double smallest_area; /* smaller floes and cut pieces are left out [m2]; default 0 */
 } fram_field_definition;
 FRAM_API void fram_field_default(fram_field_definition *definition);
-/* GeoJSON (docs/fields.md says what of it). definition NULL: the defaults.  FRAM_ERROR_INPUT, with line, column and
-   ring
-   ("feature 17, polygon 1, ring 1") as key, when the file cannot be read or a ring is refused; with the member's name
-   as key when the definition is wrong. */
+/* From GeoJSON, WKT (POLYGON and MULTIPOLYGON) or plain lines of x and y with a blank line after each outline, told
+   apart by the first character.  definition NULL: the defaults.  FRAM_ERROR_INPUT, with line, column and ring ("feature
+   17, polygon 1, ring 1") as key, when the file cannot be read or a ring is refused; with the member's name as key when
+   the definition is wrong. */
 FRAM_API fram_status fram_field_load(fram_context *context, const char *path, const fram_field_definition *definition,
                                      fram_field **field, fram_error *error);
 FRAM_API void fram_field_destroy(fram_field *field);

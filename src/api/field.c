@@ -3,6 +3,7 @@
 
 #include "api/handles.h"
 #include "io/geojson.h"
+#include "io/outline_file.h"
 #include "io/plan_view.h"
 
 #include <math.h>
@@ -103,7 +104,7 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
                                     .bad = (import_bad)d->bad,
                                     .smallest_area = d->smallest_area};
     import_measure measure;
-    fram_status status = geojson_read(ctx, path, &f->source, error);
+    fram_status status = outline_file_read(ctx, path, &f->source, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, plane, &f->source, &options, &f->floes, error);
     if (status == FRAM_OK)

@@ -240,9 +240,18 @@ static fram_status check_ice(const scenario *s, fram_error *error)
         return fault(s, error, "ice.floes", "expected no floes, since ice.source is not floes, found %d",
                      (int)ice->floes.count);
     if (ice->source == ICE_FILE && !ice->file[0])
-        return fault(s, error, "ice.file", "expected the path of a GeoJSON file, since ice.source is file");
+        return fault(s, error, "ice.file", "expected the path of a file of floes, since ice.source is file");
     if (ice->source != ICE_FILE && ice->file[0])
         return fault(s, error, "ice.file", "expected no file, since ice.source is not file, found %.200s", ice->file);
+    bool filled = ice->source == ICE_VORONOI || ice->source == ICE_FILE;
+    if (!filled && ice->open_water.count > 0)
+        return fault(s, error, "ice.open_water",
+                     "expected none, since ice.source is neither voronoi nor file, found %d",
+                     (int)ice->open_water.count);
+    if (!filled && ice->open_water_file[0])
+        return fault(s, error, "ice.open_water_file",
+                     "expected no file, since ice.source is neither voronoi nor file, found %.200s",
+                     ice->open_water_file);
     fram_status status = check_friction(s, error);
     if (status == FRAM_OK && ice->source == ICE_VORONOI)
         status = check_field(s, error);

@@ -114,7 +114,8 @@
       "floes, cut at the edge of the domain; level: an intact sheet, held by its sides")                              \
     X(level, SECTION(level), "", "the sheet, for source level")                                                       \
     X(file, PATH(""), "",                                                                                             \
-      "file: GeoJSON of the floes in planar lengths; a thickness property goes before ice.thickness")                 \
+      "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "     \
+      "before ice.thickness")                                                                                         \
     X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                         \
     X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
     X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
@@ -144,6 +145,8 @@
     X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")              \
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")       \
     X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                     \
+    X(open_water, LIST(opening, 100), "", "sources voronoi and file: zones without ice at the start")                 \
+    X(open_water_file, PATH(""), "", "more of them, polygons of any shape, in the forms of ice.file, in metres")      \
     X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                  \
     X(fracture, SECTION(fracture), "", "how breakable floes break")                                                   \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")

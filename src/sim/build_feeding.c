@@ -1,6 +1,7 @@
 #include "sim/build_feeding.h"
 
 #include "sim/build_ice.h"
+#include "sim/build_keep_out.h"
 #include "sim/feed.h"
 
 #include <stdio.h>
@@ -30,11 +31,11 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
     return status;
 }
 
-/* A vessel must lie inside the band at the start. */
+/* A vessel, whose zones come first, must lie inside the band at the start. */
 static fram_status check_place(const world *w, const polygon_list *keep_out, fram_error *error)
 {
     double band = w->feeding.band[0];
-    for (int32_t i = 0; i < polygon_list_count(keep_out); i++) {
+    for (int32_t i = 0; i < w->vessels.count; i++) {
         box2 box = polygon_bounds(polygon_list_get(keep_out, i));
         double room = fmin(fmin(box.lo.x - w->feeding.lo[0].x, w->feeding.hi[0].x - box.hi.x),
                            fmin(box.lo.y - w->feeding.lo[0].y, w->feeding.hi[0].y - box.hi.y));
@@ -52,13 +53,12 @@ static fram_status begin(context *ctx, const scenario *s, const step_settings *s
                          fram_error *error)
 {
     polygon_list keep_out = {0};
-    fram_status status = build_keep_out(ctx, w, &keep_out, error);
+    fram_status status = build_keep_out(ctx, s, w, &keep_out, error);
     feeding_definition d = {.window = settings->domain,
                             .tile = tile,
                             .band = s->domain.band,
                             .velocity = feed_drift(settings, w, 0),
                             .keep_out = &keep_out,
-                            .keep_out_margin = s->ice.keep_out_margin,
                             .smallest_area = s->ice.smallest_floe_area,
                             .piece_area_limit = s->ice.smallest_piece_area};
     feeding_world fed = feed_world(w);

@@ -4,7 +4,8 @@
 #include "geometry/space_curve.h"
 #include "ice/import.h"
 #include "ice/tiles.h"
-#include "io/geojson.h"
+#include "io/outline_file.h"
+#include "sim/build_keep_out.h"
 
 #include <math.h>
 #include <string.h>
@@ -98,23 +99,10 @@ static box2 domain_of(const scenario *s)
     return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
 }
 
-fram_status build_keep_out(context *ctx, const world *w, polygon_list *out, fram_error *error)
-{
-    vec2_array footprint = {0};
-    fram_status status = FRAM_OK;
-    for (int32_t i = 0; status == FRAM_OK && i < w->vessels.count; i++) {
-        status = build_footprint(ctx, w, w->vessels.body[i], false, &footprint, error);
-        if (status == FRAM_OK && !polygon_list_push(ctx, out, (polygon){footprint.data, footprint.count}))
-            status = error_memory(error);
-    }
-    array_free(ctx, &footprint);
-    return status;
-}
-
 /* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
 static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
 {
-    return s->domain.boundary == DOMAIN_FEEDING ? FRAM_OK : build_keep_out(ctx, w, out, error);
+    return s->domain.boundary == DOMAIN_FEEDING ? FRAM_OK : build_keep_out(ctx, s, w, out, error);
 }
 
 static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
@@ -129,7 +117,6 @@ static fram_status build_voronoi(context *ctx, const scenario *s, world *w, fiel
                              .seed = (uint64_t)s->run.seed,
                              .smallest_area = s->ice.smallest_floe_area,
                              .keep_out = &keep_out,
-                             .keep_out_margin = s->ice.keep_out_margin,
                              .periodic = s->domain.boundary == DOMAIN_FEEDING};
     if (status == FRAM_OK)
         status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
@@ -201,11 +188,10 @@ static fram_status build_file(context *ctx, const scenario *s, world *w, field_r
                                     .simplify = s->ice.simplify,
                                     .bad = s->ice.bad_rings,
                                     .smallest_area = s->ice.smallest_floe_area,
-                                    .keep_out = &keep_out,
-                                    .keep_out_margin = s->ice.keep_out_margin};
+                                    .keep_out = &keep_out};
     fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
     if (status == FRAM_OK)
-        status = geojson_read(ctx, path, &rings, error);
+        status = outline_file_read(ctx, path, &rings, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
     if (status == FRAM_OK) {
@@ -250,7 +236,7 @@ static fram_status find_openings(context *ctx, const scenario *s, const world *w
 {
     polygon_list footprints = {0};
     vec2_array wide = {0};
-    fram_status status = build_keep_out(ctx, w, &footprints, error);
+    fram_status status = build_footprints(ctx, w, &footprints, error);
     for (int32_t i = 0; i < polygon_list_count(&footprints) && status == FRAM_OK; i++) {
         vec2_array corners = {0};
         polygon p = polygon_list_get(&footprints, i);

@@ -17,7 +17,4 @@ tile_grid build_tiles(const scenario *s);
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
                             fram_error *error);
 
-/* The footprints of all vessels, appended. */
-fram_status build_keep_out(context *ctx, const world *w, polygon_list *out, fram_error *error);
-
 #endif

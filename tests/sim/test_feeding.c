@@ -4,6 +4,7 @@
 #include "base/transcendental.h"
 
 #include <stdio.h>
+#include <unistd.h>
 
 /* Ice alone, at rest in the water that carries it; air would hold it back. */
 static const char alone[] = "run:\n  duration: 7200\n  time_step: 0.2\n  seed: 5\n"
@@ -19,6 +20,12 @@ static const char around[] = "run:\n  duration: 600\n  time_step: 0.05\n  seed: 
                              "ice:\n  concentration: 0.85\n  mean_floe_area: 40\n  size_deviation: 0.8\n"
                              "domain:\n  x_min: -50\n  x_max: 50\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n"
                              "environment:\n  current_speed: 0.6\n  current_direction_deg: 180\n";
+
+/* Without its ice. */
+static const char channel[] = "run:\n  duration: 600\n  time_step: 0.05\n  seed: 5\n"
+                              "vessel:\n  mode: prescribed\n  hull:\n    form: box\n    length: 24\n    beam: 10\n"
+                              "    draught: 4\n    freeboard: 3\n"
+                              "domain:\n  x_min: -50\n  x_max: 50\n  y_min: -40\n  y_max: 40\n";
 
 /* ---- the field by itself ---- */
 
@@ -258,6 +265,48 @@ START_TEST(cut_at_the_vessel)
 }
 END_TEST
 
+/* A channel across the field, and a triangle from a file: no ice there at the start, with feeding and without. */
+START_TEST(open_water_is_clear)
+{
+    char path[] = "/tmp/fram-zones-XXXXXX", zones[128];
+    int file = mkstemp(path);
+    ck_assert_int_ge(file, 0);
+    static const char text[] = "POLYGON ((20 20, 40 20, 28 24, 30 35, 20 20))\n";
+    ck_assert_int_eq(write(file, text, sizeof text - 1), (int)sizeof text - 1);
+    close(file);
+    snprintf(zones, sizeof zones, "ice.open_water_file=%s", path);
+    static const char *const boundary[] = {"domain.boundary=feeding", "domain.boundary=walls"};
+    for (int i = 0; i < 2; i++) {
+        char scene_text[1024];
+        snprintf(scene_text, sizeof scene_text,
+                 "%sice:\n  concentration: 0.85\n  mean_floe_area: 40\n  open_water:\n    - {x: -5, "
+                 "y: -25, length: 90, width: 12, angle_deg: 10}\n",
+                 channel);
+        const char *const overrides[] = {boundary[i], zones};
+        scene k;
+        scene_open_with(&k, scene_text, overrides, 2);
+        vec2 one[64];
+        polygon p;
+        /* the corners of the rectangle, and one of the two convex halves of the arrow head */
+        const double c = real_cos(radians(10)), sn = real_sin(radians(10));
+        vec2 lane[4] = {{-45, -6}, {45, -6}, {45, 6}, {-45, 6}};
+        const vec2 head[3] = {{20, 20}, {28, 24}, {30, 35}};
+        for (int n = 0; n < 4; n++)
+            lane[n] = vec2_make(-5 + c * lane[n].x - sn * lane[n].y, -25 + sn * lane[n].x + c * lane[n].y);
+        for (int32_t n = 0; n < k.w.floes.count; n++) {
+            if (k.w.floes.body[n] < 0)
+                continue;
+            outline_of(&k.w, k.w.floes.body[n], one, &p);
+            ck_assert(polygon_overlap_area(p, (polygon){lane, 4}) < 1e-9);
+            ck_assert(polygon_overlap_area(p, (polygon){head, 3}) < 1e-9);
+        }
+        ck_assert_int_gt(living_floes(&k.w), 80);
+        scene_close(&k);
+    }
+    unlink(path);
+}
+END_TEST
+
 /* ---- what is refused ---- */
 
 static void check_refusal(const char *text, const char *const *overrides, int count, const char *key)
@@ -295,4 +344,4 @@ START_TEST(refusals_name_their_key)
 END_TEST
 
 TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, hours_of_drift_keep_the_field,
-          drift_turns_and_reverses, driven_ice_presses, cut_at_the_vessel, refusals_name_their_key)
+          drift_turns_and_reverses, driven_ice_presses, cut_at_the_vessel, open_water_is_clear, refusals_name_their_key)

@@ -1,0 +1,71 @@
+#include "sim/build_keep_out.h"
+
+#include "base/transcendental.h"
+#include "ice/field_cells.h"
+#include "io/outline_file.h"
+#include "sim/build_ice.h"
+
+/* Corners of a convex piece of a zone. */
+enum { ZONE_PIECE_VERTICES = 16 };
+
+fram_status build_footprints(context *ctx, const world *w, polygon_list *out, fram_error *error)
+{
+    vec2_array footprint = {0};
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; status == FRAM_OK && i < w->vessels.count; i++) {
+        status = build_footprint(ctx, w, w->vessels.body[i], false, &footprint, error);
+        if (status == FRAM_OK && !polygon_list_push(ctx, out, (polygon){footprint.data, footprint.count}))
+            status = error_memory(error);
+    }
+    array_free(ctx, &footprint);
+    return status;
+}
+
+static fram_status add_footprints(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+{
+    polygon_list all = {0};
+    fram_status status = build_footprints(ctx, w, &all, error);
+    if (status == FRAM_OK && !zones_grow(ctx, &all, s->ice.keep_out_margin, out))
+        status = error_memory(error);
+    polygon_list_free(ctx, &all);
+    return status;
+}
+
+static bool add_rectangle(context *ctx, const scenario_opening *z, polygon_list *out)
+{
+    double c = real_cos(radians(z->angle_deg)), sn = real_sin(radians(z->angle_deg));
+    vec2 along = {0.5 * z->length * c, 0.5 * z->length * sn}, across = {-0.5 * z->width * sn, 0.5 * z->width * c};
+    vec2 middle = {z->x, z->y}, near = vec2_sub(middle, along), far = vec2_add(middle, along);
+    const vec2 corner[4] = {vec2_sub(near, across), vec2_sub(far, across), vec2_add(far, across),
+                            vec2_add(near, across)};
+    return polygon_list_push(ctx, out, (polygon){corner, 4});
+}
+
+static fram_status add_file(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+{
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!s->ice.open_water_file[0])
+        return FRAM_OK;
+    if (!scenario_resolve_path(s, s->ice.open_water_file, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.open_water_file", "the path of the zones is too long");
+    import_rings rings = {0};
+    import_field field = {0};
+    const import_options options = {.name = path, .scale = 1, .bad = IMPORT_REFUSE};
+    fram_status status = outline_file_read(ctx, path, &rings, error);
+    if (status == FRAM_OK)
+        status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&field.outlines); i++)
+        status = overlay_convex_pieces(w->scratch.plane, polygon_list_get(&field.outlines, i), 0, ZONE_PIECE_VERTICES,
+                                       out, NULL, error);
+    import_rings_free(ctx, &rings);
+    import_field_free(ctx, &field);
+    return status;
+}
+
+fram_status build_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+{
+    fram_status status = add_footprints(ctx, s, w, out, error);
+    for (int32_t i = 0; status == FRAM_OK && i < s->ice.open_water.count; i++)
+        status = add_rectangle(ctx, &s->ice.open_water.data[i], out) ? FRAM_OK : error_memory(error);
+    return status == FRAM_OK ? add_file(ctx, s, w, out, error) : status;
+}
