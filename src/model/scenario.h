@@ -7,13 +7,15 @@
 #include "base/array.h"
 #include "dynamics/solver.h"
 #include "ice/fracture.h"
+#include "ice/field_size.h"
 #include "ice/import.h"
 #include "model/scenario_keys.h"
 #include "vessel/mooring.h"
 #include "vessel/station.h"
 
 /* Where the ice comes from. */
-typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE, ICE_FILE, ICE_LEVEL } ice_source;
+typedef enum ice_source { ICE_VORONOI = 0, ICE_FLOES, ICE_NONE, ICE_FILE, ICE_LEVEL, ICE_PACKED } ice_source;
+typedef enum population_shape { POPULATION_CONVEX = 0, POPULATION_TEMPLATES } population_shape;
 typedef enum floe_shape { FLOE_RECTANGLE = 0, FLOE_REGULAR } floe_shape;
 /* Where a vessel's added mass and damping come from, and the axes of given matrices. */
 typedef enum hydrodynamics_source {

@@ -230,6 +230,50 @@ static fram_status check_level(const scenario *s, fram_error *error)
     return FRAM_OK;
 }
 
+static fram_status population_fault(const scenario *s, int32_t number, const char *member, const char *expected,
+                                    fram_error *error)
+{
+    char key[64];
+    snprintf(key, sizeof key, "ice.populations[%d].%s", (int)number, member);
+    return fault(s, error, key, "%s", expected);
+}
+
+static fram_status check_population(const scenario *s, int32_t number, fram_error *error)
+{
+    const scenario_population *p = &s->ice.populations.data[number];
+    bool ranged = p->size == SIZE_UNIFORM || p->size == SIZE_LOGNORMAL || p->size == SIZE_POWER;
+    if (ranged && p->diameter_max < p->diameter_min)
+        return population_fault(s, number, "diameter_max", "expected at least diameter_min", error);
+    if (p->vertices_max < p->vertices_min)
+        return population_fault(s, number, "vertices_max", "expected at least vertices_min", error);
+    if ((p->size == SIZE_HISTOGRAM) != (p->histogram[0] != '\0'))
+        return population_fault(s, number, "histogram",
+                                "expected the path of a CSV file with size histogram, nothing with others", error);
+    if ((p->shape == POPULATION_TEMPLATES) != (p->templates[0] != '\0'))
+        return population_fault(s, number, "templates",
+                                "expected the path of a file of outlines with shape templates, nothing with others",
+                                error);
+    return FRAM_OK;
+}
+
+/* Floes are drawn for a packed field, and for what a file leaves open. */
+static fram_status check_populations(const scenario *s, fram_error *error)
+{
+    const scenario_ice *ice = &s->ice;
+    if (ice->source == ICE_PACKED && ice->populations.count == 0)
+        return fault(s, error, "ice.populations", "expected at least one population, since ice.source is packed");
+    if (ice->source != ICE_PACKED && ice->source != ICE_FILE && ice->populations.count > 0)
+        return fault(s, error, "ice.populations",
+                     "expected none, since ice.source is neither packed nor file, found %d",
+                     (int)ice->populations.count);
+    if (ice->populations.count > 0 && s->domain.boundary == DOMAIN_FEEDING && ice->source == ICE_FILE)
+        return fault(s, error, "ice.populations", "expected none, since domain.boundary is feeding");
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < ice->populations.count && status == FRAM_OK; i++)
+        status = check_population(s, i, error);
+    return status;
+}
+
 static fram_status check_ice(const scenario *s, fram_error *error)
 {
     const scenario_ice *ice = &s->ice;
@@ -243,16 +287,18 @@ static fram_status check_ice(const scenario *s, fram_error *error)
         return fault(s, error, "ice.file", "expected the path of a file of floes, since ice.source is file");
     if (ice->source != ICE_FILE && ice->file[0])
         return fault(s, error, "ice.file", "expected no file, since ice.source is not file, found %.200s", ice->file);
-    bool filled = ice->source == ICE_VORONOI || ice->source == ICE_FILE;
+    bool filled = ice->source == ICE_VORONOI || ice->source == ICE_FILE || ice->source == ICE_PACKED;
     if (!filled && ice->open_water.count > 0)
         return fault(s, error, "ice.open_water",
-                     "expected none, since ice.source is neither voronoi nor file, found %d",
+                     "expected none, since ice.source is not voronoi, file or packed, found %d",
                      (int)ice->open_water.count);
     if (!filled && ice->open_water_file[0])
         return fault(s, error, "ice.open_water_file",
-                     "expected no file, since ice.source is neither voronoi nor file, found %.200s",
+                     "expected no file, since ice.source is not voronoi, file or packed, found %.200s",
                      ice->open_water_file);
     fram_status status = check_friction(s, error);
+    if (status == FRAM_OK)
+        status = check_populations(s, error);
     if (status == FRAM_OK && ice->source == ICE_VORONOI)
         status = check_field(s, error);
     if (status == FRAM_OK)

@@ -109,9 +109,10 @@
     X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
 #define SCENARIO_ICE_KEYS(X)                                                                                          \
-    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level"), "",                                   \
+    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level packed"), "",                            \
       "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed "   \
-      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides")                              \
+      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides; packed: floes drawn from "    \
+      "ice.populations, then brought to places where none overlap")                                                   \
     X(level, SECTION(level), "", "the sheet, for source level")                                                       \
     X(file, PATH(""), "",                                                                                             \
       "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "     \
@@ -124,7 +125,7 @@
     X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                         \
       "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts "   \
       "overlapping floes apart")                                                                                      \
-    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi: ice area over the area free for ice")                         \
+    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi, packed: ice area over the area free for ice")                 \
     X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")           \
     X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                   \
     X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")      \
@@ -145,10 +146,12 @@
     X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")              \
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")       \
     X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                     \
-    X(open_water, LIST(opening, 100), "", "sources voronoi and file: zones without ice at the start")                 \
+    X(open_water, LIST(opening, 100), "", "voronoi, file, packed: zones without ice at the start")                    \
     X(open_water_file, PATH(""), "", "more of them, polygons of any shape, in the forms of ice.file, in metres")      \
     X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                  \
     X(fracture, SECTION(fracture), "", "how breakable floes break")                                                   \
+    X(populations, LIST(population, 16), "",                                                                          \
+      "packed: the kinds of floes; file: with them, the water that the file leaves is filled to ice.concentration")   \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
 #define SCENARIO_FRICTION_KEYS(X)                                            \
@@ -174,6 +177,30 @@
     X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")            \
     X(brash, BOOLEAN(false), "",                                                                                \
       "pieces under smallest_floe_area are booked as brash, with their momentum, not as lost")
+
+#define SCENARIO_POPULATION_KEYS(X)                                                                        \
+    X(share, REAL(1, 1e-9, 1e9), "1", "of the ice area, in proportion to the other populations")           \
+    X(size, CHOICE(size_law_kind, SIZE_POWER, "constant uniform lognormal power histogram"), "",           \
+      "law of the diameters, by number; a floe's diameter is that of the disc of its area")                \
+    X(diameter, REAL(20, 1e-6, 1e6), "m", "constant: of all; lognormal: the mean")                         \
+    X(diameter_deviation, REAL(8, 1e-9, 1e6), "m", "lognormal: standard deviation")                        \
+    X(diameter_min, REAL(10, 1e-6, 1e6), "m", "uniform, lognormal, power: the smallest")                   \
+    X(diameter_max, REAL(100, 1e-6, 1e6), "m", "uniform, lognormal, power: the largest")                   \
+    X(exponent, REAL(1.7, 0.01, 20), "1", "power: b of N(>D) ~ D^-b")                                      \
+    X(histogram, PATH(""), "", "histogram: CSV of the columns diameter_min[m], diameter_max[m], floes[1]") \
+    X(shape, CHOICE(population_shape, POPULATION_CONVEX, "convex templates"), "",                          \
+      "convex: random polygons; templates: outlines of a file, at the sizes of the law")                   \
+    X(templates, PATH(""), "", "templates: file of outlines, at any scale; faulty ones are left out")      \
+    X(vertices_min, INTEGER(5, 3, 64), "1", "convex: fewest corners")                                      \
+    X(vertices_max, INTEGER(9, 3, 64), "1", "convex: most corners")                                        \
+    X(elongation, REAL(1.5, 1, 10), "1", "convex: longest axis ratio, drawn from 1 on")                    \
+    X(thickness, AUTOMATIC(1e-6, 100), "m", "mean; auto: ice.thickness")                                   \
+    X(thickness_deviation, REAL(0, 0, 100), "m", "lognormal scatter from floe to floe")                    \
+    X(flexural_strength, AUTOMATIC(1e-3, 1e9), "Pa", "mean; auto: ice.flexural_strength")                  \
+    X(flexural_deviation, REAL(0, 0, 1e9), "Pa", "lognormal scatter from floe to floe")                    \
+    X(crushing_strength, AUTOMATIC(1e-3, 1e10), "Pa", "mean; auto: ice.crushing_strength")                 \
+    X(crushing_deviation, REAL(0, 0, 1e10), "Pa", "lognormal scatter from floe to floe")                   \
+    X(breakable, BOOLEAN(true), "", "its floes may break, where ice.breakable is true")
 
 #define SCENARIO_LEVEL_KEYS(X)                                                                                \
     X(x_min, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
@@ -286,6 +313,7 @@
     S(fracture, SCENARIO_FRACTURE_KEYS)       \
     S(floe, SCENARIO_FLOE_KEYS)               \
     S(opening, SCENARIO_OPENING_KEYS)         \
+    S(population, SCENARIO_POPULATION_KEYS)   \
     S(level, SCENARIO_LEVEL_KEYS)             \
     S(ice, SCENARIO_ICE_KEYS)                 \
     S(domain, SCENARIO_DOMAIN_KEYS)           \

@@ -74,6 +74,9 @@ SECTION_DEFINE(floe, SCENARIO_FLOE_KEYS)
 #define SELF scenario_opening
 SECTION_DEFINE(opening, SCENARIO_OPENING_KEYS)
 #undef SELF
+#define SELF scenario_population
+SECTION_DEFINE(population, SCENARIO_POPULATION_KEYS)
+#undef SELF
 #define SELF scenario_level
 SECTION_DEFINE(level, SCENARIO_LEVEL_KEYS)
 #undef SELF

@@ -6,6 +6,7 @@
 #include "ice/tiles.h"
 #include "io/outline_file.h"
 #include "sim/build_keep_out.h"
+#include "sim/build_packed.h"
 
 #include <math.h>
 #include <string.h>
@@ -74,18 +75,21 @@ static int32_t *memory_order(context *ctx, const polygon_list *outlines)
     return order;
 }
 
-/* thickness: of each outline, NaN or the array NULL for that of the scenario. */
+/* traits: of each outline; NULL for those of the scenario. */
 static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines,
-                                   const double *thickness, fram_error *error)
+                                   const floe_traits *traits, fram_error *error)
 {
-    floe_definition d = {
-        .material = material_of(s), .breakable = s->ice.breakable, .motion = MOTION_DYNAMIC, .parent = -1};
+    floe_definition d = {.material = material_of(s), .motion = MOTION_DYNAMIC, .parent = -1};
     int32_t *order = memory_order(ctx, outlines);
     fram_status status = order ? FRAM_OK : error_memory(error);
     for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
         int32_t row;
+        floe_traits t = traits ? traits[order[i]] : scenario_traits(s, NAN);
         d.outline = polygon_list_get(outlines, order[i]);
-        d.thickness = thickness ? automatic_or(thickness[order[i]], s->ice.thickness) : s->ice.thickness;
+        d.thickness = t.thickness;
+        d.material.flexural_strength = t.flexural_strength;
+        d.material.crushing_strength = t.crushing_strength;
+        d.breakable = t.breakable;
         d.elevation = floating_elevation(s, d.thickness);
         status = floe_create(ctx, &d, s->ice.smallest_piece_area, w->scratch.plane, &w->bodies, &w->shapes, &w->floes,
                              &w->clock.next_floe[0], &row, error);
@@ -124,6 +128,21 @@ static fram_status build_voronoi(context *ctx, const scenario *s, world *w, fiel
         status = add_field_floes(ctx, s, w, &outlines, NULL, error);
     polygon_list_free(ctx, &keep_out);
     polygon_list_free(ctx, &outlines);
+    return status;
+}
+
+static fram_status build_packed(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
+{
+    polygon_list keep_out = {0}, outlines = {0};
+    floe_traits_array traits = {0};
+    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
+    if (status == FRAM_OK)
+        status = draw_populations(ctx, s, w, &keep_out, &outlines, &traits, report, error);
+    if (status == FRAM_OK)
+        status = add_field_floes(ctx, s, w, &outlines, traits.data, error);
+    polygon_list_free(ctx, &keep_out);
+    polygon_list_free(ctx, &outlines);
+    array_free(ctx, &traits);
     return status;
 }
 
@@ -179,6 +198,7 @@ static fram_status build_file(context *ctx, const scenario *s, world *w, field_r
     polygon_list keep_out = {0};
     import_rings rings = {0};
     import_field field = {0};
+    floe_traits_array traits = {0};
     const import_options options = {.name = path,
                                     .scale = s->ice.file_scale,
                                     .centre = s->ice.file_centre,
@@ -198,8 +218,14 @@ static fram_status build_file(context *ctx, const scenario *s, world *w, field_r
         log_notes(ctx, &rings, &field);
         status = report_import(ctx, s, w, &keep_out, &field, report, error);
     }
+    for (int32_t i = 0; status == FRAM_OK && i < field.thickness.count; i++)
+        if (!array_push(ctx, &traits, scenario_traits(s, field.thickness.data[i])))
+            status = error_memory(error);
+    if (status == FRAM_OK && s->ice.populations.count > 0)
+        status = draw_populations(ctx, s, w, &keep_out, &field.outlines, &traits, report, error);
     if (status == FRAM_OK)
-        status = add_field_floes(ctx, s, w, &field.outlines, field.thickness.data, error);
+        status = add_field_floes(ctx, s, w, &field.outlines, traits.data, error);
+    array_free(ctx, &traits);
     import_rings_free(ctx, &rings);
     import_field_free(ctx, &field);
     polygon_list_free(ctx, &keep_out);
@@ -366,6 +392,8 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
         return build_voronoi(ctx, s, w, report, error);
     if (s->ice.source == ICE_FILE)
         return build_file(ctx, s, w, report, error);
+    if (s->ice.source == ICE_PACKED)
+        return build_packed(ctx, s, w, report, error);
     if (s->ice.source == ICE_LEVEL)
         return build_level(ctx, s, w, report, error);
     if (s->ice.source == ICE_NONE)

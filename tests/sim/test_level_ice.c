@@ -220,7 +220,7 @@ START_TEST(fixed_cone)
     const double breaking_term = 1.84414e6, slope = 2.5427; /* H_B [N]; F_H over F_V at 60 degrees and mu 0.15 */
     scene k;
     scene_open(&k, text);
-    int breaks = 0, steps = getenv("FRAM_TEST_SHORT") ? 1200 : 3500;
+    int breaks = 0, steps = getenv("FRAM_TEST_SHORT") ? 2000 : 3500;
     double peak = 0;
     for (int i = 0; i < steps; i++) {
         scene_steps(&k, 1);

@@ -1,0 +1,245 @@
+#include "sim/build_packed.h"
+
+#include "ice/field_pack.h"
+#include "io/csv_read.h"
+#include "io/outline_file.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Random streams of what floes are made of; the numbers are part of what a seed means and never change. */
+enum { STREAM_THICKNESS = 0x1d1000, STREAM_FLEXURAL, STREAM_CRUSHING };
+
+/* Columns of a histogram file. */
+enum { HISTOGRAM_LO = 0, HISTOGRAM_HI, HISTOGRAM_FLOES, HISTOGRAM_COLUMNS };
+
+/* What the laws of the populations point to. */
+typedef struct population_files {
+    field_population *population;
+    polygon_list *templates; /* of each population */
+    double_array *edge, *weight;
+    int32_t count;
+} population_files;
+
+static void files_free(context *ctx, population_files *f)
+{
+    for (int32_t i = 0; f->templates && i < f->count; i++)
+        polygon_list_free(ctx, &f->templates[i]);
+    for (int32_t i = 0; f->edge && i < f->count; i++)
+        array_free(ctx, &f->edge[i]);
+    for (int32_t i = 0; f->weight && i < f->count; i++)
+        array_free(ctx, &f->weight[i]);
+    memory_free(ctx, f->population);
+    memory_free(ctx, f->templates);
+    memory_free(ctx, f->edge);
+    memory_free(ctx, f->weight);
+}
+
+static fram_status resolve(const scenario *s, const char *file, int32_t number, const char *member, char *out,
+                           size_t size, fram_error *error)
+{
+    if (scenario_resolve_path(s, file, out, size))
+        return FRAM_OK;
+    char key[64];
+    snprintf(key, sizeof key, "ice.populations[%d].%s", (int)number, member);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "the path is too long");
+}
+
+/* Bins in rising order without gaps, as edges and numbers. */
+static fram_status read_histogram(context *ctx, const scenario *s, int32_t number, population_files *f,
+                                  fram_error *error)
+{
+    static const char *const names[HISTOGRAM_COLUMNS] = {"diameter_min", "diameter_max", "floes"};
+    char path[2 * SCENARIO_TEXT_SIZE];
+    double_array column[HISTOGRAM_COLUMNS] = {0};
+    const char *wrong = NULL;
+    fram_status status =
+        resolve(s, s->ice.populations.data[number].histogram, number, "histogram", path, sizeof path, error);
+    if (status == FRAM_OK)
+        status = csv_read(ctx, path, names, HISTOGRAM_COLUMNS, column, error);
+    int32_t bins = column[HISTOGRAM_LO].count;
+    if (status == FRAM_OK && bins < 1)
+        wrong = "the histogram has no rows";
+    for (int32_t i = 0; status == FRAM_OK && !wrong && i < bins; i++) {
+        if (i > 0 && column[HISTOGRAM_LO].data[i] != column[HISTOGRAM_HI].data[i - 1])
+            wrong = "each bin must begin where the one before ends";
+        else if ((i == 0 && !array_push(ctx, &f->edge[number], column[HISTOGRAM_LO].data[0])) ||
+                 !array_push(ctx, &f->edge[number], column[HISTOGRAM_HI].data[i]) ||
+                 !array_push(ctx, &f->weight[number], column[HISTOGRAM_FLOES].data[i]))
+            status = error_memory(error);
+    }
+    if (wrong)
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "%s", wrong);
+    for (int i = 0; i < HISTOGRAM_COLUMNS; i++)
+        array_free(ctx, &column[i]);
+    return status;
+}
+
+static fram_status read_templates(context *ctx, const scenario *s, overlay *plane, int32_t number, polygon_list *out,
+                                  fram_error *error)
+{
+    char path[2 * SCENARIO_TEXT_SIZE];
+    import_rings rings = {0};
+    import_field field = {0};
+    fram_status status =
+        resolve(s, s->ice.populations.data[number].templates, number, "templates", path, sizeof path, error);
+    /* Shapes only: their size and place are of no account.  Each is mended by itself, or left out. */
+    const import_options options = {.name = path, .scale = 1, .bad = IMPORT_DROP};
+    if (status == FRAM_OK)
+        status = outline_file_read(ctx, path, &rings, error);
+    for (int32_t i = 0; status == FRAM_OK && i < rings.place.count; i++)
+        rings.place.data[i].open = false;
+    if (status == FRAM_OK)
+        status = import_field_make(ctx, plane, &rings, &options, &field, error);
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&field.outlines); i++)
+        if (!polygon_list_push(ctx, out, polygon_list_get(&field.outlines, i)))
+            status = error_memory(error);
+    import_rings_free(ctx, &rings);
+    import_field_free(ctx, &field);
+    return status;
+}
+
+static fram_status read_population(context *ctx, const scenario *s, overlay *plane, int32_t number, population_files *f,
+                                   fram_error *error)
+{
+    const scenario_population *p = &s->ice.populations.data[number];
+    field_population *out = &f->population[number];
+    fram_status status = FRAM_OK;
+    if (p->size == SIZE_HISTOGRAM)
+        status = read_histogram(ctx, s, number, f, error);
+    if (status == FRAM_OK && p->shape == POPULATION_TEMPLATES)
+        status = read_templates(ctx, s, plane, number, &f->templates[number], error);
+    *out = (field_population){.share = p->share,
+                              .size = {.kind = p->size,
+                                       .mean = p->diameter,
+                                       .deviation = p->diameter_deviation,
+                                       .lo = p->diameter_min,
+                                       .hi = p->diameter_max,
+                                       .exponent = p->exponent,
+                                       .edge = f->edge[number].data,
+                                       .weight = f->weight[number].data,
+                                       .bins = f->weight[number].count},
+                              .shape = {.least_vertices = (int32_t)p->vertices_min,
+                                        .most_vertices = (int32_t)p->vertices_max,
+                                        .elongation = p->elongation,
+                                        .templates = p->shape == POPULATION_TEMPLATES ? &f->templates[number] : NULL}};
+    return status;
+}
+
+static fram_status read_populations(context *ctx, const scenario *s, overlay *plane, population_files *f,
+                                    fram_error *error)
+{
+    int32_t count = s->ice.populations.count;
+    f->count = count;
+    f->population = memory_array(ctx, (size_t)count, sizeof *f->population);
+    f->templates = memory_array(ctx, (size_t)count, sizeof *f->templates);
+    f->edge = memory_array(ctx, (size_t)count, sizeof *f->edge);
+    f->weight = memory_array(ctx, (size_t)count, sizeof *f->weight);
+    bool good = f->population && f->templates && f->edge && f->weight;
+    fram_status status = good ? FRAM_OK : error_memory(error);
+    for (int32_t i = 0; i < count && good; i++) {
+        f->templates[i] = (polygon_list){0};
+        f->edge[i] = (double_array){0};
+        f->weight[i] = (double_array){0};
+    }
+    for (int32_t i = 0; i < count && status == FRAM_OK; i++)
+        status = read_population(ctx, s, plane, i, f, error);
+    return status;
+}
+
+/* ---- what floes are made of ---- */
+
+static double scattered(const scenario *s, uint32_t stream, int32_t floe, double mean, double deviation)
+{
+    if (!(deviation > 0))
+        return mean;
+    random_stream r = random_begin((uint64_t)s->run.seed, stream, (uint32_t)floe);
+    return random_lognormal(&r, mean, deviation);
+}
+
+floe_traits scenario_traits(const scenario *s, double thickness)
+{
+    return (floe_traits){automatic_or(thickness, s->ice.thickness), s->ice.flexural_strength, s->ice.crushing_strength,
+                         s->ice.breakable};
+}
+
+/* Of the floe-th floe that was drawn. */
+static floe_traits population_traits(const scenario *s, int32_t population, int32_t floe)
+{
+    const scenario_population *p = &s->ice.populations.data[population];
+    floe_traits mean = scenario_traits(s, p->thickness);
+    return (floe_traits){.thickness = scattered(s, STREAM_THICKNESS, floe, mean.thickness, p->thickness_deviation),
+                         .flexural_strength = scattered(s, STREAM_FLEXURAL, floe,
+                                                        automatic_or(p->flexural_strength, mean.flexural_strength),
+                                                        p->flexural_deviation),
+                         .crushing_strength = scattered(s, STREAM_CRUSHING, floe,
+                                                        automatic_or(p->crushing_strength, mean.crushing_strength),
+                                                        p->crushing_deviation),
+                         .breakable = mean.breakable && p->breakable};
+}
+
+/* ---- the field ---- */
+
+static void log_populations(context *ctx, const field_population_report *parts, int32_t count,
+                            const field_packed_report *report)
+{
+    for (int32_t i = 0; i < count; i++)
+        log_write(ctx, LOG_INFO,
+                  "population %d: %d floes, %.6g m2; distance of Kolmogorov and Smirnov from its law %.2g", (int)i,
+                  (int)parts[i].floes, parts[i].area, parts[i].size_distance);
+    log_write(ctx, LOG_INFO, "packed to %.4f in %d rounds; largest overlap %.2g m", report->field.concentration,
+              (int)report->rounds, report->field.largest_overlap);
+}
+
+/* The generator names its own request: its members are keys under ice, but for the domain. */
+static void name_request(const scenario *s, fram_error *error)
+{
+    char member[sizeof error->key];
+    if (!error || !error->key[0] || error->file[0])
+        return;
+    snprintf(member, sizeof member, "%s", error->key);
+    snprintf(error->key, sizeof error->key, "%s%.100s", strcmp(member, "domain") == 0 ? "" : "ice.", member);
+    scenario_locate(s, error);
+}
+
+fram_status draw_populations(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
+                             polygon_list *outlines, floe_traits_array *traits, field_report *report, fram_error *error)
+{
+    population_files files = {0};
+    int32_array population = {0};
+    field_packed_report found = {0};
+    int32_t count = s->ice.populations.count, before = polygon_list_count(outlines);
+    bool endless = s->domain.boundary == DOMAIN_FEEDING;
+    field_population_report *parts = memory_array(ctx, (size_t)count, sizeof *parts);
+    fram_status status = parts ? read_populations(ctx, s, w->scratch.plane, &files, error) : error_memory(error);
+    const field_packed_request request = {
+        .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+        .periodic_x = endless,
+        .periodic_y = endless,
+        .concentration = s->ice.concentration,
+        .populations = files.population,
+        .population_count = count,
+        .seed = (uint64_t)s->run.seed,
+        .keep_out = keep_out,
+        .present = before > 0 ? outlines : NULL};
+    if (status == FRAM_OK) {
+        polygon_list drawn = {0};
+        status = field_packed(ctx, w->scratch.plane, &request, &drawn, &population, parts, &found, error);
+        if (status == FRAM_ERROR_INPUT)
+            name_request(s, error);
+        for (int32_t i = 0; status == FRAM_OK && i < population.count; i++)
+            if (!polygon_list_push(ctx, outlines, polygon_list_get(&drawn, i)) ||
+                !array_push(ctx, traits, population_traits(s, population.data[i], i)))
+                status = error_memory(error);
+        polygon_list_free(ctx, &drawn);
+    }
+    if (status == FRAM_OK) {
+        log_populations(ctx, parts, count, &found);
+        *report = found.field;
+        report->floes += before;
+    }
+    memory_free(ctx, parts);
+    array_free(ctx, &population);
+    files_free(ctx, &files);
+    return status;
+}
