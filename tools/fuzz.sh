@@ -1,7 +1,7 @@
 #!/bin/sh
 # Fuzz every target of a build for some seconds each:  tools/fuzz.sh BUILD SECONDS
-# The committed seeds in fuzz/corpus/<name> are only read; what is found is kept in BUILD/corpus/<name>, and a
-# failing input in BUILD/findings.
+# The committed seeds in fuzz/corpus/<name> and the words of the format in fuzz/words/<name>.dict are only read; what is
+# found is kept in BUILD/corpus/<name>, and a failing input in BUILD/findings.
 set -eu
 build=$1
 seconds=$2
@@ -17,10 +17,12 @@ for target; do
     mkdir -p "$build/corpus/$name"
     seeds=fuzz/corpus/$name
     [ -d "$seeds" ] || seeds=""
+    words=fuzz/words/$name.dict
+    [ -f "$words" ] && words=-dict=$words || words=""
     echo "fuzz: $name for $seconds s"
     log=$build/findings/$name.log
-    # shellcheck disable=SC2086  # seeds is one word or none
-    if ! "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 -print_final_stats=1 \
+    # shellcheck disable=SC2086  # seeds and words are one word or none
+    if ! "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 -print_final_stats=1 $words \
         -artifact_prefix="$build/findings/$name-" "$build/corpus/$name" $seeds >"$log" 2>&1; then
         tail -n 60 "$log"
         echo "fuzz: $name failed; the input is in $build/findings" >&2

@@ -135,8 +135,8 @@ static fram_status read_ring(reading *r, json_walk *w, int32_t number)
     fram_status status = read_positions(r, w, begin);
     if (status != FRAM_OK)
         return name_place(r, status);
-    const vec2 *v = rings->vertex.data + begin;
     int32_t count = rings->vertex.count - begin;
+    const vec2 *v = count > 0 ? rings->vertex.data + begin : NULL; /* before the first position there is no data */
     place.open = count < 2 || v[0].x != v[count - 1].x || v[0].y != v[count - 1].y;
     if (!place.open)
         rings->vertex.count--;
