@@ -4,25 +4,53 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char suffix[] = ".new";
 
+/* What a rename would take away instead of filling it: a device, a pipe, a link.  Not a folder. */
+static bool is_special(const char *path)
+{
+    struct stat about;
+    return lstat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
+}
+
+static fram_status refuse_folder(const char *path, fram_error *error)
+{
+    struct stat about;
+    if (stat(path, &about) == 0 && S_ISDIR(about.st_mode))
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected the name of a file, found a folder");
+    return FRAM_OK;
+}
+
+/* The writer of PATH.new, or of the path itself where that is special. */
+static fram_status open_writer(context *ctx, atomic_file *a, fram_error *error)
+{
+    if (a->direct)
+        return file_create(ctx, a->path, &a->writer, error);
+    size_t length = strlen(a->path);
+    char *temporary = memory_resize(ctx, NULL, length + sizeof suffix);
+    if (!temporary)
+        return error_memory(error);
+    memcpy(temporary, a->path, length);
+    memcpy(temporary + length, suffix, sizeof suffix);
+    fram_status status = file_create(ctx, temporary, &a->writer, error);
+    memory_free(ctx, temporary);
+    if (status != FRAM_OK && status != FRAM_ERROR_MEMORY && error) /* the name that the user knows */
+        snprintf(error->file, sizeof error->file, "%s", a->path);
+    return status;
+}
+
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error)
 {
     memset(a, 0, sizeof *a);
-    size_t length = strlen(path);
-    char *temporary = memory_resize(ctx, NULL, length + sizeof suffix);
+    fram_status status = refuse_folder(path, error);
+    if (status != FRAM_OK)
+        return status;
+    a->direct = is_special(path);
     a->path = memory_string(ctx, path);
-    fram_status status = FRAM_OK;
-    if (!temporary || !a->path) {
-        status = error_memory(error);
-    } else {
-        memcpy(temporary, path, length);
-        memcpy(temporary + length, suffix, sizeof suffix);
-        status = file_create(ctx, temporary, &a->writer, error);
-    }
-    memory_free(ctx, temporary);
+    status = a->path ? open_writer(ctx, a, error) : error_memory(error);
     if (status != FRAM_OK) {
         memory_free(ctx, a->path);
         a->path = NULL;
@@ -59,11 +87,11 @@ fram_status atomic_file_commit(atomic_file *a, fram_error *error)
     fram_status closed = file_close(&a->writer, status == FRAM_OK ? error : NULL);
     if (status == FRAM_OK)
         status = closed;
-    if (status == FRAM_OK && rename(temporary, a->path) != 0)
+    if (status == FRAM_OK && !a->direct && rename(temporary, a->path) != 0)
         status = file_error(error, a->path, "replace", errno);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && !a->direct)
         status = sync_folder(ctx, a->path, error);
-    else
+    else if (!a->direct)
         unlink(temporary);
     memory_free(ctx, temporary);
     memory_free(ctx, a->path);
@@ -76,7 +104,8 @@ void atomic_file_abandon(atomic_file *a)
     if (!a->path)
         return;
     context *ctx = a->writer.ctx;
-    unlink(a->writer.path);
+    if (!a->direct)
+        unlink(a->writer.path);
     file_abandon(&a->writer);
     memory_free(ctx, a->path);
     a->path = NULL;
@@ -85,8 +114,12 @@ void atomic_file_abandon(atomic_file *a)
 fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error)
 {
     int descriptor = open(temporary, O_RDONLY | O_CLOEXEC);
-    fram_status status = FRAM_OK;
-    if (descriptor < 0 || fsync(descriptor) != 0)
+    fram_status status = refuse_folder(path, error);
+    if (status == FRAM_OK && is_special(path))
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found a device or a link");
+    if (status != FRAM_OK) {
+        /* said already */
+    } else if (descriptor < 0 || fsync(descriptor) != 0)
         status = file_error(error, temporary, "write to the disk", errno);
     if (descriptor >= 0)
         close(descriptor);

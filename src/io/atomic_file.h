@@ -1,4 +1,5 @@
-/* Files that are there whole or not at all: written beside their place, synced, then renamed over it. */
+/* Files that are there whole or not at all: written beside their place, synced, then renamed over it.  A device, a pipe
+   and a symbolic link (/dev/stdout) are written through as they stand: a rename would take them away. */
 #ifndef IO_ATOMIC_FILE_H
 #define IO_ATOMIC_FILE_H
 
@@ -7,9 +8,10 @@
 typedef struct atomic_file {
     file_writer writer; /* give it to file_write */
     char *path;
+    bool direct; /* no temporary file: the path is no regular one */
 } atomic_file;
 
-/* Begin the temporary file PATH.new. */
+/* Begin the temporary file PATH.new.  FRAM_ERROR_INPUT when the path is a folder. */
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error);
 /* Flush, sync, rename, sync the folder.  On an error the old file is untouched and the temporary one is removed. */
 fram_status atomic_file_commit(atomic_file *a, fram_error *error);
@@ -17,7 +19,7 @@ fram_status atomic_file_commit(atomic_file *a, fram_error *error);
 void atomic_file_abandon(atomic_file *a);
 
 /* For a file that something else wrote and closed as PATH.new (`temporary`): sync, rename, sync the folder; on an error
-   the temporary file is removed. */
+   the temporary file is removed.  FRAM_ERROR_INPUT when the path is no regular file. */
 fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error);
 
 /* Begin, write and commit. */

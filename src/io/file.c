@@ -13,7 +13,9 @@ fram_status file_error(fram_error *error, const char *path, const char *attempt,
     char text[128];
     if (strerror_r(number, text, sizeof text) != 0)
         text[0] = '\0';
-    bool name = number == ENOENT || number == ENOTDIR || number == EACCES || number == ELOOP || number == ENAMETOOLONG;
+    /* Numbers that say that the name is wrong, or not for this user; the others are the system's trouble. */
+    bool name = number == ENOENT || number == ENOTDIR || number == EISDIR || number == EACCES || number == ELOOP ||
+                number == ENAMETOOLONG;
     return error_set(error, name ? FRAM_ERROR_INPUT : FRAM_ERROR_IO, path, 0, NULL, "cannot %s: %s", attempt, text);
 }
 

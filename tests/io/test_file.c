@@ -86,7 +86,7 @@ START_TEST(missing_files_and_folders_are_named)
     ck_assert_str_eq(error.file, "/no/such/file");
     assert_fails(file_create(&ctx, "/no/such/file", &w, &error), error, FRAM_ERROR_INPUT, "open for writing");
     assert_fails(file_create(&ctx, "/dev/null/file", &w, &error), error, FRAM_ERROR_INPUT, "Not a directory");
-    assert_fails(file_create(&ctx, "/tmp", &w, &error), error, FRAM_ERROR_IO, "directory");
+    assert_fails(file_create(&ctx, "/tmp", &w, &error), error, FRAM_ERROR_INPUT, "directory");
     assert_fails(file_read(&ctx, "/no/such/file", 10, &data, &size, &error), error, FRAM_ERROR_INPUT, "cannot read");
     assert_fails(file_read(&ctx, "/tmp", 10, &data, &size, &error), error, FRAM_ERROR_INPUT, "regular file");
     ck_assert_int_eq(file_read(&ctx, "/no/such/file", 10, &data, &size, NULL), FRAM_ERROR_INPUT);
@@ -182,12 +182,40 @@ START_TEST(replacing_a_folder_leaves_nothing_behind)
     char inside[320];
     snprintf(inside, sizeof inside, "%s/file", s.path);
     scratch_write(inside, "x", 1);
-    assert_fails(atomic_file_write(&ctx, s.path, "y", 1, &error), error, FRAM_ERROR_IO, "cannot replace");
+    assert_fails(atomic_file_write(&ctx, s.path, "y", 1, &error), error, FRAM_ERROR_INPUT, "found a folder");
     ck_assert_str_eq(error.file, s.path);
     ck_assert_int_eq(unlink(inside), 0);
     ck_assert_int_eq(rmdir(s.path), 0);
     ck_assert_int_eq(rmdir(s.folder), 0);
     assert_fails(atomic_file_write(&ctx, "/no/such/folder/a", "y", 1, &error), error, FRAM_ERROR_INPUT, "No such file");
+    ck_assert_str_eq(error.file, "/no/such/folder/a");
+}
+END_TEST
+
+/* A device or a link in the place of the file stays what it is. */
+START_TEST(devices_and_links_are_written_through)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    char link[320];
+    atomic_file a;
+    snprintf(link, sizeof link, "%s", scratch_path(&s, "link"));
+    scratch_write(scratch_path(&s, "a"), "old", 3);
+    ck_assert_int_eq(symlink("a", link), 0);
+    assert_ok(atomic_file_write(&ctx, link, "through", 7, &error), error);
+    assert_content(s.path, "through");
+    assert_ok(atomic_file_begin(&ctx, link, &a, &error), error);
+    atomic_file_abandon(&a);
+    struct stat about;
+    ck_assert_int_eq(lstat(link, &about), 0);
+    ck_assert(S_ISLNK(about.st_mode));
+    assert_fails(atomic_file_adopt(&ctx, s.path, link, &error), error, FRAM_ERROR_INPUT, "a device or a link");
+    ck_assert_int_eq(unlink(link), 0);
+    ck_assert_int_eq(symlink("/dev/full", link), 0);
+    if (access("/dev/full", W_OK) == 0)
+        assert_fails(atomic_file_write(&ctx, link, "x", 1, &error), error, FRAM_ERROR_IO, "No space");
+    ck_assert_int_eq(unlink(link), 0);
+    ck_assert_int_eq(rmdir(s.folder), 0);
 }
 END_TEST
 
@@ -232,4 +260,5 @@ END_TEST
 
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
           a_pipe_is_not_waited_for, a_full_disk_is_seen_at_once, a_partial_write_is_seen, replacing_is_all_or_nothing,
-          replacing_a_folder_leaves_nothing_behind, a_bare_name_is_here, no_memory_is_an_error)
+          replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
+          no_memory_is_an_error)
