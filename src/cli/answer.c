@@ -46,6 +46,7 @@ int answer_error(const common_options *common, const fram_error *error)
         json_text(&j, "status", fram_status_name(error->status));
         json_text(&j, "file", error->file);
         json_integer(&j, "line", error->line);
+        json_integer(&j, "column", error->column);
         json_text(&j, "key", error->key);
         json_text(&j, "message", error->message);
         json_close(&j);
