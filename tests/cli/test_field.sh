@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fram field as a user meets it: what a field is, mending, cutting, drawing, the way out and back, errors with their place.
+# fram field as a user meets it: what a field is, mending, cutting, drawing, out and back, errors with their place.
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -24,21 +24,24 @@ says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
 # Two squares, one of them with a thickness, and a bow tie of two triangles of 25 m2.
 cat >floes.geojson <<'JSON'
 {"type":"FeatureCollection","features":[
-{"type":"Feature","properties":{"thickness":0.7},"geometry":{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]]]}},
-{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[20,0],[30,10],[30,0],[20,10],[20,0]]]}},
-{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[40.1,0],[40.1,10],[50.1,10],[50.1,0],[40.1,0]]]}}
+{"type":"Feature","properties":{"thickness":0.7},"geometry":{"type":"Polygon",
+"coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]]]}},
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon",
+"coordinates":[[[20,0],[30,10],[30,0],[20,10],[20,0]]]}},
+{"type":"Feature","properties":{},"geometry":{"type":"Polygon",
+"coordinates":[[[40.1,0],[40.1,10],[50.1,10],[50.1,0],[40.1,0]]]}}
 ]}
 JSON
 
 # The bow tie is refused with its place, dropped, mended.
 expect 2 "$FRAM" field floes.geojson --json
 same "$(value 'j["error"]["file"], j["error"]["line"], j["error"]["column"], j["error"]["key"]')" \
-    "floes.geojson 3 79 feature 2, polygon 1, ring 1" "place of the bow tie"
-says "floes.geojson:3:79: feature 2, polygon 1, ring 1: the ring crosses or touches itself" err
+    "floes.geojson 5 17 feature 2, polygon 1, ring 1" "place of the bow tie"
+says "floes.geojson:5:17: feature 2, polygon 1, ring 1: the ring crosses or touches itself" err
 expect 0 "$FRAM" field floes.geojson --bad drop --json
 same "$(wc -l <out)" 1 "lines of JSON"
 same "$(value 'j["rings"], j["floes"], j["area_m2"], len(j["dropped"]), len(j["repaired"])')" "3 2 200 1 0" dropped
-same "$(value 'j["dropped"][0]["feature"], j["dropped"][0]["line"]')" "2 3" "what was dropped"
+same "$(value 'j["dropped"][0]["feature"], j["dropped"][0]["line"]')" "2 5" "what was dropped"
 expect 0 "$FRAM" field floes.geojson --bad repair --json
 same "$(value 'j["floes"], j["area_m2"], len(j["repaired"]), sum(j["histogram"]["floes"])')" "4 250 1 4" repaired
 expect 0 "$FRAM" field floes.geojson --bad drop

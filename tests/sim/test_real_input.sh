@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Input that was not made for Fram: 462 observed floes and the hull of an FPSO, for 120 s (scenes/real_input.yaml).  Both
-# files stand beside the sources, not in them; without them the test is skipped.
+# Input that was not made for Fram: 462 observed floes and the hull of an FPSO, for 120 s (scenes/real_input.yaml).  Both files
+# stand beside the sources, not in them; without them the test is skipped.
 set -euo pipefail
 data=$FRAM_SOURCE/../shared/data
 for file in "$data/observed_floes.geojson" "$data/hulls/fpso_low.gdf"; do
@@ -10,8 +10,10 @@ for file in "$data/observed_floes.geojson" "$data/hulls/fpso_low.gdf"; do
     fi
 done
 duration=120
+transient=20
 if [ -n "${FRAM_TEST_SHORT:-}" ]; then
     duration=2
+    transient=0
 fi
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -28,8 +30,8 @@ code=0
 "$FRAM" field "$scratch/field.geojson" -o "$scratch/again.geojson" --json >"$scratch/again"
 cmp "$scratch/field.geojson" "$scratch/again.geojson"
 
-"$FRAM" run "$FRAM_SOURCE/scenes/real_input.yaml" -o "$scratch/run" --set run.duration=$duration --threads 2 --quiet \
-    --json >"$scratch/answer"
+"$FRAM" run "$FRAM_SOURCE/scenes/real_input.yaml" -o "$scratch/run" --set run.duration=$duration \
+    --set run.transient=$transient --threads 2 --quiet --json >"$scratch/answer"
 
 python3 - "$scratch" "$duration" <<'PYTHON'
 import csv, json, math, os, sys
