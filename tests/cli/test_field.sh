@@ -36,8 +36,8 @@ JSON
 # The bow tie is refused with its place, dropped, mended.
 expect 2 "$FRAM" field floes.geojson --json
 same "$(value 'j["error"]["file"], j["error"]["line"], j["error"]["column"], j["error"]["key"]')" \
-    "floes.geojson 5 17 feature 2, polygon 1, ring 1" "place of the bow tie"
-says "floes.geojson:5:17: feature 2, polygon 1, ring 1: the ring crosses or touches itself" err
+    "floes.geojson 5 16 feature 2, polygon 1, ring 1" "place of the bow tie"
+says "floes.geojson:5:16: feature 2, polygon 1, ring 1: the ring crosses or touches itself" err
 expect 0 "$FRAM" field floes.geojson --bad drop --json
 same "$(wc -l <out)" 1 "lines of JSON"
 same "$(value 'j["rings"], j["floes"], j["area_m2"], len(j["dropped"]), len(j["repaired"])')" "3 2 200 1 0" dropped

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Input that was not made for Fram: 462 observed floes and the hull of an FPSO, for 120 s (scenes/real_input.yaml).  Both files
-# stand beside the sources, not in them; without them the test is skipped.
+# Input that was not made for Fram: 462 observed floes and the hull of an FPSO, for 120 s (scenes/real_input.yaml).
+# Both files stand beside the sources, not in them; without them the test is skipped.
 set -euo pipefail
 data=$FRAM_SOURCE/../shared/data
 for file in "$data/observed_floes.geojson" "$data/hulls/fpso_low.gdf"; do
