@@ -88,7 +88,7 @@ expect 2 "$FRAM" field empty.geojson
 says "empty.geojson:1:1" err
 printf '\xff\xfe{' >other.geojson
 expect 2 "$FRAM" field other.geojson
-says "found the byte 0xff" err
+says "other.geojson:1:1: expected" err
 for words in "--scale 0" "--scale nan" "--scale -1" "--scale 1e300" "--crop 1,2,3" "--crop 3,0,1,1" "--crop 0,0,1,nan" \
     "--simplify -1" "--smallest -1" "--bad mend" "--smallest 1e9" "--x 1e400" "--wrong"; do
     # shellcheck disable=SC2086  # an option and its value
