@@ -277,7 +277,8 @@ static int ascending(const void *a, const void *b)
 double size_law_distance(const size_law *law, double *sample, int32_t count)
 {
     double most = 0;
-    qsort(sample, (size_t)count, sizeof *sample, ascending);
+    if (count > 0)
+        qsort(sample, (size_t)count, sizeof *sample, ascending);
     for (int32_t i = 0; i < count; i++) {
         if (law->kind == SIZE_CONSTANT) {
             /* A law of one value: the part of the sample that is another, but for rounding. */
