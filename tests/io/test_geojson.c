@@ -389,6 +389,64 @@ START_TEST(limits_and_files)
 }
 END_TEST
 
+/* head, then an item so many times with commas between, then tail. */
+static char *repeated(const char *head, const char *item, int32_t count, const char *tail)
+{
+    size_t each = strlen(item), begin = strlen(head);
+    char *text = malloc(begin + (size_t)count * (each + 1) + strlen(tail) + 1), *at = text;
+    ck_assert_ptr_nonnull(text);
+    memcpy(at, head, begin);
+    at += begin;
+    for (int32_t i = 0; i < count; i++) {
+        if (i > 0)
+            *at++ = ',';
+        memcpy(at, item, each);
+        at += each;
+    }
+    memcpy(at, tail, strlen(tail) + 1);
+    return text;
+}
+
+static void check_limit(char *text, const char *message)
+{
+    rig *r = rig_make();
+    assert_fails(parse(r, text), r->error, FRAM_ERROR_INPUT, message);
+    ck_assert_int_eq(r->rings.place.count, 0);
+    free(text);
+    rig_free(r);
+}
+
+START_TEST(counts_are_limited)
+{
+    check_limit(repeated("{\"type\":\"Polygon\",\"coordinates\":[", "[[0,0]]", GEOJSON_RINGS_MOST + 1, "]}"),
+                "more than 1000000 rings");
+    check_limit(repeated("{\"type\":\"FeatureCollection\",\"features\":[", "{\"type\":\"Feature\",\"geometry\":null}",
+                         GEOJSON_FEATURES_MOST + 1, "]}"),
+                "more than 1000000 features");
+    enum { WHOLE_RINGS = GEOJSON_VERTICES_MOST / GEOJSON_RING_VERTICES_MOST };
+    char *ring = repeated("[", "[0,0]", GEOJSON_RING_VERTICES_MOST, "]");
+    char *rings = repeated("{\"type\":\"Polygon\",\"coordinates\":[", ring, WHOLE_RINGS + 1, "]}");
+    check_limit(rings, "more than 10000000 positions");
+    free(ring);
+}
+END_TEST
+
+START_TEST(files_are_limited)
+{
+    rig *r = rig_make();
+    scratch place = scratch_make();
+    const char *path = scratch_path(&place, "large.geojson");
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    ck_assert_int_eq(ftruncate(fileno(file), (off_t)GEOJSON_BYTES_MOST + 1), 0);
+    fclose(file);
+    assert_fails(geojson_read(&r->ctx, path, &r->rings, &r->error), r->error, FRAM_ERROR_INPUT,
+                 "at most 268435456 bytes");
+    scratch_remove(&place, "large.geojson");
+    rig_free(r);
+}
+END_TEST
+
 /* ---- memory ---- */
 
 /* GEOS has its own memory; Fram's runs out at every request in turn. */
@@ -439,6 +497,8 @@ int main(void)
     tcase_add_test(cases, simplified_within_the_tolerance);
     tcase_add_test(cases, what_is_written_reads_back_to_the_bit);
     tcase_add_test(cases, limits_and_files);
+    tcase_add_test(cases, counts_are_limited);
+    tcase_add_test(cases, files_are_limited);
     tcase_add_test(cases, memory_that_runs_out_is_reported);
     suite_add_tcase(suite, cases);
     SRunner *runner = srunner_create(suite);
