@@ -55,8 +55,9 @@ static void hull_close(hull *h) { shape_store_free(&h->ctx, &h->store); }
 
 static fluid_motion random_state(random_stream *r, double tilt)
 {
-    fluid_motion s = motion_at(vec3_make(0, 0, random_uniform(r, -4, 2)), random_uniform(r, -tilt, tilt),
-                               random_uniform(r, -tilt, tilt), random_uniform(r, -3, 3));
+    /* One after the other: the order in which arguments are worked out is the compiler's. */
+    double z = random_uniform(r, -4, 2), roll = random_uniform(r, -tilt, tilt), pitch = random_uniform(r, -tilt, tilt);
+    fluid_motion s = motion_at(vec3_make(0, 0, z), roll, pitch, random_uniform(r, -3, 3));
     s.velocity = random_vector(r, 1.5);
     s.angular_velocity = random_vector(r, 0.01);
     return s;
@@ -88,14 +89,14 @@ START_TEST(pressure_is_exact)
 }
 END_TEST
 
-/* In terms of the drag of all the surface at the largest speed. */
-static void check_drag(const media *m, const drag_coefficients *c, double bound)
+/* In terms of the drag of all the surface at the largest speed; `coarse` for the hull of 80 triangles. */
+static void check_drag(const media *m, const drag_coefficients *c, double coarse, double fine)
 {
     static const int size[3][2] = {{6, 8}, {40, 60}, {130, 150}};
     for (int k = 0; k < 3; k++) {
         hull h;
         const solid *body = hull_open(&h, size[k][0], size[k][1]);
-        double area = 0;
+        double area = 0, bound = k == 0 ? coarse : fine;
         for (int32_t i = 0; i < body->surface.face.count; i++)
             area += vec3_length(mesh_area_vector(&body->surface, i));
         random_stream r = random_begin(22, 0, 0);
@@ -129,8 +130,8 @@ START_TEST(drag)
     windy.current = vec3_make(0.5, 0.3, 0);
     windy.wind = vec3_make(-8, 4, 0);
     static const drag_coefficients form = {1, 0, 0.8, 0}, skin = {0, 0.01, 0, 0.003};
-    check_drag(&windy, &form, 1e-3);
-    check_drag(&windy, &skin, 1e-3);
+    check_drag(&windy, &form, 1e-3, 1e-3);
+    check_drag(&windy, &skin, 1e-3, 1e-3);
 }
 END_TEST
 
@@ -140,8 +141,8 @@ START_TEST(current_of_depth)
     m.current = vec3_make(0.1, 0, 0);
     m.profile = (current_profile){4, {0, 3, 8, 20}, {{1, 0, 0}, {0.6, 0.2, 0}, {0, 0.3, 0}, {-0.5, 0, 0}}};
     static const drag_coefficients form = {1, 0, 0.8, 0};
-    /* The walk takes one current for each triangle, however large. */
-    check_drag(&m, &form, 5e-3);
+    /* The walk takes one current for each triangle, however large: 9.5e-3 is the most of 3,000 states. */
+    check_drag(&m, &form, 1e-2, 1e-3);
     assert_vec3_close(media_current(&m, 1), vec3_make(1.1, 0, 0), 1e-15);
     assert_vec3_close(media_current(&m, -1.5), vec3_make(0.9, 0.1, 0), 1e-15);
     assert_vec3_close(media_current(&m, -8), vec3_make(0.1, 0.3, 0), 1e-15);
