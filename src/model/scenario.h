@@ -6,8 +6,8 @@
 
 #include "base/array.h"
 #include "dynamics/solver.h"
-#include "ice/fracture.h"
 #include "ice/field_size.h"
+#include "ice/fracture.h"
 #include "ice/import.h"
 #include "model/scenario_keys.h"
 #include "vessel/mooring.h"
