@@ -110,10 +110,10 @@ int main(int argc, char **argv)
         fprintf(stderr, "%s: %s\n", argv[2], error.message);
         good = false;
     }
-    printf(
-        "| field | floes | concentration | CPU s | steps of %.3g ms | overlap m | KS | area change | vertices changed |\n"
-        "|---|---|---|---|---|---|---|---|---|\n",
-        step_ms);
+    printf("| field | floes | concentration | CPU s | steps of %.3g ms | overlap m | KS | area change "
+           "| vertices changed |\n"
+           "|---|---|---|---|---|---|---|---|---|\n",
+           step_ms);
     for (size_t i = 0; good && i < sizeof cases / sizeof *cases; i++)
         if (!cases[i].templates || polygon_list_count(&templates) > 0)
             good = measure(&ctx, plane, &cases[i], &templates, step_ms) && good;
