@@ -16,7 +16,8 @@ static const command_row commands[] = {
      command_resume},
     {"check", "SCENARIO", "check a scenario, print it with every default filled in, and what follows from it",
      "  fram check scenes/demo.yaml\n"
-     "  fram check scenes/demo.yaml --set ice.concentration=0.7 > full.yaml\n",
+     "  fram check scenes/demo.yaml --set ice.concentration=0.7 > full.yaml\n"
+     "  fram check scenes/packed_field.yaml --build\n",
      command_check},
     {"bench", "SCENARIO | --scene FILE", "step a scenario without output and measure its speed",
      "  fram bench scenes/demo.yaml --warm 5 --time 10\n"

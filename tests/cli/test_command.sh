@@ -117,6 +117,10 @@ cp out full.yaml
 expect 0 "$FRAM" check full.yaml
 cmp -s out full.yaml || fail "check is not its own fixed point"
 grep -q "seed: 7" out || fail "--set is not in what check prints"
+expect 0 "$FRAM" check scene.yaml --build --json
+[ "$(value '["floes"]')" -gt 20 ] || fail "check --build counted $(value '["floes"]') floes"
+expect 2 "$FRAM" check scene.yaml --build --set vessel.x=-60 --json
+same "$(value '["error"]["key"]')" vessel.x "key of a hull inside a wall, told by check --build"
 
 # A run, its files and its JSON.
 expect 0 "$FRAM" run scene.yaml -o straight --json
