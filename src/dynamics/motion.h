@@ -2,10 +2,15 @@
 #ifndef DYNAMICS_MOTION_H
 #define DYNAMICS_MOTION_H
 
+#include "base/simd.h"
 #include "bodies/body.h"
 
-/* Bodies that a thread moves at a time. */
-enum { MOTION_BLOCK = 256 };
+/* Groups of eight body slots that a thread moves at a time. */
+enum { MOTION_GROUPS = 32 };
+static inline int32_t motion_blocks(const body_table *bodies)
+{
+    return (bodies->count + V8_LANES * MOTION_GROUPS - 1) / (V8_LANES * MOTION_GROUPS);
+}
 
 /* Rigid and added inertia, body frame [kg m2]. */
 sym3 body_total_inertia(const body_table *bodies, int32_t slot);

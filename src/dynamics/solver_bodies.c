@@ -1,6 +1,7 @@
 /* The bodies of a solve: free motion of all, and the list of those that contacts and joints touch. */
 #include "base/pool.h"
 #include "dynamics/motion.h"
+#include "dynamics/motion_kernel.h"
 #include "dynamics/solver_rows.h"
 
 static sym3 inverse_mass_of(const body_table *bodies, int32_t slot, mat3 r)
@@ -64,6 +65,7 @@ fram_status bodies_check(const body_table *bodies, fram_error *error)
 }
 
 typedef struct acceleration_work {
+    context *ctx;
     body_table *bodies;
     const wrench *loads;
     double dt;
@@ -72,25 +74,16 @@ typedef struct acceleration_work {
 static void accelerate_block(void *arg, int32_t block, int32_t thread)
 {
     const acceleration_work *work = arg;
-    body_table *bodies = work->bodies;
-    int32_t end = (block + 1) * MOTION_BLOCK < bodies->count ? (block + 1) * MOTION_BLOCK : bodies->count;
+    int32_t groups = (work->bodies->count + V8_LANES - 1) / V8_LANES, first = block * MOTION_GROUPS;
     (void)thread;
-    for (int32_t i = block * MOTION_BLOCK; i < end; i++) {
-        if (!body_is_dynamic(bodies, i))
-            continue;
-        const wrench *load = &work->loads[i];
-        mat3 r = quat_matrix(bodies->orientation[i]);
-        vec3 push = sym3_mul_vec(inverse_mass_of(bodies, i, r), load->force);
-        vec3 turn = sym3_mul_vec(sym3_inverse(body_total_inertia(bodies, i)), mat3_tmul_vec(r, load->moment));
-        bodies->velocity[i] = vec3_mad(bodies->velocity[i], push, work->dt);
-        bodies->angular_velocity[i] = vec3_mad(bodies->angular_velocity[i], mat3_mul_vec(r, turn), work->dt);
-    }
+    KERNEL_PICK(work->ctx, motion_accelerate)
+    (work->bodies, work->loads, work->dt, first, first + MOTION_GROUPS < groups ? first + MOTION_GROUPS : groups);
 }
 
 void bodies_accelerate(context *ctx, body_table *bodies, const wrench *loads, double dt)
 {
-    acceleration_work work = {bodies, loads, dt};
-    pool_run(ctx, accelerate_block, &work, (bodies->count + MOTION_BLOCK - 1) / MOTION_BLOCK);
+    acceleration_work work = {ctx, bodies, loads, dt};
+    pool_run(ctx, accelerate_block, &work, motion_blocks(bodies));
 }
 
 void solver_bodies_load(solver *s, const body_table *bodies)

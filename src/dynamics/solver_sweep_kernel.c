@@ -4,11 +4,7 @@
    serves all three. */
 #include "dynamics/solver_sweep_kernel.h"
 
-#include "base/simd.h"
-
-typedef struct lanes3 {
-    v8 x, y, z;
-} lanes3;
+#include "base/lanes.h"
 
 /* A body in each lane. */
 typedef struct lanes_body {
@@ -20,20 +16,6 @@ typedef struct lanes_body {
 typedef struct lanes_frame {
     lanes3 normal, tangent[2];
 } lanes_frame;
-
-V8_INLINE lanes3 add(lanes3 a, lanes3 b) { return (lanes3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-V8_INLINE lanes3 subtract(lanes3 a, lanes3 b) { return (lanes3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-V8_INLINE lanes3 scale(lanes3 a, v8 s) { return (lanes3){a.x * s, a.y * s, a.z * s}; }
-V8_INLINE v8 dot(lanes3 a, lanes3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-V8_INLINE lanes3 cross(lanes3 a, lanes3 b)
-{
-    return (lanes3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-V8_INLINE lanes3 symmetric(const v8 s[6], lanes3 a)
-{
-    return (lanes3){s[0] * a.x + s[3] * a.y + s[4] * a.z, s[3] * a.x + s[1] * a.y + s[5] * a.z,
-                    s[4] * a.x + s[5] * a.y + s[2] * a.z};
-}
 
 /* ---- rows in and out ---- */
 
@@ -118,32 +100,36 @@ static void hub_collect(const batch_view *view, const contact_batch *batch)
 
 V8_INLINE lanes3 velocity_at(const lanes_body *a, const lanes_body *b, lanes3 arm_a, lanes3 arm_b)
 {
-    return subtract(add(a->velocity, cross(a->spin, arm_a)), add(b->velocity, cross(b->spin, arm_b)));
+    return lanes3_sub(lanes3_add(a->velocity, lanes3_cross(a->spin, arm_a)),
+                      lanes3_add(b->velocity, lanes3_cross(b->spin, arm_b)));
 }
 
 V8_INLINE lanes3 pushed(const lanes_body *body, lanes3 impulse, bool general)
 {
-    return general ? symmetric(body->mass, impulse) : scale(impulse, body->mass[0]);
+    return general ? lanes_sym3_mul(body->mass, impulse) : lanes3_scale(impulse, body->mass[0]);
 }
 
 V8_INLINE void apply(lanes_body *a, lanes_body *b, lanes3 arm_a, lanes3 arm_b, lanes3 impulse, bool general)
 {
-    a->velocity = add(a->velocity, pushed(a, impulse, general));
-    a->spin = add(a->spin, symmetric(a->inertia, cross(arm_a, impulse)));
-    b->velocity = subtract(b->velocity, pushed(b, impulse, general));
-    b->spin = subtract(b->spin, symmetric(b->inertia, cross(arm_b, impulse)));
+    a->velocity = lanes3_add(a->velocity, pushed(a, impulse, general));
+    a->spin = lanes3_add(a->spin, lanes_sym3_mul(a->inertia, lanes3_cross(arm_a, impulse)));
+    b->velocity = lanes3_sub(b->velocity, pushed(b, impulse, general));
+    b->spin = lanes3_sub(b->spin, lanes_sym3_mul(b->inertia, lanes3_cross(arm_b, impulse)));
 }
 
 /* K times a direction. */
 V8_INLINE lanes3 answer(const lanes_body *a, const lanes_body *b, lanes3 arm_a, lanes3 arm_b, lanes3 d, bool general)
 {
-    lanes3 turn_a = symmetric(a->inertia, cross(arm_a, d)), turn_b = symmetric(b->inertia, cross(arm_b, d));
-    return add(add(pushed(a, d, general), cross(turn_a, arm_a)), add(pushed(b, d, general), cross(turn_b, arm_b)));
+    lanes3 turn_a = lanes_sym3_mul(a->inertia, lanes3_cross(arm_a, d)),
+           turn_b = lanes_sym3_mul(b->inertia, lanes3_cross(arm_b, d));
+    return lanes3_add(lanes3_add(pushed(a, d, general), lanes3_cross(turn_a, arm_a)),
+                      lanes3_add(pushed(b, d, general), lanes3_cross(turn_b, arm_b)));
 }
 
 V8_INLINE lanes3 composed(const lanes_frame *f, v8 p0, v8 p1, v8 p2)
 {
-    return add(add(scale(f->normal, p0), scale(f->tangent[0], p1)), scale(f->tangent[1], p2));
+    return lanes3_add(lanes3_add(lanes3_scale(f->normal, p0), lanes3_scale(f->tangent[0], p1)),
+                      lanes3_scale(f->tangent[1], p2));
 }
 
 /* 1 / x where x > 0, else 0: lanes without a contact. */
@@ -168,13 +154,13 @@ V8_INLINE void prepare_batch(const batch_view *view, int32_t number, bool genera
         lanes3 n = answer(&a, &b, arm_a, arm_b, f.normal, general);
         lanes3 t1 = answer(&a, &b, arm_a, arm_b, f.tangent[0], general);
         lanes3 t2 = answer(&a, &b, arm_a, arm_b, f.tangent[1], general);
-        v8 k11 = dot(f.tangent[0], t1), k12 = dot(f.tangent[1], t1), k22 = dot(f.tangent[1], t2);
+        v8 k11 = lanes3_dot(f.tangent[0], t1), k12 = lanes3_dot(f.tangent[1], t1), k22 = lanes3_dot(f.tangent[1], t2);
         v8 share = inverse_or_zero(k11 * k22 - k12 * k12), slide = 2 * inverse_or_zero(k11 + k22);
         lanes3 u = velocity_at(&a, &b, arm_a, arm_b);
-        v8 u1 = dot(f.tangent[0], u), u2 = dot(f.tangent[1], u);
-        put(p, POINT_MASS, inverse_or_zero(dot(f.normal, n)));
-        put(p, POINT_COUPLING, dot(f.tangent[0], n));
-        put(p, POINT_COUPLING + 1, dot(f.tangent[1], n));
+        v8 u1 = lanes3_dot(f.tangent[0], u), u2 = lanes3_dot(f.tangent[1], u);
+        put(p, POINT_MASS, inverse_or_zero(lanes3_dot(f.normal, n)));
+        put(p, POINT_COUPLING, lanes3_dot(f.tangent[0], n));
+        put(p, POINT_COUPLING + 1, lanes3_dot(f.tangent[1], n));
         put(p, POINT_STICK, k22 * share);
         put(p, POINT_STICK + 1, -k12 * share);
         put(p, POINT_STICK + 2, k11 * share);
@@ -235,8 +221,8 @@ void KERNEL(solver_recall)(const batch_view *view, int32_t first, int32_t end)
             const double *p = point_rows(view, batch->first + k);
             double *impulse = impulse_rows(view, batch->first + k);
             lanes3 global = row3(impulse, 0);
-            v8 p0 = v8_min(v8_max(dot(f.normal, global), zero), row(p, POINT_LIMIT));
-            v8 p1 = dot(f.tangent[0], global), p2 = dot(f.tangent[1], global);
+            v8 p0 = v8_min(v8_max(lanes3_dot(f.normal, global), zero), row(p, POINT_LIMIT));
+            v8 p1 = lanes3_dot(f.tangent[0], global), p2 = lanes3_dot(f.tangent[1], global);
             project(radius_of(&mu, row(p, POINT_SLIP), p0), &p1, &p2);
             put(impulse, 0, p0);
             put(impulse, 1, p1);
@@ -259,7 +245,7 @@ void KERNEL(solver_work)(const batch_view *view, int32_t first, int32_t end, dou
             const double *p = point_rows(view, batch->first + k), *impulse = impulse_rows(view, batch->first + k);
             lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
             lanes3 all = composed(&f, row(impulse, 0), row(impulse, 1), row(impulse, 2));
-            sum = sum + (dot(all, u) - row(impulse, 0) * row(p, POINT_BIAS));
+            sum = sum + (lanes3_dot(all, u) - row(impulse, 0) * row(p, POINT_BIAS));
         }
         v8_store(work + (ptrdiff_t)BATCH_LANES * i, sum);
     }
@@ -273,7 +259,7 @@ V8_INLINE void push_batch(const batch_view *view, int32_t number, v8 share, bool
     lanes_frame f = frame_load(view, number);
     for (int32_t k = 0; k < batch->points; k++) {
         const double *p = point_rows(view, batch->first + k), *impulse = impulse_rows(view, batch->first + k);
-        lanes3 all = scale(composed(&f, row(impulse, 0), row(impulse, 1), row(impulse, 2)), share);
+        lanes3 all = lanes3_scale(composed(&f, row(impulse, 0), row(impulse, 1), row(impulse, 2)), share);
         apply(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B), all, general);
     }
     body_store(view, batch->a, &a);
@@ -303,7 +289,8 @@ double KERNEL(solver_residual)(const batch_view *view, int32_t first, int32_t en
         for (int32_t k = 0; k < batch->points; k++) {
             const double *p = point_rows(view, batch->first + k);
             v8 carried = row(impulse_rows(view, batch->first + k), 0), limit = row(p, POINT_LIMIT);
-            v8 u = dot(normal, velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B))) - row(p, POINT_BIAS);
+            v8 u = lanes3_dot(normal, velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B))) -
+                   row(p, POINT_BIAS);
             v8 residual = v8_abs(u);
             residual = v8_select(v8_less_equal(carried, zero), v8_max(-u, zero), residual);
             v8_mask full = v8_less_equal(limit, carried), usable = v8_less(zero, limit);
@@ -364,7 +351,7 @@ static v8 fixed_work(const batch_view *view, int32_t number)
     for (int32_t point = batch->first; point < batch->first + batch->points; point++) {
         const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
         lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
-        sum = sum + dot(u, composed(&f, row(impulse, 0), row(impulse, 1), row(impulse, 2)));
+        sum = sum + lanes3_dot(u, composed(&f, row(impulse, 0), row(impulse, 1), row(impulse, 2)));
     }
     return sum;
 }
@@ -396,10 +383,10 @@ V8_INLINE void sweep_batch(const batch_view *view, int32_t number, bool general,
         lanes3 arm_a = row3(p, POINT_ARM_A), arm_b = row3(p, POINT_ARM_B);
         lanes3 u = velocity_at(&a, &b, arm_a, arm_b);
         v8 old0 = row(impulse, 0), old1 = row(impulse, 1), old2 = row(impulse, 2), mass = row(p, POINT_MASS);
-        v8 bias = row(p, POINT_BIAS), u0 = dot(f.normal, u) - bias;
+        v8 bias = row(p, POINT_BIAS), u0 = lanes3_dot(f.normal, u) - bias;
         v8 p0 = v8_min(v8_max(old0 - u0 * mass, zero), row(p, POINT_LIMIT)), change0 = p0 - old0;
-        v8 u1 = dot(f.tangent[0], u) + row(p, POINT_COUPLING) * change0;
-        v8 u2 = dot(f.tangent[1], u) + row(p, POINT_COUPLING + 1) * change0;
+        v8 u1 = lanes3_dot(f.tangent[0], u) + row(p, POINT_COUPLING) * change0;
+        v8 u2 = lanes3_dot(f.tangent[1], u) + row(p, POINT_COUPLING + 1) * change0;
         v8 p1 = old1, p2 = old2;
         solve_friction(p, radius_of(&mu, row(p, POINT_SLIP), p0), u1, u2, &p1, &p2);
         v8 change1 = p1 - old1, change2 = p2 - old2;
@@ -442,9 +429,9 @@ V8_INLINE void correct_batch(const batch_view *view, int32_t number, const doubl
         const double *p = point_rows(view, batch->first + k);
         lanes3 arm_a = row3(p, POINT_ARM_A), arm_b = row3(p, POINT_ARM_B);
         v8 old = row(impulse, batch->first + k), mass = row(p, POINT_MASS);
-        v8 want = row(bias, batch->first + k), u = dot(normal, velocity_at(&a, &b, arm_a, arm_b)) - want;
+        v8 want = row(bias, batch->first + k), u = lanes3_dot(normal, velocity_at(&a, &b, arm_a, arm_b)) - want;
         v8 carried = v8_max(old - u * mass, zero), change = carried - old;
-        apply(&a, &b, arm_a, arm_b, scale(normal, change), general);
+        apply(&a, &b, arm_a, arm_b, lanes3_scale(normal, change), general);
         put(impulse, batch->first + k, carried);
         sums->energy = sums->energy - change * u;
         sums->wanted = sums->wanted + carried * want;
@@ -493,7 +480,8 @@ V8_INLINE void slide_batch(const batch_view *view, int32_t number, const frictio
         const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
         const ptrdiff_t at = (ptrdiff_t)IMPULSE_ROWS * BATCH_LANES * point;
         lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
-        v8 u1 = v8_select(slides, dot(f.tangent[0], u), zero), u2 = v8_select(slides, dot(f.tangent[1], u), zero);
+        v8 u1 = v8_select(slides, lanes3_dot(f.tangent[0], u), zero),
+           u2 = v8_select(slides, lanes3_dot(f.tangent[1], u), zero);
         v8 way1 = row(impulse, 1) - row(start + at, 1), way2 = row(impulse, 2) - row(start + at, 2);
         sum[0] = sum[0] + (u1 * way1 + u2 * way2);
         for (int w = 1; w < SWEEP_WAYS; w++)
@@ -544,8 +532,8 @@ V8_INLINE lanes_rows rows_subtract(lanes_rows a, lanes_rows b)
 /* Momentum and spin momentum of velocities. */
 V8_INLINE lanes_rows weighted(const lanes_rows *mass, const lanes_rows *inertia, const lanes_rows *v)
 {
-    lanes3 linear = symmetric(mass->column, (lanes3){v->column[0], v->column[1], v->column[2]});
-    lanes3 turning = symmetric(inertia->column, (lanes3){v->column[3], v->column[4], v->column[5]});
+    lanes3 linear = lanes_sym3_mul(mass->column, (lanes3){v->column[0], v->column[1], v->column[2]});
+    lanes3 turning = lanes_sym3_mul(inertia->column, (lanes3){v->column[3], v->column[4], v->column[5]});
     return (lanes_rows){{linear.x, linear.y, linear.z, turning.x, turning.y, turning.z}};
 }
 

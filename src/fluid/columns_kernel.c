@@ -1,47 +1,22 @@
 #include "fluid/columns_kernel.h"
 
-#include "base/simd.h"
+#include "base/lanes.h"
 
 /* The steepest that a column is followed: sin of the angle of a floe's plane to the vertical. */
 #define LEAST_COSINE 0.2
 
-/* Component `at` of eight rows of `stride` doubles. */
-V8_INLINE v8 pick(const double *p, int stride, int at)
-{
-    p += at;
-    return (v8){p[0],          p[stride],     p[2 * stride], p[3 * stride],
-                p[4 * stride], p[5 * stride], p[6 * stride], p[7 * stride]};
-}
-
 typedef struct eight_bodies {
-    v8 z;       /* of the centres */
-    v8 r[3][3]; /* body to global */
-    v8 v[3], w[3];
+    v8 z;      /* of the centres */
+    lanes33 r; /* body to global */
+    lanes3 v, w;
 } eight_bodies;
-
-V8_INLINE void load_rotation(const double *q8, v8 r[3][3])
-{
-    v8 w = pick(q8, 4, 0), x = pick(q8, 4, 1), y = pick(q8, 4, 2), z = pick(q8, 4, 3);
-    v8 xx = x * x, yy = y * y, zz = z * z, xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
-    r[0][0] = 1 - 2 * (yy + zz);
-    r[0][1] = 2 * (xy - wz);
-    r[0][2] = 2 * (xz + wy);
-    r[1][0] = 2 * (xy + wz);
-    r[1][1] = 1 - 2 * (xx + zz);
-    r[1][2] = 2 * (yz - wx);
-    r[2][0] = 2 * (xz - wy);
-    r[2][1] = 2 * (yz + wx);
-    r[2][2] = 1 - 2 * (xx + yy);
-}
 
 V8_INLINE void load_bodies(const body_table *bodies, int32_t slot, eight_bodies *b)
 {
-    b->z = pick(&bodies->position[slot].x, 3, 2);
-    load_rotation(&bodies->orientation[slot].w, b->r);
-    for (int i = 0; i < 3; i++) {
-        b->v[i] = pick(&bodies->velocity[slot].x, 3, i);
-        b->w[i] = pick(&bodies->angular_velocity[slot].x, 3, i);
-    }
+    b->z = lanes_pick(&bodies->position[slot].x, 3, 2);
+    b->r = lanes_quat_matrix(lanes_quat_pick(bodies->orientation + slot));
+    b->v = lanes3_pick(bodies->velocity + slot);
+    b->w = lanes3_pick(bodies->angular_velocity + slot);
 }
 
 void KERNEL(column_groups)(const column_water *w, const body_table *bodies, int32_t first, int32_t end, wrench *loads)
@@ -55,22 +30,22 @@ void KERNEL(column_groups)(const column_water *w, const body_table *bodies, int3
         load_bodies(bodies, slot, &b);
         v8 thickness = v8_load(w->thickness.data + slot), rim = v8_load(w->rim.data + slot);
         v8 sides = v8_load(w->sides.data + slot);
-        v8 bottom = -0.5 * thickness, upright = v8_max(b.r[2][2], v8_set(LEAST_COSINE));
+        v8 bottom = -0.5 * thickness, upright = v8_max(b.r.m[2][2], v8_set(LEAST_COSINE));
         v8 rim_drag = half_density * m->form_drag * rim;
         v8 f[3] = {zero, zero, zero}, t[3] = {zero, zero, zero};
         for (int32_t row = w->first.data[group]; row < w->first.data[group + 1]; row++) {
             v8 area = v8_load(w->area.data + V8_LANES * row);
             v8 x = v8_load(w->x.data + V8_LANES * row), y = v8_load(w->y.data + V8_LANES * row);
-            v8 under = b.z + b.r[2][0] * x + b.r[2][1] * y + b.r[2][2] * bottom;
+            v8 under = b.z + b.r.m[2][0] * x + b.r.m[2][1] * y + b.r.m[2][2] * bottom;
             v8 wet = v8_min(-under / upright, thickness);
             v8_mask acts = v8_less(zero, wet) & v8_less(v8_set(row - w->first.data[group]), sides);
             v8 z = bottom + 0.5 * wet;
             v8 r[3];
             for (int i = 0; i < 3; i++)
-                r[i] = b.r[i][0] * x + b.r[i][1] * y + b.r[i][2] * z;
-            v8 u = b.v[0] + b.w[1] * r[2] - b.w[2] * r[1] - m->current.x;
-            v8 v = b.v[1] + b.w[2] * r[0] - b.w[0] * r[2] - m->current.y;
-            v8 rise = b.v[2] + b.w[0] * r[1] - b.w[1] * r[0];
+                r[i] = b.r.m[i][0] * x + b.r.m[i][1] * y + b.r.m[i][2] * z;
+            v8 u = b.v.x + b.w.y * r[2] - b.w.z * r[1] - m->current.x;
+            v8 v = b.v.y + b.w.z * r[0] - b.w.x * r[2] - m->current.y;
+            v8 rise = b.v.z + b.w.x * r[1] - b.w.y * r[0];
             v8 speed = v8_sqrt(u * u + v * v), q = half_density * area;
             v8 drag = q * m->skin_drag * speed + rim_drag * wet * speed;
             v8 fx = v8_select(acts, -drag * u, zero), fy = v8_select(acts, -drag * v, zero);
