@@ -48,6 +48,7 @@ views  python3-netcdf4  deb:python3-netcdf4
 peers g++               cmd:g++
 peers libbullet-dev     pc:bullet-float64
 peers libode-dev        pc:ode
+validate python3-matplotlib deb:python3-matplotlib
 END
 }
 

@@ -81,13 +81,23 @@ def run_all(jobs):
         return list(pool.map(lambda job: run(job[0], job[1], **job[2]), jobs))
 
 
-def channels(folder):
-    """The columns of series.csv as lists of numbers, by name without unit."""
-    with open(folder / "series.csv", newline="") as file:
+def table(path):
+    """The columns of a CSV file of Fram as lists of numbers, by name without unit."""
+    with open(path, newline="") as file:
         reader = csv.reader(file)
         names = [head.split("[")[0] for head in next(reader)]
         columns = list(zip(*([float(value) for value in row] for row in reader)))
-    return dict(zip(names, columns))
+    return dict(zip(names, columns or [()] * len(names)))
+
+
+def channels(folder):
+    """All channels of a run over time."""
+    return table(folder / "series.csv")
+
+
+def fractures(name):
+    """The floes that broke in a run that run() made under this name."""
+    return table(WORK / name / "fractures.csv")
 
 
 def after(series, name, start):
@@ -126,16 +136,29 @@ def number(value, digits=4):
     return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
 
 
-def figure(case, out, name, caption, draw, size=(7.2, 3.4)):
-    """One picture: draw(axes) fills it."""
+def figure(case, out, name, caption, draw, size=(7.2, 3.4), panels=1):
+    """One picture: draw(axes) fills it; with more panels, side by side, it gets a list of axes."""
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "figure.dpi": 110})
-    picture, axes = plt.subplots(figsize=size, layout="constrained")
+    picture, axes = plt.subplots(1, panels, figsize=size, layout="constrained")
     draw(axes)
     picture.savefig(out / f"{name}.png", metadata={"Software": None})
     plt.close(picture)
     case.figures.append((f"{name}.png", caption))
+
+
+def box_obj(path, lo, hi, turn=None):
+    """Writes a box as OBJ; turn maps a corner (x, y, z)."""
+    corners = [(x, y, z) for z in (lo[2], hi[2]) for y in (lo[1], hi[1]) for x in (lo[0], hi[0])]
+    faces = [(1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)]
+    write_obj(path, [turn(*c) if turn else c for c in corners], faces)
+
+
+def write_obj(path, corners, faces):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    lines = ["v %.17g %.17g %.17g" % tuple(c) for c in corners] + ["f " + " ".join(map(str, f)) for f in faces]
+    path.write_text("\n".join(lines) + "\n")

@@ -1,20 +1,23 @@
 #!/usr/bin/env python3
-"""The validation book: every case of the ladder, one page.
+"""The validation book: every case of the ladder, one page each.
 
   validation/run.py [--quick] [--only NAME ...] [--out DIR]
 
---quick leaves out the cases of many long runs.  The page and its figures go to DIR (docs/validation).  Exit code 1 when
-a check fails: a finding belongs on the page, and into docs/limits.md with its size.
+--quick leaves out the cases of many long runs.  Pages and figures go to DIR (docs/validation), with verdicts.json, from
+which cases that are not run now keep their line on the first page.  Exit code 1 when a check fails: a finding belongs
+on its page, and into docs/limits.md with its size.
 """
 
 import argparse
 import datetime
 import importlib
+import json
 import pathlib
 import platform
 import subprocess
 import sys
 import time
+import traceback
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
@@ -48,18 +51,51 @@ def revision():
     return done.stdout.strip() or "no version control"
 
 
-def entry(case, seconds):
-    lines = [f"### {case.title}", ""]
+def page(name, case, seconds, head):
+    """The page of one case."""
+    lines = [f"# {case.title}", "", f"Rung {case.rung} of the [ladder](README.md). {head} ({seconds:.0f} s of "
+                                    f"computing "
+             f"with what was already there; `make validate VALIDATE_FLAGS=\"--only {name}\"`).", ""]
     lines += [f"**Tests.** {case.tests}", "", f"**Source.** {case.source}", "", f"**Expected.** {case.expected}", ""]
+    lines += [f"**Verdict: {'agrees' if case.good else 'does not agree'}.** {case.found}".rstrip(), ""]
     if case.rows:
         lines += ["| " + " | ".join(case.header) + " |", "|" + "---|" * len(case.header)]
         lines += ["| " + " | ".join(ladder.number(cell) for cell in row) + " |" for row in case.rows] + [""]
-    for name, caption in case.figures:
-        lines += [f"![{caption}]({name})", "", f"*{caption}*", ""]
+    for file, caption in case.figures:
+        lines += [f"![{caption}]({file})", "", f"*{caption}*", ""]
     lines += [f"- {'agrees' if good else '**does not agree**'}: {what}" for what, good in case.checks] + [""]
-    if case.found:
-        lines += [f"**Found.** {case.found}", ""]
-    return lines + [f"({seconds:.0f} s)", ""]
+    return "\n".join(lines)
+
+
+def index(verdicts):
+    """The book's first page: every case with its verdict, and what did not agree."""
+    agree = sum(v["good"] for v in verdicts.values())
+    lines = ["# Validation", "",
+             "Made by `make validate`; `VALIDATE_FLAGS=--quick` runs the cases of a few minutes, `--only NAME` one. "
+             "Each "
+             "case says what it tests, where the numbers come from, which agreement is expected and why, and what was "
+             "found, good or bad. Nothing is tuned to a case: parameters are those of its source or the defaults. What "
+             "disagrees, and the size of each known error, stands in the [limits](../limits.md).", "",
+             f"{agree} of {len(verdicts)} cases agree.", ""]
+    for rung, title in RUNGS.items():
+        of_rung = {n: v for n, v in verdicts.items() if v["rung"] == rung}
+        if not of_rung:
+            continue
+        lines += [f"## {rung}. {title}", "", "| case | verdict | checks | made |", "|---|---|---|---|"]
+        for name, v in sorted(of_rung.items(), key=lambda item: item[1]["title"]):
+            lines.append(f"| [{v['title']}]({name}.md) | {'agrees' if v['good'] else '**does not agree**'} | "
+                         f"{v['checks'] - len(v['failed'])} of {v['checks']} | {v['made']} |")
+        lines.append("")
+    failed = [(n, what) for n, v in verdicts.items() for what in v["failed"]]
+    if failed:
+        lines += ["## What does not agree", ""]
+        lines += [f"- [{verdicts[n]['title']}]({n}.md): {what}" for n, what in failed] + [""]
+    return "\n".join(lines)
+
+
+def version():
+    done = subprocess.run([str(ladder.FRAM), "--version"], capture_output=True, text=True)
+    return done.stdout.splitlines()[0]
 
 
 def main():
@@ -71,45 +107,43 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     ladder.WORK.mkdir(parents=True, exist_ok=True)
 
-    done, left_out, failed = [], [], 0
-    for path in sorted(HERE.glob("case_*.py")):
-        module = importlib.import_module(path.stem)
-        name = path.stem.removeprefix("case_")
+    modules = {p.stem.removeprefix("case_"): importlib.import_module(p.stem) for p in sorted(HERE.glob("case_*.py"))}
+    unknown = set(options.only or []) - set(modules)
+    if unknown:
+        parser.error(f"no case {', '.join(sorted(unknown))}; there are {', '.join(modules)}")
+    kept = options.out / "verdicts.json"
+    verdicts = json.loads(kept.read_text()) if kept.exists() else {}
+    verdicts = {name: v for name, v in verdicts.items() if name in modules}
+    head = f"{version()}, revision {revision()}, {datetime.date.today()}, {machine()}"
+    failed, begun = 0, time.monotonic()
+    for name, module in modules.items():
         if options.only and name not in options.only:
             continue
         if options.quick and module.LONG:
-            left_out.append((name, "long: left out by --quick"))
+            print(f"validation: {name} left out by --quick")
             continue
         start = time.monotonic()
         print(f"validation: {name}", flush=True)
         try:
             case = module.case(options.out)
         except ladder.Skipped as why:
-            left_out.append((name, str(why)))
             print(f"validation: {name} skipped: {why}")
             continue
-        done.append((case, time.monotonic() - start))
+        except Exception:  # one case that cannot be made must not cost the others
+            traceback.print_exc()
+            failed += 1
+            continue
+        seconds = time.monotonic() - start
         for what, good in case.checks:
-            print(f"  {'good' if good else 'FAILED'}: {what}")
+            print(f"  {'good' if good else 'FAILED'}: {what}", flush=True)
         failed += not case.good
-
-    version = subprocess.run([str(ladder.FRAM), "--version"], capture_output=True, text=True).stdout.splitlines()[0]
-    lines = ["# Validation", ""]
-    lines += [
-        f"{version}, revision {revision()}, {datetime.date.today()}, {machine()}.  Made by `make validate`; "
-        f"{sum(c.good for c, _ in done)} of {len(done)} cases agree.  Nothing is tuned to a case.",
-        "",
-    ]
-    for rung, title in RUNGS.items():
-        cases = [(c, s) for c, s in done if c.rung == rung]
-        if cases:
-            lines += [f"## {rung}. {title}", ""]
-            for case, seconds in cases:
-                lines += entry(case, seconds)
-    if left_out:
-        lines += ["## Left out", ""] + [f"- `{name}`: {why}" for name, why in left_out] + [""]
-    (options.out / "README.md").write_text("\n".join(lines))
-    print(f"validation: {options.out / 'README.md'}")
+        (options.out / f"{name}.md").write_text(page(name, case, seconds, head))
+        verdicts[name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
+                          "failed": [what for what, good in case.checks if not good],
+                          "made": f"{datetime.date.today()}, {revision()}"}
+        kept.write_text(json.dumps(verdicts, indent=1, sort_keys=True) + "\n")
+        (options.out / "README.md").write_text(index(verdicts))
+    print(f"validation: {options.out / 'README.md'}, {time.monotonic() - begun:.0f} s")
     return 1 if failed else 0
 
 

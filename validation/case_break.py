@@ -1,0 +1,92 @@
+"""A whole break, end to end: an inclined plate driven into the straight edge of level ice."""
+
+import math
+
+import ladder
+
+LONG = False
+# By Nevel's wedge with the load of the patch at the moment of breaking (closed system of one unknown, solved to 1e-6).
+FORCE, TIME, RADIUS, LOADED = 311.743e3, 0.779357, 4.14196, 0.299987
+STEPS = [0.02, 0.01, 0.005, 0.0025, 0.00125]
+
+
+def scene(slope, friction, name):
+    """Ice of 1 m whose middle plane is z = 0, edge at x = 0; a plate 2 m wide that leans by slope (x over z)."""
+    hull = ladder.WORK / "break" / f"{name}.obj"
+    ladder.box_obj(hull, (-10, -1, -3), (0, 1, 3), lambda x, y, z: (x + slope * z, y, z))
+    return f"""run: {{duration: 1.2}}
+environment: {{water: true, current_speed: 0}}
+domain: {{boundary: open}}
+vessel: {{mode: prescribed, x: {-0.5 * abs(slope):.17g}, speed: 0.1, hull: {{form: file, file: {hull}}}}}
+ice:
+  source: floes
+  breakable: true
+  crushing_strength: 2.0e6
+  friction: {{ice_hull_static: {friction}, ice_hull_kinetic: {friction}}}
+  fracture: {{thick_plate_radius: false}}
+  floes:
+    - {{length: 60, width: 80, x: 30, elevation: 0, thickness: 1, fixed: true}}
+output: {{frame_interval: 0}}
+"""
+
+
+def ratio(angle, friction):
+    """Horizontal over vertical force of a plate at an angle to the water, before anything breaks."""
+    slope = 1 / math.tan(math.radians(angle))
+    series = ladder.run(scene(slope, friction, f"friction_{angle}"), f"break/friction_{angle}", run__time_step=0.01,
+                        run__duration=0.2, ice__breakable="false")
+    return abs(series["ice_force_x"][-1] / series["ice_force_z"][-1])
+
+
+def case(out):
+    c = ladder.Case(
+        "A whole break",
+        2,
+        "A plate 2 m wide at 45 degrees, frictionless, driven at 0.1 m/s into the edge of fixed ice of 1 m: crushing, "
+        "load, "
+        "bending, cut; downward and upward; and the direction of the load with friction.",
+        "Nevel's wedge (1961) with the load of the patch, N = 3: breaks at 311.743 kN, 0.779357 s after first touch, "
+        "R_bending 4.14196 m. F_H/F_V = (sin g + mu cos g)/(cos g - mu sin g).",
+        "First order in dt: the break comes with the first step at which the criterion is met, dt at most after it.",
+    )
+    c.header = ["plate", "dt [s]", "time of break [s]", "load [kN]", "R_bending [m]", "loaded radius [m]",
+                "load, difference"]
+    histories = {}
+    for name, slope in (("downward", 1.0), ("upward", -1.0)):
+        late, loads = [], []
+        for dt in STEPS:
+            run = f"break/{name}_{dt:g}"
+            series = ladder.run(scene(slope, 0, name), run, run__time_step=dt)
+            event = ladder.fractures(run)
+            # The row of a step tells the time at its end; the load is that of its beginning.
+            time = event["time"][0] - dt
+            late.append(time - TIME)
+            loads.append(event["load"][0])
+            c.rows.append([name, dt, f"{time:.5f}", f"{event['load'][0] / 1e3:.3f}", f"{event['crack_length'][0]:.5f}",
+                           f"{event['loaded_radius'][0]:.6f}", f"{100 * (loads[-1] / FORCE - 1):.2f} %"])
+            histories[name] = series
+        c.check(all(-1e-9 <= t <= dt for t, dt in zip(late, STEPS)), f"{name}: breaks within a step after the exact "
+                                                                     f"time")
+        c.check(all(0 <= p / FORCE - 1 <= dt / TIME for p, dt in zip(loads, STEPS)),
+                f"{name}: load at most dt/t above the exact one; {100 * (loads[-1] / FORCE - 1):.2f} % at dt = "
+                f"{STEPS[-1]} s")
+        radius, loaded = event["crack_length"][0] / RADIUS - 1, event["loaded_radius"][0] / LOADED - 1
+        c.check(abs(radius) < 2e-3 and abs(loaded) < 2e-3,
+                f"{name}: R_bending and loaded radius within 0.2 % at dt = {STEPS[-1]} s")
+    for angle, friction, exact in ((30, 0.1, 0.7189), (60, 0.15, 2.5427)):
+        found = ratio(angle, friction)
+        c.rows.append([f"F_H/F_V at {angle} deg, mu {friction}", 0.01, f"{found:.5f}", f"exact {exact}", "", "",
+                       f"{100 * (found / exact - 1):.3f} %"])
+        c.check(abs(found / exact - 1) <= 1e-4, f"F_H/F_V at {angle} degrees with mu {friction}: {found:.4f}, exact "
+                                                f"{exact}")
+
+    def draw(axes):
+        for name, series in histories.items():
+            axes.plot(series["time"], [f / 1e3 for f in series["ice_force_z"]], label=name)
+        axes.axvline(TIME, color="k", lw=0.8, ls=":", label="exact moment of breaking")
+        axes.plot([0, TIME, TIME, 0], [0, FORCE / 1e3, -FORCE / 1e3, 0], "k--", lw=0.8)
+        axes.set(xlabel="time [s]", ylabel="vertical force on the plate [kN]")
+        axes.legend(loc="center right")
+
+    ladder.figure(c, out, "break", "Vertical ice force until the ice breaks; dashed: exact.", draw)
+    return c
