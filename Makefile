@@ -14,7 +14,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers soak validate coverage install deps clean help
+.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers bench-views soak validate coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -70,6 +70,9 @@ bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `
 
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)
+
+bench-views: viewer build ## speed of the playback page with 10,000 floes, against its bounds
+	@$(PYTHON) bench/run_playback.py $(BENCH_FLAGS)
 
 validate: build | $(STAMPS)/validate ## the validation book, docs/validation (VALIDATE_FLAGS=--quick: its short cases)
 	@$(PYTHON) validation/run.py $(VALIDATE_FLAGS)

@@ -1,26 +1,23 @@
 #!/usr/bin/env python3
-"""The playback page in headless Chromium: it draws, and hull, floes and water are where the run says.
+"""The playback page as a user meets it, in headless Chromium: load, play, seek, pick, colours, cameras, export.
 
-The page of a short run gets a probe script, which looks at the drawn pixels under the projected places of bodies and
-leaves its findings in the document.  Skipped (77) without Chromium or without the viewer's page.
+Hull, floes and water are looked for where the run says they are, in the pixels that were drawn; pictures and videos that
+the page saves are opened; and the browser must have nothing to complain of.  Skipped (77) without Chromium or without
+the viewer's page.
 """
 import csv
-import json
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
+import chromium
+
 FRAM = os.environ["FRAM"]
 PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
-FLAGS = """--headless --no-sandbox --disable-quic --no-first-run --disable-background-networking
---disable-component-update --disable-sync --use-angle=swiftshader --enable-unsafe-swiftshader
---window-size=1000,700 --virtual-time-budget=15000 --dump-dom""".split()
-
-SCENE = """
+TOWED = """
 title: Playback test
 run: {duration: 6, time_step: 0.02}
 vessel:
@@ -32,37 +29,47 @@ ice: {mean_floe_area: 64, concentration: 0.7}
 domain: {x_min: -64, x_max: 96, y_min: -40, y_max: 40}
 output: {frame_interval: 0.5}
 """
-
-PROBE = """
-<script>
-function pixel(x, y) {
+# Driven ice that breaks on a hull with lines and thrusters: arrows of every kind, and marks.
+MOORED = """
+title: "Moored <b>ship</b>"
+run: {duration: 8, time_step: 0.02, seed: 3}
+vessel:
+  mode: free
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+  mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}
+  thrusters: [{x: 18}, {x: -18}]
+  positioning: {active: true}
+ice: {concentration: 0.75, mean_floe_area: 64, thickness: 0.3, breakable: true}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
+environment: {current_speed: 2.5, current_direction_deg: 180}
+output: {frame_interval: 0.25}
+"""
+LOOK = """(() => {
+    fram.scene.render();
     const gl = fram.scene.renderer.getContext(), out = new Uint8Array(4);
-    const p = fram.scene.camera.position.clone().set(x, y, 0).project(fram.scene.camera);
-    gl.readPixels((p.x + 1) / 2 * gl.drawingBufferWidth, (p.y + 1) / 2 * gl.drawingBufferHeight, 1, 1, gl.RGBA,
-                  gl.UNSIGNED_BYTE, out);
-    return [...out];
-}
-function look(time) {
-    fram.time = time;
-    document.getElementById('camera').value = 'top';
-    fram.placeCamera();
-    fram.draw();
+    const pixel = (x, y) => {
+        const p = fram.scene.camera.position.clone().set(x, y, 0).project(fram.scene.camera);
+        gl.readPixels((p.x + 1) / 2 * gl.drawingBufferWidth, (p.y + 1) / 2 * gl.drawingBufferHeight, 1, 1, gl.RGBA,
+                      gl.UNSIGNED_BYTE, out);
+        return [...out];
+    };
     const pose = (b) => [...fram.poses.pose.subarray(7 * b.index, 7 * b.index + 3)];
     const ice = fram.record.bodies.filter((b) => b.material === 'ice' && fram.poses.shown[b.index]);
     const hull = pose(fram.hull), clear = (p) => Math.abs(p[0] - hull[0]) > 35 || Math.abs(p[1] - hull[1]) > 12;
-    return { hull, hullPixel: pixel(hull[0], hull[1]), floes: ice.length,
-             floePixels: ice.map(pose).filter(clear).map((p) => pixel(p[0], p[1])), waterPixel: pixel(180, 0) };
-}
-const result = document.createElement('pre');
-try {
-    const draws = () => fram.scene.renderer.info.render.calls;
-    const start = look(fram.record.frames[0].time), end = look(fram.end);
-    result.textContent = JSON.stringify({ start, end, calls: draws() });
-} catch (e) { result.textContent = JSON.stringify({ error: String(e) }); }
-result.id = 'result';
-document.body.append(result);
-</script>
-</body>"""
+    return { hull, hullPixel: pixel(hull[0], hull[1]), floes: ice.length, waterPixel: pixel(130, 0),
+             floePixels: ice.map(pose).filter(clear).map((p) => pixel(p[0], p[1])), time: fram.time };
+})()"""
+# Of floes that lie clear of the vessel and of the boxes over the view: where on the page one is.
+FLOE = """(() => {
+    const c = fram.scene.camera, box = document.getElementById('view').getBoundingClientRect();
+    for (const b of fram.record.bodies) {
+        if (b.material !== 'ice' || !fram.poses.shown[b.index] || b.area < 40) continue;
+        const at = 7 * b.index, p = c.position.clone().set(fram.poses.pose[at], fram.poses.pose[at + 1], 0).project(c);
+        const x = box.left + (p.x + 1) / 2 * box.width, y = box.top + (1 - p.y) / 2 * box.height;
+        if (x > 400 && x < box.width - 300 && y > 200 && y < box.height - 60) return [x, y, b.number];
+    }
+    return null;
+})()"""
 
 
 def skip(reason):
@@ -82,48 +89,177 @@ def is_blue(p):
     return p[2] > 1.2 * p[0] and p[2] > 60
 
 
-def find_result(chromium, page, profile):
-    dom = subprocess.run([chromium, *FLAGS, f"--user-data-dir={profile}", page.as_uri()],
-                         capture_output=True, text=True, timeout=200, check=False).stdout
-    found = re.search(r'<pre id="result">(.*?)</pre>', dom, re.S)
-    assert found, "the page left no result: " + dom[-400:]
-    return json.loads(found.group(1))
+def make_run(folder, name, scene):
+    (folder / f"{name}.yaml").write_text(scene)
+    run = folder / name
+    subprocess.run([FRAM, "run", folder / f"{name}.yaml", "-o", run, "--quiet"], check=True)
+    subprocess.run([FRAM, "view", run, "--page", PAGE, "--quiet"], check=True)
+    with open(run / "series.csv", newline="") as file:
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+    return run, rows
 
 
-def check(view, expected_x):
+def go(browser, time):
+    browser.run(f"(fram.seek({time}), fram.draw())")
+
+
+def check_places(browser, expected_x):
+    view = browser.run(LOOK)
     assert abs(view["hull"][0] - expected_x) < 0.05, (view["hull"], expected_x)
     assert is_red(view["hullPixel"]), f"no hull at its place: {view['hullPixel']}"
     assert is_blue(view["waterPixel"]), f"no water beside the field: {view['waterPixel']}"
-    white = sum(is_white(p) for p in view["floePixels"])
-    assert len(view["floePixels"]) > 30, "too few floes to look at"
     floes = len(view["floePixels"])
+    white = sum(is_white(p) for p in view["floePixels"])
+    assert floes > 30, "too few floes to look at"
     assert white >= 0.97 * floes, f"{white} of {floes} floes are drawn at their place"
+    return view
+
+
+def check_towed(browser, run, rows):
+    browser.open(run / "playback.html")
+    browser.choose("camera", "top")
+    go(browser, 0)
+    check_places(browser, rows[0]["position_x[m]"] - 0.08)
+    go(browser, "fram.end")
+    end = check_places(browser, rows[-1]["position_x[m]"])
+    assert end["floes"] == rows[-1]["floes[1]"]
+    # A floe is where the run says at half time, which is between two frames too.
+    go(browser, 3.25)
+    half = check_places(browser, next(r for r in rows if abs(r["time[s]"] - 3.25) < 0.011)["position_x[m]"])
+    assert abs(half["time"] - 3.25) < 1e-9
+
+
+def check_play(browser):
+    go(browser, 0)
+    browser.click_on("play")
+    browser.until("fram.time > 0.5", "a click on play does not play")
+    browser.click_on("play")
+    stopped = browser.run("fram.time")
+    browser.run("new Promise((done) => setTimeout(done, 150))")
+    assert browser.run("fram.time") == stopped, "a click on pause does not stop"
+
+
+def check_seek(browser):
+    left, top, width, height = browser.box("timeline")
+    for part in (0.75, 0.25):
+        browser.click(left + part * width, top + height / 2)
+        time, end = browser.run("[fram.time, fram.end]")
+        assert abs(time - part * end) < 0.01 * end, f"a click at {part} of the timeline leads to {time} s of {end} s"
+    before = browser.run("fram.time")
+    browser.call("Input.dispatchKeyEvent", type="keyDown", code="ArrowRight", key="ArrowRight")
+    step = browser.run("fram.time") - before
+    assert 0 < step <= 0.5, f"an arrow key goes on by {step} s"
+
+
+def check_pick(browser):
+    browser.choose("camera", "top")
+    go(browser, "fram.end / 2")
+    x, y, number = browser.run(FLOE)
+    browser.click(x, y)
+    assert browser.run("fram.picked?.number") == number, "a click on a floe does not pick it"
+    text = browser.run("document.getElementById('history').innerText")
+    assert f"Floe {number}" in text and "m thick" in text, text
+    browser.run("fram.draw()")
+    inked = browser.run("""(() => { const c = document.querySelector('#history canvas');
+        const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n / (c.width * c.height); })()""")
+    assert inked > 0.02, f"the history of a floe is blank: {inked}"
+    browser.click(browser.box("view")[2] / 2, 4)
+    assert browser.run("document.getElementById('history').hidden"), "a click on the water does not let go"
+
+
+def check_colours(browser):
+    """Each way to colour changes the picture and names its unit; age tells broken floes from others."""
+    seen = {}
+    go(browser, "fram.end")
+    for mode in ("plain", "speed", "force", "thickness", "age"):
+        browser.choose("colour", mode)
+        browser.run("fram.draw()")
+        seen[mode] = (browser.run("fram.legend.content.unit"), browser.run("[...fram.rgb]"))
+    units = [unit for unit, _ in seen.values()]
+    assert units[0] is None and all("[" in unit for unit in units[1:]), units
+    for mode in ("speed", "force", "age"):
+        assert seen[mode][1] != seen["plain"][1], f"colour by {mode} changes nothing"
+    browser.choose("colour", "plain")
+
+
+def check_arrows_and_marks(browser):
+    go(browser, "fram.end")
+    kinds = browser.run("fram.poses.forces.map((f) => f.kind)")
+    assert {"ice", "line", "thruster"} <= set(kinds), kinds
+    shown, marks = browser.run("[fram.scene.arrows.count, fram.scene.markers.geometry.drawRange.count]")
+    assert 0 < shown <= len(kinds) and marks > 0, (shown, len(kinds), marks)
+    browser.click_on("forces")
+    browser.run("fram.draw()")
+    assert browser.run("fram.scene.arrows.count") == 0, "arrows stay when they are switched off"
+    browser.click_on("forces")
+
+
+def check_cameras(browser):
+    """Top looks straight down with Y up; follow keeps its distance to the hull; Y points to the same side as drawn."""
+    views = {}
+    for camera in ("orbit", "follow", "top"):
+        browser.choose("camera", camera)
+        go(browser, "fram.end / 2")
+        views[camera] = browser.run("[...fram.scene.camera.position, fram.scaleAndNorth().angle]")
+    assert len({tuple(v[:3]) for v in views.values()}) == 3, views
+    assert abs(views["top"][3]) < 0.02, f"north is not up in the view from the top: {views['top']}"
+    assert -1.2 < views["orbit"][3] < -0.2, f"Y points up and left in the orbit view: {views['orbit']}"
+    browser.choose("camera", "follow")
+    away = "[...fram.scene.camera.position.clone().sub(fram.centre())]"
+    go(browser, 0.5)
+    first = browser.run(away)
+    go(browser, "fram.end")
+    assert all(abs(a - b) < 1e-3 for a, b in zip(first, browser.run(away))), "the camera does not follow"
+
+
+def check_still(browser):
+    browser.click_on("still")
+    png = browser.file(".png").read_bytes()
+    width, height, *_ = chromium.pixels(png)
+    assert [width, height] == browser.run("[document.getElementById('view').width,"
+                                          "document.getElementById('view').height]")
+    assert chromium.colours(png) > 200, "the picture is blank"
+
+
+def check_video(browser):
+    browser.choose("speed", "5")
+    go(browser, 0)
+    browser.click_on("film")
+    video = browser.file(".webm")
+    assert browser.run("fram.time >= fram.end && !fram.playing"), "the video does not go to the end"
+    assert video.stat().st_size > 10000, video.stat().st_size
+    if shutil.which("ffprobe"):
+        answer = subprocess.run(["ffprobe", "-v", "error", "-count_packets", "-select_streams", "v", "-show_entries",
+                                 "stream=codec_name,width,nb_read_packets", "-of", "csv=p=0", video],
+                                capture_output=True, text=True, check=True).stdout
+        codec, _, packets = answer.strip().split(",")
+        assert codec in ("vp8", "vp9") and int(packets) > 5, answer
+
+
+def check_blank(browser):
+    png = browser.picture()
+    assert chromium.colours(png) > 100, "the window is blank"
 
 
 def main():
-    chromium = shutil.which("chromium")
-    if not chromium:
+    if not chromium.path():
         skip("Chromium is not installed")
     if not PAGE.exists():
         skip("the viewer's page is not built (make viewer)")
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        (folder / "scene.yaml").write_text(SCENE)
-        run = folder / "run"
-        subprocess.run([FRAM, "run", folder / "scene.yaml", "-o", run, "--quiet"], check=True)
-        subprocess.run([FRAM, "view", run, "--page", PAGE, "--quiet"], check=True)
-        page = run / "playback.html"
-        page.write_text(page.read_text().replace("</body>", PROBE))
-        with open(run / "series.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
-        result = find_result(chromium, page, folder / "profile")
-        assert "error" not in result, result
-        check(result["start"], float(rows[0]["position_x[m]"]) - 0.08)
-        check(result["end"], float(rows[-1]["position_x[m]"]))
-        assert result["end"]["floes"] == float(rows[-1]["floes[1]"])
-        assert result["end"]["hull"][0] - result["start"]["hull"][0] > 20, "the hull does not move"
-        assert result["calls"] <= 20, result["calls"]
-    print(f"the playback page shows {result['end']['floes']} floes and the hull in {result['calls']} draw calls")
+    with tempfile.TemporaryDirectory() as folder, chromium.Browser() as browser:
+        towed, rows = make_run(pathlib.Path(folder), "towed", TOWED)
+        moored, _ = make_run(pathlib.Path(folder), "moored", MOORED)
+        check_towed(browser, towed, rows)
+        browser.open(moored / "playback.html")
+        assert browser.run("document.getElementById('title').textContent") == "Moored <b>ship</b>"
+        for check in (check_blank, check_play, check_seek, check_pick, check_colours, check_arrows_and_marks,
+                      check_cameras, check_still, check_video):
+            check(browser)
+        calls = browser.run("(fram.draw(), fram.scene.renderer.info.render.calls)")
+        assert calls <= 20, calls
+        assert not browser.complaints, browser.complaints
+    print(f"the playback page loads, plays, seeks, picks and exports in {calls} draw calls")
 
 
 main()

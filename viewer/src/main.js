@@ -2,6 +2,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { History } from './history.js';
+import { drawHeader, Legend } from './legend.js';
 import { Poses } from './poses.js';
 import { bytesOf, Chunks, FrameStore, readRecord, titleOf } from './record.js';
 import { own, Scene } from './scene.js';
@@ -38,16 +39,17 @@ class Player {
         if (!first) { setTimeout(() => this.begin(), 20); return; }
         this.scene = new Scene($('view'), record, this.poses, first);
         this.controls = new OrbitControls(this.scene.camera, $('view'));
+        this.legend = new Legend();
         this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t));
         this.history = new History($('history'), record, this.store);
         this.hull = record.bodies.find((b) => b.material === 'hull');
-        this.rgb = new Float32Array(3 * record.bodies.length);
+        this.tabulate();
         this.poses.show(0);
         this.findRanges();
         this.connect();
         this.placeCamera();
         this.resize();
-        this.legend();
+        this.setLegend();
         this.ready = true;
         requestAnimationFrame((now) => this.tick(now));
     }
@@ -56,8 +58,8 @@ class Player {
         for (const s of SPEEDS) $('speed').add(new Option(`${s} x`, s, s === 5, s === 5));
         $('play').onclick = () => this.toggle();
         $('camera').onchange = () => this.placeCamera();
-        $('colour').onchange = () => { this.legend(); this.dirty = true; };
-        $('forces').onchange = () => { this.legend(); this.dirty = true; };
+        $('colour').onchange = () => { this.setLegend(); this.dirty = true; };
+        $('forces').onchange = () => { this.setLegend(); this.dirty = true; };
         $('still').onclick = () => this.still();
         $('film').onclick = () => this.film();
         this.controls.addEventListener('change', () => { this.dirty = true; });
@@ -88,7 +90,7 @@ class Player {
     }
 
     toggle() {
-        if (this.time >= this.end) this.time = this.record.frames[0].time;
+        if (!this.playing && this.time >= this.end) this.time = this.record.frames[0].time;
         this.playing = !this.playing;
         this.dirty = true;
         $('play').innerHTML = this.playing ? '&#10074;&#10074;' : '&#9654;';
@@ -98,6 +100,7 @@ class Player {
     findRanges() {
         const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
         const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [], force = [];
+        const kinds = new Set();
         let strongest = 0;
         for (let k = 0; k < Math.min(n, 12); k++) {
             const f = Math.floor(k * (n - 1) / 12);
@@ -107,7 +110,10 @@ class Player {
                 speed.push(poses.speed[b.index]);
                 if (poses.contact[b.index] > 0) force.push(poses.contact[b.index]);
             }
-            for (const f of poses.forces) strongest = Math.max(strongest, Math.hypot(...f.force));
+            for (const f of poses.forces) {
+                strongest = Math.max(strongest, Math.hypot(...f.force));
+                kinds.add(f.kind);
+            }
         }
         const high = (all, least) => Math.max(least,
             Float64Array.from(all).sort()[Math.floor(0.99 * (all.length - 1))] || 0);
@@ -119,6 +125,7 @@ class Player {
             thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
             age: [0, Math.max(10, 0.25 * (this.end - this.time))],
         };
+        this.kinds = ['ice', 'line', 'thruster'].filter((kind) => kinds.has(kind));
         const size = this.scene.box.getSize(new THREE.Vector3());
         const forces = most(record.frames.map((f) => Math.hypot(...f.force)));
         this.strongest = Math.max(strongest, forces, 1);
@@ -162,59 +169,62 @@ class Player {
 
     // ---- colours ----
 
+    /** Own colours, and for the modes with a value those of the ramp for ice that has one. */
     colourBodies(time) {
         const mode = $('colour').value, [lo, hi] = this.ranges[mode] ?? [0, 1], { rgb, poses } = this;
-        const { frames, bodies } = this.record, per = hi > lo ? 255 / (hi - lo) : 0;
-        for (const b of bodies) {
-            const k = b.index;
-            let value = NaN;
-            if (b.material === 'ice') {
-                if (mode === 'speed') value = poses.speed[k];
-                else if (mode === 'force') value = poses.contact[k];
-                else if (mode === 'thickness') value = b.thickness;
-                else if (mode === 'age' && b.parent >= 0) value = hi - (time - frames[b.birth].time); // new is red
-            }
-            if (value === value) {
-                const c = 3 * Math.min(255, Math.max(0, Math.round((value - lo) * per)));
-                rgb[3 * k] = RAMP[c]; rgb[3 * k + 1] = RAMP[c + 1]; rgb[3 * k + 2] = RAMP[c + 2];
-            } else {
-                const c = own(b);
-                rgb[3 * k] = c.r; rgb[3 * k + 1] = c.g; rgb[3 * k + 2] = c.b;
-            }
+        const per = hi > lo ? 255 / (hi - lo) : 0, { shown } = poses, ice = this.ice;
+        if (this.coloured !== mode) rgb.set(this.ownColours);
+        this.coloured = mode;
+        if (mode === 'plain') return;
+        const values = mode === 'speed' ? poses.speed : mode === 'force' ? poses.contact
+            : mode === 'thickness' ? this.thickness : this.brokeAt;
+        for (let i = 0; i < ice.length; i++) {
+            const k = ice[i];
+            if (!shown[k]) continue;
+            const value = mode === 'age' ? hi - (time - values[k]) : values[k]; // new is red
+            if (value !== value) continue; // an original floe has no age
+            const c = 3 * Math.min(255, Math.max(0, Math.round((value - lo) * per)));
+            rgb[3 * k] = RAMP[c]; rgb[3 * k + 1] = RAMP[c + 1]; rgb[3 * k + 2] = RAMP[c + 2];
         }
     }
 
-    legend() {
-        const mode = $('colour').value, { unit } = COLOURS[mode], ends = [...this.ranges[mode] ?? [0, 1]];
-        const stops = [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`).join(',');
+    /** What does not change of each body, as tables: looked up in every frame. */
+    tabulate() {
+        const { bodies, frames } = this.record, n = bodies.length;
+        this.ice = Uint32Array.from(bodies.filter((b) => b.material === 'ice'), (b) => b.index);
+        this.thickness = Float32Array.from(bodies, (b) => b.thickness ?? 0);
+        this.brokeAt = Float64Array.from(bodies, (b) => (b.parent >= 0 ? frames[b.birth]?.time ?? NaN : NaN));
+        this.ownColours = new Float32Array(3 * n);
+        for (const b of bodies) own(b).toArray(this.ownColours, 3 * b.index);
+        this.rgb = this.ownColours.slice();
+    }
+
+    setLegend() {
+        const { unit } = COLOURS[$('colour').value], mode = $('colour').value, ends = [...this.ranges[mode] ?? [0, 1]];
         if (mode === 'age') ends.reverse();
-        const bar = () => `${unit}<div class="bar" style="background:linear-gradient(90deg,${stops})"></div>
-            <div class="ends"><span>${ends[0].toPrecision(2)}</span><span>${ends[1].toPrecision(2)}</span></div>`;
-        const arrows = this.record.frames.some((f) => f.view === undefined || f.forces >= 0) && $('forces').checked
-            ? `<div class="key"><i style="background:#c2185b"></i>ice <i style="background:#1b7f3b"></i>line
-               <i style="background:#6a3fb5"></i>thruster</div>` : '';
-        const broke = this.record.fractures.length
-            ? `<div class="key"><i style="background:#d9730d"></i>a floe broke in the last ${MARKED} s</div>` : '';
-        $('legend').innerHTML = `${unit ? bar() : 'floes white, vessel red'}${arrows}${broke}
-            <div class="foot"><div><div class="scale" id="scale"></div><span id="scale-text"></span></div>
-            <svg id="north" viewBox="-20 -20 40 40"><g><path d="M0 12V-12M-5 -6L0 -13L5 -6"/>
-            <text y="-14">Y</text></g></svg>
-            </div>`;
+        const ice = this.record.bodies.some((b) => b.material === 'ice');
+        const keys = [[ice, own({ material: 'ice' }), 'floe'], [this.hull, own({ material: 'hull' }), 'vessel']];
+        this.legend.set({
+            unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
+            keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
+            forces: $('forces').checked ? this.kinds : [],
+            marked: this.record.fractures.length ? MARKED : 0,
+        });
         this.dirty = true;
     }
 
     /** The scale bar holds at the point the camera looks at; the arrow points along global Y as it is seen there. */
-    drawScale() {
-        const camera = this.scene.camera, distance = camera.position.distanceTo(this.controls.target);
+    scaleAndNorth() {
+        const camera = this.scene.camera, { target } = this.controls, distance = camera.position.distanceTo(target);
         const perPixel = 2 * distance * Math.tan(camera.fov * Math.PI / 360) / $('view').clientHeight;
         const raw = 130 * perPixel, power = 10 ** Math.floor(Math.log10(raw));
         const length = power * [5, 2, 1].find((m) => m * power <= raw);
-        $('scale').style.width = `${length / perPixel}px`;
-        $('scale-text').textContent = `${length} m`;
-        const at = this.controls.target.clone().project(camera);
-        const to = this.controls.target.clone().add(new THREE.Vector3(0, 0.05 * distance, 0)).project(camera);
-        const angle = Math.atan2((to.x - at.x) * camera.aspect, to.y - at.y) * 180 / Math.PI;
-        $('north').firstElementChild.setAttribute('transform', `rotate(${angle})`);
+        camera.updateMatrixWorld();
+        const at = target.clone().project(camera);
+        const to = target.clone().add(new THREE.Vector3(0, 0.05 * distance, 0)).project(camera);
+        const angle = Math.atan2((to.x - at.x) * camera.aspect, to.y - at.y);
+        return { length, pixels: Math.round(length / perPixel), force: length / this.arrowScale / 1000,
+                 angle: Math.round(angle * 100) / 100 };
     }
 
     // ---- picking and export ----
@@ -232,45 +242,25 @@ class Player {
         this.dirty = true;
     }
 
-    /** The picture as it stands, with legend and clock drawn in: a canvas. */
-    snapshot() {
-        this.draw();
-        const from = $('view'), out = document.createElement('canvas'), ratio = from.width / from.clientWidth;
-        out.width = from.width; out.height = from.height;
-        const g = out.getContext('2d');
-        g.drawImage(from, 0, 0);
-        g.scale(ratio, ratio);
-        g.fillStyle = '#ffffffd0';
-        g.fillRect(12, 10, 420, 50);
-        g.fillStyle = '#15222e';
-        g.font = 'bold 16px system-ui, "DejaVu Sans", sans-serif';
-        g.fillText($('title').textContent, 20, 30, 404);
-        g.font = '13px system-ui, "DejaVu Sans", sans-serif';
-        g.fillText(`${$('clock').textContent}; ${$('load').textContent}`, 20, 50, 404);
-        const { unit } = COLOURS[$('colour').value];
-        if (unit) this.stampLegend(g, unit, from.clientWidth - 200);
-        return out;
-    }
-
-    stampLegend(g, unit, x) {
-        const mode = $('colour').value, ends = [...this.ranges[mode]];
-        if (mode === 'age') ends.reverse();
-        g.fillStyle = '#ffffffd0';
-        g.fillRect(x - 8, 10, 196, 50);
-        for (let i = 0; i < 180; i++) {
-            g.fillStyle = `#${ramp(i / 179).getHexString()}`;
-            g.fillRect(x + i, 32, 1.5, 9);
+    /** The picture as it stands with title, time and legend drawn into it. */
+    compose(out) {
+        const from = $('view'), ratio = from.width / from.clientWidth, g = out.getContext('2d');
+        if (out.width !== from.width || out.height !== from.height) {
+            out.width = from.width; out.height = from.height;
         }
-        g.fillStyle = '#15222e';
-        g.fillText(unit, x, 26);
-        g.fillText(ends[0].toPrecision(2), x, 54);
-        const last = ends[1].toPrecision(2);
-        g.fillText(last, x + 180 - g.measureText(last).width, 54);
+        g.setTransform(1, 0, 0, 1, 0, 0);
+        g.drawImage(from, 0, 0);
+        g.setTransform(ratio, 0, 0, ratio, 12 * ratio, 12 * ratio);
+        drawHeader(g, $('title').textContent, [$('clock').textContent, $('load').textContent]);
+        g.setTransform(ratio, 0, 0, ratio, from.width - (this.legend.width + 12) * ratio, 12 * ratio);
+        this.legend.draw(g, this.scaleAndNorth());
+        return out;
     }
 
     still() {
         return new Promise((done) => {
-            this.snapshot().toBlob((blob) => { download(blob, `fram-${this.time.toFixed(1)}s.png`); done(blob); });
+            this.draw();
+            this.compose(document.createElement('canvas')).toBlob((blob) => { download(blob, `fram-${this.time.toFixed(1)}s.png`); done(blob); });
         });
     }
 
@@ -281,7 +271,8 @@ class Player {
             .find((t) => window.MediaRecorder?.isTypeSupported(t));
         if (!type) { note('This browser cannot record video; fram video makes one.'); return Promise.resolve(null); }
         const parts = [];
-        this.recorder = new MediaRecorder($('view').captureStream(25), { mimeType: type, videoBitsPerSecond: 8e6 });
+        this.filmCanvas = this.compose(document.createElement('canvas'));
+        this.recorder = new MediaRecorder(this.filmCanvas.captureStream(25), { mimeType: type, videoBitsPerSecond: 8e6 });
         this.recorder.ondataavailable = (e) => parts.push(e.data);
         this.filmed = new Promise((done) => {
             this.recorder.onstop = () => {
@@ -301,7 +292,7 @@ class Player {
     // ---- the loop ----
 
     resize() {
-        this.scene.resize(window.innerWidth, window.innerHeight);
+        this.scene.resize(window.innerWidth, window.innerHeight - document.querySelector('footer').offsetHeight);
         this.dirty = true;
     }
 
@@ -323,7 +314,9 @@ class Player {
     /** What a frame costs this script, without the drawing itself, is measured in prepare(). */
     draw() {
         this.dirty = false;
-        if (this.prepare()) this.scene.render();
+        if (!this.prepare()) return;
+        this.scene.render();
+        if (this.recorder) this.compose(this.filmCanvas);
     }
 
     prepare() {
@@ -344,17 +337,15 @@ class Player {
         if (this.picked) this.scene.placeRing(this.picked);
         this.history.draw(state.time);
         this.timeline.draw(this.time);
-        this.drawScale();
+        this.legend.show($('legend'), this.scaleAndNorth());
         this.tell(state);
         return true;
     }
 
     tell(state) {
-        let floes = 0;
-        for (const b of this.record.bodies) floes += b.material === 'ice' ? this.poses.shown[b.index] : 0;
-        $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
+        $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${this.poses.floes} floes`;
         const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
-        $('load').textContent = `ice force X ${x} kN, Y ${y} kN`;
+        $('load').textContent = this.hull ? `ice force on the vessel, averaged: X ${x} kN, Y ${y} kN` : '';
     }
 }
 

@@ -14,6 +14,7 @@ export class Poses {
         this.place = new Int32Array(n).fill(-1); // of each body in the order of the later frame
         this.placedOrder = null;
         this.frame = -1;
+        this.floes = 0; // that are there
         for (const b of record.bodies) if (b.pose) this.pose.set(b.pose, 7 * b.index);
     }
 
@@ -35,7 +36,12 @@ export class Poses {
         const part = when - f, a = frames[f], b = frames[g], place = this.placesIn(b.order);
         const span = b.time - a.time || 1;
         if (f !== this.frame) {
-            for (const body of bodies) this.shown[body.index] = body.birth <= f && f < body.death ? 1 : 0;
+            this.floes = 0;
+            for (const body of bodies) {
+                const there = body.birth <= f && f < body.death;
+                this.shown[body.index] = there ? 1 : 0;
+                if (there && body.material === 'ice') this.floes++;
+            }
             this.frame = f;
         }
         const P = one.poses, Q = two.poses, out = this.pose;

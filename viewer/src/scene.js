@@ -2,6 +2,7 @@
 // water.
 // Frame: X, Y horizontal, Z up, metres, as in Fram.
 import * as THREE from 'three';
+import { FORCE_COLOURS } from './legend.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 const WATER = 0x2f6690, SKY = 0xdfe8ef, HULL = 0xb5402a, WALL = 0x7a726c, ICE = 0xf1f6fa;
@@ -196,7 +197,7 @@ export class Scene {
     render() { this.renderer.render(this.scene, this.camera); }
 
     resize(width, height) {
-        this.renderer.setSize(width, height, false);
+        this.renderer.setSize(width, height);
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
     }
@@ -213,7 +214,7 @@ export class Scene {
     }
 }
 
-const FORCE = { ice: new THREE.Color(0xc2185b), line: new THREE.Color(0x1b7f3b), thruster: new THREE.Color(0x6a3fb5) };
+const FORCE = Object.fromEntries(Object.entries(FORCE_COLOURS).map(([kind, c]) => [kind, new THREE.Color(c)]));
 
 function inside(ring, x, y) {
     let odd = false;

@@ -1,0 +1,145 @@
+// What the colours, arrows and marks mean, how long a metre is, where Y points and what time it is: drawn with one hand
+// for the page, for pictures and for videos.
+
+const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sans-serif';
+const WIDTH = 204, EDGE = 12, LINE = 18;
+export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5' };
+const MARK = '#d9730d';
+
+/** A number with its unit, kilo or mega as fits. */
+export function forceText(kilonewton) {
+    return kilonewton >= 1000 ? `${(kilonewton / 1000).toPrecision(3)} MN` : `${kilonewton.toPrecision(3)} kN`;
+}
+
+export class Legend {
+    /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
+     *  forces: kinds that are shown; marked: seconds that a mark stays, or 0}. */
+    set(content) {
+        this.content = content;
+        this.drawn = '';
+    }
+
+    get width() { return WIDTH; }
+    get height() {
+        const { unit, forces, marked } = this.content;
+        return 2 * EDGE + (unit ? 44 : LINE) + (forces.length ? 2 * LINE : 0) + (marked ? LINE : 0) + 48;
+    }
+
+    /** view: {length: of the bar [m], pixels: of the bar, force: that an arrow of this length stands for, angle: of Y on
+     *  the screen, clockwise from up}. */
+    show(canvas, view) {
+        const ratio = window.devicePixelRatio, state = JSON.stringify([view, ratio]);
+        if (state === this.drawn) return;
+        this.drawn = state;
+        const w = Math.round(this.width * ratio), h = Math.round(this.height * ratio);
+        if (canvas.width !== w || canvas.height !== h) {
+            canvas.width = w; canvas.height = h;
+            canvas.style.width = `${this.width}px`; canvas.style.height = `${this.height}px`;
+        }
+        const g = canvas.getContext('2d');
+        g.setTransform(ratio, 0, 0, ratio, 0, 0);
+        g.clearRect(0, 0, this.width, this.height);
+        this.draw(g, view);
+    }
+
+    draw(g, view) {
+        const { unit, ends, ramp, keys, forces, marked } = this.content;
+        paper(g, this.width, this.height);
+        g.font = `12px ${FONT}`;
+        let y = EDGE + 11;
+        if (unit) {
+            g.fillText(unit, EDGE, y);
+            this.bar(g, y + 6, ramp, ends);
+            y += 44;
+        } else {
+            swatches(g, y, keys);
+            y += LINE;
+        }
+        if (forces.length) {
+            g.fillText('forces on the vessel', EDGE, y);
+            swatches(g, y + LINE, forces.map((kind) => [FORCE_COLOURS[kind], kind]));
+            y += 2 * LINE;
+        }
+        if (marked) {
+            swatches(g, y, [[MARK, `broke in the last ${marked} s`]]);
+            y += LINE;
+        }
+        this.scale(g, y, view, forces.length > 0);
+        north(g, this.width - EDGE - 20, y + 20, view.angle);
+    }
+
+    bar(g, y, ramp, ends) {
+        const wide = this.width - 2 * EDGE, fill = g.createLinearGradient(EDGE, 0, EDGE + wide, 0);
+        ramp.forEach((colour, i) => fill.addColorStop(i / (ramp.length - 1), colour));
+        g.fillStyle = fill;
+        g.fillRect(EDGE, y, wide, 10);
+        g.fillStyle = INK;
+        const [low, high] = ends.map((v) => Number(v.toPrecision(2)).toString());
+        g.fillText(low, EDGE, y + 23);
+        g.fillText(high, EDGE + wide - g.measureText(high).width, y + 23);
+    }
+
+    scale(g, y, view, arrows) {
+        g.strokeStyle = INK;
+        g.lineWidth = 1.5;
+        g.beginPath();
+        g.moveTo(EDGE, y); g.lineTo(EDGE, y + 6); g.lineTo(EDGE + view.pixels, y + 6); g.lineTo(EDGE + view.pixels, y);
+        g.stroke();
+        g.fillText(`${view.length} m`, EDGE, y + 21);
+        if (arrows) g.fillText(`as an arrow ${forceText(view.force)}`, EDGE, y + 36);
+    }
+}
+
+/** Title, time and load, as a box of its own; returns its size. */
+export function drawHeader(g, title, lines) {
+    g.font = `bold 16px ${FONT}`;
+    let wide = g.measureText(title).width;
+    g.font = `13px ${FONT}`;
+    for (const line of lines) wide = Math.max(wide, g.measureText(line).width);
+    paper(g, wide + 2 * EDGE, 34 + LINE * lines.length);
+    g.font = `bold 16px ${FONT}`;
+    g.fillText(title, EDGE, 23);
+    g.font = `13px ${FONT}`;
+    lines.forEach((line, i) => g.fillText(line, EDGE, 43 + LINE * i));
+}
+
+function paper(g, width, height) {
+    g.fillStyle = PAPER;
+    g.beginPath();
+    g.roundRect(0, 0, width, height, 6);
+    g.fill();
+    g.fillStyle = INK;
+}
+
+function swatches(g, y, list) {
+    let x = EDGE;
+    for (const [colour, name] of list) {
+        g.fillStyle = colour;
+        g.fillRect(x, y - 9, 10, 10);
+        g.strokeStyle = '#5b7388';
+        g.lineWidth = 0.7;
+        g.strokeRect(x, y - 9, 10, 10);
+        g.fillStyle = INK;
+        g.fillText(name, x + 14, y);
+        x += 26 + g.measureText(name).width;
+    }
+}
+
+/** The letter stays upright and goes round with the point of the arrow.  Scenarios know no north; Fram's pages draw Y
+ *  up, so north is along Y. */
+function north(g, x, y, angle) {
+    g.save();
+    g.translate(x, y);
+    g.rotate(angle);
+    g.strokeStyle = INK;
+    g.lineWidth = 1.8;
+    g.beginPath();
+    g.moveTo(0, 13); g.lineTo(0, -11);
+    g.moveTo(-5, -4); g.lineTo(0, -11); g.lineTo(5, -4);
+    g.stroke();
+    g.restore();
+    g.font = `bold 11px ${FONT}`;
+    g.textAlign = 'center';
+    g.fillText('Y', x + 19 * Math.sin(angle), y - 19 * Math.cos(angle) + 4);
+    g.textAlign = 'left';
+}
