@@ -33,6 +33,7 @@ import penetration  # noqa: E402  (beside this script)
 
 WORK = ROOT / "build" / "bench"
 PEERS = HERE / "peers"
+PACKED = 98  # from this cover on the ship stands still in open water, and the current packs the field against a wall
 
 
 def command(*words, **more):
@@ -64,8 +65,9 @@ def scene_of(size, cover, seed=1):
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
         current = ("0.3", "0") if cover >= 90 else ("0", "0")
+        ship = ("--ship-speed", "0") if cover >= PACKED else ()
         command(sys.executable, PEERS / "gen_scene.py", "--n", size, "--coverage", cover / 100, "--seed", seed,
-                "--current", *current, "-o", path)
+                "--current", *current, *ship, "-o", path)
     return path
 
 
@@ -160,7 +162,8 @@ HEAD = ("| program | ms a step | us per floe | Fram is faster by | collide | sol
 
 def print_scene(scene, file):
     o = scene["options"]
-    print(f"\n### {scene['floes']} floes, {scene['cover']} % cover\n", file=file)
+    packed = ", pressed against a wall by the current" if scene["cover"] >= PACKED else ""
+    print(f"\n### {scene['floes']} floes, {scene['cover']} % cover{packed}\n", file=file)
     print(f"Median of {o['repeat']} interleaved runs; time step {o['dt']} s, {o['iterations']} iterations,"
           f" {o['time']:g} s of which {o['warm']:g} s unmeasured; Fram's solver: {o['solver']}.\n", file=file)
     print(HEAD, file=file)

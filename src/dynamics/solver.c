@@ -75,7 +75,7 @@ static void report_depths(const contact_array *contacts, solver_report *r)
             continue;
         r->overlapping++;
         r->mean_depth += contacts->data[i].depth;
-        r->max_depth = fmax(r->max_depth, contacts->data[i].depth);
+        r->max_depth = contacts->data[i].depth > r->max_depth ? contacts->data[i].depth : r->max_depth;
     }
     if (r->overlapping > 0)
         r->mean_depth /= r->overlapping;
@@ -139,7 +139,7 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
 static double correction_share(const contact *c, double rate)
 {
     double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
-    double share = fmin(rate, 1 - carried);
+    double share = 1 - carried < rate ? 1 - carried : rate;
     return share > 0 ? share : 0;
 }
 

@@ -22,9 +22,10 @@
 enum { BATCH_LANES = 8, BATCH_MOST_POINTS = 4 };
 
 /* Places in a body's rows. */
-enum { BODY_VELOCITY = 0, BODY_SPIN = 3, BODY_ROW = 8 };         /* `velocity`: global frame */
-enum { INVERSE_INERTIA = 0, INVERSE_MASS = 6, INVERSE_ROW = 8 }; /* `inverse`: xx yy zz xy xz yz, 1/m */
-enum { TENSOR_ROW = 8 };                                         /* `tensor`: inverse mass as xx yy zz xy xz yz */
+enum { BODY_VELOCITY = 0, BODY_SPIN = 3, BODY_ROW = 8 }; /* `velocity`: global frame */
+/* `inverse`: xx yy zz xy xz yz; 1/m; 1 for a mass that depends on the direction */
+enum { INVERSE_INERTIA = 0, INVERSE_MASS = 6, INVERSE_GENERAL = 7, INVERSE_ROW = 8 };
+enum { TENSOR_ROW = 8 }; /* `tensor`: inverse mass as xx yy zz xy xz yz */
 
 /* Rows of eight lanes that a batch has once, */
 enum { FRAME_NORMAL = 0, FRAME_STATIC = 3, FRAME_KINETIC = 4, FRAME_ROWS = 5 };

@@ -77,19 +77,35 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
 
 /* ---- warm start ---- */
 
-int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t next)
+/* Keys looked at on either side before a search by halves: of a few pairs. */
+enum { NEAR_KEYS = 16 };
+
+/* The first row whose key is not below `key`, near `place` or anywhere. */
+static int32_t memory_place(const contact_memory_table *memory, uint64_t key, int32_t place)
 {
-    if (next < memory->count && memory->key[next] == key)
-        return next;
-    int32_t low = 0, high = memory->count;
-    while (low < high) {
+    int32_t low = place > NEAR_KEYS ? place - NEAR_KEYS : 0;
+    int32_t high = place + NEAR_KEYS < memory->count ? place + NEAR_KEYS : memory->count;
+    if ((low == 0 || memory->key[low - 1] < key) && (high == memory->count || memory->key[high] >= key)) {
+        while (place > low && memory->key[place - 1] >= key)
+            place--;
+        while (place < high && memory->key[place] < key)
+            place++;
+        return place;
+    }
+    for (low = 0, high = memory->count; low < high;) {
         int32_t middle = low + (high - low) / 2;
         if (memory->key[middle] < key)
             low = middle + 1;
         else
             high = middle;
     }
-    return low < memory->count && memory->key[low] == key ? low : -1;
+    return low;
+}
+
+int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place)
+{
+    *place = memory_place(memory, key, *place);
+    return *place < memory->count && memory->key[*place] == key ? *place : -1;
 }
 
 /* Largest friction impulse: mu_s p_n while sticking, mu_k p_n once sliding.  A contact slides when kinetic friction
@@ -113,13 +129,12 @@ static void project_friction(const contact_row *row, double *p1, double *p2)
 
 void contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory)
 {
-    int32_t next = 0;
+    int32_t place = 0;
     for (int32_t i = 0; i < s->contacts.count; i++) {
         contact_row *row = &s->contacts.data[i];
-        int32_t at = contact_memory_find(memory, contacts->data[row->contact].key, next);
+        int32_t at = contact_memory_find(memory, contacts->data[row->contact].key, &place);
         if (at < 0)
             continue;
-        next = at + 1;
         double p[3];
         for (int k = 0; k < 3; k++)
             p[k] = vec3_dot(row->axis[k].direction, memory->impulse[at]);
@@ -205,8 +220,21 @@ static int compare_entries(const void *a, const void *b)
     return (x->contact > y->contact) - (x->contact < y->contact);
 }
 
-/* The narrow phase lists contacts by ascending keys, and others follow in an order of their own: the tail is sorted
-   and merged. */
+/* Adds an entry to the sorted ones when its place is near their end: points of one pair come in any order. */
+static bool insert_near_end(memory_entry *entries, int32_t count, memory_entry e)
+{
+    enum { MOST_MOVED = 8 };
+    int32_t at = count;
+    while (at > 0 && compare_entries(&entries[at - 1], &e) > 0)
+        if (count - --at > MOST_MOVED)
+            return false;
+    memmove(entries + at + 1, entries + at, (size_t)(count - at) * sizeof *entries);
+    entries[at] = e;
+    return true;
+}
+
+/* The narrow phase lists pairs by ascending keys, and others follow in an order of their own: the tail is sorted and
+   merged. */
 static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, memory_entry *tail)
 {
     int32_t left = count - sorted;
@@ -229,9 +257,11 @@ fram_status contacts_remember(solver *s, const body_table *bodies, const contact
         const contact *c = &contacts->data[i];
         if (c->impulse[0] <= 0 || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
             continue;
-        s->entries[count] = (memory_entry){c->key, i};
-        if (sorted == count && (count == 0 || s->entries[count - 1].key < c->key))
+        memory_entry e = {c->key, i};
+        if (sorted == count && insert_near_end(s->entries, sorted, e))
             sorted++;
+        else
+            s->entries[count] = e;
         count++;
     }
     sort_entries(s->entries, count, sorted, s->entries + contacts->count);

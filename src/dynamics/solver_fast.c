@@ -165,7 +165,7 @@ static bool find_contacts(solver *s, const contact_memory_table *memory, const b
 {
     if (!array_resize(s->ctx, &s->fast->memory_row, contacts->count))
         return false;
-    int32_t next = 0;
+    int32_t place = 0;
     for (int32_t i = 0; i < contacts->count; i++) {
         contact *c = &contacts->data[i];
         s->fast->memory_row.data[i] = -1;
@@ -175,9 +175,8 @@ static bool find_contacts(solver *s, const contact_memory_table *memory, const b
         }
         c->arm_a = vec3_sub(c->point, bodies->position[c->a]);
         c->arm_b = vec3_sub(c->point, bodies->position[c->b]);
-        int32_t at = memory ? contact_memory_find(memory, c->key, next) : -1;
-        s->fast->memory_row.data[i] = at;
-        next = at < 0 ? next : at + 1;
+        if (memory)
+            s->fast->memory_row.data[i] = contact_memory_find(memory, c->key, &place);
     }
     return true;
 }

@@ -1,6 +1,6 @@
 /* Rows of the fast solver: where they lie, how bodies and contacts get into them and out again. */
 #include "base/pool.h"
-#include "dynamics/motion.h"
+#include "dynamics/solver_bodies_kernel.h"
 #include "dynamics/solver_fast.h"
 
 #include <string.h>
@@ -51,33 +51,10 @@ batch_view fast_view(const fast_rows *f)
 
 /* ---- bodies ---- */
 
-static bool is_general(const body_table *bodies, int32_t slot)
+static body_rows rows_at(const fast_rows *f, int32_t row)
 {
-    vec3 added = bodies->added_mass[slot];
-    return added.x != 0 || added.y != 0 || added.z != 0;
-}
-
-enum { INVERSE_GENERAL = 7 }; /* place in the inverse row: 1 for a mass that depends on the direction */
-
-static void put_tensor(double *row, sym3 s, double factor)
-{
-    const double part[8] = {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz, 0, 0};
-    for (int k = 0; k < 8; k++)
-        row[k] = factor * part[k];
-}
-
-static void put_masses(fast_rows *f, int32_t row, const body_table *bodies, int32_t slot, double factor)
-{
-    sym3 mass, inertia;
-    bool movable = slot >= 0 && body_is_dynamic(bodies, slot);
-    body_inverse_tensors(bodies, slot, &mass, &inertia);
-    put_tensor(row_of(&f->tensor, row), mass, factor);
-    put_tensor(row_of(&f->inverse, row), inertia, factor);
-    row_of(&f->inverse, row)[INVERSE_MASS] = factor * mass.xx;
-    row_of(&f->inverse, row)[INVERSE_GENERAL] = movable && is_general(bodies, slot);
-    bool counts = movable && factor == 1;
-    put_tensor(row_of(&f->mass, row), counts ? sym3_inverse(mass) : (sym3){0}, 1);
-    put_tensor(row_of(&f->inertia, row), counts ? sym3_inverse(inertia) : (sym3){0}, 1);
+    return (body_rows){row_of(&f->inverse, row), row_of(&f->tensor, row), row_of(&f->mass, row),
+                       row_of(&f->inertia, row)};
 }
 
 static void put_velocity(fast_rows *f, int32_t row, const body_table *bodies, int32_t slot)
@@ -97,10 +74,14 @@ static void fill_body_rows(void *arg, int32_t block, int32_t thread)
     const stage *st = arg;
     fast_rows *f = st->s->fast;
     (void)thread;
-    for (int32_t row = ROW_BLOCK * block; row < padded_rows(f) && row < ROW_BLOCK * (block + 1); row++) {
-        int32_t slot = row < f->plan.slot.count ? f->plan.slot.data[row] : -1;
-        put_masses(f, row, st->bodies, slot, 1);
-        put_velocity(f, row, st->bodies, slot);
+    for (int32_t row = ROW_BLOCK * block; row < padded_rows(f) && row < ROW_BLOCK * (block + 1); row += 8) {
+        int32_t slot[8];
+        body_rows rows = rows_at(f, row);
+        for (int32_t i = 0; i < 8; i++) {
+            slot[i] = row + i < f->plan.slot.count ? f->plan.slot.data[row + i] : -1;
+            put_velocity(f, row + i, st->bodies, slot[i]);
+        }
+        KERNEL_PICK(st->s->ctx, solver_masses)(st->bodies, slot, 1, &rows);
     }
 }
 
@@ -130,9 +111,11 @@ bool fast_bodies_make(stage *st)
         !rows_reserve(ctx, &f->inertia, rows))
         return false;
     pool_run(ctx, fill_body_rows, st, (rows + ROW_BLOCK - 1) / ROW_BLOCK);
-    for (int32_t h = 0; h < f->plan.hubs.count; h++) /* an eighth of the hub in each of its copies */
-        for (int32_t i = 0; i < BATCH_LANES; i++)
-            put_masses(f, f->plan.movable + BATCH_LANES * h + i, st->bodies, f->plan.hubs.data[h], BATCH_LANES);
+    for (int32_t h = 0; h < f->plan.hubs.count; h++) { /* an eighth of the hub in each of its copies */
+        int32_t hub = f->plan.hubs.data[h], slot[BATCH_LANES] = {hub, hub, hub, hub, hub, hub, hub, hub};
+        body_rows copies = rows_at(f, f->plan.movable + BATCH_LANES * h);
+        KERNEL_PICK(ctx, solver_masses)(st->bodies, slot, BATCH_LANES, &copies);
+    }
     return true;
 }
 

@@ -104,8 +104,9 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
                               contact_array *contacts, fram_error *error);
 /* The impulse of a contact between two bodies that nothing can move. */
 void contact_load_immovable(const body_table *bodies, contact *c);
-/* Row of the memory with this key, -1 without; looks at `next` first, as keys mostly come in the memory's order. */
-int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t next);
+/* Row of the memory with this key, -1 without.  place: where the last search ended, from 0; keys mostly come in the
+   memory's order. */
+int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place);
 /* The memory of this step: contacts that carry something, by ascending keys. */
 fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
                               contact_memory_table *memory, fram_error *error);

@@ -52,6 +52,87 @@ START_TEST(fixed_joint_carries_the_weight)
 }
 END_TEST
 
+/* A bob that circles at a constant height: the cord carries m g / cos a. */
+START_TEST(ball_joint_carries_a_conical_pendulum)
+{
+    const double mass = 3, length = 2, angle = 0.5, radius = length * real_sin(angle);
+    rig r = rig_make(0.001);
+    vec3 place = {radius, 0, -length * real_cos(angle)};
+    int32_t bob = rig_point(&r, MOTION_DYNAMIC, mass, small_ball, place);
+    int32_t j = joint_create(&r.ctx, &r.joints, &r.bodies, -1, bob, JOINT_BALL, vec3_make(0, 0, 0), quat_identity());
+    double turn = sqrt(GRAVITY / (length * real_cos(angle)));
+    r.bodies.velocity[bob] = vec3_make(0, turn * radius, 0);
+    r.bodies.angular_velocity[bob] = vec3_make(0, 0, turn);
+    rig_run(&r, 500);
+    vec3 up = vec3_unit(vec3_neg(r.bodies.position[bob])), force = r.joints.reaction_force[j];
+    double tension = mass * GRAVITY / real_cos(angle);
+    assert_vec3_close(force, vec3_scale(up, tension), 5e-3 * tension);
+    assert_vec3_close(r.joints.reaction_moment[j], vec3_make(0, 0, 0), 1e-6 * tension);
+    assert_absolute(r.bodies.position[bob].z, place.z, 5e-3);
+    rig_free(&r);
+}
+END_TEST
+
+/* A beam on a level hinge, held by a load about the hinge's axis: that moment is not the hinge's, the others are. */
+START_TEST(hinge_carries_all_but_the_moment_about_its_axis)
+{
+    rig r = rig_make(0.01);
+    int32_t beam = rig_box(&r, MOTION_DYNAMIC, vec3_make(4, 1, 1), 250, vec3_make(2, 0, 0));
+    quat axes = quat_from_roll_pitch_yaw(-PI / 2, 0, 0); /* z becomes y */
+    int32_t j = joint_create(&r.ctx, &r.joints, &r.bodies, -1, beam, JOINT_HINGE_Z, vec3_make(0, 0, 0), axes);
+    double weight = 1000 * GRAVITY;
+    r.loads.data[beam] = (wrench){{0, 0, 0}, {300, -2 * weight, 700}};
+    rig_run(&r, 50);
+    assert_vec3_close(r.joints.reaction_force[j], vec3_make(0, 0, weight), 1e-6 * weight);
+    assert_vec3_close(r.joints.reaction_moment[j], vec3_make(-300, 0, -700), 1e-6 * weight);
+    assert_vec3_close(r.bodies.position[beam], vec3_make(2, 0, 0), 1e-9);
+    rig_free(&r);
+}
+END_TEST
+
+/* Any set of motions can be locked: here the way along x and the turn about z. */
+START_TEST(what_is_not_locked_moves_freely)
+{
+    rig r = rig_make(0.01);
+    r.gravity = vec3_make(0, 0, 0);
+    int32_t box = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 2), 125, vec3_make(1, 2, 3));
+    int32_t j = joint_create(&r.ctx, &r.joints, &r.bodies, -1, box, 0x21, vec3_make(1, 2, 3), quat_identity());
+    r.loads.data[box] = (wrench){{50, 70, -20}, {0, 0, 90}};
+    int steps = 100;
+    rig_run(&r, steps);
+    double fall = steps * r.dt * (steps + 1) * r.dt / 2; /* per acceleration, semi-implicit */
+    assert_vec3_close(r.bodies.position[box], vec3_make(1, 2 + 0.07 * fall, 3 - 0.02 * fall), 1e-9);
+    assert_vec3_close(r.bodies.angular_velocity[box], vec3_make(0, 0, 0), 1e-12);
+    assert_vec3_close(r.joints.reaction_force[j], vec3_make(-50, 0, 0), 1e-9);
+    /* The forces along y and z act at the body's centre, which has left the anchor of the frame; the anchor on the
+       body, about which the moment is told, went along. */
+    assert_vec3_close(r.joints.reaction_moment[j], vec3_make(0, 0, -90), 1e-9);
+    rig_free(&r);
+}
+END_TEST
+
+/* A carriage that speeds up draws what is fixed to it: force = mass times acceleration. */
+START_TEST(prescribed_motion_is_paid_for_by_the_joint)
+{
+    rig r = rig_make(0.01);
+    r.gravity = vec3_make(0, 0, 0);
+    int32_t carriage = rig_point(&r, MOTION_PRESCRIBED, 1, small_ball, vec3_make(0, 0, 2));
+    int32_t ship = rig_box(&r, MOTION_DYNAMIC, vec3_make(10, 4, 2), 500, vec3_make(0, 0, 0));
+    int32_t j =
+        joint_create(&r.ctx, &r.joints, &r.bodies, carriage, ship, JOINT_FIXED, vec3_make(0, 0, 2), quat_identity());
+    const double acceleration = 0.25, mass = 500 * 80.0;
+    for (int k = 1; k <= 200; k++) {
+        r.bodies.velocity[carriage] = vec3_make(acceleration * k * r.dt, 0, 0);
+        rig_step(&r);
+        assert_vec3_close(r.joints.reaction_force[j], vec3_make(mass * acceleration, 0, 0), 1e-6 * mass);
+    }
+    /* The force acts 2 m over the ship's centre; the moment keeps it from turning. */
+    assert_vec3_close(r.joints.reaction_moment[j], vec3_make(0, -2 * mass * acceleration, 0), 1e-6 * mass);
+    assert_vec3_close(r.bodies.velocity[ship], r.bodies.velocity[carriage], 1e-9);
+    rig_free(&r);
+}
+END_TEST
+
 START_TEST(hinge_turns_about_its_axis_only)
 {
     rig r = rig_make(0.005);
@@ -190,6 +271,8 @@ START_TEST(joints_of_removed_bodies_rest)
 }
 END_TEST
 
-RIG_MAIN("joint", pendulum_swings_with_its_period, fixed_joint_carries_the_weight, hinge_turns_about_its_axis_only,
+RIG_MAIN("joint", pendulum_swings_with_its_period, fixed_joint_carries_the_weight,
+         ball_joint_carries_a_conical_pendulum, hinge_carries_all_but_the_moment_about_its_axis,
+         what_is_not_locked_moves_freely, prescribed_motion_is_paid_for_by_the_joint, hinge_turns_about_its_axis_only,
          prismatic_joint_leaves_heave_free, spring_swings_and_its_damper_damps, spring_at_rest_carries_the_weight,
          displaced_joint_is_drawn_together, joints_of_removed_bodies_rest)
