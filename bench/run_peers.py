@@ -206,6 +206,56 @@ def write_csv(result, path):
                               *(f"{p[k]:.6g}" for k in ("mean_m", "p99_m", "max_m"))))
 
 
+def goal_rows(result):
+    """(scene, goal, found, met) of everything that was measured."""
+    rows = []
+    for scene in result["scenes"]:
+        programs, name = scene["programs"], f"{scene['floes']} floes, {scene['cover']} %"
+        if "fram" not in programs:
+            continue
+        for peer, factor in (("bullet_f64", 8), ("ode", 4)):
+            if peer in programs and not (peer == "ode" and scene["cover"] >= PACKED):
+                found = programs[peer]["fram_is_faster_by"]
+                rows.append((name, f"{factor} times faster than {peer}", f"{found:.1f}", found >= factor))
+        if "bullet_f64" in programs:
+            fram, bullet = (programs[p]["penetration"] for p in ("fram", "bullet_f64"))
+            for key, word in (("mean_m", "mean"), ("max_m", "largest")):
+                rows.append((name, f"{word} overlap no worse than bullet_f64",
+                             f"{1e3 * fram[key]:.3f} against {1e3 * bullet[key]:.3f} mm",
+                             round(fram[key], 6) <= round(bullet[key], 6)))
+    for cover in sorted({r["cover"] for r in result["loads"]}):
+        for size in sorted({r["floes"] for r in result["loads"]}):
+            loads = {r["program"]: r["kN"] for r in result["loads"] if (r["floes"], r["cover"]) == (size, cover)}
+            if not {"fram", "bullet_f64", "ode"} <= set(loads):
+                continue
+            mean = {p: statistics.mean(kN) for p, kN in loads.items()}
+            spread = {p: statistics.stdev(kN) / mean[p] for p, kN in loads.items()}
+            # The spread of a mean of n seeds is that of one over sqrt(n).
+            error = {p: 2 * spread[p] * mean[p] / math.sqrt(len(loads[p])) for p in ("bullet_f64", "ode")}
+            low, high = min(mean[p] - e for p, e in error.items()), max(mean[p] + e for p, e in error.items())
+            rows.append((f"{size} floes, {cover} %", "mean load within the peers' (two standard errors)",
+                         f"{mean['fram']:.0f} in {low:.0f} to {high:.0f} kN", low <= mean["fram"] <= high))
+            rows.append((f"{size} floes, {cover} %", "variation of the load at most 1.2 times bullet_f64's",
+                         f"{spread['fram'] / spread['bullet_f64']:.2f}", spread["fram"] <= 1.2 * spread["bullet_f64"]))
+    for r in result["threads"]:
+        # Pairs count only while the machine has two cores to give.
+        gain = [g for g, c in zip(r["gain"], r["copies"]) if c >= 1.9]
+        if gain:
+            rows.append((f"{r['floes']} floes, 90 %", f"two threads 1.7 times one (median of {len(gain)} pairs)",
+                         f"{statistics.median(gain):.2f}", statistics.median(gain) >= 1.7))
+    return rows
+
+
+def print_goals(result, file):
+    rows = goal_rows(result)
+    if not rows:
+        return
+    print("\n### Against the goals\n", file=file)
+    print("| scene | goal | found | met |\n|---|---|---|---|", file=file)
+    for scene, goal, found, met in rows:
+        print(f"| {scene} | {goal} | {found} | {'yes' if met else 'no'} |", file=file)
+
+
 def write_report(new, options):
     base = pathlib.Path(options.out)
     base.parent.mkdir(parents=True, exist_ok=True)
@@ -236,6 +286,7 @@ def write_report(new, options):
         for r in result["threads"]:
             print(f"| {r['floes']} | {len(r['gain'])} | {statistics.median(r['gain']):.2f} |"
                   f" {statistics.median(r['copies']):.2f} |", file=file)
+        print_goals(result, file)
 
 
 def measure_threads(options):

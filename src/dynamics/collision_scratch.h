@@ -21,6 +21,7 @@ typedef struct box_block {
 typedef struct pair_block {
     contact_array contacts;
     index_array patch_pairs;
+    int32_t first_contact, first_patch; /* where they go */
     bool memory_failed;
 } pair_block;
 

@@ -444,30 +444,37 @@ static bool make_blocks(context *ctx, collision_scratch *s, int32_t blocks)
     return true;
 }
 
+/* What a block found, to its place. */
+static void copy_block(void *arg, int32_t block, int32_t thread)
+{
+    const narrow_work *w = arg;
+    const pair_block *b = &w->scratch->pair_blocks.data[block];
+    (void)thread;
+    if (b->contacts.count > 0)
+        memcpy(w->contacts->data + b->first_contact, b->contacts.data,
+               (size_t)b->contacts.count * sizeof *b->contacts.data);
+    if (b->patch_pairs.count > 0)
+        memcpy(w->patch_pairs->data + b->first_patch, b->patch_pairs.data,
+               (size_t)b->patch_pairs.count * sizeof *b->patch_pairs.data);
+}
+
 /* What the blocks found, in their order. */
 static bool join_blocks(const narrow_work *w)
 {
-    const collision_scratch *s = w->scratch;
-    int32_t contacts = 0, patches = 0;
-    for (int32_t i = 0; i < s->pair_blocks.count; i++) {
-        if (s->pair_blocks.data[i].memory_failed)
+    int32_t contacts = 0, patches = 0, blocks = w->scratch->pair_blocks.count;
+    for (int32_t i = 0; i < blocks; i++) {
+        pair_block *b = &w->scratch->pair_blocks.data[i];
+        if (b->memory_failed)
             return false;
-        contacts += s->pair_blocks.data[i].contacts.count;
-        patches += s->pair_blocks.data[i].patch_pairs.count;
+        b->first_contact = contacts;
+        b->first_patch = patches;
+        contacts += b->contacts.count;
+        patches += b->patch_pairs.count;
     }
-    if (!array_reserve(w->ctx, w->contacts, contacts) || !array_reserve(w->ctx, w->patch_pairs, patches))
+    if (!array_resize(w->ctx, w->contacts, contacts) || !array_resize(w->ctx, w->patch_pairs, patches))
         return false;
-    for (int32_t i = 0; i < s->pair_blocks.count; i++) {
-        const pair_block *b = &s->pair_blocks.data[i];
-        if (b->contacts.count > 0)
-            memcpy(w->contacts->data + w->contacts->count, b->contacts.data,
-                   (size_t)b->contacts.count * sizeof *b->contacts.data);
-        if (b->patch_pairs.count > 0)
-            memcpy(w->patch_pairs->data + w->patch_pairs->count, b->patch_pairs.data,
-                   (size_t)b->patch_pairs.count * sizeof *b->patch_pairs.data);
-        w->contacts->count += b->contacts.count;
-        w->patch_pairs->count += b->patch_pairs.count;
-    }
+    narrow_work work = *w;
+    pool_run(w->ctx, copy_block, &work, blocks);
     return true;
 }
 

@@ -128,24 +128,36 @@ enum { ALONG, UP, DEPTH };
 /* Four clips of four corners give eight at most, but for roundings along an edge. */
 enum { SIDE_CORNERS = 4, SIDE_MOST = 16 };
 
-/* The part of a polygon with sign * at[k] <= bound; new edges are called `name`. */
-static int clip_side(const side_point *in, int n, int k, double sign, double bound, uint32_t name, side_point *out)
+/* Cuts off the part of a polygon with sign * at[k] > bound; new edges are called `name`.  *in holds the result, and
+   changes places with *out when something was cut. */
+static int clip_side(side_point **in, side_point **out, int n, int k, double sign, double bound, uint32_t name)
 {
+    double beyond[SIDE_MOST];
+    bool cuts = false;
+    for (int i = 0; i < n; i++) {
+        beyond[i] = sign * (*in)[i].at[k] - bound;
+        cuts = cuts || !(beyond[i] <= 0);
+    }
+    if (!cuts)
+        return n;
     int count = 0;
     for (int i = 0; i < n && count < SIDE_MOST - 1; i++) {
-        const side_point *here = &in[i], *next = &in[i + 1 < n ? i + 1 : 0];
-        double d0 = sign * here->at[k] - bound, d1 = sign * next->at[k] - bound;
-        bool inside = d0 <= 0;
+        int after = i + 1 < n ? i + 1 : 0;
+        const side_point *here = &(*in)[i], *next = &(*in)[after];
+        bool inside = beyond[i] <= 0;
         if (inside)
-            out[count++] = *here;
-        if (inside == (d1 <= 0))
+            (*out)[count++] = *here;
+        if (inside == (beyond[after] <= 0))
             continue;
-        double share = d0 / (d0 - d1);
-        side_point *cut = &out[count++];
+        double share = beyond[i] / (beyond[i] - beyond[after]);
+        side_point *cut = &(*out)[count++];
         for (int c = 0; c < 3; c++)
             cut->at[c] = here->at[c] + (next->at[c] - here->at[c]) * share;
         cut->edge = inside ? name : here->edge;
     }
+    side_point *swapped = *in;
+    *in = *out;
+    *out = swapped;
     return count;
 }
 
@@ -184,16 +196,17 @@ static int contact_at_side(const prism *holder, const prism *other, const prism_
     relative_pose pose = pose_from(holder, other);
     side_frame side = side_frame_of(holder, m->side, m->normal);
     opposed_corners(other, m->opposed, &pose, &side, buffer[0]);
-    int n = clip_side(buffer[0], SIDE_CORNERS, UP, -1, holder->half_height, CLIP_MOST / 2, buffer[1]);
-    n = clip_side(buffer[1], n, ALONG, 1, side.length, CLIP_MOST / 2 + 1, buffer[0]);
-    n = clip_side(buffer[0], n, UP, 1, holder->half_height, CLIP_MOST / 2 + 2, buffer[1]);
-    n = clip_side(buffer[1], n, ALONG, -1, 0, CLIP_MOST / 2 + 3, buffer[0]);
+    side_point *corner = buffer[0], *room = buffer[1];
+    int n = clip_side(&corner, &room, SIDE_CORNERS, UP, -1, holder->half_height, CLIP_MOST / 2);
+    n = clip_side(&corner, &room, n, ALONG, 1, side.length, CLIP_MOST / 2 + 1);
+    n = clip_side(&corner, &room, n, UP, 1, holder->half_height, CLIP_MOST / 2 + 2);
+    n = clip_side(&corner, &room, n, ALONG, -1, 0, CLIP_MOST / 2 + 3);
     *outward = mat3_mul_vec(holder->rotation, vec3_make(side.normal.x, side.normal.y, 0));
     manifold_point point[SIDE_MOST];
     double deepest = -HUGE_VAL;
     int count = 0;
     for (int i = 0; i < n; i++) {
-        const side_point *v = &buffer[0][i], *before = &buffer[0][i > 0 ? i - 1 : n - 1];
+        const side_point *v = &corner[i], *before = &corner[i > 0 ? i - 1 : n - 1];
         deepest = v->at[DEPTH] > deepest ? v->at[DEPTH] : deepest;
         if (!(v->at[DEPTH] > -near.reach))
             continue;

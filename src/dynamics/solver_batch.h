@@ -74,6 +74,7 @@ typedef struct batch_task {
     int32_t hub;                    /* number of its hub, -1 without */
     /* What kernels sum up over the task, see solver_sweep_kernel.h. */
     double energy, wanted, residual, slide[4];
+    bool fits; /* its rows are still those of the contacts */
 } batch_task;
 
 /* Points of one pair of bodies with one normal. */

@@ -159,25 +159,43 @@ static bool fast_rows_begin(solver *s)
 
 /* ---- velocities ---- */
 
+typedef struct find_work {
+    solver *s;
+    const contact_memory_table *memory; /* NULL: none */
+    const body_table *bodies;
+    contact_array *contacts;
+} find_work;
+enum { FIND_BLOCK = 512 };
+
+static void find_block(void *arg, int32_t block, int32_t thread)
+{
+    const find_work *w = arg;
+    int32_t count = w->contacts->count, first = FIND_BLOCK * block;
+    int32_t end = first + FIND_BLOCK < count ? first + FIND_BLOCK : count;
+    int32_t place = w->memory ? (int32_t)((int64_t)first * w->memory->count / count) : 0;
+    (void)thread;
+    for (int32_t i = first; i < end; i++) {
+        contact *c = &w->contacts->data[i];
+        w->s->fast->memory_row.data[i] = -1;
+        if (!body_is_dynamic(w->bodies, c->a) && !body_is_dynamic(w->bodies, c->b)) {
+            contact_load_immovable(w->bodies, c);
+            continue;
+        }
+        c->arm_a = vec3_sub(c->point, w->bodies->position[c->a]);
+        c->arm_b = vec3_sub(c->point, w->bodies->position[c->b]);
+        if (w->memory)
+            w->s->fast->memory_row.data[i] = contact_memory_find(w->memory, c->key, &place);
+    }
+}
+
 /* Arms of contacts, and where the memory has them. */
 static bool find_contacts(solver *s, const contact_memory_table *memory, const body_table *bodies,
                           contact_array *contacts)
 {
+    find_work work = {s, memory, bodies, contacts};
     if (!array_resize(s->ctx, &s->fast->memory_row, contacts->count))
         return false;
-    int32_t place = 0;
-    for (int32_t i = 0; i < contacts->count; i++) {
-        contact *c = &contacts->data[i];
-        s->fast->memory_row.data[i] = -1;
-        if (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)) {
-            contact_load_immovable(bodies, c);
-            continue;
-        }
-        c->arm_a = vec3_sub(c->point, bodies->position[c->a]);
-        c->arm_b = vec3_sub(c->point, bodies->position[c->b]);
-        if (memory)
-            s->fast->memory_row.data[i] = contact_memory_find(memory, c->key, &place);
-    }
+    pool_run(s->ctx, find_block, &work, (contacts->count + FIND_BLOCK - 1) / FIND_BLOCK);
     return true;
 }
 
@@ -276,7 +294,7 @@ static bool begin_correction(stage *st)
 {
     solver *s = st->s;
     fast_rows *f = s->fast;
-    bool fits = fast_rows_fit(f, st->contacts);
+    bool fits = fast_rows_fit(st);
     if (!fits && !batch_plan_make(s->ctx, &f->plan, st->bodies, st->contacts))
         return false;
     f->planned = -1;
@@ -290,15 +308,19 @@ static bool begin_correction(stage *st)
     return true;
 }
 
-static void move_bodies(const fast_rows *f, body_table *bodies, double dt)
+static void move_block(void *arg, int32_t block, int32_t thread)
 {
-    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+    const stage *st = arg;
+    const fast_rows *f = st->s->fast;
+    int32_t first = FIND_BLOCK * block, rows = f->plan.slot.count;
+    (void)thread;
+    for (int32_t row = first; row < rows && row < first + FIND_BLOCK; row++) {
         const double *r = row_of(&f->velocity, row);
         int32_t slot = f->plan.slot.data[row];
-        if (slot < 0 || !body_is_dynamic(bodies, slot))
+        if (slot < 0 || !body_is_dynamic(st->bodies, slot))
             continue;
-        body_move(bodies, slot, vec3_make(r[BODY_VELOCITY], r[BODY_VELOCITY + 1], r[BODY_VELOCITY + 2]),
-                  vec3_make(r[BODY_SPIN], r[BODY_SPIN + 1], r[BODY_SPIN + 2]), dt);
+        body_move(st->moved, slot, vec3_make(r[BODY_VELOCITY], r[BODY_VELOCITY + 1], r[BODY_VELOCITY + 2]),
+                  vec3_make(r[BODY_SPIN], r[BODY_SPIN + 1], r[BODY_SPIN + 2]), st->dt);
     }
 }
 
@@ -312,7 +334,13 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
     if (status != FRAM_OK)
         return status;
     joint_rows_for_positions(s, settings, dt);
-    stage st = {.s = s, .bodies = bodies, .contacts = contacts, .settings = settings, .dt = dt, .positions = true};
+    stage st = {.s = s,
+                .bodies = bodies,
+                .moved = bodies,
+                .contacts = contacts,
+                .settings = settings,
+                .dt = dt,
+                .positions = true};
     if (!begin_correction(&st))
         return error_memory(error);
     stage_run(&st, fill_bias);
@@ -323,6 +351,6 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
     if (needed && !iterate(&st, correct_task, &f->correction, f->plan.points, settings->position_iterations, &sweeps))
         return error_memory(error);
     if (needed)
-        move_bodies(f, bodies, dt);
+        pool_run(s->ctx, move_block, &st, (f->plan.slot.count + FIND_BLOCK - 1) / FIND_BLOCK);
     return FRAM_OK;
 }

@@ -60,6 +60,7 @@ typedef struct stage {
     solver *s;
     batch_view view;
     const body_table *bodies;
+    body_table *moved; /* the same, for those that may move them */
     const contact_array *contacts;
     contact_array *results;
     const contact_memory_table *memory; /* NULL: start cold */
@@ -106,7 +107,7 @@ int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t ro
 /* Rows of bodies and contacts. */
 bool fast_rows_make(stage *st);
 /* Whether the rows are still those of these contacts: bodies, normals, arms. */
-bool fast_rows_fit(const fast_rows *f, const contact_array *contacts);
+bool fast_rows_fit(stage *st);
 
 /* ---- solver_fast_warm.c ---- */
 

@@ -283,26 +283,41 @@ int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t ro
     return plan->slot.data[copy ? batch->hub : row];
 }
 
-bool fast_rows_fit(const fast_rows *f, const contact_array *contacts)
+static bool batch_fits(const stage *st, int32_t number)
 {
-    if (f->planned != contacts->count)
-        return false;
-    for (int32_t i = 0; i < f->plan.batches.count; i++) {
-        const contact_batch *batch = &f->plan.batches.data[i];
-        const double *frame = row_of(&f->frame, FRAME_ROWS * i);
-        for (int32_t k = 0; k < batch->points; k++) {
-            const double *point = row_of(&f->point, POINT_ROWS * (batch->first + k));
-            for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
-                if (batch->contact[k][lane] < 0)
-                    continue;
-                const contact *c = &contacts->data[batch->contact[k][lane]];
-                if (c->a != lane_slot(&f->plan, batch, batch->a[lane]) ||
-                    c->b != lane_slot(&f->plan, batch, batch->b[lane]) ||
-                    !same3(frame, FRAME_NORMAL, lane, c->normal) || !same3(point, POINT_ARM_A, lane, c->arm_a) ||
-                    !same3(point, POINT_ARM_B, lane, c->arm_b))
-                    return false;
-            }
+    const fast_rows *f = st->s->fast;
+    const contact_batch *batch = &f->plan.batches.data[number];
+    const double *frame = row_of(&f->frame, FRAME_ROWS * number);
+    for (int32_t k = 0; k < batch->points; k++) {
+        const double *point = row_of(&f->point, POINT_ROWS * (batch->first + k));
+        for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
+            if (batch->contact[k][lane] < 0)
+                continue;
+            const contact *c = &st->contacts->data[batch->contact[k][lane]];
+            if (c->a != lane_slot(&f->plan, batch, batch->a[lane]) ||
+                c->b != lane_slot(&f->plan, batch, batch->b[lane]) || !same3(frame, FRAME_NORMAL, lane, c->normal) ||
+                !same3(point, POINT_ARM_A, lane, c->arm_a) || !same3(point, POINT_ARM_B, lane, c->arm_b))
+                return false;
         }
     }
     return true;
+}
+
+static void fit_task(const stage *st, batch_task *task)
+{
+    task->fits = true;
+    for (int32_t i = task->first; i < task->end && task->fits; i++)
+        task->fits = batch_fits(st, i);
+}
+
+bool fast_rows_fit(stage *st)
+{
+    const fast_rows *f = st->s->fast;
+    if (f->planned != st->contacts->count)
+        return false;
+    stage_run(st, fit_task);
+    bool fits = true;
+    for (int32_t t = 0; t < f->plan.tasks.count; t++)
+        fits = fits && f->plan.tasks.data[t].fits;
+    return fits;
 }

