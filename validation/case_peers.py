@@ -1,0 +1,84 @@
+"""The same scenes under Fram's three solvers, Bullet and ODE: the mean load on a ship."""
+
+import argparse
+import shutil
+import subprocess
+import sys
+
+import ladder
+
+sys.path.insert(0, str(ladder.ROOT / "bench"))
+import run_peers  # noqa: E402  (the benchmark's own driver: one place knows how the programs are built and called)
+
+LONG = True
+FLOES, COVERS, SEEDS = 300, (75, 90), range(1, 9)
+OPTIONS = {"fram": str(ladder.FRAM), "dt": 0.02, "iterations": 30, "time": 20.0, "warm": 5.0, "core": "0,1"}
+
+
+def peers():
+    """Programs of the other engines, or why there are none."""
+    if not shutil.which("g++") or not shutil.which("pkg-config"):
+        raise ladder.Skipped("g++ or pkg-config is not there to build the programs of Bullet and ODE")
+    for module in ("bullet-float64", "ode"):
+        if subprocess.run(["pkg-config", "--exists", module]).returncode != 0:
+            raise ladder.Skipped(f"{module} is not installed; `tools/deps.sh --install peers` does it")
+    built = run_peers.build_peers()
+    return {"Bullet (double)": built["bullet_f64"], "ODE": built["ode"]}
+
+
+def case(out):
+    programs = peers()
+    c = ladder.Case(
+        "Mean load under other solvers and engines",
+        4,
+        f"A box ship of 80 x 20 m at constant speed through {FLOES} floes, 75 % in still water and 90 % packed by a "
+        f"current, "
+        "in the same text scene and water model: Fram's fast, sequential and accurate solver, Bullet and ODE, 8 seeds, "
+        f"dt 0.02 s, {OPTIONS['iterations']} iterations, mean of 5 to 20 s.",
+        "The accurate solver of Fram (to 1e-6 m/s) on the same scenes; Bullet 3.24 and ODE 0.16 (bench/peers).",
+        "Fast and sequential within 2 standard errors of accurate. The other engines differ in friction (pyramid) and "
+        "in "
+        "contact points: within 20 % or 2 standard errors.",
+    )
+    c.header = ["cover [%]", "program", "mean load [kN]", "standard error [kN]", "to accurate, paired [kN]",
+                "over its standard error"]
+    picture = {}
+    for cover in COVERS:
+        loads = {}
+        for seed in SEEDS:
+            scene = run_peers.scene_of(FLOES, cover, seed)
+            for solver in ("accurate", "fast", "sequential"):
+                options = argparse.Namespace(**OPTIONS, solver=solver)
+                found = run_peers.run_fram(options, scene, OPTIONS["core"])["ship_force_kN"]
+                loads.setdefault(f"Fram, {solver}", []).append(abs(found))
+            for name, program in programs.items():
+                options = argparse.Namespace(**OPTIONS)
+                loads.setdefault(name, []).append(abs(run_peers.run_peer(options, program, scene)["ship_force_kN"]))
+        best = loads["Fram, accurate"]
+        for name, values in loads.items():
+            mean, error = ladder.mean_and_error(values)
+            apart, of_apart = ladder.mean_and_error([a - b for a, b in zip(values, best)])
+            sigmas = apart / of_apart if of_apart > 0 else 0.0
+            c.rows.append([cover, name, f"{mean:.1f}", f"{error:.1f}", f"{apart:+.1f}", f"{sigmas:+.2f}"])
+            if name in ("Fram, fast", "Fram, sequential"):
+                c.check(abs(sigmas) < 2, f"{cover} %, {name}: {apart:+.1f} kN from accurate, {abs(sigmas):.2f} "
+                                         f"standard "
+                                         "errors, less than 2")
+            elif name != "Fram, accurate":
+                share = apart / ladder.mean_and_error(best)[0]
+                c.check(abs(share) <= 0.2 or abs(sigmas) < 2,
+                        f"{cover} %, {name}: {100 * share:+.0f} % from accurate ({abs(sigmas):.2f} standard errors)")
+        picture[cover] = loads
+
+    def draw(axes):
+        for ax, (cover, loads) in zip(axes, picture.items()):
+            for at, (name, values) in enumerate(loads.items()):
+                mean, error = ladder.mean_and_error(values)
+                ax.plot([at] * len(values), values, ".", color="grey")
+                ax.errorbar([at + 0.2], [mean], yerr=[1.96 * error], fmt="o", capsize=4)
+            ax.set_xticks(range(len(loads)), [n.replace("Fram, ", "").replace(" (double)", "") for n in loads],
+                          rotation=25)
+            ax.set(ylabel="mean load [kN]", title=f"{cover} %", ylim=(0, None))
+
+    ladder.figure(c, out, "peers", "Each seed (grey), mean and 95 % interval.", draw, panels=2)
+    return c
