@@ -171,12 +171,19 @@ static void append_ring(shape_store *s, polygon ring, const int32_t *corner)
     }
 }
 
+/* A single piece is the outline itself and shares its vertices, unless a triangle was dropped: then it has fewer. */
+static bool pieces_are_outline(int32_t piece_count, int32_t first_size, int32_t outline_count)
+{
+    return piece_count == 1 && first_size == outline_count;
+}
+
 /* Everything is reserved before anything is written, so that a failure leaves the store as it was. */
 static fram_status store_prism(context *ctx, shape_store *s, polygon outline, double half_height,
                                const polygon_list *pieces, int32_t *row, fram_error *error)
 {
     int32_t piece_count = polygon_list_count(pieces), first = s->vertices.count, piece_first = s->pieces.count;
-    int32_t extra = piece_count > 1 ? pieces->vertex.count : 0;
+    bool shared = pieces_are_outline(piece_count, polygon_list_get(pieces, 0).count, outline.count);
+    int32_t extra = shared ? 0 : pieces->vertex.count;
     uint64_t *inner = memory_array(ctx, (size_t)piece_count, sizeof *inner);
     int32_t *corner = memory_array(ctx, (size_t)pieces->vertex.count, sizeof *corner);
     bool ok = inner && corner && find_seams(ctx, pieces, inner) &&
@@ -189,10 +196,10 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
         for (int32_t i = 0; i < piece_count; i++) {
             int32_t at = s->pieces.count++, begin = pieces->start.data[i];
             polygon p = polygon_list_get(pieces, i);
-            s->pieces.first[at] = piece_count > 1 ? s->vertices.count : first;
+            s->pieces.first[at] = shared ? first : s->vertices.count;
             s->pieces.size[at] = p.count;
             s->pieces.inner_edges[at] = inner[i];
-            if (piece_count > 1)
+            if (!shared)
                 append_ring(s, p, corner + begin);
         }
         double plan_square = 0;
@@ -313,8 +320,10 @@ void shape_remove(shape_store *s, int32_t row)
 
 static int32_t vertices_of_pieces(const shape_store *s, int32_t row)
 {
-    int32_t sum = 0, first = s->shapes.piece_first[row];
-    for (int32_t i = first; i < first + s->shapes.piece_count[row] && s->shapes.piece_count[row] > 1; i++)
+    int32_t sum = 0, first = s->shapes.piece_first[row], count = s->shapes.piece_count[row];
+    if (count == 0 || pieces_are_outline(count, s->pieces.size[first], s->shapes.outline_count[row]))
+        return 0;
+    for (int32_t i = first; i < first + count; i++)
         sum += s->pieces.size[i];
     return sum;
 }
@@ -323,7 +332,7 @@ static int32_t vertices_of_pieces(const shape_store *s, int32_t row)
 static void move_shape(shape_store *s, int32_t row, shape_vertex_table *vertices, piece_table *pieces)
 {
     shape_table *t = &s->shapes;
-    /* A shape's vertices are one block: the outline, then those of the pieces when there are several. */
+    /* A shape's vertices are one block: the outline, then those of the pieces unless they are the outline. */
     int32_t count = t->outline_count[row] + vertices_of_pieces(s, row), from = t->outline_first[row];
     int32_t shift = vertices->count - from;
     memcpy(vertices->point + vertices->count, s->vertices.point + from, (size_t)count * sizeof *vertices->point);

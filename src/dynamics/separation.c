@@ -152,13 +152,17 @@ static edge_found extreme_edge(const polyhedron *p, vec3 direction, vec3 axis)
 
 static double clamp_unit(double x) { return x < 0 ? 0 : x > 1 ? 1 : x; }
 
-/* Midway between the nearest points of two segments that are not parallel. */
+/* Midway between the nearest points of two segments.  Bodies may have edges without length, and edges that differ by
+   less than extreme_edge tells apart, so that those found are parallel although the directions that led to them are
+   not: middles serve then. */
 static vec3 between_edges(edge_found a, edge_found b)
 {
     vec3 d = vec3_sub(a.to, a.from), e = vec3_sub(b.to, b.from), r = vec3_sub(a.from, b.from);
     double dd = vec3_dot(d, d), ee = vec3_dot(e, e), de = vec3_dot(d, e), dr = vec3_dot(d, r), er = vec3_dot(e, r);
-    double s = clamp_unit((de * er - dr * ee) / (dd * ee - de * de));
-    double t = clamp_unit((de * s + er) / ee);
+    double square = dd * ee - de * de;
+    bool crossed = square > PARALLEL_SINE * PARALLEL_SINE * dd * ee;
+    double s = crossed ? clamp_unit((de * er - dr * ee) / square) : 0.5;
+    double t = ee > 0 ? clamp_unit((de * s + er) / ee) : 0.5;
     return vec3_scale(vec3_add(vec3_mad(a.from, d, s), vec3_mad(b.from, e, t)), 0.5);
 }
 

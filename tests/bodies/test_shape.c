@@ -91,6 +91,43 @@ START_TEST(a_concave_prism_knows_its_seams_and_corners)
 }
 END_TEST
 
+/* A notch whose triangle is under the limit of area: one piece is left, which has fewer corners than the outline, at
+   their places, and with its own sides; so after the pools were squeezed. */
+START_TEST(a_dropped_triangle_leaves_a_piece_of_its_own)
+{
+    static const vec2 notched[] = {{0, 0}, {4, 0}, {4, 4}, {1, 4}, {0.9, 3.5}};
+    context ctx;
+    context_init(&ctx);
+    shape_store s = {0};
+    overlay *o = overlay_create(&ctx);
+    fram_error e = {0};
+    int32_t row, others[3];
+    for (int i = 0; i < 3; i++)
+        others[i] = add(&ctx, &s, o, corner, 6);
+    assert_ok(shape_add_prism(&ctx, &s, o, (polygon){notched, 5}, 0.5, 1, &row, &e), e);
+    for (int squeezed = 0; squeezed < 2; squeezed++) {
+        ck_assert_int_eq(s.shapes.piece_count[row], 1);
+        ck_assert_int_eq(s.shapes.outline_count[row], 5);
+        polygon p = shape_piece(&s, row, 0);
+        int32_t first = s.pieces.first[s.shapes.piece_first[row]];
+        ck_assert_int_lt(p.count, 5);
+        for (int32_t k = 0; k < p.count; k++) {
+            vec2 way = vec2_sub(p.vertex[k + 1 < p.count ? k + 1 : 0], p.vertex[k]), n = s.vertices.side[first + k];
+            int32_t c = s.vertices.corner[first + k];
+            ck_assert(c >= 0 && p.vertex[k].x == notched[c].x && p.vertex[k].y == notched[c].y);
+            assert_absolute(vec2_dot(way, n), 0, 1e-12);
+            ck_assert(vec2_cross(n, way) > 0);
+        }
+        for (int i = 0; i < 3; i++)
+            shape_remove(&s, others[i]);
+        assert_ok(shape_compact(&ctx, &s), e);
+    }
+    ck_assert_int_eq(s.vertices.count, 5 + shape_piece(&s, row, 0).count);
+    overlay_free(o);
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
 START_TEST(wrong_outlines_are_refused)
 {
     context ctx;
@@ -217,5 +254,6 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("shape", a_convex_prism_is_its_own_piece, many_corners_are_cut_into_small_pieces,
-          a_concave_prism_knows_its_seams_and_corners, wrong_outlines_are_refused, solids_take_over_their_mesh,
-          rows_are_used_again_and_pools_squeezed, memory_runs_out)
+          a_concave_prism_knows_its_seams_and_corners, a_dropped_triangle_leaves_a_piece_of_its_own,
+          wrong_outlines_are_refused, solids_take_over_their_mesh, rows_are_used_again_and_pools_squeezed,
+          memory_runs_out)
