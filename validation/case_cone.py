@@ -56,7 +56,8 @@ def first_break(angle, h, facets=FACETS, step=0.01):
     series = ladder.run(scene(angle, h, facets, step=step), name)
     event = ladder.fractures(name)
     until = event["time"][0] + 1e-9
-    return max(-f for t, f in zip(series["time"], series["ice_force_x"]) if t <= until), event["crack_length"][0], series
+    load = max(-f for t, f in zip(series["time"], series["ice_force_x"]) if t <= until)
+    return load, event["crack_length"][0], series
 
 
 def case(out):
@@ -83,7 +84,8 @@ def case(out):
         window = [-f for f in series["ice_force_averaged_x"]]
         later = [-f for f in ladder.after(series, "ice_force_x", 10)]
         ratio = load / croasdale(angle, h)
-        c.rows.append([angle, h, f"{load / 1e3:.0f}", f"{croasdale(angle, h) / 1e3:.0f}", f"{ratio:.2f}", f"{radius:.2f}",
+        c.rows.append([angle, h, f"{load / 1e3:.0f}", f"{croasdale(angle, h) / 1e3:.0f}", f"{ratio:.2f}",
+                       f"{radius:.2f}",
                        f"{max(window) / 1e3:.0f}", f"{sum(later) / len(later) / 1e3:.0f}"])
         c.check(0.4 <= ratio <= 1.2, f"{angle} degrees, {h} m: first break at {ratio:.2f} of H_B, expected 0.4 to 1.2")
     half, _, _ = first_break(60, 1.0, step=0.005)

@@ -18,7 +18,8 @@ def lindqvist(h, v, stem=STEM, friction=FRICTION):
     rc = 0.5 * STRENGTH * h**2 * (math.tan(stem) + friction * math.cos(stem) / math.cos(psi)) / (
         1 - friction * math.sin(stem) / math.cos(psi))
     rb = (27 / 64 * STRENGTH * BEAM * h**1.5 / math.sqrt(MODULUS / (12 * (1 - NU**2) * RHO * GRAVITY))
-          * (math.tan(psi) + friction * math.cos(stem) / (math.sin(ENTRANCE) * math.cos(psi))) * (1 + 1 / math.cos(psi)))
+          * (math.tan(psi) + friction * math.cos(stem) / (math.sin(ENTRANCE) * math.cos(psi)))
+          * (1 + 1 / math.cos(psi)))
     rs = (RHO - ICE) * GRAVITY * h * BEAM * (
         DRAUGHT * (BEAM + DRAUGHT) / (BEAM + 2 * DRAUGHT)
         + friction * (0.7 * LENGTH - DRAUGHT / math.tan(stem) - BEAM / (4 * math.tan(ENTRANCE))

@@ -45,7 +45,8 @@ def case(out):
     for i, n in enumerate(COUNTS):
         now = by_hand(n)
         capacity[n] = now["wedge_capacity"]
-        row = [n, f"{now['wedge_capacity'] / 1e3:.1f}", f"{100 * (now['wedge_capacity'] / last['wedge_capacity'] - 1):+.2f}"
+        row = [n, f"{now['wedge_capacity'] / 1e3:.1f}",
+               f"{100 * (now['wedge_capacity'] / last['wedge_capacity'] - 1):+.2f}"
                " %", f"{now['breaking_radius']:.3f}"]
         if n in SHIP:
             k = SHIP.index(n)

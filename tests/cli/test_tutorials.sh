@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# The tutorials of the manual: every command, as it is written, in the order of the page.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cp -r "$root/scenes" "$scratch/"
+mkdir -p "$scratch/build/release" "$scratch/out"
+ln -s "$FRAM" "$scratch/build/release/fram"
+cd "$scratch"
+count=0
+while IFS= read -r line; do
+    command=${line#    }
+    count=$((count + 1))
+    # Parts that this build lacks are no fault of the page.
+    if ! bash -c "set -e; $command" >out/log 2>&1; then
+        if grep -qi "this build" out/log; then
+            echo "skipped, this build lacks a part: $command"
+            continue
+        fi
+        echo "FAILED: $command"
+        tail -n 5 out/log
+        exit 1
+    fi
+done < <(grep '^    ' "$root/docs/tutorials.md")
+echo "$count commands of docs/tutorials.md"
+[ "$count" -ge 15 ]
