@@ -29,8 +29,7 @@ def case(out):
         "Zuev (channels full of broken ice) and Huang et al. 2021 (A rho_i B h v^2 C^1.5/Fn, A 0.20 for a container "
         "ship).",
         "Power of the speed between Huang's (1) and that of pure inertia (2), within a factor of 2.5 of the nearer "
-        "formula: "
-        "neither is for this hull, and Zuev's has a part that does not depend on speed (ice that is held).",
+        "formula: neither is for this hull, and Zuev's has a part that does not depend on speed (ice that is held).",
     )
     found = [ladder.mean_and_error(demo_field.means(f"vessel__speed_{v:g}", SEEDS, vessel__speed=v)) for v in SPEEDS]
     c.header = ["speed [m/s]", "Fram [kN]", "standard error [kN]", "Zuev [kN]", "Huang [kN]"]

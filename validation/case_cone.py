@@ -67,11 +67,11 @@ def case(out):
         "A cone of 5 m at the waterline in level ice that breaks upwards: horizontal load at the first break over "
         "thickness and angle, and the largest and mean load of the first 20 s, with pieces on the cone.",
         "Croasdale's breaking term H_B (1978, as in OpenFAST's IceFloe: D 5 m, 60 degrees, 1 m, 0.7 MPa, 8 GPa, mu "
-        "0.15: "
-        "1.844 MN), which spreads the break over the cone's width and the sheet beside it. sigma_c 2 MPa, N 3.",
-        "The first break at 0.4 to 1.2 of H_B (expectation set before the first run): Fram's is the break of a local "
-        "patch "
-        "of wedges, Croasdale's of a whole circumferential crack. It must grow with thickness and angle as H_B does.",
+        "0.15: 1.844 MN), which spreads the break over the cone's width and the sheet beside it. sigma_c 2 MPa, N "
+        "3.",
+        "The first break at 0.4 to 1.2 of H_B (expectation set before the first run): Fram's is the break of a "
+        "local patch of wedges, Croasdale's of a whole circumferential crack. It must grow with thickness and "
+        "angle as H_B does.",
     )
     c.header = ["angle [deg]", "h [m]", "first break [kN]", "H_B [kN]", "ratio", "R_bending [m]", "largest 0.5 s mean "
                                                                                                   "[kN]",

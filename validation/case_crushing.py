@@ -85,8 +85,8 @@ def case(out):
         "Impacts limited by crushing",
         2,
         "A floe of 92 t at 0.5 m/s meets a wall: with its face, with a corner, and with a corner under a "
-        "pressure-area law "
-        "of exponent -0.1; and a vertical wall that is driven three thicknesses into a fixed floe.",
+        "pressure-area law of exponent -0.1; and a vertical wall that is driven three thicknesses into a fixed "
+        "floe.",
         "Closed forms: F = K d^n, d_max = ((n+1) m v^2/(2 K))^(1/(n+1)).",
         "First order in dt for times and penetrations; forces to 1e-3; no rebound; the wall's force is sigma_c L h at "
         "every step and level, however deep (1 % where crushed ice is cut away).",
@@ -121,16 +121,13 @@ def case(out):
         c.rows.append([f"{name}, 3 h deep", "10", f"{-min(f[0] for f in wall) / 1e3:.3f}", f"{cap / 1e3:.3f}",
                        *5 * [""]])
         c.check(spread <= allowed, f"{name}: force off sigma_c L h by {spread:.1e} at most, at any of {len(wall)} "
-                                   f"steps; "
-                                   f"{allowed:g} allowed")
+                                   f"steps; {allowed:g} allowed")
         c.check(level <= 1e-9, f"{name}: vertical part of its force {level:.0e}, at most 1e-9")
     c.found = ("Where crushed ice is cut away (crush_trims, on for fixed and level ice), a rim of the edge threshold "
-               "stays "
-               "beside the hull and adds 0.1 % to the load. An impact that ends within one step, as the face would at "
-               "dt = "
-               "10 ms, is a plain plastic stop: the impulse is right, the force is not (mass times speed over dt). In "
-               "the steps after the stop the position correction pushes a "
-               "floe that cannot break out of the crushed overlap, without a velocity (SPEC section 9).")
+               "stays beside the hull and adds 0.1 % to the load. An impact that ends within one step, as the face "
+               "would at dt = 10 ms, is a plain plastic stop: the impulse is right, the force is not (mass times "
+               "speed over dt). In the steps after the stop the position correction pushes a floe that cannot "
+               "break out of the crushed overlap, without a velocity (SPEC section 9).")
 
     def draw(axes):
         times, forces, ways = curve

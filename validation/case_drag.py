@@ -58,11 +58,9 @@ def case(out):
         "Drag of floes",
         2,
         "A floe of 10 x 10 x 1 m from rest in a current of 0.3 m/s; the steady drift in wind; the torque on a "
-        "spinning disc "
-        "(64 sides) and on a spinning square.",
-        "u_rel = U/(1 + U t/L), L = 17.6770 m (bottom, two sides, form); with N^2 = rho_a Ca/(rho_w Cw), "
-        "U_i/U_a = N/(1 + N) = 0.018768 for sides without drag); (pi/5) rho Cf w^2 R^5 for the bottom, and the sides' "
-        "skin; "
+        "spinning disc (64 sides) and on a spinning square.",
+        "u_rel = U/(1 + U t/L), L = 17.6770 m (bottom, two sides, form); with N^2 = rho_a Ca/(rho_w Cw), U_i/U_a = "
+        "N/(1 + N) = 0.018768 for sides without drag); (pi/5) rho Cf w^2 R^5 for the bottom, and the sides' skin; "
         "1/2 rho Cd d w^2 b^4.",
         "First order in dt for the drift; 1 % for the wind drift, since sides drag too; torques 0.5 % (level floes use "
         "closed forms on the sides and a quadrature of six points a triangle on the bottom).",
@@ -93,8 +91,7 @@ def case(out):
                    f"{found / (bottom + sides) - 1:.1e}"])
     c.check(abs(found / (bottom + sides) - 1) <= 1.5 * 5 * (1 - rim) / 2 + 5e-3,
             f"disc: {100 * (found / (bottom + sides) - 1):.2f} % off the round one (64 sides: "
-            f"{-250 * (1 - rim) / 1.5:.2f} %"
-            " expected)")
+            f"{-250 * (1 - rim) / 1.5:.2f} % expected)")
     half = radius / math.sqrt(2)
     exact = 0.5 * RHO * DRAUGHT * spin**2 * half**4
     found = spin_torque(4, 1, 0)

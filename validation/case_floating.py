@@ -67,15 +67,12 @@ def case(out):
         "Floating bodies",
         2,
         "Volume of a cube with its diagonal upright at four immersions; righting lever of a box; draught and the "
-        "periods "
-        "of heave and roll of a floe of 10 x 10 x 1 m without added mass.",
+        "periods of heave and roll of a floe of 10 x 10 x 1 m without added mass.",
         "Closed forms: inclusion and exclusion of corners; BM + tan^2 of a wall-sided box; rho g Awp / m; GM = 9.2332 "
         "m.",
-        "Volumes, levers and draught to 1e-9: pressure is integrated exactly over clipped triangles. Periods converge "
-        "at "
-        "second order in dt (semi-implicit Euler changes the period by its square only); roll has a finite amplitude "
-        "of "
-        "0.5 degrees.",
+        "Volumes, levers and draught to 1e-9: pressure is integrated exactly over clipped triangles. Periods "
+        "converge at second order in dt (semi-implicit Euler changes the period by its square only); roll has a "
+        "finite amplitude of 0.5 degrees.",
     )
     c.header = ["quantity", "found", "exact", "relative difference"]
     path, worst = cube(), 0.0

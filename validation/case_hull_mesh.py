@@ -23,12 +23,10 @@ def case(out):
         "Mesh of the hull",
         3,
         "The fixed cone of 60 degrees as a pyramid of 6 to 96 sides: displaced volume, and horizontal load at the "
-        "first "
-        "break in 1 m of level ice (dt 5 ms).",
+        "first break in 1 m of level ice (dt 5 ms).",
         "Volume of the round cone; the load of the finest mesh.",
-        "Volume: exact for the mesh, second order in 1/sides to the round one. The load is decided by the patch that "
-        "the "
-        "cone's nose has in the ice: convergent, within 5 % from 24 sides on.",
+        "Volume: exact for the mesh, second order in 1/sides to the round one. The load is decided by the patch "
+        "that the cone's nose has in the ice: convergent, within 5 % from 24 sides on.",
     )
     c.header = ["sides", "volume [m3]", "to its own mesh", "to the round cone", "order", "first break [kN]",
                 "to the finest", "R_bending [m]"]
@@ -47,8 +45,7 @@ def case(out):
                        f"{load / 1e3:.0f}", f"{100 * (load / loads[-1] - 1):+.1f} %", f"{radius:.2f}"])
     c.check(max(own) <= 1e-9, f"volume of each mesh to {max(own):.0e}")
     c.check(min(orders[1:]) >= 1.8, f"volume to the round cone: orders {min(orders[1:]):.2f} to "
-                                    f"{max(orders[1:]):.2f}, at "
-                                    "least 1.8")
+                                    f"{max(orders[1:]):.2f}, at least 1.8")
     worst = max(abs(f / loads[-1] - 1) for f, n in zip(loads, FACETS) if n >= 24)
     c.check(worst <= 0.05, f"load from 24 sides on: {100 * worst:.1f} % from the finest at most, 5 % expected")
 

@@ -41,9 +41,8 @@ def case(out):
         "Load on a vertical wall of 1 to 100 m driven into ice of 0.5 to 1.5 m, with Fram's constant crushing strength "
         "(2 MPa) and with `ice.crushing_exponent` -0.16.",
         "ISO 19906: p = C_R (h/1 m)^n (w/h)^-0.16, C_R 2.2 MPa (1.8 to 2.8 by region).",
-        "Fram's load is sigma_c w h to rounding, and sigma_c (w h)^(1+e) with an exponent. A constant pressure must "
-        "be too "
-        "high for wide structures; how much is what this case is for.",
+        "Fram's load is sigma_c w h to rounding, and sigma_c (w h)^(1+e) with an exponent. A constant pressure "
+        "must be too high for wide structures; how much is what this case is for.",
     )
     c.header = ["w [m]", "h [m]", "constant [MN]", "exponent -0.16 [MN]", "ISO [MN]", "constant / "
                                                                                       "ISO", "exponent / ISO"]
@@ -62,8 +61,8 @@ def case(out):
     c.check(min(laws) > 0.5 and max(laws) < 1.5, f"with the exponent: {min(laws):.2f} to {max(laws):.2f} of the rule, "
                                                  "0.5 to 1.5 expected")
     c.found = (f"Constant pressure gives {min(ratios):.2f} to {max(ratios):.2f} of the rule, growing with the width; "
-               f"with the "
-               f"exponent {min(laws):.2f} to {max(laws):.2f}. Use the exponent for contacts wider than a few metres.")
+               f"with the exponent {min(laws):.2f} to {max(laws):.2f}. Use the exponent for contacts wider than a "
+               "few metres.")
 
     def draw(axes):
         fine = [10 ** (i / 25) for i in range(51)]

@@ -33,13 +33,11 @@ def case(out):
     c = ladder.Case(
         "Sweeps and time step in a dense field",
         3,
-        f"The demo at 90 %, {len(SEEDS)} seeds: mean load, mean residual of the solver (largest complementarity error "
-        f"of a "
-        "step) and mean largest overlap, for 5 to 80 sweeps of the fast solver and for three time steps.",
+        f"The demo at 90 %, {len(SEEDS)} seeds: mean load, mean residual of the solver (largest complementarity "
+        "error of a step) and mean largest overlap, for 5 to 80 sweeps of the fast solver and for three time steps.",
         "The runs themselves; load beside that of 80 sweeps.",
-        "The residual falls with the sweeps. The mean load from 20 sweeps on differs from that of 80 by less than 2 "
-        "standard "
-        "errors; so do the time steps.",
+        "The residual falls with the sweeps. The mean load from 20 sweeps on differs from that of 80 by less than "
+        "2 standard errors; so do the time steps.",
     )
     c.header = ["sweeps", "dt [s]", "mean load [kN]", "standard error [kN]", "residual [mm/s]", "largest overlap [mm]"]
     found = {}
@@ -56,8 +54,7 @@ def case(out):
 
     for n in SWEEPS[2:-1]:
         c.check(apart(found[n][0], found[80][0]) < 2, f"{n} sweeps: {apart(found[n][0], found[80][0]):.2f} standard "
-                                                      f"errors "
-                                                      "from 80")
+                                                      "errors from 80")
     for dt in STEPS[:-1]:
         c.check(apart(steps[dt][0], steps[STEPS[-1]][0]) < 2,
                 f"dt {dt}: {apart(steps[dt][0], steps[STEPS[-1]][0]):.2f} standard errors from dt {STEPS[-1]}")

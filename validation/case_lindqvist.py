@@ -42,12 +42,10 @@ def case(out):
         "Level-ice resistance of an icebreaker",
         5,
         "Mean ice resistance of the 60 m icebreaker of `scenes/level_ice.yaml` over thickness and speed, from the "
-        "last 15 m "
-        "of 75 m of way, two starts each; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1).",
+        "last 15 m of 75 m of way, two starts each; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1).",
         "Lindqvist (1989) with the same inputs. Published errors of such formulas on one ship's tests are 22 to 51 %.",
-        "Grows with thickness and with speed; within a factor of 2 of the formula at 0.5 to 2 m/s. Above that less, "
-        "since "
-        "Fram's breaking has no inertia of the water (limits page).",
+        "Grows with thickness and with speed; within a factor of 2 of the formula at 0.5 to 2 m/s. Above that "
+        "less, since Fram's breaking has no inertia of the water (limits page).",
     )
     c.header = ["h [m]", "speed [m/s]", "Fram, mean of 2 starts [kN]", "apart [kN]", "Lindqvist [kN]", "ratio"]
     cases = [(h, v) for h in THICKNESSES for v in SPEEDS]
@@ -71,8 +69,7 @@ def case(out):
         of_h = [found[h, v] for v in SPEEDS]
         slope, of_formula = of_h[-1] / of_h[0], lindqvist(h, SPEEDS[-1]) / lindqvist(h, SPEEDS[0])
         c.check(of_h[-1] > of_h[0], f"grows with speed in {h} m: {slope:.2f} times from {SPEEDS[0]} to {SPEEDS[-1]} "
-                                    f"m/s "
-                                    f"(Lindqvist: {of_formula:.2f})")
+                                    f"m/s (Lindqvist: {of_formula:.2f})")
 
     def draw(axes):
         fine = [0.3 + 0.05 * i for i in range(78)]

@@ -69,8 +69,7 @@ def case(out):
         "Momentum and energy of colliding floes",
         1,
         "25 square floes of 8 m fly at one another without water or gravity for 60 s, restitution 0, friction 0.3; "
-        "with "
-        "each of the three solvers, with and without position correction.",
+        "with each of the three solvers, with and without position correction.",
         "Newton's laws: what floes do to one another cancels.",
         "Contacts: linear and angular momentum to 1e-10 of the sum of their magnitudes, and kinetic energy never grows "
         "(1e-12 of the first a step for rounding). Position correction moves bodies without a velocity: it leaves "
@@ -94,8 +93,7 @@ def case(out):
                 c.check(angular <= 1e-10, f"{kind}: angular momentum drifts by {angular:.1e}, at most 1e-10")
                 c.check(growth <= 1e-12, f"{kind}: energy grows by {growth:.1e} in a step at most, at most 1e-12")
     c.found = ("Contacts conserve to rounding. Position correction turns a tilted, spinning floe by a hair and keeps "
-               "its "
-               "velocities, which is where its drifts come from; they are far under the drag of any water.")
+               "its velocities, which is where its drifts come from; they are far under the drag of any water.")
 
     def draw(axes):
         for kind, style in zip(curves, ("-", "--", ":")):

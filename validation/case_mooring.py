@@ -48,8 +48,7 @@ def case(out):
         "A mooring line",
         2,
         "Tension at the upper end of a line of 1 kN/m in 50 m of water, whose anchor is moved away: slack, with a "
-        "part on "
-        "the bottom, and taut; almost inextensible, and elastic.",
+        "part on the bottom, and taut; almost inextensible, and elastic.",
         "The catenary: H 400 kN gives 206.1553 m of hanging line over 197.9732 m and T = H + w d = 450 kN. Elastic: "
         "T - w d = H, stretch by the mean tension.",
         "1e-6 without elasticity. With EA = 500 MN the line is stretched by 0.09 % and the pull falls.",
@@ -71,8 +70,7 @@ def case(out):
     c.check(worst <= 1e-6, f"tension: {worst:.1e} off at most, 1e-6 allowed")
     c.check(all(b < a for _, a, b in curve), "an elastic line pulls less at the same distance")
     c.found = ("Lines are quasi-static: neither inertia nor drag of the line, no friction on the bottom (see the "
-               "limits "
-               "page).")
+               "limits page).")
 
     def draw(axes):
         pulls = [40e3 * 1.06**k for k in range(53)]

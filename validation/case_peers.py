@@ -32,13 +32,11 @@ def case(out):
         "Mean load under other solvers and engines",
         4,
         f"A box ship of 80 x 20 m at constant speed through {FLOES} floes, 75 % in still water and 90 % packed by a "
-        f"current, "
-        "in the same text scene and water model: Fram's fast, sequential and accurate solver, Bullet and ODE, 8 seeds, "
-        f"dt 0.02 s, {OPTIONS['iterations']} iterations, mean of 5 to 20 s.",
+        "current, in the same text scene and water model: Fram's fast, sequential and accurate solver, Bullet and "
+        f"ODE, 8 seeds, dt 0.02 s, {OPTIONS['iterations']} iterations, mean of 5 to 20 s.",
         "The accurate solver of Fram (to 1e-6 m/s) on the same scenes; Bullet 3.24 and ODE 0.16 (bench/peers).",
-        "Fast and sequential within 2 standard errors of accurate. The other engines differ in friction (pyramid) and "
-        "in "
-        "contact points: within 20 % or 2 standard errors.",
+        "Fast and sequential within 2 standard errors of accurate. The other engines differ in friction (pyramid) "
+        "and in contact points: within 20 % or 2 standard errors.",
     )
     c.header = ["cover [%]", "program", "mean load [kN]", "standard error [kN]", "to accurate, paired [kN]",
                 "over its standard error"]
@@ -62,8 +60,7 @@ def case(out):
             c.rows.append([cover, name, f"{mean:.1f}", f"{error:.1f}", f"{apart:+.1f}", f"{sigmas:+.2f}"])
             if name in ("Fram, fast", "Fram, sequential"):
                 c.check(abs(sigmas) < 2, f"{cover} %, {name}: {apart:+.1f} kN from accurate, {abs(sigmas):.2f} "
-                                         f"standard "
-                                         "errors, less than 2")
+                                         "standard errors, less than 2")
             elif name != "Fram, accurate":
                 share = apart / ladder.mean_and_error(best)[0]
                 c.check(abs(share) <= 0.2 or abs(sigmas) < 2,

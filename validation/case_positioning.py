@@ -84,15 +84,13 @@ def case(out):
     c = ladder.Case(
         "Position control in surge",
         2,
-        "A vessel of 6764 t on dynamic positioning (PID, wn 0.1 rad/s, damping 1, Ki = Kp wn/10) is pushed by 100 kN "
-        "from "
-        "one moment on: offset over time, with ideal thrusters and noiseless measurements, at three bandwidths of the "
-        "observer.",
+        "A vessel of 6764 t on dynamic positioning (PID, wn 0.1 rad/s, damping 1, Ki = Kp wn/10) is pushed by 100 "
+        "kN from one moment on: offset over time, with ideal thrusters and noiseless measurements, at three "
+        "bandwidths of the observer.",
         "The closed loop without observer: peak 1.212357 m at 44.39 s, final offset 0, its integral F/Ki = 147.8328 m "
         "s.",
         "The observer stands in the loop: its lag (1/bandwidth) is felt, and must vanish as it gets faster. The "
-        "controller "
-        "integrates the estimate, not the offset. 0.5 % of the peak at 20 rad/s.",
+        "controller integrates the estimate, not the offset. 0.5 % of the peak at 20 rad/s.",
     )
     times, ways, sums = exact()
     top = max(range(len(ways)), key=ways.__getitem__)
@@ -112,8 +110,7 @@ def case(out):
                        f"{sums[-1]:.2f}", f"{x[-1]:.4f}"])
         if bandwidth > 1:
             c.check(abs(total / sums[-1] - 1) < 1e-3, f"bandwidth {bandwidth}: integral "
-                                                      f"{100 * (total / sums[-1] - 1):+.2f} "
-                                                      "%, 0.1 % allowed")
+                                                      f"{100 * (total / sums[-1] - 1):+.2f} %, 0.1 % allowed")
     c.check(errors[-1] <= 5e-3, f"peak {100 * errors[-1]:.2f} % off at 20 rad/s, at most 0.5 %")
     c.check(errors[0] > errors[-1], f"the observer's lag shows in the peak: {100 * errors[0]:.1f} % at the default "
                                     f"0.2 rad/s")

@@ -80,9 +80,8 @@ def case(out):
     c = ladder.Case(
         "Sliding, slopes and collisions",
         2,
-        "A box that slides to a stop (mu 0.1, 2 m/s) along, across and between the directions of the friction rows; a "
-        "box "
-        "on slopes (mu 0.3); two floes that meet head on; a floe that is caught at a corner.",
+        "A box that slides to a stop (mu 0.1, 2 m/s) along, across and between the directions of the friction "
+        "rows; a box on slopes (mu 0.3); two floes that meet head on; a floe that is caught at a corner.",
         "Coulomb's law and the conservation of momentum: v^2/(2 mu g), g (sin a - mu cos a), plastic impact.",
         "First order in dt for what takes time (a stop falls inside a step); 1e-6 and better for the impacts, whatever "
         "the step.",
@@ -121,8 +120,7 @@ def case(out):
         enter(f"corner, speed after (dt {dt})", [(dt, speed)], 0.6, "m/s", 2e-4)
         enter(f"corner, spin after (dt {dt})", [(dt, spin)], 0.12, "rad/s", 2e-4)
     c.found = ("The corner's contact is 0.5 mm of face, not a point: the lever is 0.25 mm short of 5 m, which is what "
-               "its "
-               "numbers are off by.")
+               "its numbers are off by.")
 
     def draw(axes):
         fine = [10 + 0.1 * i for i in range(211)]

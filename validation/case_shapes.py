@@ -43,14 +43,11 @@ def case(out):
     c = ladder.Case(
         "Square floes and polygonal floes",
         7,
-        f"A vertical cylinder of 20 m at {SPEED} m/s through fields of 80 %, 1 m thick, between walls 60 m to either "
-        f"side: "
-        f"square floes against convex floes of 6 to 9 corners of the same area ({DIAMETER:g} m), {len(SEEDS)} seeds "
-        f"each, "
-        f"{START:g} to {END:g} s.",
+        f"A vertical cylinder of 20 m at {SPEED} m/s through fields of 80 %, 1 m thick, between walls 60 m to "
+        f"either side: square floes against convex floes of 6 to 9 corners of the same area ({DIAMETER:g} m), "
+        f"{len(SEEDS)} seeds each, {START:g} to {END:g} s.",
         "Van den Berg et al. (2019): square floes load a vertical structure more than polygonal ones of the same "
-        "size, in mean "
-        "and standard deviation.",
+        "size, in mean and standard deviation.",
         "The squares' mean and standard deviation are larger by more than 2 standard errors of the difference.",
     )
     found = {}

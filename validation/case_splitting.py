@@ -59,14 +59,11 @@ def case(out):
         "Splitting by fracture mechanics",
         2,
         "Fixed floes of 1 m, 20 to 80 m long, whose side meets a steep plate, frictionless, with the option "
-        "`splitting: "
-        "toughness` (K_IC 150 kPa m^0.5): the in-plane load at which the floe splits.",
-        "Edge crack in a rectangular plate opened at its mouth: F = f h K_IC sqrt(L), f by width over length (0.1334 "
-        "at "
-        "0.5, 0.1869 at 1, 0.2105 at 2).",
+        "`splitting: toughness` (K_IC 150 kPa m^0.5): the in-plane load at which the floe splits.",
+        "Edge crack in a rectangular plate opened at its mouth: F = f h K_IC sqrt(L), f by width over length "
+        "(0.1334 at 0.5, 0.1869 at 1, 0.2105 at 2).",
         "First order in dt: the floe splits in the first step at which the load is reached, so that the simulated "
-        "load is "
-        "above the exact one by less than a step's growth.",
+        "load is above the exact one by less than a step's growth.",
     )
     c.header = ["floe [m]", "dt [s]", "load at splitting [kN]", "exact [kN]", "difference", "crack [m]"]
     steps, squares = (4e-3, 2e-3, 1e-3), []
@@ -78,13 +75,11 @@ def case(out):
                            f"{100 * (load / want - 1):.2f} %", f"{crack:.3f}"])
             c.check(kind == 1 and abs(crack / length - 1) < 1e-6 and -1e-6 <= load / want - 1 <= 2 * step / END,
                     f"{length:g} x {width:g} m, dt {step}: splits across at {100 * (load / want - 1):+.2f} % of the "
-                    f"exact "
-                    f"load, {200 * step / END:.2f} % allowed")
+                    f"exact load, {200 * step / END:.2f} % allowed")
         if length == width:
             squares.append((length, load))
     c.found = ("This is the option. The default rule of the reference has no load at all: a radial crack runs through "
-               "when "
-               "it is shorter than S_k = 3 breaking radii, and never when it is longer.")
+               "when it is shorter than S_k = 3 breaking radii, and never when it is longer.")
 
     def draw(axes):
         fine = [15 + i for i in range(71)]

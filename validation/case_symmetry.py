@@ -70,8 +70,8 @@ def case(out):
         "Symmetries",
         1,
         f"Ice force on a hull over {STEPS} steps: a scene scaled by Froude's rule with lambda 4 and 16; hull that "
-        f"moves "
-        "in still water against ice and water that move past it (50 steps); mirrored and turned by 90 degrees.",
+        "moves in still water against ice and water that move past it (50 steps); mirrored and turned by 90 "
+        "degrees.",
         "The runs themselves.",
         "Scaled: 1e-12 of the largest force (powers of two: finds hidden dimensional constants). Moved: 1e-9. Mirrored "
         "and turned: 1e-6, with the accurate solver, since the order of contacts changes.",

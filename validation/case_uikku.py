@@ -15,6 +15,7 @@ ROWS = {103: (0.77, 724, 1748, 929, 0.2, 480, 130, 920, 100), 104: (0.76, 844, 2
 STEPS = {0.2: 0.05, 0.5: 0.04, 1.0: 0.02}
 # The bow meets the ice after 10 m and is in it over its whole width after 40; what comes then counts.
 SKIP, WAY = 42.0, 84.0
+SPREAD = (103, 303)  # tests that are run with the variants too
 VARIANTS = {"as fixed": (0, 0, FRICTION), "angles -5 deg": (-5, -5, FRICTION), "angles +5 deg": (5, 5, FRICTION),
             "mu 0.05": (0, 0, 0.05), "mu 0.15": (0, 0, 0.15)}
 
@@ -56,21 +57,17 @@ def case(out):
     c = ladder.Case(
         "MT Uikku towed through level ice",
         6,
-        f"Five published towing tests (full-scale values of a 1:31.56 model). A short campaign: one start, {SKIP:g} m "
-        f"until "
-        f"the bow is in, then {WAY - SKIP:g} m that count (the tests: several ship lengths), with the spread over "
-        f"stem and "
-        "entrance angle -5 and +5 degrees and friction 0.05 and 0.15. Loads averaged over 0.5 s at full scale.",
-        "Hu and Zhou (2016), IJNAOE 8:169-176. Hull angles (30 and 21 degrees), friction 0.1 and ice density 920 are "
-        "not "
-        "published there and were fixed in `scenes/uikku_303.yaml` before the first run. Beside it Lindqvist (1989) "
-        "with the "
-        "same inputs, and the best constant.",
-        "Published formulas are off by 22 to 51 % on the whole campaign. A mean absolute error of the same kind (at "
-        "most 51 "
-        "%) is expected; the measured means should lie inside the spread over angles and friction.",
+        "Five published towing tests (full-scale values of a 1:31.56 model). A short campaign: one start, "
+        f"{SKIP:g} m until the bow is in, then {WAY - SKIP:g} m that count (the tests: several ship lengths); for "
+        "tests 103 and 303 also the spread over stem and entrance angle -5 and +5 degrees and friction 0.05 and 0.15. Loads are "
+        "averaged over 0.5 s at full scale.",
+        "Hu and Zhou (2016), IJNAOE 8:169-176. Hull angles (30 and 21 degrees), friction 0.1 and ice density 920 "
+        "are not published there and were fixed in `scenes/uikku_303.yaml` before the first run. Beside it "
+        "Lindqvist (1989) with the same inputs, and the best constant.",
+        "Published formulas are off by 22 to 51 % on the whole campaign. A mean absolute error of the same kind "
+        "(at most 51 %) is expected; the measured means should lie inside the spread over angles and friction.",
     )
-    runs = [(test, variant) for test in ROWS for variant in VARIANTS]
+    runs = [(test, variant) for test in ROWS for variant in VARIANTS if test in SPREAD or variant == "as fixed"]
     series = dict(zip(runs, ladder.run_all([job(*r) for r in runs])))
     c.header = ["test", "h, v", "measured mean (std, max) [kN]", "Fram, as fixed (std, max)",
                 *list(VARIANTS)[1:], "Lindqvist", "Fram / measured", "std/mean: measured, Fram", "max/mean: measured, "
@@ -78,7 +75,7 @@ def case(out):
     errors, formula, spans = {}, {}, {}
     for test, row in ROWS.items():
         h, v, mean, std, largest = row[0], row[4], *row[5:8]
-        found = {variant: counts(series[test, variant], v) for variant in VARIANTS}
+        found = {variant: counts(series[test, variant], v) for variant in VARIANTS if (test, variant) in series}
         base = found["as fixed"]
         lq = lindqvist(row, STEM, ENTRANCE, FRICTION) / 1e3
         errors[test], formula[test] = base[0] / mean - 1, lq / mean - 1
@@ -86,11 +83,12 @@ def case(out):
         spans[test] = min(every), base[0], max(every)
         c.rows.append([test, f"{h} m, {v} m/s", f"{mean} ({std}, {largest})",
                        f"{base[0]:.0f} ({base[1]:.0f}, {base[2]:.0f})",
-                       *(f"{f[0]:.0f}" for f in list(found.values())[1:]),
+                       *(f"{found[variant][0]:.0f}" if variant in found else "" for variant in list(VARIANTS)[1:]),
                        f"{lq:.0f}", f"{base[0] / mean:.2f}", f"{std / mean:.2f}, {base[1] / base[0]:.2f}",
                        f"{largest / mean:.2f}, {base[2] / base[0]:.2f}"])
-        c.check(min(every) <= mean <= max(every), f"test {test}: measured {mean} kN, Fram {min(every):.0f} to "
-                                                  f"{max(every):.0f} over angles and friction")
+        if test in SPREAD:
+            c.check(min(every) <= mean <= max(every), f"test {test}: measured {mean} kN, Fram {min(every):.0f} to "
+                                                      f"{max(every):.0f} over angles and friction")
 
     def off(of):
         return sum(abs(e) for e in of.values()) / len(of), sum(of.values()) / len(of)
@@ -99,11 +97,10 @@ def case(out):
     constant = min(sum(abs(k / m - 1) for m in measured) / len(measured) for k in range(300, 1000))
     (mae, bias), (lq_mae, lq_bias) = off(errors), off(formula)
     c.check(mae <= 0.51, f"mean absolute error {100 * mae:.0f} %, bias {100 * bias:+.0f} %; Lindqvist with the same "
-                         f"inputs "
-                         f"{100 * lq_mae:.0f} %, {100 * lq_bias:+.0f} %; the best constant {100 * constant:.0f} %")
+                         f"inputs {100 * lq_mae:.0f} %, {100 * lq_bias:+.0f} %; the best constant "
+                         f"{100 * constant:.0f} %")
     c.found = ("A short set, one start: the uncertainty of a mean over 42 m of way is some 5 to 10 %. Nothing was "
-               "changed after "
-               "the first run.")
+               "changed after the first run.")
 
     def draw(axes):
         for at, test in enumerate(ROWS):

@@ -24,14 +24,11 @@ def case(out):
         "Number of wedges",
         3,
         "N wedges share a load: capacity and breaking radius of 1 m of ice under a patch of 0.2 m2 for N = 2 to 8 "
-        "(fram ice "
-        "break), and mean resistance and mean R_bending of the icebreaker of `scenes/level_ice.yaml` from 18 to 32 s, "
-        "two "
-        "starts each, for N = 2 to 5.",
+        "(fram ice break), and mean resistance and mean R_bending of the icebreaker of `scenes/level_ice.yaml` "
+        "from 18 to 32 s, two starts each, for N = 2 to 5.",
         "P = sigma_f h^2 (N b0/6) C, b0 = 2 tan(pi/(2 N)): N b0 falls from 4 (N = 2) to pi.",
-        "Converges: N b0 - pi = pi^3/(12 N^2), second order in 1/N. N is a parameter of the reference (3 to 5); the "
-        "ship's "
-        "resistance must not hang on it by more than 15 %.",
+        "Converges: N b0 - pi = pi^3/(12 N^2), second order in 1/N. N is a parameter of the reference (3 to 5); "
+        "the ship's resistance must not hang on it by more than 15 %.",
     )
     c.header = ["N", "capacity [kN]", "to N = 32", "R_bending [m]", "ship: resistance [kN]", "of the two starts",
                 "ship: mean R_bending [m]"]
@@ -67,8 +64,7 @@ def case(out):
     c.check(min(orders) >= 1, f"capacity: observed orders in 1/N {orders[0]:.2f}, {orders[1]:.2f}, at least 1")
     spread = (max(resistance.values()) - min(resistance.values())) / resistance[3]
     c.check(spread <= 0.15, f"resistance of the ship: {100 * spread:.0f} % between the largest and the smallest N, at "
-                            f"most "
-                            "15 %")
+                            "most 15 %")
 
     def draw(axes):
         axes[0].plot(COUNTS, [capacity[n] / 1e3 for n in COUNTS], "o-")

@@ -53,9 +53,9 @@ def revision():
 
 def page(name, case, seconds, head):
     """The page of one case."""
-    lines = [f"# {case.title}", "", f"Rung {case.rung} of the [ladder](README.md). {head} ({seconds:.0f} s of "
-                                    f"computing "
-             f"with what was already there; `make validate VALIDATE_FLAGS=\"--only {name}\"`).", ""]
+    made = (f"{head} ({seconds:.0f} s of computing with what was already there; "
+            f"`make validate VALIDATE_FLAGS=\"--only {name}\"`).")
+    lines = [f"# {case.title}", "", f"Rung {case.rung} of the [ladder](README.md). {made}", ""]
     lines += [f"**Tests.** {case.tests}", "", f"**Source.** {case.source}", "", f"**Expected.** {case.expected}", ""]
     lines += [f"**Verdict: {'agrees' if case.good else 'does not agree'}.** {case.found}".rstrip(), ""]
     if case.rows:
@@ -72,9 +72,9 @@ def index(verdicts):
     agree = sum(v["good"] for v in verdicts.values())
     lines = ["# Validation", "",
              "Made by `make validate`; `VALIDATE_FLAGS=--quick` runs the cases of a few minutes, `--only NAME` one. "
-             "Each "
-             "case says what it tests, where the numbers come from, which agreement is expected and why, and what was "
-             "found, good or bad. Nothing is tuned to a case: parameters are those of its source or the defaults. What "
+             "Each case says what it tests, where the numbers come from, which agreement is expected and why, and "
+             "what was found, good or bad. Nothing is tuned to a case: parameters are those of its source or the "
+             "defaults. What "
              "disagrees, and the size of each known error, stands in the [limits](../limits.md).", "",
              f"{agree} of {len(verdicts)} cases agree.", ""]
     for rung, title in RUNGS.items():
@@ -112,8 +112,6 @@ def main():
     if unknown:
         parser.error(f"no case {', '.join(sorted(unknown))}; there are {', '.join(modules)}")
     kept = options.out / "verdicts.json"
-    verdicts = json.loads(kept.read_text()) if kept.exists() else {}
-    verdicts = {name: v for name, v in verdicts.items() if name in modules}
     head = f"{version()}, revision {revision()}, {datetime.date.today()}, {machine()}"
     failed, begun = 0, time.monotonic()
     for name, module in modules.items():
@@ -138,6 +136,9 @@ def main():
             print(f"  {'good' if good else 'FAILED'}: {what}", flush=True)
         failed += not case.good
         (options.out / f"{name}.md").write_text(page(name, case, seconds, head))
+        # Read anew: another run may have made other cases meanwhile.
+        verdicts = json.loads(kept.read_text()) if kept.exists() else {}
+        verdicts = {key: v for key, v in verdicts.items() if key in modules}
         verdicts[name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
                           "failed": [what for what, good in case.checks if not good],
                           "made": f"{datetime.date.today()}, {revision()}"}
