@@ -53,7 +53,7 @@ def case(out):
                       capsize=3, label="Fram")
         axes.plot(COVERS, [zuev(x) / 1e3 for x in COVERS], "--", label="Zuev")
         axes.plot(COVERS, [huang(x) / 1e3 for x in COVERS], ":", label="Huang 2021")
-        axes.set(xlabel="concentration", ylabel="mean resistance [kN]", yscale="log")
+        axes.set(xlabel="concentration", ylabel="mean resistance [kN]", ylim=(0, None))
         axes.legend()
 
     ladder.figure(c, out, "concentration", "Mean resistance against concentration.", draw)

@@ -139,8 +139,8 @@ def case(out):
                      [k * SPEED / w * math.sin(w * end * i / 100) / 1e3 for i in range(101)], "k--", label="exact")
         axes[0].set(xlabel="time [s]", ylabel="force [kN]")
         axes[0].legend()
-        pressed = [(1e3 * d, f / 1e3) for d, f in zip(ways, forces) if f > 0]
-        axes[1].plot(*zip(*pressed))
+        end = ways.index(max(ways))
+        axes[1].plot([1e3 * d for d in ways[:end]], [f / 1e3 for f in forces[:end]])
         axes[1].plot([0, 1e3 * SPEED / w], [0, k * SPEED / w / 1e3], "k--")
         axes[1].set(xlabel="penetration [mm]", ylabel="force [kN]")
 

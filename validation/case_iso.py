@@ -65,12 +65,15 @@ def case(out):
                "few metres.")
 
     def draw(axes):
+        import matplotlib.ticker
+
         fine = [10 ** (i / 25) for i in range(51)]
         axes.loglog(fine, [iso(w, 1.0) / w / 1e6 for w in fine], "k", label="ISO 19906, C_R 2.2 MPa")
         axes.loglog(WIDTHS, [found[w, 1.0][0] / w / 1e6 for w in WIDTHS], "o", mfc="none", label="Fram, constant 2 MPa")
         axes.loglog(WIDTHS, [found[w, 1.0][1] / w / 1e6 for w in WIDTHS], "x", label="Fram, exponent -0.16")
         axes.set(xlabel="width [m], ice of 1 m", ylabel="mean pressure [MPa]")
         axes.set_yticks([0.5, 1, 2, 3], ["0.5", "1", "2", "3"])
+        axes.yaxis.set_minor_locator(matplotlib.ticker.NullLocator())
         axes.legend()
 
     ladder.figure(c, out, "iso", "Mean pressure on a vertical wall.", draw)
