@@ -59,8 +59,8 @@ def case(out):
         6,
         "Five published towing tests (full-scale values of a 1:31.56 model). A short campaign: one start, "
         f"{SKIP:g} m until the bow is in, then {WAY - SKIP:g} m that count (the tests: several ship lengths); for "
-        "tests 103 and 303 also the spread over stem and entrance angle -5 and +5 degrees and friction 0.05 and 0.15. Loads are "
-        "averaged over 0.5 s at full scale.",
+        "tests 103 and 303 also the spread over stem and entrance angle -5 and +5 degrees and friction 0.05 and 0.15. "
+        "Loads are averaged over 0.5 s at full scale.",
         "Hu and Zhou (2016), IJNAOE 8:169-176. Hull angles (30 and 21 degrees), friction 0.1 and ice density 920 "
         "are not published there and were fixed in `scenes/uikku_303.yaml` before the first run. Beside it "
         "Lindqvist (1989) with the same inputs, and the best constant.",
