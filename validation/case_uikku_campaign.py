@@ -1,4 +1,4 @@
-"""Towing tests of MT Uikku in level ice."""
+"""Five towing tests of MT Uikku in level ice, and the spread over what was not published."""
 
 import math
 
@@ -43,7 +43,7 @@ def job(test, variant):
             "domain__y_max": 45, "vessel__hull__stem_angle_deg": STEM + stem, "output__frame_interval": 0,
             "vessel__hull__entrance_angle_deg": ENTRANCE + entrance, "output__checkpoint_interval": 0,
             "ice__friction__ice_hull_static": mu, "ice__friction__ice_hull_kinetic": mu}
-    return SCENE, f"uikku/{test}_{variant.replace(' ', '_')}", keys
+    return SCENE, f"uikku_campaign/{test}_{variant.replace(' ', '_')}", keys
 
 
 def counts(series, v):
@@ -55,7 +55,7 @@ def counts(series, v):
 
 def case(out):
     c = ladder.Case(
-        "MT Uikku towed through level ice",
+        "MT Uikku, five tests",
         6,
         "Five published towing tests (full-scale values of a 1:31.56 model). A short campaign: one start, "
         f"{SKIP:g} m until the bow is in, then {WAY - SKIP:g} m that count (the tests: several ship lengths); for "
@@ -115,5 +115,5 @@ def case(out):
         axes.set(ylabel="mean resistance [kN]", ylim=(0, None))
         axes.legend()
 
-    ladder.figure(c, out, "uikku", "Measured and simulated mean resistance.", draw)
+    ladder.figure(c, out, "uikku_campaign", "Measured and simulated mean resistance.", draw)
     return c
