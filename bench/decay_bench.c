@@ -60,7 +60,7 @@ static bool run_case(const char *vessel, const water_case *c, int mode, double d
     decay d;
     fram_error error = {0};
     char text[2000];
-    *line = (chart_line){c->name, NULL, NULL, 0, false};
+    *line = chart_line_make(c->name, NULL, NULL, 0, false);
     int size = snprintf(text, sizeof text, SCENE, c->form, c->skin);
     snprintf(text + size, sizeof text - (size_t)size, vessel, c->keys);
     if (decay_open(&d, text, &error) != FRAM_OK) {
@@ -79,7 +79,7 @@ static bool run_case(const char *vessel, const water_case *c, int mode, double d
     }
     printf("| %-5s | %-22s | %8.4f | %8.4f | %8.2g |\n", modes[mode].name, c->name, theory, period[1],
            period[1] / theory - 1);
-    *line = (chart_line){c->name, time, value, (int32_t)(duration / dt), false};
+    *line = chart_line_make(c->name, time, value, (int32_t)(duration / dt), false);
     decay_close(&d);
     return ok && period[1] > 0;
 }
@@ -102,13 +102,13 @@ static bool draw(const picture *pictures, const char *path)
 {
     page_panel panels[2 * MODES];
     for (int i = 0; i < 2 * MODES; i++)
-        panels[i] = (page_panel){
-            {pictures[i].title, pictures[i].subtitle, "time [s]", "part of amplitude", pictures[i].lines, CASES},
-            i / MODES * PANEL_WIDTH,
-            TOP + i % MODES * PANEL_HEIGHT,
-            PANEL_WIDTH,
-            PANEL_HEIGHT,
-            false};
+        panels[i] = (page_panel){chart_make(pictures[i].title, pictures[i].subtitle, "time [s]", "part of amplitude",
+                                            pictures[i].lines, CASES),
+                                 i / MODES * PANEL_WIDTH,
+                                 TOP + i % MODES * PANEL_HEIGHT,
+                                 PANEL_WIDTH,
+                                 PANEL_HEIGHT,
+                                 false};
     const page p = {"Free decay from rest at a small amplitude",
                     panels,
                     2 * MODES,

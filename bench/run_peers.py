@@ -7,6 +7,8 @@
       two threads against one on two cores, and whether two copies of one thread reach 1.9 at the same time
   bench/run_peers.py --loads SEEDS
       mean ship load over seeds of Fram, Bullet and ODE, with their spread
+  bench/run_peers.py --forces [--repeat R] [--sizes N ...] [--covers C ...]
+      Fram's exact water beside the peers' columns (their forces_ms), with each instruction set; prints, keeps nothing
 
 Results go to BASE.md, BASE.csv and BASE.json.  What BASE.json holds already is kept unless it is measured again, so
 that a long table can be made in pieces; --fresh begins anew.
@@ -328,6 +330,37 @@ def measure_loads(options):
     return {"loads": rows}
 
 
+def exact_water(options, scene):
+    """Milliseconds of Fram's exact water: alone (bench/fluid_bench, other memory between the calls), and the whole
+    stage of external forces in a step."""
+    took = {}
+    bench = pathlib.Path(options.fram).parent / "bench" / "fluid_bench"
+    for line in command("taskset", "-c", options.core, bench, scene, 9).splitlines():
+        found = re.match(r"(\w+)\s+water\s+cold.*fluid ([0-9.]+) ms", line)
+        if found:
+            took[f"Fram's water, {found[1]}"] = float(found[2])
+            took[f"Fram's stage of forces, {found[1]}"] = run_fram(
+                options, scene, options.core, "--exact-water", "--isa", found[1])["forces_ms"]
+    return took
+
+
+def measure_forces(options):
+    peers = build_peers()
+    for size in options.sizes:
+        for cover in options.covers:
+            scene, rounds = scene_of(size, cover), []
+            for _ in range(options.repeat):
+                took = {name: run_peer(options, program, scene)["forces_ms"] for name, program in peers.items()}
+                rounds.append({**took, **exact_water(options, scene)})
+            print(f"\n{size} floes, {cover} % cover, {options.repeat} rounds in turn, medians\n")
+            print("| program | forces ms | over bullet_f64 | over bullet_f32 | over ode |\n|---|---|---|---|---|")
+            for name in rounds[0]:
+                ratios = [statistics.median(r[name] / r[peer] for r in rounds)
+                          for peer in ("bullet_f64", "bullet_f32", "ode")]
+                print(f"| {name} | {median_of(rounds, name):.3f} | " + " | ".join(f"{x:.2f}" for x in ratios) + " |",
+                      flush=True)
+
+
 def main():
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--repeat", type=int, default=3)
@@ -346,10 +379,13 @@ def main():
     words.add_argument("--fram", default=str(ROOT / "build" / "release" / "fram"))
     words.add_argument("--out", default=str(WORK / "peers"))
     words.add_argument("--threads-only", action="store_true")
+    words.add_argument("--forces", action="store_true")
     words.add_argument("--loads", type=int, default=0, metavar="SEEDS")
     options = words.parse_args()
     if options.threads_only:
         write_report(measure_threads(options), options)
+    elif options.forces:
+        measure_forces(options)
     elif options.loads:
         write_report(measure_loads(options), options)
     else:

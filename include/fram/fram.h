@@ -231,6 +231,7 @@ typedef struct fram_bench_scene_definition {
     int iterations;     /* of the solver, for velocities and for positions */
     const char *solver; /* "sequential", "fast", "accurate" */
     const char *dump;   /* file for the final poses, NULL: none */
+    int exact_water;    /* not 0: Fram's own water, with the scene's coefficients */
 } fram_bench_scene_definition;
 FRAM_API void fram_bench_scene_default(fram_bench_scene_definition *definition);
 /* FRAM_ERROR_INPUT with file and line for a scene that cannot be read. */

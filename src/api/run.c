@@ -147,8 +147,12 @@ static fram_status scene_options(const fram_bench_scene_definition *d, bench_sce
                          "expected 0 <= warm < time, a positive time step, and at most 1e8 steps");
     if (d->iterations < 1 || d->iterations > 1000000)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "iterations", "expected 1 to 1000000");
-    *out = (bench_scene_options){
-        .time_step = d->time_step, .warm = d->warm, .time = d->time, .iterations = d->iterations, .dump = d->dump};
+    *out = (bench_scene_options){.time_step = d->time_step,
+                                 .warm = d->warm,
+                                 .time = d->time,
+                                 .iterations = d->iterations,
+                                 .dump = d->dump,
+                                 .exact_water = d->exact_water != 0};
     for (int i = 0; i < (int)(sizeof solvers / sizeof *solvers); i++) {
         if (d->solver && strcmp(d->solver, solvers[i]) == 0) {
             out->solver = (solver_kind)i;

@@ -7,7 +7,7 @@
 typedef struct bench_words {
     common_options common;
     const char *path; /* of the scenario, or of the scene */
-    bool is_scene, all_solvers;
+    bool is_scene, all_solvers, exact_water;
     double warm, time; /* NOT_GIVEN: the default */
     option_list overrides;
     fram_bench_scene_definition scene;
@@ -117,8 +117,9 @@ static int check_words(const bench_words *w, const char *scene)
         return answer_usage(&w->common, w->path, "one scenario or one scene, not both");
     if (!scene && !w->path)
         return answer_usage(&w->common, "SCENARIO", "name a scenario file, or a scene with --scene FILE");
-    if (!scene && (w->all_solvers || w->scene.dump))
-        return answer_usage(&w->common, w->all_solvers ? "--solvers" : "--dump", "is for scenes: --scene FILE");
+    const char *of_scenes = w->all_solvers ? "--solvers" : w->scene.dump ? "--dump" : "--exact-water";
+    if (!scene && (w->all_solvers || w->scene.dump || w->exact_water))
+        return answer_usage(&w->common, of_scenes, "is for scenes: --scene FILE");
     if (scene && w->overrides.count > 0)
         return answer_usage(&w->common, "--set", "is for scenarios");
     return -1;
@@ -139,6 +140,8 @@ int command_bench(const command_row *self, int argc, char **argv)
         {"--solver", NULL, OPTION_TEXT, &w.scene.solver, "NAME", "scene: sequential, fast or accurate"},
         {"--solvers", NULL, OPTION_FLAG, &w.all_solvers, NULL,
          "scene: load, residual, overlap and time of each solver"},
+        {"--exact-water", NULL, OPTION_FLAG, &w.exact_water, NULL,
+         "scene: Fram's own water in place of the scene's columns"},
         {"--dump", NULL, OPTION_TEXT, &w.scene.dump, "FILE", "scene: write the final poses as CSV"},
     };
     int code = options_read_some(self, rows, sizeof rows / sizeof *rows, &w.common, argc, argv, &w.path, 0, 1);
@@ -150,6 +153,7 @@ int command_bench(const command_row *self, int argc, char **argv)
     if (scene) {
         w.is_scene = true;
         w.path = scene;
+        w.scene.exact_water = w.exact_water;
         w.scene.warm = w.warm < 0 ? w.scene.warm : w.warm;
         w.scene.time = w.time < 0 ? w.scene.time : w.time;
     }

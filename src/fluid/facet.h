@@ -1,11 +1,13 @@
 /* Integrals of pressure and drag over one plane facet that lies wholly in one medium: what meshes and prisms are both
    made of. All points are relative to the body's centre of mass, axes of the global frame.  A facet is a convex polygon
    with its unit normal, outward; vertices that run clockwise about the normal make a facet of negative area, so that
-   signed fans add up to concave faces.  Knows no bodies and no shapes. */
+   signed fans add up to concave faces.
+   Knows no meshes. */
 #ifndef FLUID_FACET_H
 #define FLUID_FACET_H
 
 #include "bodies/body.h"
+#include "bodies/shape.h"
 #include "fluid/media.h"
 
 /* Most vertices of a facet: a quadrilateral cut by the water plane and by the line where it stops moving into the
@@ -34,6 +36,14 @@ stream stream_of_air(const media *m, const drag_coefficients *c, vec3 velocity, 
 static inline double prism_current_height(double height, double rise)
 {
     return height + fabs(rise) <= 0 ? height : 0.5 * fmin(0, height - fabs(rise));
+}
+/* The current there for the prism of a slot [m/s]. */
+static inline vec3 prism_current(const media *m, const body_table *b, const shape_store *shapes, int32_t slot)
+{
+    if (m->profile.count == 0)
+        return m->current;
+    double rise = shapes->shapes.half_height[b->shape[slot]] * quat_matrix(b->orientation[slot]).m[2][2];
+    return media_current(m, prism_current_height(b->position[slot].z, rise));
 }
 /* Whether the medium can exert any drag at all. */
 static inline bool stream_acts(const stream *s) { return s->form > 0 || s->skin > 0; }

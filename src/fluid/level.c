@@ -46,15 +46,6 @@ static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n
         b->corner[k][lane] = vertex[0];
 }
 
-static vec3 current_at(const level_work *w, int32_t slot)
-{
-    if (w->media->profile.count == 0)
-        return w->media->current;
-    const body_table *t = w->bodies;
-    double rise = w->shapes->shapes.half_height[t->shape[slot]] * quat_matrix(t->orientation[slot]).m[2][2];
-    return media_current(w->media, prism_current_height(t->position[slot].z, rise));
-}
-
 static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
 {
     const body_table *t = w->bodies;
@@ -69,7 +60,7 @@ static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
     b->turn[3][lane] = q.z;
     b->half[lane] = s->half_height[shape];
     set_lane(b->spin, lane, t->angular_velocity[slot]);
-    set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], current_at(w, slot)));
+    set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], prism_current(w->media, t, w->shapes, slot)));
     b->water.form[lane] = c->water_form;
     b->water.skin[lane] = c->water_skin;
     if (w->dry) {

@@ -4,14 +4,11 @@
 /* Two Gauss points on [0, 1], each of weight 1/2. */
 #define GAUSS_NEAR 0.21132486540518713
 #define GAUSS_FAR 0.78867513459481287
-/* Two points on [0, 1] for the weight rho (Gauss-Jacobi), exact to degree 3: (6 -+ sqrt 6)/10, and weights. */
-#define RADIAL_NEAR 0.35505102572168219
-#define RADIAL_FAR 0.84494897427831781
-#define RADIAL_NEAR_WEIGHT 0.18195861825602283
-#define RADIAL_FAR_WEIGHT 0.31804138174397717
-/* Where the least inflow of a cap is more than this part of the largest, int p^2 over |g|^2 loses digits and the
-   moments of the outline take over; below it both are good to a few roundings, and few caps need another pass. */
-#define NEARLY_EVEN 0.875
+/* A cap turns less than this: the speed of turning at the outline's radius of gyration over that of going.  The first
+   power of it is then good to its square, and the exact way has lost as many digits as that. */
+#define EVEN 1e-4
+/* Square of an angular velocity below which it is none [rad2/s2]. */
+#define NO_TURN 1e-200
 /* Squared length of an edge below which it is none: a padded one [m2]. */
 #define NO_LENGTH 1e-300
 
@@ -157,15 +154,14 @@ V8_INLINE level_moments outline_moments(const level_batch *b, const level_floes 
 
 /* Columns over the outline from the lower cap to the water plane: their lengths, and half the difference of the squares
    of their ends. */
-V8_INLINE void add_hydrostatics(const level_batch *b, const level_floes *f, level_batch *out)
+V8_INLINE void add_hydrostatics(const level_batch *b, const level_floes *f, const level_moments *m, level_batch *out)
 {
-    level_moments m = outline_moments(b, f);
     real depth = f->water0 + f->half, s = f->waterx, t = f->watery;
-    real volume = m.area * depth + (s * m.x + t * m.y);
-    real3 first = {m.x * depth + (s * m.xx + t * m.xy), m.y * depth + (s * m.xy + t * m.yy), zero()};
+    real volume = m->area * depth + (s * m->x + t * m->y);
+    real3 first = {m->x * depth + (s * m->xx + t * m->xy), m->y * depth + (s * m->xy + t * m->yy), zero()};
     real h = f->water0;
-    real squares = m.area * (h * h - f->half * f->half) + 2 * h * (s * m.x + t * m.y) +
-                   (s * s * m.xx + 2 * s * t * m.xy + t * t * m.yy);
+    real squares = m->area * (h * h - f->half * f->half) + 2 * h * (s * m->x + t * m->y) +
+                   (s * s * m->xx + 2 * s * t * m->xy + t * t * m->yy);
     first.z = 0.5 * squares;
     real gx = f->r[0][0] * first.x + f->r[0][1] * first.y + f->r[0][2] * first.z;
     real gy = f->r[1][0] * first.x + f->r[1][1] * first.y + f->r[1][2] * first.z;
@@ -179,11 +175,6 @@ V8_INLINE void add_hydrostatics(const level_batch *b, const level_floes *f, leve
 }
 
 /* ---- form drag of a cap ---- */
-
-/* Integrals over the part of a cap that moves into the medium of f^2, x f^2 and y f^2. */
-typedef struct cap_form {
-    real square, x, y;
-} cap_form;
 
 /* The part of [0, 1] where the linear function from a to b is positive. */
 typedef struct part {
@@ -199,128 +190,106 @@ V8_INLINE part positive_part(real a, real b)
                   maximum(a, zero()), maximum(b, zero())};
 }
 
-/* f of one sign and nearly even: by the moments of the outline up to the third. */
-V8_INLINE cap_form whole_cap(const level_batch *b, const level_floes *f, real level, real gx, real gy)
-{
-    cap_form sum = {zero(), zero(), zero()};
-    real xa = f->x[0], ya = f->y[0], fa = level + (gx * xa + gy * ya);
-    for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = f->x[k], yb = f->y[k], fb = level + (gx * xb + gy * yb);
-        /* The triangle from the origin, with f = level there: oracles' rule for int f^2 and int f^2 r. */
-        real cross = xa * yb - xb * ya, s = level + (fa + fb), q = level * level + (fa * fa + fb * fb),
-             both = s * s + q;
-        real at_a = both + 2 * fa * (s + fa), at_b = both + 2 * fb * (s + fb);
-        sum.square += cross * both;
-        sum.x += cross * (xa * at_a + xb * at_b);
-        sum.y += cross * (ya * at_a + yb * at_b);
-        xa = xb;
-        ya = yb;
-        fa = fb;
-    }
-    return (cap_form){sum.square * (1.0 / 24), sum.x * (1.0 / 120), sum.y * (1.0 / 120)};
-}
-
-/* f of both signs, or of one that differs over the cap.  With p = f where it is positive: p^2 = div(p^3 g / 3) / |g|^2,
-   and p^2 r = [div(p^3 r g / 3) - p^3 g / 3] / |g|^2, int p^3 / 3 the same way from p^4 / 12. */
-V8_INLINE cap_form parted_cap(const level_batch *b, const level_floes *f, real level, real gx, real gy)
-{
-    real cubes = zero(), cubes_x = zero(), cubes_y = zero(), fourths = zero();
-    real xa = f->x[0], ya = f->y[0], fa = level + (gx * xa + gy * ya);
-    for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = f->x[k], yb = f->y[k], fb = level + (gx * xb + gy * yb);
-        real ex = xb - xa, ey = yb - ya;
-        part p = positive_part(fa, fb);
-        real flux = (gx * ey - gy * ex) * (p.to - p.from);
-        real aa = p.a * p.a, bb = p.b * p.b, ab = p.a * p.b, aaa = aa * p.a, bbb = bb * p.b, aab = aa * p.b,
-             abb = ab * p.b;
-        real near_a = flux * (4 * aaa + 3 * aab + (2 * abb + bbb)),
-             near_b = flux * (aaa + 2 * aab + (3 * abb + 4 * bbb));
-        cubes += flux * (aaa + aab + (abb + bbb));
-        fourths += flux * (aaa * (p.a + p.b) + aa * bb + bbb * (p.a + p.b));
-        cubes_x += near_a * (xa + p.from * ex) + near_b * (xa + p.to * ex);
-        cubes_y += near_a * (ya + p.from * ey) + near_b * (ya + p.to * ey);
-        xa = xb;
-        ya = yb;
-        fa = fb;
-    }
-    real g2 = gx * gx + gy * gy, inverse = 1 / choose(less(zero(), g2), g2, set(1));
-    real third = fourths * (inverse * (1.0 / 60));
-    return (cap_form){cubes * (inverse * (1.0 / 12)), inverse * (cubes_x * (1.0 / 60) - gx * third),
-                      inverse * (cubes_y * (1.0 / 60) - gy * third)};
-}
-
-/* side: +1 for the top, -1 for the bottom. */
+/* side: +1 for the top, -1 for the bottom.  Integrals over the part of the cap where the inflow f is positive, of f^2
+   and f^2 r, by triangles from one point to the edges' parts with f > 0: from the axis while f > 0 everywhere, else
+   from the point of the line f = 0 that is nearest to it, about which this line spans no triangle. */
 V8_INLINE void add_cap_form(const level_batch *b, const level_floes *f, real3 velocity, real form, double side,
                             level_sum *sum)
 {
     real level = side * velocity.z, gx = -side * f->spin.y, gy = side * f->spin.x;
-    real low = set(HUGE_VAL), high = set(-HUGE_VAL);
-    for (int32_t k = 0; k < b->sides; k++) {
-        real inflow = level + (gx * f->x[k] + gy * f->y[k]);
-        low = minimum(low, inflow);
-        high = maximum(high, inflow);
+    real low = set(HUGE_VAL), high = set(-HUGE_VAL), inflow[LEVEL_VERTICES + 1];
+    for (int32_t k = 0; k <= b->sides; k++) {
+        inflow[k] = level + (gx * f->x[k] + gy * f->y[k]);
+        low = minimum(low, inflow[k]);
+        high = maximum(high, inflow[k]);
     }
-    mask into = less(zero(), high), parted = into & less(low, NEARLY_EVEN * high);
-    cap_form c = {zero(), zero(), zero()};
-    if (v8_part_bits(parted))
-        c = parted_cap(b, f, level, gx, gy);
-    if (v8_part_bits(into & ~parted)) {
-        cap_form whole = whole_cap(b, f, level, gx, gy);
-        c = (cap_form){choose(parted, c.square, whole.square), choose(parted, c.x, whole.x),
-                       choose(parted, c.y, whole.y)};
+    mask into = less(zero(), high), parted = into & less(low, zero());
+    if (!v8_part_bits(into))
+        return;
+    real g2 = gx * gx + gy * gy, away = choose(parted, -level / choose(less(zero(), g2), g2, set(1)), zero());
+    real cx = away * gx, cy = away * gy, at_c = choose(parted, zero(), level), at_c2 = at_c * at_c;
+    real square = zero(), x = zero(), y = zero();
+    real xa = f->x[0] - cx, ya = f->y[0] - cy;
+    for (int32_t k = 1; k <= b->sides; k++) {
+        real xb = f->x[k] - cx, yb = f->y[k] - cy, ex = xb - xa, ey = yb - ya;
+        part p = positive_part(inflow[k - 1], inflow[k]);
+        real ax = xa + p.from * ex, ay = ya + p.from * ey, bx = xa + p.to * ex, by = ya + p.to * ey;
+        /* The triangle's rule for int f^2 and int f^2 r (24 and 120 times), where r = 0 at its third corner. */
+        real cross = ax * by - bx * ay, all = at_c + (p.a + p.b);
+        real both = all * all + (at_c2 + (p.a * p.a + p.b * p.b));
+        real at_a = cross * (both + 2 * p.a * (all + p.a)), at_b = cross * (both + 2 * p.b * (all + p.b));
+        square += cross * both;
+        x += ax * at_a + bx * at_b;
+        y += ay * at_a + by * at_b;
+        xa = xb;
+        ya = yb;
     }
     real push = choose(into, -side * form, zero());
-    sum->force.z += push * c.square;
-    sum->moment.x += push * c.y;
-    sum->moment.y -= push * c.x;
+    square *= 1.0 / 24;
+    sum->force.z += push * square;
+    sum->moment.x += push * (y * (1.0 / 120) + cy * square);
+    sum->moment.y -= push * (x * (1.0 / 120) + cx * square);
 }
 
 /* ---- skin drag of a cap ---- */
 
-/* Points on rays to points of the rim: at rho of the rim point (x, y) the square of the speed is a polynomial of rho.
-   Sums of weight * speed, times 1, x, y and x^2 + y^2. */
+/* int |v| v and int r x |v| v over a cap, v = u + turn z x r. */
 typedef struct cap_skin {
-    real one, x, y, square;
+    real x, y, turn;
 } cap_skin;
 
-/* cross: twice the area of the edge's triangle. */
-V8_INLINE void add_ray(cap_skin *sum, real x, real y, real cross, real u2, real bx, real by, real spin2)
+/* About the point r0 that rests, v = turn z x (r - r0): along a ray from there to the rim |v| v grows with the square
+   of the way, which integrates exactly, and what is left is a quadrature along the edges.  The rays' triangles are
+   summed with their signs, so r0 may lie outside. */
+V8_INLINE cap_skin turning_skin(const level_batch *b, const level_floes *f, real ux, real uy, real turn)
 {
-    real r2 = x * x + y * y, linear = bx * x + by * y, square = spin2 * r2;
-    real near2 = u2 + RADIAL_NEAR * (linear + RADIAL_NEAR * square);
-    real far2 = u2 + RADIAL_FAR * (linear + RADIAL_FAR * square);
-    real near = (0.5 * RADIAL_NEAR_WEIGHT) * cross * root(maximum(near2, zero()));
-    real far = (0.5 * RADIAL_FAR_WEIGHT) * cross * root(maximum(far2, zero()));
-    real first = RADIAL_NEAR * near + RADIAL_FAR * far;
-    real second = (RADIAL_NEAR * RADIAL_NEAR) * near + (RADIAL_FAR * RADIAL_FAR) * far;
-    sum->one += near + far;
-    sum->x += first * x;
-    sum->y += first * y;
-    sum->square += second * r2;
+    cap_skin c = {zero(), zero(), zero()};
+    real va = ux - turn * f->y[0], wa = uy + turn * f->x[0];
+    for (int32_t k = 1; k <= b->sides; k++) {
+        real vb = ux - turn * f->y[k], wb = uy + turn * f->x[k];
+        real cross = va * wb - vb * wa; /* turn^2 times that of the triangle */
+        real dv = GAUSS_NEAR * (vb - va), dw = GAUSS_NEAR * (wb - wa);
+        real v0 = va + dv, w0 = wa + dw, v1 = vb - dv, w1 = wb - dw;
+        real square0 = v0 * v0 + w0 * w0, square1 = v1 * v1 + w1 * w1;
+        real speed0 = cross * root(square0), speed1 = cross * root(square1);
+        c.x += speed0 * v0 + speed1 * v1;
+        c.y += speed0 * w0 + speed1 * w1;
+        c.turn += speed0 * square0 + speed1 * square1;
+        va = vb;
+        wa = wb;
+    }
+    real inverse = 1 / choose(less(set(NO_TURN), turn * turn), turn, set(1)), inverse2 = inverse * inverse;
+    c.x *= inverse2 * (1.0 / 8);
+    c.y *= inverse2 * (1.0 / 8);
+    c.turn = inverse * (c.turn * (inverse2 * (1.0 / 10)) - (ux * c.x + uy * c.y));
+    return c;
 }
 
-V8_INLINE void add_cap_skin(const level_batch *b, const level_floes *f, real3 velocity, real skin, double side,
-                            level_sum *sum)
+/* The same where the floe hardly turns, to the first power of turn: by the moments of the outline. */
+V8_INLINE cap_skin even_skin(const level_moments *m, real ux, real uy, real turn, real speed2)
+{
+    real speed = root(speed2), over = turn / choose(less(zero(), speed), speed, set(1));
+    /* |v| = speed + over (u . z x r), and int of u . z x r times 1, x and y. */
+    real along = uy * m->x - ux * m->y, along_x = uy * m->xx - ux * m->xy, along_y = uy * m->xy - ux * m->yy;
+    real whole = speed * m->area + over * along, rate = speed * turn;
+    return (cap_skin){whole * ux - rate * m->y, whole * uy + rate * m->x,
+                      speed * along + (over * (uy * along_x - ux * along_y) + rate * (m->xx + m->yy))};
+}
+
+V8_INLINE void add_cap_skin(const level_batch *b, const level_floes *f, const level_moments *m, real3 velocity,
+                            real skin, double side, level_sum *sum)
 {
     real z = side * f->half;
     real ux = velocity.x + f->spin.y * z, uy = velocity.y - f->spin.x * z, turn = f->spin.z;
-    real u2 = ux * ux + uy * uy, bx = 2 * turn * uy, by = -2 * turn * ux, spin2 = turn * turn;
-    cap_skin c = {zero(), zero(), zero(), zero()};
-    real xa = f->x[0], ya = f->y[0];
-    for (int32_t k = 1; k <= b->sides; k++) {
-        real xb = f->x[k], yb = f->y[k], cross = xa * yb - xb * ya;
-        real ex = GAUSS_NEAR * (xb - xa), ey = GAUSS_NEAR * (yb - ya);
-        add_ray(&c, xa + ex, ya + ey, cross, u2, bx, by, spin2);
-        add_ray(&c, xb - ex, yb - ey, cross, u2, bx, by, spin2);
-        xa = xb;
-        ya = yb;
-    }
-    real fx = -skin * (ux * c.one - turn * c.y), fy = -skin * (uy * c.one + turn * c.x);
+    real speed2 = ux * ux + uy * uy, turn2 = turn * turn;
+    mask even = less_equal(turn2 * (m->xx + m->yy), EVEN * EVEN * (m->area * speed2));
+    cap_skin c = turning_skin(b, f, ux, uy, turn), flat = even_skin(m, ux, uy, turn, speed2);
+    real fx = -skin * choose(even, flat.x, c.x), fy = -skin * choose(even, flat.y, c.y);
     sum->force.x += fx;
     sum->force.y += fy;
     sum->moment.x -= z * fy;
     sum->moment.y += z * fx;
-    sum->moment.z -= skin * (uy * c.x - ux * c.y + turn * c.square);
+    sum->moment.z -= skin * choose(even, flat.turn, c.turn);
 }
 
 /* ---- sides ---- */
@@ -332,46 +301,44 @@ typedef struct level_side {
     real base_a, base_b, depth_a, depth_b;
 } level_side;
 
-/* int p^2 d and int s p^2 d over s in [0, 1], p the positive part of the linear function from ga to gb. */
-V8_INLINE void add_form_line(real ga, real gb, real da, real db, real *sum0, real *sum1)
+/* Over the part of the side that moves into the medium at the middle of its depth d, with p the inflow there times the
+   edge's length and slope its change with z: integrals over the depth of p^2, s p^2 and (z - middle) p^2, along the
+   edge's s in [0, 1].  All are means of polynomials over that part, about its middle. */
+typedef struct side_form {
+    real zeroth, first, over_depth;
+} side_form;
+
+V8_INLINE side_form side_form_of(real ga, real gb, real slope, real depth_a, real depth_b)
 {
     part p = positive_part(ga, gb);
-    real length = p.to - p.from, slope = db - da, d0 = da + p.from * slope, d1 = da + p.to * slope;
-    real aa = p.a * p.a, bb = p.b * p.b, ab2 = 2 * p.a * p.b;
-    /* Coefficients of (1 - t)^3, (1 - t)^2 t, ... */
-    real c0 = aa * d0, c1 = aa * d1 + ab2 * d0, c2 = bb * d0 + ab2 * d1, c3 = bb * d1;
-    real zeroth = length * ((c0 + c3) * 0.25 + (c1 + c2) * (1.0 / 12));
-    real first = length * (c0 * 0.05 + c1 * (1.0 / 30) + c2 * 0.05 + c3 * 0.2);
-    *sum0 = zeroth;
-    *sum1 = p.from * zeroth + length * first;
+    real length = p.to - p.from, half = 0.5 * length, middle = 0.5 * (p.from + p.to), change = depth_b - depth_a;
+    real pc = 0.5 * (p.a + p.b), ph = 0.5 * (p.b - p.a), dc = depth_a + middle * change, dh = half * change;
+    real pcc = pc * pc, phh = ph * ph, twice = (2.0 / 3) * (pc * ph), dcc = dc * dc, dhh = dh * dh;
+    mask never = less(ga, zero()) & less(gb, zero());
+    real curved = choose(never, zero(), slope * slope * (1.0 / 12));
+    real cubes = dc * (dcc + dhh), cubes_t = dh * (dcc + 0.2 * dhh);
+    real squares = (dc * (pcc + (1.0 / 3) * phh) + dh * twice) + curved * cubes;
+    real squares_t = (dc * twice + dh * ((1.0 / 3) * pcc + 0.2 * phh)) + curved * cubes_t;
+    real zeroth = length * squares;
+    return (side_form){zeroth, middle * zeroth + half * (length * squares_t),
+                       (length * (1.0 / 6)) * (slope * (pc * cubes + ph * cubes_t))};
 }
 
-/* lines: Gauss points over the depth, 1 or 2. */
-V8_INLINE void add_side_form(const level_floes *f, real3 velocity, const level_side *e, int lines, level_sum *sum)
+V8_INLINE void add_side_form(const level_floes *f, real3 velocity, const level_side *e, level_sum *sum)
 {
-    static const double point[2][2] = {{0.5, 0}, {GAUSS_NEAR, GAUSS_FAR}};
     /* Speed into the medium times the edge's length, at the middle plane, and its change with z. */
     real along_a = e->ex * e->xa + e->ey * e->ya;
     real ga = (e->ey * velocity.x - e->ex * velocity.y) - f->spin.z * along_a, gb = ga - f->spin.z * e->length2;
     real gz = e->ey * f->spin.y + e->ex * f->spin.x;
-    real p0 = zero(), p1 = zero(), pz = zero();
-#pragma GCC unroll 2
-    for (int i = 0; i < lines; i++) {
-        double at = point[lines - 1][i];
-        real za = e->base_a + at * e->depth_a, zb = e->base_b + at * e->depth_b, s0, s1;
-        add_form_line(ga + gz * za, gb + gz * zb, e->depth_a, e->depth_b, &s0, &s1);
-        p0 += s0;
-        p1 += s1;
-        pz += za * s0 + (zb - za) * s1;
-    }
-    real share = e->inverse2 * (1.0 / lines);
-    p0 *= share;
-    pz *= share;
+    real za = e->base_a + 0.5 * e->depth_a, zb = e->base_b + 0.5 * e->depth_b;
+    side_form p = side_form_of(ga + gz * za, gb + gz * zb, gz, e->depth_a, e->depth_b);
+    real p0 = e->inverse2 * p.zeroth;
+    real pz = e->inverse2 * (za * p.zeroth + ((zb - za) * p.first + p.over_depth));
     sum->force.x -= e->ey * p0;
     sum->force.y += e->ex * p0;
     sum->moment.x -= e->ex * pz;
     sum->moment.y -= e->ey * pz;
-    sum->moment.z += along_a * p0 + (1.0 / lines) * p1;
+    sum->moment.z += along_a * p0 + p.first;
 }
 
 V8_INLINE void add_side_skin(const level_floes *f, real3 velocity, const level_side *e, level_sum *sum)
@@ -412,9 +379,9 @@ V8_INLINE void add_scaled(level_sum *to, const level_sum *add, real by)
     to->moment.x += by * add->moment.x, to->moment.y += by * add->moment.y, to->moment.z += by * add->moment.z;
 }
 
-/* side: -1 for the wet part between the bottom and the waterline, +1 for the dry one above it; lines: of form drag. */
-V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const level_stream *medium, const real *line,
-                            double side, int lines)
+/* side: -1 for the wet part between the bottom and the waterline, +1 for the dry one above it. */
+V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const level_moments *m,
+                            const level_stream *medium, const real *line, double side)
 {
     level_sum sum = {{zero(), zero(), zero()}, {zero(), zero(), zero()}}, form_sum = sum, skin_sum = sum;
     real3 velocity = to_body(f, load_vec(medium->velocity, f->at));
@@ -429,7 +396,7 @@ V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const le
         e.base_b = side < 0 ? -f->half : lb;
         e.depth_a = f->half - side * la;
         e.depth_b = f->half - side * lb;
-        add_side_form(f, velocity, &e, lines, &form_sum);
+        add_side_form(f, velocity, &e, &form_sum);
         add_side_skin(f, velocity, &e, &skin_sum);
         xa = xb;
         ya = yb;
@@ -438,7 +405,7 @@ V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const le
     add_scaled(&sum, &form_sum, form);
     add_scaled(&sum, &skin_sum, skin);
     add_cap_form(b, f, velocity, form, side, &sum);
-    add_cap_skin(b, f, velocity, skin, side, &sum);
+    add_cap_skin(b, f, m, velocity, skin, side, &sum);
     return sum;
 }
 
@@ -452,14 +419,15 @@ static unsigned part_loads(level_batch *b, int at)
     unsigned level = find_waterline(b, &f, line);
     if (level == 0)
         return 0;
-    add_hydrostatics(b, &f, b);
+    level_moments m = outline_moments(b, &f);
+    add_hydrostatics(b, &f, &m, b);
     if (b->wet) {
-        level_sum water = drag_of(b, &f, &b->water, line, -1, 2);
+        level_sum water = drag_of(b, &f, &m, &b->water, line, -1);
         store_global(&f, b->water_drag.force, water.force);
         store_global(&f, b->water_drag.moment, water.moment);
     }
     if (b->dry) {
-        level_sum air = drag_of(b, &f, &b->air, line, 1, 1);
+        level_sum air = drag_of(b, &f, &m, &b->air, line, 1);
         store_global(&f, b->air_drag.force, air.force);
         store_global(&f, b->air_drag.moment, air.moment);
     }

@@ -5,13 +5,11 @@
    waterline, and the caps are the outline itself.
 
    Hydrostatics are exact, from the second moments of the outline (oracles section 5).
-   Form drag of the caps is exact for any motion: the inflow f = L + g . r is linear, and where f changes its sign the
-   divergence theorem turns the integrals over the part with f > 0 into integrals of polynomials over the edges.
-   Form drag of a side is exact along the edge; over the depth it is a rule of two Gauss points, which is exact too
-   unless the side's motion changes its sign over the depth.
-   Skin drag is a quadrature: two Gauss points along each edge, times two Gauss-Jacobi points from the origin to the rim
-   (caps) or the middle of the depth (sides).  Over the air 1/800 as dense, form drag of the dry sides is taken at the
-   middle of their height too. */
+   Form drag of the caps is exact for any motion: the inflow f = L + g . r is linear, and where it changes its sign the
+   part with f > 0 is made of triangles from a point of the line f = 0.
+   Form drag of a side is exact along the edge and, unless its motion changes its sign over the depth, over the depth.
+   Skin drag is a quadrature: two Gauss points along each edge.  On caps it is exact along rays from the point that
+   rests; on sides it is taken at the middle of the depth. */
 #ifndef FLUID_LEVEL_KERNEL_H
 #define FLUID_LEVEL_KERNEL_H
 

@@ -21,31 +21,46 @@ typedef struct response_work {
     wrench *loads;
 } response_work;
 
-/* A prism as this room sees it, body axes. */
+/* A prism as this room sees it. */
 typedef struct prism_view {
-    int32_t shape;
-    mat3 rotation;
-    vec3 velocity, spin; /* relative to the water */
+    double along, up, turn,
+        tilt; /* speeds across and along its axis, relative to the water; spin about and across it */
     double area, radius, half_height;
-    polygon_moments moments; /* only where they are asked for */
+    /* Only where added mass or damping are asked for: body axes. */
+    mat3 rotation;
+    vec3 velocity, spin;
+    polygon_moments moments;
 } prism_view;
 
 static vec3 times(vec3 a, vec3 b) { return (vec3){a.x * b.x, a.y * b.y, a.z * b.z}; }
+/* Written out: the functions of the language ask about numbers that are none, and are called. */
+static double positive(double x) { return x > 0 ? x : 0; }
+
+static bool is_plain(const prism_response *s) { return !s->added_mass && !(s->damping_ratio > 0); }
 
 static prism_view view_of(const response_work *w, int32_t slot)
 {
     const body_table *b = w->bodies;
     const shape_table *s = &w->shapes->shapes;
-    prism_view v = {.shape = b->shape[slot], .rotation = quat_matrix(b->orientation[slot])};
-    v.area = s->area[v.shape];
-    v.radius = s->plan_radius[v.shape];
-    v.half_height = s->half_height[v.shape];
-    double rise = v.half_height * v.rotation.m[2][2];
-    vec3 current = media_current(w->media, prism_current_height(b->position[slot].z, rise));
-    v.velocity = mat3_tmul_vec(v.rotation, vec3_sub(b->velocity[slot], current));
-    v.spin = mat3_tmul_vec(v.rotation, b->angular_velocity[slot]);
-    if (w->settings->added_mass || w->settings->damping_ratio > 0)
-        v.moments = polygon_moments_of(shape_outline(w->shapes, v.shape));
+    int32_t shape = b->shape[slot];
+    vec3 velocity = vec3_sub(b->velocity[slot], prism_current(w->media, b, w->shapes, slot));
+    vec3 spin = b->angular_velocity[slot];
+    quat q = b->orientation[slot];
+    vec3 axis = {2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)};
+    double up = vec3_dot(velocity, axis), turn = vec3_dot(spin, axis);
+    prism_view v = {.along = sqrt(positive(vec3_dot(velocity, velocity) - up * up)),
+                    .up = fabs(up),
+                    .turn = fabs(turn),
+                    .tilt = sqrt(positive(vec3_dot(spin, spin) - turn * turn)),
+                    .area = s->area[shape],
+                    .radius = s->plan_radius[shape],
+                    .half_height = s->half_height[shape]};
+    if (!is_plain(w->settings)) {
+        v.rotation = quat_matrix(q);
+        v.velocity = mat3_tmul_vec(v.rotation, velocity);
+        v.spin = mat3_tmul_vec(v.rotation, spin);
+        v.moments = polygon_moments_of(shape_outline(w->shapes, shape));
+    }
     return v;
 }
 
@@ -62,8 +77,7 @@ static drag_bound bound_drag(const response_work *w, int32_t slot, const prism_v
     const drag_coefficients *c = &w->coefficients[w->bodies->material[slot]];
     double form = w->media->water_density * c->water_form, skin = w->media->water_density * c->water_skin;
     double r = v->radius, h = v->half_height, side = 4 * r * h;
-    double along = sqrt(v->velocity.x * v->velocity.x + v->velocity.y * v->velocity.y) + r * fabs(v->spin.z);
-    double up = fabs(v->velocity.z) + r * sqrt(v->spin.x * v->spin.x + v->spin.y * v->spin.y);
+    double along = v->along + r * v->turn, up = v->up + r * v->tilt;
     double push = form * side * along, rub = skin * (2 * v->area + 4 * side) * (along + up);
     double flat = push + rub, heave = form * v->area * up + skin * 4 * side * (along + up);
     /* Levers squared, over a plank of length 2 r: a third of r^2. */
@@ -71,23 +85,9 @@ static drag_bound bound_drag(const response_work *w, int32_t slot, const prism_v
     return (drag_bound){{flat, flat, heave}, {tilt, tilt, yaw}};
 }
 
-/* Whether no part of the bound can reach its limit, told without a root: both speeds in it are at most sqrt(speed2),
-   both faces at most `face`, and all levers squared at most `lever2`. */
-static bool drag_is_weak(const response_work *w, int32_t slot, const prism_view *v)
-{
-    const body_table *b = w->bodies;
-    const drag_coefficients *c = &w->coefficients[b->material[slot]];
-    sym3 i = b->inertia[slot];
-    double r = v->radius, h = v->half_height, face = 2 * v->area + 16 * r * h, lever2 = r * r + h * h;
-    double speed2 = 2 * (vec3_dot(v->velocity, v->velocity) + r * r * vec3_dot(v->spin, v->spin));
-    double rate = w->media->water_density * (c->water_form + 2 * c->water_skin) * face * w->time_step;
-    double limit = EXPLICIT_DRAG * fmin(b->mass[slot], fmin(i.xx, fmin(i.yy, i.zz)) / lever2);
-    return rate * rate * speed2 < limit * limit;
-}
-
 static double implicit_part(double bound, double mass, double time_step)
 {
-    return fmax(0, time_step * bound - EXPLICIT_DRAG * mass);
+    return positive(time_step * bound - EXPLICIT_DRAG * mass);
 }
 
 /* ---- one prism ---- */
@@ -101,7 +101,8 @@ static double wave_share(const response_work *w, int32_t slot, const prism_view 
 static double wet_share(const response_work *w, int32_t slot, const prism_view *v)
 {
     double whole = 2 * v->half_height * v->area;
-    return fmax(0, fmin(1, w->volume[slot] / (WHOLE_FROM * whole)));
+    double share = w->volume[slot] / (WHOLE_FROM * whole);
+    return share < 1 ? positive(share) : 1;
 }
 
 /* How much of the added mass came over the last step, as if the floe sank evenly over its height. */
@@ -155,21 +156,18 @@ static void respond(const response_work *w, int32_t slot)
     body_table *b = w->bodies;
     vec3 mass = none, inertia = none;
     prism_view v = view_of(w, slot);
-    bool plain = !w->settings->added_mass && !(w->settings->damping_ratio > 0);
-    if (!plain || !drag_is_weak(w, slot, &v)) {
-        double share = wet_share(w, slot, &v), dt = w->time_step;
-        drag_bound bound = share > 0 ? bound_drag(w, slot, &v) : (drag_bound){none, none};
-        if (w->settings->added_mass)
-            add_mass(w, slot, &v, share, &mass, &inertia);
-        if (w->settings->damping_ratio > 0)
-            add_damping(w, slot, &v, share * wave_share(w, slot, &v), mass, inertia, &bound);
-        mass.x += implicit_part(bound.line.x, b->mass[slot] + mass.x, dt);
-        mass.y += implicit_part(bound.line.y, b->mass[slot] + mass.y, dt);
-        mass.z += implicit_part(bound.line.z, b->mass[slot] + mass.z, dt);
-        inertia.x += implicit_part(bound.turn.x, b->inertia[slot].xx + inertia.x, dt);
-        inertia.y += implicit_part(bound.turn.y, b->inertia[slot].yy + inertia.y, dt);
-        inertia.z += implicit_part(bound.turn.z, b->inertia[slot].zz + inertia.z, dt);
-    }
+    double share = wet_share(w, slot, &v), dt = w->time_step;
+    drag_bound bound = share > 0 ? bound_drag(w, slot, &v) : (drag_bound){none, none};
+    if (w->settings->added_mass)
+        add_mass(w, slot, &v, share, &mass, &inertia);
+    if (w->settings->damping_ratio > 0)
+        add_damping(w, slot, &v, share * wave_share(w, slot, &v), mass, inertia, &bound);
+    mass.x += implicit_part(bound.line.x, b->mass[slot] + mass.x, dt);
+    mass.y += implicit_part(bound.line.y, b->mass[slot] + mass.y, dt);
+    mass.z += implicit_part(bound.line.z, b->mass[slot] + mass.z, dt);
+    inertia.x += implicit_part(bound.turn.x, b->inertia[slot].xx + inertia.x, dt);
+    inertia.y += implicit_part(bound.turn.y, b->inertia[slot].yy + inertia.y, dt);
+    inertia.z += implicit_part(bound.turn.z, b->inertia[slot].zz + inertia.z, dt);
     b->added_mass[slot] = mass;
     b->added_inertia[slot] = inertia;
 }

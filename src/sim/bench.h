@@ -29,9 +29,10 @@ typedef struct bench_scene_options {
     int32_t iterations;           /* of velocities and of positions */
     solver_kind solver;
     const char *dump; /* file of the final poses in the order of the scene, NULL: none */
+    bool exact_water; /* Fram's own hydrostatics and drag (fluid/fluid.h) in place of the scene's columns */
 } bench_scene_options;
 
-/* A scene with its own water (fluid/columns.h), every floe awake. */
+/* A scene with its own water (fluid/columns.h) or with Fram's, every floe awake. */
 fram_status bench_scene(context *ctx, const scene_text *scene, const bench_scene_options *options, bench_result *out,
                         fram_error *error);
 

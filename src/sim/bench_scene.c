@@ -1,4 +1,4 @@
-/* Scenes of the peers as worlds: walls, box ship and floes, with the scene's own water. */
+/* Scenes of the peers as worlds: walls, box ship and floes, with the scene's own water or Fram's. */
 #include "base/transcendental.h"
 #include "geometry/space_curve.h"
 #include "io/file.h"
@@ -155,7 +155,9 @@ static step_settings settings_of(const scene_text *s, const bench_scene_options 
 {
     step_settings out = {
         .time_step = o->time_step,
-        .forces = FORCES_COLUMNS,
+        .forces = o->exact_water ? FORCES_FLUID : FORCES_COLUMNS,
+        .media = {.gravity = s->gravity, .water_density = s->water_density, .current = {s->current.x, s->current.y, 0}},
+        .drag = {[MATERIAL_ICE] = {.water_form = s->form_drag, .water_skin = s->skin_drag}},
         .columns = &b->water,
         .collision = {.margin = BOX_MARGIN, .lookahead = BOX_LOOKAHEAD},
         .crushing = {.time_step = o->time_step},

@@ -38,6 +38,12 @@ done
 tunables=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable,-AVX512F
 same "$(GLIBC_TUNABLES=$tunables bench | value state_hash)" "$tunables"
 
+# Fram's own water on the same scene: another state, and that on any instruction set.
+hash=$(bench --exact-water | value state_hash)
+[ "$hash" != "$(value state_hash <"$scratch/plain")" ] || fail "--exact-water changes nothing"
+same "$(bench --exact-water --isa baseline --threads 3 | value state_hash)" "--exact-water, baseline, 3 threads"
+hash=$(value state_hash <"$scratch/plain")
+
 # Poses, and how deep they overlap.  The ship has jammed the floes against the walls by then: enough sweeps for that.
 bench --iterations 30 --dump "$scratch/poses.csv" >/dev/null
 [ "$(wc -l <"$scratch/poses.csv")" = 151 ] || fail "the poses have not one line a floe"
@@ -55,6 +61,7 @@ refuses() {
 refuses "SCENARIO"
 refuses "not both" scenes/demo.yaml --scene "$scene"
 refuses "--dump" scenes/demo.yaml --dump x.csv
+refuses "--exact-water" scenes/demo.yaml --exact-water
 refuses "is for scenarios" --scene "$scene" --set a=b
 refuses "solver" --scene "$scene" --solver best
 refuses "iterations" --scene "$scene" --iterations 0

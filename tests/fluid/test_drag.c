@@ -210,6 +210,33 @@ START_TEST(drift_from_rest)
 }
 END_TEST
 
+/* The oracle's other row, L = 17.9951 m and u(60 s) = 0.15002: the same floe when its two sides along the flow do not
+   rub.  A floe of Fram always has them; a mesh of the other wet faces gives the row. */
+START_TEST(drift_without_sides_along_the_flow)
+{
+    context ctx;
+    context_init(&ctx);
+    double draught = 920.0 / 1025;
+    mesh faces = {0};
+    for (int i = 0; i < 8; i++)
+        ck_assert(mesh_add_vertex(&ctx, &faces, vec3_make(i & 1 ? 5 : -5, i & 2 ? 5 : -5, i & 4 ? draught : 0)));
+    /* The bottom, and the faces across the flow. */
+    static const int face[6][3] = {{0, 2, 1}, {1, 2, 3}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    for (int i = 0; i < 6; i++)
+        ck_assert(mesh_add_triangle(&ctx, &faces, face[i][0], face[i][1], face[i][2]));
+    media moving = still_water;
+    moving.current.x = 0.3;
+    fluid_motion state = motion_at(vec3_make(0, 0, -draught), 0, 0, 0);
+    const drag_coefficients c = {.water_form = 1, .water_skin = 0.01};
+    fluid_load load = {0};
+    drag_mesh(&moving, &c, &faces, &state, &load);
+    double length = 92000 * 0.3 * 0.3 / load.water_drag.force.x;
+    assert_absolute(length, 17.9951, 1e-4);
+    assert_absolute(0.3 - 0.3 / (1 + 0.3 * 60 / length), 0.15002, 1e-5);
+    mesh_free(&ctx, &faces);
+}
+END_TEST
+
 /* A wide thin floe between wind and still water: U_i/U_a = 0.018768 for Ca 1.5e-3 and Cw 5e-3. */
 START_TEST(wind_drift_limit)
 {
@@ -233,4 +260,5 @@ START_TEST(wind_drift_limit)
 END_TEST
 
 TEST_MAIN("drag", disc_spins_in_its_plane, square_cap_spins_in_its_plane, square_prism_spins, prism_equals_mesh,
-          skin_quadrature, drag_dissipates, moving_frame, drift_from_rest, wind_drift_limit)
+          skin_quadrature, drag_dissipates, moving_frame, drift_from_rest, drift_without_sides_along_the_flow,
+          wind_drift_limit)

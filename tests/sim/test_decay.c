@@ -59,6 +59,26 @@ START_TEST(ship_periods)
 }
 END_TEST
 
+/* The FPSO of the Marine Systems Simulator, where its file is there. */
+#define FPSO "../shared/data/hulls/fpso_low.gdf"
+START_TEST(fpso_periods)
+{
+    static const char fpso[] =
+        "vessel: {mode: free, centre_of_gravity_z: 0, hull: {form: file, file: " FPSO ", freeboard: 10}%s}\n";
+    FILE *file = fopen(FPSO, "rb");
+    if (!file) {
+        puts("skipped: sim/decay fpso_periods, " FPSO " is not there");
+        return;
+    }
+    fclose(file);
+    for (int k = 0; k < 2; k++) {
+        check_mode(fpso, k ? estimate : "", DECAY_HEAVE, 0.02, 5e-4);
+        check_mode(fpso, k ? estimate : "", DECAY_ROLL, 1e-3, 5e-4);
+        check_mode(fpso, k ? estimate : "", DECAY_PITCH, 2e-4, 5e-4);
+    }
+}
+END_TEST
+
 /* A given matrix, about midships with z down, is that of the estimate when it holds the same numbers. */
 START_TEST(given_matrices_are_moved)
 {
@@ -170,5 +190,5 @@ START_TEST(estimated_damping)
 }
 END_TEST
 
-TEST_MAIN("decay", box_periods, ship_periods, given_matrices_are_moved, supply_ship_of_the_scene, wrong_matrices,
-          estimated_damping)
+TEST_MAIN("decay", box_periods, ship_periods, fpso_periods, given_matrices_are_moved, supply_ship_of_the_scene,
+          wrong_matrices, estimated_damping)
