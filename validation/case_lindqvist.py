@@ -34,7 +34,7 @@ def job(h, v, back):
     return (scene, f"lindqvist/{h:g}_{v:g}_{back:g}",
             {"ice__thickness": h, "vessel__speed": v, "vessel__x": -32 - back, "run__duration": round((WAY + back) / v),
              "run__transient": 0, "run__time_step": step, "output__frame_interval": 0, "output__csv_interval": 0.05,
-             "domain__x_max": 100, "domain__y_min": -40, "domain__y_max": 40})
+             "domain__x_max": 70, "domain__y_min": -35, "domain__y_max": 35})
 
 
 def case(out):
