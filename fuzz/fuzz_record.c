@@ -1,37 +1,8 @@
-/* The reader of records on any bytes.  Checksums would stop nearly every input at the door, so those of the head and of
-   the blocks are set right first, as far as the blocks can be followed.
+/* The reader of records on any bytes.
    Promises: reading ends; a block lies inside the file; going back to a block gives the same block. */
 #include "fuzzing.h"
+#include "fuzzing_record.h"
 #include "io/record.h"
-#include <string.h>
-#include <zlib.h>
-
-enum { HEAD_SIZE = 24, BLOCK_HEAD_SIZE = 24, CHECKED = 20, LENGTH_AT = 8, PAYLOAD_SUM_AT = 16 };
-
-static void put_sum(uint8_t *at, const uint8_t *data, size_t size)
-{
-    uint32_t sum = (uint32_t)crc32_z(0, data, size);
-    memcpy(at, &sum, sizeof sum);
-}
-
-static void set_sums_right(uint8_t *data, size_t size)
-{
-    if (size < HEAD_SIZE)
-        return;
-    put_sum(data + CHECKED, data, CHECKED);
-    for (size_t at = HEAD_SIZE; size - at >= BLOCK_HEAD_SIZE;) {
-        uint64_t length;
-        memcpy(&length, data + at + LENGTH_AT, sizeof length);
-        if (length <= size - at - BLOCK_HEAD_SIZE)
-            put_sum(data + at + PAYLOAD_SUM_AT, data + at + BLOCK_HEAD_SIZE, (size_t)length);
-        put_sum(data + at + CHECKED, data + at, CHECKED);
-        if (length > size - at - BLOCK_HEAD_SIZE)
-            return;
-        at += BLOCK_HEAD_SIZE + (size_t)((length + 7) / 8 * 8);
-        if (at > size)
-            return;
-    }
-}
 
 static void read_all(record_reader *reader, size_t size)
 {
@@ -61,7 +32,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     if (size > 0)
         memcpy(copy, data, size);
-    set_sums_right(copy, size);
+    record_sums_right(copy, size);
     memory_file file = memory_file_make(copy, size);
     free(copy);
     if (file.descriptor < 0)

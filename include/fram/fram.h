@@ -194,10 +194,25 @@ FRAM_API fram_status fram_resume(fram_context *context, const fram_run_definitio
 
 /* ---- Playback ---- */
 
-/* A page that plays the run in `folder` in a browser, from disk: the viewer's page with the run's record inside.  Of
-   long runs only every n-th frame goes in; frames and left_out (may be NULL) say how many do and do not. */
-FRAM_API fram_status fram_playback(fram_context *context, const char *folder, const char *viewer_page,
-                                   const char *output, int64_t *frames, int64_t *left_out, fram_error *error);
+typedef struct fram_playback_definition {
+    size_t size;             /* of this struct, set by fram_playback_default */
+    const char *folder;      /* of the run */
+    const char *viewer_page; /* the page without a run (make viewer) */
+    const char *output;      /* the page to write, best NAME.html */
+    uint64_t page_limit;     /* largest page [bytes]; 0: 50 MB.  Frames of a longer run go into files beside it, in the
+                                folder NAME-frames */
+    uint64_t total_limit;    /* page and files [bytes]; 0: 500 MB.  Above, only every n-th frame is kept */
+} fram_playback_definition;
+
+typedef struct fram_playback_result {
+    int64_t frames, left_out; /* kept and not */
+    int64_t files;            /* beside the page */
+} fram_playback_result;
+
+FRAM_API void fram_playback_default(fram_playback_definition *definition);
+/* A page that plays a run in a browser, from disk, without a network.  result may be NULL. */
+FRAM_API fram_status fram_playback(fram_context *context, const fram_playback_definition *definition,
+                                   fram_playback_result *result, fram_error *error);
 
 /* ---- Benchmark ---- */
 

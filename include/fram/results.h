@@ -64,13 +64,14 @@ typedef struct fram_video_definition {
     const char *output;    /* NULL: RUN/run.mp4, or the folder RUN/video */
     const char *colour;    /* "plain", "speed", "force", "thickness", "age" */
     double speed;          /* simulated seconds a second; <= 0: such that it lasts 30 s at most */
-    double span;           /* metres across, following the vessel; <= 0: the whole domain */
+    const char *camera;    /* "orbit": the whole field in space; "follow": near the vessel; "plan": from above */
+    double span;           /* metres across of a plan, following the vessel; <= 0: the whole domain */
     int frames_per_second; /* 25 */
     int width, height;     /* 1280 x 720, even [pixels] */
     bool pictures;         /* numbered PNG files instead of a video: needs no ffmpeg */
 } fram_video_definition;
 FRAM_API void fram_video_default(fram_video_definition *definition);
-/* The field from above as MP4.  FRAM_ERROR_UNSUPPORTED when ffmpeg is not installed. */
+/* The run as MP4, drawn without a screen.  FRAM_ERROR_UNSUPPORTED when ffmpeg is not installed. */
 FRAM_API fram_status fram_video(fram_context *context, const char *run, const fram_video_definition *definition,
                                 fram_result *result, fram_error *error);
 

@@ -101,8 +101,12 @@ void fram_comparison_free(fram_context *c, fram_comparison *comparison)
 
 void fram_video_default(fram_video_definition *definition)
 {
-    *definition = (fram_video_definition){
-        .size = sizeof *definition, .colour = "speed", .frames_per_second = 25, .width = 1280, .height = 720};
+    *definition = (fram_video_definition){.size = sizeof *definition,
+                                          .colour = "speed",
+                                          .camera = "orbit",
+                                          .frames_per_second = 25,
+                                          .width = 1280,
+                                          .height = 720};
 }
 
 static fram_status find_colour(const char *name, plan_colour *colour, fram_error *error)
@@ -114,6 +118,17 @@ static fram_status find_colour(const char *name, plan_colour *colour, fram_error
         }
     }
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "colour", "expected plain, speed, force, thickness or age");
+}
+
+static fram_status find_camera(const char *name, video_camera *camera, fram_error *error)
+{
+    for (int i = 0; i < VIDEO_CAMERA_COUNT; i++) {
+        if (name && strcmp(name, video_camera_name((video_camera)i)) == 0) {
+            *camera = (video_camera)i;
+            return FRAM_OK;
+        }
+    }
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "camera", "expected orbit, follow or plan");
 }
 
 fram_status fram_video(fram_context *c, const char *run, const fram_video_definition *d, fram_result *result,
@@ -135,6 +150,10 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
                              .pictures = d->pictures};
     export_report report = {.frames = 0};
     fram_status status = find_colour(d->colour, &options.colour, error);
+    if (status == FRAM_OK)
+        status = find_camera(d->camera, &options.camera, error);
+    if (status == FRAM_OK && d->span > 0 && options.camera != VIDEO_PLAN)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "span", "only a plan has a span; choose the camera plan");
     if (status == FRAM_OK)
         status = video_write(&c->inner, run, &options, &report.frames, report.path, error);
     return answer(status, &report, result);

@@ -180,14 +180,21 @@ fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench
     return status;
 }
 
-fram_status fram_playback(fram_context *c, const char *folder, const char *viewer_page, const char *output,
-                          int64_t *frames, int64_t *left_out, fram_error *error)
+void fram_playback_default(fram_playback_definition *definition)
 {
-    int64_t in = 0, out = 0;
-    fram_status status = playback_write(&c->inner, folder, viewer_page, output, &in, &out, error);
-    if (frames)
-        *frames = in;
-    if (left_out)
-        *left_out = out;
+    *definition = (fram_playback_definition){.size = sizeof *definition};
+}
+
+fram_status fram_playback(fram_context *c, const fram_playback_definition *d, fram_playback_result *result,
+                          fram_error *error)
+{
+    if (d->size != sizeof *d)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_playback_definition.size",
+                         "the definition was not filled by fram_playback_default of this version");
+    const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit};
+    playback_report report = {0};
+    fram_status status = playback_write(&c->inner, d->folder, &options, &report, error);
+    if (result)
+        *result = (fram_playback_result){report.frames, report.left_out, report.files};
     return status;
 }

@@ -27,52 +27,71 @@ static bool find_page(char out[PATH_SIZE])
     return false;
 }
 
-static void print_result(const common_options *common, const char *output, int64_t frames, int64_t left_out)
+static void print_result(const common_options *common, const char *output, const fram_playback_result *r)
 {
-    if (!common->quiet)
-        fprintf(stderr, "%s: %lld frames%s; open it in a browser\n", output, (long long)frames,
-                left_out > 0 ? " (others left out to keep the page small)" : "");
+    if (!common->quiet) {
+        fprintf(stderr, "%s: %lld frames%s", output, (long long)r->frames,
+                r->left_out > 0 ? " (others left out to keep the page small)" : "");
+        if (r->files > 0)
+            fprintf(stderr, ", most of them in %lld files in the folder beside it: keep both together",
+                    (long long)r->files);
+        fprintf(stderr, "; open it in a browser\n");
+    }
     if (!common->json)
         return;
     json j = json_begin();
     json_text(&j, "page", output);
-    json_integer(&j, "frames", frames);
-    json_integer(&j, "frames_left_out", left_out);
+    json_integer(&j, "frames", r->frames);
+    json_integer(&j, "frames_left_out", r->left_out);
+    json_integer(&j, "files", r->files);
     json_end(&j);
 }
+
+/* Megabytes as bytes; 0 when they are not given. */
+static uint64_t bytes_of(double megabytes) { return megabytes > 0 ? (uint64_t)(megabytes * 1e6) : 0; }
 
 int command_view(const command_row *self, int argc, char **argv)
 {
     common_options common;
-    const char *folder = NULL, *output = NULL, *page = NULL;
+    const char *folder = NULL;
+    double page_mb = 0, total_mb = 0;
+    fram_playback_definition definition;
+    fram_playback_default(&definition);
     const option_row rows[] = {
-        {"--output", "-o", OPTION_TEXT, &output, "FILE", "the page (RUN/playback.html)"},
-        {"--page", NULL, OPTION_TEXT, &page, "FILE", "the viewer's page, if it is not beside the command"},
+        {"--output", "-o", OPTION_TEXT, &definition.output, "FILE", "the page (RUN/playback.html)"},
+        {"--page", NULL, OPTION_TEXT, &definition.viewer_page, "FILE",
+         "the viewer's page, if it is not beside the command"},
+        {"--page-limit", NULL, OPTION_REAL, &page_mb, "MB",
+         "largest page (50); frames of a longer run go into files beside it"},
+        {"--total-limit", NULL, OPTION_REAL, &total_mb, "MB", "page and files (500); above, frames are left out"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &folder, 1);
     if (code >= 0)
         return code;
     char found[PATH_SIZE], beside[PATH_SIZE];
-    if (!page && !find_page(found))
+    if (!definition.viewer_page && !find_page(found))
         return answer_usage(&common, "--page",
                             "the viewer's page is not there: build it with make viewer, or name it with --page FILE");
-    if (!page)
-        page = found;
-    if (!output) {
+    if (!definition.viewer_page)
+        definition.viewer_page = found;
+    if (!definition.output) {
         snprintf(beside, sizeof beside, "%s/playback.html", folder);
-        output = beside;
+        definition.output = beside;
     }
+    definition.folder = folder;
+    definition.page_limit = bytes_of(page_mb);
+    definition.total_limit = bytes_of(total_mb);
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)
         return code;
-    int64_t frames = 0, left_out = 0;
+    fram_playback_result result = {0};
     fram_error error = {0};
-    if (fram_playback(context, folder, page, output, &frames, &left_out, &error) != FRAM_OK) {
+    if (fram_playback(context, &definition, &result, &error) != FRAM_OK) {
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;
-        print_result(&common, output, frames, left_out);
+        print_result(&common, definition.output, &result);
     }
     fram_context_destroy(context);
     return code;

@@ -101,12 +101,11 @@ static void draw_arrows(cairo_t *page, const map *m, const plan_view *view)
     }
 }
 
-/* Colours of the shapes' values, from least to greatest. */
-static void draw_colour_scale(cairo_t *page, const plan_view *view, double right, double y)
+void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double right, double y)
 {
     enum { BAR = 150, STEPS = 50 };
     char text[32];
-    snprintf(text, sizeof text, "%.3g", view->scale_hi);
+    snprintf(text, sizeof text, "%.3g", hi);
     image_set_colour(page, ink);
     right -= image_text_width(page, 12, false, text);
     image_text(page, right, y, 12, ALIGN_LEFT, false, text);
@@ -119,9 +118,9 @@ static void draw_colour_scale(cairo_t *page, const plan_view *view, double right
         cairo_fill(page);
     }
     image_set_colour(page, ink);
-    snprintf(text, sizeof text, "%.3g", view->scale_lo);
+    snprintf(text, sizeof text, "%.3g", lo);
     image_text(page, right - 8, y, 12, ALIGN_RIGHT, false, text);
-    image_text(page, right - 16 - image_text_width(page, 12, false, text), y, 12, ALIGN_RIGHT, false, view->scale_name);
+    image_text(page, right - 16 - image_text_width(page, 12, false, text), y, 12, ALIGN_RIGHT, false, name);
 }
 
 static void draw_scale_bar(cairo_t *page, const map *m, double x, double y)
@@ -196,7 +195,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     draw_scale_bar(page, &m, m.left, below);
     draw_axes(page, width - 60, 44);
     if (view->scale_name)
-        draw_colour_scale(page, view, m.left + w * m.scale, below);
+        plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, m.left + w * m.scale, below);
     else
         draw_legend(page, used, m.left + w * m.scale, below);
 }

@@ -51,6 +51,8 @@ fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text
 
 #ifdef FRAM_HAVE_CAIRO
 #include <cairo.h>
+/* Colours of values from lo to hi with their name, ending at `right`, on a line of text at y. */
+void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double right, double y);
 /* Into the rectangle of width x height pixels from the origin of a page, title and legend included. */
 void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height);
 #endif

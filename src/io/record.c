@@ -135,6 +135,14 @@ fram_status record_continue(context *ctx, const char *path, uint64_t length, rec
     return status;
 }
 
+void record_block_head(uint32_t type, const void *payload, size_t size, unsigned char head[RECORD_BLOCK_HEAD])
+{
+    block_head h = {.type = type, .length = size, .payload_crc = crc_of(0, payload, size)};
+    memcpy(h.magic, block_magic, sizeof block_magic);
+    h.crc = block_head_crc(&h);
+    memcpy(head, &h, sizeof h);
+}
+
 fram_status record_append(record_writer *w, uint32_t type, const record_part *parts, int32_t count, fram_error *error)
 {
     static const char zeros[8] = {0};

@@ -11,7 +11,7 @@
 
 #include "io/file.h"
 
-enum { RECORD_VERSION = 1 };
+enum { RECORD_VERSION = 1, RECORD_BLOCK_HEAD = 24 };
 
 typedef struct record_writer {
     file_writer file;
@@ -31,6 +31,9 @@ fram_status record_append(record_writer *w, uint32_t type, const record_part *pa
 fram_status record_flush(record_writer *w, bool sync, fram_error *error);
 uint64_t record_length(const record_writer *w);
 fram_status record_close(record_writer *w, fram_error *error);
+
+/* The head of a block with this payload, for blocks that go elsewhere than into a record file. */
+void record_block_head(uint32_t type, const void *payload, size_t size, unsigned char head[RECORD_BLOCK_HEAD]);
 
 typedef struct record_block {
     uint32_t type;

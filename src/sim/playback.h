@@ -1,16 +1,24 @@
-/* The playback page of a run: the viewer's page with the run's record inside, one file that opens from disk. */
+/* The playback page of a run: the viewer's page with the run's record inside, one file that opens from disk.  When that
+   would be too large, frames go into files beside it (sim/playback_chunks.h). */
 #ifndef SIM_PLAYBACK_H
 #define SIM_PLAYBACK_H
 
 #include "base/context.h"
 
-/* Largest record that goes into one page [bytes]; of a longer one only every second, third, ... frame is kept. */
-enum { PLAYBACK_LIMIT = 36 << 20 };
+typedef struct playback_options {
+    const char *viewer;   /* the page without a record (viewer/build.mjs makes it) */
+    const char *output;   /* the page to write */
+    uint64_t page_limit;  /* largest single page [bytes]; 0: 50 MB */
+    uint64_t total_limit; /* page and files beside it [bytes]; above, only every n-th frame is kept; 0: 500 MB */
+} playback_options;
 
-/* Put FOLDER/record.fram into a copy of the page `template` (viewer/build.mjs makes it) at `output`.  frames gets the
-   number of frames kept, left_out how many were not.  FRAM_ERROR_INPUT when the record has no frame or the template is
-   none. */
-fram_status playback_write(context *ctx, const char *folder, const char *template, const char *output, int64_t *frames,
-                           int64_t *left_out, fram_error *error);
+typedef struct playback_report {
+    int64_t frames, left_out; /* kept and not */
+    int64_t files;            /* beside the page */
+} playback_report;
+
+/* Put FOLDER/record.fram into a page.  FRAM_ERROR_INPUT when the record has no frame or the viewer's page is none. */
+fram_status playback_write(context *ctx, const char *folder, const playback_options *options, playback_report *report,
+                           fram_error *error);
 
 #endif

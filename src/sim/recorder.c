@@ -23,6 +23,9 @@ static void set_intervals(recorder *r, const scenario *s)
         r->series_every = 1;
     r->frame_every = interval_steps(s->output.frame_interval, s->run.time_step);
     r->time_step = s->run.time_step;
+    if (r->frame_every > 0)
+        r->frames_most = s->run.duration / (r->time_step * (double)r->frame_every);
+    r->record_limit = s->output.record_limit * 1e6;
 }
 
 static fram_status stream_path(const char *folder, const char *name, char out[1024], fram_error *error)
@@ -324,6 +327,23 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     return append(r, BLOCK_FRAME, error);
 }
 
+/* Poses with their contact force, and about what else a frame has. */
+enum { BYTES_PER_BODY = RECORD_POSE_SIZE + 2, BYTES_PER_FRAME = 600 };
+
+static bool frame_is_due(const recorder *r, const world *w)
+{
+    int64_t step = w->clock.step[0], every = r->frame_every;
+    if (every == 0 || step % every != 0)
+        return false;
+    double bytes = BYTES_PER_FRAME;
+    for (int32_t i = 0; i < w->bodies.count && r->record_limit > 0; i++)
+        bytes += body_is_alive(&w->bodies, i) && moves(w, i) ? BYTES_PER_BODY : 0;
+    for (double frames = r->frames_most; r->record_limit > 0 && bytes * frames > 0.9 * r->record_limit && frames > 1;
+         frames /= 2)
+        every *= 2;
+    return step % every == 0;
+}
+
 /* The events of this step, at its end's time: rows of the table, and a block of the record. */
 static fram_status write_fractures(recorder *r, const world *w, fram_error *error)
 {
@@ -357,7 +377,7 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
     }
     if (status == FRAM_OK && step > 0)
         status = write_fractures(r, w, error);
-    if (status == FRAM_OK && r->frame_every > 0 && step % r->frame_every == 0)
+    if (status == FRAM_OK && frame_is_due(r, w))
         status = write_frame(r, w, error);
     return status;
 }

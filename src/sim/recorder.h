@@ -17,9 +17,12 @@
                  of kN (18 bytes)
      9 forces    i32 count, i32 0; per force on the first vessel in the last step: i32 kind (1 ice, all contacts with
    one floe; 2 mooring line; 3 thruster), i32 slot of the floe or number of line or thruster (from 1), f32 x y z of the
-   point, f32 x y z of the force [N], global frame; before the frame it belongs to Types 3 and 5 were births and frames
-   of an earlier layout and are not written any more. Solids are announced by block 2 and take part in frames when they
-   move. */
+   point, f32 x y z of the force [N], global frame; before the frame it belongs to
+    10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
+   frame's first 48 bytes; the frame itself and its forces stand there
+
+   Types 3 and 5 were births and frames of an earlier layout and are not written any more. Solids are announced by block
+   2 and take part in frames when they move. */
 #ifndef SIM_RECORDER_H
 #define SIM_RECORDER_H
 
@@ -38,8 +41,12 @@ enum {
     BLOCK_FRACTURES = 6,
     BLOCK_BIRTHS = 7,
     BLOCK_FRAME = 8,
-    BLOCK_FORCES = 9
+    BLOCK_FORCES = 9,
+    BLOCK_FRAME_BESIDE = 10
 };
+
+/* Bytes of a frame before its poses. */
+enum { FRAME_HEAD_SIZE = 48 };
 
 /* Kinds of a force on the vessel. */
 typedef enum record_force_kind { RECORD_FORCE_ICE = 1, RECORD_FORCE_LINE, RECORD_FORCE_THRUSTER } record_force_kind;
@@ -50,6 +57,8 @@ typedef struct recorder {
     record_writer record;
     int64_t series_every, frame_every; /* steps; 0: no frames */
     double time_step;                  /* [s] */
+    double frames_most;                /* of the whole run, one every frame_every */
+    double record_limit;               /* [bytes]; 0: none */
     ARRAY(unsigned char) block;        /* scratch */
     contact_sum_array sums;            /* scratch, per body slot */
 } recorder;
@@ -65,7 +74,10 @@ recorder_lengths recorder_lengths_of(const recorder *r);
 /* Continue files cut to the lengths that a checkpoint holds. */
 fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, const recorder_lengths *lengths,
                               recorder *r, fram_error *error);
-/* What is due after a step (or, at step 0, the first frame). */
+/* What is due after a step (or, at step 0, the first frame).  Frames come every frame_interval, or every second,
+   fourth, eighth ... time when as many bodies as there are now would else fill the record beyond nine tenths of its
+   limit over the run; the rest is for what stands between frames.  This depends on the state alone, so a resumed run
+   records the same frames. */
 fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error);
 /* Everything to the disk. */
 fram_status recorder_flush(recorder *r, fram_error *error);

@@ -14,7 +14,7 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, VALUES_MOST = 400000, LONGEST = 30 };
+enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, VALUES_MOST = 400000, LONGEST = 30, MARKED = 3 };
 
 typedef struct video {
     context *ctx;
@@ -24,6 +24,7 @@ typedef struct video {
     double lo, hi;           /* of the colours */
     double arrow;            /* [m/N] */
     double most;             /* load [N] */
+    box2 extent;             /* of the first frame's bodies but walls [m] */
     replay r;
     replay_moment moment;
     replay_plan plan;
@@ -34,6 +35,20 @@ static int ascending(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
+}
+
+static void find_extent(video *v)
+{
+    const scenario_domain *d = &v->s.domain;
+    vec2 lo = {INFINITY, INFINITY}, hi = {-INFINITY, -INFINITY};
+    for (int32_t i = 0; i < v->r.frame.poses.count; i++) {
+        const replay_pose *p = &v->r.frame.poses.data[i];
+        if (v->r.bodies.data[p->body].material == MATERIAL_WALL)
+            continue;
+        lo = vec2_make(fmin(lo.x, p->position.x), fmin(lo.y, p->position.y));
+        hi = vec2_make(fmax(hi.x, p->position.x), fmax(hi.y, p->position.y));
+    }
+    v->extent = lo.x < hi.x ? (box2){lo, hi} : (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
 }
 
 /* Times, loads and the range of what is shown (its 98th percentile), from a first reading. */
@@ -50,6 +65,8 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
         if (status != FRAM_OK || !found)
             break;
         const replay_frame *f = &v->r.frame;
+        if (v->time.count == 0)
+            find_extent(v);
         double load = sqrt(f->ice_force.x * f->ice_force.x + f->ice_force.y * f->ice_force.y);
         bool good = array_push(v->ctx, &v->time, f->time) && array_push(v->ctx, &v->load, load);
         v->most = fmax(v->most, load);
@@ -111,18 +128,44 @@ static box2 window_of(const video *v, int width, int height)
     return (box2){{c.x - half, c.y - upright}, {c.x + half, c.y + upright}};
 }
 
+static fram_status draw_space(const video *v, double time, const char *caption, cairo_t **page, fram_error *error)
+{
+    int width = v->options->width, height = v->options->height;
+    const video_scene scene = {.camera = v->options->camera,
+                               .extent = v->extent,
+                               .colour = v->options->colour,
+                               .lo = v->lo,
+                               .hi = v->hi,
+                               .arrow = v->arrow,
+                               .mark_time = MARKED,
+                               .title = v->s.title[0] ? v->s.title : "Fram",
+                               .caption = caption};
+    fram_status status = image_begin(width, height, page, error);
+    if (status != FRAM_OK)
+        return status;
+    status = video_scene_draw(v->ctx, &scene, &v->r, &v->moment, *page, width, height - CURVE_HEIGHT, error);
+    if (status == FRAM_OK)
+        draw_curve(v, *page, time);
+    else
+        cairo_destroy(*page);
+    return status;
+}
+
 static fram_status draw_picture(video *v, double time, cairo_t **page, fram_error *error)
 {
     int width = v->options->width, height = v->options->height - CURVE_HEIGHT;
     char caption[128];
     fram_status status = replay_moment_at(&v->r, time, &v->moment, error);
+    snprintf(caption, sizeof caption, "t = %.1f s of %.0f s", time, v->time.data[v->time.count - 1]);
+    if (v->options->camera != VIDEO_PLAN)
+        return status == FRAM_OK ? draw_space(v, time, caption, page, error) : status;
     if (status == FRAM_OK)
-        status = replay_plan_make(&v->r, &v->moment, v->options->colour, v->lo, v->hi, v->arrow, 3, &v->plan, error);
+        status =
+            replay_plan_make(&v->r, &v->moment, v->options->colour, v->lo, v->hi, v->arrow, MARKED, &v->plan, error);
     if (status == FRAM_OK)
         status = image_begin(width, v->options->height, page, error);
     if (status != FRAM_OK)
         return status;
-    snprintf(caption, sizeof caption, "t = %.1f s of %.0f s", time, v->time.data[v->time.count - 1]);
     plan_view view = {.window = window_of(v, width - 28, height - 108),
                       .title = v->s.title[0] ? v->s.title : "Fram",
                       .caption = caption,

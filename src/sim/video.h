@@ -1,14 +1,16 @@
-/* A run as a video: the field from above, coloured, with force arrows, fracture marks and the load curve. */
+/* A run as a video: the field in space or from above, coloured, with force arrows, fracture marks and the load curve.
+ */
 #ifndef SIM_VIDEO_H
 #define SIM_VIDEO_H
 
-#include "sim/replay_plan.h"
+#include "sim/video_scene.h"
 
 typedef struct video_options {
     const char *output; /* NULL: FOLDER/run.mp4 */
     plan_colour colour;
+    video_camera camera;
     double speed; /* simulated seconds per second of video; <= 0: such that it lasts 30 s at most, 1 at least */
-    double span;  /* metres across, following the vessel; <= 0: the whole domain */
+    double span;  /* metres across, VIDEO_PLAN following the vessel; <= 0: the whole domain */
     int frames_per_second;
     int width, height; /* [pixels], even */
     bool pictures;     /* numbered PNG files in the folder `output` (FOLDER/video) instead of a video */

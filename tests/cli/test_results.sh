@@ -124,10 +124,14 @@ if [ $pictures = yes ]; then
     [ "$(find frames -name 'frame-*.png' | wc -l)" = 7 ] || fail "not 7 frames: $(ls frames)"
     expect 2 "$FRAM" video run --colour red
     expect 2 "$FRAM" video run --width 641
+    expect 2 "$FRAM" video run --camera nowhere
+    expect 2 "$FRAM" video run --camera follow --span 80
+    expect 0 "$FRAM" video run --pictures --fps 1 --camera follow --width 480 --height 360 -o near
+    cmp -s near/frame-000000.png near/frame-000002.png && fail "frames of the video in space are all the same"
     expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4
     says "needs ffmpeg"
     if command -v ffmpeg >/dev/null; then
-        expect 0 "$FRAM" video run --fps 4 --width 640 --height 480 --span 80 -o run.mp4
+        expect 0 "$FRAM" video run --fps 4 --width 640 --height 480 --camera plan --span 80 -o run.mp4
         [ "$(head -c 8 run.mp4 | tail -c 4)" = ftyp ] || fail "run.mp4 is no MP4"
     fi
 fi

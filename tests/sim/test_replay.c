@@ -173,6 +173,69 @@ START_TEST(a_moment_lies_between_its_frames)
 }
 END_TEST
 
+static uint64_t record_size(const char *folder)
+{
+    char path[PATH + 32];
+    struct stat about;
+    snprintf(path, sizeof path, "%s/record.fram", folder);
+    ck_assert_int_eq(stat(path, &about), 0);
+    return (uint64_t)about.st_size;
+}
+
+/* Runs the scene with a limit [MB], stopped at half time and resumed when asked to, and counts its frames, which must
+ * be evenly spaced. */
+static int64_t frames_under(context *ctx, const char *limit, bool halves, uint64_t *size)
+{
+    char folder[PATH] = "/tmp/fram-limit-XXXXXX", all[1024];
+    scenario s = {0};
+    fram_error error = {0};
+    run_result result = {0};
+    replay r;
+    bool found = true;
+    int64_t frames = 0;
+    snprintf(all, sizeof all, "%s  record_limit: %s\n", text, limit);
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    assert_ok(scenario_parse(ctx, "scene.yaml", all, strlen(all), NULL, &s, &error), error);
+    run_options options = {.folder = folder, .until = halves ? 3 : 0};
+    assert_ok(run_start(ctx, &s, &options, &result, &error), error);
+    options.until = 0;
+    if (halves)
+        assert_ok(run_resume(ctx, &options, &result, &error), error);
+    assert_ok(replay_open(ctx, folder, &r, &error), error);
+    while (true) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        if (!found)
+            break;
+        ck_assert_int_eq(r.frame.step % 10, 0);
+        frames++;
+    }
+    replay_close(&r);
+    *size = record_size(folder);
+    remove_folder(folder);
+    scenario_free(ctx, &s);
+    return frames;
+}
+
+/* 31 frames at 0.2 s, of about 650 bytes at first: every second one fits the limit, and fewer when there are more than
+ * twenty pieces. */
+START_TEST(frames_come_rarely_enough_for_the_limit)
+{
+    context ctx;
+    uint64_t all = 0, few = 0, again = 0;
+    context_init(&ctx);
+    ck_assert_int_eq(frames_under(&ctx, "0", false, &all), 31);
+    ck_assert_int_eq(frames_under(&ctx, "1", false, &few), 31);
+    ck_assert_uint_eq(few, all);
+    int64_t half = frames_under(&ctx, "0.016", false, &few);
+    ck_assert(half > 8 && half <= 16);
+    ck_assert_uint_lt(few, all);
+    ck_assert_int_eq(frames_under(&ctx, "0.016", true, &again), half);
+    ck_assert_uint_eq(again, few);
+    int64_t quarter = frames_under(&ctx, "0.008", false, &few);
+    ck_assert(quarter > 4 && quarter <= 8);
+}
+END_TEST
+
 static fram_status write_one(context *ctx, const char *folder, uint32_t type, const void *data, size_t size)
 {
     char path[PATH + 32];
@@ -213,4 +276,4 @@ START_TEST(records_that_lie_are_refused)
 END_TEST
 
 TEST_MAIN("replay", half_floats_are_those_of_the_standard, poses_keep_their_precision, a_run_is_read_back,
-          a_moment_lies_between_its_frames, records_that_lie_are_refused)
+          a_moment_lies_between_its_frames, frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)

@@ -91,6 +91,29 @@ def check_vtk(run, rows):
     return "VTK"
 
 
+def files_of(folder):
+    return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def check_restart(folder, straight):
+    """A series that was exported from half a run goes on after resume, and is that of a run in one go."""
+    half = folder / "half"
+    fram("run", folder / "scene.yaml", "-o", half, "-q", "--until", 3)
+    fram("export", half, "--vtk", "-q")
+    before = files_of(half / "vtk")
+    fram("resume", half, "-q")
+    fram("export", half, "--vtk", "-q")
+    after = files_of(half / "vtk")
+    fram("export", straight, "--vtk", "-q")
+    assert after == files_of(straight / "vtk"), "a resumed run exports other files than one in one go"
+    kept = [name for name, data in before.items() if "data/" in name and after[name] == data]
+    # The velocities of a record's last frame are those of the frame before, until there is a next one.
+    assert len(before) < len(after) and len(kept) >= 6 * 3, (len(before), len(after), len(kept))
+    if "netcdf" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout:
+        fram("export", half, "--netcdf", "-q")
+        assert (half / "run.nc").stat().st_size > 0
+
+
 def check_netcdf(run, rows):
     done = []
     fram("export", run, "--netcdf", "-q")
@@ -158,6 +181,7 @@ def main():
         done = [check_geojson(run, rows)]
         if have("vtkmodules"):
             done.append(check_vtk(run, rows))
+            check_restart(pathlib.Path(folder), run)
         if "netcdf" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout:
             done += check_netcdf(run, rows)
         if have("pandas"):

@@ -23,41 +23,48 @@ export class History {
         this.panel.innerHTML = `<b>Floe ${body.number}</b> ${origin}<br>${body.area.toFixed(1)} m², ${
             body.thickness.toFixed(2)} m thick, ${(body.area * body.thickness * body.density / 1000).toFixed(1)} t<br>${
             fate}${body.moves ? '' : '<br>fixed'}<canvas></canvas>`;
-        this.collect();
+        this.rows = new Map(); // by frame
+        this.more();
+    }
+
+    /** What the frames that are in the page now tell beyond what is known. */
+    more() {
+        const { body, record, store } = this, { frames } = record;
+        const last = Math.min(body.death, frames.length), every = Math.max(1, Math.ceil((last - body.birth) / MOST));
+        for (let f = body.birth; f < last && body.moves; f++) {
+            const beside = !frames[f].view;
+            if (this.rows.has(f) || (f - body.birth) % every && !beside) continue;
+            if (beside && !store.chunks.kept.has(frames[f].chunk)) continue; // not fetched for this
+            const place = frames[f].order.indexOf(body.index), at = store.get(f);
+            if (place < 0 || !at) continue;
+            const [x, y] = at.poses.subarray(7 * place, 7 * place + 2);
+            this.rows.set(f, { time: frames[f].time, x, y, force: at.contact[place] });
+        }
+        this.sorted = [...this.rows.values()].sort((a, b) => a.time - b.time);
+        this.sorted.forEach((r, i) => {
+            const p = this.sorted[i - 1] ?? r;
+            r.speed = r === p ? 0 : Math.hypot(r.x - p.x, r.y - p.y) / (r.time - p.time);
+        });
+        if (this.sorted.length > 1) this.sorted[0].speed = this.sorted[1].speed;
         this.back = null;
     }
 
-    collect() {
-        const { body, record, store } = this, { frames } = record;
-        const last = Math.min(body.death, frames.length), every = Math.max(1, Math.ceil((last - body.birth) / MOST));
-        this.rows = [];
-        let before = null;
-        for (let f = body.birth; f < last && body.moves; f += every) {
-            if (!frames[f].view) continue; // in a file beside the page: not fetched for this
-            const place = frames[f].order.indexOf(body.index), at = store.get(f);
-            if (place < 0) continue;
-            const [x, y] = at.poses.subarray(7 * place, 7 * place + 2), time = frames[f].time;
-            const speed = before ? Math.hypot(x - before.x, y - before.y) / (time - before.time) : 0;
-            this.rows.push(before = { time, x, y, speed, force: at.contact[place] });
-        }
-    }
-
     curve(g, w, top, h, name, unit, colour, value) {
-        const { rows } = this, most = rows.reduce((m, r) => Math.max(m, value(r)), 1e-9), t0 = rows[0].time;
+        const rows = this.sorted, most = rows.reduce((m, r) => Math.max(m, value(r)), 0), t0 = rows[0].time;
         const span = rows.at(-1).time - t0 || 1;
         this.x = (t) => (t - t0) / span * w;
         g.strokeStyle = colour;
         g.lineWidth = 1.4;
         g.beginPath();
-        rows.forEach((r) => g.lineTo(this.x(r.time), top + h - value(r) / most * (h - 13)));
+        rows.forEach((r) => g.lineTo(this.x(r.time), top + h - value(r) / (most || 1) * (h - 13)));
         g.stroke();
         g.fillStyle = '#15222e';
-        g.fillText(`${name}, largest ${most.toPrecision(3)} ${unit}`, 0, top + 9);
+        g.fillText(most > 0 ? `${name}, largest ${most.toPrecision(3)} ${unit}` : `no ${name}`, 0, top + 9);
     }
 
     draw(time) {
         const canvas = this.panel.querySelector('canvas');
-        if (!this.body || !canvas || !this.rows || this.rows.length < 2) return;
+        if (!this.body || !canvas || this.sorted.length < 2) return;
         const ratio = window.devicePixelRatio, w = canvas.clientWidth, h = canvas.clientHeight;
         if (!this.back) {
             this.back = document.createElement('canvas');

@@ -22,7 +22,10 @@ const COLOURS = {
 class Player {
     constructor(record) {
         this.record = record;
-        this.store = new FrameStore(record, new Chunks($('record').dataset.beside || '', () => { this.dirty = true; }));
+        const files = 1 + record.frames.reduce((most, f) => Math.max(most, f.chunk ?? -1), -1);
+        this.chunks = new Chunks($('record').dataset.beside, files, () => this.arrived(),
+            (name) => tell(`${name} is missing: it belongs beside this page.`));
+        this.store = new FrameStore(record, this.chunks);
         this.poses = new Poses(record, this.store);
         this.time = record.frames[0].time;
         this.end = record.frames.at(-1).time;
@@ -52,6 +55,12 @@ class Player {
         this.setLegend();
         this.ready = true;
         requestAnimationFrame((now) => this.tick(now));
+    }
+
+    /** Of a file from beside the page: there is more to draw, and to tell of a picked floe. */
+    arrived() {
+        this.dirty = true;
+        if (this.picked) this.history.more();
     }
 
     connect() {
@@ -102,9 +111,10 @@ class Player {
         const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [], force = [];
         const kinds = new Set();
         let strongest = 0;
-        for (let k = 0; k < Math.min(n, 12); k++) {
-            const f = Math.floor(k * (n - 1) / 12);
-            if (!record.frames[f].view || !poses.show(f)) continue;
+        const pairs = Array.from({ length: n - 1 }, (_, f) => f)
+            .filter((f) => record.frames[f].view && record.frames[f + 1].view);
+        for (let k = 0; k < Math.min(pairs.length, 12); k++) {
+            poses.show(pairs[Math.floor(k * pairs.length / 12)]);
             for (const b of ice) {
                 if (!poses.shown[b.index]) continue;
                 speed.push(poses.speed[b.index]);
@@ -357,7 +367,8 @@ function download(blob, name) {
     setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-function note(text) { $('note').textContent = text; setTimeout(() => { $('note').textContent = ''; }, 6000); }
+function note(text) { tell(text); setTimeout(() => { $('note').textContent = ''; }, 6000); }
+function tell(text) { $('note').textContent = text; }
 
 /** Blue over white to red: slow or thin to fast or thick. */
 function ramp(t) {

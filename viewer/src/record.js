@@ -209,28 +209,46 @@ function readForces(c) {
         { kind: KINDS[c.i32()], which: c.i32(), point: c.vec3(), force: c.vec3() }));
 }
 
-/** Files beside the page, each a script that calls framChunk(number, base64); a few are kept. */
+const KEPT = 4; // files beside the page that are held at once
+
+/** Files beside the page, each a script that calls framChunk(number, base64): scripts load from disk, where fetching is
+ *  forbidden.  The next one is asked for ahead of time.  arrived() is called with each, failed(name) for one that is
+ *  not there. */
 export class Chunks {
-    constructor(folder, arrived) {
+    constructor(folder, count, arrived, failed) {
         this.folder = folder;
+        this.count = count;
+        this.failed = failed;
         this.kept = new Map();
-        this.asked = new Map();
+        this.asked = new Set();
         window.framChunk = (number, base64) => {
-            if (this.kept.size >= 4) this.kept.delete(this.kept.keys().next().value);
+            if (this.kept.size >= KEPT) this.kept.delete(this.kept.keys().next().value);
             this.kept.set(number, new DataView(bytesOf(base64)));
+            this.asked.delete(number);
             arrived();
         };
     }
 
     get(number) {
         const view = this.kept.get(number);
-        if (view || this.asked.has(number)) return view;
-        const script = document.createElement('script');
-        script.src = `${this.folder}/${String(number).padStart(4, '0')}.js`;
-        script.onload = script.onerror = () => { script.remove(); this.asked.delete(number); };
-        this.asked.set(number, script);
+        if (!view) {
+            this.ask(number);
+            return undefined;
+        }
+        this.kept.delete(number); // the last one used is the last to go
+        this.kept.set(number, view);
+        if (number + 1 < this.count) this.ask(number + 1);
+        return view;
+    }
+
+    ask(number) {
+        if (this.asked.has(number) || this.kept.has(number)) return;
+        const script = document.createElement('script'), name = `${String(number).padStart(4, '0')}.js`;
+        script.src = `${this.folder}/${name}`;
+        script.onload = () => script.remove();
+        script.onerror = () => { script.remove(); this.failed(`${decodeURIComponent(this.folder)}/${name}`); };
+        this.asked.add(number);
         document.head.append(script);
-        return undefined;
     }
 }
 

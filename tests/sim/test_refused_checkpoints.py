@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Checkpoints that are damaged, of another version or another scenario are refused, and the reason is told.
+
+A damaged newest one is passed over for the one before, with a warning; resume of another scenario never goes on.
+"""
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import zlib
+
+FRAM = os.environ["FRAM"]
+SCENE = """
+run: {duration: 2, time_step: 0.02}
+vessel: {mode: towed, x: -30, speed: 2, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {mean_floe_area: 100, concentration: 0.5}
+domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40}
+output: {checkpoint_interval: 0.5}
+"""
+
+
+def resume(run):
+    done = subprocess.run([FRAM, "resume", run], capture_output=True, text=True, check=False)
+    return done.returncode, done.stderr
+
+
+def with_sums(data):
+    """The file with its checksums set right, so that what is inside is looked at."""
+    data = bytearray(data)
+    struct.pack_into("<I", data, 24, zlib.crc32(data[32:]))
+    struct.pack_into("<I", data, 28, zlib.crc32(data[:28]))
+    return bytes(data)
+
+
+def other_version(data):
+    data = bytearray(data)
+    struct.pack_into("<I", data, 8, struct.unpack_from("<I", data, 8)[0] + 1)
+    return with_sums(data)
+
+
+def flipped(at):
+    def change(data):
+        data = bytearray(data)
+        data[at] ^= 0x10
+        return bytes(data)
+    return change
+
+
+def swapped(data):
+    data = bytearray(data)
+    data[12:16] = data[12:16][::-1]
+    return with_sums(data)
+
+
+DAMAGE = {
+    "empty": (lambda data: b"", "too short|cut short|expected"),
+    "cut in its head": (lambda data: data[:20], "short|expected"),
+    "cut in its middle": (lambda data: data[:len(data) // 2], r"of \d+ bytes, found"),
+    "one byte too long": (lambda data: data + b"x", "bytes|long|expected"),
+    "flipped in its head": (flipped(9), "damaged|version"),
+    "flipped in its state": (flipped(-900), "damaged|checksum"),
+    "another kind of file": (lambda data: b"GIF89a" + data[6:], "another kind|expected a"),
+    "another version": (other_version, "version"),
+    "another byte order": (swapped, "byte order"),
+    "a state that was changed with care": (lambda data: with_sums(flipped(-1)(data)), "state is not the one|expected"),
+}
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        (folder / "scene.yaml").write_text(SCENE)
+        subprocess.run([FRAM, "run", folder / "scene.yaml", "-o", folder / "run", "--until", "1.2", "-q"], check=True)
+        for name, (change, reason) in DAMAGE.items():
+            run = folder / "damaged"
+            shutil.copytree(folder / "run", run)
+            files = sorted(run.glob("checkpoint-*.fram"))
+            assert len(files) == 2, files
+            files[1].write_bytes(change(files[1].read_bytes()))
+            code, told = resume(run)
+            assert code == 0 and files[1].name in told and "trying the one before" in told, (name, code, told)
+            assert re.search(reason, told) and "resuming at t = 1 s" in told, (name, told)
+            shutil.rmtree(run)
+            shutil.copytree(folder / "run", run)
+            for file in files:
+                file.write_bytes(change(file.read_bytes()))
+            before = {p.name: p.read_bytes() for p in run.iterdir()}
+            code, told = resume(run)
+            assert code == 2 and re.search(reason, told), (name, code, told)
+            assert {p.name: p.read_bytes() for p in run.iterdir()} == before, f"{name}: the refusal changed files"
+            shutil.rmtree(run)
+        run = folder / "other"
+        shutil.copytree(folder / "run", run)
+        text = (run / "scenario.yaml").read_text()
+        (run / "scenario.yaml").write_text(text.replace("thickness: 1", "thickness: 1.25", 1))
+        assert (run / "scenario.yaml").read_text() != text
+        code, told = resume(run)
+        assert code == 2 and "another scenario" in told, (code, told)
+        for name in run.glob("checkpoint-*.fram"):
+            name.unlink()
+        code, told = resume(run)
+        assert code == 2 and "no checkpoint" in told, (code, told)
+        # Streams that are shorter than the checkpoint says are no run to go on with.
+        run = folder / "short"
+        shutil.copytree(folder / "run", run)
+        with open(run / "record.fram", "r+b") as file:
+            file.truncate(200)
+        code, told = resume(run)
+        assert code == 2 and "record.fram" in told, (code, told)
+    print(f"{len(DAMAGE)} ways of damage and three of disagreement are refused with the reason")
+
+
+main()

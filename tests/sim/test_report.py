@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""The report of runs with a field that feeds itself and with level ice: its books close, and it says all that it should.
+
+The books are those of series.csv and of the frames, which know nothing of each other: what the first frame holds, plus
+what came in, minus what went out, crushed, was lost or became brash, is what the last frame holds.
+"""
+import csv
+import html.parser
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+
+FRAM = os.environ["FRAM"]
+VESSEL = "hull: {length: 48, beam: 12, draught: 4, freeboard: 2}"
+SCENES = {
+    "feeding": f"""
+run: {{duration: 14, time_step: 0.02, seed: 4, transient: 2}}
+vessel:
+  mode: free
+  {VESSEL}
+  mooring: {{depth: 60, lines: [{{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}}]}}
+ice: {{concentration: 0.8, mean_floe_area: 64, thickness: 0.4, breakable: true}}
+domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: feeding, drift_speed: 2, drift_direction_deg: 200}}
+""",
+    "level": f"""
+run: {{duration: 12, time_step: 0.02, seed: 1, transient: 1}}
+vessel: {{mode: towed, x: -28, speed: 3, ramp: 0.5, {VESSEL}}}
+ice: {{source: level, thickness: 0.4, breakable: true, crush_trims: true, level: {{x_min: 0}}}}
+domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
+""",
+}
+SECTIONS = ("Scenario", "Ice load", "Motion of the vessel", "Ice field", "Fracture", "Mass and energy",
+            "Quality of the solution", "Origin", "The whole scenario")
+CHARTS = ("Ice load over time", "Histogram of the load", "Exceedance of the load", "Floe sizes", "Floes in the field",
+          "Broken floes", "Energy", "Residual", "Overlap")
+
+
+class Tables(html.parser.HTMLParser):
+    """First cell of every row, and the ones after it."""
+
+    def __init__(self):
+        super().__init__()
+        self.rows, self.cells, self.text, self.heads = {}, None, None, []
+
+    def handle_starttag(self, tag, attrs):
+        if tag == "tr":
+            self.cells = []
+        elif tag in ("td", "th", "h2"):
+            self.text = ""
+
+    def handle_endtag(self, tag):
+        if tag in ("td", "th") and self.cells is not None:
+            self.cells.append(self.text)
+        elif tag == "h2":
+            self.heads.append(self.text)
+        elif tag == "tr" and self.cells:
+            self.rows.setdefault(self.cells[0], self.cells[1:])
+
+    def handle_data(self, data):
+        if self.text is not None:
+            self.text += data
+
+
+def number(text):
+    return float(re.match(r"[-+0-9.eE]+", text.replace("\u2212", "-")).group())
+
+
+def check(name, run, pictures):
+    page = (run / "report.html").read_text()
+    tables = Tables()
+    tables.feed(page)
+    with open(run / "series.csv", newline="") as file:
+        last = list(csv.DictReader(file))[-1]
+    rows = tables.rows
+    for section in SECTIONS:
+        assert section in tables.heads, (name, section, tables.heads)
+    for chart in CHARTS if pictures else ():
+        assert f'alt="{chart}"' in page, (name, chart)
+    first, final = (number(rows[f"in the field at the {w} frame"][0]) for w in ("first", "last"))
+    book = {k[:-4]: float(v) * 1e-3 for k, v in last.items() if k.startswith(("ice_mass_", "brash_mass"))}
+    moved = (book["ice_mass_entered"] + book["ice_mass_gained"] - book["ice_mass_left"] - book["ice_mass_lost"]
+             - book["ice_mass_crushed"] - book["brash_mass"])
+    assert abs(first + moved - final) < 2e-3 * first, (name, first, moved, final)
+    assert abs(number(rows["of the mass at the start"][0])) < 0.1, (name, rows["of the mass at the start"])
+    assert float(last["fractures[1]"] if "fractures[1]" in last else last["bendings[1]"]) > 0, "nothing broke"
+    if name == "feeding":
+        assert book["ice_mass_entered"] > 0 and book["ice_mass_left"] > 0, book
+        assert "Keeping station" in tables.heads
+    else:
+        assert book["ice_mass_lost"] + book["ice_mass_crushed"] > 0, book
+    for row in ("kinetic energy", "crushing work"):
+        assert row in rows, (name, row)
+    kinetic = float(last["kinetic_energy[J]"]) * 1e-3
+    assert abs(number(rows["kinetic energy"][0]) - kinetic) <= 1e-3 * abs(kinetic) + 1e-6, (rows["kinetic energy"], kinetic)
+    before, after = (number(v) for v in rows["floes"][:2])
+    assert before > 0 and after == float(last["floes[1]"]), (name, before, after, last["floes[1]"])
+    for row in ("residual of the contact problem [m/s]", "largest overlap [m]", "computing time of a step [ms]"):
+        assert all(number(v) >= 0 for v in rows[row]), (name, row, rows[row])
+    for row in ("Fram", "scenario", "state at the end"):
+        assert row in rows, (name, row)
+    return number(rows["of the mass at the start"][0])
+
+
+def main():
+    pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
+    said = []
+    with tempfile.TemporaryDirectory() as folder:
+        for name, scene in SCENES.items():
+            file, run = pathlib.Path(folder) / f"{name}.yaml", pathlib.Path(folder) / name
+            file.write_text(scene)
+            subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
+            subprocess.run([FRAM, "report", run, "-q"], check=True)
+            said.append(f"{name}: {check(name, run, pictures):g} %")
+    print("mass not accounted for, " + ", ".join(said))
+
+
+main()
