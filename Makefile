@@ -14,7 +14,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-views viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers bench-views soak validate coverage install deps clean help
+.PHONY: build test test-kill test-views bench-recording viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers bench-views soak validate coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -40,6 +40,12 @@ scenes: build ## run the ready scenes of vessels on station for ten minutes each
 
 test-views: viewer build | $(STAMPS)/views ## the playback page in headless Chromium
 	@cd build/release && $(CTEST) -L '^views$$'
+
+test-kill: build ## kill -9 a run at FRAM_KILLS (50) random moments and resume it
+	@FRAM=$(CURDIR)/build/release/fram FRAM_KILLS=$${FRAM_KILLS:-50} $(PYTHON) tests/sim/test_kill.py
+
+bench-recording: build ## what recording costs in time and bytes, against its bounds
+	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)
 
 test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and the threaded rooms under TSan
 

@@ -20,7 +20,7 @@ double image_round_step(double span, int parts)
 
 void image_ramp(double t, double rgb[3])
 {
-    static const double low[3] = {0.23, 0.44, 0.69}, middle[3] = {0.96, 0.96, 0.93}, high[3] = {0.72, 0.20, 0.12};
+    static const double low[3] = {0.96, 0.97, 0.96}, middle[3] = {0.98, 0.72, 0.30}, high[3] = {0.42, 0.05, 0.35};
     double x = fmin(fmax(t, 0), 1), part = x < 0.5 ? 2 * x : 2 * x - 1;
     const double *from = x < 0.5 ? low : middle, *to = x < 0.5 ? middle : high;
     for (int k = 0; k < 3; k++)

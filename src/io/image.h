@@ -37,7 +37,8 @@ void image_text(cairo_t *page, double x, double y, double size, image_align alig
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
 #endif
 
-/* Colours of a scale from 0 (blue) over 0.5 (white) to 1 (red), the same as in the playback page; r g b from 0 to 1. */
+/* Colours of a scale from 0 (the white of ice) over 0.5 (amber) to 1 (dark purple), none of which is that of water or a
+   hull; the same as in the playback page.  r g b from 0 to 1. */
 void image_ramp(double t, double rgb[3]);
 
 /* A round step (1, 2 or 5 times a power of ten) that divides `span` into about `parts`. */

@@ -191,7 +191,7 @@ class Player {
         for (let i = 0; i < ice.length; i++) {
             const k = ice[i];
             if (!shown[k]) continue;
-            const value = mode === 'age' ? hi - (time - values[k]) : values[k]; // new is red
+            const value = mode === 'age' ? hi - (time - values[k]) : values[k]; // new is dark
             if (value !== value) continue; // an original floe has no age
             const c = 3 * Math.min(255, Math.max(0, Math.round((value - lo) * per)));
             rgb[3 * k] = RAMP[c]; rgb[3 * k + 1] = RAMP[c + 1]; rgb[3 * k + 2] = RAMP[c + 2];
@@ -370,11 +370,12 @@ function download(blob, name) {
 function note(text) { tell(text); setTimeout(() => { $('note').textContent = ''; }, 6000); }
 function tell(text) { $('note').textContent = text; }
 
-/** Blue over white to red: slow or thin to fast or thick. */
+/** White as ice over amber to dark purple: slow or thin to fast or thick.  The same as image_ramp of src/io/image.c. */
+const STOPS = [[0.96, 0.97, 0.96], [0.98, 0.72, 0.30], [0.42, 0.05, 0.35]];
 function ramp(t) {
-    const x = Math.min(1, Math.max(0, t));
-    return x < 0.5 ? new THREE.Color(0x3a6fb0).lerp(new THREE.Color(0xf4f4ee), 2 * x)
-        : new THREE.Color(0xf4f4ee).lerp(new THREE.Color(0xb8321e), 2 * x - 1);
+    const x = 2 * Math.min(1, Math.max(0, t)), k = x < 1 ? 0 : 1;
+    const [r, g, b] = STOPS[k].map((v, i) => v + (x - k) * (STOPS[k + 1][i] - v));
+    return new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
 }
 const RAMP = Float32Array.from({ length: 768 }, (_, i) => ramp(Math.floor(i / 3) / 255).toArray()[i % 3]);
 
