@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Speed of the playback page with 10,000 floes, in headless Chromium: bench/results/playback.md.
 
-Runs bench/playback.yaml, makes its page, plays it and seeks in it.  Ends with code 1 when a bound of the page is broken:
+Runs bench/playback.yaml, makes its page, plays it and seeks in it.  Ends with code 1 when a bound is broken:
 8 ms of script a frame (95 of 100 frames), 20 draw calls, 0.5 s a seek.  Give --write to put the table into the results.
 """
 import argparse
@@ -16,6 +16,15 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "tests" / "views"))
 import chromium  # noqa: E402  (tests/views is no package)
 
+ABOUT = """# The playback page
+
+`make bench-views` (`bench/run_playback.py`), {day}; {processor}, 2 cores of a shared virtual machine, nothing else
+running; Chromium 156, headless, without a graphics card: SwiftShader draws on the processor. Script is what the page
+itself computes for a frame (poses, colours, arrows, legend, timeline), measured in every frame of a playback at twice
+real time; the calls to WebGL are told apart, for they wait for the device when it is slower than the page. A seek ends
+when the new picture can be read back. Bounds: 8 ms of script, 20 draw calls, 0.5 s a seek.
+
+"""
 MOST_SCRIPT, MOST_CALLS, MOST_SEEK = 8.0, 20, 0.5
 PLAY = """(async () => {
     const script = [], webgl = [], gl = fram.scene.renderer.getContext(), { scene } = fram;
@@ -82,8 +91,8 @@ def table(m, size):
     lines = [f"{m['floes']} floes, page of {size / 1e6:.1f} MB, view of {m['view'][0]} x {m['view'][1]} pixels. "
              f"Loaded and drawn for the first time after {m['load']:.1f} s.", "",
              f"Drawn by: {m['device']}", "",
-             "| colour, camera | script a frame: median ms | 95 % | largest | WebGL calls: median ms | 95 % | draw calls | "
-             "seek: median ms | largest | frames/s drawn |", "|---|---|---|---|---|---|---|---|---|---|"]
+             "| colour, camera | script a frame: median ms | 95 % | largest | WebGL calls: median ms | 95 % | "
+             "draw calls | seek: median ms | largest | frames/s drawn |", "|---|---|---|---|---|---|---|---|---|---|"]
     for name, play, seek in m["modes"]:
         script, seeks = play["script"], seek["seeks"]
         lines.append(f"| {name} | {at(script, 0.5):.1f} | {at(script, 0.95):.1f} | {max(script):.1f} | "
@@ -124,13 +133,7 @@ def main():
         text = table(m, page.stat().st_size)
     print(text)
     if options.write:
-        head = ("# The playback page\n\n`make bench-views` (`bench/run_playback.py`), "
-                f"{time.strftime('%Y-%m-%d')}; {processor()}, 2 cores of a shared virtual machine, nothing else running; "
-                "Chromium 156, headless, without a graphics card: SwiftShader draws on the processor. Script is what the "
-                "page itself computes for a frame (poses, colours, arrows, legend, timeline), measured in every frame of a "
-                "playback at twice real time; the calls to WebGL are told apart, for they wait for the device when it "
-                "is slower than the page. A seek ends when the new picture can be "
-                "read back. Bounds: 8 ms of script, 20 draw calls, 0.5 s a seek.\n\n")
+        head = ABOUT.format(day=time.strftime("%Y-%m-%d"), processor=processor())
         (HERE / "results" / "playback.md").write_text(head + text + "\n", encoding="utf-8")
     for complaint in broken(m):
         print("BROKEN: " + complaint)

@@ -2,8 +2,8 @@
 """What recording costs: run time with and without it, and bytes per moving floe and frame; bench/results/recording.md.
 
 Each scene runs in turn with all that is written by default, with frames only, and with next to nothing written; ratios
-are taken within a round, and the middle one of the rounds is told.  Bounds: 5 % of run time, 20 bytes per moving floe and
-frame.  Give --write to put the table into the results.
+are taken within a round, and the middle one of the rounds is told.  Bounds: 5 % of run time, 20 bytes per moving floe
+and frame.  Give --write to put the table into the results.
 """
 import argparse
 import json
@@ -17,6 +17,15 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+ABOUT = """# What recording costs
+
+`make bench-recording` (`bench/run_recording.py`), {day}; {processor}, one thread on one core of a shared virtual
+machine, nothing else running. Every row of the series, frames and checkpoints as the scene says, and the pictures at
+the end, against a run that writes next to nothing; middle of {rounds} rounds of both in turn. Bytes are all of the
+record: frames, forces on the vessel, outlines, the hull, the scenario. Bounds: 5 % of the run time, 20 bytes per moving
+floe and frame.
+
+"""
 MOST_PART, MOST_BYTES = 5.0, 20.0
 # Scene, shortened to so many seconds.  Frames and checkpoints as the scene or the defaults say.
 SCENES = (("scenes/demo.yaml", 60), ("scenes/supply_ship.yaml", 120), ("bench/playback.yaml", 24))
@@ -58,8 +67,8 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--write", action="store_true", help="put the table into bench/results/recording.md")
     options = parser.parse_args()
-    lines = ["| scene | s | bodies that move | frames | record | bytes per moving body and frame | run time | of it for "
-             "recording |", "|---|---|---|---|---|---|---|---|"]
+    lines = ["| scene | s | bodies that move | frames | record | bytes per moving body and frame | run time | of it "
+             "for recording |", "|---|---|---|---|---|---|---|---|"]
     broken = []
     for scene, seconds in SCENES:
         times = {way: [] for way in WAYS}
@@ -79,12 +88,7 @@ def main():
     text = "\n".join(lines)
     print(text)
     if options.write:
-        head = ("# What recording costs\n\n`bench/run_recording.py`, "
-                f"{time.strftime('%Y-%m-%d')}; {processor()}, one thread on one core of a shared virtual machine, nothing "
-                f"else running. Every row of the series, frames and checkpoints as the scene says, and the pictures at the "
-                f"end, against a run that writes next to nothing; middle of {options.rounds} rounds of both in turn. Bytes "
-                "are all of the record: frames, forces on the vessel, outlines, the hull, the scenario. Bounds: 5 % of "
-                "the run time, 20 bytes per moving floe and frame.\n\n")
+        head = ABOUT.format(day=time.strftime("%Y-%m-%d"), processor=processor(), rounds=options.rounds)
         (HERE / "results" / "recording.md").write_text(head + text + "\n", encoding="utf-8")
     for one in broken:
         print("BROKEN: " + one)

@@ -1,7 +1,6 @@
 #include "sim/video_scene.h"
 
 #include "geometry/ear_clip.h"
-#include "io/image.h"
 #include "io/solid_view.h"
 
 #include <stdio.h>

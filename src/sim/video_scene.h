@@ -3,6 +3,7 @@
 #ifndef SIM_VIDEO_SCENE_H
 #define SIM_VIDEO_SCENE_H
 
+#include "io/image.h"
 #include "sim/replay_plan.h"
 
 typedef enum video_camera {
@@ -25,7 +26,6 @@ typedef struct video_scene {
 } video_scene;
 
 #ifdef FRAM_HAVE_CAIRO
-#include <cairo.h>
 /* Into the rectangle of width x height pixels from the origin of a page that is an RGB24 image. */
 fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r, const replay_moment *m, cairo_t *page,
                              int width, int height, fram_error *error);

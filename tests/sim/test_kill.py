@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """kill -9 at random moments, then resume: nothing is lost beyond the last checkpoint, and no file is half-written.
 
-A run with breaking ice, lines and dynamic positioning is killed again and again, wherever it is: while it builds, steps,
-writes or ends.  After each kill every file is looked at, and resume must begin at the newest checkpoint.  In the end
-all files are those of a run that nobody disturbed, byte for byte, but for the wall-clock times in them.
+A run with breaking ice, lines and dynamic positioning is killed again and again, wherever it is: while it builds,
+steps, writes or ends.  After each kill every file is looked at, and resume must begin at the newest checkpoint.  In the
+end all files are those of a run that nobody disturbed, byte for byte, but for the wall-clock times in them.
 FRAM_KILLS says how often (4; `make test-kill`: 50).
 """
 import csv

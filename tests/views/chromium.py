@@ -1,6 +1,6 @@
 """Headless Chromium driven through its DevTools pipe: open a page, evaluate, click, and hear what it complains of.
 
-Only Python's own library is needed.  Messages are JSON ended by a zero byte: file descriptor 3 to the browser, 4 from it.
+Only Python's own library is needed.  Messages are JSON ended by a zero byte: descriptor 3 to the browser, 4 from it.
 """
 import base64
 import json

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """The playback page as a user meets it, in headless Chromium: load, play, seek, pick, colours, cameras, export.
 
-Hull, floes and water are looked for where the run says they are, in the pixels that were drawn; pictures and videos that
-the page saves are opened; and the browser must have nothing to complain of.  Skipped (77) without Chromium or without
-the viewer's page.
+Hull, floes and water are looked for where the run says they are, in the pixels that were drawn; pictures and videos
+that the page saves are opened; and the browser must have nothing to complain of.  Skipped (77) without Chromium or
+without the viewer's page.
 """
 import csv
 import json

@@ -1,6 +1,8 @@
 // The panel of the picked floe: what it is, where it came from, and its speed and contact force over time, as far as
 // the frames are in the page.
 
+import { forceText } from './legend.js';
+
 const MOST = 400; // frames that are looked at
 
 export class History {
@@ -49,7 +51,7 @@ export class History {
         this.back = null;
     }
 
-    curve(g, w, top, h, name, unit, colour, value) {
+    curve(g, w, top, h, name, tell, colour, value) {
         const rows = this.sorted, most = rows.reduce((m, r) => Math.max(m, value(r)), 0), t0 = rows[0].time;
         const span = rows.at(-1).time - t0 || 1;
         this.x = (t) => (t - t0) / span * w;
@@ -59,7 +61,7 @@ export class History {
         rows.forEach((r) => g.lineTo(this.x(r.time), top + h - value(r) / (most || 1) * (h - 13)));
         g.stroke();
         g.fillStyle = '#15222e';
-        g.fillText(most > 0 ? `${name}, largest ${most.toPrecision(3)} ${unit}` : `no ${name}`, 0, top + 9);
+        g.fillText(most > 0 ? `${name}, largest ${tell(most)}` : `no ${name}`, 0, top + 9);
     }
 
     draw(time) {
@@ -72,8 +74,8 @@ export class History {
             const g = this.back.getContext('2d');
             g.scale(ratio, ratio);
             g.font = '10.5px system-ui, "DejaVu Sans", sans-serif';
-            this.curve(g, w, 0, h / 2 - 3, 'speed', 'm/s', '#00457f', (r) => r.speed);
-            this.curve(g, w, h / 2, h / 2 - 1, 'contact force', 'kN', '#c2185b', (r) => r.force);
+            this.curve(g, w, 0, h / 2 - 3, 'speed', (v) => `${v.toPrecision(3)} m/s`, '#00457f', (r) => r.speed);
+            this.curve(g, w, h / 2, h / 2 - 1, 'contact force', forceText, '#c2185b', (r) => r.force);
         }
         const g = canvas.getContext('2d');
         g.clearRect(0, 0, canvas.width, canvas.height);

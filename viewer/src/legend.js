@@ -25,8 +25,8 @@ export class Legend {
         return 2 * EDGE + (unit ? 44 : LINE) + (forces.length ? 2 * LINE : 0) + (marked ? LINE : 0) + 48;
     }
 
-    /** view: {length: of the bar [m], pixels: of the bar, force: that an arrow of this length stands for, angle: of Y on
-     *  the screen, clockwise from up}. */
+    /** view: {length: of the bar [m], pixels: of the bar, force: that an arrow of this length stands for, angle: of Y
+     *  on the screen, clockwise from up}. */
     show(canvas, view) {
         const ratio = window.devicePixelRatio, state = JSON.stringify([view, ratio]);
         if (state === this.drawn) return;

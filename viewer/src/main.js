@@ -270,7 +270,10 @@ class Player {
     still() {
         return new Promise((done) => {
             this.draw();
-            this.compose(document.createElement('canvas')).toBlob((blob) => { download(blob, `fram-${this.time.toFixed(1)}s.png`); done(blob); });
+            this.compose(document.createElement('canvas')).toBlob((blob) => {
+                download(blob, `fram-${this.time.toFixed(1)}s.png`);
+                done(blob);
+            });
         });
     }
 
@@ -282,7 +285,8 @@ class Player {
         if (!type) { note('This browser cannot record video; fram video makes one.'); return Promise.resolve(null); }
         const parts = [];
         this.filmCanvas = this.compose(document.createElement('canvas'));
-        this.recorder = new MediaRecorder(this.filmCanvas.captureStream(25), { mimeType: type, videoBitsPerSecond: 8e6 });
+        const stream = this.filmCanvas.captureStream(25);
+        this.recorder = new MediaRecorder(stream, { mimeType: type, videoBitsPerSecond: 8e6 });
         this.recorder.ondataavailable = (e) => parts.push(e.data);
         this.filmed = new Promise((done) => {
             this.recorder.onstop = () => {
@@ -353,7 +357,8 @@ class Player {
     }
 
     tell(state) {
-        $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${this.poses.floes} floes`;
+        const { floes } = this.poses;
+        $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
         const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
         $('load').textContent = this.hull ? `ice force on the vessel, averaged: X ${x} kN, Y ${y} kN` : '';
     }

@@ -134,8 +134,7 @@ export class Scene {
         const place = fractures.flatMap((f) => [f.place[0], f.place[1], f.place[2] + 1]);
         geometry.setAttribute('position', new THREE.Float32BufferAttribute(place, 3));
         geometry.setDrawRange(0, 0);
-        const material = new THREE.PointsMaterial({ color: 0xd9730d, size: 7, sizeAttenuation: false, depthTest: false,
-            transparent: true });
+        const material = new THREE.PointsMaterial({ color: 0xd9730d, size: 7, sizeAttenuation: false });
         this.markers = new THREE.Points(geometry, material);
         this.markers.frustumCulled = false;
         this.markers.renderOrder = 2;

@@ -1,5 +1,7 @@
 // The timeline: the averaged ice load over time, marks where floes broke, and a cursor that can be dragged.
 
+import { forceText } from './legend.js';
+
 export class Timeline {
     constructor(canvas, record, seek) {
         this.canvas = canvas;
@@ -34,7 +36,7 @@ export class Timeline {
         g.fillStyle = '#15222e';
         g.font = '11px system-ui, "DejaVu Sans", sans-serif';
         const events = this.events.length ? `; orange: ${this.events.length} floes that broke` : '';
-        g.fillText(`ice load on the vessel, averaged; largest ${this.most.toPrecision(3)} kN${events}`, 4, 11);
+        g.fillText(`ice load on the vessel, averaged; largest ${forceText(this.most)}${events}`, 4, 11);
         const end = `${(this.begin + this.span).toFixed(0)} s`;
         g.fillText(end, w - g.measureText(end).width - 4, 11);
         this.back = back;
