@@ -110,7 +110,7 @@ class Player {
         const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
         const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [], force = [];
         const kinds = new Set();
-        let strongest = 0;
+        const pull = [];
         const pairs = Array.from({ length: n - 1 }, (_, f) => f)
             .filter((f) => record.frames[f].view && record.frames[f + 1].view);
         for (let k = 0; k < Math.min(pairs.length, 12); k++) {
@@ -121,7 +121,7 @@ class Player {
                 if (poses.contact[b.index] > 0) force.push(poses.contact[b.index]);
             }
             for (const f of poses.forces) {
-                strongest = Math.max(strongest, Math.hypot(...f.force));
+                pull.push(Math.hypot(...f.force));
                 kinds.add(f.kind);
             }
         }
@@ -137,9 +137,8 @@ class Player {
         };
         this.kinds = ['ice', 'line', 'thruster'].filter((kind) => kinds.has(kind));
         const size = this.scene.box.getSize(new THREE.Vector3());
-        const forces = most(record.frames.map((f) => Math.hypot(...f.force)));
-        this.strongest = Math.max(strongest, forces, 1);
-        this.arrowScale = 0.12 * Math.max(size.x, size.y) / this.strongest;
+        // A few arrows may be longer: one hard blow must not make all others vanish.
+        this.arrowScale = 0.12 * Math.max(size.x, size.y) / (1000 * high(pull.map((f) => f / 1000), 0.001));
         this.scene.arrowWidth = 0.05 * Math.max(size.x, size.y);
     }
 
@@ -360,7 +359,7 @@ class Player {
         const { floes } = this.poses;
         $('clock').textContent = `t = ${state.time.toFixed(2)} s of ${this.end.toFixed(0)} s, ${floes} floes`;
         const [x, y] = state.force.map((newton) => (newton / 1000).toFixed(0));
-        $('load').textContent = this.hull ? `ice force on the vessel, averaged: X ${x} kN, Y ${y} kN` : '';
+        $('load').textContent = this.hull ? `averaged ice force: X ${x} kN, Y ${y} kN` : '';
     }
 }
 
