@@ -57,7 +57,8 @@ static playback_layout lay_out(const record_measure *m, const playback_options *
     while (m->other_bytes + m->frame_bytes / (uint64_t)l.stride > total && l.stride < m->frames)
         l.stride++;
     l.beside = m->other_bytes + m->frame_bytes / (uint64_t)l.stride > room;
-    uint64_t free = room > m->other_bytes ? room - m->other_bytes : 0, frame = m->frame_bytes / (uint64_t)m->frames;
+    uint64_t free = room > m->other_bytes ? room - m->other_bytes : 0;
+    uint64_t frame = m->frames > 0 ? m->frame_bytes / (uint64_t)m->frames : 0;
     while (l.samples > 1 && 2 * (uint64_t)l.samples * frame > free)
         l.samples /= 2;
     if (l.chunk > room / 2)

@@ -83,7 +83,7 @@ static fram_status draw_prism(context *ctx, solid_view *v, const replay *r, cons
         vec3 local = vec3_make(outline.vertex[i].x, outline.vertex[i].y, 0);
         good = array_push(ctx, &top, vec3_add(vec3_add(p->position, mat3_mul_vec(turn, local)), half));
     }
-    for (int32_t i = 0; i + 2 < corners->count && good; i += 3)
+    for (int32_t i = 0; i + 2 < corners->count && good && top.data; i += 3)
         solid_view_triangle(v, top.data[corners->data[i]], top.data[corners->data[i + 1]],
                             top.data[corners->data[i + 2]], rgb);
     for (int32_t i = 0; i < top.count && good; i++) {
