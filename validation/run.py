@@ -67,8 +67,8 @@ def page(name, case, seconds, head):
     return "\n".join(lines)
 
 
-def index(verdicts):
-    """The book's first page: every case with its verdict, and what did not agree."""
+def index(verdicts, names):
+    """The book's first page: every case with its verdict, what did not agree, and what was not made."""
     agree = sum(v["good"] for v in verdicts.values())
     lines = ["# Validation", "",
              "Made by `make validate`; `VALIDATE_FLAGS=--quick` runs the cases of a few minutes, `--only NAME` one. "
@@ -90,6 +90,10 @@ def index(verdicts):
     if failed:
         lines += ["## What does not agree", ""]
         lines += [f"- [{verdicts[n]['title']}]({n}.md): {what}" for n, what in failed] + [""]
+    missing = [name for name in names if name not in verdicts]
+    if missing:
+        lines += ["## Not in this edition", "", "Cases that are written and were not run when this page was made: "
+                  + ", ".join(f"`{name}`" for name in missing) + ".", ""]
     return "\n".join(lines)
 
 
@@ -143,7 +147,7 @@ def main():
                           "failed": [what for what, good in case.checks if not good],
                           "made": f"{datetime.date.today()}, {revision()}"}
         kept.write_text(json.dumps(verdicts, indent=1, sort_keys=True) + "\n")
-        (options.out / "README.md").write_text(index(verdicts))
+        (options.out / "README.md").write_text(index(verdicts, modules))
     print(f"validation: {options.out / 'README.md'}, {time.monotonic() - begun:.0f} s")
     return 1 if failed else 0
 
