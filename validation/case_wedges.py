@@ -66,8 +66,8 @@ def case(out):
     c.check(spread <= 0.15, f"resistance of the ship: {100 * spread:.0f} % between the largest and the smallest N, at "
                             "most 15 %")
 
-    c.found = ("An edge converges at second order. The ship does not: from N = 3 to 5 its resistance grows, since more and "
-               "smaller pieces must be moved, and with N = 2 pieces of a quarter disk jam at the bow. N is part of the "
+    c.found = ("An edge converges at second order. The ship does not: from N = 3 to 5 its resistance grows, since more "
+               "and smaller pieces must be moved, and with N = 2 pieces of a quarter disk jam at the bow. N is part of the "
                "model, not of the numerics: keep the default of 3 when results are to be compared.")
 
     def draw(axes):
