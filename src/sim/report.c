@@ -53,6 +53,8 @@ static void key_figures(report *r)
 static const char *const modes[] = {"prescribed motion", "towed", "free"};
 static const char *const forms[] = {"box", "icebreaking hull", "hull from a file", "cone"};
 
+static const char *const boundaries[] = {"walls", "open", "in an endless field that drifts through"};
+
 static void scenario_table(report *r)
 {
     const scenario *s = &r->d.s;
@@ -67,7 +69,7 @@ static void scenario_table(report *r)
         html_fact(&r->page, "speed and heading", "%g m/s, %g deg", v->speed, v->heading_deg);
     }
     if (v->present && v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->thrusters.count > 0))
-        html_fact(&r->page, "kept by", "%d groups of mooring lines, %d thrusters%s", (int)v->mooring.lines.count,
+        html_fact(&r->page, "kept by", "mooring lines in groups: %d, thrusters: %d%s", (int)v->mooring.lines.count,
                   (int)v->thrusters.count, v->positioning.active ? ", dynamic positioning" : "");
     if (i->source != ICE_NONE) {
         html_fact(&r->page, "ice", "%g m thick, %g kg/m3; crushing %g kPa, flexural strength %g kPa; %s", i->thickness,
@@ -78,7 +80,7 @@ static void scenario_table(report *r)
                       100 * i->concentration, i->mean_floe_area);
     }
     html_fact(&r->page, "domain", "%g m x %g m, %s", s->domain.x_max - s->domain.x_min,
-              s->domain.y_max - s->domain.y_min, s->domain.boundary == DOMAIN_WALLS ? "walls" : "open");
+              s->domain.y_max - s->domain.y_min, boundaries[s->domain.boundary]);
     html_fact(&r->page, "current and wind", "%g m/s towards %g deg; %g m/s towards %g deg",
               s->environment.current_speed, s->environment.current_direction_deg, s->environment.wind_speed,
               s->environment.wind_direction_deg);
