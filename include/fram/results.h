@@ -75,6 +75,28 @@ FRAM_API void fram_video_default(fram_video_definition *definition);
 FRAM_API fram_status fram_video(fram_context *context, const char *run, const fram_video_definition *definition,
                                 fram_result *result, fram_error *error);
 
+/* ---- Capability ---- */
+
+typedef struct fram_capability_definition {
+    size_t size;                /* of this struct, set by fram_capability_default */
+    const char *folder;         /* for the results; must be named */
+    bool force;                 /* write into a folder that is not empty */
+    bool formula;               /* ice load by a published formula for ships in broken ice, not measured */
+    double measure;             /* 120: simulated seconds of each run that measures the ice load */
+    int directions;             /* 36, evenly round */
+    double speed_step;          /* 0.1 [m/s] */
+    double speed_most;          /* 1 [m/s] */
+    double allowance;           /* 1.25: what mean loads are multiplied by */
+    double line_safety;         /* 2: breaking load over the tension that a line may have, intact */
+    double line_safety_damaged; /* 1.43: after a failure */
+} fram_capability_definition;
+FRAM_API void fram_capability_default(fram_capability_definition *definition);
+/* From which direction and up to which drift speed the scenario's thrusters and mooring hold its vessel, in a static
+   balance, intact and after the worst single failure: capability.csv, capability_use.csv, capability.json,
+   capability.png and capability.svg (with pictures) in the folder.  Nothing is written before all is found. */
+FRAM_API fram_status fram_capability(const fram_scenario *scenario, const fram_capability_definition *definition,
+                                     fram_result *result, fram_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,6 +2,7 @@
 #include "fram/results.h"
 
 #include "api/handles.h"
+#include "sim/capability.h"
 #include "sim/export.h"
 #include "sim/plot.h"
 #include "sim/report.h"
@@ -156,5 +157,42 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "span", "only a plan has a span; choose the camera plan");
     if (status == FRAM_OK)
         status = video_write(&c->inner, run, &options, &report.frames, report.path, error);
+    return answer(status, &report, result);
+}
+
+/* ---- capability ---- */
+
+void fram_capability_default(fram_capability_definition *definition)
+{
+    *definition = (fram_capability_definition){.size = sizeof *definition,
+                                               .measure = 120,
+                                               .directions = 36,
+                                               .speed_step = 0.1,
+                                               .speed_most = 1,
+                                               .allowance = 1.25,
+                                               .line_safety = 2,
+                                               .line_safety_damaged = 1.43};
+}
+
+fram_status fram_capability(const fram_scenario *from, const fram_capability_definition *d, fram_result *result,
+                            fram_error *error)
+{
+    if (d->size != sizeof *d)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_capability_definition.size",
+                         "the definition was not filled by fram_capability_default of this version");
+    if (!d->folder || !*d->folder)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
+    const capability_options options = {.folder = d->folder,
+                                        .force = d->force,
+                                        .formula = d->formula,
+                                        .measure = d->measure,
+                                        .directions = d->directions,
+                                        .speed_step = d->speed_step,
+                                        .speed_most = d->speed_most,
+                                        .allowance = d->allowance,
+                                        .line_safety = d->line_safety,
+                                        .line_safety_damaged = d->line_safety_damaged};
+    export_report report = {.frames = 0};
+    fram_status status = capability_write(&from->context->inner, &from->inner, &options, &report, error);
     return answer(status, &report, result);
 }

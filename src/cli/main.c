@@ -50,6 +50,12 @@ static const command_row commands[] = {
      "  fram video out/demo --colour force --span 200 -o bow.mp4\n"
      "  fram video out/demo --pictures -o frames\n",
      command_video},
+    {"capability", "SCENARIO -o DIR",
+     "from which direction and up to which drift speed thrusters and mooring hold a vessel, intact and after a failure",
+     "  fram capability scenes/supply_ship.yaml -o out/capability\n"
+     "  fram capability scenes/supply_ship.yaml -o out/measured --measure 300 --speed-most 1.5\n"
+     "  fram capability scenes/turret_ship.yaml -o out/formula --formula --set ice.thickness=1.5\n",
+     command_capability},
     {"hull", "[FILE]",
      "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
      "  fram hull ship.stl --draught 7.5\n"
@@ -81,7 +87,7 @@ static void print_help(FILE *file)
         "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n",
         file);
     for (int i = 0; i < COMMAND_COUNT; i++)
-        fprintf(file, "  %-8s %s\n", commands[i].name, commands[i].summary);
+        fprintf(file, "  %-10s %s\n", commands[i].name, commands[i].summary);
     fputs("\nA first run, from the folder of the sources:\n"
           "  fram check scenes/demo.yaml                what will be simulated\n"
           "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"

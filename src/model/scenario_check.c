@@ -124,6 +124,24 @@ static bool inside_domain(const scenario *s, double x, double y)
     return x >= s->domain.x_min && x <= s->domain.x_max && y >= s->domain.y_min && y <= s->domain.y_max;
 }
 
+/* A line of kind table has one table, others have none. */
+static fram_status check_line_tables(const scenario *s, fram_error *error)
+{
+    for (int32_t i = 0; i < s->vessel.mooring.lines.count; i++) {
+        const scenario_mooring_line *l = &s->vessel.mooring.lines.data[i];
+        char key[64];
+        snprintf(key, sizeof key, "vessel.mooring.lines[%d].table", (int)i);
+        bool given = l->table.count > 0 || l->table_file[0];
+        if (l->kind == LINE_TABLE && !given)
+            return fault(s, error, key, "expected points or a table_file, since kind is table, found neither");
+        if (l->kind != LINE_TABLE && given)
+            return fault(s, error, key, "expected neither points nor a table_file, since kind is not table");
+        if (l->table.count > 0 && l->table_file[0])
+            return fault(s, error, key, "expected points or a table_file, found both");
+    }
+    return FRAM_OK;
+}
+
 /* Lines, thrusters and positioning act on a vessel that is free, and positioning needs thrusters. */
 static fram_status check_station(const scenario *s, fram_error *error)
 {
@@ -145,7 +163,7 @@ static fram_status check_station(const scenario *s, fram_error *error)
         snprintf(key, sizeof key, "vessel.positioning.waypoints[%d].time", (int)i);
         return fault(s, error, key, "expected a later time than that of the way point before");
     }
-    return FRAM_OK;
+    return check_line_tables(s, error);
 }
 
 static fram_status check_vessel(const scenario *s, fram_error *error)

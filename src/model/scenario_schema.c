@@ -35,6 +35,9 @@ SECTION_DEFINE(run, SCENARIO_RUN_KEYS)
 #define SELF scenario_hull
 SECTION_DEFINE(hull, SCENARIO_HULL_KEYS)
 #undef SELF
+#define SELF scenario_line_point
+SECTION_DEFINE(line_point, SCENARIO_LINE_POINT_KEYS)
+#undef SELF
 #define SELF scenario_mooring_line
 SECTION_DEFINE(mooring_line, SCENARIO_MOORING_LINE_KEYS)
 #undef SELF

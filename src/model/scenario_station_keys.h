@@ -3,9 +3,13 @@
 #ifndef MODEL_SCENARIO_STATION_KEYS_H
 #define MODEL_SCENARIO_STATION_KEYS_H
 
+#define SCENARIO_LINE_POINT_KEYS(X)                                                                            \
+    X(offset, REAL(0, -1e6, 1e6), "m", "of the upper end away from the anchor, from where it is at the start") \
+    X(tension, REAL(0, 0, 1e12), "N", "of the line then, along the straight line between its ends")
+
 #define SCENARIO_MOORING_LINE_KEYS(X)                                                                                  \
-    X(kind, CHOICE(line_kind, LINE_CATENARY, "catenary spring"), "",                                                   \
-      "catenary: elastic, over a flat bottom; spring: straight, pulls only")                                           \
+    X(kind, CHOICE(line_kind, LINE_CATENARY, "catenary spring table"), "",                                             \
+      "catenary: elastic, over a flat bottom; spring: straight, pulls only; table: straight, tension by its offset")   \
     X(count, INTEGER(1, 1, 64), "1", "so many of the kind, spread about the mooring's centre")                         \
     X(spacing_deg, REAL(30, -360, 360), "deg", "count over 1: angle from one to the next")                             \
     X(direction_deg, REAL(0, -360, 360), "deg", "in which the (first) line leads off as the vessel lies at the start") \
@@ -15,6 +19,9 @@
     X(pretension, REAL(1e6, 1e-6, 1e12), "N", "at the upper end as the vessel lies at the start; without a length")    \
     X(weight, REAL(1000, 1e-6, 1e9), "N/m", "catenary: in water")                                                      \
     X(stiffness, REAL(5e8, 1e-6, 1e15), "N, N/m", "catenary: axial stiffness EA; spring: force per length")            \
+    X(table, LIST(line_point, 32), "",                                                                                 \
+      "table: tensions, linear between rows; the first one's below it, the last slope beyond the last")                \
+    X(table_file, PATH(""), "", "table: CSV of offset [m], tension [N], instead of the list")                          \
     X(breaking_load, AUTOMATIC(1e-6, 1e12), "N", "it parts beyond this tension; auto: never")                          \
     X(release_time, AUTOMATIC(0, 1e9), "s", "it is let go then; auto: never")
 
@@ -101,6 +108,7 @@
 
 /* Inner sections before those that hold them. */
 #define SCENARIO_STATION_SECTIONS(S)            \
+    S(line_point, SCENARIO_LINE_POINT_KEYS)     \
     S(mooring_line, SCENARIO_MOORING_LINE_KEYS) \
     S(mooring, SCENARIO_MOORING_KEYS)           \
     S(thruster, SCENARIO_THRUSTER_KEYS)         \

@@ -1,6 +1,9 @@
 #include "sim/build_station.h"
 
 #include "base/transcendental.h"
+#include "sim/steady_load.h"
+
+#include "io/csv_read.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -21,13 +24,48 @@ static fram_status name_item(const scenario *s, fram_status status, const char *
 
 enum { MOST_LINES = 64 };
 
+/* Rules of the points stand in vessel/mooring.c; here only where they come from. */
+static fram_status read_curve(context *ctx, const scenario *s, const char *file, line_definition *d, fram_error *error)
+{
+    static const char *const names[2] = {"offset", "tension"};
+    double_array column[2] = {{0}, {0}};
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, file, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
+    fram_status status = csv_read(ctx, path, names, 2, column, error);
+    if (status == FRAM_OK && column[0].count > LINE_POINTS)
+        status = error_set(error, FRAM_ERROR_INPUT, path, LINE_POINTS + 2, NULL, "expected at most %d rows, found %d",
+                           (int)LINE_POINTS, (int)column[0].count);
+    for (int32_t i = 0; i < column[0].count && status == FRAM_OK; i++) {
+        d->curve.offset[i] = column[0].data[i];
+        d->curve.tension[i] = column[1].data[i];
+        d->points = i + 1;
+    }
+    array_free(ctx, &column[0]);
+    array_free(ctx, &column[1]);
+    return status;
+}
+
+static fram_status find_curve(context *ctx, const scenario *s, const scenario_mooring_line *l, line_definition *d,
+                              fram_error *error)
+{
+    if (l->table_file[0])
+        return read_curve(ctx, s, l->table_file, d, error);
+    for (int32_t i = 0; i < l->table.count; i++) {
+        d->curve.offset[i] = l->table.data[i].offset;
+        d->curve.tension[i] = l->table.data[i].tension;
+    }
+    d->points = l->table.count;
+    return FRAM_OK;
+}
+
 static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_error *error)
 {
     const scenario_mooring *m = &s->vessel.mooring;
     for (int32_t i = 0; i < m->lines.count; i++) {
         const scenario_mooring_line *l = &m->lines.data[i];
         for (int64_t k = 0; k < l->count; k++) {
-            const line_definition d = {
+            line_definition d = {
                 .vessel = 0,
                 .kind = l->kind,
                 .turret = m->turret,
@@ -43,7 +81,10 @@ static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_err
                 .breaking_load = automatic_or(l->breaking_load, HUGE_VAL),
                 .release_time = automatic_or(l->release_time, HUGE_VAL),
             };
-            fram_status status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
+            fram_status status = find_curve(ctx, s, l, &d, error);
+            if (status != FRAM_OK)
+                return status;
+            status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
             if (status != FRAM_OK)
                 return name_item(s, status, "mooring.lines", i, error);
         }
@@ -66,15 +107,8 @@ typedef struct still_hull {
 static vec3 still_load(const void *user, double heading)
 {
     const still_hull *h = user;
-    const world *w = h->w;
-    const mesh *surface = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[h->body]]].surface;
-    const fluid_motion still = {.position = w->bodies.position[h->body],
-                                .rotation = quat_matrix(quat_from_roll_pitch_yaw(0, 0, heading))};
-    fluid_load load;
-    media begin = media_at(&h->settings->media, &w->media, 0);
-    fluid_load_mesh(&begin, &h->settings->drag[MATERIAL_HULL], surface, &still, &load);
-    vec3 force = vec3_add(load.water_drag.force, load.wind_drag.force);
-    return vec3_make(force.x, force.y, load.water_drag.moment.z + load.wind_drag.moment.z);
+    media begin = media_at(&h->settings->media, &h->w->media, 0);
+    return steady_media_load(h->settings, h->w, h->body, &begin, heading);
 }
 
 static void find_equilibrium(context *ctx, const scenario *s, const step_settings *settings, world *w)

@@ -20,8 +20,7 @@ enum { PATH_SIZE = 1024, INPUT_LIMIT = 1 << 30 };
 
 /* ---- folder ---- */
 
-/* mkdir -p */
-static fram_status make_folders(const char *folder, fram_error *error)
+fram_status run_folder_make(const char *folder, fram_error *error)
 {
     char path[PATH_SIZE];
     size_t length = strlen(folder);
@@ -82,7 +81,7 @@ static void remove_results(const char *folder)
 
 fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error)
 {
-    fram_status status = make_folders(folder, error);
+    fram_status status = run_folder_make(folder, error);
     if (status == FRAM_OK)
         status = run_folder_check(folder, force, error);
     if (status != FRAM_OK)

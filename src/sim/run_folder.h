@@ -7,6 +7,8 @@
 #include "model/scenario.h"
 #include "model/world.h"
 
+/* The folder and those above it, where they are not there. */
+fram_status run_folder_make(const char *folder, fram_error *error);
 /* FRAM_ERROR_USAGE for a folder that is not empty, without `force`; nothing is touched. */
 fram_status run_folder_check(const char *folder, bool force, fram_error *error);
 /* Make the folder and those above it, after the same check.  With `force`, checkpoints, pictures and pages of an

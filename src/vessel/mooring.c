@@ -2,6 +2,8 @@
 
 #include "base/transcendental.h"
 
+#include <stdio.h>
+
 #define TABLE_SELF line_table
 TABLE_DEFINE(line, LINE_FIELDS)
 #undef TABLE_SELF
@@ -11,12 +13,42 @@ static fram_status refuse(fram_error *error, const char *key, const char *rule, 
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s must be %s, found %g", key, rule, found);
 }
 
+/* The member names a point: "table[2].offset". */
+static fram_status refuse_point(fram_error *error, int32_t point, const char *member, const char *rule, double found)
+{
+    char key[48];
+    snprintf(key, sizeof key, "table[%d].%s", (int)point, member);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", rule, found);
+}
+
+static fram_status check_curve(const line_definition *d, fram_error *error)
+{
+    const line_curve *c = &d->curve;
+    if (d->points < 2 || d->points > LINE_POINTS)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "table", "expected 2 to %d points, found %d",
+                         (int)LINE_POINTS, (int)d->points);
+    for (int32_t i = 0; i < d->points; i++) {
+        if (!isfinite(c->offset[i]) || (i > 0 && !(c->offset[i] > c->offset[i - 1])))
+            return refuse_point(error, i, "offset", "more metres than in the point before", c->offset[i]);
+        if (!isfinite(c->tension[i]) || c->tension[i] < 0 || (i > 0 && c->tension[i] < c->tension[i - 1]))
+            return refuse_point(error, i, "tension", "newtons, no fewer than in the point before", c->tension[i]);
+    }
+    if (c->offset[0] > 0 || c->offset[d->points - 1] < 0)
+        return refuse_point(error, 0, "offset", "points on both sides of the offset 0, which is that at the start",
+                            c->offset[0]);
+    if (!(d->breaking_load > 0))
+        return refuse(error, "breaking_load", "a positive number of newtons", d->breaking_load);
+    return FRAM_OK;
+}
+
 static fram_status check_definition(const line_definition *d, double height, fram_error *error)
 {
     if (!(height > 0))
         return refuse(error, "depth", "more than the depth of the upper end", d->depth);
     if (!(d->distance > 0))
         return refuse(error, "distance", "a positive number of metres", d->distance);
+    if (d->kind == LINE_TABLE)
+        return check_curve(d, error);
     if (!(d->stiffness > 0))
         return refuse(error, "stiffness", "positive", d->stiffness);
     if (d->kind == LINE_CATENARY && !(d->weight > 0))
@@ -34,6 +66,10 @@ static fram_status check_definition(const line_definition *d, double height, fra
 static fram_status find_length(const line_definition *d, double height, double *length, fram_error *error)
 {
     *length = d->length;
+    if (d->kind == LINE_TABLE) {
+        *length = sqrt(height * height + d->distance * d->distance);
+        return FRAM_OK;
+    }
     if (!isnan(d->length))
         return FRAM_OK;
     if (d->kind == LINE_SPRING) {
@@ -76,6 +112,8 @@ fram_status mooring_add_line(context *ctx, const line_definition *d, const vesse
     lines->length[row] = length;
     lines->weight[row] = d->weight;
     lines->stiffness[row] = d->stiffness;
+    lines->points[row] = d->kind == LINE_TABLE ? d->points : 0;
+    lines->curve[row] = d->kind == LINE_TABLE ? d->curve : (line_curve){{0}, {0}};
     lines->breaking_load[row] = d->breaking_load;
     lines->release_time[row] = d->release_time;
     line_pull pull = mooring_line_pull(lines, row, bodies->position[body], bodies->orientation[body]);
@@ -84,12 +122,25 @@ fram_status mooring_add_line(context *ctx, const line_definition *d, const vesse
     return FRAM_OK;
 }
 
-static void spring_pull(const line_table *lines, int32_t row, vec3 gap, line_pull *pull)
+double line_curve_tension(const line_curve *c, int32_t points, double offset)
+{
+    if (offset <= c->offset[0])
+        return c->tension[0];
+    int32_t i = 1;
+    while (i + 1 < points && c->offset[i] < offset)
+        i++;
+    double slope = (c->tension[i] - c->tension[i - 1]) / (c->offset[i] - c->offset[i - 1]);
+    return c->tension[i - 1] + slope * (offset - c->offset[i - 1]);
+}
+
+/* Springs and tables. */
+static void straight_pull(const line_table *lines, int32_t row, vec3 gap, line_pull *pull)
 {
     double distance = vec3_length(gap), stretch = distance - lines->length[row];
-    if (!(stretch > 0))
+    pull->tension = lines->kind[row] == LINE_TABLE ? line_curve_tension(&lines->curve[row], lines->points[row], stretch)
+                                                   : lines->stiffness[row] * fmax(stretch, 0);
+    if (!(distance > 0))
         return;
-    pull->tension = lines->stiffness[row] * stretch;
     pull->force = vec3_scale(gap, pull->tension / distance);
     pull->horizontal = sqrt(pull->force.x * pull->force.x + pull->force.y * pull->force.y);
 }
@@ -112,8 +163,8 @@ line_pull mooring_line_pull(const line_table *lines, int32_t row, vec3 position,
     if (lines->broken[row])
         return pull;
     vec3 gap = vec3_sub(lines->anchor[row], pull.point);
-    if (lines->kind[row] == LINE_SPRING)
-        spring_pull(lines, row, gap, &pull);
+    if (lines->kind[row] != LINE_CATENARY)
+        straight_pull(lines, row, gap, &pull);
     else
         hanging_pull(lines, row, gap, &pull);
     return pull;

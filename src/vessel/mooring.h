@@ -10,8 +10,16 @@
 
 typedef enum line_kind {
     LINE_CATENARY = 0, /* elastic, on a flat bottom */
-    LINE_SPRING        /* straight; pulls only */
+    LINE_SPRING,       /* straight; pulls only */
+    LINE_TABLE         /* straight; tension by the offset of its upper end */
 } line_kind;
+
+/* Tension over offset: linear between points, that of the first below it, the last slope beyond the last. */
+enum { LINE_POINTS = 32 };
+typedef struct line_curve {
+    double offset[LINE_POINTS];  /* of the ends' distance from that at the start, ascending [m] */
+    double tension[LINE_POINTS]; /* 0 or more, never falling [N] */
+} line_curve;
 
 #define LINE_FIELDS(X)                                                                                      \
     X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                              \
@@ -20,9 +28,11 @@ typedef enum line_kind {
     X(fairlead, vec3, FIELD_F64, 3, "m", "upper end, or centre of the turret, body frame")                  \
     X(arm, vec3, FIELD_F64, 3, "m", "from the turret's centre to the upper end, global frame; 0: spread")   \
     X(anchor, vec3, FIELD_F64, 3, "m", "lower end on the bottom, global frame")                             \
-    X(length, double, FIELD_F64, 1, "m", "unstretched")                                                     \
+    X(length, double, FIELD_F64, 1, "m", "unstretched; table: distance of the ends at the start")           \
     X(weight, double, FIELD_F64, 1, "N/m", "in water")                                                      \
     X(stiffness, double, FIELD_F64, 1, "N, N/m", "catenary: axial stiffness EA; spring: force per length")  \
+    X(points, int32_t, FIELD_I32, 1, "1", "table: points of the curve")                                     \
+    X(curve, line_curve, FIELD_F64, 64, "m, N", "table: tension over offset")                               \
     X(breaking_load, double, FIELD_F64, 1, "N", "tension at which it parts")                                \
     X(release_time, double, FIELD_F64, 1, "s", "it is let go then; infinity: never")                        \
     X(horizontal, double, FIELD_F64, 1, "N", "horizontal pull at the last step, where the next one starts") \
@@ -41,12 +51,17 @@ typedef struct line_definition {
     double length;            /* unstretched [m]; a NaN: from the pretension */
     double pretension;        /* as the vessel lies at the start [N]; looked at without a length */
     double weight, stiffness; /* see LINE_FIELDS */
+    int32_t points;           /* table */
+    line_curve curve;
     double breaking_load, release_time;
 } line_definition;
 
 /* A line of a vessel that lies where it was made.  FRAM_ERROR_INPUT names the member that does not fit. */
 fram_status mooring_add_line(context *ctx, const line_definition *d, const vessel_table *vessels,
                              const body_table *bodies, line_table *lines, fram_error *error);
+
+/* Tension of a curve of `points` points, two at least [N]. */
+double line_curve_tension(const line_curve *curve, int32_t points, double offset);
 
 /* Pull of one line on a vessel at a pose: force [N] and where it acts (global). */
 typedef struct line_pull {

@@ -47,6 +47,8 @@ static const bad_scenario bad[] = {
     {"integer_overflow", 2, "run.seed", "expected a smaller integer"},
     {"key_of_another_section", 3, "run.flexural_strength", "did you mean ice.flexural_strength?"},
     {"line_break_in_text", 1, "title", "one line"},
+    {"line_table_missing", 5, "vessel.mooring.lines[0].table", "since kind is table, found neither"},
+    {"line_table_of_a_spring", 6, "vessel.mooring.lines[0].table", "since kind is not table"},
     {"local_tag", 1, "run", "found a tag"},
     {"merge_key", 2, "run", "found a merge key"},
     {"not_a_number", 2, "ice.thickness", "found \".nan\""},

@@ -96,6 +96,62 @@ START_TEST(spring_offset)
 }
 END_TEST
 
+/* Tension of level lines by a table of two slopes, on its points, between and beyond them. */
+START_TEST(tabulated_lines)
+{
+    moored m;
+    line_definition d = sample_line(0);
+    d.kind = LINE_TABLE;
+    d.depth = 5 + 1e-6;
+    d.points = 4;
+    d.curve = (line_curve){{-10, 0, 10, 20}, {1e5, 3e5, 6e5, 1.6e6}};
+    moor(&m, d, 1);
+    assert_relative(m.lines.tension[0], 3e5, 1e-12);
+    const struct {
+        double offset, tension;
+    } expected[] = {{-30, 1e5}, {-10, 1e5}, {-5, 2e5}, {5, 4.5e5}, {10, 6e5}, {15, 1.1e6}, {30, 2.6e6}};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        vec3 at = vec3_make(-expected[i].offset, 0, 0);
+        line_pull pull = mooring_line_pull(&m.lines, 0, at, quat_identity());
+        assert_relative(pull.tension, expected[i].tension, 1e-9);
+        assert_relative(pull.force.x, expected[i].tension, 1e-9);
+        assert_absolute(pull.force.y, 0, 1e-6);
+    }
+    unmoor(&m);
+    /* Four of them, one slope about the start: 2 k x along, 2 T x / L across, as springs. */
+    d.curve = (line_curve){{-10, 10, 11, 12}, {1e5, 5e5, 6e5, 7e5}};
+    moor(&m, d, 4);
+    wrench back = mooring_pull(&m.lines, 0, vec3_make(1, 0, 0), quat_identity());
+    assert_relative(-back.force.x, 2 * 2e4 + 2 * 3e5 / 600, 1e-4);
+    unmoor(&m);
+}
+END_TEST
+
+static void refuse_curve(int32_t points, line_curve curve, const char *key)
+{
+    moored m;
+    line_definition d = sample_line(0);
+    bare_vessel_open(&m.b);
+    m.lines = (line_table){0};
+    d.kind = LINE_TABLE;
+    d.points = points;
+    d.curve = curve;
+    fram_status status = mooring_add_line(&m.b.ctx, &d, &m.b.vessels, &m.b.bodies, &m.lines, &m.b.error);
+    ck_assert_int_eq(status, FRAM_ERROR_INPUT);
+    ck_assert_str_eq(m.b.error.key, key);
+    unmoor(&m);
+}
+
+START_TEST(faulty_tables)
+{
+    refuse_curve(1, (line_curve){{0}, {1e5}}, "table");
+    refuse_curve(3, (line_curve){{-1, 2, 2}, {0, 1, 2}}, "table[2].offset");
+    refuse_curve(3, (line_curve){{-1, 2, 3}, {0, 2, 1}}, "table[2].tension");
+    refuse_curve(2, (line_curve){{-1, 2}, {-1, 2}}, "table[0].tension");
+    refuse_curve(2, (line_curve){{1, 2}, {1, 2}}, "table[0].offset");
+}
+END_TEST
+
 static vec3 steady(const void *user, double heading)
 {
     (void)heading;
@@ -170,4 +226,4 @@ START_TEST(refusals)
 END_TEST
 
 TEST_MAIN("mooring", spread_is_balanced_and_restores, a_turret_does_not_hold_the_heading, spring_offset,
-          equilibrium_under_a_steady_load, lines_break_and_are_let_go, refusals)
+          tabulated_lines, faulty_tables, equilibrium_under_a_steady_load, lines_break_and_are_let_go, refusals)

@@ -1,0 +1,65 @@
+/* fram capability: the capability plot of a scenario's vessel in drifting ice. */
+#include "cli/cli.h"
+
+#include "fram/results.h"
+
+static int find(const common_options *common, const char *path, const option_list *overrides,
+                const fram_capability_definition *d)
+{
+    fram_context *context = NULL;
+    int code = session_open(common, &context);
+    if (code >= 0)
+        return code;
+    fram_scenario *scenario = NULL;
+    fram_result result = {0};
+    fram_error error = {0};
+    fram_status status = fram_scenario_load(context, path, overrides->value, overrides->count, &scenario, &error);
+    if (status == FRAM_OK)
+        status = fram_capability(scenario, d, &result, &error);
+    if (status != FRAM_OK) {
+        code = answer_error(common, &error);
+    } else {
+        code = EXIT_GOOD;
+        if (!common->quiet)
+            fprintf(stderr, "%s; tables: capability.csv, capability_use.csv, capability.json beside it\n", result.path);
+        if (common->json) {
+            json j = json_begin();
+            json_text(&j, "file", result.path);
+            json_end(&j);
+        }
+    }
+    fram_scenario_destroy(scenario);
+    fram_context_destroy(context);
+    return code;
+}
+
+int command_capability(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    option_list overrides = {0};
+    const char *path = NULL;
+    fram_capability_definition d;
+    fram_capability_default(&d);
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (required)"},
+        {"--force", NULL, OPTION_FLAG, &d.force, NULL, "write into a folder that is not empty"},
+        {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+        {"--measure", NULL, OPTION_REAL, &d.measure, "T",
+         "simulated seconds of each run that measures the ice load on the fixed hull (120)"},
+        {"--formula", NULL, OPTION_FLAG, &d.formula, NULL,
+         "ice load by Zuev's formula for ships in broken ice instead: at once, and coarse"},
+        {"--directions", NULL, OPTION_INTEGER, &d.directions, "N", "directions, evenly round (36)"},
+        {"--speed-step", NULL, OPTION_REAL, &d.speed_step, "V", "between drift speeds [m/s] (0.1)"},
+        {"--speed-most", NULL, OPTION_REAL, &d.speed_most, "V", "largest drift speed [m/s] (1)"},
+        {"--allowance", NULL, OPTION_REAL, &d.allowance, "X", "what mean loads are multiplied by (1.25)"},
+        {"--line-safety", NULL, OPTION_REAL, &d.line_safety, "X",
+         "breaking load over the tension a line may have, intact (2)"},
+        {"--line-safety-damaged", NULL, OPTION_REAL, &d.line_safety_damaged, "X", "after a failure (1.43)"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
+    if (code >= 0)
+        return code;
+    if (!d.folder)
+        return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
+    return find(&common, path, &overrides, &d);
+}

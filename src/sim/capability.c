@@ -1,0 +1,278 @@
+#include "sim/capability.h"
+
+#include "base/transcendental.h"
+#include "sim/build.h"
+#include "sim/steady_load.h"
+
+/* A limit is found to this part of a step of speed: 2^-10. */
+enum { HALVINGS = 10 };
+
+static double direction_of(const capability *c, int32_t row) { return 2 * PI * row / c->loads.directions; }
+
+/* ---- loads ---- */
+
+/* In the ship's frame, for one that lies along X. */
+static vec3 towards(double from, double speed) { return vec3_make(-speed * real_cos(from), speed * real_sin(from), 0); }
+
+static void find_media_loads(const step_settings *settings, const world *w, capability *c)
+{
+    int32_t body = w->vessels.body[0];
+    world plain = *w; /* the same tables, looked at without the damping matrix */
+    plain.has_hydrodynamics = false;
+    for (int32_t i = 0; i < c->loads.directions; i++) {
+        double from = direction_of(c, i);
+        media still = settings->media;
+        still.profile.count = 0;
+        still.current = still.wind = vec3_make(0, 0, 0);
+        media blows = still, flows = still;
+        blows.wind = towards(from, c->wind_speed);
+        flows.current = towards(from, 1);
+        c->loads.wind[i] = steady_media_load(settings, &plain, body, &blows, 0);
+        c->loads.drag[i] = steady_media_load(settings, &plain, body, &flows, 0);
+        c->loads.damping[i] = vec3_sub(steady_media_load(settings, w, body, &flows, 0), c->loads.drag[i]);
+    }
+}
+
+static vec3 between(const vec3 *row, int32_t directions, int32_t stride, double from)
+{
+    double at = from / (2 * PI) * directions, below = floor(at);
+    int32_t i = (int32_t)below % directions, j;
+    if (i < 0)
+        i += directions;
+    j = (i + 1) % directions;
+    return vec3_mad(vec3_scale(row[i * stride], 1 - (at - below)), row[j * stride], at - below);
+}
+
+static vec3 ice_at(const capability_loads *l, double from, double speed)
+{
+    double at = fmin(fmax(speed / l->speed_step - 1, 0), l->speeds - 1);
+    int32_t k = (int32_t)at, next = k + 1 < l->speeds ? k + 1 : k;
+    vec3 a = between(l->ice + k, l->directions, l->speeds, from),
+         b = between(l->ice + next, l->directions, l->speeds, from);
+    return vec3_mad(vec3_scale(a, 1 - (at - k)), b, at - k);
+}
+
+vec3 capability_load_at(const capability *c, double from, double speed)
+{
+    const capability_loads *l = &c->loads;
+    vec3 sum = between(l->wind, l->directions, 1, from);
+    sum = vec3_mad(sum, between(l->damping, l->directions, 1, from), speed);
+    sum = vec3_scale(vec3_mad(sum, between(l->drag, l->directions, 1, from), speed * speed), c->options.allowance);
+    double share = l->measured ? 1 : c->options.allowance;
+    return speed > 0 ? vec3_mad(sum, ice_at(l, from, speed), share) : sum;
+}
+
+double broken_ice_resistance(double density, double gravity, double breadth, double thickness, double concentration,
+                             double speed)
+{
+    double f = speed / sqrt(gravity * thickness);
+    return density * gravity * breadth * thickness * thickness * (0.13 * breadth / thickness + 1.3 * f + 0.5 * f * f) *
+           (2 - concentration) * concentration * concentration;
+}
+
+/* ---- balance ---- */
+
+/* A direction and speed as the balance asks for it. */
+typedef struct asked_load {
+    const capability *c;
+    double home, from, speed;
+} asked_load;
+
+static vec3 load_at_heading(const void *user, double heading)
+{
+    const asked_load *a = user;
+    /* A bow that turns to port sees the drift come from farther to starboard. */
+    double from = a->from + heading - a->home;
+    return plane_to_global(heading, capability_load_at(a->c, from, a->speed));
+}
+
+static holding hold_at(const capability *c, const holding_case *h, double from, double speed)
+{
+    const asked_load asked = {c, h->heading, from, speed};
+    return holding_find(h, load_at_heading, &asked);
+}
+
+/* The first speed that is not held, from below. */
+static capability_limit find_limit(const capability *c, const holding_case *h, double from)
+{
+    capability_limit limit = {.failure = -1};
+    double step = c->loads.speed_step, held = 0, lost = 0;
+    limit.at = hold_at(c, h, from, 0);
+    if (limit.at.use > 1)
+        return limit;
+    for (int32_t k = 0; k < c->loads.speeds && limit.at.use <= 1; k++) {
+        held = lost;
+        lost = (k + 1) * step;
+        limit.at = hold_at(c, h, from, lost);
+    }
+    limit.beyond = limit.at.use <= 1;
+    for (int i = 0; i < HALVINGS && !limit.beyond; i++) {
+        double middle = 0.5 * (held + lost);
+        holding at = hold_at(c, h, from, middle);
+        if (at.use > 1) {
+            lost = middle;
+            limit.at = at;
+        } else {
+            held = middle;
+        }
+    }
+    limit.speed = limit.beyond ? lost : held;
+    return limit;
+}
+
+static void fail(world *w, const capability_failure *f, bool failed)
+{
+    if (f->line)
+        w->lines.broken[f->number] = failed;
+    else
+        w->thrusters.failed[f->number] = failed;
+}
+
+static void list_failures(const world *w, capability *c)
+{
+    int32_t most = sizeof c->failure / sizeof *c->failure;
+    for (int32_t i = 0; i < w->thrusters.count && c->failures < most; i++)
+        c->failure[c->failures++] = (capability_failure){false, i};
+    for (int32_t i = 0; i < w->lines.count && c->failures < most; i++)
+        c->failure[c->failures++] = (capability_failure){true, i};
+}
+
+static void find_limits(world *w, holding_case *h, capability *c)
+{
+    for (int32_t i = 0; i < c->loads.directions; i++) {
+        double from = direction_of(c, i);
+        h->line_safety = c->options.line_safety;
+        c->intact[i] = find_limit(c, h, from);
+        for (int32_t k = 0; k < c->loads.speeds; k++)
+            c->use[i * c->loads.speeds + k] = hold_at(c, h, from, (k + 1) * c->loads.speed_step);
+        h->line_safety = c->options.line_safety_damaged;
+        for (int32_t f = 0; f < c->failures; f++) {
+            fail(w, &c->failure[f], true);
+            capability_limit limit = find_limit(c, h, from);
+            fail(w, &c->failure[f], false);
+            limit.failure = f;
+            bool worse = limit.speed < c->damaged[i].speed || (c->damaged[i].beyond && !limit.beyond);
+            if (f == 0 || worse)
+                c->damaged[i] = limit;
+        }
+    }
+}
+
+/* ---- all of it ---- */
+
+static fram_status allocate(context *ctx, capability *c, fram_error *error)
+{
+    size_t directions = (size_t)c->loads.directions, cells = directions * (size_t)c->loads.speeds;
+    c->loads.wind = memory_array(ctx, directions, sizeof(vec3));
+    c->loads.damping = memory_array(ctx, directions, sizeof(vec3));
+    c->loads.drag = memory_array(ctx, directions, sizeof(vec3));
+    c->loads.ice = memory_array(ctx, cells, sizeof(vec3));
+    c->intact = memory_array(ctx, directions, sizeof *c->intact);
+    c->damaged = memory_array(ctx, directions, sizeof *c->damaged);
+    c->use = memory_array(ctx, cells, sizeof *c->use);
+    bool good = c->loads.wind && c->loads.damping && c->loads.drag && c->loads.ice && c->intact && c->damaged && c->use;
+    return good ? FRAM_OK : error_memory(error);
+}
+
+void capability_free(context *ctx, capability *c)
+{
+    memory_free(ctx, c->loads.wind);
+    memory_free(ctx, c->loads.damping);
+    memory_free(ctx, c->loads.drag);
+    memory_free(ctx, c->loads.ice);
+    memory_free(ctx, c->intact);
+    memory_free(ctx, c->damaged);
+    memory_free(ctx, c->use);
+    *c = (capability){0};
+}
+
+static fram_status check(const scenario *s, const capability_options *o, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    if (!v->present || v->mode != VESSEL_FREE || (v->thrusters.count == 0 && v->mooring.lines.count == 0)) {
+        error_set(
+            error, FRAM_ERROR_INPUT, NULL, 0, "vessel",
+            "expected a vessel of mode free with thrusters or mooring lines, found none to find the capability of");
+        scenario_locate(s, error);
+        return FRAM_ERROR_INPUT;
+    }
+    double speeds = o->speed_most / o->speed_step;
+    if (o->directions < 4 || o->directions > CAPABILITY_DIRECTIONS)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--directions", "expected 4 to %d, found %d",
+                         (int)CAPABILITY_DIRECTIONS, (int)o->directions);
+    if (!(o->speed_step > 0 && speeds >= 0.999 && speeds < CAPABILITY_SPEEDS + 0.5))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--speed-step",
+                         "expected a positive step that divides --speed-most into 1 to %d speeds, found %g and %g m/s",
+                         (int)CAPABILITY_SPEEDS, o->speed_step, o->speed_most);
+    if (!(o->allowance >= 1 && o->line_safety >= 1 && o->line_safety_damaged >= 1 && o->allowance < 100 &&
+          o->line_safety < 100 && o->line_safety_damaged < 100))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--allowance",
+                         "expected an allowance and safety factors from 1 to 100, found %g, %g and %g", o->allowance,
+                         o->line_safety, o->line_safety_damaged);
+    if (!(o->measure >= s->run.time_step && o->measure <= 1e6))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--measure", "expected a time step to 1e6 seconds, found %g",
+                         o->measure);
+    return FRAM_OK;
+}
+
+/* The vessel where it shall be: not moved to the equilibrium of today's current, and without ice. */
+static fram_status build_still_world(context *ctx, const scenario *s, world *w, fram_error *error)
+{
+    scenario still = *s;
+    still.vessel.speed = 0;
+    still.vessel.mooring.equilibrium = false;
+    still.ice.source = ICE_NONE;
+    still.domain.boundary = DOMAIN_OPEN;
+    build_report report;
+    return build_world(ctx, &still, w, &report, error);
+}
+
+static void sweep(const scenario *s, world *w, capability *c)
+{
+    int32_t body = w->vessels.body[0];
+    const station_table *station = &w->stations;
+    holding_case h = {.thrusters = &w->thrusters,
+                      .lines = &w->lines,
+                      .length = w->vessels.length[0],
+                      .position = w->bodies.position[body],
+                      .heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z,
+                      .watched = station->watched[0],
+                      .heading_given = s->vessel.mooring.turret,
+                      .line_safety = c->options.line_safety,
+                      .offset_limit = station->offset_limit[0],
+                      .heading_limit = station->heading_limit[0]};
+    list_failures(w, c);
+    find_limits(w, &h, c);
+}
+
+fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
+                            fram_error *error)
+{
+    *c = (capability){.options = *o, .wind_speed = s->environment.wind_speed};
+    fram_status status = check(s, o, error);
+    if (status != FRAM_OK)
+        return status;
+    c->loads.directions = o->directions;
+    c->loads.speeds = (int32_t)floor(o->speed_most / o->speed_step + 0.5);
+    c->loads.speed_step = o->speed_step;
+    if (s->ice.source != ICE_NONE)
+        c->thickness = s->ice.thickness, c->concentration = s->ice.concentration;
+    world w;
+    status = build_still_world(ctx, s, &w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = allocate(ctx, c, error);
+    if (status == FRAM_OK) {
+        const step_settings settings = build_settings(s);
+        find_media_loads(&settings, &w, c);
+        if (c->thickness > 0)
+            status =
+                o->formula ? capability_ice_formula(ctx, s, &w, c, error) : capability_ice_measured(ctx, s, c, error);
+    }
+    if (status == FRAM_OK)
+        sweep(s, &w, c);
+    world_free(ctx, &w);
+    if (status != FRAM_OK)
+        capability_free(ctx, c);
+    return status;
+}

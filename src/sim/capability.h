@@ -1,0 +1,82 @@
+/* The capability plot of a scenario's vessel in drifting ice: from which direction and up to which drift speed its
+   thrusters and mooring hold it in a static balance, intact and after the worst single failure.  What is balanced, and
+   what the ice load is, stands in docs/decisions/0022-capability.md.
+
+   Directions are those of capability plots (IMCA M 140): where drift, current and wind together come from, clockwise
+   from the bow. */
+#ifndef SIM_CAPABILITY_H
+#define SIM_CAPABILITY_H
+
+#include "sim/export.h"
+#include "sim/step.h"
+#include "vessel/holding.h"
+
+enum { CAPABILITY_DIRECTIONS = 360, CAPABILITY_SPEEDS = 100 };
+
+typedef struct capability_options {
+    const char *folder;
+    bool force;
+    bool formula;   /* the ice load is Zuev's, not measured */
+    double measure; /* simulated seconds of each run that measures it */
+    int32_t directions;
+    double speed_step, speed_most;           /* [m/s] */
+    double allowance;                        /* what mean loads are multiplied by */
+    double line_safety, line_safety_damaged; /* breaking load over allowed tension: intact, after a failure */
+} capability_options;
+
+/* A load in the ship's frame: surge, sway [N], yaw about the centre of mass [N m], by direction (row) and speed. */
+typedef struct capability_loads {
+    int32_t directions, speeds;
+    double speed_step;
+    vec3 *wind, *damping, *drag; /* by direction: all; times the speed; times its square */
+    vec3 *ice; /* [direction * speeds + k] at the speed (k + 1) speed_step; constant below the first */
+    bool measured;
+} capability_loads;
+
+/* What is lost in a failure. */
+typedef struct capability_failure {
+    bool line;
+    int32_t number; /* from 0 */
+} capability_failure;
+
+typedef struct capability_limit {
+    double speed;    /* up to which the vessel is held [m/s] */
+    bool beyond;     /* it is held at every speed that was tried */
+    holding at;      /* just beyond it, or at the largest speed */
+    int32_t failure; /* the worst one; -1: intact */
+} capability_limit;
+
+typedef struct capability {
+    capability_options options;
+    double wind_speed; /* [m/s] */
+    double thickness, concentration;
+    capability_loads loads;
+    capability_failure failure[96];
+    int32_t failures;
+    capability_limit *intact, *damaged; /* by direction; damaged is NULL without anything that can fail */
+    holding *use;                       /* [direction * speeds + k], intact */
+} capability;
+
+/* Steady load from a direction at a speed, with the allowance, in the ship's frame. */
+vec3 capability_load_at(const capability *c, double from, double speed);
+
+/* Ice loads by direction and speed into c->loads.ice: by formula, or the mean of the highest third of the peaks in runs
+   of the scenario's field past the hull held fast.  FRAM_ERROR_INPUT names the key that stands in the way. */
+fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error);
+fram_status capability_ice_measured(context *ctx, const scenario *s, capability *c, fram_error *error);
+/* Resistance of a ship of breadth b [m] in broken ice of thickness h [m] and concentration S at a speed [m/s] (Zuev's
+   formula): rho_i g b h^2 (0.13 b/h + 1.3 F + 0.5 F^2) (2 - S) S^2, F = v / sqrt(g h) [N]. */
+double broken_ice_resistance(double density, double gravity, double breadth, double thickness, double concentration,
+                             double speed);
+
+/* All of it, before anything is written; to be freed. */
+fram_status capability_find(context *ctx, const scenario *s, const capability_options *options, capability *c,
+                            fram_error *error);
+void capability_free(context *ctx, capability *c);
+
+/* capability.csv, capability_use.csv, capability.json and, with cairo, capability.png and capability.svg in the folder
+   of the options; report: the picture, or the JSON file. */
+fram_status capability_write(context *ctx, const scenario *s, const capability_options *options, export_report *report,
+                             fram_error *error);
+
+#endif

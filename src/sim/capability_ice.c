@@ -1,0 +1,202 @@
+/* The ice load of a capability plot: Zuev's formula on the breadth that faces the drift, or short runs of the
+   scenario's own field past the hull held fast. */
+#include "sim/capability.h"
+
+#include "base/transcendental.h"
+#include "sim/build.h"
+#include "sim/build_ice.h"
+#include "sim/ice_loads.h"
+#include "sim/station_results.h"
+
+/* ---- by formula ---- */
+
+/* Breadth across the drift, and how far to the left of the centre of mass its middle lies, seen along the drift. */
+static double breadth_across(const vec2_array *waterline, vec3 centre, vec2 along, double *middle)
+{
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (int32_t i = 0; i < waterline->count; i++) {
+        vec2 r = {waterline->data[i].x - centre.x, waterline->data[i].y - centre.y};
+        double across = along.x * r.y - along.y * r.x;
+        lo = fmin(lo, across);
+        hi = fmax(hi, across);
+    }
+    *middle = 0.5 * (lo + hi);
+    return hi - lo;
+}
+
+fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
+{
+    int32_t body = w->vessels.body[0];
+    vec2_array waterline = {0};
+    fram_status status = build_footprint(ctx, w, body, true, &waterline, error);
+    double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
+    capability_loads *l = &c->loads;
+    for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++) {
+        double from = 2 * PI * i / l->directions, middle;
+        vec3 drift = plane_to_global(heading, vec3_make(-real_cos(from), real_sin(from), 0));
+        vec2 along = {drift.x, drift.y};
+        double breadth = breadth_across(&waterline, w->bodies.position[body], along, &middle);
+        for (int32_t k = 0; k < l->speeds; k++) {
+            double force = broken_ice_resistance(s->ice.density, s->environment.gravity, breadth, s->ice.thickness,
+                                                 s->ice.concentration, (k + 1) * l->speed_step);
+            /* A push along the drift through a point to its left turns the ship clockwise. */
+            vec3 push = vec3_make(force * along.x, force * along.y, -force * middle);
+            l->ice[i * l->speeds + k] = plane_to_vessel(heading, push);
+        }
+    }
+    array_free(ctx, &waterline);
+    return status;
+}
+
+/* ---- by runs ---- */
+
+/* Ice goes past for a third of each run before it counts. */
+#define UNCOUNTED (1.0 / 3)
+
+typedef struct load_history {
+    double_array time, force[3]; /* averaged over the window, ship's frame */
+} load_history;
+
+static void history_free(context *ctx, load_history *h)
+{
+    array_free(ctx, &h->time);
+    for (int i = 0; i < 3; i++)
+        array_free(ctx, &h->force[i]);
+}
+
+/* The scenario with its hull held fast and its field driven in one direction; what it points to is only read. */
+static scenario driven(const scenario *s, double from, double speed)
+{
+    scenario d = *s;
+    double towards = s->vessel.heading_deg + 180 - degrees(from);
+    towards -= 360 * floor(towards / 360);
+    d.vessel.mode = VESSEL_PRESCRIBED;
+    d.vessel.speed = 0;
+    d.domain.drift_speed = speed;
+    d.domain.drift_direction_deg = towards;
+    d.domain.drift_file[0] = '\0';
+    d.environment.current_speed = speed;
+    d.environment.current_direction_deg = towards;
+    d.environment.current_file[0] = '\0';
+    d.environment.wind_speed = 0;
+    d.environment.wind_file[0] = '\0';
+    return d;
+}
+
+static fram_status record(context *ctx, const scenario *s, double duration, load_history *h, fram_error *error)
+{
+    world w;
+    build_report report;
+    const step_settings settings = build_settings(s);
+    fram_status status = build_world(ctx, s, &w, &report, error);
+    if (status != FRAM_OK)
+        return status;
+    double heading = radians(s->vessel.heading_deg);
+    int64_t steps = (int64_t)ceil(duration / s->run.time_step);
+    for (int64_t i = 0; i < steps && status == FRAM_OK; i++) {
+        status = world_step(ctx, &settings, &w, error);
+        wrench mean = load_window_average(&w);
+        vec3 load = plane_to_vessel(heading, vec3_make(mean.force.x, mean.force.y, mean.moment.z));
+        bool good = array_push(ctx, &h->time, w.clock.time[0]) && array_push(ctx, &h->force[0], load.x) &&
+                    array_push(ctx, &h->force[1], load.y) && array_push(ctx, &h->force[2], load.z);
+        if (status == FRAM_OK && !good)
+            status = error_memory(error);
+    }
+    world_free(ctx, &w);
+    return status;
+}
+
+/* The mean load, made so much larger as the significant value of its component along itself is over its mean. */
+static vec3 significant_load(const load_history *h, double after)
+{
+    int32_t count = h->time.count;
+    vec3 mean = {channel_statistics_of(h->time.data, h->force[0].data, count, after).mean,
+                 channel_statistics_of(h->time.data, h->force[1].data, count, after).mean,
+                 channel_statistics_of(h->time.data, h->force[2].data, count, after).mean};
+    double size = sqrt(mean.x * mean.x + mean.y * mean.y);
+    if (!(size > 0))
+        return mean;
+    double *along = h->force[0].data;
+    for (int32_t i = 0; i < count; i++)
+        along[i] = (along[i] * mean.x + h->force[1].data[i] * mean.y) / size;
+    double significant = channel_statistics_of(h->time.data, along, count, after).significant;
+    return vec3_scale(mean, fmax(significant, size) / size);
+}
+
+static fram_status measure(context *ctx, const scenario *s, double from, double speed, double duration, vec3 *load,
+                           fram_error *error)
+{
+    const scenario d = driven(s, from, speed);
+    load_history h = {0};
+    fram_status status = record(ctx, &d, duration, &h, error);
+    if (status == FRAM_OK)
+        *load = significant_load(&h, UNCOUNTED * duration);
+    history_free(ctx, &h);
+    return status;
+}
+
+/* Loads are measured at this many directions and speeds at most, evenly over those that are asked for, and are linear
+   between them. */
+enum { MEASURED_DIRECTIONS = 12, MEASURED_SPEEDS = 4 };
+
+typedef struct measured_loads {
+    int32_t directions, speeds;
+    double speed_step;
+    vec3 load[MEASURED_DIRECTIONS][MEASURED_SPEEDS];
+} measured_loads;
+
+static vec3 measured_at(const measured_loads *m, double from, double speed)
+{
+    double round = from / (2 * PI) * m->directions, up = fmin(fmax(speed / m->speed_step - 1, 0), m->speeds - 1);
+    int32_t i = (int32_t)round % m->directions, j = (i + 1) % m->directions, k = (int32_t)up;
+    int32_t next = k + 1 < m->speeds ? k + 1 : k;
+    double u = round - floor(round), v = up - k;
+    vec3 low = vec3_mad(vec3_scale(m->load[i][k], 1 - u), m->load[j][k], u);
+    vec3 high = vec3_mad(vec3_scale(m->load[i][next], 1 - u), m->load[j][next], u);
+    return vec3_mad(vec3_scale(low, 1 - v), high, v);
+}
+
+static fram_status measure_all(context *ctx, const scenario *s, double duration, measured_loads *m, fram_error *error)
+{
+    /* What a hull with equal sides meets from port is what it meets from starboard. */
+    bool mirrored = s->vessel.hull.form != HULL_MESH;
+    for (int32_t i = 0; i < m->directions; i++) {
+        double from = 2 * PI * i / m->directions;
+        for (int32_t k = 0; k < m->speeds; k++) {
+            vec3 *load = &m->load[i][k];
+            double speed = (k + 1) * m->speed_step;
+            if (mirrored && 2 * i > m->directions) {
+                vec3 other = m->load[m->directions - i][k];
+                *load = vec3_make(other.x, -other.y, -other.z);
+                continue;
+            }
+            fram_status status = measure(ctx, s, from, speed, duration, load, error);
+            if (status != FRAM_OK)
+                return status;
+            log_write(ctx, LOG_INFO, "ice from %3.0f deg at %.2f m/s: surge %.4g kN, sway %.4g kN, yaw %.4g MN m",
+                      degrees(from), speed, load->x * 1e-3, load->y * 1e-3, load->z * 1e-6);
+        }
+    }
+    return FRAM_OK;
+}
+
+fram_status capability_ice_measured(context *ctx, const scenario *s, capability *c, fram_error *error)
+{
+    if (s->domain.boundary != DOMAIN_FEEDING) {
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain.boundary",
+                  "expected feeding, so that ice can be driven past the hull and its load measured; otherwise the load "
+                  "can be had by formula, with --formula");
+        scenario_locate(s, error);
+        return FRAM_ERROR_INPUT;
+    }
+    capability_loads *l = &c->loads;
+    l->measured = true;
+    measured_loads m = {.directions = l->directions < MEASURED_DIRECTIONS ? l->directions : MEASURED_DIRECTIONS,
+                        .speeds = l->speeds < MEASURED_SPEEDS ? l->speeds : MEASURED_SPEEDS};
+    m.speed_step = l->speed_step * l->speeds / m.speeds;
+    fram_status status = measure_all(ctx, s, c->options.measure, &m, error);
+    for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++)
+        for (int32_t k = 0; k < l->speeds; k++)
+            l->ice[i * l->speeds + k] = measured_at(&m, 2 * PI * i / l->directions, (k + 1) * l->speed_step);
+    return status;
+}

@@ -1,0 +1,151 @@
+/* The static balance behind capability plots, against balances by hand. */
+#include "supply_ship.h"
+#include "vessel/holding.h"
+
+typedef struct held {
+    bare_vessel b;
+    line_table lines;
+    holding_case c;
+} held;
+
+static void hold_begin(held *h)
+{
+    bare_vessel_open(&h->b);
+    h->lines = (line_table){0};
+    h->c = (holding_case){.thrusters = &h->b.thrusters,
+                          .lines = &h->lines,
+                          .length = 76.2,
+                          .line_safety = 1,
+                          .offset_limit = HUGE_VAL,
+                          .heading_limit = HUGE_VAL};
+}
+
+static void hold_end(held *h)
+{
+    table_free(&h->b.ctx, &h->lines, &line_table_info);
+    bare_vessel_close(&h->b);
+}
+
+static void add_thruster(held *h, thruster_definition d)
+{
+    assert_ok(thruster_add(&h->b.ctx, &d, &h->b.vessels, &h->b.thrusters, &h->b.error), h->b.error);
+}
+
+/* Level springs of 600 m. */
+static void add_springs(held *h, int count, double stiffness, double breaking_load)
+{
+    for (int i = 0; i < count; i++) {
+        const line_definition d = {.kind = LINE_SPRING,
+                                   .centre = {0, 0, -5},
+                                   .direction = 2 * PI * i / count,
+                                   .distance = 600,
+                                   .depth = 5 + 1e-6,
+                                   .length = (double)NAN,
+                                   .pretension = 4e5,
+                                   .stiffness = stiffness,
+                                   .breaking_load = breaking_load,
+                                   .release_time = HUGE_VAL};
+        assert_ok(mooring_add_line(&h->b.ctx, &d, &h->b.vessels, &h->b.bodies, &h->lines, &h->b.error), h->b.error);
+    }
+}
+
+static vec3 steady(const void *user, double heading)
+{
+    (void)heading;
+    return *(const vec3 *)user;
+}
+
+START_TEST(thrusters_by_hand)
+{
+    held h;
+    hold_begin(&h);
+    add_thruster(&h, supply_tunnel(30));
+    add_thruster(&h, supply_tunnel(-30));
+    add_thruster(&h, supply_main(8));
+    add_thruster(&h, supply_main(-8));
+    double main = h.b.thrusters.ahead[2], tunnel = h.b.thrusters.ahead[0];
+    vec3 load = {-main, 0, 0}; /* half of what both mains can */
+    holding at = holding_find(&h.c, steady, &load);
+    assert_relative(at.use, 0.5, 1e-3);
+    ck_assert_int_eq(at.item, HOLDING_THRUSTER);
+    ck_assert(at.number == 2 || at.number == 3);
+    load = vec3_make(0, 3 * tunnel, 0); /* one and a half times what both tunnels can */
+    at = holding_find(&h.c, steady, &load);
+    assert_relative(at.use, 1.5, 1e-3);
+    load = vec3_make(0, 0, 30 * tunnel); /* a couple: the tunnels and the mains share it */
+    at = holding_find(&h.c, steady, &load);
+    assert_relative(at.use, 30 * tunnel / (60 * tunnel + 16 * main), 1e-3);
+    /* A heading turns the load, not what it uses. */
+    h.c.heading = 1;
+    load = plane_to_global(1, vec3_make(-main, 0, 0));
+    assert_relative(holding_find(&h.c, steady, &load).use, 0.5, 1e-3);
+    h.c.heading = 0;
+    /* One main is lost: the other turns the ship, and the tunnels must undo that. */
+    h.b.thrusters.failed[3] = 1;
+    load = vec3_make(-0.5 * main, 0, 0);
+    at = holding_find(&h.c, steady, &load);
+    assert_relative(at.use, 0.5, 1e-3);
+    ck_assert_int_eq(at.number, 2);
+    h.b.thrusters.failed[2] = 1;
+    ck_assert(holding_find(&h.c, steady, &load).use > 1e3);
+    hold_end(&h);
+}
+END_TEST
+
+START_TEST(springs_by_hand)
+{
+    held h;
+    hold_begin(&h);
+    double k = 5e4;
+    add_springs(&h, 4, k, 1e6);
+    vec3 load = {2e5, 0, 0};
+    double expected = 2e5 / (2 * k + 2 * 4e5 / 600);
+    holding at = holding_find(&h.c, steady, &load);
+    assert_relative(at.offset, expected, 1e-3);
+    /* The line that leads aft carries the pretension and the stretch. */
+    assert_relative(at.use, (4e5 + k * expected) / 1e6, 1e-3);
+    ck_assert_int_eq(at.item, HOLDING_LINE);
+    ck_assert_int_eq(at.number, 2);
+    h.c.line_safety = 2;
+    assert_relative(holding_find(&h.c, steady, &load).use, 2 * (4e5 + k * expected) / 1e6, 1e-3);
+    h.c.line_safety = 1;
+    h.c.offset_limit = 1;
+    at = holding_find(&h.c, steady, &load);
+    assert_relative(at.use, expected, 1e-3);
+    ck_assert_int_eq(at.item, HOLDING_OFFSET);
+    /* Without the line aft, nothing is there to pull back but the two across. */
+    h.c.offset_limit = HUGE_VAL;
+    h.lines.broken[2] = 1;
+    ck_assert(holding_find(&h.c, steady, &load).offset > 5 * expected);
+    hold_end(&h);
+}
+END_TEST
+
+/* Thrusters take what they can, the lines the rest. */
+START_TEST(both_together)
+{
+    held h;
+    hold_begin(&h);
+    double k = 5e4;
+    add_springs(&h, 4, k, 1e7);
+    add_thruster(&h, supply_main(8));
+    add_thruster(&h, supply_main(-8));
+    double main = h.b.thrusters.astern[0];
+    vec3 load = {main, 0, 0}; /* within reach */
+    holding at = holding_find(&h.c, steady, &load);
+    assert_absolute(at.offset, 0, 1e-3);
+    assert_relative(at.thruster_use, 0.5, 1e-3);
+    load.x = 2 * main + 1e5;
+    at = holding_find(&h.c, steady, &load);
+    assert_relative(at.offset, 1e5 / (2 * k + 2 * 4e5 / 600), 5e-3);
+    assert_relative(at.thruster_use, 1, 1e-3);
+    /* A turret that keeps its heading takes no moment from the lines. */
+    h.c.heading_given = true;
+    load = vec3_make(0, 1e5, 1e8);
+    at = holding_find(&h.c, steady, &load);
+    assert_absolute(at.turn, 0, 1e-2);
+    hold_end(&h);
+}
+END_TEST
+
+TEST_MAIN("holding", thrusters_by_hand, springs_by_hand, both_together)
