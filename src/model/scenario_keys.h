@@ -80,7 +80,9 @@
     X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                 \
     X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                   \
     X(station, SECTION(station), "", "what counts as being on station")                                          \
-    X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")
+    X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")                                \
+    X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")           \
+    X(wind_coefficients, SECTION(flow), "", "force coefficients of the wind over its direction")
 
 #define SCENARIO_HULL_KEYS(X)                                                                                      \
     X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file cone"), "",                                    \

@@ -56,6 +56,12 @@ SECTION_DEFINE(positioning, SCENARIO_POSITIONING_KEYS)
 #define SELF scenario_station
 SECTION_DEFINE(station, SCENARIO_STATION_KEYS)
 #undef SELF
+#define SELF scenario_flow_row
+SECTION_DEFINE(flow_row, SCENARIO_FLOW_ROW_KEYS)
+#undef SELF
+#define SELF scenario_flow
+SECTION_DEFINE(flow, SCENARIO_FLOW_KEYS)
+#undef SELF
 #define SELF scenario_matrix_row
 SECTION_DEFINE(matrix_row, SCENARIO_MATRIX_ROW_KEYS)
 #undef SELF

@@ -25,8 +25,29 @@
     X(pitch, REAL(0, -1e20, 1e20), "SI", "by pitch")                                   \
     X(yaw, REAL(0, -1e20, 1e20), "SI", "by yaw")
 
+#define SCENARIO_FLOW_ROW_KEYS(X)                                                                  \
+    X(angle_deg, REAL(0, 0, 360), "deg",                                                           \
+      "of the medium's motion past the vessel, counter-clockwise from the bow: 0 from astern, 90 " \
+      "from starboard, 180 from ahead")                                                            \
+    X(cx, REAL(0, -100, 100), "1", "force forward over 1/2 rho u^2 and the frontal area")          \
+    X(cy, REAL(0, -100, 100), "1", "force to port over 1/2 rho u^2 and the lateral area")          \
+    X(cn, REAL(0, -100, 100), "1", "moment counter-clockwise over 1/2 rho u^2, lateral area and length")
+
+#define SCENARIO_FLOW_KEYS(X)                                                                                         \
+    X(table, LIST(flow_row, 73), "",                                                                                  \
+      "in place of the drag of the hull's faces in the water plane; angles from 0 to 180 (equal sides) or to 360")    \
+    X(table_file, PATH(""), "", "CSV of angle [deg], cx, cy, cn [1], instead of the list")                            \
+    X(frontal_area, AUTOMATIC(1e-9, 1e9), "m2", "auto: beam times draught (current) or freeboard (wind)")             \
+    X(lateral_area, AUTOMATIC(1e-9, 1e9), "m2", "auto: waterline length times draught (current) or freeboard (wind)") \
+    X(length, AUTOMATIC(1e-6, 1e5), "m", "auto: of the waterline")                                                    \
+    X(x, REAL(0, -1e4, 1e4), "m", "where the forces act, forward of amidships")                                       \
+    X(z, AUTOMATIC(-1e4, 1e4), "m",                                                                                   \
+      "and above the design waterline; auto: half the draught below (current), half the freeboard above (wind)")
+
 /* Inner sections before those that hold them. */
 #define SCENARIO_WATER_SECTIONS(S)          \
+    S(flow_row, SCENARIO_FLOW_ROW_KEYS)     \
+    S(flow, SCENARIO_FLOW_KEYS)             \
     S(matrix_row, SCENARIO_MATRIX_ROW_KEYS) \
     S(hydrodynamics, SCENARIO_HYDRODYNAMICS_KEYS)
 

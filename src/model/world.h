@@ -6,6 +6,7 @@
 #include "dynamics/collision.h"
 #include "dynamics/joint.h"
 #include "dynamics/solver.h"
+#include "fluid/flow_apply.h"
 #include "fluid/fluid.h"
 #include "fluid/response.h"
 #include "ice/crushing.h"
@@ -53,6 +54,12 @@ typedef struct ice_load {
     int32_t contacts;
 } ice_load;
 
+/* What the water that moves with a vessel exerts on it in a step: added mass and linear damping.  Scratch. */
+typedef struct hull_response {
+    vec3 force;    /* mean over the step, global frame [N] */
+    vec3 velocity; /* of the centre of mass before the step [m/s] */
+} hull_response;
+
 typedef struct world {
     /* State: everything that outlives a step; world_tables() lists the tables. */
     clock_table clock;
@@ -79,6 +86,7 @@ typedef struct world {
     media_history media;
     bool has_hydrodynamics; /* of the first vessel */
     hydrodynamics hydrodynamics;
+    hull_flows flows;
 
     /* Scratch: written anew each step. */
     struct {
@@ -90,6 +98,7 @@ typedef struct world {
         index_array patch_pairs;
         crushing_patch_array patches;
         ARRAY(ice_load) ice_loads; /* one per vessel */
+        hull_response response;    /* of the first vessel */
         fracture_event_array fractures;
         solver_report solver;
         collision_scratch *collision;

@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/build_feeding.h"
+#include "sim/build_flows.h"
 #include "sim/build_hull.h"
 #include "sim/build_hydrodynamics.h"
 #include "sim/build_ice.h"
@@ -204,6 +205,8 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
         if (status == FRAM_OK)
             status = build_hydrodynamics(s, &hull, w, error);
         if (status == FRAM_OK)
+            status = build_flows(ctx, s, &hull, w, error);
+        if (status == FRAM_OK)
             status = add_vessel(ctx, s, w, &hull, error);
         if (status == FRAM_OK) {
             status = build_station(ctx, s, &settings, w, error);
@@ -232,6 +235,8 @@ fram_status build_empty_world(context *ctx, const scenario *s, world *w, fram_er
         status = build_hull(ctx, s, w, &hull, error);
     if (status == FRAM_OK && s->vessel.present)
         status = build_hydrodynamics(s, &hull, w, error);
+    if (status == FRAM_OK && s->vessel.present)
+        status = build_flows(ctx, s, &hull, w, error);
     if (status != FRAM_OK)
         world_free(ctx, w);
     return status;

@@ -14,6 +14,7 @@ typedef struct vessel_channels {
     wrench averaged;
     vec3 joint_force, joint_moment;
     wrench fluid, mooring, thrust;
+    vec3 response;
     vec3 offset, estimate, bias, demand;
     double thruster_power, line_tension_max;
     int32_t lines_parted, thrusters_failed, saturated;
@@ -70,6 +71,7 @@ static vessel_channels vessel_channels_of(const world *w)
         c.fluid.force = vec3_add(vec3_add(f->hydrostatic.force, f->water_drag.force), f->wind_drag.force);
         c.fluid.moment = vec3_add(vec3_add(f->hydrostatic.moment, f->water_drag.moment), f->wind_drag.moment);
     }
+    c.response = w->scratch.response.force;
     add_station(w, &c);
     return c;
 }
@@ -124,6 +126,7 @@ static count_channels counts_of(const world *w)
     V3(X, "tow_moment", "N m", c.joint_moment)                        \
     V3(X, "fluid_force", "N", c.fluid.force)                          \
     V3(X, "fluid_moment", "N m", c.fluid.moment)                      \
+    V3(X, "hydrodynamic_force", "N", c.response)                      \
     V3(X, "mooring_force", "N", c.mooring.force)                      \
     V3(X, "mooring_moment", "N m", c.mooring.moment)                  \
     V3(X, "thruster_force", "N", c.thrust.force)                      \

@@ -79,6 +79,20 @@ channel_statistics channel_statistics_of(const double *time, const double *value
     return s;
 }
 
+void offset_envelope(const double *time, const double *x, const double *y, int32_t count, double transient,
+                     double out[ENVELOPE_DIRECTIONS])
+{
+    memset(out, 0, ENVELOPE_DIRECTIONS * sizeof *out);
+    for (int32_t i = 0; i < count; i++) {
+        if (time[i] < transient)
+            continue;
+        double at = real_atan2(y[i], x[i]) / (2 * PI) * ENVELOPE_DIRECTIONS;
+        int32_t k = (int32_t)floor(at + 0.5);
+        k = (k + ENVELOPE_DIRECTIONS) % ENVELOPE_DIRECTIONS;
+        out[k] = fmax(out[k], sqrt(x[i] * x[i] + y[i] * y[i]));
+    }
+}
+
 /* ---- what is read ---- */
 
 enum { TIME, OFFSET_X, OFFSET_Y, HEADING, LOAD_X, LOAD_Y, POWER, SATURATED, TENSION, FIXED };
@@ -179,6 +193,20 @@ static void add_channel(context *ctx, text_buffer *b, const station_data *d, con
     add_statistics(ctx, b, &s, end);
 }
 
+static void add_envelope(context *ctx, text_buffer *b, const station_data *d, double transient)
+{
+    double envelope[ENVELOPE_DIRECTIONS];
+    offset_envelope(d->column[TIME].data, d->column[OFFSET_X].data, d->column[OFFSET_Y].data, d->rows, transient,
+                    envelope);
+    text_add(ctx, b, "  \"offset_envelope_m\": [");
+    for (int i = 0; i < ENVELOPE_DIRECTIONS; i++) {
+        char text[NUMBER_TEXT_SIZE];
+        real_to_text(envelope[i], text);
+        text_format(ctx, b, "%s%s", i > 0 ? ", " : "", text);
+    }
+    text_add(ctx, b, "],\n");
+}
+
 static void add_lines(context *ctx, text_buffer *b, const world *w, const station_data *d, double transient)
 {
     text_add(ctx, b, "  \"lines\": [");
@@ -239,6 +267,7 @@ static void compose(context *ctx, const scenario *s, const world *w, const stati
     double limit = automatic_or(s->vessel.station.offset_limit, HUGE_VAL);
     add_number(ctx, b, "limit", limit, ", ");
     add_number(ctx, b, "exceedance", exceedance(d, &d->offset, limit, transient), "},\n");
+    add_envelope(ctx, b, d, transient);
     add_channel(ctx, b, d, "offset_x_m", &c[OFFSET_X], transient, "},\n");
     add_channel(ctx, b, d, "offset_y_m", &c[OFFSET_Y], transient, "},\n");
     add_channel(ctx, b, d, "heading_deviation_deg", &c[HEADING], transient, ", ");
@@ -275,6 +304,9 @@ fram_status station_results_write(context *ctx, const scenario *s, const world *
 
 /* ---- page ---- */
 
+/* A limit of more than so many largest offsets is not drawn. */
+#define FAR_LIMIT 6
+
 enum { PAGE_WIDTH = 1600, PAGE_HEIGHT = 1130, CIRCLE = 73 };
 
 static void describe(context *ctx, const scenario *s, const world *w, const station_data *d, text_buffer *b)
@@ -293,7 +325,8 @@ static void describe(context *ctx, const scenario *s, const world *w, const stat
         text_format(ctx, b, "Largest line tension: mean %.4g kN, peak %.4g kN.\n", tension.mean * 1e-3,
                     tension.greatest * 1e-3);
     if (d->thrusters > 0)
-        text_format(ctx, b, "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ; saturated %.3g %% of the time.\n",
+        text_format(ctx, b,
+                    "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ.\nThrusters saturated %.3g %% of the time.\n",
                     power.mean * 1e-6, power.greatest * 1e-6, energy_of(d) * 1e-9,
                     100 * statistics(d, &d->column[SATURATED], transient).mean);
     for (int32_t i = 0; i < w->events.count && i < 8; i++) {
@@ -321,8 +354,24 @@ static fram_status draw(context *ctx, const scenario *s, const station_data *d, 
     }
     const double *time = d->column[TIME].data;
     int32_t n = d->rows;
-    const chart_line footprint[2] = {
+    double envelope[ENVELOPE_DIRECTIONS], edge_x[ENVELOPE_DIRECTIONS + 1], edge_y[ENVELOPE_DIRECTIONS + 1];
+    offset_envelope(time, d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, s->run.transient, envelope);
+    double largest = 0;
+    for (int i = 0; i <= ENVELOPE_DIRECTIONS; i++) {
+        double a = 2 * PI * i / ENVELOPE_DIRECTIONS, r = envelope[i % ENVELOPE_DIRECTIONS];
+        edge_x[i] = r * real_cos(a), edge_y[i] = r * real_sin(a);
+        largest = fmax(largest, r);
+    }
+    /* A limit that is far away would leave nothing of the track to be seen. */
+    bool far = limit > FAR_LIMIT * largest;
+    char note[96];
+    snprintf(note, sizeof note,
+             far ? "offset of the watched point; the limit, %.3g m, lies outside"
+                 : "offset of the watched point; envelope after the transient",
+             limit);
+    const chart_line footprint[3] = {
         chart_line_make("track", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, false),
+        chart_line_make("envelope", edge_x, edge_y, ENVELOPE_DIRECTIONS + 1, false),
         chart_line_make("limit", round_x, round_y, CIRCLE, true)};
     const chart_line offsets[2] = {chart_line_make("along X", time, d->column[OFFSET_X].data, n, true),
                                    chart_line_make("along Y", time, d->column[OFFSET_Y].data, n, true)};
@@ -332,8 +381,7 @@ static fram_status draw(context *ctx, const scenario *s, const station_data *d, 
     const chart_line tension = chart_line_make("largest of all lines", time, d->column[TENSION].data, n, true);
     const chart_line power = chart_line_make("thruster power", time, d->column[POWER].data, n, true);
     const page_panel panels[5] = {
-        {chart_make("Footprint", "offset of the watched point", "X [m]", "Y [m]", footprint, limit > 0 ? 2 : 1), 20, 60,
-         620, 560, true},
+        {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 3 : 2), 20, 60, 620, 560, true},
         {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},
         {chart_make("Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1), 660, 320, 920, 270, false},
         {chart_make("Ice load", "averaged", "time [s]", "force [kN]", loads, 2), 660, 580, 920, 270, false},

@@ -15,6 +15,12 @@ typedef struct channel_statistics {
 } channel_statistics;
 channel_statistics channel_statistics_of(const double *time, const double *value, int32_t count, double transient);
 
+/* The offset envelope: the largest offset [m] towards each of these directions, evenly round from X on,
+   counter-clockwise, after the transient; 0 where the point never was. */
+enum { ENVELOPE_DIRECTIONS = 36 };
+void offset_envelope(const double *time, const double *x, const double *y, int32_t count, double transient,
+                     double out[ENVELOPE_DIRECTIONS]);
+
 /* True when the scenario has something that keeps its vessel on station. */
 bool station_has_results(const scenario *s);
 fram_status station_results_write(context *ctx, const scenario *s, const world *w, const char *folder,

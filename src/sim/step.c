@@ -6,12 +6,23 @@
 
 #include <string.h>
 
+static fram_status water_and_air(context *ctx, const step_settings *s, world *w, fram_error *error)
+{
+    media now = media_at(&s->media, &w->media, w->clock.time[0]);
+    const fluid_details details = {.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data};
+    fram_status status =
+        fluid_apply(ctx, &now, s->drag, &w->bodies, &w->shapes, w->scratch.loads.data, &details, error);
+    if (status == FRAM_OK && w->vessels.count > 0 && body_is_dynamic(&w->bodies, w->vessels.body[0]))
+        fluid_apply_flows(ctx, &now, &s->drag[MATERIAL_HULL], &w->flows, &w->bodies, &w->shapes, w->vessels.body[0],
+                          w->scratch.loads.data, &details);
+    return status;
+}
+
 /* 1. External forces at the old state: gravity, buoyancy, drag, wind, and what came from outside. */
 static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
     int32_t slots = w->bodies.count;
     wrench *loads = w->scratch.loads.data;
-    media now;
     array_clear(&w->scratch.fluid);
     switch (s->forces) {
     case FORCES_NONE:
@@ -20,10 +31,7 @@ static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, 
         if (!array_resize(ctx, &w->scratch.submerged, slots) ||
             !array_resize(ctx, &w->scratch.fluid, w->shapes.solids.count))
             return error_memory(error);
-        now = media_at(&s->media, &w->media, w->clock.time[0]);
-        return fluid_apply(ctx, &now, s->drag, &w->bodies, &w->shapes, loads,
-                           &(fluid_details){.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data},
-                           error);
+        return water_and_air(ctx, s, w, error);
     case FORCES_COLUMNS:
         if (!s->columns || s->columns->slots != slots)
             return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL,
@@ -47,8 +55,23 @@ static void respond(context *ctx, const step_settings *s, world *w)
         return;
     int32_t body = w->vessels.body[0];
     wrench contacts = last_ice_load(w, 0);
+    vec3 before = loads[body].force;
     hydrodynamics_respond(&w->hydrodynamics, w->vessels.mode[0] == VESSEL_FREE, &now, s->time_step, &w->bodies, body,
                           &contacts, &loads[body]);
+    w->scratch.response = (hull_response){vec3_sub(loads[body].force, before), w->bodies.velocity[body]};
+}
+
+/* What the solver moved with the hull, as a force on it. */
+static void add_carried_mass(const step_settings *s, world *w)
+{
+    if (w->vessels.count == 0)
+        return;
+    int32_t body = w->vessels.body[0];
+    vec3 gain = vec3_sub(w->bodies.velocity[body], w->scratch.response.velocity), mass = w->bodies.added_mass[body];
+    mat3 r = quat_matrix(w->bodies.orientation[body]);
+    vec3 local = mat3_tmul_vec(r, vec3_scale(gain, -1 / s->time_step));
+    vec3 force = mat3_mul_vec(r, vec3_make(mass.x * local.x, mass.y * local.y, mass.z * local.z));
+    w->scratch.response.force = vec3_add(w->scratch.response.force, force);
 }
 
 static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
@@ -68,6 +91,9 @@ static fram_status external_forces(context *ctx, const step_settings *s, world *
     status = station_forces(ctx, s, w, error);
     if (status != FRAM_OK)
         return status;
+    w->scratch.response = (hull_response){{0, 0, 0}, {0, 0, 0}};
+    if (w->vessels.count > 0)
+        w->scratch.response.velocity = w->bodies.velocity[w->vessels.body[0]];
     if (s->forces == FORCES_FLUID)
         respond(ctx, s, w);
     vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + s->time_step);
@@ -99,8 +125,12 @@ static fram_status limit_crushing(context *ctx, const step_settings *s, world *w
 /* 4. New velocities. */
 static fram_status solve_velocities(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
-    return solver_solve(ctx, w->scratch.solve, &s->solver, s->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
-                        &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
+    fram_status status =
+        solver_solve(ctx, w->scratch.solve, &s->solver, s->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
+                     &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
+    if (status == FRAM_OK)
+        add_carried_mass(s, w);
+    return status;
 }
 
 /* 5. Fracture of breakable floes, from the solved impulses. */

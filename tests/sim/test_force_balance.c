@@ -15,11 +15,11 @@ typedef struct balance {
     double ice;   /* largest ice load [N] */
 } balance;
 
-static balance towed_balance(const char *kind, int steps)
+static balance towed_balance(const char *kind, const char *water, int steps)
 {
     scene k;
-    const char *keys[] = {kind, "run.solver.iterations=60"};
-    scene_open_with(&k, field, keys, 2);
+    const char *keys[] = {kind, "run.solver.iterations=60", water};
+    scene_open_with(&k, field, keys, 3);
     int32_t hull = k.w.vessels.body[0], joint = k.w.vessels.joint[0];
     double mass = k.w.bodies.mass[hull];
     vec3 weight = vec3_make(0, 0, -mass * k.settings.media.gravity);
@@ -30,6 +30,7 @@ static balance towed_balance(const char *kind, int steps)
         const fluid_load *f = &k.w.scratch.fluid.data[hull];
         vec3 ice = k.w.scratch.ice_loads.data[0].total.force, tow = k.w.joints.reaction_force[joint];
         vec3 fluid = vec3_add(f->hydrostatic.force, vec3_add(f->water_drag.force, f->wind_drag.force));
+        fluid = vec3_add(fluid, k.w.scratch.response.force);
         vec3 gain = vec3_scale(vec3_sub(k.w.bodies.velocity[hull], before), mass / k.settings.time_step);
         vec3 rest = vec3_sub(vec3_add(vec3_add(tow, ice), vec3_add(fluid, weight)), gain);
         b.worst = fmax(b.worst, vec3_length(rest));
@@ -40,18 +41,50 @@ static balance towed_balance(const char *kind, int steps)
     return b;
 }
 
-static void check_balance(const char *kind, int steps, double tolerance)
+static void check_balance(const char *kind, const char *water, int steps, double tolerance)
 {
-    balance b = towed_balance(kind, steps);
+    balance b = towed_balance(kind, water, steps);
     ck_assert_msg(b.ice > 1e4, "the hull met no ice (%g N)", b.ice);
     ck_assert_msg(b.worst <= tolerance * b.peak, "%s: %g N of %g N are not accounted for", kind, b.worst, b.peak);
 }
 
-START_TEST(accurate_solver) { check_balance("run.solver.kind=accurate", 500, 1e-6); }
+static const char still[] = "vessel.hydrodynamics.source=none", moved[] = "vessel.hydrodynamics.source=estimate";
+
+START_TEST(accurate_solver) { check_balance("run.solver.kind=accurate", still, 500, 1e-6); }
 END_TEST
-START_TEST(sequential_solver) { check_balance("run.solver.kind=sequential", 1500, 1e-2); }
+START_TEST(sequential_solver) { check_balance("run.solver.kind=sequential", still, 1500, 1e-2); }
 END_TEST
-START_TEST(fast_solver) { check_balance("run.solver.kind=fast", 1500, 1e-2); }
+START_TEST(fast_solver) { check_balance("run.solver.kind=fast", still, 1500, 1e-2); }
 END_TEST
 
-TEST_MAIN("force_balance", accurate_solver, sequential_solver, fast_solver)
+/* With added mass and damping, whose force is a channel of its own. */
+START_TEST(water_that_moves_along)
+{
+    check_balance("run.solver.kind=accurate", moved, 400, 1e-6);
+    check_balance("run.solver.kind=fast", moved, 800, 1e-2);
+}
+END_TEST
+
+/* The ice load as a tank has it: what the carriage needs more than in open water. */
+START_TEST(reaction_less_open_water)
+{
+    enum { STEPS = 1200 };
+    vec3 tow[2] = {{0}, {0}}, ice = {0};
+    for (int open = 0; open < 2; open++) {
+        scene k;
+        scene_open_with(&k, field, (const char *const[]){open ? "ice.source=none" : "ice.source=voronoi"}, 1);
+        for (int i = 0; i < STEPS; i++) {
+            scene_steps(&k, 1);
+            tow[open] = vec3_mad(tow[open], k.w.joints.reaction_force[k.w.vessels.joint[0]], 1.0 / STEPS);
+            if (!open)
+                ice = vec3_mad(ice, k.w.scratch.ice_loads.data[0].total.force, 1.0 / STEPS);
+        }
+        scene_close(&k);
+    }
+    ck_assert_msg(ice.x < -1e4, "the hull met no ice (%g N)", ice.x);
+    assert_relative(tow[0].x - tow[1].x, -ice.x, 0.02);
+}
+END_TEST
+
+TEST_MAIN("force_balance", accurate_solver, sequential_solver, fast_solver, water_that_moves_along,
+          reaction_less_open_water)

@@ -166,5 +166,18 @@ START_TEST(statistics_of_a_channel)
 }
 END_TEST
 
-TEST_MAIN("station", forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,
-          a_moored_ship_begins_in_balance, statistics_of_a_channel)
+START_TEST(envelope_of_offsets)
+{
+    const double time[] = {0, 1, 2, 3, 4}, x[] = {9, 2, 3, 0, -1}, y[] = {0, 0, 0.1, -4, -1};
+    double out[ENVELOPE_DIRECTIONS];
+    offset_envelope(time, x, y, 5, 0.5, out);
+    assert_relative(out[0], sqrt(9.01), 1e-12);
+    assert_relative(out[27], 4, 1e-12);
+    assert_relative(out[22] + out[23], sqrt(2.0), 1e-12);
+    for (int i = 1; i < 20; i++)
+        ck_assert(!(out[i] > 0));
+}
+END_TEST
+
+TEST_MAIN("station", envelope_of_offsets, forces_on_a_towed_hull_balance,
+          a_ship_holds_its_place_until_its_thrusters_fail, a_moored_ship_begins_in_balance, statistics_of_a_channel)

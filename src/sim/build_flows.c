@@ -1,0 +1,136 @@
+#include "sim/build_flows.h"
+
+#include "base/transcendental.h"
+#include "io/csv_read.h"
+
+#include <stdio.h>
+
+/* Rows as they are given. */
+typedef struct flow_rows {
+    double_array column[4]; /* angle [deg], CX, CY, CN */
+} flow_rows;
+
+static void rows_free(context *ctx, flow_rows *rows)
+{
+    for (int i = 0; i < 4; i++)
+        array_free(ctx, &rows->column[i]);
+}
+
+static fram_status read_rows(context *ctx, const scenario *s, const scenario_flow *from, flow_rows *rows,
+                             fram_error *error)
+{
+    static const char *const names[4] = {"angle", "cx", "cy", "cn"};
+    if (from->table_file[0]) {
+        char path[2 * SCENARIO_TEXT_SIZE];
+        if (!scenario_resolve_path(s, from->table_file, path, sizeof path))
+            return error_set(error, FRAM_ERROR_INPUT, from->table_file, 0, NULL, "the path is too long");
+        return csv_read(ctx, path, names, 4, rows->column, error);
+    }
+    for (int32_t i = 0; i < from->table.count; i++) {
+        const scenario_flow_row *r = &from->table.data[i];
+        const double value[4] = {r->angle_deg, r->cx, r->cy, r->cn};
+        for (int k = 0; k < 4; k++)
+            if (!array_push(ctx, &rows->column[k], value[k]))
+                return error_memory(error);
+    }
+    return FRAM_OK;
+}
+
+/* ---- rules ---- */
+
+/* Names the row: of the scenario, or of its file, whose line 1 is the header. */
+static fram_status fault(const scenario *s, const scenario_flow *from, const char *key, int32_t row, const char *rule,
+                         double found, fram_error *error)
+{
+    char name[80];
+    snprintf(name, sizeof name, from->table_file[0] || row < 0 ? "%s.table" : "%s.table[%d]", key, (int)row);
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected %s, found %g", rule, found);
+    scenario_locate(s, error);
+    if (error && from->table_file[0] && row >= 0) {
+        snprintf(error->file, sizeof error->file, "%.200s", from->table_file);
+        error->line = row + 2;
+        error->column = 0;
+    }
+    return FRAM_ERROR_INPUT;
+}
+
+static bool differs(double a, double b) { return !(fabs(a - b) <= 1e-9); }
+
+static fram_status check_ends(const scenario *s, const scenario_flow *from, const char *key, const flow_rows *rows,
+                              int32_t count, fram_error *error)
+{
+    const double *angle = rows->column[0].data;
+    int32_t last = count - 1;
+    if (differs(angle[0], 0))
+        return fault(s, from, key, 0, "the angle 0 first", angle[0], error);
+    bool whole = !differs(angle[last], 360);
+    if (!whole && differs(angle[last], 180))
+        return fault(s, from, key, last, "180 (for equal sides) or 360 degrees last", angle[last], error);
+    for (int k = 1; k < 4 && whole; k++)
+        if (differs(rows->column[k].data[last], rows->column[k].data[0]))
+            return fault(s, from, key, last, "at 360 degrees what stands at 0", rows->column[k].data[last], error);
+    for (int k = 2; k < 4 && !whole; k++)
+        for (int32_t i = 0; i < count; i += last)
+            if (differs(rows->column[k].data[i], 0))
+                return fault(s, from, key, i, "no CY and CN at 0 and 180 degrees, since the sides are alike",
+                             rows->column[k].data[i], error);
+    return FRAM_OK;
+}
+
+static fram_status check_rows(const scenario *s, const scenario_flow *from, const char *key, const flow_rows *rows,
+                              fram_error *error)
+{
+    int32_t count = rows->column[0].count;
+    if (count < 2 || count > FLOW_ANGLES)
+        return fault(s, from, key, -1, "2 to 73 rows", count, error);
+    for (int32_t i = 0; i < count; i++) {
+        for (int k = 0; k < 4; k++)
+            if (!isfinite(rows->column[k].data[i]))
+                return fault(s, from, key, i, "finite numbers", rows->column[k].data[i], error);
+        if (i > 0 && !(rows->column[0].data[i] > rows->column[0].data[i - 1]))
+            return fault(s, from, key, i, "a larger angle than in the row before", rows->column[0].data[i], error);
+    }
+    return check_ends(s, from, key, rows, count, error);
+}
+
+/* ---- a table ---- */
+
+/* height: of the part of the hull that the medium meets; middle: of that part over the design waterline [m]. */
+static fram_status build_one(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
+                             const made_hull *hull, double height, double middle, flow_table *out, fram_error *error)
+{
+    flow_rows rows = {0};
+    *out = (flow_table){0};
+    if (from->table.count == 0 && !from->table_file[0])
+        return FRAM_OK;
+    fram_status status = from->table.count > 0 && from->table_file[0]
+                             ? fault(s, from, key, -1, "a table or a table_file, not both", from->table.count, error)
+                             : read_rows(ctx, s, from, &rows, error);
+    if (status == FRAM_OK)
+        status = check_rows(s, from, key, &rows, error);
+    const hull_particulars *p = &hull->particulars;
+    out->frontal = automatic_or(from->frontal_area, p->beam * height);
+    out->lateral = automatic_or(from->lateral_area, p->length * height);
+    out->length = automatic_or(from->length, p->length);
+    out->point = vec3_sub(vec3_make(from->x, 0, automatic_or(from->z, middle)), hull->centre);
+    for (int32_t i = 0; i < rows.column[0].count && status == FRAM_OK; i++) {
+        out->angle[i] = radians(rows.column[0].data[i]);
+        out->coefficient[i] = vec3_make(rows.column[1].data[i], rows.column[2].data[i], rows.column[3].data[i]);
+        out->count = i + 1;
+    }
+    rows_free(ctx, &rows);
+    return status;
+}
+
+fram_status build_flows(context *ctx, const scenario *s, const made_hull *hull, world *w, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    double draught = hull->particulars.draught, freeboard = v->hull.freeboard;
+    w->flows.depth = 0.5 * draught;
+    fram_status status = build_one(ctx, s, &v->current_coefficients, "vessel.current_coefficients", hull, draught,
+                                   -0.5 * draught, &w->flows.water, error);
+    if (status == FRAM_OK)
+        status = build_one(ctx, s, &v->wind_coefficients, "vessel.wind_coefficients", hull, freeboard, 0.5 * freeboard,
+                           &w->flows.air, error);
+    return status;
+}

@@ -1,0 +1,80 @@
+/* Wind and current coefficients of a scenario: what the hull then meets, and tables that are refused by name. */
+#include "scene.h"
+#include "sim/steady_load.h"
+
+/* Held by the carriage in a current to port (from starboard) and a wind on the stern. */
+#define BOX "vessel:\n  mode: towed\n  speed: 0\n  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3}\n"
+#define SEA                                                                                                        \
+    "ice: {source: none}\ndomain: {boundary: open}\nenvironment: {current_speed: 0.8, current_direction_deg: 90, " \
+    "wind_speed: 10, wind_direction_deg: 0}\n"
+
+static const char tables[] = BOX "  current_coefficients:\n    x: 3\n    lateral_area: 250\n    table:\n"
+                                 "      - {angle_deg: 0, cx: 0.1}\n      - {angle_deg: 90, cy: 0.7, cn: -0.05}\n"
+                                 "      - {angle_deg: 180, cx: -0.1}\n"
+                                 "  wind_coefficients:\n    table:\n      - {angle_deg: 0, cx: 0.8}\n"
+                                 "      - {angle_deg: 180, cx: -0.9}\n" SEA;
+
+START_TEST(the_hull_meets_the_tables)
+{
+    scene k;
+    scene_open(&k, tables);
+    scene_steps(&k, 1);
+    const fluid_load *f = &k.w.scratch.fluid.data[0];
+    double q = 0.5 * 1025 * 0.64, wind = 0.5 * 1.225 * 100;
+    assert_relative(f->water_drag.force.y, q * 0.7 * 250, 1e-9);
+    assert_absolute(f->water_drag.force.x, 0, 1e-6 * q);
+    assert_relative(f->water_drag.moment.z, q * (0.7 * 250 * 3 - 0.05 * 250 * 60), 1e-9);
+    assert_relative(f->wind_drag.force.x, wind * 0.8 * 12 * 3, 1e-9);
+    /* What the equilibrium and the capability plot take is the same. */
+    vec3 still = steady_media_load(&k.settings, &k.w, k.w.vessels.body[0], &k.settings.media, 0);
+    assert_relative(still.y, q * 0.7 * 250, 1e-9);
+    assert_relative(still.x, wind * 0.8 * 12 * 3, 1e-9);
+    scene_close(&k);
+}
+END_TEST
+
+/* A hull that turns in still water is still slowed down by its panels. */
+START_TEST(turning_is_damped)
+{
+    scene k;
+    scene_open_with(&k, tables,
+                    (const char *const[]){"vessel.mode=free", "environment.current_speed=0", "environment.wind_speed=0",
+                                          "environment.hull_drag.water_form=1"},
+                    4);
+    k.w.bodies.angular_velocity[0].z = 0.02;
+    scene_steps(&k, 500);
+    double left = k.w.bodies.angular_velocity[0].z;
+    ck_assert_msg(left > 0.001 && left < 0.0199, "%g rad/s are left of 0.02", left);
+    scene_close(&k);
+}
+END_TEST
+
+static void refuse(const char *rows, const char *key)
+{
+    char text[1024];
+    context ctx;
+    scenario s;
+    world w;
+    build_report report;
+    fram_error error = {0};
+    snprintf(text, sizeof text, BOX "  wind_coefficients:\n    table:\n%s" SEA, rows);
+    context_init(&ctx);
+    assert_ok(scenario_parse(&ctx, "scene.yaml", text, strlen(text), NULL, &s, &error), error);
+    ck_assert_int_eq(build_world(&ctx, &s, &w, &report, &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, key);
+    ck_assert(error.line > 0);
+    scenario_free(&ctx, &s);
+}
+
+START_TEST(faulty_tables)
+{
+    refuse("      - {angle_deg: 0, cx: 1}\n", "vessel.wind_coefficients.table");
+    refuse("      - {angle_deg: 10, cx: 1}\n      - {angle_deg: 180, cx: 1}\n", "vessel.wind_coefficients.table[0]");
+    refuse("      - {angle_deg: 0, cx: 1}\n      - {angle_deg: 0, cx: 1}\n", "vessel.wind_coefficients.table[1]");
+    refuse("      - {angle_deg: 0, cx: 1}\n      - {angle_deg: 170, cx: 1}\n", "vessel.wind_coefficients.table[1]");
+    refuse("      - {angle_deg: 0, cx: 1}\n      - {angle_deg: 180, cy: 1}\n", "vessel.wind_coefficients.table[1]");
+    refuse("      - {angle_deg: 0, cx: 1}\n      - {angle_deg: 360, cx: 2}\n", "vessel.wind_coefficients.table[1]");
+}
+END_TEST
+
+TEST_MAIN("flows", the_hull_meets_the_tables, turning_is_damped, faulty_tables)
