@@ -124,6 +124,24 @@ static bool inside_domain(const scenario *s, double x, double y)
     return x >= s->domain.x_min && x <= s->domain.x_max && y >= s->domain.y_min && y <= s->domain.y_max;
 }
 
+/* A path is for what is driven, and its times go on. */
+static fram_status check_path(const scenario *s, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    if (v->mode == VESSEL_FREE && v->path.count > 0)
+        return fault(s, error, "vessel.path", "expected none, since vessel.mode is free, found %d points",
+                     (int)v->path.count);
+    if (v->path.count == 1)
+        return fault(s, error, "vessel.path", "expected two points at least, found 1");
+    for (int32_t i = 1; i < v->path.count; i++) {
+        char key[48];
+        snprintf(key, sizeof key, "vessel.path[%d].time", (int)i);
+        if (!(v->path.data[i].time > v->path.data[i - 1].time))
+            return fault(s, error, key, "expected a later time than that of the point before");
+    }
+    return FRAM_OK;
+}
+
 /* A line of kind table has one table, others have none. */
 static fram_status check_line_tables(const scenario *s, fram_error *error)
 {
@@ -163,7 +181,8 @@ static fram_status check_station(const scenario *s, fram_error *error)
         snprintf(key, sizeof key, "vessel.positioning.waypoints[%d].time", (int)i);
         return fault(s, error, key, "expected a later time than that of the way point before");
     }
-    return check_line_tables(s, error);
+    fram_status status = check_line_tables(s, error);
+    return status == FRAM_OK ? check_path(s, error) : status;
 }
 
 static fram_status check_vessel(const scenario *s, fram_error *error)

@@ -68,6 +68,9 @@
     X(speed, REAL(0, 0, 100), "m/s", "speed of towing, of prescribed motion, or at the start of free motion")    \
     X(course_deg, AUTOMATIC(-360, 360), "deg", "direction of the speed; auto: the heading")                      \
     X(ramp, REAL(0, 0, 1e6), "s", "time over which the speed of towing grows from zero")                         \
+    X(path, LIST(path_point, 1000), "",                                                                          \
+      "modes prescribed and towed: where the hull or its carriage goes, linear in time; in place of x, y, "      \
+      "heading_deg, speed, course_deg and ramp")                                                                 \
     X(mass, AUTOMATIC(1e-9, 1e12), "kg", "auto: the mass displaced at the draught")                              \
     X(centre_of_gravity_x, AUTOMATIC(-1e4, 1e4), "m", "forward of amidships; auto: over the centre of buoyancy") \
     X(centre_of_gravity_y, AUTOMATIC(-1e4, 1e4), "m", "to port; auto: over the centre of buoyancy")              \

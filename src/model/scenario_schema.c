@@ -47,6 +47,9 @@ SECTION_DEFINE(mooring, SCENARIO_MOORING_KEYS)
 #define SELF scenario_thruster
 SECTION_DEFINE(thruster, SCENARIO_THRUSTER_KEYS)
 #undef SELF
+#define SELF scenario_path_point
+SECTION_DEFINE(path_point, SCENARIO_PATH_POINT_KEYS)
+#undef SELF
 #define SELF scenario_waypoint
 SECTION_DEFINE(waypoint, SCENARIO_WAYPOINT_KEYS)
 #undef SELF

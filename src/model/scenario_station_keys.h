@@ -57,6 +57,12 @@
     X(direction_deg, REAL(0, -360, 360), "deg",                                                                 \
       "without positioning: direction of an azimuth's thrust, or angle of a rudder")
 
+#define SCENARIO_PATH_POINT_KEYS(X)                                      \
+    X(time, REAL(0, 0, 1e9), "s", "at which the ship's origin is there") \
+    X(x, REAL(0, -1e7, 1e7), "m", "of the ship's origin")                \
+    X(y, REAL(0, -1e7, 1e7), "m", "of the ship's origin")                \
+    X(heading_deg, REAL(0, -36000, 36000), "deg", "direction of the bow; whole turns count")
+
 #define SCENARIO_WAYPOINT_KEYS(X)                                 \
     X(time, REAL(0, 0, 1e9), "s", "from then on, until the next") \
     X(x, REAL(0, -1e7, 1e7), "m", "of the ship's origin")         \
@@ -110,6 +116,7 @@
 #define SCENARIO_STATION_SECTIONS(S)            \
     S(line_point, SCENARIO_LINE_POINT_KEYS)     \
     S(mooring_line, SCENARIO_MOORING_LINE_KEYS) \
+    S(path_point, SCENARIO_PATH_POINT_KEYS)     \
     S(mooring, SCENARIO_MOORING_KEYS)           \
     S(thruster, SCENARIO_THRUSTER_KEYS)         \
     S(waypoint, SCENARIO_WAYPOINT_KEYS)         \

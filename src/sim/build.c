@@ -8,6 +8,7 @@
 #include "sim/build_ice.h"
 #include "sim/build_media.h"
 #include "sim/build_station.h"
+#include "vessel/path.h"
 
 #include <string.h>
 
@@ -91,6 +92,29 @@ static fram_status name_key(const scenario *s, fram_status status, const char *k
     return status;
 }
 
+/* Where the path begins, and the velocity of its first step. */
+static fram_status begin_path(context *ctx, const scenario *s, world *w, vessel_definition *d, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    if (v->path.count == 0)
+        return FRAM_OK;
+    if (!table_resize(ctx, &w->waypoints, &waypoint_table_info, v->path.count))
+        return error_memory(error);
+    for (int32_t i = 0; i < v->path.count; i++) {
+        const scenario_path_point *p = &v->path.data[i];
+        w->waypoints.vessel[i] = 0;
+        w->waypoints.time[i] = p->time;
+        w->waypoints.place[i] = vec3_make(p->x, p->y, radians(p->heading_deg));
+    }
+    double dt = s->run.time_step;
+    vec3 begin = path_place(&w->waypoints, 0, 0), next = path_place(&w->waypoints, 0, dt);
+    d->position = vec3_make(begin.x, begin.y, 0);
+    d->heading = begin.z;
+    d->tow_velocity = vec3_make((next.x - begin.x) / dt, (next.y - begin.y) / dt, 0);
+    d->tow_ramp = 0;
+    return FRAM_OK;
+}
+
 static fram_status add_vessel(context *ctx, const scenario *s, world *w, const made_hull *hull, fram_error *error)
 {
     const scenario_vessel *v = &s->vessel;
@@ -109,7 +133,10 @@ static fram_status add_vessel(context *ctx, const scenario *s, world *w, const m
         .tow_ramp = v->ramp,
     };
     int32_t row = -1;
-    fram_status status = vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
+    fram_status status = begin_path(ctx, s, w, &d, error);
+    if (status != FRAM_OK)
+        return status;
+    status = vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
     if (status == FRAM_OK)
         build_added_mass(w);
     return status;

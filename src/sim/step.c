@@ -3,6 +3,7 @@
 #include "sim/feed.h"
 #include "sim/ice_loads.h"
 #include "sim/station_forces.h"
+#include "vessel/path.h"
 
 #include <string.h>
 
@@ -97,6 +98,7 @@ static fram_status external_forces(context *ctx, const step_settings *s, world *
     if (s->forces == FORCES_FLUID)
         respond(ctx, s, w);
     vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + s->time_step);
+    vessel_follow(&w->vessels, &w->waypoints, &w->bodies, w->clock.time[0] + s->time_step, s->time_step);
     feed_drive(s, w, w->clock.time[0] + s->time_step);
     return FRAM_OK;
 }

@@ -47,6 +47,7 @@ static const bad_scenario bad[] = {
     {"integer_overflow", 2, "run.seed", "expected a smaller integer"},
     {"key_of_another_section", 3, "run.flexural_strength", "did you mean ice.flexural_strength?"},
     {"line_break_in_text", 1, "title", "one line"},
+    {"path_goes_back", 6, "vessel.path[2].time", "expected a later time"},
     {"line_table_missing", 5, "vessel.mooring.lines[0].table", "since kind is table, found neither"},
     {"line_table_of_a_spring", 6, "vessel.mooring.lines[0].table", "since kind is not table"},
     {"local_tag", 1, "run", "found a tag"},

@@ -77,7 +77,7 @@ static inline fram_status decay_open(decay *d, const char *text, fram_error *err
 {
     memset(d, 0, sizeof *d);
     context_init(&d->ctx);
-    fram_status status = scenario_parse(&d->ctx, "decay.yaml", text, strlen(text), NULL, &d->s, error);
+    fram_status status = scenario_parse(&d->ctx, "scenes/decay.yaml", text, strlen(text), NULL, &d->s, error);
     build_report report;
     hull_hydrostatics floats;
     if (status == FRAM_OK) {

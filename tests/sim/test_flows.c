@@ -2,6 +2,8 @@
 #include "scene.h"
 #include "sim/steady_load.h"
 
+#include <stdio.h>
+
 /* Held by the carriage in a current to port (from starboard) and a wind on the stern. */
 #define BOX "vessel:\n  mode: towed\n  speed: 0\n  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3}\n"
 #define SEA                                                                                                        \

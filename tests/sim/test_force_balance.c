@@ -69,7 +69,7 @@ END_TEST
 START_TEST(reaction_less_open_water)
 {
     enum { STEPS = 1200 };
-    vec3 tow[2] = {{0}, {0}}, ice = {0};
+    vec3 tow[2] = {{0, 0, 0}, {0, 0, 0}}, ice = {0, 0, 0};
     for (int open = 0; open < 2; open++) {
         scene k;
         scene_open_with(&k, field, (const char *const[]){open ? "ice.source=none" : "ice.source=voronoi"}, 1);

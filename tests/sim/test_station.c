@@ -166,6 +166,95 @@ START_TEST(statistics_of_a_channel)
 }
 END_TEST
 
+/* Under way by a given thrust: the speed at which drag balances it. */
+START_TEST(transit_at_a_given_thrust)
+{
+    static const char ship[] =
+        "run: {time_step: 0.1}\n"
+        "vessel:\n  mode: free\n  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}\n"
+        "  thrusters:\n    - {kind: main, x: -18, z: -2, thrust: 60.0e3, setting: 0.5}\n"
+        "ice: {source: none}\ndomain: {boundary: open, x_max: 2000}\n"
+        "environment:\n  hull_drag: {water_form: 1, water_skin: 0, air_form: 0, air_skin: 0}\n";
+    scene k;
+    scene_open(&k, ship);
+    scene_steps(&k, 4000);
+    assert_relative(k.w.thrusters.thrust[0], 30e3, 1e-3);
+    assert_relative(k.w.bodies.velocity[0].x, sqrt(2 * 30e3 / (1025 * 48)), 0.01);
+    assert_absolute(k.w.bodies.velocity[0].y, 0, 1e-6);
+    scene_close(&k);
+}
+END_TEST
+
+/* Measurements are taken and orders given at their own intervals, and the noise has the deviation that is asked for. */
+START_TEST(sensors_and_controller_keep_their_own_time)
+{
+    scene k;
+    scene_open_with(&k, held,
+                    (const char *const[]){"vessel.positioning.interval=0.5", "vessel.positioning.sample_interval=1",
+                                          "vessel.positioning.noise_position=0.2"},
+                    3);
+    const station_table *s = &k.w.stations;
+    vec3 measured = s->measured[0], demand = s->demand[0];
+    double square = 0;
+    int samples = 0, orders = 0;
+    for (int i = 0; i < 8000; i++) {
+        vec3 true_place = k.w.bodies.position[k.w.vessels.body[0]];
+        scene_steps(&k, 1);
+        bool fresh = vec3_length(vec3_sub(measured, s->measured[0])) > 0;
+        bool ordered = vec3_length(vec3_sub(demand, s->demand[0])) > 0;
+        ck_assert_msg(!fresh || i % 20 == 0, "a measurement in step %d", i);
+        ck_assert_msg(!ordered || i % 10 == 0, "an order in step %d", i);
+        measured = s->measured[0];
+        demand = s->demand[0];
+        orders += ordered;
+        if (!fresh)
+            continue;
+        samples++;
+        double x = measured.x - true_place.x, y = measured.y - true_place.y;
+        square += x * x + y * y;
+    }
+    ck_assert_int_eq(samples, 400);
+    ck_assert_int_eq(orders, 800);
+    assert_relative(sqrt(square / (2 * samples)), 0.2, 0.1);
+    scene_close(&k);
+}
+END_TEST
+
+/* Largest offset after a load of 60 kN that comes at once, which strain gauges tell as ice. */
+static double offset_under_load(const char *feed)
+{
+    scene k;
+    fram_error error = {0};
+    scene_open_with(&k, held,
+                    (const char *const[]){feed, "vessel.positioning.feed_forward_gain=1",
+                                          "vessel.positioning.feed_forward_time=2",
+                                          "vessel.positioning.noise_position=0", "environment.current_speed=0",
+                                          "environment.wind_speed=0"},
+                    6);
+    for (int32_t i = 0; i < k.w.thrusters.count; i++)
+        k.w.thrusters.failure_time[i] = 1e9;
+    double largest = 0;
+    for (int i = 0; i < 2400; i++) {
+        const wrench push = {{-60e3, 0, 0}, {0, 0, 0}};
+        assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
+        scene_steps(&k, 1);
+        k.w.load_window.force[i % k.w.load_window.count] = push.force;
+        largest = fmax(largest, fabs(k.w.stations.offset[0].x));
+    }
+    scene_close(&k);
+    return largest;
+}
+
+START_TEST(feed_forward_of_the_ice_load)
+{
+    double none = offset_under_load("vessel.positioning.feed_forward=none");
+    double measured = offset_under_load("vessel.positioning.feed_forward=measured");
+    double observed = offset_under_load("vessel.positioning.feed_forward=observed");
+    ck_assert_msg(measured < 0.5 * none, "%g m with the load fed forward, %g m without", measured, none);
+    ck_assert_msg(observed < none, "%g m with the observed load fed forward, %g m without", observed, none);
+}
+END_TEST
+
 START_TEST(envelope_of_offsets)
 {
     const double time[] = {0, 1, 2, 3, 4}, x[] = {9, 2, 3, 0, -1}, y[] = {0, 0, 0.1, -4, -1};
@@ -179,5 +268,6 @@ START_TEST(envelope_of_offsets)
 }
 END_TEST
 
-TEST_MAIN("station", envelope_of_offsets, forces_on_a_towed_hull_balance,
+TEST_MAIN("station", transit_at_a_given_thrust, sensors_and_controller_keep_their_own_time,
+          feed_forward_of_the_ice_load, envelope_of_offsets, forces_on_a_towed_hull_balance,
           a_ship_holds_its_place_until_its_thrusters_fail, a_moored_ship_begins_in_balance, statistics_of_a_channel)

@@ -1,0 +1,36 @@
+#include "vessel/path.h"
+
+vec3 path_place(const waypoint_table *path, int32_t vessel, double time)
+{
+    vec3 place = {(double)NAN, (double)NAN, (double)NAN}, before = place;
+    double from = 0;
+    for (int32_t i = 0; i < path->count; i++) {
+        if (path->vessel[i] != vessel)
+            continue;
+        place = path->place[i];
+        if (path->time[i] >= time) {
+            if (isnan(before.z))
+                return place;
+            double share = (time - from) / (path->time[i] - from);
+            return vec3_mad(before, vec3_sub(place, before), share);
+        }
+        before = place;
+        from = path->time[i];
+    }
+    return place;
+}
+
+void vessel_follow(const vessel_table *vessels, const waypoint_table *path, body_table *bodies, double time, double dt)
+{
+    for (int32_t i = 0; i < vessels->count; i++) {
+        vec3 place = path_place(path, i, time);
+        if (vessels->mode[i] == VESSEL_FREE || isnan(place.z))
+            continue;
+        int32_t slot = vessels->mode[i] == VESSEL_TOWED ? vessels->carriage[i] : vessels->body[i];
+        vec3 centre = vessels->centre[i], off = plane_to_global(place.z, vec3_make(centre.x, centre.y, 0));
+        vec3 at = bodies->position[slot];
+        bodies->velocity[slot] = vec3_make((place.x + off.x - at.x) / dt, (place.y + off.y - at.y) / dt, 0);
+        double turn = plane_angle(place.z - quat_roll_pitch_yaw(bodies->orientation[slot]).z);
+        bodies->angular_velocity[slot] = vec3_make(0, 0, turn / dt);
+    }
+}

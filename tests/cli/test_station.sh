@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# What befalls a vessel on station is named in the log while it runs, and in its results.
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
+
+cat >"$scratch/scene.yaml" <<'END'
+run: {duration: 60, time_step: 0.1}
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}
+  mooring:
+    depth: 60
+    lines:
+      - {direction_deg: 0, distance: 400, pretension: 3.0e5, release_time: 5}
+      - {direction_deg: 180, distance: 400, pretension: 3.0e5, breaking_load: 2.9e5}
+      - kind: table
+        direction_deg: 90
+        table_file: line.csv
+      - {direction_deg: 270, distance: 400, pretension: 3.0e5}
+  thrusters:
+    - {x: 15, thrust: 40.0e3, failure_time: 10}
+    - {x: -15, thrust: 40.0e3}
+  positioning: {active: true}
+  station: {offset_limit: 0.5}
+ice: {source: none}
+domain: {boundary: open}
+environment: {current_speed: 1.5, current_direction_deg: 20}
+output: {frame_interval: 0, csv_interval: 0.5}
+END
+printf 'offset[m],tension[N]\n-20,1e5\n0,3e5\n20,6e5\n' >"$scratch/line.csv"
+"$FRAM" run "$scratch/scene.yaml" -o "$scratch/run" 2>"$scratch/err" || fail "the run: $(tail -n 3 "$scratch/err")"
+for words in 'line 1 was let go' 'line 2 broke' 'thruster 1 failed' 'position lost'; do
+    says "$words" "$scratch/err"
+done
+python3 - "$scratch/run" <<'END' || fail "station.json"
+import json, sys
+j = json.load(open(sys.argv[1] + "/station.json"))
+kinds = [e["kind"] for e in j["events"]]
+for kind in ("line_break", "line_release", "thruster_failure", "position_lost"):
+    assert kind in kinds, (kind, kinds)
+assert j["offset_m"]["exceedance"] > 0, "time beyond the limit"
+assert max(j["offset_envelope_m"]) <= j["offset_m"]["peak"] + 1e-9, "envelope"
+for key in ("mean", "significant", "peak"):
+    assert key in j["line_tension_largest_N"] and key in j["ice_load_N"], key
+assert j["thruster_power_W"]["energy_J"] > 0 and len(j["lines"]) == 4 and len(j["thrusters"]) == 2
+END
+head -n 1 "$scratch/run/series.csv" | grep -q 'hydrodynamic_force_x' || fail "series.csv lacks hydrodynamic_force_x"
+case $("$FRAM" --version) in
+*cairo*)
+    [ -s "$scratch/run/station.png" ] || fail "station.png is missing"
+    "$FRAM" report "$scratch/run" 2>/dev/null || fail "the report"
+    says 'Keeping station' "$scratch/run/report.html"
+    ;;
+esac
+[ "$failures" = 0 ]

@@ -1,0 +1,56 @@
+/* A hull or its carriage on a prescribed path: it stands on it at every step, the hull follows its carriage. */
+#include "scene.h"
+
+#include "sim/ice_loads.h"
+#include "vessel/path.h"
+
+static const char path[] =
+    "run: {time_step: 0.05}\n"
+    "vessel:\n  mode: towed\n  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}\n"
+    "  path:\n    - {time: 0, x: -10, y: 2, heading_deg: 10}\n"
+    "    - {time: 10, x: 0, y: 2, heading_deg: 10}\n"
+    "    - {time: 30, x: 10, y: -8, heading_deg: -50}\n"
+    "ice: {source: none}\ndomain: {boundary: open}\n";
+
+static void check_place(const scene *k, double x, double y, double heading_deg, double tolerance)
+{
+    int32_t body = k->w.vessels.body[0];
+    vec3 at = body_to_global(&k->w.bodies, body, vec3_neg(k->w.vessels.centre[0]));
+    assert_absolute(at.x, x, tolerance);
+    assert_absolute(at.y, y, tolerance);
+    assert_absolute(degrees(quat_roll_pitch_yaw(k->w.bodies.orientation[body]).z), heading_deg, 100 * tolerance);
+}
+
+static void follow(const char *mode, double tolerance)
+{
+    scene k;
+    scene_open_with(&k, path, &mode, 1);
+    check_place(&k, -10, 2, 10, 1e-12);
+    scene_steps(&k, 100);
+    check_place(&k, -5, 2, 10, tolerance);
+    scene_steps(&k, 300); /* halfway round */
+    check_place(&k, 5, -3, -20, tolerance);
+    scene_steps(&k, 300); /* 5 s past the end */
+    check_place(&k, 10, -8, -50, tolerance);
+    assert_absolute(vec3_length(k.w.bodies.velocity[k.w.vessels.body[0]]), 0, tolerance);
+    scene_close(&k);
+}
+
+START_TEST(driven_hull) { follow("vessel.mode=prescribed", 1e-9); }
+END_TEST
+START_TEST(towed_hull) { follow("vessel.mode=towed", 1e-3); }
+END_TEST
+
+START_TEST(places_between_points)
+{
+    scene k;
+    scene_open(&k, path);
+    assert_vec3_close(path_place(&k.w.waypoints, 0, -1), vec3_make(-10, 2, radians(10)), 1e-12);
+    assert_vec3_close(path_place(&k.w.waypoints, 0, 20), vec3_make(5, -3, radians(-20)), 1e-12);
+    assert_vec3_close(path_place(&k.w.waypoints, 0, 1e9), vec3_make(10, -8, radians(-50)), 1e-12);
+    ck_assert(isnan(path_place(&k.w.waypoints, 1, 0).z));
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("path", driven_hull, towed_hull, places_between_points)
