@@ -4,6 +4,7 @@
 #include "io/atomic_file.h"
 #include "io/image.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,8 +61,9 @@ static void draw_rings(cairo_t *page, const polar_chart *p)
     char text[32];
     double step = image_round_step(reach_of(p), 5);
     cairo_set_line_width(page, 0.8);
-    for (double r = step; r < reach_of(p) * (1 + 1e-9); r += step) {
-        double pixels = r / reach_of(p) * RADIUS;
+    int rings = (int)floor(reach_of(p) / step + 1e-9);
+    for (int i = 1; i <= rings; i++) {
+        double r = i * step, pixels = r / reach_of(p) * RADIUS;
         image_set_colour(page, grid);
         cairo_new_path(page);
         cairo_arc(page, MIDDLE_X, MIDDLE_Y, pixels, 0, 2 * PI);
