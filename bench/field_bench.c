@@ -1,27 +1,95 @@
-/* Generation of packed fields: time on one thread, and what came of each, measured on the outlines.
+/* Generation of fields of every kind: seeds that succeed, time on one thread, and what came of them, measured on the
+   outlines.
 
-       field_bench [STEP_MS [TEMPLATES]]      STEP_MS: what a step of 10,000 floes takes, to tell the multiple;
-                                              TEMPLATES: a file of outlines that are packed too, as shapes */
-#include "base/pool.h"
+       field_bench [--kind NAME] [--seeds N] [--floes N] [--step MS] [--concentration C] [--templates FILE]
+
+   --kind: one row only; --seeds: 1 to N, 1; --floes: about so many, 10,000; --step: what a step of 10,000 floes takes,
+   to tell the multiple; --concentration: instead of the kind's own; --templates: a file of outlines, without which the
+   kind `templates` is passed over. */
 #include "base/transcendental.h"
 #include "ice/field_pack.h"
-#include "io/outline_file.h"
+#include "io/template_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
-typedef struct field_case {
-    const char *name;
-    size_law size;
-    double concentration;
-    int32_t floes; /* about */
-    bool templates;
-} field_case;
+enum { MOST_POPULATIONS = 3 };
 
-static const size_law power = {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7};
-static const size_law equal = {.kind = SIZE_UNIFORM, .lo = 9, .hi = 11};
-static const shape_law convex = {.least_vertices = 5, .most_vertices = 9, .elongation = 1.5};
+typedef struct field_kind {
+    const char *name, *told;
+    double concentration;
+    double floes; /* over those asked for */
+    bool cells;   /* managed ice instead of a packed field */
+    bool templates;
+    int32_t populations;
+    field_population population[MOST_POPULATIONS];
+} field_kind;
+
+typedef struct field_words {
+    const char *kind, *templates;
+    int seeds, floes;
+    double step_ms, concentration;
+} field_words;
+
+/* Worst of all seeds. */
+typedef struct field_worst {
+    int good, floes;
+    double least, most; /* concentrations */
+    double first_seconds, seconds, overlap, distance, area_change;
+    int vertex_changes;
+    char message[600]; /* of the last seed that failed */
+} field_worst;
+
+#define CONVEX          \
+    {                   \
+        5, 9, 1.5, NULL \
+    }
+#define POWER                                                  \
+    {                                                          \
+        .kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7 \
+    }
+#define EQUAL                                   \
+    {                                           \
+        .kind = SIZE_UNIFORM, .lo = 9, .hi = 11 \
+    }
+
+static const field_kind kinds[] = {
+    {"power", "convex, power law, b 1.7, 4 to 40 m, 90 %", 0.9, 1, false, false, 1, {{1, POWER, CONVEX}}},
+    {"equal", "convex, 9 to 11 m, 80 %", 0.8, 1, false, false, 1, {{1, EQUAL, CONVEX}}},
+    {"voronoi", "Voronoi, 98 %", 0.98, 1, true, false, 0, {{0, EQUAL, CONVEX}}},
+    {"managed", "Voronoi, power law, b 1.7, 4 to 40 m, 98 %", 0.98, 1, true, false, 1, {{1, POWER, CONVEX}}},
+    {"templates",
+     "templates, power law, b 1.7, 2 to 40 m, 85 %",
+     0.85,
+     1,
+     false,
+     true,
+     1,
+     {{1, {.kind = SIZE_POWER, .lo = 2, .hi = 40, .exponent = 1.7}, CONVEX}}},
+    {"mixed",
+     "mixed: lognormal 20 m, power law 4 to 40 m, pieces of 3 m; 85 %",
+     0.85,
+     1,
+     false,
+     false,
+     3,
+     {{3, {.kind = SIZE_LOGNORMAL, .mean = 20, .deviation = 8, .lo = 5, .hi = 60}, CONVEX},
+      {2, POWER, CONVEX},
+      {1, {.kind = SIZE_CONSTANT, .mean = 3}, {4, 6, 1.3, NULL}}}},
+    {"brash",
+     "brash: lognormal 0.8 m, deviation 0.4, 0.3 to 2 m; 80 %",
+     0.8,
+     1,
+     false,
+     false,
+     1,
+     {{1, {.kind = SIZE_LOGNORMAL, .mean = 0.8, .deviation = 0.4, .lo = 0.3, .hi = 2}, {4, 7, 1.5, NULL}}}},
+    {"many", "convex, 9 to 11 m, 80 %, ten times as many", 0.8, 10, false, false, 1, {{1, EQUAL, CONVEX}}},
+};
+/* Of a Voronoi cell without a law of size [m2]. */
+static const double CELL_AREA = 100;
 
 static double cpu_seconds(void)
 {
@@ -30,8 +98,8 @@ static double cpu_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Side of a square that about `floes` floes of a law fill to a concentration [m]. */
-static double side_of(const size_law *law, int32_t floes, double concentration)
+/* Mean area of a law's floes [m2]. */
+static double mean_area(const size_law *law)
 {
     enum { SLICES = 10000 };
     double area = 0;
@@ -39,86 +107,158 @@ static double side_of(const size_law *law, int32_t floes, double concentration)
         double d = size_law_quantile(law, (i + 0.5) / SLICES);
         area += PI / 4 * d * d / SLICES;
     }
-    return sqrt(floes * area / concentration);
+    return area;
 }
 
-static bool measure(context *ctx, overlay *plane, const field_case *c, const polygon_list *templates, double step_ms)
+/* Side of a square that about `floes` floes of a kind fill to its concentration [m]. */
+static double side_of(const field_kind *k, double floes)
 {
-    shape_law shape = convex;
-    shape.templates = c->templates ? templates : NULL;
-    const field_population population = {.share = 1, .size = c->size, .shape = shape};
-    double side = side_of(&c->size, c->floes, c->concentration);
-    const field_packed_request request = {.domain = {{0, 0}, {side, side}},
-                                          .concentration = c->concentration,
-                                          .populations = &population,
-                                          .population_count = 1,
-                                          .seed = 1};
-    polygon_list outlines = {0};
-    int32_array of = {0};
-    field_population_report part;
-    field_packed_report report;
-    fram_error error = {0};
-    double start = cpu_seconds();
-    fram_status status = field_packed(ctx, plane, &request, &outlines, &of, &part, &report, &error);
-    double seconds = cpu_seconds() - start;
-    if (status == FRAM_OK)
-        printf("| %s | %d | %.4f | %.1f | %.0f | %.2g | %.2g | %.1g | %d |\n", c->name, (int)part.floes,
-               report.field.concentration, seconds, 1e3 * seconds / step_ms, report.field.largest_overlap,
-               part.size_distance, report.area_change, (int)report.vertex_changes);
-    else
-        printf("| %s | %s (%.1f s) |\n", c->name, error.message, seconds);
-    fflush(stdout);
-    polygon_list_free(ctx, &outlines);
-    array_free(ctx, &of);
-    return status == FRAM_OK;
+    double shares = 0, each = 0; /* floes to an area of 1 */
+    for (int p = 0; p < k->populations; p++)
+        shares += k->population[p].share;
+    for (int p = 0; p < k->populations; p++)
+        each += k->population[p].share / shares / mean_area(&k->population[p].size);
+    return k->populations ? sqrt(floes / each / k->concentration) : sqrt(floes * CELL_AREA);
 }
 
-static fram_status read_templates(context *ctx, overlay *plane, const char *path, polygon_list *out, fram_error *error)
+static fram_status make_voronoi(context *ctx, const field_kind *k, double side, uint64_t seed, polygon_list *outlines,
+                                field_population_report *part, field_packed_report *report, fram_error *error)
 {
-    import_rings rings = {0};
-    import_field field = {0};
-    const import_options options = {.name = path, .scale = 1, .bad = IMPORT_DROP};
-    fram_status status = outline_file_read(ctx, path, &rings, error);
-    for (int32_t i = 0; i < rings.place.count; i++)
-        rings.place.data[i].open = false;
-    if (status == FRAM_OK)
-        status = import_field_make(ctx, plane, &rings, &options, &field, error);
-    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&field.outlines); i++)
-        if (!polygon_list_push(ctx, out, polygon_list_get(&field.outlines, i)))
-            status = error_memory(error);
-    import_rings_free(ctx, &rings);
-    import_field_free(ctx, &field);
+    const size_law *law = k->populations ? &k->population[0].size : NULL;
+    const field_request request = {.domain = {{0, 0}, {side, side}},
+                                   .concentration = k->concentration,
+                                   .size = law,
+                                   .mean_area = CELL_AREA,
+                                   .size_deviation = 0.8,
+                                   .roundness = 0.5,
+                                   .seed = seed};
+    *report = (field_packed_report){0};
+    fram_status status = field_voronoi(ctx, NULL, &request, outlines, &report->field, error);
+    if (status == FRAM_OK && law && !field_population_measure(ctx, law, outlines, NULL, 0, part))
+        status = error_memory(error);
     return status;
+}
+
+static fram_status make_packed(context *ctx, overlay *plane, const field_kind *k, const polygon_list *templates,
+                               double side, uint64_t seed, polygon_list *outlines, field_population_report *part,
+                               field_packed_report *report, fram_error *error)
+{
+    field_population population[MOST_POPULATIONS];
+    field_floe_array of = {0};
+    memcpy(population, k->population, sizeof population);
+    if (k->templates)
+        population[0].shape.templates = templates;
+    const field_packed_request request = {.domain = {{0, 0}, {side, side}},
+                                          .concentration = k->concentration,
+                                          .populations = population,
+                                          .population_count = k->populations,
+                                          .seed = seed};
+    fram_status status = field_packed(ctx, plane, &request, outlines, &of, part, report, error);
+    array_free(ctx, &of);
+    return status;
+}
+
+static void take_worst(const field_kind *k, const field_packed_report *report, const field_population_report *part,
+                       field_worst *w)
+{
+    const field_report *f = &report->field;
+    w->good++;
+    w->floes = (int)f->floes;
+    w->least = fmin(w->least, f->concentration);
+    w->most = fmax(w->most, f->concentration);
+    w->overlap = fmax(w->overlap, f->largest_overlap);
+    for (int p = 0; p < k->populations; p++)
+        w->distance = fmax(w->distance, part[p].size_distance);
+    w->area_change = fmax(w->area_change, report->area_change);
+    w->vertex_changes += (int)report->vertex_changes;
+}
+
+static bool measure(context *ctx, overlay *plane, const field_kind *k, const polygon_list *templates,
+                    const field_words *words)
+{
+    field_worst w = {.least = 1};
+    double side = side_of(k, k->floes * words->floes);
+    for (int seed = 1; seed <= words->seeds; seed++) {
+        polygon_list outlines = {0};
+        field_population_report part[MOST_POPULATIONS];
+        field_packed_report report;
+        fram_error error = {0};
+        double start = cpu_seconds();
+        fram_status status =
+            k->cells ? make_voronoi(ctx, k, side, (uint64_t)seed, &outlines, part, &report, &error)
+                     : make_packed(ctx, plane, k, templates, side, (uint64_t)seed, &outlines, part, &report, &error);
+        double seconds = cpu_seconds() - start;
+        w.first_seconds = seed == 1 ? seconds : w.first_seconds;
+        w.seconds = fmax(w.seconds, seconds);
+        if (status == FRAM_OK)
+            take_worst(k, &report, part, &w);
+        else
+            snprintf(w.message, sizeof w.message, "seed %d: %s", seed, error.message);
+        polygon_list_free(ctx, &outlines);
+    }
+    printf("| %s | %d | %d of %d | %.4f to %.4f | %.1f | %.1f | %.0f | %.2g | %.2g | %.1g | %d |\n", k->told, w.floes,
+           w.good, words->seeds, w.least, w.most, w.first_seconds, w.seconds, 1e3 * w.seconds / words->step_ms,
+           w.overlap, w.distance, w.area_change, w.vertex_changes);
+    if (w.message[0])
+        printf("\n%s\n\n", w.message);
+    fflush(stdout);
+    return w.good == words->seeds;
+}
+
+static bool read_words(int argc, char **argv, field_words *w)
+{
+    for (int i = 1; i < argc; i += 2) {
+        const char *value = i + 1 < argc ? argv[i + 1] : NULL;
+        if (value && strcmp(argv[i], "--kind") == 0)
+            w->kind = value;
+        else if (value && strcmp(argv[i], "--templates") == 0)
+            w->templates = value;
+        else if (value && strcmp(argv[i], "--seeds") == 0)
+            w->seeds = atoi(value);
+        else if (value && strcmp(argv[i], "--floes") == 0)
+            w->floes = atoi(value);
+        else if (value && strcmp(argv[i], "--concentration") == 0)
+            w->concentration = atof(value);
+        else if (value && strcmp(argv[i], "--step") == 0)
+            w->step_ms = atof(value);
+        else
+            return false;
+    }
+    return true;
 }
 
 int main(int argc, char **argv)
 {
-    const field_case cases[] = {
-        {"power law, b 1.7, 4 to 40 m, 90 %", power, 0.9, 10000, false},
-        {"9 to 11 m, 80 %", equal, 0.8, 10000, false},
-        {"9 to 11 m, 80 %", equal, 0.8, 100000, false},
-        {"templates, power law, 85 %", power, 0.85, 2000, true},
-    };
-    double step_ms = argc > 1 ? atof(argv[1]) : 5;
+    field_words words = {.seeds = 1, .floes = 10000, .step_ms = 10};
     context ctx;
     context_init(&ctx);
     overlay *plane = overlay_create(&ctx);
     polygon_list templates = {0};
     fram_error error = {0};
-    bool good = plane != NULL;
-    if (good && argc > 2 && read_templates(&ctx, plane, argv[2], &templates, &error) != FRAM_OK) {
-        fprintf(stderr, "%s: %s\n", argv[2], error.message);
+    bool good = plane != NULL && read_words(argc, argv, &words);
+    if (!good)
+        fprintf(
+            stderr,
+            "field_bench [--kind NAME] [--seeds N] [--floes N] [--step MS] [--concentration C] [--templates FILE]\n");
+    if (good && words.templates && template_file_read(&ctx, plane, words.templates, &templates, &error) != FRAM_OK) {
+        fprintf(stderr, "%s: %s\n", words.templates, error.message);
         good = false;
     }
-    printf("| field | floes | concentration | CPU s | steps of %.3g ms | overlap m | KS | area change "
-           "| vertices changed |\n"
-           "|---|---|---|---|---|---|---|---|---|\n",
-           step_ms);
-    for (size_t i = 0; good && i < sizeof cases / sizeof *cases; i++)
-        if (!cases[i].templates || polygon_list_count(&templates) > 0)
-            good = measure(&ctx, plane, &cases[i], &templates, step_ms) && good;
+    if (good)
+        printf(
+            "| field | floes | seeds | concentration | CPU s, seed 1 | CPU s, slowest | steps of %.3g ms | overlap m "
+            "| KS | area change | vertices changed |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+            words.step_ms);
+    bool all = good;
+    for (size_t i = 0; good && i < sizeof kinds / sizeof *kinds; i++) {
+        bool wanted = !words.kind || strcmp(words.kind, kinds[i].name) == 0;
+        field_kind kind = kinds[i];
+        kind.concentration = words.concentration > 0 ? words.concentration : kind.concentration;
+        if (wanted && (!kind.templates || polygon_list_count(&templates) > 0))
+            all = measure(&ctx, plane, &kind, &templates, &words) && all;
+    }
     polygon_list_free(&ctx, &templates);
     if (plane)
         overlay_free(plane);
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    return all ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,5 +1,5 @@
-/* Fram: ice fields from files.  Read outlines that were observed, scale and cut them, mend or leave out what is no
-   floe, see what the field is, draw it, write it.
+/* Fram: ice fields from files and from scenarios.  Read outlines that were observed, scale and cut them, mend or leave
+   out what is no floe; or make the field that a run of a scenario starts with; see what it is, draw it, write it.
 
        fram_field *field;
        fram_field_summary summary;
@@ -51,6 +51,11 @@ FRAM_API void fram_field_default(fram_field_definition *definition);
    the definition is wrong. */
 FRAM_API fram_status fram_field_load(fram_context *context, const char *path, const fram_field_definition *definition,
                                      fram_field **field, fram_error *error);
+/* The field that a run of the scenario starts with, to the bit, of ice.source voronoi, packed or file; under
+   domain.boundary: feeding the whole tile that repeats itself.  FRAM_ERROR_INPUT, with the key, for a scenario without
+   a field and for a field that cannot be made, saying what was reached and why.  The scenario may go before the field.
+ */
+FRAM_API fram_status fram_field_generate(const fram_scenario *scenario, fram_field **field, fram_error *error);
 FRAM_API void fram_field_destroy(fram_field *field);
 
 /* --- What it is --- */
@@ -65,7 +70,7 @@ typedef struct fram_field_summary {
     int vertices, concave;
     double lo[2], hi[2];     /* corners of the box around the floes [m] */
     double area;             /* of the floes [m2] */
-    double concentration;    /* area over that of the crop window, or of the box around the floes without one [1] */
+    double concentration;    /* area over that of the crop window or the domain, or of the box around the floes [1] */
     double largest_diameter; /* [m] */
     double smallest_area, largest_area; /* [m2] */
     int overlaps;                       /* pairs of floes that share area */
@@ -92,10 +97,49 @@ FRAM_API int fram_field_notes(const fram_field *field, fram_field_note *notes, i
    be NULL with room 0. */
 FRAM_API int fram_field_outline(const fram_field *field, int floe, double *vertices, int room);
 
+/* Ice area over the area of the window lo .. hi, each x and y [1]; exact where floes do not overlap. */
+FRAM_API double fram_field_concentration(const fram_field *field, const double lo[2], const double hi[2]);
+
+/* --- How it was made --- */
+
+typedef struct fram_field_making {
+    double target;          /* concentration that was asked for [1] */
+    double reached;         /* ice area over the area free for ice [1] */
+    double free_area;       /* domain less the vessel, its margin and open water [m2] */
+    double largest_overlap; /* the least way that parts the two floes that overlap most; 0 when none do [m] */
+    int populations;        /* of drawn floes; 0 for Voronoi cells and floes of a file */
+    int placed;             /* floes that were not drawn: cells, floes of a file; they come first */
+    int rounds, moves;      /* of the packing: rounds, floes carried into open water */
+    double area_change;     /* of a drawn floe by being moved, the largest, relative: rounding */
+    int vertex_changes;     /* drawn floes whose number of vertices was changed by being moved */
+} fram_field_making;
+/* false, and nothing is written, for a field of a file. */
+FRAM_API bool fram_field_making_get(const fram_field *field, fram_field_making *making);
+
+/* A population against the law of size that was asked for. */
+typedef struct fram_field_population {
+    int floes;
+    double area;          /* [m2] */
+    double size_distance; /* Kolmogorov and Smirnov's, by number, of the diameters of the circles of equal area [1] */
+    /* Floes, and what the law expects of so many, in the bins of fram_field_summary's kind. */
+    double bin_edge[FRAM_FIELD_BINS + 1]; /* [m] */
+    int bin[FRAM_FIELD_BINS];
+    double expected[FRAM_FIELD_BINS];
+} fram_field_population;
+/* FRAM_ERROR_USAGE for a number (from 0) that is none. */
+FRAM_API fram_status fram_field_population_get(const fram_field *field, int number, fram_field_population *population,
+                                               fram_error *error);
+
 /* --- Drawings, files --- */
 
 /* Seen from above, as PNG; title may be NULL.  FRAM_ERROR_UNSUPPORTED in a build without pictures. */
 FRAM_API fram_status fram_field_draw(const fram_field *field, const char *title, const char *path, fram_error *error);
+/* The cover map: concentration in square cells of about `cell` [m], 0: a fortieth of the longer side. */
+FRAM_API fram_status fram_field_draw_cover(const fram_field *field, double cell, const char *title, const char *path,
+                                           fram_error *error);
+/* A row per floe, as CSV: diameter of the circle of equal area, area, vertices, thickness (where known), its population
+   (from 0; -1: not drawn), and area and vertices of the shape that was drawn before it had a place. */
+FRAM_API fram_status fram_field_table(const fram_field *field, const char *path, fram_error *error);
 /* As GeoJSON whose numbers read back to the bit. */
 FRAM_API fram_status fram_field_save(const fram_field *field, const char *path, fram_error *error);
 

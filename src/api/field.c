@@ -1,23 +1,11 @@
 /* Ice fields of the public API. */
 #include "fram/field.h"
 
-#include "api/handles.h"
+#include "api/field_handle.h"
 #include "io/geojson.h"
 #include "io/outline_file.h"
-#include "io/plan_view.h"
 
 #include <math.h>
-#include <stdio.h>
-
-enum { PICTURE_PIXELS = 1600 };
-
-struct fram_field {
-    fram_context *context;
-    import_rings source;
-    import_field floes;
-    fram_field_definition made;
-    fram_field_summary about;
-};
 
 _Static_assert((int)FRAM_FIELD_BINS == (int)IMPORT_HISTOGRAM_BINS, "one number of bins");
 _Static_assert((int)FRAM_FIELD_REPAIR == (int)IMPORT_REPAIR, "the same order of choices");
@@ -59,12 +47,20 @@ static double box_area(box2 b) { return (b.hi.x - b.lo.x) * (b.hi.y - b.lo.y); }
 
 static int feature_of(const fram_field *f, int32_t floe)
 {
+    if (f->generated)
+        return floe + 1;
     return floe < 0 ? 0 : (int)f->source.place.data[f->floes.ring.data[floe]].feature;
 }
 
-static void describe(fram_field *f, const import_measure *m)
+fram_status field_describe(fram_field *f, overlay *plane, fram_error *error)
 {
-    double window = box_area(f->made.crop ? window_of(&f->made) : m->bounds);
+    import_measure measure;
+    const import_measure *m = &measure;
+    fram_status status = import_field_measure(&f->context->inner, plane, &f->floes.outlines, &measure, error);
+    if (status != FRAM_OK)
+        return status;
+    f->window = f->made.crop ? window_of(&f->made) : f->generated ? f->window : m->bounds;
+    double window = box_area(f->window);
     f->about = (fram_field_summary){
         .rings = f->source.place.count,
         .floes = m->floes,
@@ -88,6 +84,7 @@ static void describe(fram_field *f, const import_measure *m)
         f->about.bin_edge[i] = m->edge[i];
     for (int i = 0; i < FRAM_FIELD_BINS; i++)
         f->about.bin[i] = m->bin[i];
+    return FRAM_OK;
 }
 
 static fram_status make(fram_field *f, overlay *plane, const char *path, fram_error *error)
@@ -103,15 +100,10 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
                                     .simplify = d->simplify,
                                     .bad = (import_bad)d->bad,
                                     .smallest_area = d->smallest_area};
-    import_measure measure;
     fram_status status = outline_file_read(ctx, path, &f->source, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, plane, &f->source, &options, &f->floes, error);
-    if (status == FRAM_OK)
-        status = import_field_measure(ctx, plane, &f->floes.outlines, &measure, error);
-    if (status == FRAM_OK)
-        describe(f, &measure);
-    return status;
+    return status == FRAM_OK ? field_describe(f, plane, error) : status;
 }
 
 fram_status fram_field_load(fram_context *c, const char *path, const fram_field_definition *definition,
@@ -148,6 +140,7 @@ void fram_field_destroy(fram_field *f)
     context *ctx = &f->context->inner;
     import_rings_free(ctx, &f->source);
     import_field_free(ctx, &f->floes);
+    drawn_ice_free(ctx, &f->drawn);
     memory_free(ctx, f);
 }
 
@@ -179,29 +172,6 @@ int fram_field_outline(const fram_field *f, int floe, double *vertices, int room
 }
 
 /* ---- drawings, files ---- */
-
-fram_status fram_field_draw(const fram_field *f, const char *title, const char *path, fram_error *error)
-{
-    context *ctx = &f->context->inner;
-    const fram_field_summary *a = &f->about;
-    box2 window = f->made.crop ? window_of(&f->made) : (box2){{a->lo[0], a->lo[1]}, {a->hi[0], a->hi[1]}};
-    plan_shape *shapes = memory_array(ctx, (size_t)a->floes, sizeof *shapes);
-    if (!shapes)
-        return error_memory(error);
-    for (int i = 0; i < a->floes; i++)
-        shapes[i] = (plan_shape){.outline = polygon_list_get(&f->floes.outlines, i), .style = PLAN_FLOE};
-    char caption[160];
-    snprintf(caption, sizeof caption, "%d floes, %.4g km\302\262, concentration %.1f %%, largest %.4g m across",
-             a->floes, a->area / 1e6, 100 * a->concentration, a->largest_diameter);
-    const plan_view view = {.window = window,
-                            .title = title ? title : "Ice field",
-                            .caption = caption,
-                            .shapes = shapes,
-                            .shape_count = a->floes};
-    fram_status status = plan_view_write(ctx, &view, path, PICTURE_PIXELS, error);
-    memory_free(ctx, shapes);
-    return status;
-}
 
 fram_status fram_field_save(const fram_field *f, const char *path, fram_error *error)
 {

@@ -1,22 +1,9 @@
-/* fram field: an ice field from a file; what it is, a drawing, a file. */
-#include "cli/cli.h"
-
-#include "fram/field.h"
+/* fram field: an ice field from a file or of a scenario; what it is, drawings, files. */
+#include "cli/field_words.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Notes that are printed for people; JSON has all. */
-enum { NOTES_SHOWN = 12 };
-
-/* What the words say. */
-typedef struct field_words {
-    const char *path;
-    fram_field_definition field;
-    const char *crop, *bad;
-    const char *draw, *output;
-} field_words;
 
 static int read_words(const command_row *self, field_words *w, common_options *common, int argc, char **argv)
 {
@@ -30,16 +17,23 @@ static int read_words(const command_row *self, field_words *w, common_options *c
         {"--smallest", NULL, OPTION_REAL, &w->field.smallest_area, "A", "leave out smaller floes and pieces [m2], 0"},
         {"--bad", NULL, OPTION_TEXT, &w->bad, "refuse|drop|repair",
          "rings that are no simple outlines: refuse the file, leave them out, mend them; refuse"},
+        {"--set", NULL, OPTION_LIST, &w->overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+        {"--window", NULL, OPTION_LIST, &w->window_words, "X0,Y0,X1,Y1",
+         "report the concentration in this window [m]; may be repeated"},
         {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE.png", "draw the field from above"},
+        {"--cover", NULL, OPTION_TEXT, &w->cover, "FILE.png", "draw the concentration in square cells"},
+        {"--cell", NULL, OPTION_REAL, &w->cell, "L", "of about this side [m]; a fortieth of the field"},
+        {"--table", NULL, OPTION_TEXT, &w->table, "FILE.csv", "write a row per floe, and what it was drawn as"},
         {"--output", "-o", OPTION_TEXT, &w->output, "FILE.geojson", "write the floes; numbers read back to the bit"},
     };
     return options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->path, 1);
 }
 
-static bool read_crop(field_words *w)
+/* X0,Y0,X1,Y1 */
+static bool read_window(const char *text, double lo[2], double hi[2])
 {
     double value[4];
-    const char *at = w->crop;
+    const char *at = text;
     for (int k = 0; k < 4; k++) {
         char *end;
         value[k] = strtod(at, &end);
@@ -47,12 +41,19 @@ static bool read_crop(field_words *w)
             return false;
         at = end + 1;
     }
-    w->field.crop = true;
     for (int k = 0; k < 2; k++) {
-        w->field.crop_lo[k] = value[k];
-        w->field.crop_hi[k] = value[k + 2];
+        lo[k] = value[k];
+        hi[k] = value[k + 2];
     }
-    return value[0] < value[2] && value[1] < value[3];
+    return lo[0] < hi[0] && lo[1] < hi[1];
+}
+
+static bool read_windows(field_words *w)
+{
+    for (w->windows = 0; w->windows < w->window_words.count; w->windows++)
+        if (!read_window(w->window_words.value[w->windows], w->window[w->windows].lo, w->window[w->windows].hi))
+            return false;
+    return true;
 }
 
 static bool read_bad(field_words *w)
@@ -67,118 +68,79 @@ static bool read_bad(field_words *w)
     return false;
 }
 
-static const char *title_of(const field_words *w)
+/* Scenarios are YAML, and no other input of this command is. */
+static bool is_scenario(const char *path)
 {
-    const char *slash = strrchr(w->path, '/');
-    return slash ? slash + 1 : w->path;
+    const char *dot = strrchr(path, '.');
+    return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
 }
 
-/* ---- answers ---- */
-
-static void print_summary(const field_words *w, const fram_field_summary *s)
+/* NULL, or an option that has nothing to act on. */
+static const char *misplaced_option(const field_words *w)
 {
-    printf("%s: %d floes of %d rings\n", title_of(w), s->floes, s->rings);
-    printf("  %d vertices, %d floes concave\n", s->vertices, s->concave);
-    printf("  x from %.6g to %.6g m, y from %.6g to %.6g m\n", s->lo[0], s->hi[0], s->lo[1], s->hi[1]);
-    printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration,
-           w->crop ? "the window" : "the box around it");
-    printf("  floes of %.4g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
-           s->largest_diameter);
-    printf("  diameter of equal area   floes\n");
-    for (int i = 0; i < FRAM_FIELD_BINS; i++)
-        if (s->bin[i] > 0)
-            printf("    %8.4g to %8.4g m %6d\n", s->bin_edge[i], s->bin_edge[i + 1], s->bin[i]);
-    if (s->overlaps)
-        printf("  overlaps: %d pairs share %.4g m2, at most %.4g m wide; the most, features %d and %d\n", s->overlaps,
-               s->overlap_area, s->overlap_width, s->overlap_features[0], s->overlap_features[1]);
-    else
-        printf("  no overlaps\n");
-    printf("  left out: %d, repaired: %d\n", s->dropped, s->repaired);
-}
-
-static void print_notes(const fram_field_note *notes, int count)
-{
-    for (int i = 0; i < count && i < NOTES_SHOWN; i++)
-        printf("    %s: feature %d, polygon %d, ring %d (line %d): %s\n", notes[i].dropped ? "left out" : "repaired",
-               notes[i].feature, notes[i].polygon, notes[i].ring, notes[i].line, notes[i].reason);
-    if (count > NOTES_SHOWN)
-        printf("    and %d more; --json lists all\n", count - NOTES_SHOWN);
-}
-
-static void json_notes(json *j, const char *key, bool dropped, const fram_field_note *notes, int count)
-{
-    json_open_list(j, key);
-    for (int i = 0; i < count; i++) {
-        if (notes[i].dropped != dropped)
-            continue;
-        json_open(j, NULL);
-        json_integer(j, "feature", notes[i].feature);
-        json_integer(j, "polygon", notes[i].polygon);
-        json_integer(j, "ring", notes[i].ring);
-        json_integer(j, "line", notes[i].line);
-        json_text(j, "reason", notes[i].reason);
-        json_close(j);
-    }
-    json_close_list(j);
-}
-
-static void print_json(const field_words *w, const fram_field_summary *s, const fram_field_note *notes, int count)
-{
-    const double bounds[4] = {s->lo[0], s->lo[1], s->hi[0], s->hi[1]};
-    double bins[FRAM_FIELD_BINS];
-    for (int i = 0; i < FRAM_FIELD_BINS; i++)
-        bins[i] = s->bin[i];
-    json j = json_begin();
-    json_text(&j, "field", w->path);
-    json_integer(&j, "rings", s->rings);
-    json_integer(&j, "floes", s->floes);
-    json_real(&j, "area_m2", s->area);
-    json_real(&j, "concentration", s->concentration);
-    json_reals(&j, "bounds_m", bounds, 4);
-    json_integer(&j, "vertices", s->vertices);
-    json_integer(&j, "concave", s->concave);
-    json_real(&j, "largest_diameter_m", s->largest_diameter);
-    json_real(&j, "smallest_area_m2", s->smallest_area);
-    json_real(&j, "largest_area_m2", s->largest_area);
-    json_open(&j, "overlap");
-    json_integer(&j, "pairs", s->overlaps);
-    json_real(&j, "area_m2", s->overlap_area);
-    json_real(&j, "largest_width_m", s->overlap_width);
-    json_integer(&j, "feature_a", s->overlap_features[0]);
-    json_integer(&j, "feature_b", s->overlap_features[1]);
-    json_close(&j);
-    json_open(&j, "histogram");
-    json_reals(&j, "diameter_edges_m", s->bin_edge, FRAM_FIELD_BINS + 1);
-    json_reals(&j, "floes", bins, FRAM_FIELD_BINS);
-    json_close(&j);
-    json_notes(&j, "dropped", true, notes, count);
-    json_notes(&j, "repaired", false, notes, count);
-    if (w->draw)
-        json_text(&j, "drawing", w->draw);
-    if (w->output)
-        json_text(&j, "written", w->output);
-    json_end(&j);
+    const fram_field_definition *f = &w->field;
+    if (!w->scenario)
+        return w->overrides.count > 0 ? "--set" : NULL;
+    if (f->scale != 1)
+        return "--scale";
+    if (f->centre)
+        return "--centre";
+    if (f->offset[0] != 0 || f->offset[1] != 0)
+        return f->offset[0] != 0 ? "--x" : "--y";
+    if (w->crop)
+        return "--crop";
+    if (f->simplify != 0)
+        return "--simplify";
+    if (f->smallest_area != 0)
+        return "--smallest";
+    return w->bad ? "--bad" : NULL;
 }
 
 /* ---- the command ---- */
 
-static int answer(const field_words *w, const common_options *common, const fram_field *field)
+/* Words that contradict themselves: an exit code, -1 to go on. */
+static int check_words(const common_options *common, field_words *w)
 {
-    fram_field_summary summary;
-    fram_field_summary_get(field, &summary);
-    int count = fram_field_notes(field, NULL, 0);
-    fram_field_note *notes = calloc((size_t)count + 1, sizeof *notes);
-    if (!notes)
-        return answer_error(common, &(fram_error){.status = FRAM_ERROR_MEMORY, .message = "out of memory"});
-    fram_field_notes(field, notes, count);
-    if (common->json) {
-        print_json(w, &summary, notes, count);
-    } else {
-        print_summary(w, &summary);
-        print_notes(notes, count);
-    }
-    free(notes);
-    return EXIT_GOOD;
+    w->scenario = is_scenario(w->path);
+    const char *misplaced = misplaced_option(w);
+    if (misplaced)
+        return answer_usage(common, misplaced,
+                            w->scenario ? "is for files of outlines; a scenario has keys for it"
+                                        : "is for scenarios, whose names end in .yaml");
+    if (w->crop && !read_window(w->crop, w->field.crop_lo, w->field.crop_hi))
+        return answer_usage(common, "--crop", "expected X0,Y0,X1,Y1 in metres, with X0 < X1 and Y0 < Y1");
+    w->field.crop = w->crop != NULL;
+    if (!read_windows(w))
+        return answer_usage(common, "--window", "expected X0,Y0,X1,Y1 in metres, with X0 < X1 and Y0 < Y1");
+    if (w->bad && !read_bad(w))
+        return answer_usage(common, "--bad", "expected refuse, drop or repair");
+    return -1;
+}
+
+static fram_status make_field(fram_context *context, const field_words *w, fram_field **field, fram_error *error)
+{
+    if (!w->scenario)
+        return fram_field_load(context, w->path, &w->field, field, error);
+    fram_scenario *scenario = NULL;
+    fram_status status = fram_scenario_load(context, w->path, w->overrides.value, w->overrides.count, &scenario, error);
+    if (status == FRAM_OK)
+        status = fram_field_generate(scenario, field, error);
+    fram_scenario_destroy(scenario);
+    return status;
+}
+
+static fram_status write_files(const field_words *w, const fram_field *field, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    if (w->draw)
+        status = fram_field_draw(field, field_title(w), w->draw, error);
+    if (status == FRAM_OK && w->cover)
+        status = fram_field_draw_cover(field, w->cell, field_title(w), w->cover, error);
+    if (status == FRAM_OK && w->table)
+        status = fram_field_table(field, w->table, error);
+    if (status == FRAM_OK && w->output)
+        status = fram_field_save(field, w->output, error);
+    return status;
 }
 
 int command_field(const command_row *self, int argc, char **argv)
@@ -187,12 +149,10 @@ int command_field(const command_row *self, int argc, char **argv)
     field_words w = {.path = NULL};
     fram_field_default(&w.field);
     int code = read_words(self, &w, &common, argc, argv);
+    if (code < 0)
+        code = check_words(&common, &w);
     if (code >= 0)
         return code;
-    if (w.crop && !read_crop(&w))
-        return answer_usage(&common, "--crop", "expected X0,Y0,X1,Y1 in metres, with X0 < X1 and Y0 < Y1");
-    if (w.bad && !read_bad(&w))
-        return answer_usage(&common, "--bad", "expected refuse, drop or repair");
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)
@@ -200,12 +160,10 @@ int command_field(const command_row *self, int argc, char **argv)
 
     fram_field *field = NULL;
     fram_error error = {0};
-    fram_status status = fram_field_load(context, w.path, &w.field, &field, &error);
-    if (status == FRAM_OK && w.draw)
-        status = fram_field_draw(field, title_of(&w), w.draw, &error);
-    if (status == FRAM_OK && w.output)
-        status = fram_field_save(field, w.output, &error);
-    code = status == FRAM_OK ? answer(&w, &common, field) : answer_error(&common, &error);
+    fram_status status = make_field(context, &w, &field, &error);
+    if (status == FRAM_OK)
+        status = write_files(&w, field, &error);
+    code = status == FRAM_OK ? field_answer(&w, &common, field) : answer_error(&common, &error);
     fram_field_destroy(field);
     fram_context_destroy(context);
     return code;

@@ -100,6 +100,11 @@ bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out);
 /* The same for a ring inside a box, of which the vertices on the box's sides stay whatever they are. */
 bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_array *out);
 
+/* A simple outline with fewer vertices that covers simple p, counter-clockwise, with at most (1 + part) times its area:
+   bays are filled and short edges replaced by the corner of their neighbours, what adds least area first.  At least 3
+   vertices stay.  Covers p to rounding.  out must not hold p. false when there is no memory. */
+bool polygon_cover(context *ctx, polygon p, double part, vec2_array *out);
+
 /* Sutherland-Hodgman by one half plane: keeps n . x <= d, n of any length.  Exact for convex p; the pieces of a
    concave one stay joined along the line.  Both halves of a cut get the same new vertices, to the bit. out is empty
    when nothing with an area is left; it must not hold p. false when there is no memory. */

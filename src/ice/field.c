@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "geometry/voronoi.h"
 #include "ice/field_cells.h"
+#include "ice/field_sized.h"
 
 /* More cells than this are a mistake in the units rather than a field. */
 enum { MOST_CELLS = 20000000 };
@@ -26,7 +27,7 @@ static fram_status request_check(const field_request *r, fram_error *error)
         key = "domain", rule = "must have an area, in m2", value = size.x * size.y;
     else if (!(r->concentration > 0 && r->concentration < 1))
         key = "concentration", rule = "must be over 0 and under 1", value = r->concentration;
-    else if (!(r->mean_area > 0 && size.x * size.y / r->mean_area <= MOST_CELLS))
+    else if (!r->size && !(r->mean_area > 0 && size.x * size.y / r->mean_area <= MOST_CELLS))
         key = "mean_area", rule = "must be positive and make at most 20 million cells, in m2", value = r->mean_area;
     else if (!(r->size_deviation >= 0 && r->size_deviation <= 1))
         key = "size_deviation", rule = "must be 0 to 1", value = r->size_deviation;
@@ -38,6 +39,8 @@ static fram_status request_check(const field_request *r, fram_error *error)
         key = "keep_out_margin", rule = "must not be negative, in m", value = r->keep_out_margin;
     if (key)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s %s; it is %g", key, rule, value);
+    if (r->size && size_law_fault(r->size))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations", "%s", size_law_fault(r->size));
     for (int32_t i = 0; r->keep_out && i < polygon_list_count(r->keep_out); i++) {
         polygon zone = polygon_list_get(r->keep_out, i);
         if (!(polygon_area(zone) > 0) || !polygon_is_convex(zone))
@@ -182,29 +185,43 @@ static fram_status shrink_to_target(context *ctx, const field_request *r, field_
     }
 }
 
-static fram_status make_floes(context *ctx, const field_request *r, field_work *w, field_report *report,
-                              fram_error *error)
+/* The cells as they tile the domain. */
+static fram_status make_cells(context *ctx, const field_request *r, field_work *w, fram_error *error)
 {
+    if (r->size) {
+        const sized_request sized = {r->domain, r->periodic, r->concentration, r->roundness * (1 - GAP_SHARE),
+                                     r->size,   r->seed};
+        return sized_cells(ctx, &sized, &w->voronoi, error);
+    }
     box2 box;
     int32_t own = 0;
-    if (!scatter_sites(ctx, r, &w->sites, &own, &box) ||
-        (r->keep_out && !zones_grow(ctx, r->keep_out, r->keep_out_margin, &w->zones)))
+    if (!scatter_sites(ctx, r, &w->sites, &own, &box))
         return error_memory(error);
     fram_status status = voronoi_cells(ctx, w->sites.data, NULL, w->sites.count, box, &w->voronoi, error);
-    if (status != FRAM_OK)
-        return status;
-    if (r->periodic) {
+    if (status == FRAM_OK && r->periodic) {
         /* The copies have shaped the cells along the seams, and come after all others. */
         w->voronoi.start.count = own + 1;
         w->voronoi.vertex.count = w->voronoi.start.data[own];
     }
+    return status;
+}
+
+static fram_status make_floes(context *ctx, const field_request *r, field_work *w, field_report *report,
+                              fram_error *error)
+{
+    if (r->keep_out && !zones_grow(ctx, r->keep_out, r->keep_out_margin, &w->zones))
+        return error_memory(error);
+    fram_status status = make_cells(ctx, r, w, error);
+    if (status != FRAM_OK)
+        return status;
     if (!cells_outside_zones(ctx, &w->voronoi, &w->zones, &w->scratch, &w->parts))
         return error_memory(error);
     /* The cells tile the domain, so that what is left of them is the free area. */
     double free_area = cells_area(&w->parts);
     if (!(free_area > 0))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out", "the keep-out zones leave no free area");
-    double sliver = polygon_list_count(&w->zones) ? SMALLEST_PIECE * r->mean_area : 0;
+    double mean_area = cells_area(&w->voronoi) / polygon_list_count(&w->voronoi);
+    double sliver = polygon_list_count(&w->zones) ? SMALLEST_PIECE * mean_area : 0;
     if (!keep_large(ctx, &w->parts, &w->parts, fmax(r->smallest_area, sliver), &w->kept))
         return error_memory(error);
     double gap = 0;

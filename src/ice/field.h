@@ -4,6 +4,7 @@
 #define ICE_FIELD_H
 
 #include "geometry/overlay.h"
+#include "ice/field_size.h"
 
 /* Random streams of this room (base/random.h); the numbers are part of what a seed means and never change. */
 enum { ICE_STREAM_VORONOI_SITE = 0x1ce00 };
@@ -11,7 +12,8 @@ enum { ICE_STREAM_VORONOI_SITE = 0x1ce00 };
 typedef struct field_request {
     box2 domain;          /* [m] */
     double concentration; /* target, ice area / free area, over 0 and under 1 */
-    double mean_area;     /* Voronoi: mean cell area before shrinking [m2] */
+    const size_law *size; /* Voronoi: of the floes, by diameter of the disc of their area; NULL: as mean_area says */
+    double mean_area;     /* Voronoi without a law: mean cell area before shrinking [m2] */
     double
         size_deviation; /* Voronoi: relative scatter of sites, 0 regular (hexagons) .. 1 anywhere in their grid cell */
     double roundness;   /* Voronoi: 0 sharp corners .. 1 corners cut as far as the concentration allows */
@@ -32,7 +34,8 @@ typedef struct field_report {
 
 /* Managed ice: Voronoi cells, cut by the keep-out zones, every edge moved inwards by half the same gap until the summed
    area meets the target (to rounding).  A gap of one width is how broken ice drifts apart; shrinking towards centroids
-   would put wide water around large floes and leave small ones stuck together.  All outlines are convex and
+   would put wide water around large floes and leave small ones stuck together.  With a law of size the cells are those of
+   a power diagram (ice/field_sized.h), and floes follow it where no zone cuts them.  All outlines are convex and
    counter-clockwise, stay clear of each other, of the domain's edge (by half a gap) and of the zones; floes come in the
    order of their sites. Appends to outlines, which is unchanged on failure.  o may be NULL: convex zones need no
    general overlay. FRAM_ERROR_INPUT when the target cannot be reached, saying what was reached and why. */

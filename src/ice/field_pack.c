@@ -14,6 +14,13 @@ enum { STREAM_SIZE = 0x1cf000, STREAM_SHAPE = 0x1d0000, MOST_POPULATIONS = 1000 
 /* Vertices of a piece of a floe that is present: as the packing takes them. */
 enum { PIECE_VERTICES = 24 };
 
+/* A floe wider than this part of the domain leaves more water along its walls than the floes around can fill. */
+static const double LARGE_FLOE = 0.1;
+
+/* Area that the cover of a concave floe of mean diameter adds, relative; smaller ones, of which there are most and
+   which hold little of the ice, have coarser covers, and all within limits. */
+static const double COVER = 0.02, FINEST_COVER = 0.01, COARSEST_COVER = 0.03;
+
 static fram_status refuse(fram_error *error, const char *key, const char *rule, double value)
 {
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s %s; it is %g", key, rule, value);
@@ -68,7 +75,9 @@ typedef struct pack_state {
     polygon_list zones;     /* grown */
     polygon_list obstacles; /* zones and convex pieces of what is present */
     polygon_list shapes;    /* about their centroids */
-    int32_array population;
+    polygon_list covers;    /* of the shapes, with fewer vertices: what is packed */
+    vec2_array cover;
+    field_floe_array drawn; /* of each shape */
     packing_pose_array poses;
     polygon_list floes;
     vec2_array ring;
@@ -80,7 +89,9 @@ static void state_free(context *ctx, pack_state *s)
     polygon_list_free(ctx, &s->zones);
     polygon_list_free(ctx, &s->obstacles);
     polygon_list_free(ctx, &s->shapes);
-    array_free(ctx, &s->population);
+    polygon_list_free(ctx, &s->covers);
+    array_free(ctx, &s->cover);
+    array_free(ctx, &s->drawn);
     array_free(ctx, &s->poses);
     polygon_list_free(ctx, &s->floes);
     array_free(ctx, &s->ring);
@@ -137,14 +148,31 @@ static fram_status find_obstacles(context *ctx, overlay *o, const field_packed_r
 
 /* ---- drawing ---- */
 
+static polygon ring_of(const pack_state *s) { return (polygon){s->ring.data, s->ring.count}; }
+
+/* A ragged outline has many convex pieces, and hooks: what is packed in its place covers it with far fewer.  size: of
+   the floe, over the mean. */
+static bool add_cover(context *ctx, pack_state *s, double size)
+{
+    polygon shape = ring_of(s);
+    if (polygon_is_convex(shape))
+        return polygon_list_push(ctx, &s->covers, shape);
+    double part = fmax(FINEST_COVER, fmin(COVER / size, COARSEST_COVER));
+    return polygon_cover(ctx, shape, part, &s->cover) &&
+           polygon_list_push(ctx, &s->covers, (polygon){s->cover.data, s->cover.count});
+}
+
 static bool draw_shapes(context *ctx, const field_packed_request *r, int32_t number, const real_array *sizes,
                         pack_state *s)
 {
+    double mean = 0;
+    for (int32_t i = 0; i < sizes->count; i++)
+        mean += sizes->data[i] / sizes->count;
     for (int32_t i = 0; i < sizes->count; i++) {
         random_stream stream = random_begin(r->seed, (uint32_t)(STREAM_SHAPE + number), (uint32_t)i);
         if (!shape_draw(ctx, &r->populations[number].shape, sizes->data[i], &stream, &s->ring) ||
-            !polygon_list_push(ctx, &s->shapes, (polygon){s->ring.data, s->ring.count}) ||
-            !array_push(ctx, &s->population, number))
+            !polygon_list_push(ctx, &s->shapes, ring_of(s)) || !add_cover(ctx, s, sizes->data[i] / mean) ||
+            !array_push(ctx, &s->drawn, ((field_floe){number, s->ring.count, polygon_area(ring_of(s))})))
             return false;
         double d = sizes->data[i];
         s->drawn_area += PI / 4 * d * d;
@@ -190,16 +218,22 @@ static fram_status impossible(const field_packed_request *r, const pack_state *s
 {
     double drawn = (s->present_area + s->drawn_area) / s->free_area;
     double reached = (s->present_area + p->scale * p->scale * s->drawn_area) / s->free_area;
-    char found[100];
+    double narrow = fmin(r->domain.hi.x - r->domain.lo.x, r->domain.hi.y - r->domain.lo.y);
+    bool walls = !(r->periodic_x && r->periodic_y) && s->largest > LARGE_FLOE * narrow;
+    char found[100], why[120] = "";
     if (p->scale > 0)
         snprintf(found, sizeof found, "concentration %.4f was reached", reached);
     else
         snprintf(found, sizeof found, "not even a much lower concentration was reached");
+    if (walls)
+        snprintf(why, sizeof why, ", and walls keep water beside floes of up to %.3g m in a domain %.4g m wide",
+                 s->largest, narrow);
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "concentration",
                      "concentration %g cannot be reached with these floes: at %.4f, %d floes overlap by up to %.3g m "
-                     "after %d rounds and jam; %s. Rigid floes that are nearly equal or round leave the most water "
-                     "between them: ask for less, or for a wider size law, fewer vertices, or source voronoi",
-                     r->concentration, drawn, polygon_list_count(&s->shapes), p->overlap, p->rounds, found);
+                     "after %d rounds and jam; %s. Rigid floes that are nearly equal or round leave the most water%s: "
+                     "ask for less, or for a wider size law, fewer vertices%s, or source voronoi",
+                     r->concentration, drawn, polygon_list_count(&s->shapes), p->overlap, p->rounds, found, why,
+                     walls ? ", a larger domain" : "");
 }
 
 static fram_status place_floes(context *ctx, overlay *o, const field_packed_request *r, pack_state *s,
@@ -208,7 +242,7 @@ static fram_status place_floes(context *ctx, overlay *o, const field_packed_requ
     const packing_request packing = {.domain = r->domain,
                                      .periodic_x = r->periodic_x,
                                      .periodic_y = r->periodic_y,
-                                     .shapes = &s->shapes,
+                                     .shapes = &s->covers,
                                      .obstacles = &s->obstacles,
                                      .seed = r->seed,
                                      .effort = r->effort};
@@ -221,37 +255,35 @@ static fram_status place_floes(context *ctx, overlay *o, const field_packed_requ
     report->rounds = found.rounds;
     report->moves = found.moves;
     for (int32_t i = 0; i < polygon_list_count(&s->shapes); i++) {
-        polygon shape = polygon_list_get(&s->shapes, i);
-        if (!packing_outline(ctx, shape, s->poses.data[i], &s->ring) ||
-            !polygon_list_push(ctx, &s->floes, (polygon){s->ring.data, s->ring.count}))
+        const field_floe *drawn = &s->drawn.data[i];
+        if (!packing_outline(ctx, polygon_list_get(&s->shapes, i), s->poses.data[i], &s->ring) ||
+            !polygon_list_push(ctx, &s->floes, ring_of(s)))
             return error_memory(error);
-        double drawn = polygon_area(shape), area = polygon_area((polygon){s->ring.data, s->ring.count});
-        report->area_change = fmax(report->area_change, fabs(area - drawn) / drawn);
-        report->vertex_changes += s->ring.count != shape.count;
+        double change = fabs(polygon_area(ring_of(s)) - drawn->area) / drawn->area;
+        report->area_change = fmax(report->area_change, change);
+        report->vertex_changes += s->ring.count != drawn->vertices;
     }
     return FRAM_OK;
 }
 
 /* ---- what came of it ---- */
 
-static bool report_populations(context *ctx, const field_packed_request *r, const pack_state *s,
-                               field_population_report *parts)
+bool field_population_measure(context *ctx, const size_law *law, const polygon_list *floes, const field_floe *drawn,
+                              int32_t number, field_population_report *out)
 {
     real_array diameter = {0};
     bool good = true;
-    for (int32_t p = 0; good && p < r->population_count; p++) {
-        array_clear(&diameter);
-        parts[p] = (field_population_report){0};
-        for (int32_t i = 0; good && i < s->population.count; i++) {
-            if (s->population.data[i] != p)
-                continue;
-            double area = polygon_area(polygon_list_get(&s->floes, i));
-            parts[p].area += area;
-            good = array_push(ctx, &diameter, sqrt(area * 4 / PI));
-        }
-        parts[p].floes = diameter.count;
-        parts[p].size_distance = size_law_distance(&r->populations[p].size, diameter.data, diameter.count);
+    *out = (field_population_report){0};
+    for (int32_t i = 0; good && i < polygon_list_count(floes); i++) {
+        if (drawn && drawn[i].population != number)
+            continue;
+        double area = polygon_area(polygon_list_get(floes, i));
+        out->area += area;
+        good = array_push(ctx, &diameter, sqrt(area * 4 / PI));
     }
+    out->floes = diameter.count;
+    out->size_distance = size_law_distance(law, diameter.data, diameter.count);
+    size_law_histogram(law, diameter.data, diameter.count, &out->sizes);
     array_free(ctx, &diameter);
     return good;
 }
@@ -259,8 +291,9 @@ static bool report_populations(context *ctx, const field_packed_request *r, cons
 static fram_status report_field(context *ctx, overlay *o, const field_packed_request *r, const pack_state *s,
                                 field_population_report *parts, field_packed_report *report, fram_error *error)
 {
-    if (!report_populations(ctx, r, s, parts))
-        return error_memory(error);
+    for (int32_t p = 0; p < r->population_count; p++)
+        if (!field_population_measure(ctx, &r->populations[p].size, &s->floes, s->drawn.data, p, &parts[p]))
+            return error_memory(error);
     double area = s->present_area;
     for (int32_t p = 0; p < r->population_count; p++)
         area += parts[p].area;
@@ -270,22 +303,22 @@ static fram_status report_field(context *ctx, overlay *o, const field_packed_req
     return field_largest_overlap(ctx, o, &s->floes, r->present, &report->field.largest_overlap, error);
 }
 
-static bool append_floes(context *ctx, const pack_state *s, polygon_list *outlines, int32_array *population)
+static bool append_floes(context *ctx, const pack_state *s, polygon_list *outlines, field_floe_array *floes)
 {
     /* All room is made before anything is appended, so that a failure changes nothing. */
     if (!array_reserve(ctx, &outlines->vertex, outlines->vertex.count + s->floes.vertex.count) ||
         !array_reserve(ctx, &outlines->start, outlines->start.count + s->floes.start.count + 1) ||
-        !array_reserve(ctx, population, population->count + s->population.count))
+        !array_reserve(ctx, floes, floes->count + s->drawn.count))
         return false;
     for (int32_t i = 0; i < polygon_list_count(&s->floes); i++) {
         polygon_list_push(ctx, outlines, polygon_list_get(&s->floes, i));
-        population->data[population->count++] = s->population.data[i];
+        floes->data[floes->count++] = s->drawn.data[i];
     }
     return true;
 }
 
 fram_status field_packed(context *ctx, overlay *o, const field_packed_request *request, polygon_list *outlines,
-                         int32_array *population, field_population_report *parts, field_packed_report *report,
+                         field_floe_array *floes, field_population_report *parts, field_packed_report *report,
                          fram_error *error)
 {
     fram_status status = check_request(request, error);
@@ -302,7 +335,7 @@ fram_status field_packed(context *ctx, overlay *o, const field_packed_request *r
         status = place_floes(ctx, o, request, &s, &found, error);
     if (status == FRAM_OK)
         status = report_field(ctx, o, request, &s, parts, &found, error);
-    if (status == FRAM_OK && !append_floes(ctx, &s, outlines, population))
+    if (status == FRAM_OK && !append_floes(ctx, &s, outlines, floes))
         status = error_memory(error);
     if (status == FRAM_OK)
         *report = found;

@@ -28,11 +28,20 @@ typedef struct field_packed_request {
     double effort;                /* see packing.h; 0: 1 */
 } field_packed_request;
 
+/* A floe before it had a place. */
+typedef struct field_floe {
+    int32_t population; /* from 0 */
+    int32_t vertices;
+    double area; /* [m2] */
+} field_floe;
+typedef ARRAY(field_floe) field_floe_array;
+
 /* What came of it, for each population. */
 typedef struct field_population_report {
     int32_t floes;
     double area;          /* [m2] */
     double size_distance; /* Kolmogorov and Smirnov's, of the outlines' equivalent diameters from the law */
+    size_histogram sizes; /* of the equivalent diameters */
 } field_population_report;
 
 typedef struct field_packed_report {
@@ -43,12 +52,16 @@ typedef struct field_packed_report {
     int32_t vertex_changes;     /* floes whose number of vertices changed: 0 */
 } field_packed_report;
 
-/* Appends outlines in the order of the populations, and to `population` the number of each one's population.  parts (of
-   population_count) and report are filled.  The floes that were present are counted in the concentration, not appended.
+/* Appends outlines in the order of the populations, and to `floes` what each was drawn as.  parts (of population_count)
+   and report are filled.  The floes that were present are counted in the concentration, not appended.
    FRAM_ERROR_INPUT for a request that is wrong or cannot be met, saying what was reached and why; outlines and
-   population are then unchanged. */
+   floes are then unchanged. */
 fram_status field_packed(context *ctx, overlay *o, const field_packed_request *request, polygon_list *outlines,
-                         int32_array *population, field_population_report *parts, field_packed_report *report,
+                         field_floe_array *floes, field_population_report *parts, field_packed_report *report,
                          fram_error *error);
+
+/* Measured on the outlines: all of them, or with `drawn` those of population `number`.  false: no memory. */
+bool field_population_measure(context *ctx, const size_law *law, const polygon_list *floes, const field_floe *drawn,
+                              int32_t number, field_population_report *out);
 
 #endif

@@ -10,6 +10,8 @@
 enum { MEAN_SLICES = 8192, HALVINGS = 200, SHIFT_HALVINGS = 60 };
 /* More floes than this are a mistake in the units rather than a field. */
 static const double MOST_FLOES = 5e6;
+/* Half the width of the histogram of floes that are all of one size, relative. */
+static const double ONE_SIZE = 0.01;
 /* |b| of a power law under which it is D^0: the formula for b loses eps/b, this one b log(hi/lo). */
 static const double FLAT = 1e-8;
 
@@ -289,4 +291,33 @@ double size_law_distance(const size_law *law, double *sample, int32_t count)
         most = fmax(most, fmax(part - (double)i / count, (i + 1.0) / count - part));
     }
     return most;
+}
+
+void size_law_histogram(const size_law *law, const double *sample, int32_t count, size_histogram *out)
+{
+    double lo = HUGE_VAL, hi = 0;
+    for (int32_t i = 0; i < count; i++) {
+        lo = fmin(lo, sample[i]);
+        hi = fmax(hi, sample[i]);
+    }
+    *out = (size_histogram){0};
+    if (count < 1)
+        return;
+    if (!(hi > lo * (1 + 2 * ONE_SIZE))) {
+        lo *= 1 - ONE_SIZE;
+        hi *= 1 + ONE_SIZE;
+    }
+    for (int k = 0; k <= SIZE_BINS; k++)
+        out->edge[k] = k < SIZE_BINS ? lo * real_pow(hi / lo, (double)k / SIZE_BINS) : hi;
+    for (int k = 0; k < SIZE_BINS; k++) {
+        double before = k > 0 ? size_law_part(law, out->edge[k]) : 0;
+        double after = k + 1 < SIZE_BINS ? size_law_part(law, out->edge[k + 1]) : 1;
+        out->expected[k] = count * (after - before);
+    }
+    for (int32_t i = 0; i < count; i++) {
+        int k = 0;
+        while (k + 1 < SIZE_BINS && sample[i] > out->edge[k + 1])
+            k++;
+        out->bin[k]++;
+    }
 }

@@ -40,6 +40,16 @@ bool size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed
 /* Kolmogorov and Smirnov's distance of a sample from the law; the sample is sorted by it. */
 double size_law_distance(const size_law *law, double *sample, int32_t count);
 
+/* A sample by size, and as many as the law expects of so many: bin i holds up to edge[i + 1], edge[i] excluded (but for
+   the first).  The bins cover the sample in equal ratios; the first and the last count what the law has beyond. */
+enum { SIZE_BINS = 12 };
+typedef struct size_histogram {
+    double edge[SIZE_BINS + 1]; /* [m] */
+    int32_t bin[SIZE_BINS];
+    double expected[SIZE_BINS];
+} size_histogram;
+void size_law_histogram(const size_law *law, const double *sample, int32_t count, size_histogram *out);
+
 /* Normal distribution function, to about 1e-15 (Hart 1968, algorithm 5666, as given by West 2005). */
 double normal_part(double x);
 

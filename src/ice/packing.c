@@ -12,8 +12,18 @@ static const double SHAKE = 0.2;
 /* Growth of concave floes: where it begins, its length, and the amplitude of the shaking meanwhile. */
 static const double GROW_FROM = 0.4, GROW_SHAKE = 0.1;
 enum { GROW_ROUNDS = 400 };
+/* New beginnings from other first places.  In a field of few floes a single large one decides, and they are cheap: as
+   many as make up this many floes, and no more than the other number. */
+enum { START_FLOES = 4000, MOST_STARTS = 8 };
+/* Floes that overlap by this part of their size are hooked into each other and better parted by carrying one away.  In
+   a field of concave floes that is squeezed by no more than this on the mean, it is all that keeps them from lying
+   apart, and smaller overlaps count: then floes are carried so many times, with a short shaking after each. */
+static const double HOOKED = 0.05, UNHOOKED = 1e-3, SETTLED = 2e-3, UNHOOK_SHAKE = 0.05, UNHOOK_LENGTH = 0.1;
+enum { MOST_UNHOOKS = 10 };
 /* A field squeezed by more than this part of a floe's size after shaking is beyond hope. */
 static const double HOPELESS = 0.03;
+/* From the seed of one beginning to that of the next: far from any number that is given as a seed. */
+static const uint64_t ANOTHER_SEED = 0x9e3779b97f4a7c15;
 /* Steps by which an impossible field shrinks until it fits. */
 static const double SHRINK = 0.997;
 enum { MOST_SHRINKS = 60 };
@@ -66,7 +76,7 @@ static bool shake(pack_work *w, double amplitude, double length, int32_t *moves)
     bool apart;
     double rounds = length * SHAKE_ROUNDS;
     for (int32_t k = 0; k < rounds; k++) {
-        if (k % MOVE_EVERY == MOVE_EVERY - 1 && !pack_move_squeezed(w, false, moves))
+        if (k % MOVE_EVERY == MOVE_EVERY - 1 && !pack_move_squeezed(w, 0, moves))
             return false;
         double left = 1 - k / rounds;
         if (!do_round(w, amplitude * left * left, &apart))
@@ -84,7 +94,7 @@ static bool grow(pack_work *w, double length, int32_t *moves)
     if (!pack_find_pairs(w, true) || !settle(w, &apart))
         return false;
     for (int32_t k = 0; k < rounds; k++) {
-        if (k % MOVE_EVERY == MOVE_EVERY - 1 && !pack_move_squeezed(w, false, moves))
+        if (k % MOVE_EVERY == MOVE_EVERY - 1 && !pack_move_squeezed(w, 0, moves))
             return false;
         w->scale = GROW_FROM + (1 - GROW_FROM) * (k + 1) / rounds;
         if (!do_round(w, GROW_SHAKE, &apart))
@@ -108,21 +118,44 @@ static bool find_fit(pack_work *w, double *scale)
     return true;
 }
 
+static bool unhook(pack_work *w, bool *apart, int32_t *moves)
+{
+    for (int k = 0; k < MOST_UNHOOKS && !*apart && w->concave && mean_squeeze(w) < SETTLED; k++)
+        if (!pack_move_squeezed(w, UNHOOKED, moves) || !shake(w, UNHOOK_SHAKE, UNHOOK_LENGTH, moves) ||
+            !settle(w, apart))
+            return false;
+    return true;
+}
+
+/* One beginning: settle, then shake ever longer; *apart: it came to an end, *hopeless: another one need not be tried.
+   false: no memory. */
+static bool solve_once(pack_work *w, double effort, packing_report *report, bool *apart, bool *hopeless)
+{
+    if (!pack_start(w) || !pack_sort_bodies(w) || (w->concave && !grow(w, effort, &report->moves)) ||
+        !pack_find_pairs(w, true) || !settle(w, apart))
+        return false;
+    for (int k = 0; k < ATTEMPTS && !*apart && !*hopeless; k++) {
+        if (k > 0 && !pack_move_squeezed(w, HOOKED, &report->moves))
+            return false;
+        if (!shake(w, SHAKE, effort * (1 << k), &report->moves) || !settle(w, apart) ||
+            !unhook(w, apart, &report->moves))
+            return false;
+        *hopeless = mean_squeeze(w) > HOPELESS;
+    }
+    return true;
+}
+
 /* false: no memory */
 static bool solve(pack_work *w, packing_report *report)
 {
-    bool apart = false;
+    bool apart = false, hopeless = false;
     double effort = w->request->effort > 0 ? w->request->effort : 1;
-    if (!pack_start(w) || !pack_sort_bodies(w) || (w->concave && !grow(w, effort, &report->moves)) ||
-        !pack_find_pairs(w, true) || !settle(w, &apart))
-        return false;
-    for (int k = 0; k < ATTEMPTS && !apart; k++) {
-        if (k > 0 && !pack_move_squeezed(w, true, &report->moves))
+    int32_t starts = w->movable > 0 ? START_FLOES / w->movable : 1;
+    starts = starts < 1 ? 1 : starts > MOST_STARTS ? MOST_STARTS : starts;
+    for (int32_t k = 0; k < starts && !apart && !hopeless; k++) {
+        w->seed = w->request->seed + (uint64_t)k * ANOTHER_SEED;
+        if (!solve_once(w, effort, report, &apart, &hopeless))
             return false;
-        if (!shake(w, SHAKE, effort * (1 << k), &report->moves) || !settle(w, &apart))
-            return false;
-        if (mean_squeeze(w) > HOPELESS)
-            break;
     }
     report->done = apart;
     report->rounds = w->round;

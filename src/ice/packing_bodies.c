@@ -167,6 +167,8 @@ bool pack_sort_bodies(pack_work *w)
     if (good) {
         for (int32_t i = 0; i < w->bodies.count; i++)
             copy_body(&sorted, w, i < w->movable ? order[i] : i);
+        for (int32_t i = 0; i < w->movable; i++)
+            order[i] = w->shape.data[order[i]];
         memcpy(w->shape.data, order, (size_t)w->movable * sizeof *order);
         memcpy(w->bodies.data, sorted.bodies.data, (size_t)w->bodies.count * sizeof *w->bodies.data);
         memcpy(w->pieces.data, sorted.pieces.data, (size_t)w->pieces.count * sizeof *w->pieces.data);

@@ -14,8 +14,8 @@ enum { MOST_MAP_CELLS = 16000000 };
 enum { CHAMFER_NEXT = 3, CHAMFER_CORNER = 4, CHAMFER_FAR = 1 << 24 };
 /* The narrowest water of interest, radius in smallest floe sizes. */
 static const double NARROWEST = 0.25;
-/* A floe is squeezed when it overlaps by more than this part of its size, and hooked beyond the other one. */
-static const double SQUEEZED = 0.01, HOOKED = 0.05;
+/* A floe is squeezed when it overlaps by more than this part of its size. */
+static const double SQUEEZED = 0.01;
 /* A floe is tried where half its size over the radius of the water is within this range ... */
 static const double LEAST_FILL = 0.7, MOST_FILL = 1.6;
 /* ... and carried there when its overlap shrinks to less than this part. */
@@ -155,7 +155,7 @@ static bool find_holes(pack_work *w, const water_map *m, hole_array *holes)
             int32_t clear = m->clear[(int64_t)y * m->nx + x];
             if (clear < need || clear == 0 || clear >= CHAMFER_FAR || !is_widest(m, x, y, clear))
                 continue;
-            random_stream r = random_begin(w->request->seed, PACK_STREAM_HOLE, (uint32_t)(y * m->nx + x));
+            random_stream r = random_begin(w->seed, PACK_STREAM_HOLE, (uint32_t)(y * m->nx + x));
             r.counter = (uint64_t)w->round;
             if (!array_push(w->ctx, holes, (hole){clear, x, y, (uint32_t)random_bits(&r)}))
                 return false;
@@ -179,13 +179,37 @@ static int worst_first(const void *a, const void *b)
     return (p->body > q->body) - (p->body < q->body);
 }
 
-static bool find_squeezed(pack_work *w, double least, squeezed_array *list)
+/* The smaller floe of every pair that overlaps by more than a part of its size, once. */
+static bool list_hooked(pack_work *w, double least, squeezed_array *list)
+{
+    for (int32_t i = 0; i < w->rows.count; i++) {
+        const pack_row *r = &w->rows.data[i];
+        bool other = r->b >= 0 && r->b < w->movable && w->bodies.data[r->b].size < w->bodies.data[r->a].size;
+        int32_t body = other ? r->b : r->a;
+        double part = -(r->gap + w->gap) / w->bodies.data[body].size;
+        if (!(part > least) || w->squeeze.data[body] == 0)
+            continue;
+        w->squeeze.data[body] = 0; /* listed; nothing asks for it before the next round */
+        if (!array_push(w->ctx, list, (squeezed){part, body}))
+            return false;
+    }
+    return true;
+}
+
+static bool list_squeezed(pack_work *w, squeezed_array *list)
 {
     for (int32_t i = 0; i < w->movable; i++) {
         double part = w->squeeze.data[i] / w->bodies.data[i].size;
-        if (part > least && !array_push(w->ctx, list, (squeezed){part, i}))
+        if (part > SQUEEZED && !array_push(w->ctx, list, (squeezed){part, i}))
             return false;
     }
+    return true;
+}
+
+static bool find_squeezed(pack_work *w, double hooked, squeezed_array *list)
+{
+    if (!(hooked > 0 ? list_hooked(w, hooked, list) : list_squeezed(w, list)))
+        return false;
     if (list->count > 0)
         qsort(list->data, (size_t)list->count, sizeof *list->data, worst_first);
     return true;
@@ -244,7 +268,7 @@ static double carried_depth(const pack_work *w, int32_t body, const int32_array 
 static bool try_place(pack_work *w, int32_t body, vec2 at, double bound, const int32_array *carried)
 {
     pack_body *b = &w->bodies.data[body], old = *b;
-    random_stream r = random_begin(w->request->seed, PACK_STREAM_MOVE, (uint32_t)body);
+    random_stream r = random_begin(w->seed, PACK_STREAM_MOVE, (uint32_t)body);
     r.counter = (uint64_t)w->round;
     double first = 2 * PI * random_unit(&r), best = bound;
     vec2 turn = old.turn;
@@ -296,16 +320,16 @@ static bool fill_holes(pack_work *w, const water_map *m, const hole_array *holes
     return true;
 }
 
-bool pack_move_squeezed(pack_work *w, bool hooked, int32_t *moves)
+bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves)
 {
     water_map map = {0};
     hole_array holes = {0};
     squeezed_array list = {0};
     int32_array carried = {0};
-    bool good = pack_find_pairs(w, true) && pack_find_rows(w) && find_squeezed(w, hooked ? HOOKED : SQUEEZED, &list);
+    bool good = pack_find_pairs(w, true) && pack_find_rows(w) && find_squeezed(w, hooked, &list);
     if (good && list.count > 0) {
         good = map_make(w, &map) && find_holes(w, &map, &holes);
-        good = good && fill_holes(w, &map, &holes, &list, hooked, &carried);
+        good = good && fill_holes(w, &map, &holes, &list, hooked > 0, &carried);
         *moves += carried.count;
     }
     memory_free(w->ctx, map.clear);

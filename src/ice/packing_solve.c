@@ -65,7 +65,7 @@ static double signed_unit(uint32_t bits) { return bits * 0x1p-31 - 1; }
 static void shake_steps(pack_work *w, double shake)
 {
     for (int32_t i = 0; i < w->movable; i++) {
-        random_stream r = random_begin(w->request->seed, PACK_STREAM_SHAKE, (uint32_t)i);
+        random_stream r = random_begin(w->seed, PACK_STREAM_SHAKE, (uint32_t)i);
         r.counter = (uint64_t)w->round * 2;
         uint64_t way = random_bits(&r), turn = random_bits(&r);
         /* Large floes by no more than a mean one: they would be carried right across the small ones. */

@@ -117,7 +117,7 @@ static bool put_body(pack_work *w, places *p, int32_t body)
 {
     box2 d = w->request->domain;
     pack_body *b = &w->bodies.data[body];
-    random_stream r = random_begin(w->request->seed, PACK_STREAM_START, (uint32_t)body);
+    random_stream r = random_begin(w->seed, PACK_STREAM_START, (uint32_t)body);
     double angle = 2 * PI * random_unit(&r), best = -HUGE_VAL;
     b->turn = (vec2){real_cos(angle), real_sin(angle)};
     for (int k = 0; k < CANDIDATES; k++) {

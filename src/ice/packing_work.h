@@ -62,6 +62,7 @@ typedef struct pack_work {
     context *ctx;
     const packing_request *request;
     vec2 period;       /* 0: walls */
+    uint64_t seed;     /* of this beginning */
     int32_t movable;   /* bodies from here on are obstacles */
     bool concave;      /* some floe has several pieces */
     int32_array shape; /* of each movable body: the request's */
@@ -118,8 +119,9 @@ double pack_depth(const pack_work *w, const pack_piece *a, const pack_piece *b, 
    them. */
 void pack_solve_rows(pack_work *w, double shake);
 
-/* packing_moves.c: carries squeezed floes into open water where that helps; with `hooked`, those that overlap deeply to
-   the widest water there is, whether it helps at once or not.  Adds to *moves; false: no memory. */
-bool pack_move_squeezed(pack_work *w, bool hooked, int32_t *moves);
+/* packing_moves.c: carries squeezed floes into open water where that helps; with `hooked` over 0, the smaller floe of
+   each pair that overlaps by more than this part of its size to the widest water there is, whether it helps at once or
+   not.  Adds to *moves; false: no memory. */
+bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves);
 
 #endif

@@ -299,10 +299,17 @@ static fram_status check_populations(const scenario *s, fram_error *error)
     const scenario_ice *ice = &s->ice;
     if (ice->source == ICE_PACKED && ice->populations.count == 0)
         return fault(s, error, "ice.populations", "expected at least one population, since ice.source is packed");
-    if (ice->source != ICE_PACKED && ice->source != ICE_FILE && ice->populations.count > 0)
+    bool managed = ice->source == ICE_VORONOI;
+    if (ice->source != ICE_PACKED && ice->source != ICE_FILE && !managed && ice->populations.count > 0)
         return fault(s, error, "ice.populations",
-                     "expected none, since ice.source is neither packed nor file, found %d",
+                     "expected none, since ice.source is not packed, file or voronoi, found %d",
                      (int)ice->populations.count);
+    if (managed && ice->populations.count > 1)
+        return fault(s, error, "ice.populations", "expected one at most, since ice.source is voronoi, found %d",
+                     (int)ice->populations.count);
+    if (managed && ice->populations.count > 0 && ice->populations.data[0].shape == POPULATION_TEMPLATES)
+        return population_fault(s, 0, "shape", "expected convex: with ice.source voronoi the cells are the shapes",
+                                error);
     if (ice->populations.count > 0 && s->domain.boundary == DOMAIN_FEEDING && ice->source == ICE_FILE)
         return fault(s, error, "ice.populations", "expected none, since domain.boundary is feeding");
     fram_status status = FRAM_OK;

@@ -156,7 +156,8 @@
     X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                  \
     X(fracture, SECTION(fracture), "", "how breakable floes break")                                                   \
     X(populations, LIST(population, 16), "",                                                                          \
-      "packed: the kinds of floes; file: with them, the water that the file leaves is filled to ice.concentration")   \
+      "packed: the kinds of floes; file: with them, the water that the file leaves is filled to ice.concentration; "  \
+      "voronoi: one, whose laws of size, thickness and strength the floes follow instead of ice.mean_floe_area")      \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
 #define SCENARIO_FRICTION_KEYS(X)                                            \

@@ -85,7 +85,8 @@ step_settings build_settings(const scenario *s)
 
 static fram_status name_key(const scenario *s, fram_status status, const char *key, fram_error *error)
 {
-    if (status == FRAM_ERROR_INPUT && error && !error->key[0]) {
+    /* A fault in another file has its place already. */
+    if (status == FRAM_ERROR_INPUT && error && !error->key[0] && !error->file[0]) {
         memcpy(error->key, key, strlen(key) + 1);
         scenario_locate(s, error);
     }
@@ -216,10 +217,11 @@ static fram_status start_load_window(context *ctx, const scenario *s, world *w, 
     return FRAM_OK;
 }
 
-fram_status build_world(context *ctx, const scenario *s, world *w, build_report *report, fram_error *error)
+/* Everything that the ice keeps clear of: media, vessel and station.  w is freed on failure. */
+static fram_status build_before_ice(context *ctx, const scenario *s, const step_settings *settings, world *w,
+                                    build_report *report, fram_error *error)
 {
     *report = (build_report){0};
-    const step_settings settings = build_settings(s);
     fram_status status = world_init(ctx, w, error);
     if (status != FRAM_OK)
         return status;
@@ -235,19 +237,51 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
             status = build_flows(ctx, s, &hull, w, error);
         if (status == FRAM_OK)
             status = add_vessel(ctx, s, w, &hull, error);
-        if (status == FRAM_OK) {
-            status = build_station(ctx, s, &settings, w, error);
-        }
+        if (status == FRAM_OK)
+            status = build_station(ctx, s, settings, w, error);
         report->displaced_mass = hull.displaced_mass;
     }
-    if (status == FRAM_OK)
-        status = add_walls(ctx, s, w, error);
+    if (status != FRAM_OK)
+        world_free(ctx, w);
+    return status;
+}
+
+fram_status build_world(context *ctx, const scenario *s, world *w, build_report *report, fram_error *error)
+{
+    const step_settings settings = build_settings(s);
+    fram_status status = build_before_ice(ctx, s, &settings, w, report, error);
+    if (status != FRAM_OK)
+        return status;
+    status = add_walls(ctx, s, w, error);
     if (status == FRAM_OK)
         status = check_clear_of_walls(ctx, s, w, error);
     if (status == FRAM_OK)
         status = name_key(s, build_field(ctx, s, &settings, w, &report->field, error), "ice", error);
     if (status != FRAM_OK)
         world_free(ctx, w);
+    return status;
+}
+
+fram_status build_outlines(context *ctx, const scenario *s, drawn_ice *out, box2 *domain, fram_error *error)
+{
+    if (s->ice.source != ICE_VORONOI && s->ice.source != ICE_FILE && s->ice.source != ICE_PACKED) {
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.source",
+                  "the scenario has no field of floes: expected source voronoi, packed or file");
+        scenario_locate(s, error);
+        return FRAM_ERROR_INPUT;
+    }
+    const step_settings settings = build_settings(s);
+    world w;
+    build_report report;
+    fram_status status = build_before_ice(ctx, s, &settings, &w, &report, error);
+    if (status != FRAM_OK)
+        return status;
+    scenario larger = *s;
+    if (s->domain.boundary == DOMAIN_FEEDING)
+        larger = feeding_scenario(s, &settings);
+    *domain = (box2){{larger.domain.x_min, larger.domain.y_min}, {larger.domain.x_max, larger.domain.y_max}};
+    status = name_key(s, draw_ice(ctx, &larger, &w, out, error), "ice", error);
+    world_free(ctx, &w);
     return status;
 }
 

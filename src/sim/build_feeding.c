@@ -70,21 +70,31 @@ static fram_status begin(context *ctx, const scenario *s, const step_settings *s
     return name_key(s, status, error);
 }
 
-fram_status build_field(context *ctx, const scenario *s, const step_settings *settings, world *w, field_report *report,
-                        fram_error *error)
+static vec2 tile_of(const scenario *s, box2 window)
 {
-    if (s->domain.boundary != DOMAIN_FEEDING)
-        return build_ice(ctx, s, w, report, error);
+    return vec2_make(tile_length(s, s->domain.tile_x, window.hi.x - window.lo.x),
+                     tile_length(s, s->domain.tile_y, window.hi.y - window.lo.y));
+}
+
+/* The same ice in a larger domain; what is shared with the scenario is only read. */
+scenario feeding_scenario(const scenario *s, const step_settings *settings)
+{
     box2 window = settings->domain;
-    vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5);
-    vec2 tile = {tile_length(s, s->domain.tile_x, window.hi.x - window.lo.x),
-                 tile_length(s, s->domain.tile_y, window.hi.y - window.lo.y)};
-    /* The same ice in a larger domain; what is shared with the scenario is only read. */
+    vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5), tile = tile_of(s, window);
     scenario larger = *s;
     larger.domain.x_min = middle.x - tile.x / 2;
     larger.domain.x_max = middle.x + tile.x / 2;
     larger.domain.y_min = middle.y - tile.y / 2;
     larger.domain.y_max = middle.y + tile.y / 2;
+    return larger;
+}
+
+fram_status build_field(context *ctx, const scenario *s, const step_settings *settings, world *w, field_report *report,
+                        fram_error *error)
+{
+    if (s->domain.boundary != DOMAIN_FEEDING)
+        return build_ice(ctx, s, w, report, error);
+    scenario larger = feeding_scenario(s, settings);
     fram_status status = build_ice(ctx, &larger, w, report, error);
-    return status == FRAM_OK ? begin(ctx, s, settings, tile, w, error) : status;
+    return status == FRAM_OK ? begin(ctx, s, settings, tile_of(s, settings->domain), w, error) : status;
 }

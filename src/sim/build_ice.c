@@ -2,11 +2,9 @@
 
 #include "base/transcendental.h"
 #include "geometry/space_curve.h"
-#include "ice/import.h"
 #include "ice/tiles.h"
-#include "io/outline_file.h"
 #include "sim/build_keep_out.h"
-#include "sim/build_packed.h"
+#include "sim/draw_ice.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,16 +73,15 @@ static int32_t *memory_order(context *ctx, const polygon_list *outlines)
     return order;
 }
 
-/* traits: of each outline; NULL for those of the scenario. */
-static fram_status add_field_floes(context *ctx, const scenario *s, world *w, const polygon_list *outlines,
-                                   const floe_traits *traits, fram_error *error)
+static fram_status add_drawn_floes(context *ctx, const scenario *s, world *w, const drawn_ice *drawn, fram_error *error)
 {
+    const polygon_list *outlines = &drawn->outlines;
     floe_definition d = {.material = material_of(s), .motion = MOTION_DYNAMIC, .parent = -1};
     int32_t *order = memory_order(ctx, outlines);
     fram_status status = order ? FRAM_OK : error_memory(error);
     for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
         int32_t row;
-        floe_traits t = traits ? traits[order[i]] : scenario_traits(s, NAN);
+        floe_traits t = drawn->traits.data[order[i]];
         d.outline = polygon_list_get(outlines, order[i]);
         d.thickness = t.thickness;
         d.material.flexural_strength = t.flexural_strength;
@@ -98,137 +95,14 @@ static fram_status add_field_floes(context *ctx, const scenario *s, world *w, co
     return status;
 }
 
-static box2 domain_of(const scenario *s)
+static fram_status build_drawn(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
 {
-    return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
-}
-
-/* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
-static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
-{
-    return s->domain.boundary == DOMAIN_FEEDING ? FRAM_OK : build_keep_out(ctx, s, w, out, error);
-}
-
-static fram_status build_voronoi(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
-{
-    polygon_list keep_out = {0}, outlines = {0};
-    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
-    field_request request = {.domain = domain_of(s),
-                             .concentration = s->ice.concentration,
-                             .mean_area = s->ice.mean_floe_area,
-                             .size_deviation = s->ice.size_deviation,
-                             .roundness = s->ice.roundness,
-                             .seed = (uint64_t)s->run.seed,
-                             .smallest_area = s->ice.smallest_floe_area,
-                             .keep_out = &keep_out,
-                             .periodic = s->domain.boundary == DOMAIN_FEEDING};
+    drawn_ice drawn = {0};
+    fram_status status = draw_ice(ctx, s, w, &drawn, error);
     if (status == FRAM_OK)
-        status = field_voronoi(ctx, w->scratch.plane, &request, &outlines, report, error);
-    if (status == FRAM_OK)
-        status = add_field_floes(ctx, s, w, &outlines, NULL, error);
-    polygon_list_free(ctx, &keep_out);
-    polygon_list_free(ctx, &outlines);
-    return status;
-}
-
-static fram_status build_packed(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
-{
-    polygon_list keep_out = {0}, outlines = {0};
-    floe_traits_array traits = {0};
-    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
-    if (status == FRAM_OK)
-        status = draw_populations(ctx, s, w, &keep_out, &outlines, &traits, report, error);
-    if (status == FRAM_OK)
-        status = add_field_floes(ctx, s, w, &outlines, traits.data, error);
-    polygon_list_free(ctx, &keep_out);
-    polygon_list_free(ctx, &outlines);
-    array_free(ctx, &traits);
-    return status;
-}
-
-/* ---- observed floes ---- */
-
-static void log_notes(context *ctx, const import_rings *rings, const import_field *field)
-{
-    for (int32_t i = 0; i < field->notes.count; i++) {
-        const import_note *n = &field->notes.data[i];
-        char name[IMPORT_NAME_SIZE];
-        import_place_name(&rings->place.data[n->ring], name);
-        log_write(ctx, LOG_DEBUG, "%s (%.6g, %.6g): %s; %s", name, n->at.x, n->at.y, import_event_text(n->event),
-                  n->dropped ? "left out" : "mended");
-    }
-}
-
-/* What became of the file: counts of what was left out and mended, overlaps, concentration. */
-static fram_status report_import(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
-                                 const import_field *field, field_report *report, fram_error *error)
-{
-    import_measure m;
-    fram_status status = import_field_measure(ctx, w->scratch.plane, &field->outlines, &m, error);
-    if (status != FRAM_OK)
-        return status;
-    box2 d = domain_of(s);
-    const vec2 corner[4] = {d.lo, {d.hi.x, d.lo.y}, d.hi, {d.lo.x, d.hi.y}};
-    double free_area = polygon_area((polygon){corner, 4});
-    for (int32_t i = 0; i < polygon_list_count(keep_out); i++)
-        free_area -= polygon_overlap_area(polygon_list_get(keep_out, i), (polygon){corner, 4});
-    *report = (field_report){.floes = m.floes,
-                             .concentration = m.area / free_area,
-                             .free_area = free_area,
-                             .largest_overlap = m.overlap_width};
-    int32_t dropped = 0;
-    for (int32_t i = 0; i < field->notes.count; i++)
-        dropped += field->notes.data[i].dropped;
-    log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mended",
-              (int)m.floes, s->ice.file, (int)m.concave, (int)dropped, (int)(field->notes.count - dropped));
-    if (m.overlaps)
-        log_write(
-            ctx, LOG_WARNING,
-            "%d pairs of floes overlap, by %.3g m at most: they will push each other apart; ice.bad_rings: repair "
-            "cuts them apart",
-            (int)m.overlaps, m.overlap_width);
-    return FRAM_OK;
-}
-
-static fram_status build_file(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
-{
-    char path[2 * SCENARIO_TEXT_SIZE];
-    if (!scenario_resolve_path(s, s->ice.file, path, sizeof path))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
-    polygon_list keep_out = {0};
-    import_rings rings = {0};
-    import_field field = {0};
-    floe_traits_array traits = {0};
-    const import_options options = {.name = path,
-                                    .scale = s->ice.file_scale,
-                                    .centre = s->ice.file_centre,
-                                    .offset = {s->ice.file_x, s->ice.file_y},
-                                    .crop = true,
-                                    .domain = domain_of(s),
-                                    .simplify = s->ice.simplify,
-                                    .bad = s->ice.bad_rings,
-                                    .smallest_area = s->ice.smallest_floe_area,
-                                    .keep_out = &keep_out};
-    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
-    if (status == FRAM_OK)
-        status = outline_file_read(ctx, path, &rings, error);
-    if (status == FRAM_OK)
-        status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
-    if (status == FRAM_OK) {
-        log_notes(ctx, &rings, &field);
-        status = report_import(ctx, s, w, &keep_out, &field, report, error);
-    }
-    for (int32_t i = 0; status == FRAM_OK && i < field.thickness.count; i++)
-        if (!array_push(ctx, &traits, scenario_traits(s, field.thickness.data[i])))
-            status = error_memory(error);
-    if (status == FRAM_OK && s->ice.populations.count > 0)
-        status = draw_populations(ctx, s, w, &keep_out, &field.outlines, &traits, report, error);
-    if (status == FRAM_OK)
-        status = add_field_floes(ctx, s, w, &field.outlines, traits.data, error);
-    array_free(ctx, &traits);
-    import_rings_free(ctx, &rings);
-    import_field_free(ctx, &field);
-    polygon_list_free(ctx, &keep_out);
+        status = add_drawn_floes(ctx, s, w, &drawn, error);
+    *report = drawn.report;
+    drawn_ice_free(ctx, &drawn);
     return status;
 }
 
@@ -388,12 +262,8 @@ static fram_status add_single_floe(context *ctx, const scenario *s, world *w, co
 
 fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
 {
-    if (s->ice.source == ICE_VORONOI)
-        return build_voronoi(ctx, s, w, report, error);
-    if (s->ice.source == ICE_FILE)
-        return build_file(ctx, s, w, report, error);
-    if (s->ice.source == ICE_PACKED)
-        return build_packed(ctx, s, w, report, error);
+    if (s->ice.source == ICE_VORONOI || s->ice.source == ICE_FILE || s->ice.source == ICE_PACKED)
+        return build_drawn(ctx, s, w, report, error);
     if (s->ice.source == ICE_LEVEL)
         return build_level(ctx, s, w, report, error);
     if (s->ice.source == ICE_NONE)

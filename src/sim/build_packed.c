@@ -2,7 +2,7 @@
 
 #include "ice/field_pack.h"
 #include "io/csv_read.h"
-#include "io/outline_file.h"
+#include "io/template_file.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -79,24 +79,9 @@ static fram_status read_templates(context *ctx, const scenario *s, overlay *plan
                                   fram_error *error)
 {
     char path[2 * SCENARIO_TEXT_SIZE];
-    import_rings rings = {0};
-    import_field field = {0};
     fram_status status =
         resolve(s, s->ice.populations.data[number].templates, number, "templates", path, sizeof path, error);
-    /* Shapes only: their size and place are of no account.  Each is mended by itself, or left out. */
-    const import_options options = {.name = path, .scale = 1, .bad = IMPORT_DROP};
-    if (status == FRAM_OK)
-        status = outline_file_read(ctx, path, &rings, error);
-    for (int32_t i = 0; status == FRAM_OK && i < rings.place.count; i++)
-        rings.place.data[i].open = false;
-    if (status == FRAM_OK)
-        status = import_field_make(ctx, plane, &rings, &options, &field, error);
-    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&field.outlines); i++)
-        if (!polygon_list_push(ctx, out, polygon_list_get(&field.outlines, i)))
-            status = error_memory(error);
-    import_rings_free(ctx, &rings);
-    import_field_free(ctx, &field);
-    return status;
+    return status == FRAM_OK ? template_file_read(ctx, plane, path, out, error) : status;
 }
 
 static fram_status read_population(context *ctx, const scenario *s, overlay *plane, int32_t number, population_files *f,
@@ -157,12 +142,6 @@ static double scattered(const scenario *s, uint32_t stream, int32_t floe, double
     return random_lognormal(&r, mean, deviation);
 }
 
-floe_traits scenario_traits(const scenario *s, double thickness)
-{
-    return (floe_traits){automatic_or(thickness, s->ice.thickness), s->ice.flexural_strength, s->ice.crushing_strength,
-                         s->ice.breakable};
-}
-
 /* Of the floe-th floe that was drawn. */
 static floe_traits population_traits(const scenario *s, int32_t population, int32_t floe)
 {
@@ -202,16 +181,16 @@ static void name_request(const scenario *s, fram_error *error)
     scenario_locate(s, error);
 }
 
-fram_status draw_populations(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
-                             polygon_list *outlines, floe_traits_array *traits, field_report *report, fram_error *error)
+fram_status draw_populations(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
+                             fram_error *error)
 {
     population_files files = {0};
-    int32_array population = {0};
-    field_packed_report found = {0};
-    int32_t count = s->ice.populations.count, before = polygon_list_count(outlines);
+    polygon_list drawn = {0};
+    int32_t count = s->ice.populations.count, before = polygon_list_count(&out->outlines);
     bool endless = s->domain.boundary == DOMAIN_FEEDING;
-    field_population_report *parts = memory_array(ctx, (size_t)count, sizeof *parts);
-    fram_status status = parts ? read_populations(ctx, s, w->scratch.plane, &files, error) : error_memory(error);
+    fram_status status = array_resize(ctx, &out->parts, count)
+                             ? read_populations(ctx, s, w->scratch.plane, &files, error)
+                             : error_memory(error);
     const field_packed_request request = {
         .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
         .periodic_x = endless,
@@ -221,25 +200,44 @@ fram_status draw_populations(context *ctx, const scenario *s, world *w, const po
         .population_count = count,
         .seed = (uint64_t)s->run.seed,
         .keep_out = keep_out,
-        .present = before > 0 ? outlines : NULL};
+        .present = before > 0 ? &out->outlines : NULL};
     if (status == FRAM_OK) {
-        polygon_list drawn = {0};
-        status = field_packed(ctx, w->scratch.plane, &request, &drawn, &population, parts, &found, error);
+        status =
+            field_packed(ctx, w->scratch.plane, &request, &drawn, &out->shapes, out->parts.data, &out->packed, error);
         if (status == FRAM_ERROR_INPUT)
             name_request(s, error);
-        for (int32_t i = 0; status == FRAM_OK && i < population.count; i++)
-            if (!polygon_list_push(ctx, outlines, polygon_list_get(&drawn, i)) ||
-                !array_push(ctx, traits, population_traits(s, population.data[i], i)))
-                status = error_memory(error);
-        polygon_list_free(ctx, &drawn);
     }
+    for (int32_t i = 0; status == FRAM_OK && i < out->shapes.count; i++)
+        if (!polygon_list_push(ctx, &out->outlines, polygon_list_get(&drawn, i)) ||
+            !array_push(ctx, &out->traits, population_traits(s, out->shapes.data[i].population, i)))
+            status = error_memory(error);
     if (status == FRAM_OK) {
-        log_populations(ctx, parts, count, &found);
-        *report = found.field;
-        report->floes += before;
+        log_populations(ctx, out->parts.data, count, &out->packed);
+        out->report = out->packed.field;
+        out->report.floes += before;
     }
-    memory_free(ctx, parts);
-    array_free(ctx, &population);
+    polygon_list_free(ctx, &drawn);
+    files_free(ctx, &files);
+    return status;
+}
+
+fram_status draw_managed(context *ctx, const scenario *s, world *w, field_request request, drawn_ice *out,
+                         fram_error *error)
+{
+    population_files files = {0};
+    fram_status status = array_resize(ctx, &out->parts, 1) ? read_populations(ctx, s, w->scratch.plane, &files, error)
+                                                           : error_memory(error);
+    if (status == FRAM_OK) {
+        request.size = &files.population[0].size;
+        status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
+        if (status == FRAM_ERROR_INPUT)
+            name_request(s, error);
+    }
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&out->outlines); i++)
+        if (!array_push(ctx, &out->traits, population_traits(s, 0, i)))
+            status = error_memory(error);
+    if (status == FRAM_OK && !field_population_measure(ctx, request.size, &out->outlines, NULL, 0, out->parts.data))
+        status = error_memory(error);
     files_free(ctx, &files);
     return status;
 }

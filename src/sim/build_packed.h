@@ -2,27 +2,17 @@
 #ifndef SIM_BUILD_PACKED_H
 #define SIM_BUILD_PACKED_H
 
-#include "ice/field.h"
-#include "model/scenario.h"
-#include "model/world.h"
-
-/* What floes of one field do not share. */
-typedef struct floe_traits {
-    double thickness;         /* [m] */
-    double flexural_strength; /* [Pa] */
-    double crushing_strength; /* [Pa] */
-    bool breakable;
-} floe_traits;
-typedef ARRAY(floe_traits) floe_traits_array;
-
-/* Those of the scenario, with a thickness of its own unless NaN [m]. */
-floe_traits scenario_traits(const scenario *s, double thickness);
+#include "sim/draw_ice.h"
 
 /* Packs floes of ice.populations to ice.concentration around the keep-out zones and around the outlines that are there
-   already (as many as traits); appends both.  *report is of the whole field.  FRAM_ERROR_INPUT, with place, for files
+   already; appends to outlines and traits, fills shapes, parts and reports.  FRAM_ERROR_INPUT, with place, for files
    that cannot be read and for a concentration that cannot be reached. */
-fram_status draw_populations(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
-                             polygon_list *outlines, floe_traits_array *traits, field_report *report,
+fram_status draw_populations(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
                              fram_error *error);
+
+/* Managed ice of the sizes, thickness and strength of the one population of ice.populations; the rest as `request` says,
+   whose law of size is of no account.  Fills outlines, traits, parts and report. */
+fram_status draw_managed(context *ctx, const scenario *s, world *w, field_request request, drawn_ice *out,
+                         fram_error *error);
 
 #endif

@@ -75,6 +75,87 @@ if "$FRAM" --version | grep -q pictures; then
     expect 2 "$FRAM" field once.geojson --draw no/such/folder/field.png
 fi
 
+# The field of a scenario: what was asked for is what is reported, and what the floes add up to.
+cat >packed.yaml <<'YAML'
+run: {duration: 1, seed: 3}
+vessel: {present: false}
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}
+ice:
+  source: packed
+  concentration: 0.8
+  open_water: [{x: 50, y: 50, length: 40, width: 40}]
+  populations:
+    - {share: 3, size: power, diameter_min: 8, diameter_max: 40}
+    - {share: 1, size: constant, diameter: 4, thickness: 0.4, thickness_deviation: 0.1}
+YAML
+expect 0 "$FRAM" field packed.yaml --window -100,-100,0,100 --window 35,35,65,65 --json --table floes.csv -o packed.geojson
+same "$(value 'abs(j["made"]["concentration"] - 0.8) < 0.004, j["made"]["asked_concentration"]')" "True 0.8" reached
+same "$(value 'abs(j["made"]["free_area_m2"] - 38400) < 1e-6, j["made"]["largest_overlap_m"]')" "True 0" "free area"
+same "$(value '[p["kolmogorov_smirnov"] < 0.02 for p in j["made"]["populations"]]')" "[True, True]" "laws of size"
+same "$(value 'all(sum(p["counted"]) == p["floes"] and abs(sum(p["expected"]) - p["floes"]) < 1e-6
+               for p in j["made"]["populations"])')" True "histograms"
+same "$(value 'sum(p["floes"] for p in j["made"]["populations"]) == j["floes"], j["made"]["vertex_changes"]')" \
+    "True 0" "floes"
+same "$(value 'j["windows"][1]["concentration"], 0.7 < j["windows"][0]["concentration"] < 0.9')" "0 True" windows
+cp out report
+python3 - <<'PY' || fail "the table contradicts the report"
+import csv, json
+j = json.loads(open("report").read())
+rows = list(csv.DictReader(open("floes.csv")))
+assert len(rows) == j["floes"]
+assert abs(sum(float(r["area[m2]"]) for r in rows) / j["area_m2"] - 1) < 1e-12
+assert all(abs(float(r["area[m2]"]) / float(r["drawn_area[m2]"]) - 1) < 1e-12 for r in rows)
+assert all(r["vertices[1]"] == r["drawn_vertices[1]"] for r in rows)
+assert {r["population"] for r in rows} == {"0", "1"}
+small = [float(r["thickness[m]"]) for r in rows if r["population"] == "1"]
+assert len(set(small)) == len(small) and abs(sum(small) / len(small) - 0.4) < 0.03
+PY
+# Out and in again to the bit, also into a scenario; the same on any number of threads; another one of another seed.
+expect 0 "$FRAM" field packed.geojson -o again.geojson --json
+cmp -s packed.geojson again.geojson || fail "a generated field reads back as another one"
+printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
+    'domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100}' 'ice: {source: file, file: packed.geojson}' >file.yaml
+expect 0 "$FRAM" field file.yaml -o again.geojson --json
+cmp -s packed.geojson again.geojson || fail "a scenario reads a generated field as another one"
+same "$(value 'j["made"]["populations"], j["made"]["placed"] == j["floes"]')" "[] True" "a field of a file"
+expect 0 "$FRAM" field packed.yaml --threads 4 -o again.geojson
+cmp -s packed.geojson again.geojson || fail "the field depends on the number of threads"
+says "moved rigidly" out
+says "the law" out
+expect 0 "$FRAM" field packed.yaml --set run.seed=4 -o again.geojson
+cmp -s packed.geojson again.geojson && fail "the field does not depend on the seed"
+printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
+    'domain: {x_min: -200, x_max: 200, y_min: -200, y_max: 200}' 'ice:' '  source: voronoi' '  concentration: 0.98' \
+    '  populations: [{size: power, diameter_min: 5, diameter_max: 30, thickness_deviation: 0.2}]' >managed.yaml
+expect 0 "$FRAM" field managed.yaml --json
+same "$(value 'abs(j["made"]["concentration"] - 0.98) < 1e-6, j["made"]["largest_overlap_m"]')" "True 0" "managed ice"
+same "$(value 'j["made"]["populations"][0]["kolmogorov_smirnov"] < 0.04, j["floes"] > 800')" "True True" "sizes of cells"
+if "$FRAM" --version | grep -q pictures; then
+    expect 0 "$FRAM" field packed.yaml --draw field.png --cover cover.png --cell 10 --json
+    for picture in field.png cover.png; do
+        head -c 8 $picture | od -An -tx1 | grep -q "89 50 4e 47" || fail "$picture is no PNG"
+    done
+    expect 2 "$FRAM" field packed.yaml --cover cover.png --cell -1
+    says "expected cells" err
+fi
+# What cannot be: with the key, its place, what was reached and why.
+expect 2 "$FRAM" field packed.yaml --set ice.concentration=0.98 --json
+same "$(value 'j["error"]["key"]')" ice.concentration "the key of an impossible field"
+says "was reached" err
+printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' 'ice: {source: none}' >water.yaml
+expect 2 "$FRAM" field water.yaml
+says "no field of floes" err
+expect 2 "$FRAM" field packed.yaml --scale 2
+says "a scenario has keys for it" err
+expect 2 "$FRAM" field once.geojson --set run.seed=1
+says "is for scenarios" err
+expect 2 "$FRAM" field packed.yaml --window 1,2,3
+printf '%s\n' '{"type":"Polygon","coordinates":[[[0,0],[1,1],[1,0],[0,1],[0,0]]]}' >bow.geojson
+sed -i 's/size: constant,/size: constant, shape: templates, templates: bow.geojson,/' packed.yaml
+expect 2 "$FRAM" field packed.yaml --json
+same "$(value 'j["error"]["file"].endswith("bow.geojson")')" True "the file of bad templates"
+says "none of its 1 outlines" err
+
 # Words and files that are wrong.
 expect 2 "$FRAM" field
 expect 2 "$FRAM" field missing.geojson

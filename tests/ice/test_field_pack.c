@@ -15,7 +15,7 @@ typedef struct made_field {
     context ctx;
     overlay *plane;
     polygon_list outlines;
-    int32_array population;
+    field_floe_array floes;
     field_population_report parts[4];
     field_packed_report report;
     fram_error error;
@@ -31,13 +31,13 @@ static fram_status make(made_field *f, const field_packed_request *r)
     context_init(&f->ctx);
     f->plane = overlay_create(&f->ctx);
     ck_assert_ptr_nonnull(f->plane);
-    return field_packed(&f->ctx, f->plane, r, &f->outlines, &f->population, f->parts, &f->report, &f->error);
+    return field_packed(&f->ctx, f->plane, r, &f->outlines, &f->floes, f->parts, &f->report, &f->error);
 }
 
 static void drop(made_field *f)
 {
     polygon_list_free(&f->ctx, &f->outlines);
-    array_free(&f->ctx, &f->population);
+    array_free(&f->ctx, &f->floes);
     overlay_free(f->plane);
 }
 
@@ -149,6 +149,38 @@ START_TEST(concave_templates_at_75_percent_for_twenty_seeds)
 }
 END_TEST
 
+START_TEST(brash_at_80_percent_for_twenty_seeds)
+{
+    const field_population p = {.share = 1,
+                                .size = {.kind = SIZE_LOGNORMAL, .mean = 0.8, .deviation = 0.4, .lo = 0.3, .hi = 2},
+                                .shape = {4, 7, 1.5, NULL}};
+    for (uint64_t seed = 1; seed <= seeds(); seed++) {
+        made_field f;
+        field_packed_request r = request_of(&p, 1, 0.8, 20, seed);
+        assert_ok(make(&f, &r), f.error);
+        ck_assert_int_gt(f.report.field.floes, 400);
+        check_promises(&f, &r);
+        drop(&f);
+    }
+}
+END_TEST
+
+START_TEST(mixed_populations_at_85_percent_for_twenty_seeds)
+{
+    const field_population p[3] = {
+        {.share = 3, .size = {.kind = SIZE_LOGNORMAL, .mean = 12, .deviation = 4, .lo = 5, .hi = 40}, .shape = convex},
+        {.share = 2, .size = power, .shape = convex},
+        {.share = 1, .size = {.kind = SIZE_CONSTANT, .mean = 3}, .shape = {4, 6, 1.3, NULL}}};
+    for (uint64_t seed = 1; seed <= seeds(); seed++) {
+        made_field f;
+        field_packed_request r = request_of(p, 3, 0.85, 150, seed);
+        assert_ok(make(&f, &r), f.error);
+        check_promises(&f, &r);
+        drop(&f);
+    }
+}
+END_TEST
+
 START_TEST(populations_keep_their_shares_and_laws)
 {
     const field_population p[3] = {
@@ -163,8 +195,8 @@ START_TEST(populations_keep_their_shares_and_laws)
     double area = total_area(&f.outlines);
     for (int32_t k = 0; k < 3; k++)
         assert_absolute(f.parts[k].area / area, p[k].share / 5, 0.005);
-    for (int32_t i = 0; i < f.population.count; i++)
-        if (f.population.data[i] == 1)
+    for (int32_t i = 0; i < f.floes.count; i++)
+        if (f.floes.data[i].population == 1)
             ck_assert_int_eq(polygon_list_get(&f.outlines, i).count, 4);
     drop(&f);
 }
@@ -239,9 +271,9 @@ START_TEST(same_seed_same_bits_on_any_number_of_threads)
     context_init(&four.ctx);
     four.ctx.threads = pool_create(&four.ctx, 4);
     four.plane = overlay_create(&four.ctx);
-    assert_ok(field_packed(&four.ctx, four.plane, &r, &four.outlines, &four.population, four.parts, &four.report,
-                           &four.error),
-              four.error);
+    assert_ok(
+        field_packed(&four.ctx, four.plane, &r, &four.outlines, &four.floes, four.parts, &four.report, &four.error),
+        four.error);
     ck_assert_int_eq(one.outlines.vertex.count, four.outlines.vertex.count);
     assert_array_bits(&one.outlines.vertex.data[0].x, &four.outlines.vertex.data[0].x, 2 * one.outlines.vertex.count);
     r.seed = 12;
@@ -264,7 +296,14 @@ START_TEST(an_impossible_field_says_what_was_reached)
     assert_fails(make(&f, &r), f.error, FRAM_ERROR_INPUT, "was reached");
     const char *at = strstr(f.error.message, "concentration 0.8");
     ck_assert_msg(at != NULL, "%s", f.error.message);
+    ck_assert_msg(strstr(f.error.message, "ask for less") != NULL, "%s", f.error.message);
     ck_assert_int_eq(polygon_list_count(&f.outlines), 0);
+    drop(&f);
+    /* Few large floes between walls: the message says that it is they. */
+    const field_population wide = {.share = 1, .size = {.kind = SIZE_UNIFORM, .lo = 10, .hi = 30}, .shape = convex};
+    r = request_of(&wide, 1, 0.93, 100, 1);
+    assert_fails(make(&f, &r), f.error, FRAM_ERROR_INPUT, "walls keep water");
+    ck_assert_msg(strstr(f.error.message, "a larger domain") != NULL, "%s", f.error.message);
     drop(&f);
 }
 END_TEST
@@ -332,14 +371,14 @@ START_TEST(memory_may_end_anywhere)
         context ctx = failing_context(&memory, n);
         overlay *plane = overlay_create(&ctx);
         polygon_list outlines = {0};
-        int32_array population = {0};
+        field_floe_array floes = {0};
         field_population_report part;
         field_packed_report report;
         fram_error error;
         fram_status status =
-            plane ? field_packed(&ctx, plane, &r, &outlines, &population, &part, &report, &error) : FRAM_ERROR_MEMORY;
+            plane ? field_packed(&ctx, plane, &r, &outlines, &floes, &part, &report, &error) : FRAM_ERROR_MEMORY;
         polygon_list_free(&ctx, &outlines);
-        array_free(&ctx, &population);
+        array_free(&ctx, &floes);
         overlay_free(plane);
         ck_assert_int_eq(memory.live, 0);
         if (!memory.failed) {
@@ -369,7 +408,8 @@ END_TEST
 
 TEST_MAIN("field_pack", wide_sizes_at_90_percent_for_twenty_seeds,
           wide_sizes_at_85_percent_between_walls_for_twenty_seeds, nearly_equal_sizes_at_80_percent_for_twenty_seeds,
-          concave_templates_at_75_percent_for_twenty_seeds, populations_keep_their_shares_and_laws,
+          concave_templates_at_75_percent_for_twenty_seeds, brash_at_80_percent_for_twenty_seeds,
+          mixed_populations_at_85_percent_for_twenty_seeds, populations_keep_their_shares_and_laws,
           the_field_flows_around_zones_and_floes_that_are_there, a_periodic_field_continues_with_itself,
           same_seed_same_bits_on_any_number_of_threads, an_impossible_field_says_what_was_reached,
           wrong_requests_are_refused_by_name, a_full_present_field_is_refused, memory_may_end_anywhere,

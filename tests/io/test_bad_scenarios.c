@@ -56,6 +56,8 @@ static const bad_scenario bad[] = {
     {"not_utf8", 4, "", "expected UTF-8"},
     {"nul_in_text", 1, "title", "NUL"},
     {"overflow", 2, "ice.elastic_modulus", "which is too large"},
+    {"population_second_of_voronoi", 3, "ice.populations", "expected one at most"},
+    {"population_shape_of_voronoi", 4, "ice.populations[0].shape", "the cells are the shapes"},
     {"population_template_unused", 4, "ice.populations[0].templates", "nothing with others"},
     {"population_turned_round", 6, "ice.populations[1].diameter_max", "at least diameter_min"},
     {"population_without_histogram", 4, "ice.populations[0].histogram", "path of a CSV"},

@@ -1,0 +1,82 @@
+/* Ice fields of scenarios, and how they were made. */
+#include "api/field_handle.h"
+
+#include "ice/field_measure.h"
+#include "sim/build.h"
+
+_Static_assert((int)FRAM_FIELD_BINS == (int)SIZE_BINS, "one number of bins");
+
+static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fram_error *error)
+{
+    context *ctx = &f->context->inner;
+    fram_status status = build_outlines(ctx, s, &f->drawn, &f->window, error);
+    for (int32_t i = 0; status == FRAM_OK && i < f->drawn.traits.count; i++)
+        if (!array_push(ctx, &f->floes.thickness, f->drawn.traits.data[i].thickness))
+            status = error_memory(error);
+    if (status != FRAM_OK)
+        return status;
+    f->floes.outlines = f->drawn.outlines;
+    f->drawn.outlines = (polygon_list){0};
+    f->target = s->ice.concentration;
+    return field_describe(f, plane, error);
+}
+
+fram_status fram_field_generate(const fram_scenario *s, fram_field **out, fram_error *error)
+{
+    context *ctx = &s->context->inner;
+    fram_field *f = memory_array(ctx, 1, sizeof *f);
+    overlay *plane = f ? overlay_create(ctx) : NULL;
+    if (f) {
+        *f = (fram_field){.context = s->context, .generated = true};
+        fram_field_default(&f->made);
+    }
+    fram_status status = plane ? generate(f, &s->inner, plane, error) : error_memory(error);
+    if (plane)
+        overlay_free(plane);
+    if (status == FRAM_OK)
+        *out = f;
+    else
+        fram_field_destroy(f);
+    return status;
+}
+
+double fram_field_concentration(const fram_field *f, const double lo[2], const double hi[2])
+{
+    return field_concentration(&f->floes.outlines, (box2){{lo[0], lo[1]}, {hi[0], hi[1]}});
+}
+
+bool fram_field_making_get(const fram_field *f, fram_field_making *making)
+{
+    if (!f->generated)
+        return false;
+    const drawn_ice *d = &f->drawn;
+    *making = (fram_field_making){
+        .target = f->target,
+        .reached = d->report.concentration,
+        .free_area = d->report.free_area,
+        .largest_overlap = d->report.largest_overlap,
+        .populations = d->parts.count,
+        .placed = d->placed,
+        .rounds = d->packed.rounds,
+        .moves = d->packed.moves,
+        .area_change = d->packed.area_change,
+        .vertex_changes = d->packed.vertex_changes,
+    };
+    return true;
+}
+
+fram_status fram_field_population_get(const fram_field *f, int number, fram_field_population *out, fram_error *error)
+{
+    if (number < 0 || number >= f->drawn.parts.count)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "number", "expected 0 to under %d populations, found %d",
+                         (int)f->drawn.parts.count, number);
+    const field_population_report *p = &f->drawn.parts.data[number];
+    *out = (fram_field_population){.floes = p->floes, .area = p->area, .size_distance = p->size_distance};
+    for (int i = 0; i <= FRAM_FIELD_BINS; i++)
+        out->bin_edge[i] = p->sizes.edge[i];
+    for (int i = 0; i < FRAM_FIELD_BINS; i++) {
+        out->bin[i] = p->sizes.bin[i];
+        out->expected[i] = p->sizes.expected[i];
+    }
+    return FRAM_OK;
+}

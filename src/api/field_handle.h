@@ -1,0 +1,24 @@
+/* What stands behind fram_field. */
+#ifndef API_FIELD_HANDLE_H
+#define API_FIELD_HANDLE_H
+
+#include "api/handles.h"
+#include "fram/field.h"
+#include "sim/draw_ice.h"
+
+struct fram_field {
+    fram_context *context;
+    bool generated;      /* by a scenario; source is empty then, and floes has no rings */
+    import_rings source; /* of a file */
+    import_field floes;
+    drawn_ice drawn; /* of a scenario, without outlines: those are in floes */
+    double target;   /* concentration that the scenario asks for [1] */
+    box2 window;     /* what is shown [m] */
+    fram_field_definition made;
+    fram_field_summary about;
+};
+
+/* Measures the outlines: window (unless given by a scenario) and summary. */
+fram_status field_describe(fram_field *f, overlay *plane, fram_error *error);
+
+#endif

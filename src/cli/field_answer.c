@@ -1,0 +1,223 @@
+/* Answers of fram field. */
+#include "cli/field_words.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Notes that are printed for people; JSON has all. */
+enum { NOTES_SHOWN = 12 };
+
+const char *field_title(const field_words *w)
+{
+    const char *slash = strrchr(w->path, '/');
+    return slash ? slash + 1 : w->path;
+}
+
+static void print_summary(const field_words *w, const fram_field_summary *s)
+{
+    if (w->scenario)
+        printf("%s: %d floes\n", field_title(w), s->floes);
+    else
+        printf("%s: %d floes of %d rings\n", field_title(w), s->floes, s->rings);
+    printf("  %d vertices, %d floes concave\n", s->vertices, s->concave);
+    printf("  x from %.6g to %.6g m, y from %.6g to %.6g m\n", s->lo[0], s->hi[0], s->lo[1], s->hi[1]);
+    printf("  ice of %.6g m2, concentration %.2f %% of %s\n", s->area, 100 * s->concentration,
+           w->scenario ? "the domain"
+           : w->crop   ? "the window"
+                       : "the box around it");
+    printf("  floes of %.4g to %.6g m2, the largest %.4g m across\n", s->smallest_area, s->largest_area,
+           s->largest_diameter);
+    printf("  diameter of equal area   floes\n");
+    for (int i = 0; i < FRAM_FIELD_BINS; i++)
+        if (s->bin[i] > 0)
+            printf("    %8.4g to %8.4g m %6d\n", s->bin_edge[i], s->bin_edge[i + 1], s->bin[i]);
+    if (s->overlaps)
+        printf("  overlaps: %d pairs share %.4g m2, at most %.4g m wide; the most, features %d and %d\n", s->overlaps,
+               s->overlap_area, s->overlap_width, s->overlap_features[0], s->overlap_features[1]);
+    else
+        printf("  no overlaps\n");
+    if (!w->scenario)
+        printf("  left out: %d, repaired: %d\n", s->dropped, s->repaired);
+}
+
+static void print_windows(const field_words *w, const fram_field *field)
+{
+    for (int i = 0; i < w->windows; i++)
+        printf("  concentration %.2f %% of the window %s\n",
+               100 * fram_field_concentration(field, w->window[i].lo, w->window[i].hi), w->window_words.value[i]);
+}
+
+static void print_population(const fram_field *field, int number)
+{
+    fram_field_population p;
+    fram_error error;
+    if (fram_field_population_get(field, number, &p, &error) != FRAM_OK)
+        return;
+    printf("  population %d: %d floes, %.6g m2; distance from its size law %.2g (Kolmogorov and Smirnov)\n", number,
+           p.floes, p.area, p.size_distance);
+    printf("    diameter of equal area   floes   the law\n");
+    for (int i = 0; i < FRAM_FIELD_BINS; i++)
+        if (p.bin[i] > 0 || p.expected[i] >= 0.5)
+            printf("    %8.4g to %8.4g m %6d  %8.1f\n", p.bin_edge[i], p.bin_edge[i + 1], p.bin[i], p.expected[i]);
+}
+
+static void print_making(const fram_field *field)
+{
+    fram_field_making m;
+    if (!fram_field_making_get(field, &m))
+        return;
+    printf("  concentration %.3f %% of %.6g m2 free for ice; asked for: %.3f %%\n", 100 * m.reached, m.free_area,
+           100 * m.target);
+    printf("  largest overlap %.2g m\n", m.largest_overlap);
+    for (int i = 0; i < m.populations; i++)
+        print_population(field, i);
+    if (m.rounds > 0)
+        printf("  moved rigidly: areas changed by at most %.1g of themselves, numbers of vertices of %d floes\n",
+               m.area_change, m.vertex_changes);
+}
+
+static void print_notes(const fram_field_note *notes, int count)
+{
+    for (int i = 0; i < count && i < NOTES_SHOWN; i++)
+        printf("    %s: feature %d, polygon %d, ring %d (line %d): %s\n", notes[i].dropped ? "left out" : "repaired",
+               notes[i].feature, notes[i].polygon, notes[i].ring, notes[i].line, notes[i].reason);
+    if (count > NOTES_SHOWN)
+        printf("    and %d more; --json lists all\n", count - NOTES_SHOWN);
+}
+
+static void json_notes(json *j, const char *key, bool dropped, const fram_field_note *notes, int count)
+{
+    json_open_list(j, key);
+    for (int i = 0; i < count; i++) {
+        if (notes[i].dropped != dropped)
+            continue;
+        json_open(j, NULL);
+        json_integer(j, "feature", notes[i].feature);
+        json_integer(j, "polygon", notes[i].polygon);
+        json_integer(j, "ring", notes[i].ring);
+        json_integer(j, "line", notes[i].line);
+        json_text(j, "reason", notes[i].reason);
+        json_close(j);
+    }
+    json_close_list(j);
+}
+
+static void json_windows(json *j, const field_words *w, const fram_field *field)
+{
+    json_open_list(j, "windows");
+    for (int i = 0; i < w->windows; i++) {
+        const field_window *at = &w->window[i];
+        const double bounds[4] = {at->lo[0], at->lo[1], at->hi[0], at->hi[1]};
+        json_open(j, NULL);
+        json_reals(j, "bounds_m", bounds, 4);
+        json_real(j, "concentration", fram_field_concentration(field, at->lo, at->hi));
+        json_close(j);
+    }
+    json_close_list(j);
+}
+
+static void json_population(json *j, const fram_field_population *p)
+{
+    double bins[FRAM_FIELD_BINS];
+    for (int i = 0; i < FRAM_FIELD_BINS; i++)
+        bins[i] = p->bin[i];
+    json_open(j, NULL);
+    json_integer(j, "floes", p->floes);
+    json_real(j, "area_m2", p->area);
+    json_real(j, "kolmogorov_smirnov", p->size_distance);
+    json_reals(j, "diameter_edges_m", p->bin_edge, FRAM_FIELD_BINS + 1);
+    json_reals(j, "counted", bins, FRAM_FIELD_BINS);
+    json_reals(j, "expected", p->expected, FRAM_FIELD_BINS);
+    json_close(j);
+}
+
+static void json_making(json *j, const fram_field *field)
+{
+    fram_field_making m;
+    fram_field_population p;
+    fram_error error;
+    if (!fram_field_making_get(field, &m))
+        return;
+    json_open(j, "made");
+    json_real(j, "asked_concentration", m.target);
+    json_real(j, "concentration", m.reached);
+    json_real(j, "free_area_m2", m.free_area);
+    json_real(j, "largest_overlap_m", m.largest_overlap);
+    json_integer(j, "placed", m.placed);
+    json_integer(j, "rounds", m.rounds);
+    json_integer(j, "carried", m.moves);
+    json_real(j, "largest_area_change", m.area_change);
+    json_integer(j, "vertex_changes", m.vertex_changes);
+    json_open_list(j, "populations");
+    for (int i = 0; i < m.populations; i++)
+        if (fram_field_population_get(field, i, &p, &error) == FRAM_OK)
+            json_population(j, &p);
+    json_close_list(j);
+    json_close(j);
+}
+
+static void print_json(const field_words *w, const fram_field *field, const fram_field_summary *s,
+                       const fram_field_note *notes, int count)
+{
+    const double bounds[4] = {s->lo[0], s->lo[1], s->hi[0], s->hi[1]};
+    double bins[FRAM_FIELD_BINS];
+    for (int i = 0; i < FRAM_FIELD_BINS; i++)
+        bins[i] = s->bin[i];
+    json j = json_begin();
+    json_text(&j, "field", w->path);
+    json_integer(&j, "rings", s->rings);
+    json_integer(&j, "floes", s->floes);
+    json_real(&j, "area_m2", s->area);
+    json_real(&j, "concentration", s->concentration);
+    json_reals(&j, "bounds_m", bounds, 4);
+    json_integer(&j, "vertices", s->vertices);
+    json_integer(&j, "concave", s->concave);
+    json_real(&j, "largest_diameter_m", s->largest_diameter);
+    json_real(&j, "smallest_area_m2", s->smallest_area);
+    json_real(&j, "largest_area_m2", s->largest_area);
+    json_open(&j, "overlap");
+    json_integer(&j, "pairs", s->overlaps);
+    json_real(&j, "area_m2", s->overlap_area);
+    json_real(&j, "largest_width_m", s->overlap_width);
+    json_integer(&j, "feature_a", s->overlap_features[0]);
+    json_integer(&j, "feature_b", s->overlap_features[1]);
+    json_close(&j);
+    json_open(&j, "histogram");
+    json_reals(&j, "diameter_edges_m", s->bin_edge, FRAM_FIELD_BINS + 1);
+    json_reals(&j, "floes", bins, FRAM_FIELD_BINS);
+    json_close(&j);
+    json_windows(&j, w, field);
+    json_making(&j, field);
+    json_notes(&j, "dropped", true, notes, count);
+    json_notes(&j, "repaired", false, notes, count);
+    if (w->draw)
+        json_text(&j, "drawing", w->draw);
+    if (w->cover)
+        json_text(&j, "cover_map", w->cover);
+    if (w->table)
+        json_text(&j, "table", w->table);
+    if (w->output)
+        json_text(&j, "written", w->output);
+    json_end(&j);
+}
+
+int field_answer(const field_words *w, const common_options *common, const fram_field *field)
+{
+    fram_field_summary summary;
+    fram_field_summary_get(field, &summary);
+    int count = fram_field_notes(field, NULL, 0);
+    fram_field_note *notes = calloc((size_t)count + 1, sizeof *notes);
+    if (!notes)
+        return answer_error(common, &(fram_error){.status = FRAM_ERROR_MEMORY, .message = "out of memory"});
+    fram_field_notes(field, notes, count);
+    if (common->json) {
+        print_json(w, field, &summary, notes, count);
+    } else {
+        print_summary(w, &summary);
+        print_windows(w, field);
+        print_making(field);
+        print_notes(notes, count);
+    }
+    free(notes);
+    return EXIT_GOOD;
+}

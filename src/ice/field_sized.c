@@ -1,0 +1,197 @@
+#include "ice/field_sized.h"
+
+#include "base/transcendental.h"
+#include "geometry/voronoi.h"
+#include "ice/packing.h"
+
+/* Cells begin at the middles of packed regular polygons, of as many vertices and of this part of the cells' areas. */
+enum { MARKER_VERTICES = 8 };
+static const double MARKER_PART = 0.65;
+/* Rounds of moving weights at most, in the first of which sites move too, and the mean relative error of the areas that
+   ends them. */
+enum { MOST_ROUNDS = 250, SITE_ROUNDS = 50 };
+static const double GOOD_AREAS = 0.002;
+/* What a weight does to the area of its cell is edge over twice the distance, summed over the edges: 2 sqrt(3) / 2 for
+   a hexagon.  Steps are this part of what would set one cell right alone: its neighbours move too. */
+static const double AREA_PER_WEIGHT = 1.7320508075688772, STEP = 0.5;
+/* Copies of sites beyond the edge are needed as far as this many of the largest diameters. */
+static const double RIM = 3;
+
+typedef struct sized_work {
+    real_array diameter; /* of the floes */
+    real_array weight;
+    double corners; /* part of each cell that its cut corners take */
+    double rim;     /* area that the gap takes off all cells [m2] */
+    vec2_array site;
+    vec2_array all_site; /* with copies beyond the edge */
+    real_array all_weight;
+    polygon_list cells;
+    double largest;
+} sized_work;
+
+static void work_free(context *ctx, sized_work *w)
+{
+    array_free(ctx, &w->diameter);
+    array_free(ctx, &w->weight);
+    array_free(ctx, &w->site);
+    array_free(ctx, &w->all_site);
+    array_free(ctx, &w->all_weight);
+    polygon_list_free(ctx, &w->cells);
+}
+
+static double floe_area(const sized_work *w, int32_t i)
+{
+    double d = w->diameter.data[i];
+    return PI / 4 * d * d;
+}
+
+/* Diameters of the floes, and weights that would make discs of the cells. */
+static fram_status find_areas(context *ctx, const sized_request *r, sized_work *w, fram_error *error)
+{
+    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
+    double whole = size.x * size.y, floes = 0;
+    if (!size_law_draw(ctx, r->law, r->concentration * whole, r->seed, ICE_STREAM_SIZED, &w->diameter))
+        return error_memory(error);
+    for (int32_t i = 0; i < w->diameter.count; i++) {
+        floes += floe_area(w, i);
+        w->largest = fmax(w->largest, w->diameter.data[i]);
+    }
+    if (w->largest > fmin(size.x, size.y) || floes > whole)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
+                         "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger "
+                         "or the floes smaller",
+                         w->largest, fmin(size.x, size.y));
+    w->corners = r->corners * (whole - floes) / whole;
+    w->rim = (whole - floes) * (1 - r->corners);
+    for (int32_t i = 0; i < w->diameter.count; i++)
+        if (!array_push(ctx, &w->weight, floe_area(w, i) / floes * whole / PI))
+            return error_memory(error);
+    return FRAM_OK;
+}
+
+/* First sites: where polygons of such sizes lie when they are packed loosely. */
+static fram_status find_sites(context *ctx, const sized_request *r, sized_work *w, fram_error *error)
+{
+    polygon_list markers = {0};
+    packing_pose_array poses = {0};
+    packing_report report;
+    double unit = 0.5 * MARKER_VERTICES * real_sin(2 * PI / MARKER_VERTICES); /* area at radius 1 */
+    bool good = true;
+    for (int32_t i = 0; good && i < w->weight.count; i++) {
+        vec2 corner[MARKER_VERTICES];
+        double radius = sqrt(MARKER_PART * PI * w->weight.data[i] / unit);
+        for (int k = 0; k < MARKER_VERTICES; k++) {
+            double angle = 2 * PI * k / MARKER_VERTICES;
+            corner[k] = (vec2){radius * real_cos(angle), radius * real_sin(angle)};
+        }
+        good = polygon_list_push(ctx, &markers, (polygon){corner, MARKER_VERTICES});
+    }
+    const packing_request packing = {.domain = r->domain,
+                                     .periodic_x = r->periodic,
+                                     .periodic_y = r->periodic,
+                                     .shapes = &markers,
+                                     .seed = r->seed,
+                                     .effort = 0.1};
+    fram_status status = good ? packing_solve(ctx, NULL, &packing, &poses, &report, error) : error_memory(error);
+    for (int32_t i = 0; status == FRAM_OK && i < poses.count; i++)
+        if (!array_push(ctx, &w->site, poses.data[i].centre))
+            status = error_memory(error);
+    polygon_list_free(ctx, &markers);
+    array_free(ctx, &poses);
+    return status;
+}
+
+/* ---- rounds ---- */
+
+static double back_inside(double x, double lo, double hi, bool periodic)
+{
+    if (periodic)
+        return x - (hi - lo) * floor((x - lo) / (hi - lo));
+    return x < lo ? lo : x > hi ? hi : x;
+}
+
+/* All sites, and copies of those near the other edge. */
+static bool list_sites(context *ctx, const sized_request *r, sized_work *w, box2 *box)
+{
+    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
+    double rim = r->periodic ? fmin(RIM * w->largest, 0.5 * fmin(size.x, size.y)) : 0;
+    *box = (box2){{r->domain.lo.x - rim, r->domain.lo.y - rim}, {r->domain.hi.x + rim, r->domain.hi.y + rim}};
+    array_clear(&w->all_site);
+    array_clear(&w->all_weight);
+    for (int n = 0; n < (r->periodic ? 9 : 1); n++) {
+        /* The sites themselves come first. */
+        int x = n == 0 ? 0 : n % 3 - 1, y = n == 0 ? 0 : n / 3 - 1;
+        if (n == 4)
+            x = y = -1;
+        for (int32_t i = 0; i < w->site.count; i++) {
+            vec2 p = vec2_add(w->site.data[i], (vec2){x * size.x, y * size.y});
+            bool in = p.x >= box->lo.x && p.x <= box->hi.x && p.y >= box->lo.y && p.y <= box->hi.y;
+            if ((n == 0 || in) &&
+                (!array_push(ctx, &w->all_site, p) || !array_push(ctx, &w->all_weight, w->weight.data[i])))
+                return false;
+        }
+    }
+    return true;
+}
+
+static fram_status make_cells(context *ctx, const sized_request *r, sized_work *w, fram_error *error)
+{
+    box2 box;
+    if (!list_sites(ctx, r, w, &box))
+        return error_memory(error);
+    polygon_list_clear(&w->cells);
+    return voronoi_cells(ctx, w->all_site.data, w->all_weight.data, w->all_site.count, box, &w->cells, error);
+}
+
+/* Weights towards the areas that the cells should have: that of the floe, of its corners, and of its part of the gap,
+   which has one width all over.  The mean relative error of the areas before. */
+static double improve_weights(sized_work *w)
+{
+    double sum = 0, edges = 0;
+    for (int32_t i = 0; i < w->site.count; i++)
+        edges += polygon_perimeter(polygon_list_get(&w->cells, i));
+    for (int32_t i = 0; i < w->site.count; i++) {
+        polygon cell = polygon_list_get(&w->cells, i);
+        double area = cell.count >= 3 ? polygon_area(cell) : 0;
+        double wanted = (floe_area(w, i) + w->rim * polygon_perimeter(cell) / edges) / (1 - w->corners);
+        sum += fabs(area - wanted) / wanted;
+        w->weight.data[i] += STEP * (wanted - area) / AREA_PER_WEIGHT;
+    }
+    return sum / w->site.count;
+}
+
+/* Sites to the middles of their cells. */
+static void move_sites(const sized_request *r, sized_work *w)
+{
+    for (int32_t i = 0; i < w->site.count; i++) {
+        polygon cell = polygon_list_get(&w->cells, i);
+        if (cell.count < 3)
+            continue;
+        vec2 middle = polygon_moments_of(cell).centroid;
+        w->site.data[i] = (vec2){back_inside(middle.x, r->domain.lo.x, r->domain.hi.x, r->periodic),
+                                 back_inside(middle.y, r->domain.lo.y, r->domain.hi.y, r->periodic)};
+    }
+}
+
+fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cells, fram_error *error)
+{
+    sized_work w = {0};
+    fram_status status = find_areas(ctx, r, &w, error);
+    if (status == FRAM_OK)
+        status = find_sites(ctx, r, &w, error);
+    if (status == FRAM_OK)
+        status = make_cells(ctx, r, &w, error);
+    for (int k = 0; status == FRAM_OK && k < MOST_ROUNDS; k++) {
+        double off = improve_weights(&w);
+        if (k >= SITE_ROUNDS && off < GOOD_AREAS)
+            break;
+        if (k < SITE_ROUNDS)
+            move_sites(r, &w);
+        status = make_cells(ctx, r, &w, error);
+    }
+    for (int32_t i = 0; status == FRAM_OK && i < w.site.count; i++)
+        if (!polygon_list_push(ctx, cells, polygon_list_get(&w.cells, i)))
+            status = error_memory(error);
+    work_free(ctx, &w);
+    return status;
+}

@@ -1,0 +1,149 @@
+#include "sim/draw_ice.h"
+
+#include "ice/import.h"
+#include "io/outline_file.h"
+#include "sim/build_keep_out.h"
+#include "sim/build_packed.h"
+
+#include <math.h>
+
+void drawn_ice_free(context *ctx, drawn_ice *d)
+{
+    polygon_list_free(ctx, &d->outlines);
+    array_free(ctx, &d->traits);
+    array_free(ctx, &d->shapes);
+    array_free(ctx, &d->parts);
+}
+
+floe_traits scenario_traits(const scenario *s, double thickness)
+{
+    return (floe_traits){automatic_or(thickness, s->ice.thickness), s->ice.flexural_strength, s->ice.crushing_strength,
+                         s->ice.breakable};
+}
+
+static box2 domain_of(const scenario *s)
+{
+    return (box2){{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
+}
+
+/* Zones that the field is made without: an endless field is made whole, and cut where it is first seen. */
+static fram_status find_keep_out(context *ctx, const scenario *s, const world *w, polygon_list *out, fram_error *error)
+{
+    return s->domain.boundary == DOMAIN_FEEDING ? FRAM_OK : build_keep_out(ctx, s, w, out, error);
+}
+
+static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
+                                fram_error *error)
+{
+    field_request request = {.domain = domain_of(s),
+                             .concentration = s->ice.concentration,
+                             .mean_area = s->ice.mean_floe_area,
+                             .size_deviation = s->ice.size_deviation,
+                             .roundness = s->ice.roundness,
+                             .seed = (uint64_t)s->run.seed,
+                             .smallest_area = s->ice.smallest_floe_area,
+                             .keep_out = keep_out,
+                             .periodic = s->domain.boundary == DOMAIN_FEEDING};
+    if (s->ice.populations.count > 0)
+        return draw_managed(ctx, s, w, request, out, error);
+    fram_status status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
+    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&out->outlines); i++)
+        if (!array_push(ctx, &out->traits, scenario_traits(s, NAN)))
+            status = error_memory(error);
+    return status;
+}
+
+/* ---- observed floes ---- */
+
+static void log_notes(context *ctx, const import_rings *rings, const import_field *field)
+{
+    for (int32_t i = 0; i < field->notes.count; i++) {
+        const import_note *n = &field->notes.data[i];
+        char name[IMPORT_NAME_SIZE];
+        import_place_name(&rings->place.data[n->ring], name);
+        log_write(ctx, LOG_DEBUG, "%s (%.6g, %.6g): %s; %s", name, n->at.x, n->at.y, import_event_text(n->event),
+                  n->dropped ? "left out" : "mended");
+    }
+}
+
+/* What became of the file: counts of what was left out and mended, overlaps, concentration. */
+static fram_status report_import(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
+                                 const import_field *field, field_report *report, fram_error *error)
+{
+    import_measure m;
+    fram_status status = import_field_measure(ctx, w->scratch.plane, &field->outlines, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    box2 d = domain_of(s);
+    const vec2 corner[4] = {d.lo, {d.hi.x, d.lo.y}, d.hi, {d.lo.x, d.hi.y}};
+    double free_area = polygon_area((polygon){corner, 4});
+    for (int32_t i = 0; i < polygon_list_count(keep_out); i++)
+        free_area -= polygon_overlap_area(polygon_list_get(keep_out, i), (polygon){corner, 4});
+    *report = (field_report){.floes = m.floes,
+                             .concentration = m.area / free_area,
+                             .free_area = free_area,
+                             .largest_overlap = m.overlap_width};
+    int32_t dropped = 0;
+    for (int32_t i = 0; i < field->notes.count; i++)
+        dropped += field->notes.data[i].dropped;
+    log_write(ctx, LOG_INFO, "%d floes from %.200s, %d of them concave; %d rings or pieces left out, %d mended",
+              (int)m.floes, s->ice.file, (int)m.concave, (int)dropped, (int)(field->notes.count - dropped));
+    if (m.overlaps)
+        log_write(
+            ctx, LOG_WARNING,
+            "%d pairs of floes overlap, by %.3g m at most: they will push each other apart; ice.bad_rings: repair "
+            "cuts them apart",
+            (int)m.overlaps, m.overlap_width);
+    return FRAM_OK;
+}
+
+static fram_status draw_file(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
+                             fram_error *error)
+{
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, s->ice.file, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.file", "the path of the floes is too long");
+    import_rings rings = {0};
+    import_field field = {0};
+    const import_options options = {.name = path,
+                                    .scale = s->ice.file_scale,
+                                    .centre = s->ice.file_centre,
+                                    .offset = {s->ice.file_x, s->ice.file_y},
+                                    .crop = true,
+                                    .domain = domain_of(s),
+                                    .simplify = s->ice.simplify,
+                                    .bad = s->ice.bad_rings,
+                                    .smallest_area = s->ice.smallest_floe_area,
+                                    .keep_out = keep_out};
+    fram_status status = outline_file_read(ctx, path, &rings, error);
+    if (status == FRAM_OK)
+        status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
+    if (status == FRAM_OK) {
+        log_notes(ctx, &rings, &field);
+        status = report_import(ctx, s, w, keep_out, &field, &out->report, error);
+    }
+    for (int32_t i = 0; status == FRAM_OK && i < field.thickness.count; i++)
+        if (!polygon_list_push(ctx, &out->outlines, polygon_list_get(&field.outlines, i)) ||
+            !array_push(ctx, &out->traits, scenario_traits(s, field.thickness.data[i])))
+            status = error_memory(error);
+    import_rings_free(ctx, &rings);
+    import_field_free(ctx, &field);
+    return status;
+}
+
+/* ---- any ---- */
+
+fram_status draw_ice(context *ctx, const scenario *s, world *w, drawn_ice *out, fram_error *error)
+{
+    polygon_list keep_out = {0};
+    fram_status status = find_keep_out(ctx, s, w, &keep_out, error);
+    if (status == FRAM_OK && s->ice.source == ICE_VORONOI)
+        status = draw_voronoi(ctx, s, w, &keep_out, out, error);
+    if (status == FRAM_OK && s->ice.source == ICE_FILE)
+        status = draw_file(ctx, s, w, &keep_out, out, error);
+    out->placed = polygon_list_count(&out->outlines);
+    if (status == FRAM_OK && s->ice.source != ICE_VORONOI && s->ice.populations.count > 0)
+        status = draw_populations(ctx, s, w, &keep_out, out, error);
+    polygon_list_free(ctx, &keep_out);
+    return status;
+}

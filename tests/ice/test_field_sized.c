@@ -1,0 +1,160 @@
+/* Managed ice whose floes follow a law of size. */
+#include "base/pool.h"
+#include "base/transcendental.h"
+#include "ice/field_cells.h"
+#include "ice/field_pack.h"
+#include "testing.h"
+
+static const size_law power = {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7};
+static const size_law lognormal = {.kind = SIZE_LOGNORMAL, .mean = 10, .deviation = 4};
+static const double edge[3] = {5, 8, 14}, weight[2] = {3, 1};
+
+static field_request request_of(const size_law *law, double concentration, uint64_t seed)
+{
+    return (field_request){.domain = {{-100, 50}, {200, 300}},
+                           .concentration = concentration,
+                           .size = law,
+                           .roundness = 0.5,
+                           .seed = seed};
+}
+
+/* Apart, convex, at the concentration, and of the sizes of the law. */
+static void check(context *ctx, const field_request *q, const polygon_list *floes, const field_report *r)
+{
+    field_population_report part;
+    assert_relative(r->concentration, q->concentration, 1e-6);
+    assert_bits(cells_largest_overlap(ctx, floes), 0);
+    for (int32_t i = 0; i < r->floes; i++)
+        ck_assert(polygon_is_convex(polygon_list_get(floes, i)));
+    ck_assert(field_population_measure(ctx, q->size, floes, NULL, 0, &part));
+    ck_assert_int_eq(part.floes, r->floes);
+    ck_assert_msg(part.size_distance < 0.03, "seed %d: KS %g of %d floes", (int)q->seed, part.size_distance,
+                  (int)part.floes);
+    ck_assert_int_gt(part.floes, 400);
+}
+
+START_TEST(twenty_seeds_of_a_power_law_at_98_percent)
+{
+    context ctx;
+    context_init(&ctx);
+    for (uint64_t seed = 0; seed < 20; seed++) {
+        field_request q = request_of(&power, 0.98, seed);
+        polygon_list floes = {0};
+        field_report r;
+        fram_error e = {0};
+        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        check(&ctx, &q, &floes, &r);
+        polygon_list_free(&ctx, &floes);
+    }
+}
+END_TEST
+
+START_TEST(other_laws)
+{
+    const size_law histogram = {.kind = SIZE_HISTOGRAM, .edge = edge, .weight = weight, .bins = 2};
+    const size_law *laws[2] = {&lognormal, &histogram};
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < 2; i++) {
+        field_request q = request_of(laws[i], 0.9, 3);
+        polygon_list floes = {0};
+        field_report r;
+        fram_error e = {0};
+        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        check(&ctx, &q, &floes, &r);
+        polygon_list_free(&ctx, &floes);
+    }
+}
+END_TEST
+
+/* A periodic field continues with itself: its copies beside it do not touch it. */
+START_TEST(without_a_seam)
+{
+    context ctx;
+    context_init(&ctx);
+    field_request q = request_of(&power, 0.95, 5);
+    q.periodic = true;
+    polygon_list floes = {0};
+    vec2_array ring = {0};
+    field_report r;
+    fram_error e = {0};
+    assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+    check(&ctx, &q, &floes, &r);
+    int32_t count = r.floes, across = 0;
+    for (int32_t i = 0; i < count; i++) {
+        polygon p = polygon_list_get(&floes, i);
+        box2 b = polygon_bounds(p);
+        across += b.lo.x < q.domain.lo.x || b.hi.x > q.domain.hi.x;
+        array_clear(&ring);
+        for (int32_t k = 0; k < p.count; k++)
+            ck_assert(array_push(&ctx, &ring, ((vec2){p.vertex[k].x + 300, p.vertex[k].y})));
+        ck_assert(polygon_list_push(&ctx, &floes, (polygon){ring.data, ring.count}));
+    }
+    ck_assert_int_gt(across, 5);
+    assert_bits(cells_largest_overlap(&ctx, &floes), 0);
+    polygon_list_free(&ctx, &floes);
+    array_free(&ctx, &ring);
+}
+END_TEST
+
+START_TEST(same_bits_on_three_threads)
+{
+    context one, three;
+    context_init(&one);
+    context_init(&three);
+    three.threads = pool_create(&three, 3);
+    polygon_list a = {0}, b = {0};
+    field_report r;
+    fram_error e = {0};
+    field_request q = request_of(&lognormal, 0.95, 9);
+    assert_ok(field_voronoi(&one, NULL, &q, &a, &r, &e), e);
+    assert_ok(field_voronoi(&three, NULL, &q, &b, &r, &e), e);
+    ck_assert_int_eq(a.vertex.count, b.vertex.count);
+    assert_array_bits(&a.vertex.data[0].x, &b.vertex.data[0].x, 2 * a.vertex.count);
+    polygon_list_free(&one, &a);
+    polygon_list_free(&three, &b);
+    pool_free(&three, three.threads);
+}
+END_TEST
+
+START_TEST(wrong_laws_are_refused)
+{
+    context ctx;
+    context_init(&ctx);
+    polygon_list floes = {0};
+    field_report r;
+    fram_error e = {0};
+    const size_law wide = {.kind = SIZE_CONSTANT, .mean = 400}, none = {.kind = SIZE_CONSTANT};
+    field_request q = request_of(&wide, 0.9, 1);
+    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain larger");
+    q = request_of(&none, 0.9, 1);
+    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "must be positive");
+    ck_assert_int_eq(polygon_list_count(&floes), 0);
+}
+END_TEST
+
+START_TEST(memory_ends)
+{
+    const size_law law = {.kind = SIZE_UNIFORM, .lo = 9, .hi = 12};
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        polygon_list floes = {0};
+        field_report r;
+        fram_error e;
+        field_request q = request_of(&law, 0.9, 2);
+        q.domain = (box2){{0, 0}, {50, 40}};
+        fram_status status = field_voronoi(&ctx, NULL, &q, &floes, &r, &e);
+        polygon_list_free(&ctx, &floes);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(status, FRAM_OK);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+TEST_MAIN("field_sized", twenty_seeds_of_a_power_law_at_98_percent, other_laws, without_a_seam,
+          same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)
