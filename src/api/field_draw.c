@@ -123,7 +123,7 @@ fram_status fram_field_table(const fram_field *f, const char *path, fram_error *
         polygon p = polygon_list_get(&f->floes.outlines, i);
         double area = polygon_area(p);
         bool moved = f->generated && i >= f->drawn.placed;
-        field_floe none = {.population = -1, .area = NAN},
+        field_floe none = {.population = -1, .area = (double)NAN},
                    drawn = moved ? f->drawn.shapes.data[i - f->drawn.placed] : none;
         text_format(ctx, &b, "%d", (int)i);
         add_real(ctx, &b, sqrt(4 / PI * area));

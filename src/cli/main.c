@@ -64,9 +64,9 @@ static const command_row commands[] = {
      "  fram hull --length 100 --beam 20 --draught 7 --stem-angle-deg 30 --block-coefficient 0.62 -o ship.stl\n",
      command_hull},
     {"field", "FILE | SCENARIO",
-     "report an ice field: observed floes, which it scales, cuts and mends, or the one of a scenario; draw and write it",
+     "report an ice field of a scenario or of observed floes: scale, cut, mend, draw and write it",
      "  fram field floes.geojson\n"
-     "  fram field scenes/packed_field.yaml --window -50,-50,50,50 --cover cover.png --table floes.csv -o field.geojson\n"
+     "  fram field scenes/packed_field.yaml --window -50,-50,50,50 --cover cover.png --table floes.csv\n"
      "  fram field outlines.wkt --draw field.png           WKT, or lines of x and y, as well as GeoJSON\n"
      "  fram field floes.geojson --scale 0.01 --crop -300,-200,300,200 --smallest 20 --draw field.png\n"
      "  fram field outlines.geojson --bad repair --simplify 0.5 -o clean.geojson --json\n",

@@ -132,9 +132,8 @@ bool polygon_cover(context *ctx, polygon p, double part, vec2_array *out)
         return false;
     }
     for (int32_t i = 0; i < p.count; i++)
-        r.v[i] = (cover_vertex){.at = p.vertex[i],
-                                .before = i > 0 ? i - 1 : p.count - 1,
-                                .after = i + 1 < p.count ? i + 1 : 0};
+        r.v[i] = (cover_vertex){
+            .at = p.vertex[i], .before = i > 0 ? i - 1 : p.count - 1, .after = i + 1 < p.count ? i + 1 : 0};
     for (int32_t i = 0; i < p.count; i++)
         price(&r, i);
     simplify(&r, part * polygon_area(p));

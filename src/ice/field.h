@@ -34,8 +34,8 @@ typedef struct field_report {
 
 /* Managed ice: Voronoi cells, cut by the keep-out zones, every edge moved inwards by half the same gap until the summed
    area meets the target (to rounding).  A gap of one width is how broken ice drifts apart; shrinking towards centroids
-   would put wide water around large floes and leave small ones stuck together.  With a law of size the cells are those of
-   a power diagram (ice/field_sized.h), and floes follow it where no zone cuts them.  All outlines are convex and
+   would put wide water around large floes and leave small ones stuck together.  With a law of size the cells are those
+   of a power diagram (ice/field_sized.h), and floes follow it where no zone cuts them.  All outlines are convex and
    counter-clockwise, stay clear of each other, of the domain's edge (by half a gap) and of the zones; floes come in the
    order of their sites. Appends to outlines, which is unchanged on failure.  o may be NULL: convex zones need no
    general overlay. FRAM_ERROR_INPUT when the target cannot be reached, saying what was reached and why. */

@@ -9,19 +9,22 @@ enum { MARKER_VERTICES = 8 };
 static const double MARKER_PART = 0.65;
 /* Rounds of moving weights at most, in the first of which sites move too, and the mean relative error of the areas that
    ends them. */
-enum { MOST_ROUNDS = 250, SITE_ROUNDS = 50 };
+enum { MOST_ROUNDS = 300, SITE_ROUNDS = 50 };
 static const double GOOD_AREAS = 0.002;
 /* What a weight does to the area of its cell is edge over twice the distance, summed over the edges: 2 sqrt(3) / 2 for
    a hexagon.  Steps are this part of what would set one cell right alone: its neighbours move too. */
-static const double AREA_PER_WEIGHT = 1.7320508075688772, STEP = 0.5;
+static const double AREA_PER_WEIGHT = 1.7320508075688772, STEP = 0.4;
+/* Part of a step that the next one goes on with (heavy ball, Polyak 1964): errors that reach over many cells would take
+   rounds like the square of their number otherwise. */
+static const double MOMENTUM = 0.85;
 /* Copies of sites beyond the edge are needed as far as this many of the largest diameters. */
 static const double RIM = 3;
 
 typedef struct sized_work {
-    real_array diameter; /* of the floes */
-    real_array weight;
-    double corners; /* part of each cell that its cut corners take */
-    double rim;     /* area that the gap takes off all cells [m2] */
+    real_array diameter;     /* of the floes */
+    real_array weight, step; /* the last change of each weight */
+    double corners;          /* part of each cell that its cut corners take */
+    double rim;              /* area that the gap takes off all cells [m2] */
     vec2_array site;
     vec2_array all_site; /* with copies beyond the edge */
     real_array all_weight;
@@ -33,6 +36,7 @@ static void work_free(context *ctx, sized_work *w)
 {
     array_free(ctx, &w->diameter);
     array_free(ctx, &w->weight);
+    array_free(ctx, &w->step);
     array_free(ctx, &w->site);
     array_free(ctx, &w->all_site);
     array_free(ctx, &w->all_weight);
@@ -64,7 +68,7 @@ static fram_status find_areas(context *ctx, const sized_request *r, sized_work *
     w->corners = r->corners * (whole - floes) / whole;
     w->rim = (whole - floes) * (1 - r->corners);
     for (int32_t i = 0; i < w->diameter.count; i++)
-        if (!array_push(ctx, &w->weight, floe_area(w, i) / floes * whole / PI))
+        if (!array_push(ctx, &w->weight, floe_area(w, i) / floes * whole / PI) || !array_push(ctx, &w->step, 0))
             return error_memory(error);
     return FRAM_OK;
 }
@@ -145,7 +149,7 @@ static fram_status make_cells(context *ctx, const sized_request *r, sized_work *
 
 /* Weights towards the areas that the cells should have: that of the floe, of its corners, and of its part of the gap,
    which has one width all over.  The mean relative error of the areas before. */
-static double improve_weights(sized_work *w)
+static double improve_weights(sized_work *w, double momentum)
 {
     double sum = 0, edges = 0;
     for (int32_t i = 0; i < w->site.count; i++)
@@ -155,7 +159,8 @@ static double improve_weights(sized_work *w)
         double area = cell.count >= 3 ? polygon_area(cell) : 0;
         double wanted = (floe_area(w, i) + w->rim * polygon_perimeter(cell) / edges) / (1 - w->corners);
         sum += fabs(area - wanted) / wanted;
-        w->weight.data[i] += STEP * (wanted - area) / AREA_PER_WEIGHT;
+        w->step.data[i] = momentum * w->step.data[i] + STEP * (wanted - area) / AREA_PER_WEIGHT;
+        w->weight.data[i] += w->step.data[i];
     }
     return sum / w->site.count;
 }
@@ -182,7 +187,7 @@ fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cell
     if (status == FRAM_OK)
         status = make_cells(ctx, r, &w, error);
     for (int k = 0; status == FRAM_OK && k < MOST_ROUNDS; k++) {
-        double off = improve_weights(&w);
+        double off = improve_weights(&w, k < SITE_ROUNDS ? 0 : MOMENTUM);
         if (k >= SITE_ROUNDS && off < GOOD_AREAS)
             break;
         if (k < SITE_ROUNDS)

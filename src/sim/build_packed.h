@@ -10,8 +10,8 @@
 fram_status draw_populations(context *ctx, const scenario *s, world *w, const polygon_list *keep_out, drawn_ice *out,
                              fram_error *error);
 
-/* Managed ice of the sizes, thickness and strength of the one population of ice.populations; the rest as `request` says,
-   whose law of size is of no account.  Fills outlines, traits, parts and report. */
+/* Managed ice of the sizes, thickness and strength of the one population of ice.populations; the rest as `request`
+   says, whose law of size is of no account.  Fills outlines, traits, parts and report. */
 fram_status draw_managed(context *ctx, const scenario *s, world *w, field_request request, drawn_ice *out,
                          fram_error *error);
 

@@ -48,7 +48,7 @@ static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const
         return draw_managed(ctx, s, w, request, out, error);
     fram_status status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&out->outlines); i++)
-        if (!array_push(ctx, &out->traits, scenario_traits(s, NAN)))
+        if (!array_push(ctx, &out->traits, scenario_traits(s, (double)NAN)))
             status = error_memory(error);
     return status;
 }
