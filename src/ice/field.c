@@ -189,8 +189,13 @@ static fram_status shrink_to_target(context *ctx, const field_request *r, field_
 static fram_status make_cells(context *ctx, const field_request *r, field_work *w, fram_error *error)
 {
     if (r->size) {
-        const sized_request sized = {r->domain, r->periodic, r->concentration, r->roundness * (1 - GAP_SHARE),
-                                     r->size,   r->seed};
+        const sized_request sized = {.domain = r->domain,
+                                     .periodic = r->periodic,
+                                     .concentration = r->concentration,
+                                     .corners = r->roundness * (1 - GAP_SHARE),
+                                     .longest_cut = LONGEST_CUT,
+                                     .law = r->size,
+                                     .seed = r->seed};
         return sized_cells(ctx, &sized, &w->voronoi, error);
     }
     box2 box;

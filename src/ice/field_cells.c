@@ -190,17 +190,22 @@ static corner corner_at(polygon p, int32_t i)
     return (corner){back, forth, fmin(back_length, forth_length) / 2, vec2_cross(forth, back)};
 }
 
+double cell_corner_area(polygon cell)
+{
+    double area = 0;
+    for (int32_t k = 0; k < cell.count; k++) {
+        corner c = corner_at(cell, k);
+        if (c.sine > STRAIGHT_CORNER)
+            area += c.reach * c.reach * c.sine / 2;
+    }
+    return area;
+}
+
 double cells_corner_area(const polygon_list *cells)
 {
     double area = 0;
-    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
-        polygon p = polygon_list_get(cells, i);
-        for (int32_t k = 0; k < p.count; k++) {
-            corner c = corner_at(p, k);
-            if (c.sine > STRAIGHT_CORNER)
-                area += c.reach * c.reach * c.sine / 2;
-        }
-    }
+    for (int32_t i = 0; i < polygon_list_count(cells); i++)
+        area += cell_corner_area(polygon_list_get(cells, i));
     return area;
 }
 

@@ -24,6 +24,7 @@ double cells_area(const polygon_list *cells);
 
 /* Cutting every corner back along both edges by `part` of half the shorter one takes part^2 times this area [m2]. */
 double cells_corner_area(const polygon_list *cells);
+double cell_corner_area(polygon cell);
 /* The cells with their corners cut so; one ring per cell. */
 bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out);
 

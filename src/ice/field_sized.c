@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "geometry/voronoi.h"
+#include "ice/field_cells.h"
 #include "ice/packing.h"
 
 /* Cells begin at the middles of packed regular polygons, of as many vertices and of this part of the cells' areas. */
@@ -23,8 +24,7 @@ static const double RIM = 3;
 typedef struct sized_work {
     real_array diameter;     /* of the floes */
     real_array weight, step; /* the last change of each weight */
-    double corners;          /* part of each cell that its cut corners take */
-    double rim;              /* area that the gap takes off all cells [m2] */
+    double water;            /* area between all floes [m2] */
     vec2_array site;
     vec2_array all_site; /* with copies beyond the edge */
     real_array all_weight;
@@ -65,8 +65,7 @@ static fram_status find_areas(context *ctx, const sized_request *r, sized_work *
                          "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger "
                          "or the floes smaller",
                          w->largest, fmin(size.x, size.y));
-    w->corners = r->corners * (whole - floes) / whole;
-    w->rim = (whole - floes) * (1 - r->corners);
+    w->water = whole - floes;
     for (int32_t i = 0; i < w->diameter.count; i++)
         if (!array_push(ctx, &w->weight, floe_area(w, i) / floes * whole / PI) || !array_push(ctx, &w->step, 0))
             return error_memory(error);
@@ -147,17 +146,22 @@ static fram_status make_cells(context *ctx, const sized_request *r, sized_work *
     return voronoi_cells(ctx, w->all_site.data, w->all_weight.data, w->all_site.count, box, &w->cells, error);
 }
 
-/* Weights towards the areas that the cells should have: that of the floe, of its corners, and of its part of the gap,
-   which has one width all over.  The mean relative error of the areas before. */
-static double improve_weights(sized_work *w, double momentum)
+/* Weights towards the areas that the cells should have: that of the floe, of what is cut off the corners (alike at all
+   of them), and of its part of the gap, which has one width all over.  The mean relative error of the areas before. */
+static double improve_weights(const sized_request *r, sized_work *w, double momentum)
 {
-    double sum = 0, edges = 0;
-    for (int32_t i = 0; i < w->site.count; i++)
-        edges += polygon_perimeter(polygon_list_get(&w->cells, i));
+    double sum = 0, edges = 0, corners = 0;
+    for (int32_t i = 0; i < w->site.count; i++) {
+        polygon cell = polygon_list_get(&w->cells, i);
+        edges += polygon_perimeter(cell);
+        corners += cell_corner_area(cell);
+    }
+    double cut = fmin(r->corners * w->water, r->longest_cut * r->longest_cut * corners), rim = w->water - cut;
     for (int32_t i = 0; i < w->site.count; i++) {
         polygon cell = polygon_list_get(&w->cells, i);
         double area = cell.count >= 3 ? polygon_area(cell) : 0;
-        double wanted = (floe_area(w, i) + w->rim * polygon_perimeter(cell) / edges) / (1 - w->corners);
+        double wanted =
+            floe_area(w, i) + rim * polygon_perimeter(cell) / edges + cut * cell_corner_area(cell) / corners;
         sum += fabs(area - wanted) / wanted;
         w->step.data[i] = momentum * w->step.data[i] + STEP * (wanted - area) / AREA_PER_WEIGHT;
         w->weight.data[i] += w->step.data[i];
@@ -187,7 +191,7 @@ fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cell
     if (status == FRAM_OK)
         status = make_cells(ctx, r, &w, error);
     for (int k = 0; status == FRAM_OK && k < MOST_ROUNDS; k++) {
-        double off = improve_weights(&w, k < SITE_ROUNDS ? 0 : MOMENTUM);
+        double off = improve_weights(r, &w, k < SITE_ROUNDS ? 0 : MOMENTUM);
         if (k >= SITE_ROUNDS && off < GOOD_AREAS)
             break;
         if (k < SITE_ROUNDS)

@@ -13,7 +13,8 @@ typedef struct sized_request {
     box2 domain;          /* [m] */
     bool periodic;        /* the cells go on beyond the edge as they begin at the other one */
     double concentration; /* of the floes that the cells are shrunk to */
-    double corners;       /* part of the water that is cut off the corners, like the cells' areas; 0 to 1 */
+    double corners;       /* part of the water that is cut off the corners, 0 to 1 */
+    double longest_cut;   /* of half the shorter edge at a corner, 0 to 1 */
     const size_law *law;  /* of the floes */
     uint64_t seed;
 } sized_request;
