@@ -180,8 +180,8 @@ static bool measure(context *ctx, overlay *plane, const field_kind *k, const pol
     double side = side_of(k, k->floes * words->floes);
     for (int seed = 1; seed <= words->seeds; seed++) {
         polygon_list outlines = {0};
-        field_population_report part[MOST_POPULATIONS];
-        field_packed_report report;
+        field_population_report part[MOST_POPULATIONS] = {{0}};
+        field_packed_report report = {0};
         fram_error error = {0};
         double start = cpu_seconds();
         fram_status status =

@@ -53,8 +53,13 @@ static fram_status run(fram_world *w, double duration, fram_error *error)
 {
     int slots = fram_world_slots(w);
     fram_body_state *then = calloc((size_t)slots, sizeof *then), *now = calloc((size_t)slots, sizeof *now);
-    fram_status status = then && now ? FRAM_OK : FRAM_ERROR_MEMORY;
-    int floes = status == FRAM_OK ? read_states(w, then, slots) : 0;
+    if (!then || !now) {
+        free(then);
+        free(now);
+        return FRAM_ERROR_MEMORY;
+    }
+    fram_status status = FRAM_OK;
+    int floes = read_states(w, then, slots);
     double most_energy = 0, way = 0, speed = 0, energy = 0;
     for (long step = 1; status == FRAM_OK && fram_world_time(w) < duration - 1e-9; step++) {
         status = fram_world_step(w, error);
