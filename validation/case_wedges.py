@@ -67,8 +67,8 @@ def case(out):
                             "most 15 %")
 
     c.found = ("An edge converges at second order. The ship does not: from N = 3 to 5 its resistance grows, since more "
-               "and smaller pieces must be moved, and with N = 2 pieces of a quarter disk jam at the bow. N is part of the "
-               "model, not of the numerics: keep the default of 3 when results are to be compared.")
+               "and smaller pieces must be moved, and with N = 2 pieces of a quarter disk jam at the bow. N is part of "
+               "the model, not of the numerics: keep the default of 3 when results are to be compared.")
 
     def draw(axes):
         axes[0].plot(COUNTS, [capacity[n] / 1e3 for n in COUNTS], "o-")
