@@ -2,7 +2,8 @@
 
    1. A bending event (a floe of 16 vertices, N = 3), re-meshing included, beside the bare GEOS calls of the same cuts:
       one difference and six intersections, geometries made and read back, on the same outline, interleaved.
-   2. Bites along a channel in a level sheet: time of an event and size of the shape store as the channel grows.
+   2. Bites along a channel in a level sheet: time of an event, and size of the shape store as the channel grows: what
+   it holds, what of that lives, and what an event finds around itself.
    3. Fracture's share of the steps of scenes/level_ice.yaml (run it in the folder of the sources). */
 #include "base/random.h"
 #include "base/transcendental.h"
@@ -18,6 +19,9 @@
 #include <time.h>
 
 enum { CORNERS = 16, WEDGES = 3, STENCIL = 2 * WEDGES, SAMPLES = 20000, BITES = 5100, NEAR = 200 };
+
+/* What counts as around a bite [m]. */
+static const double AROUND = 100;
 
 static double now(void)
 {
@@ -260,6 +264,46 @@ static int32_t tile_at(const rig *r, vec2 place)
     return best;
 }
 
+/* Vertices of a shape: its outline, and its convex pieces where there are several. */
+static int vertices_of(const shape_store *s, int32_t shape)
+{
+    int sum = s->shapes.outline_count[shape];
+    for (int32_t p = 0; p < s->shapes.piece_count[shape] && s->shapes.piece_count[shape] > 1; p++)
+        sum += shape_piece(s, shape, p).count;
+    return sum;
+}
+
+/* Of the shapes of all tiles, or of those whose centre is within `reach` of x. */
+static int living_vertices(const rig *r, double x, double reach)
+{
+    int sum = 0;
+    for (int32_t i = 0; i < r->floes.count; i++)
+        if (r->floes.body[i] >= 0 && fabs(r->bodies.position[r->floes.body[i]].x - x) <= reach)
+            sum += vertices_of(&r->shapes, r->bodies.shape[r->floes.body[i]]);
+    return sum;
+}
+
+static void report_channel(int bites, int tiles, double time[BITES], double around[BITES], const int held[BITES],
+                           const int living[BITES])
+{
+    double early = median(time, NEAR), late = median(time + bites - NEAR, NEAR);
+    printf(
+        "channel: %d bites in a sheet of %d tiles; event %.1f us in the first %d, %.1f us in the last (ratio %.3f)\n",
+        bites, tiles, 1e6 * early, NEAR, 1e6 * late, late / early);
+    printf(
+        "shape store: holds %d vertices at the 100th bite, %d at the last (ratio %.3f); living %d and %d, %.2f a bite\n",
+        held[99], held[bites - 1], (double)held[bites - 1] / held[99], living[99], living[bites - 1],
+        (double)(living[bites - 1] - living[99]) / (bites - 100));
+    double most = 0;
+    for (int i = 0; i < bites; i++)
+        most = fmax(most, (double)held[i] / living[i]);
+    printf("shape store: at most %.3f times what lives\n", most);
+    early = median(around + 100, NEAR);
+    late = median(around + bites - NEAR, NEAR);
+    printf("within %.0f m of a bite: %.0f vertices at bites 100 to %d, %.0f at the last %d (ratio %.3f)\n", AROUND,
+           early, 100 + NEAR, late, NEAR, late / early);
+}
+
 static void bench_channel(void)
 {
     rig r;
@@ -276,8 +320,8 @@ static void bench_channel(void)
         stop(e.message);
     for (int32_t i = 0; i < polygon_list_count(&outlines); i++)
         add_floe(&r, polygon_list_get(&outlines, i), MOTION_STATIC, cells.data[i] + 1);
-    static double time[BITES];
-    static int vertices[BITES];
+    static double time[BITES], around[BITES];
+    static int held[BITES], living[BITES];
     int bites = 0;
     random_stream s = random_begin(3, 1, 0);
     for (int turn = 0; bites < BITES && turn < 40 * BITES; turn++) {
@@ -293,14 +337,11 @@ static void bench_channel(void)
             continue;
         time[bites] = taken;
         remove_moving(&r);
-        vertices[bites++] = r.shapes.vertices.count;
+        held[bites] = r.shapes.vertices.count;
+        living[bites] = living_vertices(&r, 0, HUGE_VAL);
+        around[bites++] = living_vertices(&r, place.x, AROUND);
     }
-    double early = median(time, NEAR), late = median(time + bites - NEAR, NEAR);
-    printf(
-        "channel: %d bites in a sheet of %d tiles; event %.1f us in the first %d, %.1f us in the last (ratio %.3f)\n",
-        bites, (int)polygon_list_count(&outlines), 1e6 * early, NEAR, 1e6 * late, late / early);
-    printf("shape store: %d vertices at the 100th bite, %d at the last (ratio %.3f)\n", vertices[99],
-           vertices[bites - 1], (double)vertices[bites - 1] / vertices[99]);
+    report_channel(bites, (int)polygon_list_count(&outlines), time, around, held, living);
 }
 
 /* ---- a scene ---- */

@@ -349,6 +349,10 @@ static void move_shape(shape_store *s, int32_t row, shape_vertex_table *vertices
     }
 }
 
+/* The pools are squeezed when there are more dead than one in so many living.  A smaller number lets memory lie idle, a
+   larger one copies the living more often. */
+enum { DEAD_SHARE = 4 };
+
 fram_status shape_compact(context *ctx, shape_store *s)
 {
     int32_t live_vertices = 0, live_pieces = 0;
@@ -358,7 +362,7 @@ fram_status shape_compact(context *ctx, shape_store *s)
         live_vertices += s->shapes.outline_count[i] + vertices_of_pieces(s, i);
         live_pieces += s->shapes.piece_count[i];
     }
-    if (live_vertices >= s->vertices.count - live_vertices)
+    if (DEAD_SHARE * (int64_t)(s->vertices.count - live_vertices) <= live_vertices)
         return FRAM_OK;
     shape_vertex_table vertices = {0};
     piece_table pieces = {0};

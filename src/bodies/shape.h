@@ -76,7 +76,8 @@ fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, i
 fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
                       int32_t *index, fram_error *error);
 void shape_remove(shape_store *s, int32_t row);
-/* Squeeze the pools when more than half of them is dead; rows keep their numbers.  Depends on state only. */
+/* Squeeze the pools when the dead vertices are more than a quarter of the living; rows keep their numbers.  Depends on
+   state only. */
 fram_status shape_compact(context *ctx, shape_store *s);
 
 polygon shape_outline(const shape_store *s, int32_t row);

@@ -180,11 +180,10 @@ static void remove_strays(const step_settings *s, world *w)
     }
 }
 
-/* What the edge of the domain takes, and gives. */
+/* What the edge of the domain takes, and gives; then the shapes that nobody has any more go, those of floes that broke
+   in a basin with walls too. */
 static fram_status cross_edge(context *ctx, const step_settings *s, world *w, fram_error *error)
 {
-    if (s->boundary == DOMAIN_WALLS)
-        return FRAM_OK;
     if (s->boundary == DOMAIN_OPEN)
         remove_strays(s, w);
     fram_status status = s->boundary == DOMAIN_FEEDING ? feed_step(ctx, s, w, error) : FRAM_OK;

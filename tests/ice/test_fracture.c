@@ -1,6 +1,8 @@
 /* Fracture of single floes: criteria, cracks, splits, stencils, new floes. */
 #include "fracture_rig.h"
 
+#include <stdio.h>
+
 static int32_t plate(fracture_rig *r, double length, double width, motion kind)
 {
     double x = length / 2, y = width / 2;
@@ -462,6 +464,20 @@ END_TEST
 
 /* ---- dust ---- */
 
+/* Least angle between two edges of an outline, inside or outside the ice [rad]: what a cleaned one keeps (Algorithm 10:
+   the cosine of the turn is at least -0.99). */
+static double least_angle(polygon p)
+{
+    double least = PI;
+    for (int32_t i = 0; i < p.count; i++) {
+        vec2 to_next = vec2_sub(p.vertex[(i + 1) % p.count], p.vertex[i]);
+        vec2 to_last = vec2_sub(p.vertex[(i + p.count - 1) % p.count], p.vertex[i]);
+        double angle = fabs(real_atan2(vec2_cross(to_next, to_last), vec2_dot(to_next, to_last)));
+        least = fmin(least, angle);
+    }
+    return least;
+}
+
 /* 600 bites along one side of one floe: edges, angles, areas and vertex counts stay bounded. */
 START_TEST(six_hundred_bites)
 {
@@ -469,7 +485,7 @@ START_TEST(six_hundred_bites)
     fracture_rig_make(&r);
     r.settings.splitting = SPLITTING_NONE;
     int32_t row = plate(&r, 400, 300, MOTION_STATIC);
-    double lost = 0;
+    double lost = 0, least = real_acos(0.99), smallest = PI;
     random_stream s = random_begin(5, 1, 0);
     for (int bite = 0; bite < 600; bite++) {
         /* Always at the same part of the boundary, the way a ship comes back. */
@@ -490,6 +506,8 @@ START_TEST(six_hundred_bites)
                 vec2 e = vec2_sub(p.vertex[(k + 1) % p.count], p.vertex[k]);
                 ck_assert(vec2_length(e) >= r.settings.edge_threshold * (1 - 1e-9));
             }
+            ck_assert_msg(p.count == 3 || least_angle(p) >= least, "an angle of %g rad", least_angle(p));
+            smallest = fmin(smallest, least_angle(p));
             if (i != largest)
                 floe_remove(&r.bodies, &r.shapes, &r.floes, i);
         }
@@ -498,6 +516,7 @@ START_TEST(six_hundred_bites)
         ck_assert_int_lt(fracture_rig_outline(&r, row).count, 200);
     }
     ck_assert(lost < 0.005 * 400 * 300);
+    printf("smallest angle of the pieces: %.1f degrees\n", smallest * 180 / PI);
     fracture_rig_free(&r);
 }
 END_TEST

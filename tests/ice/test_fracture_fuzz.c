@@ -159,9 +159,25 @@ static void check_children(fracture_rig *r, const fracture_event *e, fuzz_books 
     books->pieces += e->pieces;
 }
 
-/* Mass changes by what was booked; where nothing is cleaned or lost, momentum and angular momentum stay to rounding. */
+/* An overlay may move edges by this part of the ring's extent (the coarsest grid of src/geometry/overlay.c, 2^-38), and
+   an event has up to so many. */
+static const double OVERLAY_MOVES = 4e-12;
+enum { OVERLAYS = 16 };
+
+/* What moved edges may do to a floe's momentum [N s]: ice of its rim appears or goes, at the speed of the rim. */
+static double momentum_slack(const fracture_rig *r, int32_t row)
+{
+    int32_t body = r->floes.body[row];
+    double radius = r->shapes.shapes.plan_radius[r->bodies.shape[body]];
+    double rim = vec3_length(r->bodies.velocity[body]) + radius * vec3_length(r->bodies.angular_velocity[body]);
+    double area = OVERLAYS * OVERLAY_MOVES * radius * polygon_perimeter(fracture_rig_outline(r, row));
+    return 920 * r->floes.thickness[row] * area * rim;
+}
+
+/* Mass changes by what was booked; where nothing is cleaned or lost, momentum and angular momentum stay but for what
+   overlays move. */
 static void check_momentum(body_books before, body_books after, const fracture_event *e, double line, double reach,
-                           bool cleaned)
+                           double slack, bool cleaned)
 {
     double mass = before.mass, speed = sqrt(2 * before.kinetic_energy / mass) + 1e-9;
     ck_assert(fabs(after.mass - mass + line * (e->area_lost - e->area_gained)) <= 1e-9 * mass);
@@ -173,11 +189,10 @@ static void check_momentum(body_books before, body_books after, const fracture_e
     ck_assert(h_open <= 1e-12 * (vec3_length(before.angular_momentum) + mass * speed));
     if (cleaned || e->area_lost + e->area_gained > 1e-12 * e->parent_area)
         return;
-    /* A union that joins dust may differ from its parts by 1e-11 of their area; an event has up to ten. */
     double p = vec3_length(vec3_sub(after.momentum, before.momentum));
-    ck_assert_msg(p <= 1e-10 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
+    ck_assert_msg(p <= slack + 1e-12 * mass * speed, "momentum changes by %g of %g", p, mass * speed);
     double h = vec3_length(vec3_sub(after.angular_momentum, before.angular_momentum));
-    ck_assert_msg(h <= 1e-10 * mass * speed * reach, "angular momentum changes by %g of %g", h,
+    ck_assert_msg(h <= (slack + 1e-12 * mass * speed) * reach, "angular momentum changes by %g of %g", h,
                   vec3_length(before.angular_momentum));
 }
 
@@ -224,11 +239,12 @@ static void break_one(fracture_rig *r, random_stream *s, fuzz_books *books)
             if (r->floes.body[i] >= 0)
                 reach = fmax(reach, vec3_length(r->bodies.position[r->floes.body[i]]) +
                                         r->shapes.shapes.radius[r->bodies.shape[r->floes.body[i]]]);
+        double slack = momentum_slack(r, row);
         if (fracture_rig_break(r) == 0)
             continue;
         ck_assert_int_eq(r->events.count, 1);
         check_children(r, &r->events.data[0], books);
-        check_momentum(before, body_books_of(&r->bodies), &r->events.data[0], 920 * thickness, reach,
+        check_momentum(before, body_books_of(&r->bodies), &r->events.data[0], 920 * thickness, reach, slack,
                        r->settings.edge_threshold > 0);
     }
     fracture_rig_remove_all(r);
