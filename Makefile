@@ -4,6 +4,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 DESTDIR ?=
 FUZZ_SECONDS ?= 20
+FUZZ_EVENTS ?= 1000000
 BENCH_SCENE ?= scenes/demo.yaml
 BENCH_FLAGS ?=
 VALIDATE_FLAGS ?=
@@ -14,7 +15,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-kill test-views bench-recording viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz bench bench-peers bench-views soak validate coverage install deps clean help
+.PHONY: build test test-kill test-views bench-recording viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz fuzz-fracture bench bench-peers bench-views soak validate coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -70,6 +71,12 @@ format: $(STAMPS)/dev ## put every C file into the form that lint asks for
 fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
 	@cmake --build --preset fuzz -j$(JOBS)
 	@tools/fuzz.sh build/fuzz $(FUZZ_SECONDS)
+
+fuzz-fracture: build/release/build.ninja build/asan/build.ninja ## break FUZZ_EVENTS (1,000,000) random floes
+	@cmake --build --preset release -j$(JOBS) --target test_ice_fracture_fuzz
+	@cmake --build --preset asan -j$(JOBS) --target test_ice_fracture_fuzz
+	@tools/fuzz_fracture.sh build/release/tests/test_ice_fracture_fuzz build/asan/tests/test_ice_fracture_fuzz \
+	    $(FUZZ_EVENTS)
 
 bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `fram bench`
 	@build/release/fram bench $(BENCH_SCENE) $(BENCH_FLAGS)

@@ -97,7 +97,9 @@ bool polygon_convex_hull(context *ctx, polygon p, vec2_array *out);
    lets a fine arc collapse. out may end with fewer than 3 vertices only if p had; it must not hold p. false when
    there is no memory. */
 bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out);
-/* The same for a ring inside a box, of which the vertices on the box's sides stay whatever they are. */
+/* Whether a ring is as polygon_clean leaves one of more than 3 vertices: no edge under `edge`, no spike. */
+bool polygon_is_clean(polygon p, double edge);
+/* polygon_clean for a ring inside a box, of which the vertices on the box's sides stay whatever they are. */
 bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_array *out);
 
 /* A simple outline with fewer vertices that covers simple p, counter-clockwise, with at most (1 + part) times its area:

@@ -126,3 +126,15 @@ bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_a
 {
     return clean(ctx, p, edge, &box, out);
 }
+
+bool polygon_is_clean(polygon p, double edge)
+{
+    for (int32_t i = 0; i < p.count; i++) {
+        vec2 here = p.vertex[i], last = p.vertex[i > 0 ? i - 1 : p.count - 1];
+        vec2 e0 = vec2_sub(here, last), e1 = vec2_sub(p.vertex[i + 1 < p.count ? i + 1 : 0], here);
+        double l0 = vec2_length(e0), l1 = vec2_length(e1);
+        if (l1 < edge || l1 == 0 || vec2_dot(e0, e1) < -TURN_COSINE * l0 * l1)
+            return false;
+    }
+    return true;
+}

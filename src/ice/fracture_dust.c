@@ -133,7 +133,7 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
     return FRAM_OK;
 }
 
-/* Too small, or so narrow that cleaning would leave less than half of it. */
+/* Too small, or so narrow that cleaning would leave less than half of it, or a sliver of three vertices. */
 static fram_status judge(context *ctx, fracture_scratch *s, const fracture_settings *settings, int32_t i, bool *dust,
                          fram_error *error)
 {
@@ -145,7 +145,8 @@ static fram_status judge(context *ctx, fracture_scratch *s, const fracture_setti
     if (!polygon_clean(ctx, polygon_list_get(&s->outlines, s->cut.data[i].ring), settings->edge_threshold, &s->clean))
         return error_memory(error);
     double left = s->clean.count < 3 ? 0 : polygon_area((polygon){s->clean.data, s->clean.count});
-    *dust = left < fmax(settings->smallest_floe_area, area / 2);
+    *dust = left < fmax(settings->smallest_floe_area, area / 2) ||
+            !polygon_is_clean((polygon){s->clean.data, s->clean.count}, settings->edge_threshold);
     return FRAM_OK;
 }
 

@@ -175,6 +175,18 @@ START_TEST(no_memory)
 }
 END_TEST
 
-TEST_MAIN("polygon_clean", nothing_to_clean, short_edges_spikes_and_straight_vertices_go, a_long_shallow_corner_stays,
-          a_bound_is_not_under_itself, a_fine_circle_keeps_its_shape, random_outlines, the_other_end_of_a_short_edge,
-          no_memory)
+/* What says whether a ring is clean: edges, then spikes of less than 8.1 degrees, inside and outside. */
+START_TEST(is_clean)
+{
+    const vec2 triangle[] = {{0, 0}, {10, 0}, {5, 0.8}}, spike[] = {{0, 0}, {10, -0.6}, {10, 0.6}};
+    const vec2 notch[] = {{0, 0}, {9, 0}, {9, 9}, {4.8, 9}, {4.5, 4}, {4.2, 9}, {0, 9}};
+    ck_assert(polygon_is_clean((polygon){triangle, 3}, 1));
+    ck_assert(!polygon_is_clean((polygon){triangle, 3}, 6));
+    ck_assert(!polygon_is_clean((polygon){spike, 3}, 1));
+    ck_assert(!polygon_is_clean((polygon){notch, 7}, 0.1));
+}
+END_TEST
+
+TEST_MAIN("polygon_clean", nothing_to_clean, is_clean, short_edges_spikes_and_straight_vertices_go,
+          a_long_shallow_corner_stays, a_bound_is_not_under_itself, a_fine_circle_keeps_its_shape, random_outlines,
+          the_other_end_of_a_short_edge, no_memory)
