@@ -290,11 +290,9 @@ static void report_channel(int bites, int tiles, double time[BITES], double arou
     printf(
         "channel: %d bites in a sheet of %d tiles; event %.1f us in the first %d, %.1f us in the last (ratio %.3f)\n",
         bites, tiles, 1e6 * early, NEAR, 1e6 * late, late / early);
-    printf(
-        "shape store: holds %d vertices at the 100th bite, %d at the last (ratio %.3f); living %d and %d, %.2f "
-        "a bite\n",
-        held[99], held[bites - 1], (double)held[bites - 1] / held[99], living[99], living[bites - 1],
-        (double)(living[bites - 1] - living[99]) / (bites - 100));
+    printf("shape store: %d vertices at the 100th bite, %d at the last (ratio %.3f); living %d and %d, %.2f a bite\n",
+           held[99], held[bites - 1], (double)held[bites - 1] / held[99], living[99], living[bites - 1],
+           (double)(living[bites - 1] - living[99]) / (bites - 100));
     double most = 0;
     for (int i = 0; i < bites; i++)
         most = fmax(most, (double)held[i] / living[i]);
