@@ -73,11 +73,12 @@ static inline void decay_theory(decay *d)
     }
 }
 
-static inline fram_status decay_open(decay *d, const char *text, fram_error *error)
+/* name: the file that the text stands for, whose folder its paths are relative to. */
+static inline fram_status decay_open_as(decay *d, const char *name, const char *text, fram_error *error)
 {
     memset(d, 0, sizeof *d);
     context_init(&d->ctx);
-    fram_status status = scenario_parse(&d->ctx, "scenes/decay.yaml", text, strlen(text), NULL, &d->s, error);
+    fram_status status = scenario_parse(&d->ctx, name, text, strlen(text), NULL, &d->s, error);
     build_report report;
     hull_hydrostatics floats;
     if (status == FRAM_OK) {
@@ -104,6 +105,11 @@ static inline fram_status decay_open(decay *d, const char *text, fram_error *err
     d->rest = d->w.bodies.position[body].z;
     decay_theory(d);
     return status;
+}
+
+static inline fram_status decay_open(decay *d, const char *text, fram_error *error)
+{
+    return decay_open_as(d, "decay.yaml", text, error);
 }
 
 static inline void decay_close(decay *d)

@@ -120,7 +120,7 @@ static void open_scene(decay *d, const char *path)
     char *ice = strstr(text, "\nice:");
     ck_assert_ptr_nonnull(ice);
     snprintf(ice, sizeof text - (size_t)(ice - text), "\nice: {source: none}\ndomain: {boundary: open}\n");
-    assert_ok(decay_open(d, text, &error), error);
+    assert_ok(decay_open_as(d, path, text, &error), error);
 }
 
 /* The shipped supply ship, about amidships with z down, has the published matrices of surge, sway and yaw (oracles
