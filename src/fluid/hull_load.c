@@ -1,8 +1,9 @@
 #include "fluid/hull_load.h"
 
 #include "base/pool.h"
+#include "fluid/cut_kernel.h"
 #include "fluid/facet.h"
-#include "fluid/point_kernel.h"
+#include "geometry/mesh_integrals.h"
 
 /* Branches that are shared out: those at this depth of the tree, if the mesh is worth it. */
 enum { BRANCH_DEPTH = 5, MOST_BRANCHES = 1 << BRANCH_DEPTH, WORTH_SHARING = 4000 };
@@ -15,10 +16,11 @@ typedef struct point_run {
 /* What one branch adds up. */
 typedef struct branch_sums {
     surface_moments wet; /* of the faces that whole nodes had under water, body axes */
-    pressure_sum pressure;
-    wrench water, air; /* of facets, global axes */
+    point_sums pressure; /* of triangles, body axes */
+    wrench water, air;   /* of large facets, global axes */
     point_sums water_points, air_points;
     point_run water_run, air_run;
+    cut_batch cut; /* triangles that wait for the kernel */
 } branch_sums;
 
 typedef struct hull_walk {
@@ -26,7 +28,7 @@ typedef struct hull_walk {
     const media *media;
     const solid *body;
     const fluid_motion *state;
-    vec3 up; /* global Z in body axes */
+    water_plane plane;
     stream water, air;
     bool wet, dry; /* media whose drag is wanted */
     point_stream water_points, air_points;
@@ -44,7 +46,7 @@ static point_stream points_of(const hull_walk *w, const stream *s)
                           .spin = mat3_tmul_vec(r, s->spin),
                           .form = s->form,
                           .skin = s->skin,
-                          .down = vec3_neg(w->up),
+                          .down = vec3_neg(w->plane.up),
                           .depth = -w->state->position.z};
 }
 
@@ -77,8 +79,12 @@ static stream water_at(const hull_walk *w, const vec3 *vertex, int n)
 
 static void flush(const hull_walk *w, const point_stream *s, point_run *run, point_sums *sums)
 {
+    const mesh_integrals *all = &w->body->integrals;
+    int32_t i = run->first;
+    const point_rows rows = {all->x.data + i,  all->y.data + i,  all->z.data + i,   all->nx.data + i,
+                             all->ny.data + i, all->nz.data + i, all->area.data + i};
     if (run->first < run->end)
-        KERNEL_PICK(w->ctx, point_drag)(s, &w->body->integrals, run->first, run->end, sums);
+        KERNEL_PICK(w->ctx, point_drag)(s, &rows, run->end - i, sums);
     run->first = run->end = 0;
 }
 
@@ -94,64 +100,37 @@ static void add_run(const hull_walk *w, const point_stream *s, int32_t first, in
     run->end = end;
 }
 
-/* ---- single facets ---- */
+/* ---- single triangles ---- */
 
-/* Small facets that stand for one point together: twice their area vectors, and six times their first moments weighted
-   by how far they face along `normal`, global axes. */
-typedef struct patch {
-    vec3 normal; /* unit */
-    vec3 area, first;
-    double weight;
-} patch;
-
-static void patch_add(patch *p, const vec3 *vertex, int n)
+static void flush_cut(const hull_walk *w, branch_sums *sums)
 {
-    for (int i = 1; i + 1 < n; i++) {
-        vec3 a = vertex[0], b = vertex[i], c = vertex[i + 1];
-        vec3 area = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
-        double weight = vec3_dot(area, p->normal);
-        p->area = vec3_add(p->area, area);
-        p->first = vec3_mad(p->first, vec3_add(a, vec3_add(b, c)), weight);
-        p->weight += weight;
+    cut_points wet, dry;
+    KERNEL_PICK(w->ctx, cut_triangles)(&w->plane, &sums->cut, &sums->pressure, &wet, &dry);
+    const point_rows under = {wet.x, wet.y, wet.z, wet.nx, wet.ny, wet.nz, wet.area};
+    const point_rows over = {dry.x, dry.y, dry.z, dry.nx, dry.ny, dry.nz, dry.area};
+    if (w->wet)
+        KERNEL_PICK(w->ctx, point_drag)(&w->water_points, &under, sums->cut.count, &sums->water_points);
+    if (w->dry)
+        KERNEL_PICK(w->ctx, point_drag)(&w->air_points, &over, sums->cut.count, &sums->air_points);
+    sums->cut.count = 0;
+}
+
+/* drag: the wet and the dry part of the triangle stand for one point each. */
+static void add_cut(const hull_walk *w, int32_t place, bool drag, branch_sums *sums)
+{
+    const solid *b = w->body;
+    const int32_t *v = b->surface.face.data[b->tree.face.data[place]].v;
+    cut_batch *cut = &sums->cut;
+    if (cut->count == CUT_ROOM)
+        flush_cut(w, sums);
+    int32_t at = cut->count++;
+    for (int i = 0; i < 3; i++) {
+        vec3 r = b->surface.vertex.data[v[i]];
+        cut->corner[i][0][at] = r.x;
+        cut->corner[i][1][at] = r.y;
+        cut->corner[i][2][at] = r.z;
     }
-}
-
-/* A whole node by its moments, body axes. */
-static void patch_add_moments(patch *p, mat3 rotation, const surface_moments *m)
-{
-    vec3 normal = mat3_tmul_vec(rotation, p->normal);
-    p->area = vec3_mad(p->area, mat3_mul_vec(rotation, m->area), 2);
-    p->first = vec3_mad(p->first, mat3_mul_vec(rotation, mat3_tmul_vec(m->area_first, normal)), 6);
-    p->weight += 2 * vec3_dot(m->area, normal);
-}
-
-static void patch_drag(wrench *load, const stream *s, const patch *p)
-{
-    if (!(p->weight > 0))
-        return;
-    vec3 middle = vec3_scale(p->first, 1 / (3 * p->weight));
-    double size = 0.5 * vec3_length(p->area);
-    vec3 normal = vec3_unit(p->area), v = vec3_add(s->velocity, vec3_cross(s->spin, middle));
-    double into = vec3_dot(v, normal), push = into > 0 ? s->form * into * into : 0;
-    vec3 along = vec3_mad(v, normal, -into);
-    vec3 force = vec3_scale(vec3_mad(vec3_scale(normal, push), along, s->skin * vec3_length(along)), -size);
-    load->force = vec3_add(load->force, force);
-    load->moment = vec3_add(load->moment, vec3_cross(middle, force));
-}
-
-/* small: as of one point. */
-static void add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, bool small)
-{
-    if (n < 3)
-        return;
-    if (small) {
-        patch p = {.normal = vec3_unit(vec3_cross(vec3_sub(vertex[1], vertex[0]), vec3_sub(vertex[2], vertex[0])))};
-        patch_add(&p, vertex, n);
-        patch_drag(load, s, &p);
-    } else {
-        facet_add_drag(load, s, vertex, n,
-                       vec3_unit(vec3_cross(vec3_sub(vertex[1], vertex[0]), vec3_sub(vertex[2], vertex[0]))));
-    }
+    cut->drag[at] = drag;
 }
 
 static void corners_of(const hull_walk *w, int32_t place, vec3 corner[3])
@@ -162,6 +141,11 @@ static void corners_of(const hull_walk *w, int32_t place, vec3 corner[3])
         corner[k] = mat3_mul_vec(w->state->rotation, b->surface.vertex.data[v[k]]);
 }
 
+static vec3 normal_of(const vec3 corner[3])
+{
+    return vec3_unit(vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0])));
+}
+
 /* Large triangles among the places first..end-1, wholly in one medium. */
 static void add_large(const hull_walk *w, int32_t first, int32_t end, bool under, branch_sums *sums)
 {
@@ -170,25 +154,26 @@ static void add_large(const hull_walk *w, int32_t first, int32_t end, bool under
         vec3 corner[3];
         corners_of(w, all->large.data[i], corner);
         stream s = under ? water_at(w, corner, 3) : w->air;
-        add_drag(under ? &sums->water : &sums->air, &s, corner, 3, false);
+        facet_add_drag(under ? &sums->water : &sums->air, &s, corner, 3, normal_of(corner));
     }
 }
 
 static double low_of(const vec3 v[3]) { return v[0].z < v[1].z ? fmin(v[0].z, v[2].z) : fmin(v[1].z, v[2].z); }
 static double high_of(const vec3 v[3]) { return v[0].z > v[1].z ? fmax(v[0].z, v[2].z) : fmax(v[1].z, v[2].z); }
 
-/* Cuts a triangle at the water plane: n_wet vertices below it, whose pressure is added, n_dry above it. */
-static void cut_triangle(const hull_walk *w, const vec3 corner[3], vec3 wet[4], int *n_wet, vec3 dry[4], int *n_dry,
-                         branch_sums *sums)
+/* Drag on a triangle of many points that the water plane cuts. */
+static void add_cut_drag(const hull_walk *w, const vec3 corner[3], branch_sums *sums)
 {
     double height = w->state->position.z;
-    *n_wet = *n_dry = 0;
-    if (low_of(corner) + height < 0) {
-        *n_wet = triangle_clip_below(corner, -height, wet);
-        facet_add_pressure(&sums->pressure, wet, *n_wet, height);
+    vec3 part[4], normal = normal_of(corner);
+    int n = triangle_clip_below(corner, -height, part);
+    if (w->wet && n >= 3) {
+        stream s = water_at(w, part, n);
+        facet_add_drag(&sums->water, &s, part, n, normal);
     }
-    if (w->dry)
-        *n_dry = facet_clip(corner, 3, vec3_make(0, 0, -1), height, dry);
+    n = w->dry ? facet_clip(corner, 3, vec3_make(0, 0, -1), height, part) : 0;
+    if (n >= 3)
+        facet_add_drag(&sums->air, &w->air, part, n, normal);
 }
 
 /* A triangle of a leaf that the water plane may cut. */
@@ -197,11 +182,11 @@ static void add_place(const hull_walk *w, int32_t place, branch_sums *sums)
     const mesh_integrals *all = &w->body->integrals;
     double height = w->state->position.z;
     int32_t first = all->point_first.data[place], end = all->point_first.data[place + 1];
-    vec3 corner[3], wet[4], dry[4];
+    vec3 corner[3];
     corners_of(w, place, corner);
-    bool under = high_of(corner) + height <= 0, over = low_of(corner) + height >= 0;
-    if (under)
-        facet_add_pressure(&sums->pressure, corner, 3, height);
+    bool under = high_of(corner) + height <= 0, over = low_of(corner) + height >= 0, one_point = end - first == 1;
+    if (!over)
+        add_cut(w, place, one_point && !under, sums);
     if (under && w->wet) {
         add_run(w, &w->water_points, first, end, &sums->water_run, &sums->water_points);
         add_large(w, place, place + 1, true, sums);
@@ -210,15 +195,8 @@ static void add_place(const hull_walk *w, int32_t place, branch_sums *sums)
         add_run(w, &w->air_points, first, end, &sums->air_run, &sums->air_points);
         add_large(w, place, place + 1, false, sums);
     }
-    if (under || over)
-        return;
-    int n_wet, n_dry;
-    cut_triangle(w, corner, wet, &n_wet, dry, &n_dry, sums);
-    if (w->wet && n_wet >= 3) {
-        stream s = water_at(w, wet, n_wet);
-        add_drag(&sums->water, &s, wet, n_wet, end - first == 1);
-    }
-    add_drag(&sums->air, &w->air, dry, n_dry, end - first == 1);
+    if (!under && !over && !one_point)
+        add_cut_drag(w, corner, sums);
 }
 
 /* ---- the tree ---- */
@@ -262,8 +240,8 @@ static void add_dry_node(const hull_walk *w, int32_t n, branch_sums *sums)
 static double box_height(const hull_walk *w, box3 b, double *reach)
 {
     vec3 half = vec3_scale(vec3_sub(b.hi, b.lo), 0.5), middle = vec3_add(b.lo, half);
-    *reach = fabs(w->up.x) * half.x + fabs(w->up.y) * half.y + fabs(w->up.z) * half.z;
-    return w->state->position.z + vec3_dot(w->up, middle);
+    *reach = fabs(w->plane.up.x) * half.x + fabs(w->plane.up.y) * half.y + fabs(w->plane.up.z) * half.z;
+    return w->state->position.z + vec3_dot(w->plane.up, middle);
 }
 
 /* Whether one point stands for several faces of a node, so that its parts have none of their own. */
@@ -274,45 +252,39 @@ static bool is_joined(const mesh_integrals *all, const mesh_bvh_node *node)
            all->large_first.data[end] == all->large_first.data[node->first];
 }
 
-/* A joined node or a part of one, leaf by leaf where the water plane cuts it. */
-static void add_joined_part(const hull_walk *w, int32_t n, patch *wet, patch *dry, branch_sums *sums)
+/* Drag on a whole part of a joined node, as of one point. */
+static void add_part_drag(const hull_walk *w, const point_stream *s, vec3 facing, const surface_moments *m,
+                          point_sums *sums)
+{
+    double size = vec3_length(m->area), weight = vec3_dot(m->area, facing);
+    if (!(weight > 0))
+        return;
+    vec3 r = vec3_scale(mat3_tmul_vec(m->area_first, facing), 1 / weight), n = vec3_scale(m->area, 1 / size);
+    const point_rows rows = {&r.x, &r.y, &r.z, &n.x, &n.y, &n.z, &size};
+    KERNEL_PICK(w->ctx, point_drag)(s, &rows, 1, sums);
+}
+
+/* A joined node that the water plane may cut, or a part of one; facing: the mean normal of the node, body axes.  Each
+   wholly wet or dry part stands for one point, and each part of a triangle that is cut. */
+static void add_joined(const hull_walk *w, int32_t n, vec3 facing, branch_sums *sums)
 {
     const mesh_bvh_node *node = &w->body->tree.node.data[n];
     const surface_moments *m = &w->body->integrals.moments.data[n];
     double reach, height = box_height(w, node->box, &reach);
     if (height + reach <= 0) {
         sums->wet = add_moments(&sums->wet, m);
-        patch_add_moments(wet, w->state->rotation, m);
+        if (w->wet)
+            add_part_drag(w, &w->water_points, facing, m, &sums->water_points);
     } else if (height - reach >= 0) {
-        patch_add_moments(dry, w->state->rotation, m);
+        if (w->dry)
+            add_part_drag(w, &w->air_points, facing, m, &sums->air_points);
     } else if (node->next >= 0) {
-        add_joined_part(w, n + 1, wet, dry, sums);
-        add_joined_part(w, node->next, wet, dry, sums);
+        add_joined(w, n + 1, facing, sums);
+        add_joined(w, node->next, facing, sums);
     } else {
-        for (int32_t i = node->first; i < node->first + node->count; i++) {
-            vec3 corner[3], below[4], above[4];
-            int n_below, n_above;
-            corners_of(w, i, corner);
-            cut_triangle(w, corner, below, &n_below, above, &n_above, sums);
-            patch_add(wet, below, n_below);
-            patch_add(dry, above, n_above);
-        }
+        for (int32_t i = node->first; i < node->first + node->count; i++)
+            add_cut(w, i, true, sums);
     }
-}
-
-/* A joined node that the water plane may cut: its wet part stands for one point, and its dry part. */
-static void add_joined(const hull_walk *w, int32_t n, branch_sums *sums)
-{
-    patch wet = {.normal = mat3_mul_vec(w->state->rotation, vec3_unit(w->body->integrals.moments.data[n].area))};
-    patch dry = wet;
-    add_joined_part(w, n, &wet, &dry, sums);
-    if (w->wet && wet.weight > 0) {
-        vec3 middle = vec3_scale(wet.first, 1 / (3 * wet.weight));
-        stream s = water_at(w, &middle, 1);
-        patch_drag(&sums->water, &s, &wet);
-    }
-    if (w->dry)
-        patch_drag(&sums->air, &w->air, &dry);
 }
 
 static void add_node(const hull_walk *w, int32_t n, branch_sums *sums)
@@ -329,7 +301,7 @@ static void add_node(const hull_walk *w, int32_t n, branch_sums *sums)
         return;
     }
     if (is_joined(&w->body->integrals, node)) {
-        add_joined(w, n, sums);
+        add_joined(w, n, vec3_unit(w->body->integrals.moments.data[n].area), sums);
         return;
     }
     if (node->next < 0) {
@@ -346,10 +318,15 @@ static void add_branch(void *arg, int32_t block, int32_t thread)
     (void)thread;
     hull_walk *w = arg;
     branch_sums *sums = &w->sums[block];
-    *sums = (branch_sums){0};
+    sums->wet = (surface_moments){0};
+    sums->pressure = sums->water_points = sums->air_points = (point_sums){0};
+    sums->water = sums->air = (wrench){0};
+    sums->water_run = sums->air_run = (point_run){0};
+    sums->cut.count = 0;
     add_node(w, w->branch[block], sums);
     flush(w, &w->water_points, &sums->water_run, &sums->water_points);
     flush(w, &w->air_points, &sums->air_run, &sums->air_points);
+    flush_cut(w, sums);
 }
 
 /* The nodes at a depth, and leaves above it; a joined node is never split. */
@@ -377,11 +354,12 @@ static pressure_sum pressure_of(const hull_walk *w, const surface_moments *m)
 {
     mat3 r = w->state->rotation;
     double height = w->state->position.z;
-    return (pressure_sum){mat3_mul_vec(r, vec3_mad(mat3_mul_vec(m->area_first, w->up), m->area, height)),
-                          mat3_mul_vec(r, vec3_mad(mat3_mul_vec(m->turn_first, w->up), m->turn, height))};
+    return (pressure_sum){mat3_mul_vec(r, vec3_mad(mat3_mul_vec(m->area_first, w->plane.up), m->area, height)),
+                          mat3_mul_vec(r, vec3_mad(mat3_mul_vec(m->turn_first, w->plane.up), m->turn, height))};
 }
 
-static void add_points(const hull_walk *w, const point_sums *p, wrench *to)
+/* From body axes to global ones. */
+static void add_lanes(const hull_walk *w, const point_sums *p, vec3 *force, vec3 *moment)
 {
     double sum[6];
     for (int i = 0; i < 6; i++) {
@@ -389,8 +367,8 @@ static void add_points(const hull_walk *w, const point_sums *p, wrench *to)
         sum[i] = ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7]));
     }
     mat3 r = w->state->rotation;
-    add_wrench(to, mat3_mul_vec(r, vec3_make(sum[0], sum[1], sum[2])),
-               mat3_mul_vec(r, vec3_make(sum[3], sum[4], sum[5])));
+    *force = vec3_add(*force, mat3_mul_vec(r, vec3_make(sum[0], sum[1], sum[2])));
+    *moment = vec3_add(*moment, mat3_mul_vec(r, vec3_make(sum[3], sum[4], sum[5])));
 }
 
 static void sum_branches(const hull_walk *w, fluid_load *load)
@@ -399,12 +377,13 @@ static void sum_branches(const hull_walk *w, fluid_load *load)
     for (int32_t i = 0; i < w->branch_count; i++) {
         const branch_sums *b = &w->sums[i];
         pressure_sum whole = pressure_of(w, &b->wet);
-        pressure.force = vec3_add(pressure.force, vec3_add(whole.force, b->pressure.force));
-        pressure.moment = vec3_add(pressure.moment, vec3_add(whole.moment, b->pressure.moment));
+        pressure.force = vec3_add(pressure.force, whole.force);
+        pressure.moment = vec3_add(pressure.moment, whole.moment);
+        add_lanes(w, &b->pressure, &pressure.force, &pressure.moment);
         add_wrench(&load->water_drag, b->water.force, b->water.moment);
         add_wrench(&load->wind_drag, b->air.force, b->air.moment);
-        add_points(w, &b->water_points, &load->water_drag);
-        add_points(w, &b->air_points, &load->wind_drag);
+        add_lanes(w, &b->water_points, &load->water_drag.force, &load->water_drag.moment);
+        add_lanes(w, &b->air_points, &load->wind_drag.force, &load->wind_drag.moment);
     }
     double weight = w->media->water_density * w->media->gravity;
     load->hydrostatic.force = vec3_scale(pressure.force, weight);
@@ -421,7 +400,7 @@ void fluid_load_solid(context *ctx, const media *m, const drag_coefficients *c, 
                    .media = m,
                    .body = body,
                    .state = state,
-                   .up = {r->m[2][0], r->m[2][1], r->m[2][2]},
+                   .plane = {{r->m[2][0], r->m[2][1], r->m[2][2]}, state->position.z},
                    .water = stream_of_water(m, c, state->velocity, state->angular_velocity, 0),
                    .air = stream_of_air(m, c, state->velocity, state->angular_velocity)};
     w.wet = stream_acts(&w.water);

@@ -17,11 +17,6 @@ V8_INLINE real load(const double *p)
 
 V8_INLINE void store(double *p, real x) { memcpy(p, &x, sizeof x); }
 
-/* Eight points at most, laid out as the kernel reads them. */
-typedef struct point_rows {
-    const double *x, *y, *z, *nx, *ny, *nz, *area;
-} point_rows;
-
 V8_INLINE void add_points(const point_stream *s, const point_rows *p, ptrdiff_t at, real sum[6])
 {
     const real zero = {0};
@@ -63,18 +58,15 @@ static void add_rows(const point_stream *s, const point_rows *p, int32_t eights,
     }
 }
 
-void KERNEL(point_drag)(const point_stream *stream, const mesh_integrals *points, int32_t first, int32_t end,
-                        point_sums *sums)
+void KERNEL(point_drag)(const point_stream *stream, const point_rows *p, int32_t count, point_sums *sums)
 {
-    point_rows p = {points->x.data + first,  points->y.data + first,  points->z.data + first,   points->nx.data + first,
-                    points->ny.data + first, points->nz.data + first, points->area.data + first};
-    int32_t eights = (end - first) / V8_LANES, done = V8_LANES * eights, left = end - first - done;
-    add_rows(stream, &p, eights, sums);
+    int32_t eights = count / V8_LANES, done = V8_LANES * eights, left = count - done;
+    add_rows(stream, p, eights, sums);
     if (left == 0)
         return;
     /* The rest among points without area. */
     double rest[7][V8_LANES] = {{0}};
-    const double *const from[7] = {p.x, p.y, p.z, p.nx, p.ny, p.nz, p.area};
+    const double *const from[7] = {p->x, p->y, p->z, p->nx, p->ny, p->nz, p->area};
     for (int i = 0; i < 7; i++)
         memcpy(rest[i], from[i] + done, (size_t)left * sizeof(double));
     add_rows(stream, &(point_rows){rest[0], rest[1], rest[2], rest[3], rest[4], rest[5], rest[6]}, 1, sums);

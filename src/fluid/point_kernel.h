@@ -1,10 +1,9 @@
-/* Drag on the sample points of a mesh (geometry/mesh_integrals.h) that lie wholly in one medium.  Inside fluid. */
+/* Drag on sample points (geometry/mesh_integrals.h) that lie in one medium.  Inside fluid. */
 #ifndef FLUID_POINT_KERNEL_H
 #define FLUID_POINT_KERNEL_H
 
 #include "base/kernel.h"
 #include "fluid/media.h"
-#include "geometry/mesh_integrals.h"
 
 /* A medium as the body meets it, body axes. */
 typedef struct point_stream {
@@ -24,9 +23,13 @@ typedef struct point_sums {
     double lane[6][8];
 } point_sums;
 
-/* Adds the points first..end-1. */
+/* Places [m], unit normals and areas [m2], body axes. */
+typedef struct point_rows {
+    const double *x, *y, *z, *nx, *ny, *nz, *area;
+} point_rows;
+
+/* Adds `count` points. */
 KERNEL_DECLARE(void, point_drag,
-               (const point_stream *stream, const mesh_integrals *points, int32_t first, int32_t end,
-                point_sums *sums));
+               (const point_stream *stream, const point_rows *points, int32_t count, point_sums *sums));
 
 #endif
