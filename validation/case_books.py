@@ -29,7 +29,7 @@ def case(out):
         f"{END:g} s of the demo, of level ice, and of the demo with floes of 0.5 m that break: do the parts of the "
         "ice force sum to the force, and its zones; do carriage, ice and water together accelerate the hull; is "
         "the ice's mass that of the start less what is booked; do the areas of every event close.",
-        "SPEC sections 8 and 11.",
+        "Sums, Newton's law and the conservation of area and mass.",
         "Sums, Newton's law and areas to 1e-9 of the largest value, mass to 1e-10. Ice lost and gained in an event "
         "is under 0.1 % of the floe, in a run under 0.5 % of what broke.",
     )

@@ -91,7 +91,7 @@ def case(out):
                    f"{found / (bottom + sides) - 1:.1e}"])
     c.check(abs(found / (bottom + sides) - 1) <= 1.5 * 5 * (1 - rim) / 2 + 5e-3,
             f"disc: {100 * (found / (bottom + sides) - 1):.2f} % off the round one (64 sides: "
-            f"{-250 * (1 - rim) / 1.5:.2f} % expected)")
+            f"{-1000 * (1 - rim) / 3:.2f} % expected)")
     half = radius / math.sqrt(2)
     exact = 0.5 * RHO * DRAUGHT * spin**2 * half**4
     found = spin_torque(4, 1, 0)

@@ -72,7 +72,7 @@ def case(out):
         "m.",
         "Volumes, levers and draught to 1e-9: pressure is integrated exactly over clipped triangles. Periods "
         "converge at second order in dt (semi-implicit Euler changes the period by its square only); roll has a "
-        "finite amplitude of 0.5 degrees.",
+        "finite amplitude of 0.5 degrees. The check asks for first order only.",
     )
     c.header = ["quantity", "found", "exact", "relative difference"]
     path, worst = cube(), 0.0

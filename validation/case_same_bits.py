@@ -24,7 +24,7 @@ def case(out):
         "Hash of the whole state after 6 s of the demo and of level ice: threads, instruction sets, and a run that was "
         "stopped half way and resumed.",
         "The runs themselves.",
-        "Equal to the bit (SPEC section 4): results are formed in an order that data alone decide.",
+        "Equal to the bit: results are formed in an order that data alone decide.",
     )
     c.header = ["way", *SCENES]
     hashes = {}

@@ -16,7 +16,8 @@ def case(out):
         "Mean, significant and largest resistance of 45 s of the demo over 16 seeds, and from their scatter the number "
         "of seeds for a mean within 5 % and a peak within 15 % (95 %).",
         "Statistics of independent runs: n = (1.96 cv / wanted)^2.",
-        "None: this is a measurement for users, who plan their runs by it.",
+        "None: this is a measurement for users, who plan their runs by it. The verdict says no more than that the "
+        "scatter is smaller than the mean.",
     )
     runs = demo_field.resistances("base", SEEDS)
     wanted = {"mean": 0.05, "significant": 0.15, "largest": 0.15}

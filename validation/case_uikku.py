@@ -10,7 +10,6 @@ STARTS = [(-85.0, "0"), (-83.4, "1/3"), (-81.7, "2/3")]  # vessel.x [m], part of
 ENTRY, LENGTHS = 50.0, 2  # [s] 20 s after the bow's full entry; ship lengths that count at least
 LPP, SPEED = 150.02, 1.0
 MEASURED = {"mean": 780.0, "standard deviation": 160.0, "largest": 1260.0, "smallest": 370.0}  # [kN]
-WORST_FORMULA = 0.51  # mean error of the worst published formula on the whole campaign (Riska)
 
 
 def numbers(load):
@@ -27,8 +26,9 @@ def case(out):
         "Hu and Zhou (2016), IJNAOE 8, 169-176: full-scale values of the 1:31.56 model. Inputs in "
         "`scenes/uikku_303.yaml`, fixed before the first run; the hull's angles are not published (30 and 21 degrees "
         "are recalled), nor friction (0.1) and ice density.",
-        "A first look, not a campaign: the mean within the error of the worst published formula on these tests, 51 %. "
-        "The other numbers are shown without a bound.",
+        "None: a first look, not a campaign. Numbers are shown without a bound, since results were known before one "
+        "was written down; published formulas are 22 to 51 % off on the whole campaign. The verdict says only that "
+        "the runs are long enough.",
     )
     c.header = ["start", *(f"{name} [kN]" for name in MEASURED), "bites of the sheet", "R_bending, mean [m]"]
     names = [f"uikku/{-x:g}" for x, _ in STARTS]
@@ -48,8 +48,6 @@ def case(out):
     mean = [statistics.fmean(column) for column in zip(*found)]
     c.rows.append(["mean of three", *(f"{x:.0f}" for x in mean), "", ""])
     c.rows.append(["measured", *(f"{x:.0f}" for x in MEASURED.values()), "", ""])
-    error = mean[0] / MEASURED["mean"] - 1
-    c.check(abs(error) <= WORST_FORMULA, f"the mean is {100 * error:+.0f} % off, expected within 51 %")
     spread = max(f[0] for f in found) - min(f[0] for f in found)
     off = ", ".join(f"{name} {100 * (x / y - 1):+.0f} %" for x, (name, y) in zip(mean, MEASURED.items()))
     c.found = f"Off by: {off}; the starts' means are {spread:.0f} kN apart. [Why](../level_ice.md)."

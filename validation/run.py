@@ -74,7 +74,8 @@ def index(verdicts, names):
              "Made by `make validate`; `VALIDATE_FLAGS=--quick` runs the cases of a few minutes, `--only NAME` one. "
              "Each case says what it tests, where the numbers come from, which agreement is expected and why, and "
              "what was found, good or bad. Nothing is tuned to a case: parameters are those of its source or the "
-             "defaults. What "
+             "defaults. Some bounds were set after a first run: their pages say so, and such a check shows that "
+             "nothing has changed since, no more. What "
              "disagrees, and the size of each known error, stands in the [limits](../limits.md).", "",
              f"{agree} of {len(verdicts)} cases agree.", ""]
     for rung, title in RUNGS.items():
