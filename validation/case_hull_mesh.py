@@ -55,7 +55,7 @@ def case(out):
         axes[0].set(xlabel="sides of the mesh", ylabel="relative error")
         axes[0].legend()
         axes[1].semilogx(FACETS, [f / 1e3 for f in loads], "o-")
-        axes[1].set(xlabel="sides of the mesh", ylabel="first break [kN]", ylim=(0, None))
+        axes[1].set(xlabel="sides of the mesh", ylabel="first break [kN]", ylim=(0, 1.1e-3 * max(loads)))
         for ax in axes:
             ax.set_xticks(FACETS, FACETS)
             ax.minorticks_off()

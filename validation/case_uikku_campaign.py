@@ -100,7 +100,7 @@ def case(out):
     c.check(mae <= 0.51, f"mean absolute error {100 * mae:.0f} %, bias {100 * bias:+.0f} %; Lindqvist with the same "
                          f"inputs {100 * lq_mae:.0f} %, {100 * lq_bias:+.0f} %; the best constant "
                          f"{100 * constant:.0f} %")
-    c.found = ("A short set, one start: how far a mean over 42 m of way is from that of a long run is not measured here. "
+    c.found = ("A short set, one start: how far a mean over 42 m of way is from a long run's is not measured here. "
                "No parameter was changed after the first run.")
 
     def draw(axes):

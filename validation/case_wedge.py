@@ -42,7 +42,8 @@ def case(out):
         axes.plot(radii, [0.97043 * a ** (1 / 3) for a in radii], "k:", label="0.970 (a/l)^(1/3)")
         axes.plot([r[0] for r in ROWS], [r[3] for r in ROWS], "o", mfc="none")
         axes.plot([r[0] for r in ROWS], [r[2] for r in ROWS], "o", mfc="none")
-        axes.set(xlabel="a / l", xscale="log", yscale="log")
+        axes.set(xlabel="a / l", ylabel="C, x_max / l", xscale="log", yscale="log")
+        axes.set_yticks([0.2, 0.5, 1, 2, 5], ["0.2", "0.5", "1", "2", "5"])
         axes.legend()
 
     ladder.figure(c, out, "wedge", "Capacity and breaking radius of a wedge; circles: the series.", draw)

@@ -73,10 +73,11 @@ def case(out):
     def draw(axes):
         axes[0].plot(COUNTS, [capacity[n] / 1e3 for n in COUNTS], "o-")
         axes[0].axhline(last["wedge_capacity"] / 1e3, color="k", ls=":", label="N = 32")
-        axes[0].set(xlabel="N", ylabel="capacity [kN]", ylim=(0, None))
+        axes[0].set(xlabel="N", ylabel="capacity [kN]", ylim=(0, 1.1e-3 * max(capacity.values())))
         axes[0].legend(loc="lower right")
         axes[1].plot(SHIP, [resistance[n] / 1e3 for n in SHIP], "o-")
-        axes[1].set(xlabel="N", ylabel="mean resistance of the ship [kN]", ylim=(0, None))
+        axes[1].set(xlabel="N", ylabel="mean resistance of the ship [kN]",
+                    ylim=(0, 1.1e-3 * max(resistance.values())))
 
     ladder.figure(c, out, "wedges", "Capacity of an edge and resistance of a ship against the number of wedges.", draw,
                   panels=2)
