@@ -6,7 +6,7 @@ import ladder
 
 LONG = False
 TOUGHNESS = 150e3
-# Largest opening force over h K_IC sqrt(L), width over length of the floe (weight functions; oracles section 3).
+# Largest opening force over h K_IC sqrt(L), width over length of the floe (weight functions).
 FACTORS = [(0.5, 0.1334), (1.0, 0.1869), (2.0, 0.2105), (3.0, 0.2107)]
 LENGTHS = [20.0, 35.0, 50.0, 80.0]
 SLOPE, PLATE, STRENGTH, END = 0.1, 3.0, 2e6, 1.5
