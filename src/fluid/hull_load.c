@@ -20,7 +20,7 @@ typedef struct branch_sums {
     wrench water, air;   /* of large facets, global axes */
     point_sums water_points, air_points;
     point_run water_run, air_run;
-    cut_batch cut; /* triangles that wait for the kernel */
+    cut_batch *cut; /* triangles that wait for the kernel; while the branch is walked */
 } branch_sums;
 
 typedef struct hull_walk {
@@ -36,6 +36,7 @@ typedef struct hull_walk {
     int32_t branch[MOST_BRANCHES];
     branch_sums sums[MOST_BRANCHES];
 } hull_walk;
+_Static_assert(sizeof(hull_walk) <= 1 << 16, "it lies on the stack of whoever asks for a load, and is cleared there");
 
 /* ---- streams ---- */
 
@@ -105,14 +106,14 @@ static void add_run(const hull_walk *w, const point_stream *s, int32_t first, in
 static void flush_cut(const hull_walk *w, branch_sums *sums)
 {
     cut_points wet, dry;
-    KERNEL_PICK(w->ctx, cut_triangles)(&w->plane, &sums->cut, &sums->pressure, &wet, &dry);
+    KERNEL_PICK(w->ctx, cut_triangles)(&w->plane, sums->cut, &sums->pressure, &wet, &dry);
     const point_rows under = {wet.x, wet.y, wet.z, wet.nx, wet.ny, wet.nz, wet.area};
     const point_rows over = {dry.x, dry.y, dry.z, dry.nx, dry.ny, dry.nz, dry.area};
     if (w->wet)
-        KERNEL_PICK(w->ctx, point_drag)(&w->water_points, &under, sums->cut.count, &sums->water_points);
+        KERNEL_PICK(w->ctx, point_drag)(&w->water_points, &under, sums->cut->count, &sums->water_points);
     if (w->dry)
-        KERNEL_PICK(w->ctx, point_drag)(&w->air_points, &over, sums->cut.count, &sums->air_points);
-    sums->cut.count = 0;
+        KERNEL_PICK(w->ctx, point_drag)(&w->air_points, &over, sums->cut->count, &sums->air_points);
+    sums->cut->count = 0;
 }
 
 /* drag: the wet and the dry part of the triangle stand for one point each. */
@@ -120,7 +121,7 @@ static void add_cut(const hull_walk *w, int32_t place, bool drag, branch_sums *s
 {
     const solid *b = w->body;
     const int32_t *v = b->surface.face.data[b->tree.face.data[place]].v;
-    cut_batch *cut = &sums->cut;
+    cut_batch *cut = sums->cut;
     if (cut->count == CUT_ROOM)
         flush_cut(w, sums);
     int32_t at = cut->count++;
@@ -318,15 +319,18 @@ static void add_branch(void *arg, int32_t block, int32_t thread)
     (void)thread;
     hull_walk *w = arg;
     branch_sums *sums = &w->sums[block];
+    cut_batch cut;
+    sums->cut = &cut;
     sums->wet = (surface_moments){0};
     sums->pressure = sums->water_points = sums->air_points = (point_sums){0};
     sums->water = sums->air = (wrench){0};
     sums->water_run = sums->air_run = (point_run){0};
-    sums->cut.count = 0;
+    sums->cut->count = 0;
     add_node(w, w->branch[block], sums);
     flush(w, &w->water_points, &sums->water_run, &sums->water_points);
     flush(w, &w->air_points, &sums->air_run, &sums->air_points);
     flush_cut(w, sums);
+    sums->cut = NULL;
 }
 
 /* The nodes at a depth, and leaves above it; a joined node is never split. */

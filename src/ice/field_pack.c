@@ -192,16 +192,17 @@ static fram_status draw_floes(context *ctx, const field_packed_request *r, pack_
     for (int32_t p = 0; p < r->population_count; p++)
         shares += r->populations[p].share;
     real_array sizes = {0};
-    bool good = true;
-    for (int32_t p = 0; good && p < r->population_count; p++) {
+    fram_status status = FRAM_OK;
+    for (int32_t p = 0; status == FRAM_OK && p < r->population_count; p++) {
         array_clear(&sizes);
         double area = wanted * r->populations[p].share / shares;
-        good = size_law_draw(ctx, &r->populations[p].size, area, r->seed, (uint32_t)(STREAM_SIZE + p), &sizes) &&
-               draw_shapes(ctx, r, p, &sizes, s);
+        status = size_law_draw(ctx, &r->populations[p].size, area, r->seed, (uint32_t)(STREAM_SIZE + p), &sizes, error);
+        if (status == FRAM_OK && !draw_shapes(ctx, r, p, &sizes, s))
+            status = error_memory(error);
     }
     array_free(ctx, &sizes);
-    if (!good)
-        return error_memory(error);
+    if (status != FRAM_OK)
+        return status;
     double narrow = fmin(r->domain.hi.x - r->domain.lo.x, r->domain.hi.y - r->domain.lo.y);
     if (s->largest > narrow)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",

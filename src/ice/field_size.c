@@ -232,14 +232,20 @@ static double fill_slices(const size_law *law, const double *place, int32_t n, d
     return area;
 }
 
-bool size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream, real_array *out)
+fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
+                          real_array *out, fram_error *error)
 {
     double wanted = floor(area / mean_area(law) + 0.5);
-    int32_t n = wanted < 1 ? 1 : (int32_t)fmin(wanted, MOST_FLOES), first = out->count;
+    if (!(wanted <= MOST_FLOES))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations",
+                         "%g floes of this law make up %g m2, and at most %g can be drawn; make the domain smaller or "
+                         "the floes larger",
+                         wanted, area, MOST_FLOES);
+    int32_t n = wanted < 1 ? 1 : (int32_t)wanted, first = out->count;
     double *place = memory_array(ctx, (size_t)n, sizeof *place);
     if (!place || !array_reserve(ctx, out, first + n)) {
         memory_free(ctx, place);
-        return false;
+        return error_memory(error);
     }
     double *d = out->data + first;
     out->count += n;
@@ -267,7 +273,7 @@ bool size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed
         d[k] = swap;
     }
     memory_free(ctx, place);
-    return true;
+    return FRAM_OK;
 }
 
 static int ascending(const void *a, const void *b)

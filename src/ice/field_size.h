@@ -34,8 +34,10 @@ double size_law_part(const size_law *law, double d);
 /* The fewest diameters that make up `area` [m2] of discs: one from each of n equal slices of the law, at random within
    its slice, all moved within their slices by as much as it takes to meet the area.  So the sample follows the law to
    1/n, whatever the seed, and where the law has any width the area is met: exactly, or to the floe that would have to
-   stand in a gap of the law.  Appended in random order.  false: no memory. */
-bool size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream, real_array *out);
+   stand in a gap of the law.  Appended in random order.  FRAM_ERROR_INPUT for more than 5 million, FRAM_ERROR_MEMORY;
+   `out` is then as it was. */
+fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
+                          real_array *out, fram_error *error);
 
 /* Kolmogorov and Smirnov's distance of a sample from the law; the sample is sorted by it. */
 double size_law_distance(const size_law *law, double *sample, int32_t count);

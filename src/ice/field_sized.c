@@ -54,17 +54,24 @@ static fram_status find_areas(context *ctx, const sized_request *r, sized_work *
 {
     vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
     double whole = size.x * size.y, floes = 0;
-    if (!size_law_draw(ctx, r->law, r->concentration * whole, r->seed, ICE_STREAM_SIZED, &w->diameter))
-        return error_memory(error);
+    fram_status status =
+        size_law_draw(ctx, r->law, r->concentration * whole, r->seed, ICE_STREAM_SIZED, &w->diameter, error);
+    if (status != FRAM_OK)
+        return status;
     for (int32_t i = 0; i < w->diameter.count; i++) {
         floes += floe_area(w, i);
         w->largest = fmax(w->largest, w->diameter.data[i]);
     }
-    if (w->largest > fmin(size.x, size.y) || floes > whole)
+    if (w->largest > fmin(size.x, size.y))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
                          "the largest floe drawn is %g m across and the domain only %g m wide; make the domain larger "
                          "or the floes smaller",
                          w->largest, fmin(size.x, size.y));
+    if (floes > whole)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain",
+                         "the fewest floes of this law for the concentration, %d, cover %g m2 and the domain "
+                         "has only %g m2; make the domain larger or the floes smaller",
+                         w->diameter.count, floes, whole);
     w->water = whole - floes;
     for (int32_t i = 0; i < w->diameter.count; i++)
         if (!array_push(ctx, &w->weight, floe_area(w, i) / floes * whole / PI) || !array_push(ctx, &w->step, 0))

@@ -121,7 +121,8 @@ static bool put_body(pack_work *w, places *p, int32_t body)
     double angle = 2 * PI * random_unit(&r), best = -HUGE_VAL;
     b->turn = (vec2){real_cos(angle), real_sin(angle)};
     for (int k = 0; k < CANDIDATES; k++) {
-        vec2 at = {random_uniform(&r, d.lo.x, d.hi.x), random_uniform(&r, d.lo.y, d.hi.y)};
+        double x = random_uniform(&r, d.lo.x, d.hi.x), y = random_uniform(&r, d.lo.y, d.hi.y);
+        vec2 at = {x, y};
         double clear = clearance(w, p, at);
         if (clear > best) {
             best = clear;

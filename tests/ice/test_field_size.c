@@ -57,7 +57,8 @@ START_TEST(samples_follow_their_law_and_meet_the_area)
     for (int k = 0; k < LAW_COUNT; k++) {
         double area = 0, mean = size_law_quantile(&laws[k], 0.5);
         real_array d = {0};
-        ck_assert(size_law_draw(&ctx, &laws[k], 500 * mean * mean, 9, 1, &d));
+        fram_error e = {0};
+        assert_ok(size_law_draw(&ctx, &laws[k], 500 * mean * mean, 9, 1, &d, &e), e);
         ck_assert_int_gt(d.count, 100);
         bool sorted = true;
         for (int32_t i = 0; i < d.count; i++) {
@@ -69,6 +70,22 @@ START_TEST(samples_follow_their_law_and_meet_the_area)
         assert_relative(area, 500 * mean * mean, laws[k].kind == SIZE_HISTOGRAM ? 1e-3 : 1e-9);
         ck_assert_double_le(size_law_distance(&laws[k], d.data, d.count), 1.0001 / d.count);
         array_free(&ctx, &d);
+    }
+}
+END_TEST
+
+/* Metres for kilometres, and diameters whose squares are none. */
+START_TEST(too_many_floes_are_refused)
+{
+    static const double mean[] = {1e-2, 1e-200};
+    context ctx;
+    context_init(&ctx);
+    for (int k = 0; k < 2; k++) {
+        const size_law dust = {.kind = SIZE_CONSTANT, .mean = mean[k]};
+        real_array d = {0};
+        fram_error e = {0};
+        assert_fails(size_law_draw(&ctx, &dust, 1e6, 9, 1, &d, &e), e, FRAM_ERROR_INPUT, "make the domain smaller");
+        ck_assert_int_eq(d.count, 0);
     }
 }
 END_TEST
@@ -87,5 +104,5 @@ START_TEST(the_distance_sees_a_wrong_sample)
 END_TEST
 
 TEST_MAIN("field_size", the_normal_distribution_is_right, part_and_quantile_are_inverse,
-          quantiles_have_their_closed_forms, samples_follow_their_law_and_meet_the_area,
+          quantiles_have_their_closed_forms, samples_follow_their_law_and_meet_the_area, too_many_floes_are_refused,
           the_distance_sees_a_wrong_sample)

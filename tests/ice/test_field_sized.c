@@ -127,6 +127,13 @@ START_TEST(wrong_laws_are_refused)
     const size_law wide = {.kind = SIZE_CONSTANT, .mean = 400}, none = {.kind = SIZE_CONSTANT};
     field_request q = request_of(&wide, 0.9, 1);
     assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain larger");
+    /* Two, and there is room for one and a half. */
+    const size_law pair = {.kind = SIZE_CONSTANT, .mean = 1.128}, dust = {.kind = SIZE_CONSTANT, .mean = 1e-3};
+    q = request_of(&pair, 0.95, 1);
+    q.domain = (box2){{0, 0}, {1.265, 1.265}};
+    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "cover 1.998");
+    q = request_of(&dust, 0.9, 1);
+    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain smaller");
     q = request_of(&none, 0.9, 1);
     assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "must be positive");
     ck_assert_int_eq(polygon_list_count(&floes), 0);
