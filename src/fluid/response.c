@@ -3,14 +3,16 @@
 #include "base/pool.h"
 #include "fluid/added_mass.h"
 #include "fluid/facet.h"
+#include "fluid/weak_drag_kernel.h"
 
-enum { BLOCK_SLOTS = 256 };
+enum { BLOCK_SLOTS = 256, GROUP_SLOTS = 8 };
 /* Added mass is whole when this part of a floe is under water. */
 #define WHOLE_FROM 0.25
 /* Damping is that of waves: whole while more than this part of a floe is above water, none when it is under it. */
 #define WAVES_FROM 0.05
 
 typedef struct response_work {
+    context *ctx;
     const media *media;
     const drag_coefficients *coefficients;
     const prism_response *settings;
@@ -19,6 +21,8 @@ typedef struct response_work {
     const shape_store *shapes;
     const double *volume;
     wrench *loads;
+    bool screened; /* only strong drag is of interest, and `weak` says where there is none */
+    drag_limits weak;
 } response_work;
 
 /* A prism as this room sees it. */
@@ -172,22 +176,57 @@ static void respond(const response_work *w, int32_t slot)
     b->added_inertia[slot] = inertia;
 }
 
+/* Slots first..first+7. */
+static void respond_group(const response_work *w, int32_t first)
+{
+    body_table *b = w->bodies;
+    unsigned weak = 0;
+    if (w->screened)
+        weak = KERNEL_PICK(w->ctx, weak_drag)(&w->weak, b, &w->shapes->shapes, first / GROUP_SLOTS);
+    for (int32_t slot = first; slot < first + GROUP_SLOTS && slot < b->count; slot++) {
+        if (weak >> (slot - first) & 1u)
+            b->added_mass[slot] = b->added_inertia[slot] = (vec3){0, 0, 0};
+        else if (body_is_dynamic(b, slot) && b->shape[slot] >= 0 &&
+                 w->shapes->shapes.kind[b->shape[slot]] == SHAPE_PRISM)
+            respond(w, slot);
+    }
+}
+
 static void respond_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const response_work *w = arg;
-    const body_table *b = w->bodies;
-    int32_t first = block * BLOCK_SLOTS, end = first + BLOCK_SLOTS < b->count ? first + BLOCK_SLOTS : b->count;
-    for (int32_t slot = first; slot < end; slot++)
-        if (body_is_dynamic(b, slot) && b->shape[slot] >= 0 && w->shapes->shapes.kind[b->shape[slot]] == SHAPE_PRISM)
-            respond(w, slot);
+    int32_t first = block * BLOCK_SLOTS, end = first + BLOCK_SLOTS;
+    for (int32_t slot = first; slot < end && slot < w->bodies->count; slot += GROUP_SLOTS)
+        respond_group(w, slot);
+}
+
+/* A hair under the limit of implicit_part, so that rounding decides nothing. */
+static drag_limits limits_of(const media *m, const drag_coefficients coefficients[MATERIAL_COUNT], double time_step)
+{
+    drag_limits limits = {.current = m->current, .rate = 0.999 * EXPLICIT_DRAG / time_step};
+    for (int i = 0; i < MATERIAL_COUNT; i++) {
+        limits.form[i] = m->water_density * coefficients[i].water_form;
+        limits.skin[i] = m->water_density * coefficients[i].water_skin;
+    }
+    return limits;
 }
 
 void prisms_respond(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
                     const prism_response *settings, double time_step, body_table *bodies, const shape_store *shapes,
                     const double *volume, wrench *loads)
 {
-    response_work w = {m, coefficients, settings, time_step, bodies, shapes, volume, loads};
+    response_work w = {ctx,
+                       m,
+                       coefficients,
+                       settings,
+                       time_step,
+                       bodies,
+                       shapes,
+                       volume,
+                       loads,
+                       is_plain(settings) && m->profile.count == 0,
+                       limits_of(m, coefficients, time_step)};
     pool_run(ctx, respond_block, &w, bodies->count / BLOCK_SLOTS + (bodies->count % BLOCK_SLOTS != 0));
 }
 

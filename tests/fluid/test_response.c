@@ -378,6 +378,41 @@ END_TEST
 
 /* Deep under water so that no spring pulls: every thickness, speed and step; the speed relative to the water never
    grows and never turns round. */
+/* The quick bound spares floes only where the closer one finds nothing; a current of depth leaves it out. */
+START_TEST(quick_bound_changes_nothing)
+{
+    random_stream r = random_begin(47, 0, 0);
+    media plain = still_water, of_depth = still_water;
+    plain.current = of_depth.current = vec3_make(0.3, -0.1, 0);
+    of_depth.profile.count = 1; /* without a velocity of its own */
+    const isa best = isa_best();
+    int spared = 0, strong = 0;
+    for (int n = 0; n < 3000; n++) {
+        rig k;
+        int32_t slot = add_floe(&k, real_exp(random_uniform(&r, -7, 1)));
+        double speed = real_exp(random_uniform(&r, -5, 3)), spin = real_exp(random_uniform(&r, -7, 1));
+        k.bodies.velocity[slot] = random_vector(&r, speed);
+        k.bodies.angular_velocity[slot] = random_vector(&r, spin);
+        k.ctx.isa = (isa)(n % ((int)best + 1));
+        double volume = n % 7 ? 80 : 0, dt = real_exp(random_uniform(&r, -6, 0));
+        wrench load = nothing;
+        const prism_response none = {false, 0};
+        prisms_respond(&k.ctx, &of_depth, drag, &none, dt, &k.bodies, &k.shapes, &volume, &load);
+        vec3 mass = k.bodies.added_mass[slot], inertia = k.bodies.added_inertia[slot];
+        k.bodies.added_mass[slot] = vec3_make(7, 7, 7);
+        prisms_respond(&k.ctx, &plain, drag, &none, dt, &k.bodies, &k.shapes, &volume, &load);
+        assert_array_bits(&k.bodies.added_mass[slot].x, &mass.x, 3);
+        assert_array_bits(&k.bodies.added_inertia[slot].x, &inertia.x, 3);
+        bool any = mass.x > 0 || mass.z > 0 || inertia.x > 0 || inertia.z > 0;
+        strong += any;
+        spared += !any;
+        rig_close(&k);
+    }
+    ck_assert_int_gt(strong, 300);
+    ck_assert_int_gt(spared, 300);
+}
+END_TEST
+
 START_TEST(strong_drag_is_stable)
 {
     static const double thickness[] = {1e-3, 1e-2, 0.1, 1}, speeds[] = {0.01, 0.3, 10, 100};
@@ -517,4 +552,5 @@ END_TEST
 
 TEST_MAIN("response", whole_matrix_accelerates, contacts_meet_the_diagonal, contacts_meet_all_of_it_in_time,
           contacts_settle_at_a_wall, strong_coupling_does_not_swing, coasting_keeps_energy, damping_of_any_strength,
-          weak_drag_is_left_alone, strong_drag_is_stable, strong_drag_is_right, floe_with_added_mass, floe_with_damping)
+          weak_drag_is_left_alone, quick_bound_changes_nothing, strong_drag_is_stable, strong_drag_is_right,
+          floe_with_added_mass, floe_with_damping)
