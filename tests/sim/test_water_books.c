@@ -172,6 +172,8 @@ START_TEST(spin_decays)
     }
     ck_assert_msg(fabs(error[1]) < 2e-3, "%g rad/s", error[1]);
     assert_absolute(error[0] / error[1], 2, 0.1);
+    books b;
+    check_books("{spin: 0.5}", 60, 0.025, 0.01, &b);
 }
 END_TEST
 
