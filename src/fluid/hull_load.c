@@ -159,14 +159,13 @@ static void add_large(const hull_walk *w, int32_t first, int32_t end, bool under
     }
 }
 
-static double low_of(const vec3 v[3]) { return v[0].z < v[1].z ? fmin(v[0].z, v[2].z) : fmin(v[1].z, v[2].z); }
-static double high_of(const vec3 v[3]) { return v[0].z > v[1].z ? fmax(v[0].z, v[2].z) : fmax(v[1].z, v[2].z); }
-
 /* Drag on a triangle of many points that the water plane cuts. */
-static void add_cut_drag(const hull_walk *w, const vec3 corner[3], branch_sums *sums)
+static void add_cut_drag(const hull_walk *w, int32_t place, branch_sums *sums)
 {
     double height = w->state->position.z;
-    vec3 part[4], normal = normal_of(corner);
+    vec3 corner[3], part[4];
+    corners_of(w, place, corner);
+    vec3 normal = normal_of(corner);
     int n = triangle_clip_below(corner, -height, part);
     if (w->wet && n >= 3) {
         stream s = water_at(w, part, n);
@@ -177,15 +176,26 @@ static void add_cut_drag(const hull_walk *w, const vec3 corner[3], branch_sums *
         facet_add_drag(&sums->air, &w->air, part, n, normal);
 }
 
+/* Whether all of a triangle is in one medium, by the heights that the kernel finds. */
+static void sides_of(const hull_walk *w, int32_t place, bool *under, bool *over)
+{
+    const solid *b = w->body;
+    const int32_t *v = b->surface.face.data[b->tree.face.data[place]].v;
+    *under = *over = true;
+    for (int i = 0; i < 3; i++) {
+        double height = w->plane.height + vec3_dot(w->plane.up, b->surface.vertex.data[v[i]]);
+        *under = *under && height <= 0;
+        *over = *over && height >= 0;
+    }
+}
+
 /* A triangle of a leaf that the water plane may cut. */
 static void add_place(const hull_walk *w, int32_t place, branch_sums *sums)
 {
     const mesh_integrals *all = &w->body->integrals;
-    double height = w->state->position.z;
     int32_t first = all->point_first.data[place], end = all->point_first.data[place + 1];
-    vec3 corner[3];
-    corners_of(w, place, corner);
-    bool under = high_of(corner) + height <= 0, over = low_of(corner) + height >= 0, one_point = end - first == 1;
+    bool under, over, one_point = end - first == 1;
+    sides_of(w, place, &under, &over);
     if (!over)
         add_cut(w, place, one_point && !under, sums);
     if (under && w->wet) {
@@ -197,21 +207,21 @@ static void add_place(const hull_walk *w, int32_t place, branch_sums *sums)
         add_large(w, place, place + 1, false, sums);
     }
     if (!under && !over && !one_point)
-        add_cut_drag(w, corner, sums);
+        add_cut_drag(w, place, sums);
 }
 
 /* ---- the tree ---- */
 
-static surface_moments add_moments(const surface_moments *a, const surface_moments *b)
+static void add_moments(surface_moments *to, const surface_moments *m)
 {
-    surface_moments sum = {vec3_add(a->area, b->area), vec3_add(a->turn, b->turn), a->area_first, a->turn_first};
+    to->area = vec3_add(to->area, m->area);
+    to->turn = vec3_add(to->turn, m->turn);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            sum.area_first.m[i][j] += b->area_first.m[i][j];
-            sum.turn_first.m[i][j] += b->turn_first.m[i][j];
+            to->area_first.m[i][j] += m->area_first.m[i][j];
+            to->turn_first.m[i][j] += m->turn_first.m[i][j];
         }
     }
-    return sum;
 }
 
 static void add_wet_node(const hull_walk *w, int32_t n, branch_sums *sums)
@@ -219,7 +229,7 @@ static void add_wet_node(const hull_walk *w, int32_t n, branch_sums *sums)
     const mesh_bvh_node *node = &w->body->tree.node.data[n];
     const mesh_integrals *all = &w->body->integrals;
     int32_t end = node->first + node->count;
-    sums->wet = add_moments(&sums->wet, &all->moments.data[n]);
+    add_moments(&sums->wet, &all->moments.data[n]);
     if (w->wet) {
         add_run(w, &w->water_points, all->point_first.data[node->first], all->point_first.data[end], &sums->water_run,
                 &sums->water_points);
@@ -273,7 +283,7 @@ static void add_joined(const hull_walk *w, int32_t n, vec3 facing, branch_sums *
     const surface_moments *m = &w->body->integrals.moments.data[n];
     double reach, height = box_height(w, node->box, &reach);
     if (height + reach <= 0) {
-        sums->wet = add_moments(&sums->wet, m);
+        add_moments(&sums->wet, m);
         if (w->wet)
             add_part_drag(w, &w->water_points, facing, m, &sums->water_points);
     } else if (height - reach >= 0) {
