@@ -196,7 +196,7 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
         scenario_locate(s, error);
         return FRAM_ERROR_INPUT;
     }
-    double speeds = o->speed_most / o->speed_step;
+    double speeds = o->speed_step > 0 ? o->speed_most / o->speed_step : 0;
     if (o->directions < 4 || o->directions > CAPABILITY_DIRECTIONS)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--directions", "expected 4 to %d, found %d",
                          (int)CAPABILITY_DIRECTIONS, (int)o->directions);
