@@ -45,9 +45,9 @@ static const command_row commands[] = {
      "  fram compare out/demo out/thick\n"
      "  fram compare out/demo out/thick -o both.html\n",
      command_compare},
-    {"video", "RUN", "make an MP4 of a run seen from above; needs ffmpeg, but no screen",
+    {"video", "RUN", "make an MP4 of a run, in space or from above; needs ffmpeg, but no screen",
      "  fram video out/demo\n"
-     "  fram video out/demo --colour force --span 200 -o bow.mp4\n"
+     "  fram video out/demo --camera plan --span 200 --colour force -o bow.mp4\n"
      "  fram video out/demo --pictures -o frames\n",
      command_video},
     {"capability", "SCENARIO -o DIR",

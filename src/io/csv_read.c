@@ -9,6 +9,24 @@
 #include <string.h>
 
 enum { NAMES_MOST = 32 };
+/* That some programs begin a text with. */
+#define BYTE_ORDER_MARK "\xef\xbb\xbf"
+
+/* A header cell is the name, or "name[unit]" in the unit that is asked for, if one is: no other unit is taken for it.
+ */
+static fram_status check_unit(const char *path, const char *cell, const char *wanted, fram_error *error)
+{
+    const char *unit = strchr(wanted, '[');
+    size_t name = strcspn(cell, ",["), length = strcspn(cell + name, ",");
+    if (!unit || length == 0 || strcmp(unit, "[1]") == 0)
+        return FRAM_OK;
+    while (length > 0 && cell[name + length - 1] == ' ')
+        length--;
+    if (length == strlen(unit) && strncmp(cell + name, unit, length) == 0)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, path, 1, wanted, "expected the unit %s, found %.*s", unit, (int)length,
+                     cell + name);
+}
 
 /* Column number of each name in the header row. */
 static fram_status find_columns(const char *path, const char *header, const char *const *names, int32_t count,
@@ -21,8 +39,11 @@ static fram_status find_columns(const char *path, const char *header, const char
             size_t length = strcspn(c, ",["), whole = strcspn(c, ",");
             while (length > 0 && c[length - 1] == ' ')
                 length--;
-            if (length == strlen(names[k]) && strncmp(c, names[k], length) == 0)
+            if (length == strcspn(names[k], "[") && strncmp(c, names[k], length) == 0) {
                 at[k] = column;
+                if (check_unit(path, c, names[k], error) != FRAM_OK)
+                    return FRAM_ERROR_INPUT;
+            }
             c += whole;
             if (!*c)
                 break;
@@ -62,7 +83,17 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
 typedef struct line_reader {
     fram_status (*read)(void *user, const char *path, int line, const char *text, fram_error *error);
     void *user;
+    bool open_end; /* the last line counts without its end; otherwise it is taken for one that was cut short */
 } line_reader;
+
+/* Without its end, be it of one character or two. */
+static void trim_end(char *line, size_t length)
+{
+    if (length > 0 && line[length - 1] == '\n')
+        line[--length] = '\0';
+    if (length > 0 && line[length - 1] == '\r')
+        line[--length] = '\0';
+}
 
 static fram_status read_lines(const char *path, const line_reader *reader, fram_error *error)
 {
@@ -74,14 +105,16 @@ static fram_status read_lines(const char *path, const line_reader *reader, fram_
     int number = 0;
     fram_status status = FRAM_OK;
     for (ssize_t length; status == FRAM_OK && (length = getline(&line, &room, file)) > 0;) {
-        if (line[length - 1] != '\n')
-            break; /* cut short */
-        line[length - 1] = '\0';
+        if (line[length - 1] != '\n' && !reader->open_end)
+            break;
         number++;
-        if (strlen(line) + 1 != (size_t)length)
+        if (strlen(line) != (size_t)length) {
             status = error_set(error, FRAM_ERROR_INPUT, path, number, NULL, "expected text, found a NUL byte");
-        else
-            status = reader->read(reader->user, path, number, line, error);
+            break;
+        }
+        trim_end(line, (size_t)length);
+        const char *text = number == 1 && strncmp(line, BYTE_ORDER_MARK, 3) == 0 ? line + 3 : line;
+        status = reader->read(reader->user, path, number, text, error);
     }
     if (status == FRAM_OK && number == 0)
         status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "the file has no header row");
@@ -113,7 +146,7 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
     column_reader r = {.ctx = ctx, .names = names, .count = count, .columns = columns};
     if (count > NAMES_MOST)
         return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "too many columns are asked for");
-    const line_reader reader = {read_columns, &r};
+    const line_reader reader = {read_columns, &r, true};
     return read_lines(path, &reader, error);
 }
 
@@ -178,7 +211,7 @@ fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_
 {
     *out = (csv_table){0};
     table_reader r = {ctx, out};
-    const line_reader reader = {read_table_line, &r};
+    const line_reader reader = {read_table_line, &r, false};
     fram_status status = read_lines(path, &reader, error);
     if (status != FRAM_OK)
         csv_table_free(ctx, out);

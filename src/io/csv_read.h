@@ -6,8 +6,8 @@
 
 typedef ARRAY(double) double_array;
 
-/* The columns of the given names ("name", the unit in brackets left out) appended to columns[0..count); a row that is
-   cut short at the end of the file ends the reading.  FRAM_ERROR_INPUT for a missing column or a value that is no
+/* The columns of the given names appended to columns[0..count).  A name may have a unit ("tension[N]"): the file may
+   leave it out, but not name another one.  FRAM_ERROR_INPUT for a missing column, another unit, or a value that is no
    number, with its line. */
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
@@ -22,7 +22,8 @@ typedef struct csv_table {
     int32_t rows;
 } csv_table;
 
-/* FRAM_ERROR_INPUT as csv_read, and for a name that is too long.  On failure the table is empty. */
+/* A row without its end, cut short while a run writes the file, ends the reading.  FRAM_ERROR_INPUT as csv_read, and
+   for a name that is too long.  On failure the table is empty. */
 fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_error *error);
 void csv_table_free(context *ctx, csv_table *t);
 /* NULL when there is none of this name. */

@@ -19,7 +19,7 @@ static void rows_free(context *ctx, flow_rows *rows)
 static fram_status read_rows(context *ctx, const scenario *s, const scenario_flow *from, flow_rows *rows,
                              fram_error *error)
 {
-    static const char *const names[4] = {"angle", "cx", "cy", "cn"};
+    static const char *const names[4] = {"angle[deg]", "cx", "cy", "cn"};
     if (from->table_file[0]) {
         char path[2 * SCENARIO_TEXT_SIZE];
         if (!scenario_resolve_path(s, from->table_file, path, sizeof path))
@@ -43,14 +43,13 @@ static fram_status fault(const scenario *s, const scenario_flow *from, const cha
                          double found, fram_error *error)
 {
     char name[80];
-    snprintf(name, sizeof name, from->table_file[0] || row < 0 ? "%s.table" : "%s.table[%d]", key, (int)row);
+    char path[2 * SCENARIO_TEXT_SIZE];
+    bool in_file = from->table_file[0] && scenario_resolve_path(s, from->table_file, path, sizeof path);
+    snprintf(name, sizeof name, in_file ? "%s.table_file" : row < 0 ? "%s.table" : "%s.table[%d]", key, (int)row);
+    if (in_file && row >= 0)
+        return error_set(error, FRAM_ERROR_INPUT, path, row + 2, name, "expected %s, found %g", rule, found);
     error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected %s, found %g", rule, found);
     scenario_locate(s, error);
-    if (error && from->table_file[0] && row >= 0) {
-        snprintf(error->file, sizeof error->file, "%.200s", from->table_file);
-        error->line = row + 2;
-        error->column = 0;
-    }
     return FRAM_ERROR_INPUT;
 }
 

@@ -38,7 +38,7 @@ static fram_status check_rows(const velocity_rows *rows, const char *path, const
 static fram_status read_rows(context *ctx, const scenario *s, const char *file, const char *first, velocity_rows *rows,
                              fram_error *error)
 {
-    const char *const names[COLUMNS] = {first, "x", "y"};
+    const char *const names[COLUMNS] = {first, "x[m/s]", "y[m/s]"};
     char path[2 * SCENARIO_TEXT_SIZE];
     if (!scenario_resolve_path(s, file, path, sizeof path))
         return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
@@ -52,7 +52,7 @@ static fram_status read_series(context *ctx, const scenario *s, const char *file
     if (!*file)
         return FRAM_OK;
     velocity_rows rows = {0};
-    fram_status status = read_rows(ctx, s, file, "time", &rows, error);
+    fram_status status = read_rows(ctx, s, file, "time[s]", &rows, error);
     if (status == FRAM_OK) {
         int32_t count = rows.column[AT].count;
         out->time = memory_array(ctx, (size_t)count, sizeof *out->time);
@@ -74,10 +74,10 @@ static fram_status read_profile(context *ctx, const scenario *s, const char *fil
     if (!*file)
         return FRAM_OK;
     velocity_rows rows = {0};
-    fram_status status = read_rows(ctx, s, file, "depth", &rows, error);
+    fram_status status = read_rows(ctx, s, file, "depth[m]", &rows, error);
     int32_t count = rows.column[AT].count;
     if (status == FRAM_OK && (count < 1 || count > CURRENT_LEVELS || rows.column[AT].data[0] < 0))
-        status = error_set(error, FRAM_ERROR_INPUT, file, 0, "depth",
+        status = error_set(error, FRAM_ERROR_INPUT, file, 0, "depth[m]",
                            "expected 1 to %d depths, from 0 on, found %d, from %g on", (int)CURRENT_LEVELS, (int)count,
                            count < 1 ? 0 : rows.column[AT].data[0]);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++) {

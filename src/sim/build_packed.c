@@ -49,7 +49,7 @@ static fram_status resolve(const scenario *s, const char *file, int32_t number, 
 static fram_status read_histogram(context *ctx, const scenario *s, int32_t number, population_files *f,
                                   fram_error *error)
 {
-    static const char *const names[HISTOGRAM_COLUMNS] = {"diameter_min", "diameter_max", "floes"};
+    static const char *const names[HISTOGRAM_COLUMNS] = {"diameter_min[m]", "diameter_max[m]", "floes"};
     char path[2 * SCENARIO_TEXT_SIZE];
     double_array column[HISTOGRAM_COLUMNS] = {0};
     const char *wrong = NULL;

@@ -27,7 +27,7 @@ enum { MOST_LINES = 64 };
 /* Rules of the points stand in vessel/mooring.c; here only where they come from. */
 static fram_status read_curve(context *ctx, const scenario *s, const char *file, line_definition *d, fram_error *error)
 {
-    static const char *const names[2] = {"offset", "tension"};
+    static const char *const names[2] = {"offset[m]", "tension[N]"};
     double_array column[2] = {{0}, {0}};
     char path[2 * SCENARIO_TEXT_SIZE];
     if (!scenario_resolve_path(s, file, path, sizeof path))

@@ -200,7 +200,8 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
     if (o->directions < 4 || o->directions > CAPABILITY_DIRECTIONS)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--directions", "expected 4 to %d, found %d",
                          (int)CAPABILITY_DIRECTIONS, (int)o->directions);
-    if (!(o->speed_step > 0 && speeds >= 0.999 && speeds < CAPABILITY_SPEEDS + 0.5))
+    if (!(o->speed_step > 0 && speeds >= 0.999 && speeds < CAPABILITY_SPEEDS + 0.5 &&
+          fabs(speeds - floor(speeds + 0.5)) < 1e-6 * speeds))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--speed-step",
                          "expected a positive step that divides --speed-most into 1 to %d speeds, found %g and %g m/s",
                          (int)CAPABILITY_SPEEDS, o->speed_step, o->speed_most);
@@ -212,6 +213,13 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
     if (!(o->measure >= s->run.time_step && o->measure <= 1e6))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--measure", "expected a time step to 1e6 seconds, found %g",
                          o->measure);
+    if (s->environment.wind_file[0]) {
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "environment.wind_file",
+                  "expected none, since the wind of a capability plot does not change: leave the file out (--set "
+                  "environment.wind_file=) and give environment.wind_speed");
+        scenario_locate(s, error);
+        return FRAM_ERROR_INPUT;
+    }
     return FRAM_OK;
 }
 

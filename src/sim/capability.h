@@ -53,7 +53,7 @@ typedef struct capability {
     capability_loads loads;
     capability_failure failure[96];
     int32_t failures;
-    capability_limit *intact, *damaged; /* by direction; damaged is NULL without anything that can fail */
+    capability_limit *intact, *damaged; /* by direction; without anything that can fail damaged says nothing */
     holding *use;                       /* [direction * speeds + k], intact */
 } capability;
 

@@ -56,10 +56,31 @@ static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
     return FRAM_OK;
 }
 
+/* Whether files can be written into the folder or, when it is not there, it can be made in the nearest one that is. */
+static fram_status can_be_written(const char *folder, fram_error *error)
+{
+    char path[PATH_SIZE];
+    if (snprintf(path, sizeof path, "%s", folder) >= PATH_SIZE)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    while (access(path, W_OK | X_OK) != 0) {
+        int found = errno;
+        char *slash = strrchr(path, '/');
+        if (found != ENOENT || strcmp(path, ".") == 0 || slash == path)
+            return file_error(error, path, "write into the folder", found);
+        if (slash)
+            *slash = '\0';
+        else
+            memcpy(path, ".", 2);
+    }
+    return FRAM_OK;
+}
+
 fram_status run_folder_check(const char *folder, bool force, fram_error *error)
 {
     bool empty = true;
     fram_status status = is_empty(folder, &empty, error);
+    if (status == FRAM_OK && (empty || force))
+        status = can_be_written(folder, error);
     if (status != FRAM_OK || empty || force)
         return status;
     return error_set(error, FRAM_ERROR_USAGE, folder, 0, "--output",

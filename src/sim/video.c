@@ -14,7 +14,7 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, VALUES_MOST = 400000, LONGEST = 30, MARKED = 3 };
+enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, VALUES_MOST = 400000, FRAMES_MOST = 100000, LONGEST = 30, MARKED = 3 };
 
 typedef struct video {
     context *ctx;
@@ -24,6 +24,8 @@ typedef struct video {
     double lo, hi;           /* of the colours */
     double arrow;            /* [m/N] */
     double most;             /* load [N] */
+    double step;             /* between pictures [s] */
+    int64_t count;           /* of pictures */
     box2 extent;             /* of the first frame's bodies but walls [m] */
     replay r;
     replay_moment moment;
@@ -201,17 +203,28 @@ static fram_status keep_picture(video *v, video_file *file, cairo_t *page, int64
     return status;
 }
 
+static fram_status find_frames(video *v, fram_error *error)
+{
+    double span = v->time.data[v->time.count - 1] - v->time.data[0], speed = v->options->speed;
+    if (!(speed > 0))
+        speed = fmax(1, span / LONGEST);
+    v->step = speed / v->options->frames_per_second;
+    double frames = floor(span / v->step + 1e-9) + 1;
+    if (!(frames <= FRAMES_MOST))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "speed",
+                         "expected at least %.2g, or fewer frames a second, for %d frames at most, found %g",
+                         span * v->options->frames_per_second / (FRAMES_MOST - 1), (int)FRAMES_MOST, speed);
+    v->count = (int64_t)frames;
+    return FRAM_OK;
+}
+
 static fram_status write_pictures(video *v, const char *folder, video_file *file, int64_t *frames, fram_error *error)
 {
-    double begin = v->time.data[0], end = v->time.data[v->time.count - 1], speed = v->options->speed;
-    if (!(speed > 0))
-        speed = fmax(1, (end - begin) / LONGEST);
-    double step = speed / v->options->frames_per_second;
-    int64_t count = (int64_t)floor((end - begin) / step + 1e-9) + 1;
+    double begin = v->time.data[0], end = v->time.data[v->time.count - 1];
     fram_status status = replay_open(v->ctx, folder, &v->r, error);
-    for (int64_t i = 0; i < count && status == FRAM_OK; i++) {
+    for (int64_t i = 0; i < v->count && status == FRAM_OK; i++) {
         cairo_t *page = NULL;
-        status = draw_picture(v, fmin(begin + (double)i * step, end), &page, error);
+        status = draw_picture(v, fmin(begin + (double)i * v->step, end), &page, error);
         if (status == FRAM_OK)
             status = keep_picture(v, file, page, i, error);
         *frames = i + 1;
@@ -256,6 +269,8 @@ fram_status video_write(context *ctx, const char *folder, const video_options *o
     if (status != FRAM_OK)
         return status;
     status = look_ahead(&v, folder, error);
+    if (status == FRAM_OK)
+        status = find_frames(&v, error);
     if (status == FRAM_OK)
         status = (options->pictures ? make_pictures : make_video)(&v, folder, frames, error);
     memcpy(path, v.path, sizeof v.path);

@@ -1,15 +1,8 @@
 #!/usr/bin/env bash
 # fram bench --scene: the same state for every thread count, instruction set and choice of functions of the C library;
 # the numbers that benchmarks read; refusals.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-value() { python3 -c 'import json, sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"; }
+. "$FRAM_SOURCE/tests/cli/common.sh"
+key_of() { python3 -c 'import json, sys; print(json.load(sys.stdin)[sys.argv[1]])' "$1"; }
 
 scene=$scratch/small.scene
 python3 "$FRAM_SOURCE/bench/peers/gen_scene.py" --n 150 --coverage 0.9 --current 0.3 0 --seed 3 -o "$scene" >/dev/null
@@ -17,37 +10,37 @@ steps=${FRAM_TEST_SHORT:+5.2}
 bench() { "$FRAM" bench --scene "$scene" --warm 5 --time "${steps:-8}" --json --quiet "$@"; }
 
 bench >"$scratch/plain"
-hash=$(value state_hash <"$scratch/plain")
+hash=$(key_of state_hash <"$scratch/plain")
 for key in ms_per_step_median ms_wall_median us_per_floe_step contact_points pairs mean_penetration_m \
     max_penetration_m ship_force_kN kinetic_energy_J collide_ms solve_ms forces_ms; do
-    value $key <"$scratch/plain" >/dev/null || fail "no $key in the answer"
+    key_of $key <"$scratch/plain" >/dev/null || fail "no $key in the answer"
 done
-[ "$(value floes <"$scratch/plain")" = 150 ] || fail "wrong number of floes"
+[ "$(key_of floes <"$scratch/plain")" = 150 ] || fail "wrong number of floes"
 
-same() {
+same_state() {
     [ "$1" = "$hash" ] || fail "$2: state $1 instead of $hash"
 }
 for threads in 2 3 4 8; do
-    same "$(bench --threads $threads | value state_hash)" "$threads threads"
+    same_state "$(bench --threads $threads | key_of state_hash)" "$threads threads"
 done
 for isa in baseline avx2 avx512; do
     if answer=$(bench --isa $isa 2>/dev/null); then
-        same "$(value state_hash <<<"$answer")" "--isa $isa"
+        same_state "$(key_of state_hash <<<"$answer")" "--isa $isa"
     fi
 done
 tunables=glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable,-AVX512F
-same "$(GLIBC_TUNABLES=$tunables bench | value state_hash)" "$tunables"
+same_state "$(GLIBC_TUNABLES=$tunables bench | key_of state_hash)" "$tunables"
 
 # Fram's own water on the same scene: another state, and that on any instruction set.
-hash=$(bench --exact-water | value state_hash)
-[ "$hash" != "$(value state_hash <"$scratch/plain")" ] || fail "--exact-water changes nothing"
-same "$(bench --exact-water --isa baseline --threads 3 | value state_hash)" "--exact-water, baseline, 3 threads"
-hash=$(value state_hash <"$scratch/plain")
+hash=$(bench --exact-water | key_of state_hash)
+[ "$hash" != "$(key_of state_hash <"$scratch/plain")" ] || fail "--exact-water changes nothing"
+same_state "$(bench --exact-water --isa baseline --threads 3 | key_of state_hash)" "--exact-water, baseline, 3 threads"
+hash=$(key_of state_hash <"$scratch/plain")
 
 # Poses, and how deep they overlap.  The ship has jammed the floes against the walls by then: enough sweeps for that.
 bench --iterations 30 --dump "$scratch/poses.csv" >/dev/null
 [ "$(wc -l <"$scratch/poses.csv")" = 151 ] || fail "the poses have not one line a floe"
-python3 "$FRAM_SOURCE/bench/penetration.py" "$scene" "$scratch/poses.csv" | value max_m >"$scratch/overlap"
+python3 "$FRAM_SOURCE/bench/penetration.py" "$scene" "$scratch/poses.csv" | key_of max_m >"$scratch/overlap"
 python3 -c 'import sys; sys.exit(not 0 <= float(open(sys.argv[1]).read()) < 0.2)' "$scratch/overlap" ||
     fail "overlap of $(cat "$scratch/overlap") m"
 
@@ -69,5 +62,4 @@ refuses "warm" --scene "$scene" --warm 5 --time 5
 printf 'icescene 1\nfloe 1 2\n' >"$scratch/bad.scene"
 refuses "bad.scene:2" --scene "$scratch/bad.scene"
 
-[ $failures = 0 ] && echo "fram bench --scene: as it should be"
-exit $failures
+finish "fram bench --scene: as it should be"

@@ -1,26 +1,6 @@
 #!/usr/bin/env bash
 # The command as a user meets it: exit codes, JSON, folders, stopping and resuming.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-
-# expect CODE COMMAND...: runs it, keeps its output in out and err.
-expect() {
-    local wanted=$1 code=0
-    shift
-    "$@" >out 2>err || code=$?
-    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
-}
-# The value of a JSON key on the last line of out.
-value() { tail -n 1 out | python3 -c 'import json, sys; print(json.load(sys.stdin)'"$1"')'; }
-same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
-says() { grep -q -- "$1" err || fail "standard error lacks '$1': $(cat err)"; }
+. "$FRAM_SOURCE/tests/cli/common.sh"
 
 cat >scene.yaml <<'YAML'
 title: A small field
@@ -56,18 +36,18 @@ for command in run resume check bench view keys; do
 done
 expect 2 "$FRAM"
 expect 2 "$FRAM" sail --json
-same "$(value '["error"]["key"]')" sail "key of an unknown command"
+same "$(value 'j["error"]["key"]')" sail "key of an unknown command"
 
 # --json ends with one object whatever is asked, and is UTF-8 whatever the words are.
 for words in "--help" "--version" "run --help" "keys" "check scene.yaml"; do
     # shellcheck disable=SC2086
     expect 0 "$FRAM" $words --json
-    value "" >/dev/null || fail "$words --json ends with no JSON object"
+    value j >/dev/null || fail "$words --json ends with no JSON object"
 done
 expect 2 "$FRAM" --json
-value '["error"]["message"]' >/dev/null || fail "a missing command is no JSON error"
+value 'j["error"]["message"]' >/dev/null || fail "a missing command is no JSON error"
 expect 2 "$FRAM" check $'\xff\xc3\xa9.yaml' --json
-same "$(value '["error"]["file"]')" $'\xef\xbf\xbd\xc3\xa9.yaml' "a file name that is no UTF-8"
+same "$(value 'j["error"]["file"]')" $'\xef\xbf\xbd\xc3\xa9.yaml' "a file name that is no UTF-8"
 
 # An answer that cannot be written is a failure.
 if [ -c /dev/full ]; then
@@ -80,12 +60,12 @@ fi
 
 # Usage errors.
 expect 2 "$FRAM" run scene.yaml --json
-same "$(value '["error"]["key"]')" --output "missing -o"
+same "$(value 'j["error"]["key"]')" --output "missing -o"
 expect 2 "$FRAM" run scene.yaml -o a --wrong
 expect 2 "$FRAM" run scene.yaml -o a --until soon
 expect 2 "$FRAM" run scene.yaml -o a --until 0
 expect 2 "$FRAM" run scene.yaml -o a --until -1 --json
-same "$(value '["error"]["key"]')" --until "key of a time before the start"
+same "$(value 'j["error"]["key"]')" --until "key of a time before the start"
 expect 2 "$FRAM" run scene.yaml more words -o a
 expect 2 "$FRAM" run -o a
 expect 2 "$FRAM" run scene.yaml -o a --threads 0
@@ -95,21 +75,21 @@ expect 2 "$FRAM" run scene.yaml -o a --isa sse9
 # Input errors name file, line and key.
 sed 's/speed: 2/sped: 2/' scene.yaml >wrong.yaml
 expect 2 "$FRAM" run wrong.yaml -o a --json
-same "$(value '["error"]["file"]')" wrong.yaml "file of an input error"
-same "$(value '["error"]["line"]')" 8 "line of an input error"
-same "$(value '["error"]["key"]')" vessel.sped "key of an input error"
-says "wrong.yaml:8"
+same "$(value 'j["error"]["file"]')" wrong.yaml "file of an input error"
+same "$(value 'j["error"]["line"]')" 8 "line of an input error"
+same "$(value 'j["error"]["key"]')" vessel.sped "key of an input error"
+says "wrong.yaml:8" err
 expect 2 "$FRAM" check missing.yaml
 sed 's/    length: 48/    form: file\n    file: hull.stl/; /beam:/d; /draught:/d; /freeboard:/d' scene.yaml >hull.yaml
 expect 2 "$FRAM" check hull.yaml --json
-same "$(value '["error"]["line"]')" 11 "line of a missing file"
-same "$(value '["error"]["key"]')" vessel.hull.file "key of a missing file"
+same "$(value 'j["error"]["line"]')" 11 "line of a missing file"
+same "$(value 'j["error"]["key"]')" vessel.hull.file "key of a missing file"
 expect 2 "$FRAM" check scene.yaml --set ice.thickness=-1 --json
-same "$(value '["error"]["key"]')" ice.thickness "key of a bad override"
+same "$(value 'j["error"]["key"]')" ice.thickness "key of a bad override"
 [ ! -e a ] || fail "a refused scenario left a folder"
 expect 2 "$FRAM" run scene.yaml -o a --set vessel.x=-40 --json
-same "$(value '["error"]["key"]')" vessel.x "key of a hull inside a wall"
-same "$(value '["error"]["file"]')" --set "place of a hull inside a wall"
+same "$(value 'j["error"]["key"]')" vessel.x "key of a hull inside a wall"
+same "$(value 'j["error"]["file"]')" --set "place of a hull inside a wall"
 
 # check prints a scenario that reads back as itself.
 expect 0 "$FRAM" check scene.yaml --set run.seed=7
@@ -118,16 +98,16 @@ expect 0 "$FRAM" check full.yaml
 cmp -s out full.yaml || fail "check is not its own fixed point"
 grep -q "seed: 7" out || fail "--set is not in what check prints"
 expect 0 "$FRAM" check scene.yaml --build --json
-[ "$(value '["floes"]')" -gt 20 ] || fail "check --build counted $(value '["floes"]') floes"
+[ "$(value 'j["floes"]')" -gt 20 ] || fail "check --build counted $(value 'j["floes"]') floes"
 expect 2 "$FRAM" check scene.yaml --build --set vessel.x=-60 --json
-same "$(value '["error"]["key"]')" vessel.x "key of a hull inside a wall, told by check --build"
+same "$(value 'j["error"]["key"]')" vessel.x "key of a hull inside a wall, told by check --build"
 
 # A run, its files and its JSON.
 expect 0 "$FRAM" run scene.yaml -o straight --json
-hash=$(value '["state_hash"]')
-same "$(value '["steps"]')" 100 "steps"
+hash=$(value 'j["state_hash"]')
+same "$(value 'j["steps"]')" 100 "steps"
 same "$(wc -l <out)" 1 "lines on standard output with --json"
-for key in wall_s real_time_factor; do value "[\"$key\"]" >/dev/null || fail "no $key"; done
+for key in wall_s real_time_factor; do value "j[\"$key\"]" >/dev/null || fail "no $key"; done
 for file in scenario.yaml run.json series.csv record.fram; do [ -s "straight/$file" ] || fail "no $file"; done
 same "$(wc -l <straight/series.csv)" 101 "rows of the time series"
 head -n 1 straight/series.csv | grep -q '^time\[s\],position_x\[m\],' || fail "header of the time series"
@@ -136,42 +116,42 @@ expect 0 "$FRAM" check straight/scenario.yaml
 
 # A folder that is not empty.
 expect 2 "$FRAM" run scene.yaml -o straight
-says "--force"
+says "--force" err
 expect 2 "$FRAM" run scene.yaml -o scene.yaml
 touch straight/failed.fram straight/station.json
 expect 0 "$FRAM" run scene.yaml -o straight --force --json
-same "$(value '["state_hash"]')" "$hash" "hash of the second run"
+same "$(value 'j["state_hash"]')" "$hash" "hash of the second run"
 for file in failed.fram station.json; do
     [ ! -e "straight/$file" ] || fail "--force leaves $file of the run before"
 done
 
 # Stop half way, resume, resume again; threads and instruction sets change nothing.
 expect 0 "$FRAM" run scene.yaml -o halves --until 1 --json
-same "$(value '["steps"]')" 50 "steps until 1 s"
-same "$(value '["finished"]')" False "finished at half time"
+same "$(value 'j["steps"]')" 50 "steps until 1 s"
+same "$(value 'j["finished"]')" False "finished at half time"
 expect 0 "$FRAM" resume halves --until 1.5 --threads 2 --json
 expect 0 "$FRAM" resume halves --json --isa baseline
-same "$(value '["state_hash"]')" "$hash" "hash of the resumed run"
-same "$(value '["finished"]')" True "finished"
+same "$(value 'j["state_hash"]')" "$hash" "hash of the resumed run"
+same "$(value 'j["finished"]')" True "finished"
 cmp -s straight/record.fram halves/record.fram || fail "the records of a straight and a resumed run differ"
 same "$(cut -d, -f1-70 straight/series.csv | md5sum)" "$(cut -d, -f1-70 halves/series.csv | md5sum)" "time series"
 
 # Going back is refused; far behind the end is the end.
 expect 2 "$FRAM" resume halves --until 1.5 --json
-same "$(value '["error"]["key"]')" --until "key of a time before the checkpoint"
+same "$(value 'j["error"]["key"]')" --until "key of a time before the checkpoint"
 expect 0 "$FRAM" resume halves --until 1e200 --json
-same "$(value '["state_hash"]')" "$hash" "hash of a run that was finished before"
+same "$(value 'j["state_hash"]')" "$hash" "hash of a run that was finished before"
 
 # A scenario and its files are found from any folder, and a run that used them resumes from any.
 mkdir -p "files/the \"hull\""
 expect 0 "$FRAM" hull --length 48 --beam 12 --draught 4 -o "files/the \"hull\"/hull.stl"
 cp hull.yaml "files/the \"hull\""
 expect 0 "$FRAM" run "files/the \"hull\"/hull.yaml" -o files/straight --json
-hull_hash=$(value '["state_hash"]')
+hull_hash=$(value 'j["state_hash"]')
 (cd files && expect 0 "$FRAM" run "the \"hull\"/hull.yaml" -o halves --until 1)
 mv files/halves moved
 (cd / && "$FRAM" resume "$scratch/moved" --json) >out 2>err || fail "a run with files was not resumed: $(cat err)"
-same "$(value '["state_hash"]')" "$hull_hash" "hash of a resumed run with files"
+same "$(value 'j["state_hash"]')" "$hull_hash" "hash of a resumed run with files"
 printf 'x' >>"files/the \"hull\"/hull.stl"
 expect 2 "$FRAM" resume moved
 
@@ -182,7 +162,7 @@ expect 2 "$FRAM" resume empty
 cp -r halves changed
 sed -i 's/thickness: 1/thickness: 2/' changed/scenario.yaml
 expect 2 "$FRAM" resume changed
-says "another scenario"
+says "another scenario" err
 cp -r halves damaged
 for file in damaged/checkpoint-*.fram; do printf 'x' | dd of="$file" bs=1 seek=100 conv=notrunc status=none; done
 expect 2 "$FRAM" resume damaged
@@ -199,23 +179,22 @@ kill -INT $pid
 code=0
 wait $pid || code=$?
 same "$code" 130 "exit code after Ctrl-C"
-says "fram resume long"
+says "fram resume long" err
 ls long/checkpoint-*.fram >/dev/null || fail "no checkpoint after Ctrl-C"
 now=$(python3 -c 'import json; print(json.load(open("long/run.json"))["time_s"] + 0.1)')
 expect 0 "$FRAM" resume long --until "$now"
 
 # A run that goes wrong says so, and leaves its state.
 expect 1 "$FRAM" run scene.yaml -o broken --set run.speed_limit=0.5 --json
-same "$(value '["error"]["status"]')" simulation "status of a run that went wrong"
+same "$(value 'j["error"]["status"]')" simulation "status of a run that went wrong"
 [ -s broken/failed.fram ] || fail "no state of the run that went wrong"
 grep -q '"status": "failed"' broken/run.json || fail "run.json does not say that the run failed"
 
 # The benchmark.
 expect 0 "$FRAM" bench scene.yaml --warm 0.1 --time 0.2 --json
 for key in ms_per_step_median us_per_floe_step contact_points state_hash; do
-    value "[\"$key\"]" >/dev/null || fail "bench prints no $key"
+    value "j[\"$key\"]" >/dev/null || fail "bench prints no $key"
 done
 expect 2 "$FRAM" bench scene.yaml --time -1
 
-[ $failures = 0 ] || exit 1
-echo "the command behaves"
+finish "the command behaves"

@@ -1,25 +1,6 @@
 #!/usr/bin/env bash
 # fram field as a user meets it: what a field is, mending, cutting, drawing, out and back, errors with their place.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-# expect CODE COMMAND...: runs it, keeps its output in out and err.
-expect() {
-    local wanted=$1 code=0
-    shift
-    "$@" >out 2>err || code=$?
-    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
-}
-# The value of an expression of the JSON object j on the last line of out.
-value() { tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
-same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
-says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
+. "$FRAM_SOURCE/tests/cli/common.sh"
 
 # Two squares, one of them with a thickness, and a bow tie of two triangles of 25 m2.
 cat >floes.geojson <<'JSON'
@@ -178,4 +159,4 @@ for words in "--scale 0" "--scale nan" "--scale -1" "--scale 1e300" "--crop 1,2,
     value 'j["error"]["message"]' >/dev/null || fail "no JSON error after $words"
 done
 
-[ "$failures" = 0 ] || exit 1
+finish "fram field: as it should be"

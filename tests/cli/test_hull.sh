@@ -1,27 +1,8 @@
 #!/usr/bin/env bash
 # fram hull as a user meets it: files and particulars in, report, JSON, drawing and files out, errors with their place.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-# expect CODE COMMAND...: runs it, keeps its output in out and err.
-expect() {
-    local wanted=$1 code=0
-    shift
-    "$@" >out 2>err || code=$?
-    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
-}
-# The value of an expression of the JSON object j on the last line of out.
-value() { tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
-same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
+. "$FRAM_SOURCE/tests/cli/common.sh"
 # near EXPRESSIONS NUMBERS NAME: numbers of j, to rounding.
 near() { same "$(value "max(abs(a - b) for a, b in zip(($1), ($2))) < 1e-11 * max(map(abs, ($2)))")" True "$3"; }
-says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
 
 # A box from particulars, by hand: 40 x 10 x (3 + 2) m.
 expect 0 "$FRAM" hull --box --length 40 --beam 10 --draught 3 --freeboard 2 --json -o box.stl
@@ -117,4 +98,4 @@ says ".stl, .obj or .gdf" err
 expect 2 "$FRAM" hull missing.stl
 says "missing.stl" err
 
-[ "$failures" = 0 ] || exit 1
+finish "fram hull: as it should be"

@@ -1,27 +1,11 @@
 #!/usr/bin/env bash
 # fram ice as a user meets it: dimensionless and SI calculations, JSON, errors.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-# expect CODE COMMAND...: runs it, keeps its output in out and err.
-expect() {
-    local wanted=$1 code=0
-    shift
-    "$@" >out 2>err || code=$?
-    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
-}
+. "$FRAM_SOURCE/tests/cli/common.sh"
 # near EXPRESSION NUMBER TOLERANCE NAME, of the JSON object j on the last line of out.
 near() {
     tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); a, b = '"$1, $2"'
 sys.exit(abs(a - b) > '"$3"' * abs(b))' || fail "$4: $(cat out)"
 }
-says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
 
 expect 0 "$FRAM" ice wedge --a-over-l 0.1 --json
 near 'j["capacity_C"]' 1.255469567682 1e-9 "capacity"
@@ -46,4 +30,4 @@ says 'is no calculation' err
 expect 2 "$FRAM" ice break --thickness -1
 says thickness err
 
-[ "$failures" = 0 ] || exit 1
+finish "fram ice: as it should be"

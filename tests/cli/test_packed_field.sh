@@ -1,9 +1,7 @@
 #!/usr/bin/env bash
 # A packed field through fram bench --scene: Voronoi floes at 98 % pressed against a wall by a current come to rest and
 # stay there for 10,000 steps, without jitter, gain of energy or growing overlap.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+. "$FRAM_SOURCE/tests/cli/common.sh"
 
 scene=$scratch/packed.scene
 python3 "$FRAM_SOURCE/bench/peers/gen_scene.py" --n 60 --coverage 0.98 --current 0.3 0 --ship-speed 0 --seed 2 \

@@ -1,22 +1,6 @@
 #!/usr/bin/env bash
 # export, report, plot, compare and video as a user meets them; what other programs read is looked at in tests/views.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-expect() {
-    local wanted=$1 code=0
-    shift
-    "$@" >out 2>err || code=$?
-    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
-}
-says() { grep -q -- "$1" err || fail "standard error lacks '$1': $(cat err)"; }
-holds() { grep -q -- "$2" "$1" || fail "$1 lacks '$2'"; }
+. "$FRAM_SOURCE/tests/cli/common.sh"
 
 cat >scene.yaml <<'YAML'
 title: A <short> run & its results
@@ -49,17 +33,17 @@ for command in export report plot compare video; do
     expect 2 "$FRAM" $command nowhere thin -o "$scratch/x.html" --vtk
 done
 expect 2 "$FRAM" export run
-says "name one format"
+says "name one format" err
 expect 2 "$FRAM" export run --geojson
-says "--time T"
+says "--time T" err
 expect 2 "$FRAM" export run --vtk --time 3
 expect 2 "$FRAM" export run --vtk --every 0
 expect 2 "$FRAM" export scene.yaml --vtk
 
 # Export.
 expect 0 "$FRAM" export run --vtk --json
-holds out '"frames":7'
-holds run/vtk/run.pvd 'data/hull_000006.vtp'
+holds '"frames":7' out
+holds 'data/hull_000006.vtp' run/vtk/run.pvd
 expect 0 "$FRAM" export run --geojson --time 1.25 -o half.geojson -q
 python3 - <<'PY' || fail "half.geojson is not the field at 1.25 s"
 import json
@@ -77,11 +61,11 @@ fi
 expect 0 "$FRAM" report run
 for part in "A &lt;short&gt; run &amp; its results" "<h2>Scenario" "<h2>Ice load" "<h2>Ice field" "<h2>Fracture" \
     "<h2>Mass and energy" "<h2>Quality of the solution" "<h2>Origin" "not accounted for" "SHA-256"; do
-    holds run/report.html "$part"
+    holds "$part" run/report.html
 done
 grep -oE '(src|href)="[^"]{0,20}' run/report.html | grep -v '"data:image' && fail "the report fetches something"
 ! grep -q '<script' run/report.html || fail "the report has a script"
-[ $pictures = no ] || holds run/report.html 'data:image/svg+xml;base64'
+[ $pictures = no ] || holds 'data:image/svg+xml;base64' run/report.html
 python3 - <<'PY' || fail "the report's HTML does not nest"
 from html.parser import HTMLParser
 class Nest(HTMLParser):
@@ -97,26 +81,26 @@ PY
 
 # Plots.
 expect 0 "$FRAM" plot run
-holds out '^position_x \[m\]$'
+holds '^position_x \[m\]$' out
 if [ $pictures = yes ]; then
     expect 0 "$FRAM" plot run roll ice_force_averaged_x -o two.png --from 1 --to 2
     [ "$(head -c 4 two.png | tail -c 3)" = PNG ] || fail "two.png is no PNG"
     expect 0 "$FRAM" plot run roll -o one.svg
-    holds one.svg "<svg"
+    holds "<svg" one.svg
     expect 2 "$FRAM" plot run rolll -o no.png
-    says "did you mean roll"
+    says "did you mean roll" err
     expect 2 "$FRAM" plot run roll -o no.png --from 9
 fi
 expect 2 "$FRAM" plot run roll
-says "--output"
+says "--output" err
 
 # Two runs.
 expect 0 "$FRAM" compare run run --json
-holds out '"same_state":true'
+holds '"same_state":true' out
 expect 0 "$FRAM" compare run thin -o both.html
-holds out "scenarios: different"
-holds out "ice load along X, mean"
-holds both.html "Two runs beside each other"
+holds "scenarios: different" out
+holds "ice load along X, mean" out
+holds "Two runs beside each other" both.html
 
 # Video: frames without ffmpeg; with ffmpeg the file; without it a clear word.
 if [ $pictures = yes ]; then
@@ -126,10 +110,13 @@ if [ $pictures = yes ]; then
     expect 2 "$FRAM" video run --width 641
     expect 2 "$FRAM" video run --camera nowhere
     expect 2 "$FRAM" video run --camera follow --span 80
+    expect 2 "$FRAM" video run --speed 1e-9 --pictures -o endless
+    says "100000 frames" err
+    [ ! -e endless ] || fail "a refused video left a folder"
     expect 0 "$FRAM" video run --pictures --fps 1 --camera follow --width 480 --height 360 -o near
     cmp -s near/frame-000000.png near/frame-000002.png && fail "frames of the video in space are all the same"
     expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4
-    says "needs ffmpeg"
+    says "needs ffmpeg" err
     if command -v ffmpeg >/dev/null; then
         expect 0 "$FRAM" video run --fps 4 --width 640 --height 480 --camera plan --span 80 -o run.mp4
         [ "$(head -c 8 run.mp4 | tail -c 4)" = ftyp ] || fail "run.mp4 is no MP4"
@@ -137,5 +124,4 @@ if [ $pictures = yes ]; then
 fi
 [ -z "$(find . -name '*.new')" ] || fail "half-written files are left: $(find . -name '*.new')"
 
-[ $failures = 0 ] || exit 1
-echo "results are as a user expects them"
+finish "results are as a user expects them"

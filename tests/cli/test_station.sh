@@ -1,14 +1,6 @@
 #!/usr/bin/env bash
 # What befalls a vessel on station is named in the log while it runs, and in its results.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-failures=0
-fail() {
-    echo "FAILED: $*"
-    failures=$((failures + 1))
-}
-says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
+. "$FRAM_SOURCE/tests/cli/common.sh"
 
 cat >"$scratch/scene.yaml" <<'END'
 run: {duration: 60, time_step: 0.1}
@@ -35,9 +27,9 @@ environment: {current_speed: 1.5, current_direction_deg: 20}
 output: {frame_interval: 0, csv_interval: 0.5}
 END
 printf 'offset[m],tension[N]\n-20,1e5\n0,3e5\n20,6e5\n' >"$scratch/line.csv"
-"$FRAM" run "$scratch/scene.yaml" -o "$scratch/run" 2>"$scratch/err" || fail "the run: $(tail -n 3 "$scratch/err")"
+"$FRAM" run "$scratch/scene.yaml" -o "$scratch/run" 2>err || fail "the run: $(tail -n 3 err)"
 for words in 'line 1 was let go' 'line 2 broke' 'thruster 1 failed' 'position lost'; do
-    says "$words" "$scratch/err"
+    says "$words" err
 done
 python3 - "$scratch/run" <<'END' || fail "station.json"
 import json, sys
@@ -59,4 +51,19 @@ case $("$FRAM" --version) in
     says 'Keeping station' "$scratch/run/report.html"
     ;;
 esac
-[ "$failures" = 0 ]
+
+# A table of a scenario in another folder is named with that folder, its line and its key.
+mkdir tables
+printf 'angle[deg],cx,cy,cn\n0,1,0,0\n90,0,1,0\n80,0,1,0\n180,-1,0,0\n' >tables/hull.csv
+cat >tables/scene.yaml <<'END'
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}
+  wind_coefficients: {table_file: hull.csv}
+ice: {source: none}
+domain: {boundary: open}
+END
+expect 2 "$FRAM" run tables/scene.yaml -o refused
+says 'tables/hull.csv:4: vessel.wind_coefficients.table_file: expected a larger angle' err
+
+finish "events on station are named"

@@ -1,13 +1,9 @@
 #!/usr/bin/env bash
 # The tutorials of the manual: every command, as it is written, in the order of the page.
-set -euo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cp -r "$root/scenes" "$scratch/"
+. "$FRAM_SOURCE/tests/cli/common.sh"
+cp -r "$FRAM_SOURCE/scenes" "$scratch/"
 mkdir -p "$scratch/build/release" "$scratch/out"
 ln -s "$FRAM" "$scratch/build/release/fram"
-cd "$scratch"
 count=0
 while IFS= read -r line; do
     command=${line#    }
@@ -22,6 +18,6 @@ while IFS= read -r line; do
         tail -n 5 out/log
         exit 1
     fi
-done < <(grep '^    ' "$root/docs/tutorials.md")
+done < <(grep '^    ' "$FRAM_SOURCE/docs/tutorials.md")
 echo "$count commands of docs/tutorials.md"
 [ "$count" -ge 15 ]

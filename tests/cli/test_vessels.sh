@@ -1,10 +1,7 @@
 #!/usr/bin/env bash
 # Ready vessels (scenes/vessels): each is a scenario that runs, floats where its file says, and keeps still or goes
 # ahead.
-set -euo pipefail
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-failures=0
+. "$FRAM_SOURCE/tests/cli/common.sh"
 for file in "$FRAM_SOURCE"/scenes/vessels/*.yaml; do
     name=$(basename "$file" .yaml)
     "$FRAM" run "$file" -o "$scratch/$name" --until 20 --quiet || failures=$((failures + 1))
@@ -23,4 +20,5 @@ if bad:
     sys.exit(f"FAILED: {sys.argv[2]}: {last}")
 END
 done
-[ "$failures" = 0 ] || exit 1
+
+finish "ready vessels run"

@@ -1,9 +1,9 @@
-/* io/csv_read: columns by name, the end cut short, and what is refused, with its line. */
+/* io/csv_read: columns by name, in their unit, and what is refused, with its line. */
 #include "io/csv_read.h"
 #include "scratch.h"
 
 enum { COLUMNS = 2 };
-static const char *const names[COLUMNS] = {"time", "force"};
+static const char *const names[COLUMNS] = {"time", "force[N]"};
 
 static fram_status read_text(const char *text, size_t size, double_array *columns, fram_error *error)
 {
@@ -42,7 +42,7 @@ static void assert_refused(const char *text, size_t size, int line, const char *
 
 START_TEST(columns_are_found_by_name_in_any_order)
 {
-    static const char text[] = "force[N],x[m],time[s]\n-2.5e3,7,0.25\n4,7,0.5\n9,9";
+    static const char text[] = "force[N],x[m],time[s]\n-2.5e3,7,0.25\n4,7,0.5\n";
     double_array columns[COLUMNS] = {0};
     fram_error error;
     ck_assert_int_eq(read_text(text, sizeof text - 1, columns, &error), FRAM_OK);
@@ -54,15 +54,33 @@ START_TEST(columns_are_found_by_name_in_any_order)
 }
 END_TEST
 
+/* As spreadsheets and editors leave it: a mark in front, ends of two characters, none at the end. */
+START_TEST(ends_of_lines_do_not_matter)
+{
+    static const char text[] = "\xef\xbb\xbftime,force [N]\r\n0.25,1\r\n0.5,-2500";
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_msg(read_text(text, sizeof text - 1, columns, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(columns[0].count, 2);
+    ck_assert_int_eq(columns[1].count, 2);
+    assert_bits(columns[0].data[0], 0.25);
+    assert_bits(columns[1].data[1], -2500);
+    free_columns(columns);
+}
+END_TEST
+
 START_TEST(what_is_wrong_is_refused_at_its_line)
 {
     ASSERT_REFUSED("", 1, "no header");
     ASSERT_REFUSED("time[s],x[m]\n", 1, "no column");
     ASSERT_REFUSED("time[s],force[N]\n1,2\n1,two\n", 3, "expected a number");
+    ASSERT_REFUSED("time[s],force[kN]\n1,2\n", 1, "expected the unit [N], found [kN]");
     ASSERT_REFUSED("time[s],force[N]\n1\n1,2\n", 2, "has 1 values");
+    ASSERT_REFUSED("time[s],force[N]\n1,2\n1", 3, "has 1 values");
     ASSERT_REFUSED("time[s],force[N]\n1,2\n\n", 3, "has 0 values");
     ASSERT_REFUSED("time[s],force[N]\n1,2\0,3\n", 2, "NUL");
 }
 END_TEST
 
-TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, what_is_wrong_is_refused_at_its_line)
+TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter,
+          what_is_wrong_is_refused_at_its_line)

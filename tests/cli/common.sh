@@ -1,0 +1,32 @@
+# What the tests of the command share: to be sourced first, by
+#     . "$FRAM_SOURCE/tests/cli/common.sh"
+# It goes to a scratch folder, which is removed in the end.  A test ends with `finish WORDS`.
+# shellcheck shell=bash
+set -euo pipefail
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+failures=0
+fail() {
+    echo "FAILED: $*"
+    failures=$((failures + 1))
+}
+# finish WORDS: ends the test; the words say what holds when nothing failed.
+finish() {
+    [ "$failures" = 0 ] || exit 1
+    echo "$*"
+}
+# expect CODE COMMAND...: runs it, keeps its output in out and err.
+expect() {
+    local wanted=$1 code=0
+    shift
+    "$@" >out 2>err || code=$?
+    [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
+}
+# The value of an expression of the JSON object j on the last line of out.
+value() { tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
+# same FOUND WANTED NAME
+same() { [ "$1" = "$2" ] || fail "$3: '$1' instead of '$2'"; }
+# says WORDS FILE, holds PATTERN FILE: the file has the words, or a line of the pattern.
+says() { grep -qF -- "$1" "$2" || fail "$2 lacks '$1': $(cat "$2")"; }
+holds() { grep -q -- "$1" "$2" || fail "$2 lacks '$1'"; }
