@@ -47,8 +47,11 @@ static void print_result(const common_options *common, const char *output, const
     json_end(&j);
 }
 
-/* Megabytes as bytes; 0 when they are not given. */
-static uint64_t bytes_of(double megabytes) { return megabytes > 0 ? (uint64_t)(megabytes * 1e6) : 0; }
+/* Limits in megabytes; 0: not given. */
+#define MEGABYTES_MOST 1e6
+
+static bool is_limit(double megabytes) { return megabytes >= 0 && megabytes <= MEGABYTES_MOST; }
+static uint64_t bytes_of(double megabytes) { return (uint64_t)(megabytes * 1e6); }
 
 int command_view(const command_row *self, int argc, char **argv)
 {
@@ -68,6 +71,9 @@ int command_view(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &folder, 1);
     if (code >= 0)
         return code;
+    if (!is_limit(page_mb) || !is_limit(total_mb))
+        return answer_usage(&common, is_limit(page_mb) ? "--total-limit" : "--page-limit",
+                            "expected megabytes from 0 (as by default) to 1e6");
     char found[PATH_SIZE], beside[PATH_SIZE];
     if (!definition.viewer_page && !find_page(found))
         return answer_usage(&common, "--page",

@@ -26,6 +26,12 @@ static double breadth_across(const vec2_array *waterline, vec3 centre, vec2 alon
 
 fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
 {
+    if (s->ice.source == ICE_LEVEL) {
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.source",
+                  "expected broken ice, for which the formula is made, found level");
+        scenario_locate(s, error);
+        return FRAM_ERROR_INPUT;
+    }
     int32_t body = w->vessels.body[0];
     vec2_array waterline = {0};
     fram_status status = build_footprint(ctx, w, body, true, &waterline, error);

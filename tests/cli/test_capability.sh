@@ -29,6 +29,8 @@ expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --speed-step 0.3
 says 'divides --speed-most' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --set "environment.wind_file=$FRAM_SOURCE/scenes/drift_turning.csv"
 says 'environment.wind_file' err
+expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --set ice.source=level --set domain.boundary=open
+says 'broken ice' err
 touch file
 expect 2 "$FRAM" capability "$scene" -o "$scratch/file/b" --formula
 says 'file' err

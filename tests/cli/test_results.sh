@@ -36,6 +36,10 @@ expect 2 "$FRAM" export run
 says "name one format" err
 expect 2 "$FRAM" export run --geojson
 says "--time T" err
+expect 2 "$FRAM" view run --page-limit -3
+says "--page-limit" err
+expect 2 "$FRAM" view run --total-limit 1e300
+says "--total-limit" err
 expect 2 "$FRAM" export run --vtk --time 3
 expect 2 "$FRAM" export run --vtk --every 0
 expect 2 "$FRAM" export scene.yaml --vtk
