@@ -31,10 +31,15 @@ static int put_point(char *text)
     return (int)to;
 }
 
+static int not_finite(double value, char out[NUMBER_TEXT_SIZE])
+{
+    return snprintf(out, NUMBER_TEXT_SIZE, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
+}
+
 int real_to_text(double value, char out[NUMBER_TEXT_SIZE])
 {
     if (!isfinite(value))
-        return snprintf(out, NUMBER_TEXT_SIZE, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
+        return not_finite(value, out);
     /* 15 digits always survive text -> double -> text, 17 always double -> text -> double. */
     for (int digits = 15; digits < 17; digits++) {
         snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
@@ -42,6 +47,14 @@ int real_to_text(double value, char out[NUMBER_TEXT_SIZE])
             return put_point(out);
     }
     snprintf(out, NUMBER_TEXT_SIZE, "%.17g", value);
+    return put_point(out);
+}
+
+int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
+{
+    if (!isfinite(value))
+        return not_finite(value, out);
+    snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
     return put_point(out);
 }
 

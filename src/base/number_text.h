@@ -11,6 +11,9 @@ enum { NUMBER_TEXT_SIZE = 32 };
    digits than needed); "nan", "inf", "-inf" otherwise. Returns its length. */
 int real_to_text(double value, char out[NUMBER_TEXT_SIZE]);
 
+/* The same to that many significant digits at most, in a third of the time.  Returns its length. */
+int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);
+
 typedef enum number_fault {
     NUMBER_GOOD = 0,
     NUMBER_NOT_A_NUMBER, /* not of the form [+-]digits[.digits][e[+-]digits]; also nan, inf, hexadecimal */

@@ -83,7 +83,7 @@ fram_status csv_append(csv_writer *w, const double *row, fram_error *error)
     fram_status status = FRAM_OK;
     for (int32_t c = 0; c < w->column_count && status == FRAM_OK; c++) {
         char text[NUMBER_TEXT_SIZE + 1];
-        int length = real_to_text(row[c], text);
+        int length = real_to_digits(row[c], CSV_DIGITS, text);
         text[length] = c + 1 < w->column_count ? ',' : '\n';
         status = file_write(&w->file, text, (size_t)length + 1, error);
     }

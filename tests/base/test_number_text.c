@@ -29,6 +29,18 @@ START_TEST(reals_print_as_the_shortest_text)
 }
 END_TEST
 
+START_TEST(digits_are_as_many_as_asked)
+{
+    char text[NUMBER_TEXT_SIZE];
+    ck_assert_int_eq(real_to_digits(-2 / 3.0, 12, text), 15);
+    ck_assert_str_eq(text, "-0.666666666667");
+    ck_assert_int_eq(real_to_digits(1e10, 3, text), 5);
+    ck_assert_str_eq(text, "1e+10");
+    real_to_digits((double)NAN, 12, text);
+    ck_assert_str_eq(text, "nan");
+}
+END_TEST
+
 START_TEST(reals_of_any_bits_come_back)
 {
     random_stream random = random_begin(1, 0, 0);
@@ -101,5 +113,5 @@ START_TEST(locales_change_nothing)
 }
 END_TEST
 
-TEST_MAIN("number_text", reals_print_as_the_shortest_text, reals_of_any_bits_come_back, reals_are_read_strictly,
-          integers_are_read_strictly, locales_change_nothing)
+TEST_MAIN("number_text", reals_print_as_the_shortest_text, digits_are_as_many_as_asked, reals_of_any_bits_come_back,
+          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)

@@ -16,12 +16,12 @@ static void assert_content(const char *path, const char *expected)
     free(data);
 }
 
-START_TEST(rows_keep_every_bit)
+START_TEST(rows_keep_twelve_digits)
 {
     context_init(&ctx);
     scratch s = scratch_make();
     csv_writer w;
-    static const double rows[2][4] = {{0, 1 / 3.0, 12, -0.0}, {0.1, 1e-300, 1e22, 0.30000000000000004}};
+    static const double rows[2][4] = {{0, 1 / 3.0, 12, -0.0}, {0.1, 1e-300, 1e22, -123456789.0123456}};
     assert_ok(csv_create(&ctx, scratch_path(&s, "a.csv"), columns, 4, &w, &error), error);
     for (int i = 0; i < 2; i++)
         assert_ok(csv_append(&w, rows[i], &error), error);
@@ -29,8 +29,7 @@ START_TEST(rows_keep_every_bit)
     assert_ok(csv_flush(&w, true, &error), error);
     ck_assert_uint_eq(csv_length(&w), length);
     assert_ok(csv_close(&w, &error), error);
-    assert_content(s.path,
-                   "time[s],x[m],contacts,bare\n0,0.3333333333333333,12,-0\n0.1,1e-300,1e+22,0.30000000000000004\n");
+    assert_content(s.path, "time[s],x[m],contacts,bare\n0,0.333333333333,12,-0\n0.1,1e-300,1e+22,-123456789.012\n");
     size_t size;
     char *data = scratch_read(s.path, &size);
     ck_assert_uint_eq(size, length);
@@ -40,7 +39,8 @@ START_TEST(rows_keep_every_bit)
         double value;
         at[field] = '\0';
         ck_assert_int_eq(real_from_text(at, &value), NUMBER_GOOD);
-        assert_bits(value, rows[i / 4][i % 4]);
+        double written = rows[i / 4][i % 4];
+        ck_assert(fabs(value - written) <= 5e-12 * fabs(written));
         at += field + 1;
     }
     free(data);
@@ -129,5 +129,5 @@ START_TEST(no_memory_is_an_error)
 }
 END_TEST
 
-TEST_MAIN("csv", rows_keep_every_bit, a_file_is_continued_where_a_checkpoint_says, a_full_disk_stops_the_writer,
+TEST_MAIN("csv", rows_keep_twelve_digits, a_file_is_continued_where_a_checkpoint_says, a_full_disk_stops_the_writer,
           no_memory_is_an_error)
