@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static int read_words(const command_row *self, field_words *w, common_options *common, int argc, char **argv)
 {
@@ -96,6 +97,25 @@ static const char *misplaced_option(const field_words *w)
     return w->bad ? "--bad" : NULL;
 }
 
+static bool is_one_file(const char *a, const char *b)
+{
+    struct stat one, other;
+    return strcmp(a, b) == 0 ||
+           (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
+}
+
+/* NULL, or the option whose file is the input or that of another option. */
+static const char *clashing_option(const field_words *w)
+{
+    const char *const file[] = {w->path, w->draw, w->cover, w->table, w->output};
+    static const char *const option[] = {"", "--draw", "--cover", "--table", "--output"};
+    for (int i = 1; i < 5; i++)
+        for (int k = 0; k < i; k++)
+            if (file[i] && file[k] && is_one_file(file[i], file[k]))
+                return option[i];
+    return NULL;
+}
+
 /* ---- the command ---- */
 
 /* Words that contradict themselves: an exit code, -1 to go on. */
@@ -114,6 +134,11 @@ static int check_words(const common_options *common, field_words *w)
         return answer_usage(common, "--window", "expected X0,Y0,X1,Y1 in metres, with X0 < X1 and Y0 < Y1");
     if (w->bad && !read_bad(w))
         return answer_usage(common, "--bad", "expected refuse, drop or repair");
+    if (w->cell != 0 && !w->cover)
+        return answer_usage(common, "--cell", "is the size of the cells of --cover FILE.png, which is missing");
+    const char *clash = clashing_option(w);
+    if (clash)
+        return answer_usage(common, clash, "names the input or another output; give it a file of its own");
     return -1;
 }
 

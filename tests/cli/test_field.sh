@@ -159,4 +159,15 @@ for words in "--scale 0" "--scale nan" "--scale -1" "--scale 1e300" "--crop 1,2,
     value 'j["error"]["message"]' >/dev/null || fail "no JSON error after $words"
 done
 
+# Nothing is written over the input, nor two outputs into one file.
+cp floes.geojson keep.geojson
+ln -s keep.geojson link.geojson
+expect 2 "$FRAM" field keep.geojson --bad drop -o link.geojson
+says "--output" err
+expect 2 "$FRAM" field keep.geojson --bad drop --draw one --table one
+says "--table" err
+cmp -s floes.geojson keep.geojson || fail "the input was written over"
+expect 2 "$FRAM" field keep.geojson --cell 5
+says "--cover" err
+
 finish "fram field: as it should be"
