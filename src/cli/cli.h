@@ -85,6 +85,13 @@ void json_close(json *j);
 void json_open_list(json *j, const char *key);
 void json_close_list(json *j);
 
+/* --- outputs.c --- */
+
+/* Whether two paths name one file. */
+bool is_one_file(const char *a, const char *b);
+/* A usage error when the output (NULL: none is named) is a file that the run in the folder is made of, else -1. */
+int refuse_over_run(const common_options *common, const char *run, const char *output);
+
 /* --- session.c --- */
 
 /* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.

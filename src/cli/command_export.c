@@ -44,6 +44,9 @@ int command_export(const command_row *self, int argc, char **argv)
                             geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
     if (every < 1)
         return answer_usage(&common, "--every", "must be at least 1");
+    code = refuse_over_run(&common, run, output);
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)

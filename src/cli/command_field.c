@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static int read_words(const command_row *self, field_words *w, common_options *common, int argc, char **argv)
 {
@@ -95,13 +94,6 @@ static const char *misplaced_option(const field_words *w)
     if (f->smallest_area != 0)
         return "--smallest";
     return w->bad ? "--bad" : NULL;
-}
-
-static bool is_one_file(const char *a, const char *b)
-{
-    struct stat one, other;
-    return strcmp(a, b) == 0 ||
-           (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
 }
 
 /* NULL, or the option whose file is the input or that of another option. */

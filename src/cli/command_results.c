@@ -26,6 +26,9 @@ int command_report(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
+    code = refuse_over_run(&common, run, output);
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)
@@ -75,6 +78,9 @@ int command_plot(const command_row *self, int argc, char **argv)
         count++;
     if (count > 0 && !output)
         return answer_usage(&common, "--output", "is missing: name the picture, -o FILE.png or FILE.svg");
+    code = refuse_over_run(&common, word[0], output);
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)
@@ -138,6 +144,10 @@ int command_compare(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, run, 2);
     if (code >= 0)
         return code;
+    for (int i = 0; i < 2 && code < 0; i++)
+        code = refuse_over_run(&common, run[i], output);
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)
@@ -175,6 +185,9 @@ int command_video(const command_row *self, int argc, char **argv)
         {"--pictures", NULL, OPTION_FLAG, &d.pictures, NULL, "numbered PNG files instead; needs no ffmpeg"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    code = refuse_over_run(&common, run, d.output);
     if (code >= 0)
         return code;
     fram_context *context = NULL;

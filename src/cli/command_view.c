@@ -87,6 +87,9 @@ int command_view(const command_row *self, int argc, char **argv)
     definition.folder = folder;
     definition.page_limit = bytes_of(page_mb);
     definition.total_limit = bytes_of(total_mb);
+    code = refuse_over_run(&common, folder, definition.output);
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)

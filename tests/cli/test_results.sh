@@ -36,6 +36,13 @@ expect 2 "$FRAM" export run
 says "name one format" err
 expect 2 "$FRAM" export run --geojson
 says "--time T" err
+cp run/run.json kept.json
+for words in "report run" "plot run roll" "compare thin run" "video run" "export run --netcdf"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words -o ./run/run.json
+    says "--output" err
+done
+cmp -s run/run.json kept.json || fail "a part of the run was written over"
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
 expect 2 "$FRAM" view run --total-limit 1e300
