@@ -12,9 +12,6 @@ enum { MOST_CELLS = 20000000 };
 /* Share of the open water that corners never take: with roundness 1 neighbours still stay apart. */
 static const double GAP_SHARE = 0.1;
 
-/* Longest cut along an edge, in halves of the shorter edge at a corner: under 1, so that a bit of every edge stays. */
-static const double LONGEST_CUT = 0.8;
-
 /* Pieces of cells beside a keep-out zone under this part of the mean cell are slivers, and left as open water. */
 static const double SMALLEST_PIECE = 0.02;
 
@@ -166,12 +163,9 @@ static fram_status shrink_to_target(context *ctx, const field_request *r, field_
         double covered = cells_area(&w->kept), surplus = covered - target;
         if (!(surplus >= 0))
             return unreachable(r, w, free_area, covered, error);
-        double corners = cells_corner_area(&w->kept), wanted = r->roundness * (1 - GAP_SHARE) * surplus;
-        double part = corners > 0 ? sqrt(wanted / corners) : 0;
-        polygon_list_clear(&w->cut);
         double inset;
-        if (!cells_cut_corners(ctx, &w->kept, part < LONGEST_CUT ? part : LONGEST_CUT, &w->scratch, &w->cut) ||
-            !cells_inset_to_area(ctx, &w->cut, target, &w->scratch, &w->floes, &inset))
+        if (!cells_shrink(ctx, &w->kept, r->roundness * (1 - GAP_SHARE), target, &w->scratch, &w->cut, &w->floes,
+                          &inset))
             return error_memory(error);
         *gap = 2 * inset;
         polygon_list_clear(&w->cut);
@@ -193,7 +187,6 @@ static fram_status make_cells(context *ctx, const field_request *r, field_work *
                                      .periodic = r->periodic,
                                      .concentration = r->concentration,
                                      .corners = r->roundness * (1 - GAP_SHARE),
-                                     .longest_cut = LONGEST_CUT,
                                      .law = r->size,
                                      .seed = r->seed};
         return sized_cells(ctx, &sized, &w->voronoi, error);

@@ -173,6 +173,9 @@ double cells_area(const polygon_list *cells)
 
 /* ---- corners ---- */
 
+/* Longest cut along an edge, in halves of the shorter edge at a corner: under 1, so that a bit of every edge stays. */
+static const double LONGEST_CUT = 0.8;
+
 /* How a corner is cut: unit directions from it along both edges, half the shorter edge, the sine between them. */
 typedef struct corner {
     vec2 back, forth;
@@ -190,22 +193,17 @@ static corner corner_at(polygon p, int32_t i)
     return (corner){back, forth, fmin(back_length, forth_length) / 2, vec2_cross(forth, back)};
 }
 
-double cell_corner_area(polygon cell)
-{
-    double area = 0;
-    for (int32_t k = 0; k < cell.count; k++) {
-        corner c = corner_at(cell, k);
-        if (c.sine > STRAIGHT_CORNER)
-            area += c.reach * c.reach * c.sine / 2;
-    }
-    return area;
-}
-
 double cells_corner_area(const polygon_list *cells)
 {
     double area = 0;
-    for (int32_t i = 0; i < polygon_list_count(cells); i++)
-        area += cell_corner_area(polygon_list_get(cells, i));
+    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+        polygon p = polygon_list_get(cells, i);
+        for (int32_t k = 0; k < p.count; k++) {
+            corner c = corner_at(p, k);
+            if (c.sine > STRAIGHT_CORNER)
+                area += c.reach * c.reach * c.sine / 2;
+        }
+    }
     return area;
 }
 
@@ -295,6 +293,16 @@ bool cells_inset_to_area(context *ctx, const polygon_list *cells, double target,
         *inset += (area - target) / perimeter;
     }
     return true;
+}
+
+bool cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
+                  polygon_list *cut, polygon_list *out, double *inset)
+{
+    double most = cells_corner_area(cells), wanted = corners * (cells_area(cells) - target);
+    double part = most > 0 && wanted > 0 ? sqrt(wanted / most) : 0;
+    polygon_list_clear(cut);
+    return cells_cut_corners(ctx, cells, fmin(part, LONGEST_CUT), s, cut) &&
+           cells_inset_to_area(ctx, cut, target, s, out, inset);
 }
 
 /* ---- overlap ---- */

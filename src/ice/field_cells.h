@@ -24,7 +24,6 @@ double cells_area(const polygon_list *cells);
 
 /* Cutting every corner back along both edges by `part` of half the shorter one takes part^2 times this area [m2]. */
 double cells_corner_area(const polygon_list *cells);
-double cell_corner_area(polygon cell);
 /* The cells with their corners cut so; one ring per cell. */
 bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out);
 
@@ -32,6 +31,11 @@ bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cel
    area there is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */
 bool cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s, polygon_list *out,
                          double *inset);
+
+/* Both: `corners` of the area that must go is cut off the corners, as far as every edge keeps a part, and the rest goes
+   off the edges.  cut and out are made anew. */
+bool cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
+                  polygon_list *cut, polygon_list *out, double *inset);
 
 /* Largest overlap depth of any two cells [m], 0 when none overlap; negative without memory. */
 double cells_largest_overlap(context *ctx, const polygon_list *cells);

@@ -8,8 +8,8 @@
 /* Cells begin at the middles of packed regular polygons, of as many vertices and of this part of the cells' areas. */
 enum { MARKER_VERTICES = 8 };
 static const double MARKER_PART = 0.65;
-/* Rounds of moving weights at most, in the first of which sites move too, and the mean relative error of the areas that
-   ends them. */
+/* Rounds of moving weights at most, in the first of which sites move too, and the mean relative error of the floes'
+   areas that ends them. */
 enum { MOST_ROUNDS = 300, SITE_ROUNDS = 50 };
 static const double GOOD_AREAS = 0.002;
 /* What a weight does to the area of its cell is edge over twice the distance, summed over the edges: 2 sqrt(3) / 2 for
@@ -24,11 +24,12 @@ static const double RIM = 3;
 typedef struct sized_work {
     real_array diameter;     /* of the floes */
     real_array weight, step; /* the last change of each weight */
-    double water;            /* area between all floes [m2] */
+    double floes;            /* area of all [m2] */
     vec2_array site;
     vec2_array all_site; /* with copies beyond the edge */
     real_array all_weight;
-    polygon_list cells;
+    polygon_list cells, cut, shrunk; /* shrunk: the floes that the cells would become */
+    cells_scratch scratch;
     double largest;
 } sized_work;
 
@@ -41,6 +42,9 @@ static void work_free(context *ctx, sized_work *w)
     array_free(ctx, &w->all_site);
     array_free(ctx, &w->all_weight);
     polygon_list_free(ctx, &w->cells);
+    polygon_list_free(ctx, &w->cut);
+    polygon_list_free(ctx, &w->shrunk);
+    cells_scratch_free(ctx, &w->scratch);
 }
 
 static double floe_area(const sized_work *w, int32_t i)
@@ -72,7 +76,7 @@ static fram_status find_areas(context *ctx, const sized_request *r, sized_work *
                          "the fewest floes of this law for the concentration, %d, cover %g m2 and the domain "
                          "has only %g m2; make the domain larger or the floes smaller",
                          w->diameter.count, floes, whole);
-    w->water = whole - floes;
+    w->floes = floes;
     for (int32_t i = 0; i < w->diameter.count; i++)
         if (!array_push(ctx, &w->weight, floe_area(w, i) / floes * whole / PI) || !array_push(ctx, &w->step, 0))
             return error_memory(error);
@@ -150,30 +154,33 @@ static fram_status make_cells(context *ctx, const sized_request *r, sized_work *
     if (!list_sites(ctx, r, w, &box))
         return error_memory(error);
     polygon_list_clear(&w->cells);
-    return voronoi_cells(ctx, w->all_site.data, w->all_weight.data, w->all_site.count, box, &w->cells, error);
+    fram_status status =
+        voronoi_cells(ctx, w->all_site.data, w->all_weight.data, w->all_site.count, box, &w->cells, error);
+    if (status == FRAM_OK) {
+        /* The copies have shaped the cells along the seams, and come after all others. */
+        w->cells.start.count = w->site.count + 1;
+        w->cells.vertex.count = w->cells.start.data[w->site.count];
+    }
+    return status;
 }
 
-/* Weights towards the areas that the cells should have: that of the floe, of what is cut off the corners (alike at all
-   of them), and of its part of the gap, which has one width all over.  The mean relative error of the areas before. */
-static double improve_weights(const sized_request *r, sized_work *w, double momentum)
+/* Weights towards the areas that the floes should have, by the floes that the cells would become.  off: the mean
+   relative error of their areas before. */
+static fram_status improve_weights(context *ctx, const sized_request *r, sized_work *w, double momentum, double *off,
+                                   fram_error *error)
 {
-    double sum = 0, edges = 0, corners = 0;
+    double inset;
+    if (!cells_shrink(ctx, &w->cells, r->corners, w->floes, &w->scratch, &w->cut, &w->shrunk, &inset))
+        return error_memory(error);
+    *off = 0;
     for (int32_t i = 0; i < w->site.count; i++) {
-        polygon cell = polygon_list_get(&w->cells, i);
-        edges += polygon_perimeter(cell);
-        corners += cell_corner_area(cell);
-    }
-    double cut = fmin(r->corners * w->water, r->longest_cut * r->longest_cut * corners), rim = w->water - cut;
-    for (int32_t i = 0; i < w->site.count; i++) {
-        polygon cell = polygon_list_get(&w->cells, i);
-        double area = cell.count >= 3 ? polygon_area(cell) : 0;
-        double wanted =
-            floe_area(w, i) + rim * polygon_perimeter(cell) / edges + cut * cell_corner_area(cell) / corners;
-        sum += fabs(area - wanted) / wanted;
-        w->step.data[i] = momentum * w->step.data[i] + STEP * (wanted - area) / AREA_PER_WEIGHT;
+        polygon floe = polygon_list_get(&w->shrunk, i);
+        double missing = floe_area(w, i) - (floe.count >= 3 ? polygon_area(floe) : 0);
+        *off += fabs(missing) / floe_area(w, i) / w->site.count;
+        w->step.data[i] = momentum * w->step.data[i] + STEP * missing / AREA_PER_WEIGHT;
         w->weight.data[i] += w->step.data[i];
     }
-    return sum / w->site.count;
+    return FRAM_OK;
 }
 
 /* Sites to the middles of their cells. */
@@ -198,8 +205,9 @@ fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cell
     if (status == FRAM_OK)
         status = make_cells(ctx, r, &w, error);
     for (int k = 0; status == FRAM_OK && k < MOST_ROUNDS; k++) {
-        double off = improve_weights(r, &w, k < SITE_ROUNDS ? 0 : MOMENTUM);
-        if (k >= SITE_ROUNDS && off < GOOD_AREAS)
+        double off;
+        status = improve_weights(ctx, r, &w, k < SITE_ROUNDS ? 0 : MOMENTUM, &off, error);
+        if (status != FRAM_OK || (k >= SITE_ROUNDS && off < GOOD_AREAS))
             break;
         if (k < SITE_ROUNDS)
             move_sites(r, &w);

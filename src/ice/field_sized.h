@@ -14,14 +14,13 @@ typedef struct sized_request {
     bool periodic;        /* the cells go on beyond the edge as they begin at the other one */
     double concentration; /* of the floes that the cells are shrunk to */
     double corners;       /* part of the water that is cut off the corners, 0 to 1 */
-    double longest_cut;   /* of half the shorter edge at a corner, 0 to 1 */
     const size_law *law;  /* of the floes */
     uint64_t seed;
 } sized_request;
 
-/* Appends cells: convex, counter-clockwise, tiling the domain (periodic ones reach over its edge), each of the area of
-   a floe of the law and of the water that a gap of even width leaves around it, to about a per cent.  FRAM_ERROR_INPUT
-   for a law that does not fit the domain, FRAM_ERROR_MEMORY. */
+/* Appends cells: convex, counter-clockwise, tiling the domain (periodic ones reach over its edge), such that
+   cells_shrink makes floes of the law of them, whose areas are within about a per cent of those drawn on the mean.
+   FRAM_ERROR_INPUT for a law that does not fit the domain, FRAM_ERROR_MEMORY. */
 fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cells, fram_error *error);
 
 #endif

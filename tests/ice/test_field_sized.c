@@ -39,6 +39,7 @@ START_TEST(twenty_seeds_of_a_power_law_at_98_percent)
     context_init(&ctx);
     for (uint64_t seed = 0; seed < 20; seed++) {
         field_request q = request_of(&power, 0.98, seed);
+        q.domain = (box2){{-100, 50}, {120, 250}};
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
@@ -57,6 +58,26 @@ START_TEST(other_laws)
     context_init(&ctx);
     for (int i = 0; i < 2; i++) {
         field_request q = request_of(laws[i], 0.9, 3);
+        polygon_list floes = {0};
+        field_report r;
+        fram_error e = {0};
+        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        check(&ctx, &q, &floes, &r);
+        polygon_list_free(&ctx, &floes);
+    }
+}
+END_TEST
+
+/* A wide gap takes less of a cell than its perimeter times the width, and of small cells the more so. */
+START_TEST(sizes_at_lower_concentrations)
+{
+    static const double concentration[2] = {0.65, 0.45};
+    context ctx;
+    context_init(&ctx);
+    for (int i = 0; i < 2; i++) {
+        field_request q = request_of(&power, concentration[i], 11);
+        q.domain = (box2){{0, 0}, {270, 270}};
+        q.periodic = i % 2;
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
@@ -163,5 +184,5 @@ START_TEST(memory_ends)
 }
 END_TEST
 
-TEST_MAIN("field_sized", twenty_seeds_of_a_power_law_at_98_percent, other_laws, without_a_seam,
-          same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)
+TEST_MAIN("field_sized", twenty_seeds_of_a_power_law_at_98_percent, other_laws, sizes_at_lower_concentrations,
+          without_a_seam, same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)
