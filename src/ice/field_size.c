@@ -235,12 +235,14 @@ static double fill_slices(const size_law *law, const double *place, int32_t n, d
 fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
                           real_array *out, fram_error *error)
 {
-    double wanted = floor(area / mean_area(law) + 0.5);
-    if (!(wanted <= MOST_FLOES))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations",
-                         "%g floes of this law make up %g m2, and at most %g can be drawn; make the domain smaller or "
-                         "the floes larger",
-                         wanted, area, MOST_FLOES);
+    double each = mean_area(law);
+    if (!(area < (MOST_FLOES + 0.5) * each))
+        return error_set(
+            error, FRAM_ERROR_INPUT, NULL, 0, "populations",
+            "floes of this law have %g m2 in the mean, so that more than %g would make up %g m2, and no more "
+            "can be drawn; make the domain smaller or the floes larger",
+            each, MOST_FLOES, area);
+    double wanted = floor(area / each + 0.5);
     int32_t n = wanted < 1 ? 1 : (int32_t)wanted, first = out->count;
     double *place = memory_array(ctx, (size_t)n, sizeof *place);
     if (!place || !array_reserve(ctx, out, first + n)) {
