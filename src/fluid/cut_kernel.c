@@ -1,36 +1,5 @@
 #include "fluid/cut_kernel.h"
-#include "base/simd.h"
-
-/* As many triangles as one register holds. */
-typedef v8_part real;
-typedef v8_part_mask mask;
-
-typedef struct real3 {
-    real x, y, z;
-} real3;
-
-V8_INLINE real load(const double *p)
-{
-    real x;
-    memcpy(&x, p, sizeof x);
-    return x;
-}
-
-V8_INLINE void store(double *p, real x) { memcpy(p, &x, sizeof x); }
-
-V8_INLINE real choose(mask m, real a, real b) { return v8_part_select(m, a, b); }
-V8_INLINE real3 choose3(mask m, real3 a, real3 b)
-{
-    return (real3){choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
-}
-
-V8_INLINE real3 add(real3 a, real3 b) { return (real3){a.x + b.x, a.y + b.y, a.z + b.z}; }
-V8_INLINE real3 sub(real3 a, real3 b) { return (real3){a.x - b.x, a.y - b.y, a.z - b.z}; }
-V8_INLINE real3 scale(real3 a, real s) { return (real3){s * a.x, s * a.y, s * a.z}; }
-V8_INLINE real3 cross(real3 a, real3 b)
-{
-    return (real3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+#include "base/parts.h"
 
 /* 1/a, and 0 for what is not above 0 */
 V8_INLINE real over(real a)

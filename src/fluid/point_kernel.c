@@ -1,21 +1,5 @@
 #include "fluid/point_kernel.h"
-#include "base/simd.h"
-
-/* As many points as one register holds. */
-typedef v8_part real;
-
-typedef struct real3 {
-    real x, y, z;
-} real3;
-
-V8_INLINE real load(const double *p)
-{
-    real x;
-    memcpy(&x, p, sizeof x);
-    return x;
-}
-
-V8_INLINE void store(double *p, real x) { memcpy(p, &x, sizeof x); }
+#include "base/parts.h"
 
 V8_INLINE void add_points(const point_stream *s, const point_rows *p, ptrdiff_t at, real sum[6])
 {

@@ -1,0 +1,39 @@
+/* Numbers and vectors of as many bodies, points or triangles as one register holds, for kernels that need no more than
+   that at once (kernel.h, simd.h); lanes.h has eight at a time.  Knows nothing of what the lanes mean. */
+#ifndef BASE_PARTS_H
+#define BASE_PARTS_H
+
+#include "base/simd.h"
+
+typedef v8_part real;
+typedef v8_part_mask mask;
+
+typedef struct real3 {
+    real x, y, z;
+} real3;
+
+/* V8_PART_LANES doubles, wherever they begin. */
+V8_INLINE real load(const double *p)
+{
+    real x;
+    memcpy(&x, p, sizeof x);
+    return x;
+}
+
+V8_INLINE void store(double *p, real x) { memcpy(p, &x, sizeof x); }
+
+V8_INLINE real choose(mask m, real a, real b) { return v8_part_select(m, a, b); }
+V8_INLINE real3 choose3(mask m, real3 a, real3 b)
+{
+    return (real3){choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
+}
+
+V8_INLINE real3 add(real3 a, real3 b) { return (real3){a.x + b.x, a.y + b.y, a.z + b.z}; }
+V8_INLINE real3 sub(real3 a, real3 b) { return (real3){a.x - b.x, a.y - b.y, a.z - b.z}; }
+V8_INLINE real3 scale(real3 a, real s) { return (real3){s * a.x, s * a.y, s * a.z}; }
+V8_INLINE real3 cross(real3 a, real3 b)
+{
+    return (real3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+#endif
