@@ -27,14 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     context ctx;
     context_init(&ctx);
-    uint8_t *copy = malloc(size + 1);
-    if (!copy)
-        return 0;
-    if (size > 0)
-        memcpy(copy, data, size);
-    record_sums_right(copy, size);
-    memory_file file = memory_file_make(copy, size);
-    free(copy);
+    memory_file file = record_file(data, size);
     if (file.descriptor < 0)
         return 0;
     record_reader reader;

@@ -3,7 +3,10 @@
 #ifndef FUZZING_RECORD_H
 #define FUZZING_RECORD_H
 
+#include "fuzzing.h"
+
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
 
@@ -32,6 +35,20 @@ static void record_sums_right(uint8_t *data, size_t size)
         if (at > size)
             return;
     }
+}
+
+/* A file of these bytes with its sums set right; its descriptor is negative where there is none to be had. */
+static memory_file record_file(const uint8_t *data, size_t size)
+{
+    uint8_t *copy = malloc(size + 1);
+    if (!copy)
+        return (memory_file){.descriptor = -1};
+    if (size > 0)
+        memcpy(copy, data, size);
+    record_sums_right(copy, size);
+    memory_file file = memory_file_make(copy, size);
+    free(copy);
+    return file;
 }
 
 #endif

@@ -43,12 +43,12 @@ static vec3 between(const vec3 *row, int32_t directions, int32_t stride, double 
     return vec3_mad(vec3_scale(row[i * stride], 1 - (at - below)), row[j * stride], at - below);
 }
 
-static vec3 ice_at(const capability_loads *l, double from, double speed)
+vec3 capability_ice_between(const vec3 *load, int32_t directions, int32_t speeds, double speed_step, double from,
+                            double speed)
 {
-    double at = fmin(fmax(speed / l->speed_step - 1, 0), l->speeds - 1);
-    int32_t k = (int32_t)at, next = k + 1 < l->speeds ? k + 1 : k;
-    vec3 a = between(l->ice + k, l->directions, l->speeds, from),
-         b = between(l->ice + next, l->directions, l->speeds, from);
+    double at = fmin(fmax(speed / speed_step - 1, 0), speeds - 1);
+    int32_t k = (int32_t)at, next = k + 1 < speeds ? k + 1 : k;
+    vec3 a = between(load + k, directions, speeds, from), b = between(load + next, directions, speeds, from);
     return vec3_mad(vec3_scale(a, 1 - (at - k)), b, at - k);
 }
 
@@ -59,7 +59,10 @@ vec3 capability_load_at(const capability *c, double from, double speed)
     sum = vec3_mad(sum, between(l->damping, l->directions, 1, from), speed);
     sum = vec3_scale(vec3_mad(sum, between(l->drag, l->directions, 1, from), speed * speed), c->options.allowance);
     double share = l->measured ? 1 : c->options.allowance;
-    return speed > 0 ? vec3_mad(sum, ice_at(l, from, speed), share) : sum;
+    if (!(speed > 0))
+        return sum;
+    vec3 ice = capability_ice_between(l->ice, l->directions, l->speeds, l->speed_step, from, speed);
+    return vec3_mad(sum, ice, share);
 }
 
 double broken_ice_resistance(double density, double gravity, double breadth, double thickness, double concentration,

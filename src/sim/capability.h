@@ -60,6 +60,10 @@ typedef struct capability {
 /* Steady load from a direction at a speed, with the allowance, in the ship's frame. */
 vec3 capability_load_at(const capability *c, double from, double speed);
 
+/* An ice load between those of a table, laid out as that of capability_loads: linear in both, constant beyond the least
+   and the largest speed. */
+vec3 capability_ice_between(const vec3 *load, int32_t directions, int32_t speeds, double speed_step, double from,
+                            double speed);
 /* Ice loads by direction and speed into c->loads.ice: by formula, or the mean of the highest third of the peaks in runs
    of the scenario's field past the hull held fast.  FRAM_ERROR_INPUT names the key that stands in the way. */
 fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error);

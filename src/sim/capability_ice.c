@@ -148,19 +148,8 @@ enum { MEASURED_DIRECTIONS = 12, MEASURED_SPEEDS = 4 };
 typedef struct measured_loads {
     int32_t directions, speeds;
     double speed_step;
-    vec3 load[MEASURED_DIRECTIONS][MEASURED_SPEEDS];
+    vec3 load[MEASURED_DIRECTIONS * MEASURED_SPEEDS]; /* [direction * speeds + k] at the speed (k + 1) speed_step */
 } measured_loads;
-
-static vec3 measured_at(const measured_loads *m, double from, double speed)
-{
-    double round = from / (2 * PI) * m->directions, up = fmin(fmax(speed / m->speed_step - 1, 0), m->speeds - 1);
-    int32_t i = (int32_t)round % m->directions, j = (i + 1) % m->directions, k = (int32_t)up;
-    int32_t next = k + 1 < m->speeds ? k + 1 : k;
-    double u = round - floor(round), v = up - k;
-    vec3 low = vec3_mad(vec3_scale(m->load[i][k], 1 - u), m->load[j][k], u);
-    vec3 high = vec3_mad(vec3_scale(m->load[i][next], 1 - u), m->load[j][next], u);
-    return vec3_mad(vec3_scale(low, 1 - v), high, v);
-}
 
 static fram_status measure_all(context *ctx, const scenario *s, double duration, measured_loads *m, fram_error *error)
 {
@@ -169,10 +158,10 @@ static fram_status measure_all(context *ctx, const scenario *s, double duration,
     for (int32_t i = 0; i < m->directions; i++) {
         double from = 2 * PI * i / m->directions;
         for (int32_t k = 0; k < m->speeds; k++) {
-            vec3 *load = &m->load[i][k];
+            vec3 *load = &m->load[i * m->speeds + k];
             double speed = (k + 1) * m->speed_step;
             if (mirrored && 2 * i > m->directions) {
-                vec3 other = m->load[m->directions - i][k];
+                vec3 other = m->load[(m->directions - i) * m->speeds + k];
                 *load = vec3_make(other.x, -other.y, -other.z);
                 continue;
             }
@@ -203,6 +192,7 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
     fram_status status = measure_all(ctx, s, c->options.measure, &m, error);
     for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++)
         for (int32_t k = 0; k < l->speeds; k++)
-            l->ice[i * l->speeds + k] = measured_at(&m, 2 * PI * i / l->directions, (k + 1) * l->speed_step);
+            l->ice[i * l->speeds + k] = capability_ice_between(m.load, m.directions, m.speeds, m.speed_step,
+                                                               2 * PI * i / l->directions, (k + 1) * l->speed_step);
     return status;
 }
