@@ -115,6 +115,23 @@ fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *erro
 
 void image_set_colour(cairo_t *page, image_colour c) { cairo_set_source_rgb(page, c.r, c.g, c.b); }
 
+void image_arrow(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head)
+{
+    double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0));
+    if (!(length > 2))
+        return;
+    double ux = (x1 - x0) / length, uy = (y1 - y0) / length, along = fmin(head, 0.45 * length), across = 0.5 * along;
+    cairo_set_line_width(page, width);
+    cairo_move_to(page, x0, y0);
+    cairo_line_to(page, x1 - ux * along, y1 - uy * along);
+    cairo_stroke(page);
+    cairo_move_to(page, x1, y1);
+    cairo_line_to(page, x1 - ux * along - uy * across, y1 - uy * along + ux * across);
+    cairo_line_to(page, x1 - ux * along + uy * across, y1 - uy * along - ux * across);
+    cairo_close_path(page);
+    cairo_fill(page);
+}
+
 static void select_font(cairo_t *page, double size, bool bold)
 {
     cairo_select_font_face(page, "sans-serif", CAIRO_FONT_SLANT_NORMAL,

@@ -31,6 +31,9 @@ fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *erro
 /* The page as PNG, appended to out; frees the page, also on failure. */
 fram_status image_png(context *ctx, cairo_t *page, text_buffer *out, fram_error *error);
 void image_set_colour(cairo_t *page, image_colour c);
+/* From x0, y0 to its tip at x1, y1 [pixels], in the colour that is set; lines `width` and head `head` pixels long at
+   most. Nothing where it is shorter than two pixels. */
+void image_arrow(cairo_t *page, double x0, double y0, double x1, double y1, double width, double head);
 typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
 /* Text with its baseline at (x, y). */
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);

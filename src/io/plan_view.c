@@ -83,21 +83,8 @@ static void draw_arrows(cairo_t *page, const map *m, const plan_view *view)
 {
     cairo_set_source_rgb(page, 0.75, 0.05, 0.25);
     for (int32_t i = 0; i < view->arrow_count; i++) {
-        double x0 = map_x(m, view->arrows[i].from), y0 = map_y(m, view->arrows[i].from);
-        double x1 = map_x(m, view->arrows[i].to), y1 = map_y(m, view->arrows[i].to);
-        double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), head = fmin(9, 0.4 * length);
-        if (!(length > 2))
-            continue;
-        double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-        cairo_set_line_width(page, 2);
-        cairo_move_to(page, x0, y0);
-        cairo_line_to(page, x1 - ux * head, y1 - uy * head);
-        cairo_stroke(page);
-        cairo_move_to(page, x1, y1);
-        cairo_line_to(page, x1 - ux * head - uy * head * 0.5, y1 - uy * head + ux * head * 0.5);
-        cairo_line_to(page, x1 - ux * head + uy * head * 0.5, y1 - uy * head - ux * head * 0.5);
-        cairo_close_path(page);
-        cairo_fill(page);
+        const plan_arrow *a = &view->arrows[i];
+        image_arrow(page, map_x(m, a->from), map_y(m, a->from), map_x(m, a->to), map_y(m, a->to), 2, 9);
     }
 }
 

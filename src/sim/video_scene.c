@@ -119,22 +119,8 @@ static fram_status draw_bodies(context *ctx, const video_scene *s, const replay 
 
 /* ---- what is drawn over it ---- */
 
-static void draw_arrow(cairo_t *page, double x0, double y0, double x1, double y1)
-{
-    double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), head = fmin(12, 0.45 * length);
-    if (!(length > 2))
-        return;
-    double ux = (x1 - x0) / length, uy = (y1 - y0) / length;
-    cairo_set_line_width(page, 2.4);
-    cairo_move_to(page, x0, y0);
-    cairo_line_to(page, x1 - ux * head, y1 - uy * head);
-    cairo_stroke(page);
-    cairo_move_to(page, x1, y1);
-    cairo_line_to(page, x1 - ux * head - uy * head * 0.45, y1 - uy * head + ux * head * 0.45);
-    cairo_line_to(page, x1 - ux * head + uy * head * 0.45, y1 - uy * head - ux * head * 0.45);
-    cairo_close_path(page);
-    cairo_fill(page);
-}
+/* [pixels] */
+enum { ARROW_WIDTH = 2, ARROW_HEAD = 12 };
 
 /* Ice pushes: its arrows end where it does; lines and thrusters pull: theirs begin there. */
 static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, const solid_view *v,
@@ -151,7 +137,7 @@ static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, co
         used[f->kind] = true;
         image_set_colour(page, forces[f->kind].colour);
         if (solid_view_place(v, from, &x0, &y0) && solid_view_place(v, to, &x1, &y1))
-            draw_arrow(page, x0, y0, x1, y1);
+            image_arrow(page, x0, y0, x1, y1, ARROW_WIDTH, ARROW_HEAD);
     }
 }
 
@@ -185,7 +171,7 @@ static void draw_axes(cairo_t *page, const solid_view *v, const solid_camera *c,
             continue;
         double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), k = length > 0 ? 20 / length : 0;
         image_set_colour(page, ink);
-        draw_arrow(page, x, y, x + k * (x1 - x0), y + k * (y1 - y0));
+        image_arrow(page, x, y, x + k * (x1 - x0), y + k * (y1 - y0), ARROW_WIDTH, ARROW_HEAD);
         image_text(page, x + 1.5 * k * (x1 - x0), y + 1.5 * k * (y1 - y0) + 4, 12, ALIGN_CENTRE, true, letters[i]);
     }
 }
