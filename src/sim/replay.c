@@ -2,6 +2,7 @@
 
 #include "sim/record_pose.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,13 +11,13 @@
 /* A payload is sound to its checksum, yet lengths in it are believed only as far as it reaches. */
 typedef struct cursor {
     const unsigned char *at, *end;
-    bool short_of; /* something was asked for beyond the end; zeros were given */
+    bool unsound; /* something beyond the end was asked for (zeros were given), or what was read cannot be */
 } cursor;
 
 static void take(cursor *c, void *out, size_t size)
 {
     if ((size_t)(c->end - c->at) < size) {
-        c->short_of = true;
+        c->unsound = true;
         memset(out, 0, size);
         return;
     }
@@ -29,17 +30,23 @@ static int32_t take_i32(cursor *c)
     take(c, &v, sizeof v);
     return v;
 }
+/* Numbers of a record are finite: a run that is not stops before it writes. */
+static double finite(cursor *c, double v)
+{
+    c->unsound = c->unsound || !isfinite(v);
+    return v;
+}
 static double take_f32(cursor *c)
 {
     float v;
     take(c, &v, sizeof v);
-    return (double)v;
+    return finite(c, (double)v);
 }
 static double take_f64(cursor *c)
 {
     double v;
     take(c, &v, sizeof v);
-    return v;
+    return finite(c, v);
 }
 static vec3 take_vec3(cursor *c)
 {
@@ -56,8 +63,8 @@ static void take_pose(cursor *c, vec3 *position, quat *orientation)
 static bool reaches(cursor *c, int32_t count, size_t size)
 {
     if (count < 0 || (size_t)count > (size_t)(c->end - c->at) / size)
-        c->short_of = true;
-    return !c->short_of;
+        c->unsound = true;
+    return !c->unsound;
 }
 
 /* ---- bodies ---- */
@@ -89,7 +96,7 @@ static replay_body new_body(const replay *r, cursor *c)
     replay_body b = {.slot = take_i32(c), .born = r->frames_read, .died = INT64_MAX, .number = -1, .parent = -1};
     (void)take_i32(c); /* generation */
     if (b.slot < 0 || b.slot >= SLOTS_MOST)
-        c->short_of = true;
+        c->unsound = true;
     return b;
 }
 
@@ -112,11 +119,11 @@ static bool read_solid(replay *r, cursor *c)
         return true;
     for (int32_t i = 0; i < 3 * b.face_count; i++) {
         int32_t v = take_i32(c);
-        c->short_of = c->short_of || v < 0 || v >= b.vertex_count;
+        c->unsound = c->unsound || v < 0 || v >= b.vertex_count;
         if (!array_push(r->ctx, &r->faces, v))
             return false;
     }
-    return c->short_of || add_body(r, &b);
+    return c->unsound || add_body(r, &b);
 }
 
 static bool read_birth(replay *r, cursor *c)
@@ -133,6 +140,7 @@ static bool read_birth(replay *r, cursor *c)
     b.parent = take_i32(c);
     b.vertex_count = take_i32(c);
     b.vertex_first = r->outlines.count;
+    c->unsound = c->unsound || b.vertex_count < 3;
     if (!reaches(c, b.vertex_count, 8))
         return true;
     for (int32_t i = 0; i < b.vertex_count; i++) {
@@ -143,13 +151,13 @@ static bool read_birth(replay *r, cursor *c)
     if (!b.moves)
         take_pose(c, &b.position, &b.orientation);
     b.area = polygon_area(replay_outline(r, &b));
-    return c->short_of || add_body(r, &b);
+    return c->unsound || add_body(r, &b);
 }
 
 static bool read_births(replay *r, cursor *c)
 {
     bool good = true;
-    for (int32_t n = take_i32(c); n > 0 && good && !c->short_of; n--)
+    for (int32_t n = take_i32(c); n > 0 && good && !c->unsound; n--)
         good = read_birth(r, c);
     return good;
 }
@@ -160,7 +168,7 @@ static bool read_fractures(replay *r, cursor *c)
 {
     int32_t count = take_i32(c);
     (void)take_i32(c);
-    for (int32_t i = 0; i < count && !c->short_of; i++) {
+    for (int32_t i = 0; i < count && !c->unsound; i++) {
         replay_fracture f = {.time = take_f64(c)};
         f.kind = take_i32(c);
         f.floe = take_i32(c);
@@ -170,7 +178,7 @@ static bool read_fractures(replay *r, cursor *c)
         f.load = take_f32(c);
         f.crack_length = take_f32(c);
         f.area = take_f32(c);
-        if (!c->short_of && !array_push(r->ctx, &r->fractures, f))
+        if (!c->unsound && !array_push(r->ctx, &r->fractures, f))
             return false;
     }
     return true;
@@ -181,12 +189,12 @@ static bool read_forces(replay *r, cursor *c)
     int32_t count = take_i32(c);
     (void)take_i32(c);
     array_clear(&r->next.forces);
-    for (int32_t i = 0; i < count && !c->short_of; i++) {
+    for (int32_t i = 0; i < count && !c->unsound; i++) {
         int32_t kind = take_i32(c), which = take_i32(c);
         vec3 point = take_vec3(c), force = take_vec3(c);
         if (kind == RECORD_FORCE_ICE)
             which = which >= 0 && which < r->at_slot.count ? r->at_slot.data[which] : -1;
-        if (!c->short_of &&
+        if (!c->unsound &&
             !array_push(r->ctx, &r->next.forces, (replay_force){(record_force_kind)kind, which, point, force}))
             return false;
     }
@@ -206,7 +214,7 @@ static bool read_frame(replay *r, cursor *c)
     (void)take_i32(c);
     array_clear(&f->poses);
     for (int moving = 1; moving >= 0; moving--) {
-        for (int32_t slot = 0; slot < r->at_slot.count && !c->short_of; slot++) {
+        for (int32_t slot = 0; slot < r->at_slot.count && !c->unsound; slot++) {
             int32_t body = r->at_slot.data[slot];
             if (body < 0 || r->bodies.data[body].moves != (moving == 1))
                 continue;
@@ -225,7 +233,7 @@ static bool read_frame(replay *r, cursor *c)
                 return false;
         }
     }
-    c->short_of = c->short_of || found != count;
+    c->unsound = c->unsound || found != count;
     return true;
 }
 
@@ -236,7 +244,9 @@ static fram_status wrong(const replay *r, const char *reason, fram_error *error)
 
 static fram_status read_block(replay *r, const record_block *block, fram_error *error)
 {
-    cursor c = {block->data, (const unsigned char *)block->data + block->size, false};
+    static const unsigned char nothing[1]; /* an empty block has no data */
+    const unsigned char *data = block->size > 0 ? block->data : nothing;
+    cursor c = {data, data + block->size, false};
     bool good = true;
     switch (block->type) {
     case BLOCK_SCENARIO:
@@ -253,7 +263,7 @@ static fram_status read_block(replay *r, const record_block *block, fram_error *
         good = read_births(r, &c);
         break;
     case BLOCK_DEATHS:
-        for (int32_t n = take_i32(&c); n > 0 && !c.short_of; n--)
+        for (int32_t n = take_i32(&c); n > 0 && !c.unsound; n--)
             remove_slot(r, take_i32(&c));
         break;
     case BLOCK_FRACTURES:
@@ -273,7 +283,7 @@ static fram_status read_block(replay *r, const record_block *block, fram_error *
     }
     if (!good)
         return error_memory(error);
-    return c.short_of ? wrong(r, "a block of the record contradicts itself", error) : FRAM_OK;
+    return c.unsound ? wrong(r, "a block of the record contradicts itself", error) : FRAM_OK;
 }
 
 /* The next frame of the file into r->next. */
