@@ -17,7 +17,7 @@ typedef enum fram_status {
     FRAM_ERROR_SIMULATION = 5,  /* the run went wrong: non-finite state, runaway energy */
     FRAM_ERROR_UNSUPPORTED = 6, /* this build lacks an optional part */
     FRAM_ERROR_INTERNAL = 7,    /* a defect in Fram itself */
-    FRAM_INTERRUPTED = 8        /* the caller's stop flag was seen; a checkpoint was written */
+    FRAM_INTERRUPTED = 8        /* the caller's stop flag was seen; a run has written a checkpoint */
 } fram_status;
 
 /* Where and why a call failed.  Owned by the caller; filled only when a status other than FRAM_OK is

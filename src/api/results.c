@@ -191,7 +191,8 @@ fram_status fram_capability(const fram_scenario *from, const fram_capability_def
                                         .speed_most = d->speed_most,
                                         .allowance = d->allowance,
                                         .line_safety = d->line_safety,
-                                        .line_safety_damaged = d->line_safety_damaged};
+                                        .line_safety_damaged = d->line_safety_damaged,
+                                        .stop = d->stop};
     export_report report = {.frames = 0};
     fram_status status = capability_write(&from->context->inner, &from->inner, &options, &report, error);
     return answer(status, &report, result);

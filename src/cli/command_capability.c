@@ -40,6 +40,7 @@ int command_capability(const command_row *self, int argc, char **argv)
     const char *path = NULL;
     fram_capability_definition d;
     fram_capability_default(&d);
+    d.stop = session_stop_flag();
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (required)"},
         {"--force", NULL, OPTION_FLAG, &d.force, NULL, "write into a folder that is not empty"},

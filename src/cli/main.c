@@ -97,7 +97,7 @@ static void print_help(FILE *file)
           "      loads.png        ice load on the vessel over time\n"
           "      series.csv       all channels, one row a step, name[unit] headers\n"
           "      record.fram      every frame, for playback\n"
-          "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted with a checkpoint written.\n"
+          "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted (runs write a checkpoint).\n"
           "fram --version prints the version and the optional parts of this build.\n",
           file);
 }

@@ -15,6 +15,23 @@ static const double ONE_SIZE = 0.01;
 /* |b| of a power law under which it is D^0: the formula for b loses eps/b, this one b log(hi/lo). */
 static const double FLAT = 1e-8;
 
+const char *size_bins_fault(const double *edge, const double *weight, int32_t bins, int32_t *bin)
+{
+    double sum = 0;
+    *bin = 0;
+    if (bins < 1 || !(edge[0] > 0))
+        return "a histogram needs bins of positive diameters";
+    for (; *bin < bins; ++*bin) {
+        if (!(edge[*bin + 1] > edge[*bin] && edge[*bin + 1] < HUGE_VAL))
+            return "the edges of a histogram must ascend";
+        if (!(weight[*bin] >= 0 && weight[*bin] < HUGE_VAL))
+            return "the weights of a histogram must not be negative";
+        sum += weight[*bin];
+    }
+    *bin = -1;
+    return sum > 0 ? NULL : "the weights of a histogram must not all be zero";
+}
+
 const char *size_law_fault(const size_law *law)
 {
     bool mean = law->kind == SIZE_CONSTANT || law->kind == SIZE_LOGNORMAL;
@@ -29,19 +46,8 @@ const char *size_law_fault(const size_law *law)
         return "the largest diameter must not be less than the smallest";
     if (law->kind == SIZE_POWER && !(fabs(law->exponent) <= 20))
         return "the exponent of a power law must be between -20 and 20";
-    if (law->kind != SIZE_HISTOGRAM)
-        return NULL;
-    double sum = 0;
-    if (law->bins < 1 || !(law->edge[0] > 0))
-        return "a histogram needs bins of positive diameters";
-    for (int32_t i = 0; i < law->bins; i++) {
-        if (!(law->edge[i + 1] > law->edge[i] && law->edge[i + 1] < HUGE_VAL))
-            return "the edges of a histogram must ascend";
-        if (!(law->weight[i] >= 0 && law->weight[i] < HUGE_VAL))
-            return "the weights of a histogram must not be negative";
-        sum += law->weight[i];
-    }
-    return sum > 0 ? NULL : "the weights of a histogram must not all be zero";
+    int32_t bin;
+    return law->kind == SIZE_HISTOGRAM ? size_bins_fault(law->edge, law->weight, law->bins, &bin) : NULL;
 }
 
 double normal_part(double x)

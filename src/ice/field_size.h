@@ -26,6 +26,8 @@ typedef struct size_law {
 
 /* NULL, or what is wrong with the law ("the largest diameter must not be less than the smallest"). */
 const char *size_law_fault(const size_law *law);
+/* The same of the bins of a histogram; bin: the first at fault, or -1 for all of them together. */
+const char *size_bins_fault(const double *edge, const double *weight, int32_t bins, int32_t *bin);
 /* The diameter that a part u of all floes is smaller than, 0 <= u <= 1 [m]. */
 double size_law_quantile(const size_law *law, double u);
 /* The part of all floes that is no larger than d. */

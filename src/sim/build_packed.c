@@ -52,24 +52,24 @@ static fram_status read_histogram(context *ctx, const scenario *s, int32_t numbe
     static const char *const names[HISTOGRAM_COLUMNS] = {"diameter_min[m]", "diameter_max[m]", "floes"};
     char path[2 * SCENARIO_TEXT_SIZE];
     double_array column[HISTOGRAM_COLUMNS] = {0};
-    const char *wrong = NULL;
     fram_status status =
         resolve(s, s->ice.populations.data[number].histogram, number, "histogram", path, sizeof path, error);
     if (status == FRAM_OK)
         status = csv_read(ctx, path, names, HISTOGRAM_COLUMNS, column, error);
-    int32_t bins = column[HISTOGRAM_LO].count;
-    if (status == FRAM_OK && bins < 1)
-        wrong = "the histogram has no rows";
-    for (int32_t i = 0; status == FRAM_OK && !wrong && i < bins; i++) {
-        if (i > 0 && column[HISTOGRAM_LO].data[i] != column[HISTOGRAM_HI].data[i - 1])
-            wrong = "each bin must begin where the one before ends";
-        else if ((i == 0 && !array_push(ctx, &f->edge[number], column[HISTOGRAM_LO].data[0])) ||
-                 !array_push(ctx, &f->edge[number], column[HISTOGRAM_HI].data[i]) ||
+    const double *lo = column[HISTOGRAM_LO].data, *hi = column[HISTOGRAM_HI].data;
+    int32_t bins = column[HISTOGRAM_LO].count, bin;
+    for (int32_t i = 0; i < bins && status == FRAM_OK; i++) {
+        if (i > 0 && lo[i] != hi[i - 1])
+            status = error_set(error, FRAM_ERROR_INPUT, path, i + 2, "diameter_min",
+                               "each bin must begin where the one before ends, at %g m, found %g m", hi[i - 1], lo[i]);
+        else if ((i == 0 && !array_push(ctx, &f->edge[number], lo[0])) || !array_push(ctx, &f->edge[number], hi[i]) ||
                  !array_push(ctx, &f->weight[number], column[HISTOGRAM_FLOES].data[i]))
             status = error_memory(error);
     }
-    if (wrong)
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "%s", wrong);
+    const char *fault =
+        status == FRAM_OK ? size_bins_fault(f->edge[number].data, f->weight[number].data, bins, &bin) : NULL;
+    if (fault)
+        status = error_set(error, FRAM_ERROR_INPUT, path, bin < 0 ? 0 : bin + 2, NULL, "%s", fault);
     for (int i = 0; i < HISTOGRAM_COLUMNS; i++)
         array_free(ctx, &column[i]);
     return status;

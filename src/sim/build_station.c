@@ -22,6 +22,22 @@ static fram_status name_item(const scenario *s, fram_status status, const char *
 
 /* ---- mooring ---- */
 
+/* As name_item; a point of a table that came from a file is a line of that file. */
+static fram_status name_line(const scenario *s, fram_status status, int32_t item, fram_error *error)
+{
+    const char *file = s->vessel.mooring.lines.data[item].table_file;
+    char path[2 * SCENARIO_TEXT_SIZE];
+    int point;
+    if (status != FRAM_ERROR_INPUT || !error || !file[0] || strncmp(error->key, "table", 5) != 0 ||
+        !scenario_resolve_path(s, file, path, sizeof path))
+        return name_item(s, status, "mooring.lines", item, error);
+    char why[sizeof error->message];
+    memcpy(why, error->message, sizeof why);
+    const char *column = strstr(error->key, "].tension") ? "tension" : "offset";
+    bool row = sscanf(error->key, "table[%d]", &point) == 1;
+    return error_set(error, FRAM_ERROR_INPUT, path, row ? point + 2 : 0, row ? column : NULL, "%s", why);
+}
+
 enum { MOST_LINES = 64 };
 
 /* Rules of the points stand in vessel/mooring.c; here only where they come from. */
@@ -86,7 +102,7 @@ static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_err
                 return status;
             status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
             if (status != FRAM_OK)
-                return name_item(s, status, "mooring.lines", i, error);
+                return name_line(s, status, i, error);
         }
     }
     if (w->lines.count <= MOST_LINES)

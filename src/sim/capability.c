@@ -266,8 +266,6 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
     c->loads.directions = o->directions;
     c->loads.speeds = (int32_t)floor(o->speed_most / o->speed_step + 0.5);
     c->loads.speed_step = o->speed_step;
-    if (s->ice.source != ICE_NONE)
-        c->thickness = s->ice.thickness, c->concentration = s->ice.concentration;
     world w;
     status = build_still_world(ctx, s, &w, error);
     if (status != FRAM_OK)
@@ -276,7 +274,7 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
     if (status == FRAM_OK) {
         const step_settings settings = build_settings(s);
         find_media_loads(&settings, &w, c);
-        if (c->thickness > 0)
+        if (s->ice.source != ICE_NONE)
             status =
                 o->formula ? capability_ice_formula(ctx, s, &w, c, error) : capability_ice_measured(ctx, s, c, error);
     }

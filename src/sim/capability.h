@@ -22,6 +22,7 @@ typedef struct capability_options {
     double speed_step, speed_most;           /* [m/s] */
     double allowance;                        /* what mean loads are multiplied by */
     double line_safety, line_safety_damaged; /* breaking load over allowed tension: intact, after a failure */
+    const volatile int *stop;                /* non-zero: FRAM_INTERRUPTED, nothing written; may be NULL */
 } capability_options;
 
 /* A load in the ship's frame: surge, sway [N], yaw about the centre of mass [N m], by direction (row) and speed. */
@@ -48,8 +49,8 @@ typedef struct capability_limit {
 
 typedef struct capability {
     capability_options options;
-    double wind_speed; /* [m/s] */
-    double thickness, concentration;
+    double wind_speed;               /* [m/s] */
+    double thickness, concentration; /* of the ice, means over its area; 0 without ice */
     capability_loads loads;
     capability_failure failure[96];
     int32_t failures;
@@ -65,7 +66,8 @@ vec3 capability_load_at(const capability *c, double from, double speed);
 vec3 capability_ice_between(const vec3 *load, int32_t directions, int32_t speeds, double speed_step, double from,
                             double speed);
 /* Ice loads by direction and speed into c->loads.ice: by formula, or the mean of the highest third of the peaks in runs
-   of the scenario's field past the hull held fast.  FRAM_ERROR_INPUT names the key that stands in the way. */
+   of the scenario's field past the hull held fast.  FRAM_ERROR_INPUT names the key that stands in the way; an error of
+   a run begins with its direction and speed. */
 fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error);
 fram_status capability_ice_measured(context *ctx, const scenario *s, capability *c, fram_error *error);
 /* Resistance of a ship of breadth b [m] in broken ice of thickness h [m] and concentration S at a speed [m/s] (Zuev's

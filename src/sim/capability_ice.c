@@ -8,6 +8,9 @@
 #include "sim/ice_loads.h"
 #include "sim/station_results.h"
 
+#include <stdio.h>
+#include <string.h>
+
 /* ---- by formula ---- */
 
 /* Breadth across the drift, and how far to the left of the centre of mass its middle lies, seen along the drift. */
@@ -24,17 +27,32 @@ static double breadth_across(const vec2_array *waterline, vec3 centre, vec2 alon
     return hi - lo;
 }
 
+/* The formula knows one thickness and one concentration, those of the scenario. */
+static fram_status check_formula(const scenario *s, fram_error *error)
+{
+    const char *key = NULL, *rule = NULL;
+    if (s->ice.source != ICE_VORONOI && s->ice.source != ICE_PACKED)
+        key = "ice.source",
+        rule = "expected voronoi or packed, broken ice of a concentration that the formula can take";
+    else if (s->ice.populations.count > 0)
+        key = "ice.populations", rule = "expected none, since the formula knows one thickness only (ice.thickness)";
+    if (!key)
+        return FRAM_OK;
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s; without --formula the load is measured", rule);
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
+}
+
 fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
 {
-    if (s->ice.source == ICE_LEVEL) {
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.source",
-                  "expected broken ice, for which the formula is made, found level");
-        scenario_locate(s, error);
-        return FRAM_ERROR_INPUT;
-    }
+    fram_status status = check_formula(s, error);
+    if (status != FRAM_OK)
+        return status;
+    c->thickness = s->ice.thickness;
+    c->concentration = s->ice.concentration;
     int32_t body = w->vessels.body[0];
     vec2_array waterline = {0};
-    fram_status status = build_footprint(ctx, w, body, true, &waterline, error);
+    status = build_footprint(ctx, w, body, true, &waterline, error);
     double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
     capability_loads *l = &c->loads;
     for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++) {
@@ -89,7 +107,19 @@ static scenario driven(const scenario *s, double from, double speed)
     return d;
 }
 
-static fram_status record(context *ctx, const scenario *s, double duration, load_history *h, fram_error *error)
+/* What ice the load is of, as the first run has made it. */
+static void describe_ice(const world *w, const build_report *report, capability *c)
+{
+    double area = 0, volume = 0;
+    for (int32_t i = 0; i < w->floes.count; i++) {
+        area += w->floes.area[i];
+        volume += w->floes.area[i] * w->floes.thickness[i];
+    }
+    c->thickness = area > 0 ? volume / area : 0;
+    c->concentration = report->field.concentration;
+}
+
+static fram_status record(context *ctx, const scenario *s, capability *c, load_history *h, fram_error *error)
 {
     world w;
     build_report report;
@@ -97,9 +127,16 @@ static fram_status record(context *ctx, const scenario *s, double duration, load
     fram_status status = build_world(ctx, s, &w, &report, error);
     if (status != FRAM_OK)
         return status;
+    if (!(c->thickness > 0))
+        describe_ice(&w, &report, c);
     double heading = radians(s->vessel.heading_deg);
-    int64_t steps = (int64_t)ceil(duration / s->run.time_step);
+    int64_t steps = (int64_t)ceil(c->options.measure / s->run.time_step);
+    const volatile int *stop = c->options.stop;
     for (int64_t i = 0; i < steps && status == FRAM_OK; i++) {
+        if (stop && *stop) {
+            status = error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
+            break;
+        }
         status = world_step(ctx, &settings, &w, error);
         wrench mean = load_window_average(&w);
         vec3 load = plane_to_vessel(heading, vec3_make(mean.force.x, mean.force.y, mean.moment.z));
@@ -129,14 +166,25 @@ static vec3 significant_load(const load_history *h, double after)
     return vec3_scale(mean, fmax(significant, size) / size);
 }
 
-static fram_status measure(context *ctx, const scenario *s, double from, double speed, double duration, vec3 *load,
+/* Which of the runs failed, before why. */
+static void name_run(double from, double speed, fram_error *error)
+{
+    char why[sizeof error->message];
+    memcpy(why, error->message, sizeof why);
+    int n = snprintf(error->message, sizeof error->message, "ice from %.0f deg at %g m/s: ", degrees(from), speed);
+    snprintf(error->message + n, sizeof error->message - (size_t)n, "%s", why);
+}
+
+static fram_status measure(context *ctx, const scenario *s, double from, double speed, capability *c, vec3 *load,
                            fram_error *error)
 {
     const scenario d = driven(s, from, speed);
     load_history h = {0};
-    fram_status status = record(ctx, &d, duration, &h, error);
+    fram_status status = record(ctx, &d, c, &h, error);
     if (status == FRAM_OK)
-        *load = significant_load(&h, UNCOUNTED * duration);
+        *load = significant_load(&h, UNCOUNTED * c->options.measure);
+    else if (status != FRAM_INTERRUPTED && error)
+        name_run(from, speed, error);
     history_free(ctx, &h);
     return status;
 }
@@ -151,7 +199,7 @@ typedef struct measured_loads {
     vec3 load[MEASURED_DIRECTIONS * MEASURED_SPEEDS]; /* [direction * speeds + k] at the speed (k + 1) speed_step */
 } measured_loads;
 
-static fram_status measure_all(context *ctx, const scenario *s, double duration, measured_loads *m, fram_error *error)
+static fram_status measure_all(context *ctx, const scenario *s, capability *c, measured_loads *m, fram_error *error)
 {
     /* What a hull with equal sides meets from port is what it meets from starboard. */
     bool mirrored = s->vessel.hull.form != HULL_MESH;
@@ -165,7 +213,7 @@ static fram_status measure_all(context *ctx, const scenario *s, double duration,
                 *load = vec3_make(other.x, -other.y, -other.z);
                 continue;
             }
-            fram_status status = measure(ctx, s, from, speed, duration, load, error);
+            fram_status status = measure(ctx, s, from, speed, c, load, error);
             if (status != FRAM_OK)
                 return status;
             log_write(ctx, LOG_INFO, "ice from %3.0f deg at %.2f m/s: surge %.4g kN, sway %.4g kN, yaw %.4g MN m",
@@ -189,7 +237,7 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
     measured_loads m = {.directions = l->directions < MEASURED_DIRECTIONS ? l->directions : MEASURED_DIRECTIONS,
                         .speeds = l->speeds < MEASURED_SPEEDS ? l->speeds : MEASURED_SPEEDS};
     m.speed_step = l->speed_step * l->speeds / m.speeds;
-    fram_status status = measure_all(ctx, s, c->options.measure, &m, error);
+    fram_status status = measure_all(ctx, s, c, &m, error);
     for (int32_t i = 0; i < l->directions && status == FRAM_OK; i++)
         for (int32_t k = 0; k < l->speeds; k++)
             l->ice[i * l->speeds + k] = capability_ice_between(m.load, m.directions, m.speeds, m.speed_step,

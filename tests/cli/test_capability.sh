@@ -31,6 +31,22 @@ expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --set "environment.wind_fil
 says 'environment.wind_file' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --set ice.source=level --set domain.boundary=open
 says 'broken ice' err
+cat >mixed.yaml <<'END'
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}
+  thrusters: [{x: 15, thrust: 4.0e4}, {x: -15, thrust: 4.0e4}]
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100, boundary: feeding}
+ice:
+  source: packed
+  concentration: 0.6
+  populations: [{size: constant, diameter: 20, thickness: 0.4}, {size: constant, diameter: 25, thickness: 0.8}]
+END
+expect 2 "$FRAM" capability mixed.yaml -o "$scratch/b" --formula
+says 'ice.populations: expected none' err
+expect 0 "$FRAM" capability mixed.yaml -o mixed --measure 3 --directions 4 --speed-step 0.2 --speed-most 0.2
+python3 -c 'import json; j = json.load(open("mixed/capability.json"))
+assert 0.5 < j["ice_thickness_m"] < 0.7 and abs(j["ice_concentration"] - 0.6) < 0.01, j' || fail "what ice was met"
 touch file
 expect 2 "$FRAM" capability "$scene" -o "$scratch/file/b" --formula
 says 'file' err
@@ -38,6 +54,11 @@ expect 2 "$FRAM" capability "$scene"
 says '--output' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --set domain.boundary=open
 says 'domain.boundary' err
+# Ctrl-C while loads are measured.
+code=0
+timeout --preserve-status -s INT 2 "$FRAM" capability "$scene" -o "$scratch/b" --measure 1e5 2>err || code=$?
+same "$code" 130 "exit code after Ctrl-C"
+says 'nothing was written' err
 [ ! -e "$scratch/b" ] || fail "a refused plot left a folder"
 expect 2 "$FRAM" capability "$FRAM_SOURCE/scenes/demo.yaml" -o "$scratch/b"
 says 'mode free' err
