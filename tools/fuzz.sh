@@ -21,9 +21,14 @@ for target; do
     [ -f "$words" ] && words=-dict=$words || words=""
     echo "fuzz: $name for $seconds s"
     log=$build/findings/$name.log
+    # GEOS 3.11 leaks rings of degenerate polygons that it fails to repair, which cannot be told from a leak of ours
+    # without whole stacks (30 times as slow); ours are looked for by the tests, under the same sanitizer.
+    leaks=1
+    [ "$name" = overlay ] && leaks=0
     # shellcheck disable=SC2086  # seeds and words are one word or none
-    if ! "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 -print_final_stats=1 $words \
-        -artifact_prefix="$build/findings/$name-" "$build/corpus/$name" $seeds >"$log" 2>&1; then
+    if ! ASAN_OPTIONS=detect_leaks=$leaks "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 \
+        -print_final_stats=1 -artifact_prefix="$build/findings/$name-" \
+        $words "$build/corpus/$name" $seeds >"$log" 2>&1; then
         tail -n 60 "$log"
         echo "fuzz: $name failed; the input is in $build/findings" >&2
         exit 1
