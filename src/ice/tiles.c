@@ -146,16 +146,19 @@ static vec2 snapped_point(box2 cell, vec2 v)
     return (vec2){snapped(v.x, cell.lo.x, cell.hi.x), snapped(v.y, cell.lo.y, cell.hi.y)};
 }
 
+static bool is_same_point(vec2 a, vec2 b, double reach) { return fabs(a.x - b.x) <= reach && fabs(a.y - b.y) <= reach; }
+
 void tile_snap(const tile_grid *g, int32_t cell, vec2_array *ring)
 {
     box2 box = tile_cell(g, cell);
+    double reach = ON_SIDE * (box.hi.x - box.lo.x + box.hi.y - box.lo.y);
     int32_t kept = 0;
     for (int32_t i = 0; i < ring->count; i++) {
         vec2 v = snapped_point(box, ring->data[i]);
-        if (kept == 0 || v.x != ring->data[kept - 1].x || v.y != ring->data[kept - 1].y)
+        if (kept == 0 || !is_same_point(v, ring->data[kept - 1], reach))
             ring->data[kept++] = v;
     }
-    while (kept > 1 && ring->data[kept - 1].x == ring->data[0].x && ring->data[kept - 1].y == ring->data[0].y)
+    while (kept > 1 && is_same_point(ring->data[kept - 1], ring->data[0], reach))
         kept--;
     ring->count = kept;
 }

@@ -1,8 +1,11 @@
 /* Level ice held in tiles: the same breaks as in one floe, in the tiles that are reached and in no others. */
 #include "sheet_rig.h"
 
+#include "ice/fracture_parts.h"
+
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double AREA = 1, LOAD = 1e7;
 
@@ -322,6 +325,26 @@ START_TEST(random_bites)
 }
 END_TEST
 
+/* A cut leaves two corners that rounding tells apart on a seam: no sound tile has both, and the break was put off for
+   ever. */
+START_TEST(corners_within_rounding)
+{
+    fracture_rig r;
+    vec2 corner[] = {{0, 0}, {12, 1e-12}, {12 + 2e-9, 0}, {20, 0}, {20, 20}, {0, 20}, {1e-10, 0}};
+    vec2_array ring = {0};
+    fracture_rig_make(&r);
+    sheet_make(&r, (box2){{0, 0}, {40, 20}}, 20, NULL);
+    ck_assert(array_resize(&r.ctx, &ring, 7));
+    memcpy(ring.data, corner, sizeof corner);
+    tile_snap(&r.settings.tiles, 0, &ring);
+    ck_assert_int_eq(ring.count, 5);
+    ck_assert(fracture_outline_is_sound(&r.ctx, (polygon){ring.data, ring.count}));
+    ck_assert(ring.data[1].x == 12 && ring.data[1].y == 0);
+    array_free(&r.ctx, &ring);
+    fracture_rig_free(&r);
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     for (long n = 1;; n++) {
@@ -346,4 +369,4 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, other_tiles_stay, seams, patch_across_a_seam, inner_load,
-          island, anchored_sides, random_bites, memory_runs_out)
+          island, anchored_sides, random_bites, corners_within_rounding, memory_runs_out)
