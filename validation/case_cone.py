@@ -78,8 +78,8 @@ def case(out):
                 "mean after 10 s [kN]"]
     found = {}
     c.check(abs(croasdale(60, 1) / 1.84414e6 - 1) < 2e-3, "the formula gives the source's number to 0.2 %")
-    for angle, h in CASES:
-        load, radius, series = first_break(angle, h)
+    runs = ladder.side_by_side(lambda job: first_break(*job), CASES)
+    for (angle, h), (load, radius, series) in zip(CASES, runs):
         found[angle, h] = load
         window = [-f for f in series["ice_force_averaged_x"]]
         later = [-f for f in ladder.after(series, "ice_force_x", 10)]

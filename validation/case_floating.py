@@ -124,7 +124,9 @@ def case(out):
         for name, values in errors.items():
             axes[1].loglog(steps, values, "o-", label=name)
         axes[1].loglog(steps, [errors["heave"][0] * (dt / steps[0]) ** 2 for dt in steps], "k:", label="second order")
-        axes[1].set(xlabel="time step [s]", ylabel="error of the period")
+        axes[1].set(xlabel="time step [s]", ylabel="relative error of the period")
+        axes[1].set_xticks(steps, [f"{dt:g}" for dt in steps])
+        axes[1].minorticks_off()
         axes[1].legend()
 
     ladder.figure(c, out, "floating", "A cube on its corner, and the periods of a floe.", draw, panels=2)

@@ -1,6 +1,7 @@
 """The same scenes under Fram's three solvers, Bullet and ODE: the mean load on a ship."""
 
 import argparse
+import os
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,9 @@ import run_peers  # noqa: E402  (the benchmark's own driver: one place knows how
 
 LONG = True
 FLOES, COVERS, SEEDS = 300, (75, 90), range(1, 9)
-OPTIONS = {"fram": str(ladder.FRAM), "dt": 0.02, "iterations": 30, "time": 20.0, "warm": 5.0, "core": "0,1"}
+SOLVERS = ("accurate", "fast", "sequential")
+OPTIONS = {"fram": str(ladder.FRAM), "dt": 0.02, "iterations": 30, "time": 20.0, "warm": 5.0, 
+           "core": f"0-{(os.cpu_count() or 1) - 1}"}
 
 
 def peers():
@@ -24,6 +27,16 @@ def peers():
             raise ladder.Skipped(f"{module} is not installed; `tools/deps.sh --install peers` does it")
     built = run_peers.build_peers()
     return {"Bullet (double)": built["bullet_f64"], "ODE": built["ode"]}
+
+
+def load_of(programs, name, scene):
+    """Mean load on the ship [kN]."""
+    if name in programs:
+        found = run_peers.run_peer(argparse.Namespace(**OPTIONS), programs[name], scene)
+    else:
+        options = argparse.Namespace(**OPTIONS, solver=name.removeprefix("Fram, "))
+        found = run_peers.run_fram(options, scene, OPTIONS["core"])
+    return abs(found["ship_force_kN"])
 
 
 def case(out):
@@ -42,16 +55,10 @@ def case(out):
                 "over its standard error"]
     picture = {}
     for cover in COVERS:
-        loads = {}
-        for seed in SEEDS:
-            scene = run_peers.scene_of(FLOES, cover, seed)
-            for solver in ("accurate", "fast", "sequential"):
-                options = argparse.Namespace(**OPTIONS, solver=solver)
-                found = run_peers.run_fram(options, scene, OPTIONS["core"])["ship_force_kN"]
-                loads.setdefault(f"Fram, {solver}", []).append(abs(found))
-            for name, program in programs.items():
-                options = argparse.Namespace(**OPTIONS)
-                loads.setdefault(name, []).append(abs(run_peers.run_peer(options, program, scene)["ship_force_kN"]))
+        scenes = [run_peers.scene_of(FLOES, cover, seed) for seed in SEEDS]
+        names = [*(f"Fram, {solver}" for solver in SOLVERS), *programs]
+        found = ladder.side_by_side(lambda job: load_of(programs, *job), [(n, s) for n in names for s in scenes])
+        loads = {name: found[i * len(scenes): (i + 1) * len(scenes)] for i, name in enumerate(names)}
         best = loads["Fram, accurate"]
         for name, values in loads.items():
             mean, error = ladder.mean_and_error(values)

@@ -87,15 +87,15 @@ def case(out):
     def draw(axes):
         for shape in ("square", "polygon"):
             load = stats[COVERS[-1], shape][2]
-            axes[0].plot([START + (END - START) * i / len(load) for i in range(len(load))], [f / 1e3 for f in load],
-                         lw=0.6, label=shape)
-        axes[0].set(xlabel="time [s]", ylabel=f"load [kN], {100 * COVERS[-1]:.0f} %, seed 1")
+            axes[0].plot([START + (END - START) * i / len(load) for i in range(len(load))], [f / 1e6 for f in load],
+                         lw=0.8, label=shape)
+        axes[0].set(xlabel="time [s]", ylabel=f"load [MN], {100 * COVERS[-1]:.0f} %, seed 1")
         axes[0].legend()
         for at, ((cover, shape), ((mean, error), _, _, means, _)) in enumerate(stats.items()):
-            axes[1].plot([at] * len(means), [m / 1e3 for m in means], ".", color="grey")
-            axes[1].errorbar([at + 0.1], [mean / 1e3], yerr=[1.96 * error / 1e3], fmt="o", capsize=4)
+            axes[1].plot([at] * len(means), [m / 1e6 for m in means], ".", color="grey")
+            axes[1].errorbar([at + 0.1], [mean / 1e6], yerr=[1.96 * error / 1e6], fmt="o", capsize=4)
         axes[1].set_xticks(range(len(stats)), [f"{shape}\n{100 * cover:.0f} %" for cover, shape in stats])
-        axes[1].set(ylabel="mean load [kN]", ylim=(0, None))
+        axes[1].set(ylabel="mean load [MN]", ylim=(0, None))
 
     ladder.figure(c, out, "shapes", "One run of each; means of all seeds with 95 % interval.", draw, panels=2)
     return c

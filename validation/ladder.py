@@ -10,11 +10,14 @@ import pathlib
 import shutil
 import statistics
 import subprocess
+import threading
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FRAM = ROOT / "build" / "release" / "fram"
 WORK = ROOT / "build" / "validation"
 DATA = ROOT.parent / "shared" / "data"
+JOBS = os.cpu_count() or 1  # runs side by side, one thread each
+REUSED = []  # names of the runs that were read again
 
 
 class Skipped(Exception):
@@ -72,13 +75,20 @@ def run(scenario, name, **keys):
         folder.parent.mkdir(parents=True, exist_ok=True)
         answer("run", scenario, "-o", folder, "--quiet", "--threads", 1, *sets)
         done.write_text(mark)
+    else:
+        REUSED.append(name)
     return channels(folder)
+
+
+def side_by_side(work, items):
+    """Results of work(item) in the order of the items, JOBS of them at a time."""
+    with concurrent.futures.ThreadPoolExecutor(max_workers=JOBS) as pool:
+        return list(pool.map(work, items))
 
 
 def run_all(jobs):
     """Runs (scenario, name, keys) side by side, one thread each, and returns their channels in the order given."""
-    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        return list(pool.map(lambda job: run(job[0], job[1], **job[2]), jobs))
+    return side_by_side(lambda job: run(job[0], job[1], **job[2]), jobs)
 
 
 def table(path):
@@ -146,6 +156,10 @@ def figure(case, out, name, caption, draw, size=(7.2, 3.4), panels=1):
     plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "figure.dpi": 110})
     picture, axes = plt.subplots(1, panels, figsize=size, layout="constrained")
     draw(axes)
+    for ax in picture.axes:
+        low, high = ax.get_ylim()
+        if low == 0 and ax.get_yscale() == "linear":  # room above what a fixed lower limit left tight
+            ax.set_ylim(low, 1.06 * high)
     picture.savefig(out / f"{name}.png", metadata={"Software": None})
     plt.close(picture)
     case.figures.append((f"{name}.png", caption))
@@ -161,4 +175,7 @@ def box_obj(path, lo, hi, turn=None):
 def write_obj(path, corners, faces):
     path.parent.mkdir(parents=True, exist_ok=True)
     lines = ["v %.17g %.17g %.17g" % tuple(c) for c in corners] + ["f " + " ".join(map(str, f)) for f in faces]
-    path.write_text("\n".join(lines) + "\n")
+    # Whole or not there: runs side by side may read the same hull.
+    beside = path.with_suffix(f".{threading.get_ident()}")
+    beside.write_text("\n".join(lines) + "\n")
+    beside.replace(path)

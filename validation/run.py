@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """The validation book: every case of the ladder, one page each.
 
-  validation/run.py [--quick] [--only NAME ...] [--out DIR]
+  validation/run.py [--quick] [--only NAME ...] [--out DIR] [--jobs N]
 
 --quick leaves out the cases of many long runs.  Pages and figures go to DIR (docs/validation), with verdicts.json, from
-which cases that are not run now keep their line on the first page.  Exit code 1 when a check fails: a finding belongs
-on its page, and into docs/limits.md with its size.
+which cases that are not run now keep their line on the first page.  Runs that the same program has finished are read
+again (build/validation); remove that folder to begin anew.  Exit code 1 when a check fails: a finding belongs on its
+page, and into docs/limits.md with its size.
 """
 
 import argparse
@@ -46,15 +47,30 @@ def machine():
 
 
 def revision():
-    words = ["git", "-C", str(ladder.ROOT), "rev-parse", "--short", "HEAD"]
-    done = subprocess.run(words, capture_output=True, text=True)
-    return done.stdout.strip() or "no version control"
+    """The commit; with "+" where what decides a result is not as committed."""
+    def git(*words):
+        return subprocess.run(["git", "-C", str(ladder.ROOT), *words], capture_output=True, text=True).stdout.strip()
+
+    changed = git("status", "--porcelain", "-uno", "--", "src", "include", "scenes", "validation", "CMakeLists.txt")
+    return git("rev-parse", "--short", "HEAD") + ("+" if changed else "") or "no version control"
 
 
-def page(name, case, seconds, head):
+def program():
+    """Version of Fram, and with which compiler and instruction set it runs."""
+    done = subprocess.run([str(ladder.FRAM), "--version"], capture_output=True, text=True)
+    ladder.run("run: {duration: 0.1}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n", "about")
+    about = json.loads((ladder.WORK / "about" / "run.json").read_text())
+    return f"{done.stdout.splitlines()[0]} ({about['compiler']}, {about['isa']})"
+
+
+def spent(seconds, reused):
+    again = f", {reused} runs read again that were there" if reused else ""
+    return f"{seconds:.0f} s{again}" if seconds < 600 else f"{seconds / 60:.0f} min{again}"
+
+
+def page(name, case, cost, head):
     """The page of one case."""
-    made = (f"{head} ({seconds:.0f} s of computing with what was already there; "
-            f"`make validate VALIDATE_FLAGS=\"--only {name}\"`).")
+    made = f"{head}; {cost}; again: `make validate VALIDATE_FLAGS=\"--only {name}\"`."
     lines = [f"# {case.title}", "", f"Rung {case.rung} of the [ladder](README.md). {made}", ""]
     lines += [f"**Tests.** {case.tests}", "", f"**Source.** {case.source}", "", f"**Expected.** {case.expected}", ""]
     lines += [f"**Verdict: {'agrees' if case.good else 'does not agree'}.** {case.found}".rstrip(), ""]
@@ -67,8 +83,9 @@ def page(name, case, seconds, head):
     return "\n".join(lines)
 
 
-def index(verdicts, names):
+def index(book, names):
     """The book's first page: every case with its verdict, what did not agree, and what was not made."""
+    verdicts = book["cases"]
     agree = sum(v["good"] for v in verdicts.values())
     lines = ["# Validation", "",
              "Made by `make validate`; `VALIDATE_FLAGS=--quick` runs the cases of a few minutes, `--only NAME` one. "
@@ -77,7 +94,8 @@ def index(verdicts, names):
              "defaults. Some bounds were set after a first run: their pages say so, and such a check shows that "
              "nothing has changed since, no more. What "
              "disagrees, and the size of each known error, stands in the [limits](../limits.md).", "",
-             f"{agree} of {len(verdicts)} cases agree.", ""]
+             f"{agree} of {len(verdicts)} cases agree. "
+             + " ".join(book["times"][key] for key in ("whole", "quick") if key in book["times"]), ""]
     for rung, title in RUNGS.items():
         of_rung = {n: v for n, v in verdicts.items() if v["rung"] == rung}
         if not of_rung:
@@ -98,9 +116,16 @@ def index(verdicts, names):
     return "\n".join(lines)
 
 
-def version():
-    done = subprocess.run([str(ladder.FRAM), "--version"], capture_output=True, text=True)
-    return done.stdout.splitlines()[0]
+def read_book(path, names):
+    """Verdicts of earlier runs, by case, and what whole runs took."""
+    book = json.loads(path.read_text()) if path.exists() else {}
+    cases = {name: v for name, v in book.get("cases", {}).items() if name in names}
+    return {"cases": cases, "times": book.get("times", {})}
+
+
+def write_book(out, book, names):
+    (out / "verdicts.json").write_text(json.dumps(book, indent=1, sort_keys=True) + "\n")
+    (out / "README.md").write_text(index(book, names))
 
 
 def main():
@@ -108,7 +133,9 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", nargs="+", metavar="NAME")
     parser.add_argument("--out", type=pathlib.Path, default=ladder.ROOT / "docs" / "validation")
+    parser.add_argument("--jobs", type=int, default=ladder.JOBS, help="runs side by side (one a core)")
     options = parser.parse_args()
+    ladder.JOBS = options.jobs
     options.out.mkdir(parents=True, exist_ok=True)
     ladder.WORK.mkdir(parents=True, exist_ok=True)
 
@@ -116,40 +143,44 @@ def main():
     unknown = set(options.only or []) - set(modules)
     if unknown:
         parser.error(f"no case {', '.join(sorted(unknown))}; there are {', '.join(modules)}")
-    kept = options.out / "verdicts.json"
-    head = f"{version()}, revision {revision()}, {datetime.date.today()}, {machine()}"
-    failed, begun = 0, time.monotonic()
-    for name, module in modules.items():
-        if options.only and name not in options.only:
-            continue
-        if options.quick and module.LONG:
-            print(f"validation: {name} left out by --quick")
-            continue
-        start = time.monotonic()
+    chosen = [n for n, module in modules.items() if not (options.only and n not in options.only
+                                                        or options.quick and module.LONG)]
+    head = f"{program()}, revision {revision()}, {datetime.date.today()}, {machine()}, {options.jobs} runs at a time"
+    failed, skipped, begun, reused_before = 0, 0, time.monotonic(), len(ladder.REUSED)
+    for name in chosen:
+        start, before = time.monotonic(), len(ladder.REUSED)
         print(f"validation: {name}", flush=True)
         try:
-            case = module.case(options.out)
+            case = modules[name].case(options.out)
         except ladder.Skipped as why:
             print(f"validation: {name} skipped: {why}")
+            skipped += 1
             continue
         except Exception:  # one case that cannot be made must not cost the others
             traceback.print_exc()
             failed += 1
+            skipped += 1
             continue
-        seconds = time.monotonic() - start
+        cost = spent(time.monotonic() - start, len(ladder.REUSED) - before)
         for what, good in case.checks:
             print(f"  {'good' if good else 'FAILED'}: {what}", flush=True)
+        print(f"  {cost}", flush=True)
         failed += not case.good
-        (options.out / f"{name}.md").write_text(page(name, case, seconds, head))
+        (options.out / f"{name}.md").write_text(page(name, case, cost, head))
         # Read anew: another run may have made other cases meanwhile.
-        verdicts = json.loads(kept.read_text()) if kept.exists() else {}
-        verdicts = {key: v for key, v in verdicts.items() if key in modules}
-        verdicts[name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
-                          "failed": [what for what, good in case.checks if not good],
-                          "made": f"{datetime.date.today()}, {revision()}"}
-        kept.write_text(json.dumps(verdicts, indent=1, sort_keys=True) + "\n")
-        (options.out / "README.md").write_text(index(verdicts, modules))
-    print(f"validation: {options.out / 'README.md'}, {time.monotonic() - begun:.0f} s")
+        book = read_book(options.out / "verdicts.json", modules)
+        book["cases"][name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
+                               "failed": [what for what, good in case.checks if not good],
+                               "made": f"{datetime.date.today()}, {revision()}"}
+        write_book(options.out, book, modules)
+    seconds = time.monotonic() - begun
+    if not options.only and not skipped:
+        book = read_book(options.out / "verdicts.json", modules)
+        of = f"The quick part, {len(chosen)} cases," if options.quick else f"The whole book, {len(chosen)} cases,"
+        book["times"]["quick" if options.quick else "whole"] = (
+            f"{of} in one command: {spent(seconds, 0)} ({head}).")
+        write_book(options.out, book, modules)
+    print(f"validation: {options.out / 'README.md'}, {spent(seconds, len(ladder.REUSED) - reused_before)}")
     return 1 if failed else 0
 
 
