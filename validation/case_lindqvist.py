@@ -44,24 +44,33 @@ def case(out):
         "Mean ice resistance of the 60 m icebreaker of `scenes/level_ice.yaml` over thickness and speed, from the "
         "last 15 m of 75 m of way, two starts each; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1).",
         "Lindqvist (1989) with the same inputs. Published errors of such formulas on one ship's tests are 22 to 51 %.",
-        "Grows with thickness and with speed; within a factor of 2 of the formula at 1 and 2 m/s. Above that "
+        "Grows with thickness and with speed; the sheet breaks under the bow, so that the ship never rises by half its "
+        "draught (a bound set after the first run); within a factor of 2 of the formula at 1 and 2 m/s. Above that "
         "less, since Fram's breaking has no inertia of the water (limits page).",
     )
-    c.header = ["h [m]", "speed [m/s]", "Fram, mean of 2 starts [kN]", "apart [kN]", "Lindqvist [kN]", "ratio"]
+    c.header = ["h [m]", "speed [m/s]", "Fram, mean of 2 starts [kN]", "apart [kN]", "Lindqvist [kN]", "ratio",
+                "largest rise of the ship [m]"]
     cases = [(h, v) for h in THICKNESSES for v in SPEEDS]
     series = ladder.run_all([job(h, v, back) for h, v in cases for back in STARTS])
-    found = {}
+    found, rise = {}, {}
     for i, (h, v) in enumerate(cases):
         means = []
+        rise[h, v] = max(max(s["position_z"]) for s in series[2 * i: 2 * i + 2])
         for s in series[2 * i: 2 * i + 2]:
             late = [-f for f in ladder.after(s, "ice_force_averaged_x", s["time"][-1] - 15 / v)]
             means.append(sum(late) / len(late))
         found[h, v] = sum(means) / 2
         ratio = found[h, v] / lindqvist(h, v)
         c.rows.append([h, v, f"{found[h, v] / 1e3:.0f}", f"{abs(means[0] - means[1]) / 1e3:.0f}",
-                       f"{lindqvist(h, v) / 1e3:.0f}", f"{ratio:.2f}"])
+                       f"{lindqvist(h, v) / 1e3:.0f}", f"{ratio:.2f}", f"{rise[h, v]:.2f}"])
         if v <= 2:
             c.check(0.5 <= ratio <= 2, f"{h} m, {v} m/s: {ratio:.2f} of Lindqvist, expected 0.5 to 2")
+    c.check(max(rise.values()) < DRAUGHT / 2, f"the ship rises by {max(rise.values()):.2f} m at most, less than "
+                                              f"{DRAUGHT / 2} m")
+    c.found = ("The first run of this case showed a defect. Where a break's outline met a seam of the tiles in two "
+               "corners that rounding told apart, the break was put off in every step, and in 1 m of ice the ship "
+               "climbed onto the sheet (5 m up, 1.5 MN instead of 0.3 in the mean). It has been mended, with a test "
+               "(tests/ice/test_fracture_sheet.c).")
     for v in SPEEDS:
         of_v = [found[h, v] for h in THICKNESSES]
         c.check(of_v == sorted(of_v), f"grows with thickness at {v} m/s")
@@ -76,8 +85,9 @@ def case(out):
         for h in THICKNESSES:
             line, = axes.plot(fine, [lindqvist(h, v) / 1e3 for v in fine], "--", label=f"Lindqvist, {h:g} m")
             axes.plot(SPEEDS, [found[h, v] / 1e3 for v in SPEEDS], "o", color=line.get_color(), label=f"Fram, {h:g} m")
-        axes.set(xlabel="speed [m/s]", ylabel="mean resistance [kN]", ylim=(0, None))
-        axes.legend(ncols=3, fontsize=8)
+        axes.set(xlabel="speed [m/s]", ylabel="mean resistance [kN]",
+                 ylim=(0, 1.35e-3 * max(*found.values(), lindqvist(THICKNESSES[-1], SPEEDS[-1]))))
+        axes.legend(ncols=3, fontsize=8, loc="upper left")
 
     ladder.figure(c, out, "lindqvist", "Mean resistance in level ice.", draw)
     return c

@@ -12,9 +12,10 @@ sys.path.insert(0, str(ladder.ROOT / "bench"))
 import run_peers  # noqa: E402  (the benchmark's own driver: one place knows how the programs are built and called)
 
 LONG = True
-FLOES, COVERS, SEEDS = 300, (75, 90), range(1, 9)
-SOLVERS = ("accurate", "fast", "sequential")
-OPTIONS = {"fram": str(ladder.FRAM), "dt": 0.02, "iterations": 30, "time": 20.0, "warm": 5.0, 
+FLOES, SEEDS = 300, range(1, 9)
+# Cover [%] and what judges there: the accurate solver takes minutes a run in a packed field.
+JUDGES = {75: "accurate", 90: "sequential, 300 sweeps"}
+OPTIONS = {"fram": str(ladder.FRAM), "dt": 0.02, "iterations": 30, "time": 20.0, "warm": 5.0,
            "core": f"0-{(os.cpu_count() or 1) - 1}"}
 
 
@@ -34,7 +35,9 @@ def load_of(programs, name, scene):
     if name in programs:
         found = run_peers.run_peer(argparse.Namespace(**OPTIONS), programs[name], scene)
     else:
-        options = argparse.Namespace(**OPTIONS, solver=name.removeprefix("Fram, "))
+        solver, _, sweeps = name.removeprefix("Fram, ").partition(", ")
+        options = argparse.Namespace(**{**OPTIONS, "solver": solver,
+                                        "iterations": int(sweeps.split()[0]) if sweeps else OPTIONS["iterations"]})
         found = run_peers.run_fram(options, scene, OPTIONS["core"])
     return abs(found["ship_force_kN"])
 
@@ -45,33 +48,34 @@ def case(out):
         "Mean load under other solvers and engines",
         4,
         f"A box ship of 80 x 20 m at constant speed through {FLOES} floes, 75 % in still water and 90 % packed by a "
-        "current, in the same text scene and water model: Fram's fast, sequential and accurate solver, Bullet and "
-        f"ODE, 8 seeds, dt 0.02 s, {OPTIONS['iterations']} iterations, mean of 5 to 20 s.",
-        "The accurate solver of Fram (to 1e-6 m/s) on the same scenes; Bullet 3.24 and ODE 0.16 (bench/peers).",
-        "Fast and sequential within 2 standard errors of accurate. The other engines differ in friction (pyramid) "
+        "current, in the same text scene and water model: Fram's fast and sequential solver, Bullet and ODE, 8 seeds, "
+        f"dt 0.02 s, {OPTIONS['iterations']} iterations, mean of 5 to 20 s.",
+        "The judge on the same scenes: Fram's accurate solver (to 1e-6 m/s) at 75 %, 300 sweeps in contact order at "
+        "90 %, where the accurate one takes minutes a run. Bullet 3.24 and ODE 0.16 (bench/peers).",
+        "Fast and sequential within 2 standard errors of the judge. The other engines differ in friction (pyramid) "
         "and in contact points: within 20 % or 2 standard errors.",
     )
-    c.header = ["cover [%]", "program", "mean load [kN]", "standard error [kN]", "to accurate, paired [kN]",
+    c.header = ["cover [%]", "program", "mean load [kN]", "standard error [kN]", "to the judge (first), paired [kN]",
                 "over its standard error"]
     picture = {}
-    for cover in COVERS:
+    for cover, judge in JUDGES.items():
         scenes = [run_peers.scene_of(FLOES, cover, seed) for seed in SEEDS]
-        names = [*(f"Fram, {solver}" for solver in SOLVERS), *programs]
+        names = [*(f"Fram, {solver}" for solver in (judge, "fast", "sequential")), *programs]
         found = ladder.side_by_side(lambda job: load_of(programs, *job), [(n, s) for n in names for s in scenes])
         loads = {name: found[i * len(scenes): (i + 1) * len(scenes)] for i, name in enumerate(names)}
-        best = loads["Fram, accurate"]
+        best = loads[f"Fram, {judge}"]
         for name, values in loads.items():
             mean, error = ladder.mean_and_error(values)
             apart, of_apart = ladder.mean_and_error([a - b for a, b in zip(values, best)])
             sigmas = apart / of_apart if of_apart > 0 else 0.0
             c.rows.append([cover, name, f"{mean:.1f}", f"{error:.1f}", f"{apart:+.1f}", f"{sigmas:+.2f}"])
             if name in ("Fram, fast", "Fram, sequential"):
-                c.check(abs(sigmas) < 2, f"{cover} %, {name}: {apart:+.1f} kN from accurate, {abs(sigmas):.2f} "
+                c.check(abs(sigmas) < 2, f"{cover} %, {name}: {apart:+.1f} kN from the judge, {abs(sigmas):.2f} "
                                          "standard errors, less than 2")
-            elif name != "Fram, accurate":
+            elif name in programs:
                 share = apart / ladder.mean_and_error(best)[0]
                 c.check(abs(share) <= 0.2 or abs(sigmas) < 2,
-                        f"{cover} %, {name}: {100 * share:+.0f} % from accurate ({abs(sigmas):.2f} standard errors)")
+                        f"{cover} %, {name}: {100 * share:+.0f} % from the judge ({abs(sigmas):.2f} standard errors)")
         picture[cover] = loads
 
     def draw(axes):

@@ -2,7 +2,7 @@
 
 import ladder
 
-LONG = False
+LONG = True
 SEEDS = range(1, 5)
 SOLVERS = ("accurate", "fast", "sequential")
 START, END = 8.0, 30.0
