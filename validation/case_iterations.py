@@ -59,6 +59,9 @@ def case(out):
         c.check(apart(steps[dt][0], steps[STEPS[-1]][0]) < 2,
                 f"dt {dt}: {apart(steps[dt][0], steps[STEPS[-1]][0]):.2f} standard errors from dt {STEPS[-1]}")
     residuals = [found[n][1] for n in SWEEPS]
+    orders = ladder.observed_order(residuals)
+    c.found = (f"Observed orders of the residual in 1/sweeps: {', '.join(f'{o:.1f}' for o in orders)} for each "
+               "doubling from 5 on.")
     c.check(residuals[-1] < residuals[0] / 4, f"residual falls {residuals[0] / residuals[-1]:.0f}-fold from 5 to 80 "
                                               f"sweeps")
 
