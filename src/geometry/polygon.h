@@ -101,6 +101,8 @@ bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out);
 bool polygon_is_clean(polygon p, double edge);
 /* polygon_clean for a ring inside a box, of which the vertices on the box's sides stay whatever they are. */
 bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_array *out);
+/* polygon_clean_inside that leaves spikes, however sharp, so that no area goes with them; box NULL: of no box. */
+bool polygon_merge(context *ctx, polygon p, double edge, const box2 *box, vec2_array *out);
 
 /* A simple outline with fewer vertices that covers simple p, counter-clockwise, with at most (1 + part) times its area:
    bays are filled and short edges replaced by the corner of their neighbours, what adds least area first.  At least 3

@@ -18,6 +18,7 @@ typedef struct cleaning {
     polygon p;
     double edge;
     const box2 *box; /* vertices on its sides stay; NULL: all may go */
+    bool spikes_stay;
     clean_node *node;
     int32_t first, left;
 } cleaning;
@@ -67,7 +68,7 @@ static int32_t victim_at(const cleaning *c, int32_t i, fate *why)
     double cosine = vec2_dot(e0, e1) / (l0 * l1);
     if (cosine < -TURN_COSINE) {
         *why = FATE_SPIKE;
-        return i;
+        return c->spikes_stay ? -1 : i;
     }
     return cosine > TURN_COSINE && chord_serves(c, previous, next) ? i : -1;
 }
@@ -98,12 +99,13 @@ static bool clean_pass(cleaning *c)
     return c->left < before;
 }
 
-static bool clean(context *ctx, polygon p, double edge, const box2 *box, vec2_array *out)
+static bool clean(context *ctx, cleaning c, vec2_array *out)
 {
+    polygon p = c.p;
     array_clear(out);
     if (p.count == 0)
         return true;
-    cleaning c = {.p = p, .edge = edge, .box = box, .left = p.count};
+    c.left = p.count;
     c.node = memory_array(ctx, (size_t)p.count, sizeof *c.node);
     if (!c.node || !array_reserve(ctx, out, p.count)) {
         memory_free(ctx, c.node);
@@ -120,11 +122,19 @@ static bool clean(context *ctx, polygon p, double edge, const box2 *box, vec2_ar
     return true;
 }
 
-bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out) { return clean(ctx, p, edge, NULL, out); }
+bool polygon_clean(context *ctx, polygon p, double edge, vec2_array *out)
+{
+    return clean(ctx, (cleaning){.p = p, .edge = edge}, out);
+}
 
 bool polygon_clean_inside(context *ctx, polygon p, double edge, box2 box, vec2_array *out)
 {
-    return clean(ctx, p, edge, &box, out);
+    return clean(ctx, (cleaning){.p = p, .edge = edge, .box = &box}, out);
+}
+
+bool polygon_merge(context *ctx, polygon p, double edge, const box2 *box, vec2_array *out)
+{
+    return clean(ctx, (cleaning){.p = p, .edge = edge, .box = box, .spikes_stay = true}, out);
 }
 
 bool polygon_is_clean(polygon p, double edge)

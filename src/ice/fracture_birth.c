@@ -84,16 +84,31 @@ static void book(const birth *b, double before, double after)
 
 /* Booked area may be at most this part of the parent (SPEC 8.8). */
 static const double MOST_BOOKED = 1e-3;
-/* Cleaning that would book more is repeated with half the edge, so often. */
+/* Cleaning that would book more is repeated with half the edge, so often; then all of that without spikes. */
 enum { FINER_CLEANINGS = 4 };
 
+/* How a piece is cleaned, from the coarsest to the finest; its last ways leave spikes as they are. */
+typedef struct cleaning_way {
+    double edge; /* [m] */
+    bool spikes_stay;
+} cleaning_way;
+
+static cleaning_way way_of(const fracture_job *j, int turn)
+{
+    int halvings = turn % (FINER_CLEANINGS + 1);
+    return (cleaning_way){j->settings->edge_threshold / (1 << halvings), turn > FINER_CLEANINGS};
+}
+
 /* What is on the sides of a tile's cell stays there: the neighbours fit to it. */
-static bool clean_piece(const fracture_job *j, const cut_piece *piece, polygon ring, double edge)
+static bool clean_piece(const fracture_job *j, const cut_piece *piece, polygon ring, cleaning_way way)
 {
     vec2_array *clean = &j->scratch->clean;
-    if (piece->tile == 0 || piece->motion == MOTION_DYNAMIC)
-        return polygon_clean(j->ctx, ring, edge, clean);
-    return polygon_clean_inside(j->ctx, ring, edge, tile_cell(&j->settings->tiles, piece->tile - 1), clean);
+    bool tile = piece->tile != 0 && piece->motion != MOTION_DYNAMIC;
+    box2 cell = tile ? tile_cell(&j->settings->tiles, piece->tile - 1) : (box2){0};
+    if (way.spikes_stay)
+        return polygon_merge(j->ctx, ring, way.edge, tile ? &cell : NULL, clean);
+    return tile ? polygon_clean_inside(j->ctx, ring, way.edge, cell, clean)
+                : polygon_clean(j->ctx, ring, way.edge, clean);
 }
 
 /* The piece's outline cleaned as far as the budget of booked area [m2] allows, itself where nothing does, in *out;
@@ -101,9 +116,9 @@ static bool clean_piece(const fracture_job *j, const cut_piece *piece, polygon r
 static bool clean_within(const fracture_job *j, const cut_piece *piece, double budget, polygon *out)
 {
     polygon ring = polygon_list_get(&j->scratch->outlines, piece->ring);
-    double area = polygon_area(ring), edge = j->settings->edge_threshold;
-    for (int turn = 0; turn <= FINER_CLEANINGS; turn++, edge /= 2) {
-        if (!clean_piece(j, piece, ring, edge))
+    double area = polygon_area(ring);
+    for (int turn = 0; turn < 2 * (FINER_CLEANINGS + 1); turn++) {
+        if (!clean_piece(j, piece, ring, way_of(j, turn)))
             return false;
         *out = (polygon){j->scratch->clean.data, j->scratch->clean.count};
         double after = polygon_area(*out);

@@ -81,6 +81,23 @@ static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
     return best;
 }
 
+/* Corners of a union that differ by rounding become one.  Its spikes stay, which are ice, unless they are none but
+   rounding's: then it is sound only without them.  false: no memory. */
+static bool merge_corners(context *ctx, fracture_scratch *s, polygon *ring, double area, bool *sound)
+{
+    polygon joined = *ring;
+    double corner = SAME_CORNER * polygon_perimeter(joined);
+    *sound = false;
+    for (int turn = 0; turn < 2 && !*sound; turn++) {
+        if (!(turn == 0 ? polygon_merge(ctx, joined, corner, NULL, &s->clean)
+                        : polygon_clean(ctx, joined, corner, &s->clean)))
+            return false;
+        *ring = (polygon){s->clean.data, s->clean.count};
+        *sound = fabs(polygon_area(*ring) - area) <= SAME_AREA * area && fracture_outline_is_sound(ctx, *ring);
+    }
+    return true;
+}
+
 fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, int32_t i, int32_t k, bool *joined,
                            fram_error *error)
 {
@@ -95,13 +112,11 @@ fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, in
         return status;
     if (status != FRAM_OK || polygon_list_count(&s->joined) != 1)
         return FRAM_OK;
-    /* Corners of both that differ by rounding become one. */
     polygon ring = polygon_list_get(&s->joined, 0);
-    if (!polygon_clean(ctx, ring, SAME_CORNER * polygon_perimeter(ring), &s->clean))
+    bool sound;
+    if (!merge_corners(ctx, s, &ring, s->cut.data[i].area + s->cut.data[k].area, &sound))
         return error_memory(error);
-    ring = (polygon){s->clean.data, s->clean.count};
-    double area = s->cut.data[i].area + s->cut.data[k].area;
-    if (!fracture_outline_is_sound(ctx, ring) || !(fabs(polygon_area(ring) - area) <= SAME_AREA * area))
+    if (!sound)
         return FRAM_OK;
     s->cut.data[k].ring = polygon_list_count(&s->outlines);
     s->cut.data[k].area = polygon_area(ring);
@@ -133,21 +148,21 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
     return FRAM_OK;
 }
 
-/* Too small, or so narrow that cleaning would leave less than half of it, or a sliver of three vertices. */
-static fram_status judge(context *ctx, fracture_scratch *s, const fracture_settings *settings, int32_t i, bool *dust,
-                         fram_error *error)
+/* Too small, or what cleaning leaves is no floe: less than half of it, a sliver of three vertices, or a ring that
+   crosses itself. */
+static bool judge(context *ctx, fracture_scratch *s, const fracture_settings *settings, int32_t i, bool *dust)
 {
-    double area = s->cut.data[i].area;
     const cut_piece *piece = &s->cut.data[i];
-    *dust = fracture_is_dust(settings, piece, polygon_list_get(&s->outlines, piece->ring));
+    polygon ring = polygon_list_get(&s->outlines, piece->ring);
+    *dust = fracture_is_dust(settings, piece, ring);
     if (*dust || (piece->tile != 0 && piece->motion != MOTION_DYNAMIC))
-        return FRAM_OK;
-    if (!polygon_clean(ctx, polygon_list_get(&s->outlines, s->cut.data[i].ring), settings->edge_threshold, &s->clean))
-        return error_memory(error);
-    double left = s->clean.count < 3 ? 0 : polygon_area((polygon){s->clean.data, s->clean.count});
-    *dust = left < fmax(settings->smallest_floe_area, area / 2) ||
-            !polygon_is_clean((polygon){s->clean.data, s->clean.count}, settings->edge_threshold);
-    return FRAM_OK;
+        return true;
+    if (!polygon_clean(ctx, ring, settings->edge_threshold, &s->clean))
+        return false;
+    polygon left = {s->clean.data, s->clean.count};
+    *dust = polygon_area(left) < fmax(settings->smallest_floe_area, piece->area / 2) ||
+            !polygon_is_clean(left, settings->edge_threshold) || !fracture_outline_is_sound(ctx, left);
+    return true;
 }
 
 fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
@@ -156,8 +171,10 @@ fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture
     for (int32_t i = 0; i < s->cut.count;) {
         int32_t to = -1;
         bool dust;
-        fram_status status = judge(ctx, s, settings, i, &dust, error);
-        if (status == FRAM_OK && dust)
+        if (!judge(ctx, s, settings, i, &dust))
+            return error_memory(error);
+        fram_status status = FRAM_OK;
+        if (dust)
             status = join(ctx, s, plane, i, &to, error);
         if (status != FRAM_OK)
             return status;

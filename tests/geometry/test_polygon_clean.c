@@ -187,6 +187,24 @@ START_TEST(is_clean)
 }
 END_TEST
 
-TEST_MAIN("polygon_clean", nothing_to_clean, is_clean, short_edges_spikes_and_straight_vertices_go,
-          a_long_shallow_corner_stays, a_bound_is_not_under_itself, a_fine_circle_keeps_its_shape, random_outlines,
-          the_other_end_of_a_short_edge, no_memory)
+/* Merging leaves spikes and what stands on the box, and takes short edges and straight vertices. */
+START_TEST(merging_keeps_spikes)
+{
+    const vec2 notch[] = {{0, 0}, {5, 0}, {9, 0}, {9, 9}, {4.8, 9}, {4.5, 4}, {4.2, 9}, {0, 9}, {0, 8.99}};
+    const vec2 free[] = {{0, 0}, {9, 0}, {9, 9}, {4.8, 9}, {4.5, 4}, {4.2, 9}, {0, 9}};
+    const box2 box = {{0, 0}, {20, 20}};
+    context_init(&plain);
+    ck_assert(polygon_merge(&plain, (polygon){notch, 9}, 0.1, NULL, &out));
+    ck_assert_int_eq(out.count, 7);
+    ck_assert(fabs(polygon_area((polygon){out.data, 7}) - polygon_area((polygon){free, 7})) < 0.1);
+    ck_assert(polygon_merge(&plain, (polygon){notch, 9}, 0.1, &box, &out));
+    ck_assert_int_eq(out.count, 9);
+    ck_assert(polygon_clean(&plain, (polygon){notch, 9}, 0.1, &out));
+    ck_assert_int_lt(out.count, 7);
+    array_free(&plain, &out);
+}
+END_TEST
+
+TEST_MAIN("polygon_clean", nothing_to_clean, is_clean, merging_keeps_spikes,
+          short_edges_spikes_and_straight_vertices_go, a_long_shallow_corner_stays, a_bound_is_not_under_itself,
+          a_fine_circle_keeps_its_shape, random_outlines, the_other_end_of_a_short_edge, no_memory)
