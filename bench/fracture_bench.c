@@ -283,24 +283,43 @@ static int living_vertices(const rig *r, double x, double reach)
     return sum;
 }
 
-static void report_channel(int bites, int tiles, double time[BITES], double around[BITES], const int held[BITES],
-                           const int living[BITES])
+/* What is measured at every bite. */
+typedef struct channel_log {
+    double time[BITES];   /* of the event [s] */
+    double around[BITES]; /* vertices within AROUND of the bite */
+    double tile[BITES];   /* vertices of the tile that is loaded, before the bite */
+    int held[BITES];      /* vertices that the shape store has room in use for, dead ones too */
+    int living[BITES];    /* vertices of shapes that floes have */
+} channel_log;
+
+static void early_and_late(const char *what, double *value, int first, int bites)
 {
-    double early = median(time, NEAR), late = median(time + bites - NEAR, NEAR);
-    printf(
-        "channel: %d bites in a sheet of %d tiles; event %.1f us in the first %d, %.1f us in the last (ratio %.3f)\n",
-        bites, tiles, 1e6 * early, NEAR, 1e6 * late, late / early);
-    printf("shape store: %d vertices at the 100th bite, %d at the last (ratio %.3f); living %d and %d, %.2f a bite\n",
-           held[99], held[bites - 1], (double)held[bites - 1] / held[99], living[99], living[bites - 1],
-           (double)(living[bites - 1] - living[99]) / (bites - 100));
+    double early = median(value + first, NEAR), late = median(value + bites - NEAR, NEAR);
+    printf("%s: %.4g at bites %d to %d, %.4g at the last %d (ratio %.3f)\n", what, early, first, first + NEAR, late,
+           NEAR, late / early);
+}
+
+/* Living vertices that a bite adds, over bites `first` to `last`. */
+static double growth(const channel_log *l, int first, int last)
+{
+    return (double)(l->living[last] - l->living[first]) / (last - first);
+}
+
+static void report_channel(int bites, int tiles, channel_log *l)
+{
+    const int early = 99, late = bites - 1;
+    printf("channel: %d bites in a sheet of %d tiles\n", bites, tiles);
+    early_and_late("time of an event [s]", l->time, 0, bites);
+    early_and_late("vertices of the tile that is bitten", l->tile, early + 1, bites);
+    early_and_late("vertices within 100 m of a bite", l->around, early + 1, bites);
+    printf("living vertices: %d at bite 100, %d at the last; a bite adds %.2f over bites 100 to 1,100, %.2f over the "
+           "last 1,000\n",
+           l->living[early], l->living[late], growth(l, early, early + 1000), growth(l, late - 1000, late));
     double most = 0;
     for (int i = 0; i < bites; i++)
-        most = fmax(most, (double)held[i] / living[i]);
-    printf("shape store: at most %.3f times what lives\n", most);
-    early = median(around + 100, NEAR);
-    late = median(around + bites - NEAR, NEAR);
-    printf("within %.0f m of a bite: %.0f vertices at bites 100 to %d, %.0f at the last %d (ratio %.3f)\n", AROUND,
-           early, 100 + NEAR, late, NEAR, late / early);
+        most = fmax(most, (double)l->held[i] / l->living[i]);
+    printf("shape store: %d vertices at bite 100, %d at the last (ratio %.3f); at most %.3f times what lives\n",
+           l->held[early], l->held[late], (double)l->held[late] / l->held[early], most);
 }
 
 static void bench_channel(void)
@@ -319,8 +338,7 @@ static void bench_channel(void)
         stop(e.message);
     for (int32_t i = 0; i < polygon_list_count(&outlines); i++)
         add_floe(&r, polygon_list_get(&outlines, i), MOTION_STATIC, cells.data[i] + 1);
-    static double time[BITES], around[BITES];
-    static int held[BITES], living[BITES];
+    static channel_log l;
     int bites = 0;
     random_stream s = random_begin(3, 1, 0);
     for (int turn = 0; bites < BITES && turn < 40 * BITES; turn++) {
@@ -331,16 +349,18 @@ static void bench_channel(void)
         if (row < 0)
             continue;
         add_load(&r, row, place, 1e7, 1);
+        int vertices = vertices_of(&r.shapes, r.bodies.shape[r.floes.body[row]]);
         double taken = break_once(&r);
         if (r.events.count == 0)
             continue;
-        time[bites] = taken;
+        l.time[bites] = taken;
+        l.tile[bites] = vertices;
         remove_moving(&r);
-        held[bites] = r.shapes.vertices.count;
-        living[bites] = living_vertices(&r, 0, HUGE_VAL);
-        around[bites++] = living_vertices(&r, place.x, AROUND);
+        l.held[bites] = r.shapes.vertices.count;
+        l.living[bites] = living_vertices(&r, 0, HUGE_VAL);
+        l.around[bites++] = living_vertices(&r, place.x, AROUND);
     }
-    report_channel(bites, (int)polygon_list_count(&outlines), time, around, held, living);
+    report_channel(bites, (int)polygon_list_count(&outlines), &l);
 }
 
 /* ---- a scene ---- */

@@ -4,6 +4,29 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+
+void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thickness)
+{
+    vec3 axis = mat3_column(quat_matrix(orientation), 2);
+    double down = axis.z < 0 ? thickness : -thickness;
+    s->drop = vec2_make(down * axis.x, down * axis.y);
+    s->height = position.z + 0.5 * thickness * fabs(axis.z);
+}
+
+static int compare_heights(const void *a, const void *b)
+{
+    const plan_shape *x = a, *y = b;
+    if (x->height != y->height)
+        return x->height < y->height ? -1 : 1;
+    return x->outline.vertex < y->outline.vertex ? -1 : x->outline.vertex > y->outline.vertex;
+}
+
+void plan_shapes_sort(plan_shape *shapes, int32_t count)
+{
+    if (count > 1)
+        qsort(shapes, (size_t)count, sizeof *shapes, compare_heights);
+}
 
 #ifdef FRAM_HAVE_CAIRO
 
@@ -31,30 +54,53 @@ typedef struct map {
 static double map_x(const map *m, vec2 p) { return m->left + (p.x - m->window.lo.x) * m->scale; }
 static double map_y(const map *m, vec2 p) { return m->top + (m->window.hi.y - p.y) * m->scale; }
 
-static void trace(cairo_t *page, const map *m, polygon p)
+static void line_to(cairo_t *page, const map *m, vec2 p) { cairo_line_to(page, map_x(m, p), map_y(m, p)); }
+
+static void paint(cairo_t *page, const plan_shape *s)
 {
-    for (int32_t i = 0; i < p.count; i++)
-        cairo_line_to(page, map_x(m, p.vertex[i]), map_y(m, p.vertex[i]));
+    image_colour fill = looks[s->style].fill;
+    if (s->has_value) {
+        double rgb[3];
+        image_ramp((double)s->value, rgb);
+        fill = (image_colour){rgb[0], rgb[1], rgb[2]};
+    }
     cairo_close_path(page);
+    image_set_colour(page, fill);
+    cairo_fill_preserve(page);
+    image_set_colour(page, looks[s->style].line);
+    cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
+    cairo_stroke(page);
+}
+
+/* Sides of a prism that tilts by less than this are not told apart from the edge of its face [pixels]. */
+static const double LEAST_SIDE = 1;
+
+/* Those of its sides that face the eye, and its upper face over them. */
+static void draw_shape(cairo_t *page, const map *m, const plan_shape *s)
+{
+    bool tilts = vec2_length(s->drop) * m->scale >= LEAST_SIDE;
+    vec2 up = tilts ? vec2_scale(s->drop, -0.5) : vec2_make(0, 0);
+    double turn = polygon_area(s->outline) < 0 ? -1 : 1;
+    for (int32_t i = 0; tilts && i < s->outline.count; i++) {
+        vec2 a = s->outline.vertex[i], b = s->outline.vertex[i + 1 < s->outline.count ? i + 1 : 0];
+        if (!(turn * vec2_cross(s->drop, vec2_sub(b, a)) > 0))
+            continue;
+        line_to(page, m, vec2_add(a, up));
+        line_to(page, m, vec2_add(b, up));
+        line_to(page, m, vec2_sub(b, up));
+        line_to(page, m, vec2_sub(a, up));
+        paint(page, s);
+    }
+    for (int32_t i = 0; i < s->outline.count; i++)
+        line_to(page, m, vec2_add(s->outline.vertex[i], up));
+    paint(page, s);
 }
 
 static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool used[PLAN_STYLE_COUNT])
 {
     for (int32_t i = 0; i < view->shape_count; i++) {
-        const plan_shape *s = &view->shapes[i];
-        used[s->style] = true;
-        trace(page, m, s->outline);
-        image_colour fill = looks[s->style].fill;
-        if (s->has_value) {
-            double rgb[3];
-            image_ramp((double)s->value, rgb);
-            fill = (image_colour){rgb[0], rgb[1], rgb[2]};
-        }
-        image_set_colour(page, fill);
-        cairo_fill_preserve(page);
-        image_set_colour(page, looks[s->style].line);
-        cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
-        cairo_stroke(page);
+        used[view->shapes[i].style] = true;
+        draw_shape(page, m, &view->shapes[i]);
     }
     if (view->track_count < 2)
         return;

@@ -3,6 +3,7 @@
 #ifndef IO_PLAN_VIEW_H
 #define IO_PLAN_VIEW_H
 
+#include "base/vec.h"
 #include "geometry/polygon.h"
 #include "io/text_buffer.h"
 
@@ -17,11 +18,19 @@ typedef enum plan_style {
 } plan_style;
 
 typedef struct plan_shape {
-    polygon outline; /* global plan coordinates [m] */
+    polygon outline; /* global plan coordinates; of a prism half way between its faces [m] */
+    vec2 drop;       /* plan way from the upper face of a prism to its lower one: its sides are seen; 0: none [m] */
+    double height;   /* of what covers others, or is covered [m] */
     plan_style style;
     bool has_value; /* filled by `value`, 0 to 1, on the colours of image_ramp instead of its style's colour */
     float value;
 } plan_shape;
+
+/* drop and height of a prism of this thickness. */
+void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thickness);
+/* By ascending height, so that what floats is drawn over what lies under it; ties by the place of their vertices, which
+   are all in one array. */
+void plan_shapes_sort(plan_shape *shapes, int32_t count);
 
 typedef struct plan_arrow {
     vec2 from, to;

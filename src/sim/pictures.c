@@ -13,7 +13,6 @@ enum { PLAN_PIXELS = 1500, CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
 typedef struct plan_store {
     vec2_array vertex;
     ARRAY(int32_t) start;
-    ARRAY(uint8_t) style;
     ARRAY(plan_shape) shape;
 } plan_store;
 
@@ -21,8 +20,13 @@ static void plan_store_free(context *ctx, plan_store *p)
 {
     array_free(ctx, &p->vertex);
     array_free(ctx, &p->start);
-    array_free(ctx, &p->style);
     array_free(ctx, &p->shape);
+}
+
+/* What is added next begins here; its outline is set when all vertices are there. */
+static bool begin_shape(context *ctx, plan_store *p, plan_shape shape)
+{
+    return array_push(ctx, &p->start, p->vertex.count) && array_push(ctx, &p->shape, shape);
 }
 
 static bool add_prism(context *ctx, plan_store *p, const world *w, int32_t body)
@@ -30,11 +34,14 @@ static bool add_prism(context *ctx, plan_store *p, const world *w, int32_t body)
     polygon outline = shape_outline(&w->shapes, w->bodies.shape[body]);
     bool wall = w->bodies.material[body] == MATERIAL_WALL;
     int32_t owner = w->bodies.owner[body];
-    uint8_t style = wall                                      ? PLAN_WALL
-                    : owner >= 0 && w->floes.tile[owner] != 0 ? PLAN_LEVEL_ICE
-                    : w->bodies.motion[body] == MOTION_STATIC ? PLAN_FIXED_ICE
-                                                              : PLAN_FLOE;
-    bool good = array_push(ctx, &p->start, p->vertex.count) && array_push(ctx, &p->style, style);
+    plan_style style = wall                                      ? PLAN_WALL
+                       : owner >= 0 && w->floes.tile[owner] != 0 ? PLAN_LEVEL_ICE
+                       : w->bodies.motion[body] == MOTION_STATIC ? PLAN_FIXED_ICE
+                                                                 : PLAN_FLOE;
+    plan_shape shape = {.style = style};
+    plan_shape_stand(&shape, w->bodies.position[body], w->bodies.orientation[body],
+                     2 * w->shapes.shapes.half_height[w->bodies.shape[body]]);
+    bool good = begin_shape(ctx, p, shape);
     for (int32_t i = 0; good && i < outline.count; i++) {
         vec3 g = body_to_global(&w->bodies, body, vec3_make(outline.vertex[i].x, outline.vertex[i].y, 0));
         good = array_push(ctx, &p->vertex, vec2_make(g.x, g.y));
@@ -47,8 +54,8 @@ static fram_status add_hull(context *ctx, plan_store *p, const world *w, int32_t
     for (int below = 0; below < 2; below++) {
         vec2_array outline = {0};
         fram_status status = build_footprint(ctx, w, body, below == 1, &outline, error);
-        bool good = status == FRAM_OK && array_push(ctx, &p->start, p->vertex.count) &&
-                    array_push(ctx, &p->style, (uint8_t)(below ? PLAN_WATERLINE : PLAN_DECK));
+        plan_shape shape = {.style = below ? PLAN_WATERLINE : PLAN_DECK, .height = HUGE_VAL};
+        bool good = status == FRAM_OK && begin_shape(ctx, p, shape);
         for (int32_t i = 0; good && i < outline.count; i++)
             good = array_push(ctx, &p->vertex, outline.data[i]);
         array_free(ctx, &outline);
@@ -81,10 +88,9 @@ static fram_status collect(context *ctx, plan_store *p, const world *w, fram_err
     }
     for (int32_t k = 0; k < p->start.count; k++) {
         int32_t first = p->start.data[k], end = k + 1 < p->start.count ? p->start.data[k + 1] : p->vertex.count;
-        plan_shape shape = {.outline = {p->vertex.data + first, end - first}, .style = (plan_style)p->style.data[k]};
-        if (!array_push(ctx, &p->shape, shape))
-            return error_memory(error);
+        p->shape.data[k].outline = (polygon){p->vertex.data + first, end - first};
     }
+    plan_shapes_sort(p->shape.data, p->shape.count);
     return FRAM_OK;
 }
 

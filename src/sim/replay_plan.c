@@ -43,6 +43,10 @@ static bool add_shape(const replay *r, const replay_moment *m, int32_t row, plan
                   : b->material == MATERIAL_HULL ? PLAN_DECK
                   : b->moves                     ? PLAN_FLOE
                                                  : PLAN_FIXED_ICE;
+    if (b->solid)
+        shape.height = HUGE_VAL;
+    else
+        plan_shape_stand(&shape, p->position, p->orientation, b->thickness);
     double value = plan_colour_value(colour, b, p, m->time);
     shape.has_value = value == value;
     if (shape.has_value)
@@ -72,12 +76,9 @@ fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colou
     array_clear(&out->arrows);
     array_clear(&out->marks);
     out->has_vessel = false;
-    for (int last = 0; last < 2; last++) { /* hulls over ice */
-        for (int32_t i = 0; i < m->poses.count && good; i++) {
-            if (r->bodies.data[m->poses.data[i].body].solid == (last == 1))
-                good = add_shape(r, m, i, colour, lo, hi, out);
-        }
-    }
+    for (int32_t i = 0; i < m->poses.count && good; i++)
+        good = add_shape(r, m, i, colour, lo, hi, out);
+    plan_shapes_sort(out->shapes.data, out->shapes.count);
     for (int32_t i = 0; arrow > 0 && i < r->frame.forces.count && good; i++)
         good = add_arrow(r, &r->frame.forces.data[i], arrow, out);
     for (int32_t i = 0; i < r->fractures.count && good; i++) {

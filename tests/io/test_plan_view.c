@@ -1,0 +1,106 @@
+/* Plan views: tilted prisms stand with their sides, and what lies under other ice is covered. */
+#include "io/plan_view.h"
+
+#include "base/transcendental.h"
+#include "testing.h"
+
+START_TEST(level_prism)
+{
+    plan_shape s = {.style = PLAN_FLOE};
+    plan_shape_stand(&s, (vec3){5, 6, 0.2}, (quat){1, 0, 0, 0}, 1.5);
+    assert_bits(vec2_length(s.drop), 0);
+    assert_bits(s.height, 0.2 + 0.75);
+}
+END_TEST
+
+/* Rolled by an angle about x: its axis leans along -y; over 90 degrees the lower face is up. */
+START_TEST(tilted_prism)
+{
+    const double angles[] = {0.3, PI / 2, 2, 3};
+    for (int i = 0; i < 4; i++) {
+        plan_shape s = {.style = PLAN_FLOE};
+        double a = angles[i], axis_z = real_cos(a), axis_y = -real_sin(a), sign = axis_z < 0 ? 1 : -1;
+        plan_shape_stand(&s, (vec3){0, 0, 0}, quat_from_roll_pitch_yaw(a, 0, 0), 2);
+        assert_absolute(s.drop.x, 0, 1e-12);
+        if (fabs(axis_z) > 1e-9)
+            assert_absolute(s.drop.y, 2 * sign * axis_y, 1e-12);
+        assert_absolute(fabs(s.drop.y), 2 * fabs(axis_y), 1e-12);
+        assert_absolute(s.height, fabs(axis_z), 1e-12);
+    }
+}
+END_TEST
+
+START_TEST(sorted)
+{
+    const vec2 corner[4] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}};
+    plan_shape s[4] = {{.outline = {corner + 2, 1}, .height = 1},
+                       {.outline = {corner + 3, 1}, .height = -1},
+                       {.outline = {corner, 1}, .height = 1},
+                       {.outline = {corner + 1, 1}, .height = 0}};
+    const int expected[4] = {3, 1, 0, 2};
+    plan_shapes_sort(s, 4);
+    for (int i = 0; i < 4; i++)
+        ck_assert_ptr_eq(s[i].outline.vertex, corner + expected[i]);
+    plan_shapes_sort(s, 0);
+}
+END_TEST
+
+#ifdef FRAM_HAVE_CAIRO
+
+/* Colour at a place of a view of -10 to 10 m in both directions on 20 pixels a metre, 0 to 255. */
+static void colour_at(cairo_surface_t *page, int longest, vec2 place, int rgb[3])
+{
+    const int margin = 14, above = 64, below = 44;
+    int least = longest - above - below < longest - 2 * margin ? longest - above - below : longest - 2 * margin;
+    double scale = least / 20.0, left = (longest - 20 * scale) / 2;
+    int x = (int)(left + (place.x + 10) * scale), y = (int)(above + (10 - place.y) * scale);
+    const unsigned char *row = cairo_image_surface_get_data(page) + y * cairo_image_surface_get_stride(page);
+    for (int k = 0; k < 3; k++)
+        rgb[k] = row[4 * x + 2 - k];
+}
+
+static bool is_floe(cairo_surface_t *page, int longest, vec2 place)
+{
+    int rgb[3];
+    colour_at(page, longest, place, rgb);
+    return rgb[0] > 235;
+}
+
+/* On edge, a piece is seen as wide as it is thick; one under the sheet is not seen, one on it is. */
+START_TEST(pieces_on_edge_and_under_the_sheet)
+{
+    enum { LONGEST = 800 };
+    const vec2 ring[3][4] = {{{-10, -10}, {10, -10}, {10, 0}, {-10, 0}},
+                             {{-4, 5}, {4, 5}, {4, 5}, {-4, 5}},
+                             {{-5, -6}, {5, -6}, {5, -3}, {-5, -3}}};
+    for (int on = 0; on < 2; on++) {
+        plan_shape s[3] = {{.outline = {ring[0], 4}, .style = PLAN_LEVEL_ICE},
+                           {.outline = {ring[1], 4}, .style = PLAN_FLOE},
+                           {.outline = {ring[2], 4}, .style = PLAN_FLOE}};
+        plan_shape_stand(&s[0], (vec3){0, 0, 0}, (quat){1, 0, 0, 0}, 1);
+        plan_shape_stand(&s[1], (vec3){0, 5, 0}, quat_from_roll_pitch_yaw(PI / 2, 0, 0), 1);
+        plan_shape_stand(&s[2], (vec3){0, -4.5, on ? 0.5 : -0.5}, (quat){1, 0, 0, 0}, 1);
+        plan_shapes_sort(s, 3);
+        plan_view view = {.window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .shapes = s, .shape_count = 3};
+        cairo_surface_t *page = cairo_image_surface_create(CAIRO_FORMAT_RGB24, LONGEST, LONGEST);
+        cairo_t *pen = cairo_create(page);
+        plan_view_draw(pen, &view, LONGEST, LONGEST);
+        cairo_destroy(pen);
+        cairo_surface_flush(page);
+        ck_assert(is_floe(page, LONGEST, (vec2){0, 5.3}));
+        ck_assert(is_floe(page, LONGEST, (vec2){3, 4.7}));
+        ck_assert(!is_floe(page, LONGEST, (vec2){0, 5.8}));
+        ck_assert(!is_floe(page, LONGEST, (vec2){0, 4.2}));
+        ck_assert_int_eq(is_floe(page, LONGEST, (vec2){0, -4.5}), on);
+        cairo_surface_destroy(page);
+    }
+}
+END_TEST
+
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, pieces_on_edge_and_under_the_sheet)
+
+#else
+
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted)
+
+#endif
