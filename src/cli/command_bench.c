@@ -148,6 +148,9 @@ int command_bench(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     code = check_words(&w, scene);
+    const command_files files = {.inputs = {scene}, .outputs = {{"--dump", w.scene.dump, "csv"}}};
+    if (code < 0)
+        code = refuse_outputs(&w.common, &files);
     if (code >= 0)
         return code;
     if (scene) {

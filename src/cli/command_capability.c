@@ -43,7 +43,6 @@ int command_capability(const command_row *self, int argc, char **argv)
     d.stop = session_stop_flag();
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (required)"},
-        {"--force", NULL, OPTION_FLAG, &d.force, NULL, "write into a folder that is not empty"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--measure", NULL, OPTION_REAL, &d.measure, "T",
          "simulated seconds of each run that measures the ice load on the fixed hull (120)"},
@@ -62,5 +61,6 @@ int command_capability(const command_row *self, int argc, char **argv)
         return code;
     if (!d.folder)
         return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
+    d.force = common.force;
     return find(&common, path, &overrides, &d);
 }

@@ -44,7 +44,12 @@ int command_export(const command_row *self, int argc, char **argv)
                             geojson ? "is missing: --geojson shows one time, --time T" : "goes with --geojson only");
     if (every < 1)
         return answer_usage(&common, "--every", "must be at least 1");
-    code = refuse_over_run(&common, run, output);
+    const command_files files = {.runs = {run},
+                                 .outputs = {{"--output", output,
+                                              vtk      ? "pvd"
+                                              : netcdf ? "nc"
+                                                       : "geojson json"}}};
+    code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     fram_context *context = NULL;

@@ -96,18 +96,6 @@ static const char *misplaced_option(const field_words *w)
     return w->bad ? "--bad" : NULL;
 }
 
-/* NULL, or the option whose file is the input or that of another option. */
-static const char *clashing_option(const field_words *w)
-{
-    const char *const file[] = {w->path, w->draw, w->cover, w->table, w->output};
-    static const char *const option[] = {"", "--draw", "--cover", "--table", "--output"};
-    for (int i = 1; i < 5; i++)
-        for (int k = 0; k < i; k++)
-            if (file[i] && file[k] && is_one_file(file[i], file[k]))
-                return option[i];
-    return NULL;
-}
-
 /* ---- the command ---- */
 
 /* Words that contradict themselves: an exit code, -1 to go on. */
@@ -128,10 +116,12 @@ static int check_words(const common_options *common, field_words *w)
         return answer_usage(common, "--bad", "expected refuse, drop or repair");
     if (w->cell != 0 && !w->cover)
         return answer_usage(common, "--cell", "is the size of the cells of --cover FILE.png, which is missing");
-    const char *clash = clashing_option(w);
-    if (clash)
-        return answer_usage(common, clash, "names the input or another output; give it a file of its own");
-    return -1;
+    const command_files files = {.inputs = {w->path},
+                                 .outputs = {{"--draw", w->draw, "png"},
+                                             {"--cover", w->cover, "png"},
+                                             {"--table", w->table, "csv"},
+                                             {"--output", w->output, "geojson json"}}};
+    return refuse_outputs(common, &files);
 }
 
 static fram_status make_field(fram_context *context, const field_words *w, fram_field **field, fram_error *error)

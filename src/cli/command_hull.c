@@ -321,6 +321,11 @@ int command_hull(const command_row *self, int argc, char **argv)
         return answer_usage(&common, particular, "is for a hull without a file; a file has its own form");
     if (!w.path && (isnan(w.particulars.length) || isnan(w.particulars.beam) || isnan(w.condition.draught)))
         return answer_usage(&common, "hull", "needs a mesh file, or --length, --beam and --draught; see --help");
+    const command_files files = {.inputs = {w.path},
+                                 .outputs = {{"--draw", w.draw, "png"}, {"--output", w.output, "stl obj gdf"}}};
+    code = refuse_outputs(&common, &files);
+    if (code >= 0)
+        return code;
     fram_context *context = NULL;
     code = session_open(&common, &context);
     if (code >= 0)

@@ -26,7 +26,8 @@ int command_report(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    code = refuse_over_run(&common, run, output);
+    const command_files files = {.runs = {run}, .outputs = {{"--output", output, "html htm"}}};
+    code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     fram_context *context = NULL;
@@ -78,7 +79,8 @@ int command_plot(const command_row *self, int argc, char **argv)
         count++;
     if (count > 0 && !output)
         return answer_usage(&common, "--output", "is missing: name the picture, -o FILE.png or FILE.svg");
-    code = refuse_over_run(&common, word[0], output);
+    const command_files files = {.runs = {word[0]}, .outputs = {{"--output", output, "png svg"}}};
+    code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     fram_context *context = NULL;
@@ -144,8 +146,8 @@ int command_compare(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, run, 2);
     if (code >= 0)
         return code;
-    for (int i = 0; i < 2 && code < 0; i++)
-        code = refuse_over_run(&common, run[i], output);
+    const command_files files = {.runs = {run[0], run[1]}, .outputs = {{"--output", output, "html htm"}}};
+    code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     fram_context *context = NULL;
@@ -187,7 +189,8 @@ int command_video(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    code = refuse_over_run(&common, run, d.output);
+    const command_files files = {.runs = {run}, .outputs = {{"--output", d.output, "mp4"}}};
+    code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     fram_context *context = NULL;

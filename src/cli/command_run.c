@@ -52,7 +52,6 @@ int command_run(const command_row *self, int argc, char **argv)
     const char *path = NULL;
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &definition.folder, "DIR", "folder for the results (required)"},
-        {"--force", NULL, OPTION_FLAG, &definition.force, NULL, "write into a folder that is not empty"},
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
     };
@@ -63,6 +62,7 @@ int command_run(const command_row *self, int argc, char **argv)
         return code;
     if (!definition.folder)
         return answer_usage(&common, "--output", "is missing: name a folder for the results, -o DIR");
+    definition.force = common.force;
 
     fram_context *context = NULL;
     code = session_open(&common, &context);

@@ -87,7 +87,9 @@ int command_view(const command_row *self, int argc, char **argv)
     definition.folder = folder;
     definition.page_limit = bytes_of(page_mb);
     definition.total_limit = bytes_of(total_mb);
-    code = refuse_over_run(&common, folder, definition.output);
+    const command_files files = {
+        .inputs = {definition.viewer_page}, .runs = {folder}, .outputs = {{"--output", definition.output, "html htm"}}};
+    code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
     fram_context *context = NULL;

@@ -82,24 +82,26 @@ static const command_row commands[] = {
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
 
+static const char help_before[] =
+    "fram simulates a vessel in broken sea ice: the loads the ice puts on it, and whether it stays on station.\n\n"
+    "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n";
+static const char help_after[] =
+    "\nA first run, from the folder of the sources:\n"
+    "  fram check scenes/demo.yaml                what will be simulated\n"
+    "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"
+    "      plan.png         the field seen from above\n"
+    "      loads.png        ice load on the vessel over time\n"
+    "      series.csv       all channels, one row a step, name[unit] headers\n"
+    "      record.fram      every frame, for playback\n"
+    "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted (runs write a checkpoint).\n"
+    "fram --version prints the version and the optional parts of this build.\n";
+
 static void print_help(FILE *file)
 {
-    fputs(
-        "fram simulates a vessel in broken sea ice: the loads the ice puts on it, and whether it stays on station.\n\n"
-        "Usage: fram COMMAND ...        fram COMMAND --help tells more\n\nCommands:\n",
-        file);
+    fputs(help_before, file);
     for (int i = 0; i < COMMAND_COUNT; i++)
         fprintf(file, "  %-10s %s\n", commands[i].name, commands[i].summary);
-    fputs("\nA first run, from the folder of the sources:\n"
-          "  fram check scenes/demo.yaml                what will be simulated\n"
-          "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"
-          "      plan.png         the field seen from above\n"
-          "      loads.png        ice load on the vessel over time\n"
-          "      series.csv       all channels, one row a step, name[unit] headers\n"
-          "      record.fram      every frame, for playback\n"
-          "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted (runs write a checkpoint).\n"
-          "fram --version prints the version and the optional parts of this build.\n",
-          file);
+    fputs(help_after, file);
 }
 
 static int answer_help(const common_options *common)

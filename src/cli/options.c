@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COMMON_ROWS = 6 };
+enum { COMMON_ROWS = 7 };
 
 static void common_rows(common_options *c, option_row rows[COMMON_ROWS])
 {
@@ -18,7 +18,9 @@ static void common_rows(common_options *c, option_row rows[COMMON_ROWS])
                            &c->isa, "NAME", "baseline, avx2 or avx512; results never depend on it"};
     rows[3] = (option_row){"--quiet", "-q", OPTION_FLAG, &c->quiet, NULL, "errors only on standard error"};
     rows[4] = (option_row){"--verbose", "-v", OPTION_FLAG, &c->verbose, NULL, "more on standard error"};
-    rows[5] = (option_row){"--help", "-h", OPTION_FLAG, &c->help, NULL, "this text"};
+    rows[5] = (option_row){"--force", NULL, OPTION_FLAG,
+                           &c->force, NULL, "write over a file of another kind, or into a folder that is not empty"};
+    rows[6] = (option_row){"--help", "-h", OPTION_FLAG, &c->help, NULL, "this text"};
 }
 
 static void print_rows(const option_row *rows, int count)
@@ -106,6 +108,73 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
                              positional_count);
 }
 
+/* A command's words and what they may be. */
+typedef struct word_list {
+    const option_row *rows, *shared;
+    int row_count;
+    common_options *common;
+    int count, at; /* the next one */
+    char **word;
+} word_list;
+
+/* The option at list->at and its value.  -1 to go on. */
+static int read_option(word_list *list)
+{
+    const char *word = list->word[list->at++];
+    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
+    size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    const option_row *row = find_row(list->rows, list->row_count, word, length);
+    if (!row)
+        row = find_row(list->shared, COMMON_ROWS, word, length);
+    if (!row)
+        return answer_usage(list->common, word, "is no option of this command; see --help");
+    if (row->kind == OPTION_FLAG) {
+        if (equals)
+            return answer_usage(list->common, row->name, "takes no value");
+        *(bool *)row->value = true;
+        return -1;
+    }
+    const char *text = equals ? equals + 1 : list->at < list->count ? list->word[list->at++] : NULL;
+    if (!text)
+        return answer_usage(list->common, row->name, "needs a value");
+    const char *wrong = store_value(row, text);
+    return wrong ? answer_usage(list->common, row->name, wrong) : -1;
+}
+
+/* Options to where they go, all other words into positional.  -1 to go on. */
+static int read_words(word_list *list, const char **positional, int most, int *found)
+{
+    bool only_positional = false;
+    while (list->at < list->count) {
+        const char *word = list->word[list->at];
+        if (!only_positional && strcmp(word, "--") == 0) {
+            only_positional = true;
+            list->at++;
+        } else if (!only_positional && word[0] == '-' && word[1] != '\0') {
+            int code = read_option(list);
+            if (code >= 0)
+                return code;
+        } else {
+            if (*found == most)
+                return answer_usage(list->common, word, "is one word too many; see --help");
+            positional[(*found)++] = word;
+            list->at++;
+        }
+    }
+    return -1;
+}
+
+static int answer_command_help(const command_row *command, const word_list *list)
+{
+    print_command_help(command, list->rows, list->row_count, list->shared);
+    if (list->common->json) {
+        json j = json_begin();
+        json_text(&j, "help", command->name);
+        json_end(&j);
+    }
+    return EXIT_GOOD;
+}
+
 int options_read_some(const command_row *command, const option_row *rows, int row_count, common_options *common,
                       int argc, char **argv, const char **positional, int least, int most)
 {
@@ -115,49 +184,12 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
         common->json = common->json || strcmp(argv[i], "--json") == 0;
     option_row shared[COMMON_ROWS];
     common_rows(common, shared);
-    int found = 0;
-    bool only_positional = false;
-    for (int i = 0; i < argc; i++) {
-        const char *word = argv[i];
-        if (!only_positional && strcmp(word, "--") == 0) {
-            only_positional = true;
-            continue;
-        }
-        if (only_positional || word[0] != '-' || word[1] == '\0') {
-            if (found == most)
-                return answer_usage(common, word, "is one word too many; see --help");
-            positional[found++] = word;
-            continue;
-        }
-        const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
-        size_t length = equals ? (size_t)(equals - word) : strlen(word);
-        const option_row *row = find_row(rows, row_count, word, length);
-        if (!row)
-            row = find_row(shared, COMMON_ROWS, word, length);
-        if (!row)
-            return answer_usage(common, word, "is no option of this command; see --help");
-        if (row->kind == OPTION_FLAG) {
-            if (equals)
-                return answer_usage(common, row->name, "takes no value");
-            *(bool *)row->value = true;
-            continue;
-        }
-        const char *text = equals ? equals + 1 : (i + 1 < argc ? argv[++i] : NULL);
-        if (!text)
-            return answer_usage(common, row->name, "needs a value");
-        const char *wrong = store_value(row, text);
-        if (wrong)
-            return answer_usage(common, row->name, wrong);
-    }
-    if (common->help) {
-        print_command_help(command, rows, row_count, shared);
-        if (common->json) {
-            json j = json_begin();
-            json_text(&j, "help", command->name);
-            json_end(&j);
-        }
-        return EXIT_GOOD;
-    }
+    word_list list = {rows, shared, row_count, common, argc, 0, argv};
+    int found = 0, code = read_words(&list, positional, most, &found);
+    if (code >= 0)
+        return code;
+    if (common->help)
+        return answer_command_help(command, &list);
     if (common->threads < 1 || common->threads > 256)
         return answer_usage(common, "--threads", "must lie between 1 and 256");
     if (found < least) {

@@ -1,24 +1,76 @@
-/* What an output may not be written over. */
+/* What an output may not be written over: the one rule of all commands, told in docs/results.md. */
 #include "cli/cli.h"
 
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
-bool is_one_file(const char *a, const char *b)
+static bool is_one_file(const char *a, const char *b)
 {
     struct stat one, other;
     return strcmp(a, b) == 0 ||
            (stat(a, &one) == 0 && stat(b, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino);
 }
 
-int refuse_over_run(const common_options *common, const char *run, const char *output)
+/* Whether the path names a file that a run is made of. */
+static bool is_of_run(const char *run, const char *path)
 {
     static const char *const names[] = {"scenario.yaml", "run.json", "series.csv", "fractures.csv", "record.fram"};
-    char path[4096];
-    for (size_t i = 0; output && i < sizeof names / sizeof *names; i++) {
-        int length = snprintf(path, sizeof path, "%s/%s", run, names[i]);
-        if (length > 0 && length < (int)sizeof path && is_one_file(path, output))
-            return answer_usage(common, "--output", "names a file that the run itself is made of; give it another one");
+    char own[4096];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        int length = snprintf(own, sizeof own, "%s/%s", run, names[i]);
+        if (length > 0 && length < (int)sizeof own && is_one_file(own, path))
+            return true;
+    }
+    return false;
+}
+
+/* Whether a name ends in one of the endings, "png svg". */
+static bool has_ending(const char *path, const char *endings)
+{
+    const char *dot = strrchr(path, '.');
+    size_t length = dot ? strlen(dot + 1) : 0;
+    for (const char *e = endings; length > 0 && *e; e += strcspn(e, " ") + (e[strcspn(e, " ")] == ' ')) {
+        if (strcspn(e, " ") == length && strncasecmp(e, dot + 1, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* A file with something in it that a name does not tell to be of the kind that is to be written. */
+static bool is_of_another_kind(const output_file *o)
+{
+    struct stat about;
+    return o->endings && stat(o->path, &about) == 0 && S_ISREG(about.st_mode) && about.st_size > 0 &&
+           !has_ending(o->path, o->endings);
+}
+
+static bool is_input(const command_files *files, const char *path)
+{
+    for (int i = 0; i < FILES_ROOM; i++) {
+        if ((files->inputs[i] && is_one_file(files->inputs[i], path)) ||
+            (files->runs[i] && is_of_run(files->runs[i], path)))
+            return true;
+    }
+    return false;
+}
+
+int refuse_outputs(const common_options *common, const command_files *files)
+{
+    for (int i = 0; i < FILES_ROOM; i++) {
+        const output_file *o = &files->outputs[i];
+        if (!o->path)
+            continue;
+        if (is_input(files, o->path))
+            return answer_usage(common, o->option, "names what the command reads; give it a file of its own");
+        for (int k = 0; k < i; k++) {
+            if (files->outputs[k].path && is_one_file(files->outputs[k].path, o->path))
+                return answer_usage(common, o->option, "names another output too; give it a file of its own");
+        }
+        if (!common->force && is_of_another_kind(o))
+            return answer_usage(common, o->option,
+                                "names a file that is there and, by its name, of another kind; give it another name, "
+                                "or write over it with --force");
     }
     return -1;
 }

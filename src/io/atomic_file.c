@@ -78,26 +78,28 @@ static fram_status sync_folder(context *ctx, const char *path, fram_error *error
     return status;
 }
 
-fram_status atomic_file_commit(atomic_file *a, fram_error *error)
+static fram_status commit(atomic_file *a, bool sync, fram_error *error)
 {
     context *ctx = a->writer.ctx;
     char *temporary = a->writer.path;
-    fram_status status = file_flush(&a->writer, true, error);
+    fram_status status = file_flush(&a->writer, sync, error);
     a->writer.path = NULL; /* outlives the writer */
     fram_status closed = file_close(&a->writer, status == FRAM_OK ? error : NULL);
     if (status == FRAM_OK)
         status = closed;
     if (status == FRAM_OK && !a->direct && rename(temporary, a->path) != 0)
         status = file_error(error, a->path, "replace", errno);
-    if (status == FRAM_OK && !a->direct)
-        status = sync_folder(ctx, a->path, error);
-    else if (!a->direct)
+    if (status != FRAM_OK && !a->direct)
         unlink(temporary);
+    else if (sync && !a->direct)
+        status = sync_folder(ctx, a->path, error);
     memory_free(ctx, temporary);
     memory_free(ctx, a->path);
     a->path = NULL;
     return status;
 }
+
+fram_status atomic_file_commit(atomic_file *a, fram_error *error) { return commit(a, true, error); }
 
 void atomic_file_abandon(atomic_file *a)
 {
@@ -131,7 +133,8 @@ fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *p
     return status;
 }
 
-fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error)
+static fram_status write_whole(context *ctx, const char *path, const void *data, size_t size, bool sync,
+                               fram_error *error)
 {
     atomic_file a;
     fram_status status = atomic_file_begin(ctx, path, &a, error);
@@ -139,7 +142,17 @@ fram_status atomic_file_write(context *ctx, const char *path, const void *data, 
         return status;
     status = file_write(&a.writer, data, size, error);
     if (status == FRAM_OK)
-        return atomic_file_commit(&a, error);
+        return commit(&a, sync, error);
     atomic_file_abandon(&a);
     return status;
+}
+
+fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error)
+{
+    return write_whole(ctx, path, data, size, true, error);
+}
+
+fram_status atomic_file_put(context *ctx, const char *path, const void *data, size_t size, fram_error *error)
+{
+    return write_whole(ctx, path, data, size, false, error);
 }

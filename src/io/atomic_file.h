@@ -24,5 +24,8 @@ fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *p
 
 /* Begin, write and commit. */
 fram_status atomic_file_write(context *ctx, const char *path, const void *data, size_t size, fram_error *error);
+/* The same without waiting for the disk, for what is made again at any time: whole or not there whatever becomes of the
+   program, but a power cut within seconds may take it. */
+fram_status atomic_file_put(context *ctx, const char *path, const void *data, size_t size, fram_error *error);
 
 #endif

@@ -332,6 +332,7 @@ void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal
     cairo_rectangle(page, f.left, f.top, f.right - f.left, f.bottom - f.top);
     cairo_clip(page);
     cairo_set_line_join(page, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_antialias(page, CAIRO_ANTIALIAS_FAST);
     for (int32_t k = 0; k < c->line_count; k++)
         draw_one(page, &f, &c->lines[k], colour_of(&c->lines[k], k), equal);
     cairo_restore(page);

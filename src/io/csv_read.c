@@ -1,5 +1,6 @@
 #include "io/csv_read.h"
 
+#include "base/number_text.h"
 #include "io/file.h"
 
 #include <errno.h>
@@ -60,7 +61,7 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
     int32_t column = 0;
     for (const char *c = row; *c; column++) {
         char *end;
-        double value = strtod(c, &end);
+        double value = real_read(c, &end);
         if (end == c || (*end != ',' && *end != '\0'))
             return error_set(error, FRAM_ERROR_INPUT, path, line, NULL, "column %d: expected a number",
                              (int)column + 1);
@@ -189,7 +190,7 @@ static fram_status read_values(const table_reader *r, const char *path, int line
     for (int32_t k = 0; k < r->out->columns.count; k++) {
         bool last = k + 1 == r->out->columns.count;
         char *end;
-        double value = strtod(c, &end);
+        double value = real_read(c, &end);
         if (end == c || *end != (last ? '\0' : ','))
             return error_set(error, FRAM_ERROR_INPUT, path, line, r->out->columns.data[k].name,
                              "expected a number and then %s", last ? "the end of the row" : "a comma");

@@ -1,6 +1,7 @@
 #include "io/image.h"
 
 #include <math.h>
+#include <stdio.h>
 
 double image_round_step(double span, int parts)
 {
@@ -27,9 +28,21 @@ void image_ramp(double t, double rgb[3])
         rgb[k] = from[k] + part * (to[k] - from[k]);
 }
 
+void image_bar_text(double length, double arrow, char out[IMAGE_BAR_TEXT])
+{
+    double force = arrow > 0 ? length / arrow * 1e-3 : 0;
+    if (!(force > 0))
+        snprintf(out, IMAGE_BAR_TEXT, "%g m", length);
+    else if (force < 1000)
+        snprintf(out, IMAGE_BAR_TEXT, "%g m, as an arrow %.3g kN", length, force);
+    else
+        snprintf(out, IMAGE_BAR_TEXT, "%g m, as an arrow %.3g MN", length, force * 1e-3);
+}
+
 #ifdef FRAM_HAVE_CAIRO
 
 #include "io/atomic_file.h"
+#include "io/png.h"
 
 #include <cairo-svg.h>
 
@@ -50,25 +63,15 @@ fram_status image_begin(int width, int height, cairo_t **page, fram_error *error
     return FRAM_OK;
 }
 
-typedef struct png_sink {
-    context *ctx;
-    text_buffer *out;
-} png_sink;
-
-static cairo_status_t collect(void *closure, const unsigned char *data, unsigned int length)
-{
-    png_sink *sink = closure;
-    text_add_bytes(sink->ctx, sink->out, (const char *)data, length);
-    return sink->out->failed ? CAIRO_STATUS_NO_MEMORY : CAIRO_STATUS_SUCCESS;
-}
-
 fram_status image_png(context *ctx, cairo_t *page, text_buffer *out, fram_error *error)
 {
-    png_sink sink = {ctx, out};
-    cairo_surface_flush(cairo_get_target(page));
-    cairo_status_t status = cairo_surface_write_to_png_stream(cairo_get_target(page), collect, &sink);
+    cairo_surface_t *surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    const png_pixels pixels = {cairo_image_surface_get_data(surface), (size_t)cairo_image_surface_get_stride(surface),
+                               cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface)};
+    fram_status status = pixels.data ? png_encode(ctx, &pixels, out, error) : error_memory(error);
     cairo_destroy(page);
-    return status == CAIRO_STATUS_SUCCESS ? FRAM_OK : error_memory(error);
+    return status;
 }
 
 fram_status image_write(context *ctx, cairo_t *page, const char *path, fram_error *error)
@@ -76,7 +79,7 @@ fram_status image_write(context *ctx, cairo_t *page, const char *path, fram_erro
     text_buffer bytes = {0};
     fram_status status = image_png(ctx, page, &bytes, error);
     if (status == FRAM_OK)
-        status = atomic_file_write(ctx, path, bytes.data, (size_t)bytes.count, error);
+        status = atomic_file_put(ctx, path, bytes.data, (size_t)bytes.count, error);
     text_free(ctx, &bytes);
     return status;
 }

@@ -15,6 +15,11 @@ typedef struct image_colour {
     double r, g, b;
 } image_colour;
 
+/* What stands beside a scale bar: its length [m] and, with an arrow scale [m/N] above 0, the force that an arrow of the
+   bar's length stands for. */
+enum { IMAGE_BAR_TEXT = 64 };
+void image_bar_text(double length, double arrow, char out[IMAGE_BAR_TEXT]);
+
 /* A white page of width x height pixels. */
 fram_status image_begin(int width, int height, cairo_t **page, fram_error *error);
 /* Write the page to `path` and free it; frees it on failure too. */

@@ -56,20 +56,49 @@ static double map_y(const map *m, vec2 p) { return m->top + (m->window.hi.y - p.
 
 static void line_to(cairo_t *page, const map *m, vec2 p) { cairo_line_to(page, map_x(m, p), map_y(m, p)); }
 
+static image_colour fill_of(const plan_shape *s)
+{
+    double rgb[3];
+    if (!s->has_value)
+        return looks[s->style].fill;
+    image_ramp((double)s->value, rgb);
+    return (image_colour){rgb[0], rgb[1], rgb[2]};
+}
+
 static void paint(cairo_t *page, const plan_shape *s)
 {
-    image_colour fill = looks[s->style].fill;
-    if (s->has_value) {
-        double rgb[3];
-        image_ramp((double)s->value, rgb);
-        fill = (image_colour){rgb[0], rgb[1], rgb[2]};
-    }
     cairo_close_path(page);
-    image_set_colour(page, fill);
+    image_set_colour(page, fill_of(s));
     cairo_fill_preserve(page);
     image_set_colour(page, looks[s->style].line);
     cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
     cairo_stroke(page);
+}
+
+/* Floes of a few pixels get no lines, which cost most of a picture's time, but a gap: that much smaller [pixels]. */
+#define SMALL_FLOE 8
+#define GAP 0.3
+
+/* Draws a floe of a few pixels, about the middle of its corners; false for any other shape. */
+static bool draw_small(cairo_t *page, const map *m, const plan_shape *s)
+{
+    polygon p = s->outline;
+    vec2 middle = {0, 0};
+    double farthest = 0;
+    for (int32_t i = 0; i < p.count; i++)
+        middle = vec2_add(middle, vec2_scale(p.vertex[i], 1.0 / p.count));
+    for (int32_t i = 0; i < p.count; i++)
+        farthest = fmax(farthest, vec2_length(vec2_sub(p.vertex[i], middle)) * m->scale);
+    if (s->style != PLAN_FLOE || farthest > SMALL_FLOE || farthest <= GAP)
+        return false;
+    for (int32_t i = 0; i < p.count; i++) {
+        vec2 at = vec2_add(middle, vec2_scale(vec2_sub(p.vertex[i], middle), 1 - GAP / farthest));
+        line_to(page, m, at);
+    }
+    cairo_close_path(page);
+    image_set_colour(page, fill_of(s));
+    cairo_fill(page);
+    return true;
 }
 
 /* Sides of a prism that tilts by less than this are not told apart from the edge of its face [pixels]. */
@@ -79,6 +108,8 @@ static const double LEAST_SIDE = 1;
 static void draw_shape(cairo_t *page, const map *m, const plan_shape *s)
 {
     bool tilts = vec2_length(s->drop) * m->scale >= LEAST_SIDE;
+    if (!tilts && draw_small(page, m, s))
+        return;
     vec2 up = tilts ? vec2_scale(s->drop, -0.5) : vec2_make(0, 0);
     double turn = polygon_area(s->outline) < 0 ? -1 : 1;
     for (int32_t i = 0; tilts && i < s->outline.count; i++) {
@@ -156,11 +187,11 @@ void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double h
     image_text(page, right - 16 - image_text_width(page, 12, false, text), y, 12, ALIGN_RIGHT, false, name);
 }
 
-static void draw_scale_bar(cairo_t *page, const map *m, double x, double y)
+static void draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, double y)
 {
     double length = image_round_step(m->window.hi.x - m->window.lo.x, 6), px = length * m->scale;
-    char text[32];
-    snprintf(text, sizeof text, "%g m", length);
+    char text[IMAGE_BAR_TEXT];
+    image_bar_text(length, arrow, text);
     image_set_colour(page, ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);
@@ -216,6 +247,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     cairo_clip(page);
     image_set_colour(page, water);
     cairo_paint(page);
+    cairo_set_antialias(page, CAIRO_ANTIALIAS_FAST);
     draw_shapes(page, &m, view, used);
     draw_marks(page, &m, view);
     draw_arrows(page, &m, view);
@@ -225,7 +257,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     image_set_colour(page, ink);
     image_text(page, m.left, 26, 17, ALIGN_LEFT, true, view->title);
     image_text(page, m.left, 48, 12.5, ALIGN_LEFT, false, view->caption);
-    draw_scale_bar(page, &m, m.left, below);
+    draw_scale_bar(page, &m, view->arrow_scale, m.left, below);
     draw_axes(page, width - 60, 44);
     if (view->scale_name)
         plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, m.left + w * m.scale, below);

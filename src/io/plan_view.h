@@ -48,6 +48,7 @@ typedef struct plan_view {
     int32_t mark_count;
     const plan_arrow *arrows; /* of forces [m] */
     int32_t arrow_count;
+    double arrow_scale;     /* of the arrows, told beside the scale bar [m/N]; 0: not told */
     const char *scale_name; /* of the shapes' values, with unit; NULL: none */
     double scale_lo, scale_hi;
 } plan_view;

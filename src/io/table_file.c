@@ -2,7 +2,6 @@
    for the bytes; reading walks the file twice, once to check all of it and once to take it over, so that a bad file
    changes nothing. */
 #include "io/table_file.h"
-#include "io/atomic_file.h"
 #include <string.h>
 #include <zlib.h>
 
@@ -91,7 +90,8 @@ static void put_body(body_sink *s, const table_file *content)
         put_table(s, &content->tables[i]);
 }
 
-fram_status table_file_write(context *ctx, const char *path, const table_file *content, fram_error *error)
+fram_status table_file_begin(context *ctx, const char *path, const table_file *content, atomic_file *file,
+                             fram_error *error)
 {
     body_sink measure = {.status = FRAM_OK};
     put_body(&measure, content);
@@ -101,17 +101,22 @@ fram_status table_file_write(context *ctx, const char *path, const table_file *c
     head.body_crc = measure.crc;
     head.crc = head_crc(&head);
 
-    atomic_file file;
-    fram_status status = atomic_file_begin(ctx, path, &file, error);
+    fram_status status = atomic_file_begin(ctx, path, file, error);
     if (status != FRAM_OK)
         return status;
-    body_sink body = {.file = &file.writer, .status = FRAM_OK, .error = error};
+    body_sink body = {.file = &file->writer, .status = FRAM_OK, .error = error};
     put(&body, &head, sizeof head);
     put_body(&body, content);
-    if (body.status == FRAM_OK)
-        return atomic_file_commit(&file, error);
-    atomic_file_abandon(&file);
+    if (body.status != FRAM_OK)
+        atomic_file_abandon(file);
     return body.status;
+}
+
+fram_status table_file_write(context *ctx, const char *path, const table_file *content, fram_error *error)
+{
+    atomic_file file;
+    fram_status status = table_file_begin(ctx, path, content, &file, error);
+    return status == FRAM_OK ? atomic_file_commit(&file, error) : status;
 }
 
 /* ---- reading ---- */

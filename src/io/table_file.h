@@ -11,7 +11,7 @@
 #ifndef IO_TABLE_FILE_H
 #define IO_TABLE_FILE_H
 
-#include "io/file.h"
+#include "io/atomic_file.h"
 #include "model/world.h"
 
 enum { TABLE_FILE_VERSION = 1 };
@@ -38,7 +38,10 @@ typedef struct table_file {
     int32_t bytes_count;
 } table_file;
 
-/* Atomically (io/atomic_file.h). */
+/* Into a new atomic file (io/atomic_file.h), to be committed. */
+fram_status table_file_begin(context *ctx, const char *path, const table_file *content, atomic_file *file,
+                             fram_error *error);
+/* The same, committed. */
 fram_status table_file_write(context *ctx, const char *path, const table_file *content, fram_error *error);
 /* FRAM_ERROR_INPUT with the reason when the file is damaged, of another version or byte order, or holds other names or
    fields: nothing is then changed.  Without memory the tables' rows are undefined, but they can be freed. */

@@ -111,7 +111,7 @@ static void summarize(const step_settings *settings, const world *w, int64_t ste
     r->forces_median = median(times + TIME_FORCES * steps, steps);
     r->collide_median = median(times + TIME_COLLIDE * steps, steps);
     r->solve_median = median(times + TIME_SOLVE * steps, steps);
-    r->kinetic_energy = body_books_of(&w->bodies).kinetic_energy;
+    r->kinetic_energy = body_kinetic_energy(&w->bodies);
     r->state_hash = world_hash(w);
 }
 

@@ -78,8 +78,8 @@ void checkpoint_remove_all(context *ctx, const char *folder) { (void)remove_from
 
 /* ---- writing ---- */
 
-static fram_status write_to(context *ctx, const char *path, const world *w, const checkpoint_note *note,
-                            fram_error *error)
+static fram_status begin_file(context *ctx, const char *path, const world *w, const checkpoint_note *note,
+                              atomic_file *file, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
@@ -92,16 +92,25 @@ static fram_status write_to(context *ctx, const char *path, const world *w, cons
                                            {"inputs", (void *)note->inputs, strlen(note->inputs)},
                                            {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
-    return table_file_write(ctx, path, &content, error);
+    return table_file_begin(ctx, path, &content, file, error);
 }
 
-fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
-                             fram_error *error)
+fram_status checkpoint_begin(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
+                             file_writer *const *streams, int stream_count, late_commit *commit, fram_error *error)
 {
     char path[PATH_SIZE];
+    atomic_file file;
     if (!checkpoint_path(folder, w->clock.step[0], path))
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    fram_status status = write_to(ctx, path, w, note, error);
+    fram_status status = begin_file(ctx, path, w, note, &file, error);
+    return status == FRAM_OK ? late_commit_start(commit, &file, streams, stream_count, error) : status;
+}
+
+fram_status checkpoint_end(context *ctx, const char *folder, late_commit *commit, fram_error *error)
+{
+    if (!commit->pending)
+        return FRAM_OK;
+    fram_status status = late_commit_wait(commit, error);
     if (status == FRAM_OK && !remove_from(ctx, folder, CHECKPOINTS_KEPT))
         status = error_memory(error);
     return status;
@@ -114,7 +123,9 @@ fram_status checkpoint_write_failed(context *ctx, const char *folder, const worl
     int n = snprintf(path, PATH_SIZE, "%s/failed.fram", folder);
     if (n < 0 || n >= PATH_SIZE)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    return write_to(ctx, path, w, note, error);
+    atomic_file file;
+    fram_status status = begin_file(ctx, path, w, note, &file, error);
+    return status == FRAM_OK ? atomic_file_commit(&file, error) : status;
 }
 
 /* ---- reading ---- */

@@ -3,6 +3,7 @@
 #ifndef SIM_CHECKPOINT_H
 #define SIM_CHECKPOINT_H
 
+#include "io/late_commit.h"
 #include "io/text_buffer.h"
 #include "model/world.h"
 
@@ -13,9 +14,12 @@ typedef struct checkpoint_note {
     const char *inputs; /* text of inputs_list, compared on resume */
 } checkpoint_note;
 
-/* Write FOLDER/checkpoint-STEP.fram, then remove all but the newest two. */
-fram_status checkpoint_write(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
-                             fram_error *error);
+/* Write FOLDER/checkpoint-STEP.fram, in two parts: the state is taken now, and brought to the disk after the streams
+   that it speaks of while the run goes on; checkpoint_end waits for that and removes all but the newest two.  Nothing
+   happens in checkpoint_end without a checkpoint under way. */
+fram_status checkpoint_begin(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
+                             file_writer *const *streams, int stream_count, late_commit *commit, fram_error *error);
+fram_status checkpoint_end(context *ctx, const char *folder, late_commit *commit, fram_error *error);
 /* The state of a run that went wrong, for a look at it: FOLDER/failed.fram.  Never resumed from. */
 fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                                     fram_error *error);

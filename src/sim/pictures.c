@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-enum { PLAN_PIXELS = 1500, CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
+enum { PLAN_PIXELS = 1000, CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
 
 /* Shapes of a plan view with the vertices they point to. */
 typedef struct plan_store {

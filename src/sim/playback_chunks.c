@@ -1,6 +1,8 @@
 #include "sim/playback_chunks.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,6 +26,32 @@ static void remove_chunks(const char *folder, const char *stage)
     }
     snprintf(name, sizeof name, "%s%s", folder, stage);
     (void)rmdir(name);
+}
+
+/* "0012.js" */
+static bool is_chunk(const char *name)
+{
+    size_t digits = strspn(name, "0123456789");
+    return digits >= 4 && strcmp(name + digits, ".js") == 0;
+}
+
+/* Files of another kind would stop the folder from being replaced in the end: they are told before the work. */
+static fram_status refuse_foreign(const char *folder, fram_error *error)
+{
+    DIR *dir = opendir(folder);
+    char other[64] = "";
+    for (struct dirent *e = dir ? readdir(dir) : NULL; e && !other[0]; e = readdir(dir)) {
+        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0 && !is_chunk(e->d_name))
+            snprintf(other, sizeof other, "%.60s", e->d_name);
+    }
+    if (dir)
+        closedir(dir);
+    if (other[0])
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
+                         "the frames of the page go into this folder, where %s is: move that away, or give the page "
+                         "another name",
+                         other);
+    return FRAM_OK;
 }
 
 fram_status chunks_begin(context *ctx, const char *output, uint64_t limit, chunk_writer *w, fram_error *error)
@@ -58,6 +86,8 @@ static fram_status close_chunk(chunk_writer *w, fram_error *error)
 static fram_status open_chunk(chunk_writer *w, fram_error *error)
 {
     char name[NAME_SIZE], head[40];
+    if (w->count == 0 && refuse_foreign(w->folder, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     snprintf(name, sizeof name, "%s.new", w->folder);
     if (w->count == 0 && mkdir(name, 0777) != 0 && errno != EEXIST)
         return file_error(error, name, "make the folder", errno);

@@ -1,10 +1,10 @@
 #include "sim/record_pose.h"
 
-#include <stdbool.h>
 #include <string.h>
 
 /* A component is a whole number of steps from -1/sqrt(2) to 1/sqrt(2), so that zero is kept exactly. */
-enum { HALF_MOST = 0x7bff, HALF_STEPS = 16383, WORD_MASK = 32767 };
+enum { HALF_MOST = 0x7bff, HALF_STEPS = 16383, WORD_MASK = 32767, TOP_BIT = 32768 };
+enum { MARKED_WORD = RECORD_POSE_SIZE - (int)sizeof(uint16_t) }; /* place of the third word of the orientation */
 static const double root_half = 0.70710678118654752440;
 
 uint16_t half_from_real(double value)
@@ -85,4 +85,19 @@ void record_pose_unpack(const unsigned char in[RECORD_POSE_SIZE], vec3 *position
     }
     part[largest] = sqrt(fmax(0, 1 - sum));
     *orientation = (quat){part[0], part[1], part[2], part[3]};
+}
+
+void record_pose_mark(unsigned char pose[RECORD_POSE_SIZE])
+{
+    uint16_t word;
+    memcpy(&word, pose + MARKED_WORD, sizeof word);
+    word |= TOP_BIT;
+    memcpy(pose + MARKED_WORD, &word, sizeof word);
+}
+
+bool record_pose_is_marked(const unsigned char pose[RECORD_POSE_SIZE])
+{
+    uint16_t word;
+    memcpy(&word, pose + MARKED_WORD, sizeof word);
+    return (word & TOP_BIT) != 0;
 }

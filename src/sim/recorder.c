@@ -128,6 +128,17 @@ static bool put_pose(recorder *r, const world *w, int32_t slot)
     return put(r, packed, sizeof packed);
 }
 
+/* With the contact force of a body that has one: most have none. */
+static bool put_touched_pose(recorder *r, const world *w, int32_t slot)
+{
+    unsigned char packed[RECORD_POSE_SIZE];
+    uint16_t touched = half_from_real(r->sums.data[slot].magnitude * 1e-3);
+    record_pose_pack(w->bodies.position[slot], w->bodies.orientation[slot], packed);
+    if (touched)
+        record_pose_mark(packed);
+    return put(r, packed, sizeof packed) && (!touched || put(r, &touched, sizeof touched));
+}
+
 static fram_status append(recorder *r, uint32_t type, fram_error *error)
 {
     record_part part = {r->block.data, (size_t)r->block.count};
@@ -317,8 +328,7 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     for (int32_t i = 0; i < w->bodies.count && good; i++) {
         if (!body_is_alive(&w->bodies, i) || w->bodies.shape[i] < 0 || !moves(w, i))
             continue;
-        uint16_t touched = half_from_real(r->sums.data[i].magnitude * 1e-3);
-        good = put_pose(r, w, i) && put(r, &touched, sizeof touched);
+        good = put_touched_pose(r, w, i);
         count++;
     }
     if (!good)
@@ -327,7 +337,7 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     return append(r, BLOCK_FRAME, error);
 }
 
-/* Poses with their contact force, and about what else a frame has. */
+/* Poses with a contact force, and about what else a frame has. */
 enum { BYTES_PER_BODY = RECORD_POSE_SIZE + 2, BYTES_PER_FRAME = 600 };
 
 static bool frame_is_due(const recorder *r, const world *w)
@@ -380,6 +390,13 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
     if (status == FRAM_OK && frame_is_due(r, w))
         status = write_frame(r, w, error);
     return status;
+}
+
+void recorder_streams(recorder *r, file_writer *out[RECORDER_STREAMS])
+{
+    out[0] = &r->series.file;
+    out[1] = &r->fractures.file;
+    out[2] = &r->record.file;
 }
 
 fram_status recorder_flush(recorder *r, fram_error *error)

@@ -12,17 +12,17 @@
      7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 0, f32
    thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none), i32 vertices; f32 x y per
                  outline vertex (body frame); a body that does not move adds its pose
-     8 frame     i64 step, f64 time, f64 x 3 averaged ice force on the vessel [N], i32 count, i32 0; per moving body, by
-                 ascending slot: its pose and u16 contact force, the sum of the magnitudes at its contacts, a half float
-                 of kN (18 bytes)
      9 forces    i32 count, i32 0; per force on the first vessel in the last step: i32 kind (1 ice, all contacts with
    one floe; 2 mooring line; 3 thruster), i32 slot of the floe or number of line or thruster (from 1), f32 x y z of the
    point, f32 x y z of the force [N], global frame; before the frame it belongs to
+    11 frame     i64 step, f64 time, f64 x 3 averaged ice force on the vessel [N], i32 count, i32 0; per moving body, by
+                 ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the magnitudes at its
+                 contacts, a half float of kN (16 or 18 bytes)
     10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
    frame's first 48 bytes; the frame itself and its forces stand there
 
-   Types 3 and 5 were births and frames of an earlier layout and are not written any more. Solids are announced by block
-   2 and take part in frames when they move. */
+   Types 3, 5 and 8 were births and frames of earlier layouts and are not written any more. Solids are announced by
+   block 2 and take part in frames when they move. */
 #ifndef SIM_RECORDER_H
 #define SIM_RECORDER_H
 
@@ -38,11 +38,12 @@ enum {
     BLOCK_EARLIER_BIRTHS = 3,
     BLOCK_DEATHS = 4,
     BLOCK_EARLIER_FRAME = 5,
+    BLOCK_TOUCHED_FRAME = 8, /* of an earlier layout too */
     BLOCK_FRACTURES = 6,
     BLOCK_BIRTHS = 7,
-    BLOCK_FRAME = 8,
     BLOCK_FORCES = 9,
-    BLOCK_FRAME_BESIDE = 10
+    BLOCK_FRAME_BESIDE = 10,
+    BLOCK_FRAME = 11
 };
 
 /* Bytes of a frame before its poses. */
@@ -79,6 +80,9 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
    limit over the run; the rest is for what stands between frames.  This depends on the state alone, so a resumed run
    records the same frames. */
 fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error);
+/* The files of the streams. */
+enum { RECORDER_STREAMS = 3 };
+void recorder_streams(recorder *r, file_writer *out[RECORDER_STREAMS]);
 /* Everything to the disk. */
 fram_status recorder_flush(recorder *r, fram_error *error);
 fram_status recorder_close(recorder *r, fram_error *error);

@@ -53,11 +53,13 @@ static vec3 take_vec3(cursor *c)
     double x = take_f32(c), y = take_f32(c), z = take_f32(c);
     return vec3_make(x, y, z);
 }
-static void take_pose(cursor *c, vec3 *position, quat *orientation)
+/* Whether the pose is marked. */
+static bool take_pose(cursor *c, vec3 *position, quat *orientation)
 {
     unsigned char packed[RECORD_POSE_SIZE];
     take(c, packed, sizeof packed);
     record_pose_unpack(packed, position, orientation);
+    return record_pose_is_marked(packed);
 }
 /* Room for `count` things of `size` bytes each is left. */
 static bool reaches(cursor *c, int32_t count, size_t size)
@@ -149,7 +151,7 @@ static bool read_birth(replay *r, cursor *c)
             return false;
     }
     if (!b.moves)
-        take_pose(c, &b.position, &b.orientation);
+        (void)take_pose(c, &b.position, &b.orientation);
     b.area = polygon_area(replay_outline(r, &b));
     return c->unsound || add_body(r, &b);
 }
@@ -222,8 +224,8 @@ static bool read_frame(replay *r, cursor *c)
             replay_pose p = {.body = body, .position = b->position, .orientation = b->orientation};
             uint16_t touched = 0;
             if (moving) {
-                take_pose(c, &p.position, &p.orientation);
-                take(c, &touched, sizeof touched);
+                if (take_pose(c, &p.position, &p.orientation))
+                    take(c, &touched, sizeof touched);
                 p.contact_force = real_from_half(touched) * 1e3;
                 found++;
             }
@@ -277,6 +279,7 @@ static fram_status read_block(replay *r, const record_block *block, fram_error *
         break;
     case BLOCK_EARLIER_BIRTHS:
     case BLOCK_EARLIER_FRAME:
+    case BLOCK_TOUCHED_FRAME:
         return wrong(r, "an earlier version of Fram wrote this record; run the scenario again", error);
     default: /* of a later version that added something */
         break;

@@ -26,9 +26,12 @@ typedef struct run {
     step_settings settings;
     world world;
     recorder recorder;
+    late_commit checkpoint; /* under way */
     text_buffer inputs;
     char hash[65];
     double started, drawn; /* wall clock [s] */
+    double record_time;    /* for all that was written so far [s] */
+    double end_time;       /* of it at the end [s] */
     double start_time;     /* simulated time at which this call began [s] */
     int64_t end_step, stop_step;
     int64_t checkpoint_every, picture_every;
@@ -65,18 +68,27 @@ static void set_schedule(run *r)
     r->picture_every = interval_steps(r->s->output.picture_interval, dt);
 }
 
+static fram_status end_checkpoint(run *r, fram_error *error)
+{
+    return checkpoint_end(r->ctx, r->options->folder, &r->checkpoint, error);
+}
+
+/* The state of now; the one before is on the disk first. */
 static fram_status write_checkpoint(run *r, fram_error *error)
 {
-    fram_status status = recorder_flush(&r->recorder, error);
+    fram_status status = end_checkpoint(r, error);
     if (status != FRAM_OK)
         return status;
+    file_writer *streams[RECORDER_STREAMS];
+    recorder_streams(&r->recorder, streams);
     recorder_lengths lengths = recorder_lengths_of(&r->recorder);
     checkpoint_note note = {.series_length = lengths.series,
                             .record_length = lengths.record,
                             .fractures_length = lengths.fractures,
                             .inputs = r->inputs.data};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
-    return checkpoint_write(r->ctx, r->options->folder, &r->world, &note, error);
+    return checkpoint_begin(r->ctx, r->options->folder, &r->world, &note, streams, RECORDER_STREAMS, &r->checkpoint,
+                            error);
 }
 
 static fram_status write_summary(run *r, const char *state, const char *message, fram_error *error)
@@ -86,6 +98,8 @@ static fram_status write_summary(run *r, const char *state, const char *message,
                            .inputs = r->inputs.data,
                            .threads = context_threads(r->ctx),
                            .wall = wall_clock() - r->started,
+                           .recording = r->record_time,
+                           .recording_end = r->end_time,
                            .state_hash = world_hash(&r->world)};
     memcpy(summary.scenario_hash, r->hash, sizeof summary.scenario_hash);
     return run_folder_write_summary(r->ctx, r->options->folder, r->s, &r->world, &summary, error);
@@ -169,7 +183,6 @@ static fram_status after_step(run *r, double step_wall, fram_error *error)
         status = draw_numbered_plan(r, error);
     if (status == FRAM_OK && r->checkpoint_every > 0 && step % r->checkpoint_every == 0 && step < r->stop_step)
         status = write_checkpoint(r, error);
-    show_progress(r, false);
     return status;
 }
 
@@ -181,8 +194,12 @@ static fram_status step_loop(run *r, fram_error *error)
     while (status == FRAM_OK && r->world.clock.step[0] < r->stop_step && !asked_to_stop(r)) {
         double before = wall_clock();
         status = world_step(r->ctx, &r->settings, &r->world, error);
-        if (status == FRAM_OK)
-            status = after_step(r, wall_clock() - before, error);
+        if (status != FRAM_OK)
+            break;
+        double done = wall_clock();
+        status = after_step(r, done - before, error);
+        r->record_time += wall_clock() - done;
+        show_progress(r, false);
     }
     show_progress(r, true);
     return status;
@@ -193,6 +210,7 @@ static void leave_diagnosis(run *r, const fram_error *error)
 {
     checkpoint_note note = {.inputs = r->inputs.data};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
+    (void)end_checkpoint(r, NULL);
     (void)recorder_flush(&r->recorder, NULL);
     (void)checkpoint_write_failed(r->ctx, r->options->folder, &r->world, &note, NULL);
     (void)write_summary(r, "failed", error ? error->message : NULL, NULL);
@@ -214,11 +232,10 @@ static void fill_result(run *r, run_result *result)
     result->finished = result->steps >= r->end_step;
 }
 
-/* The end of a loop that went well: checkpoint, pictures, summary. */
-static fram_status conclude(run *r, run_result *result, fram_error *error)
+/* Checkpoint, pictures and figures of the end. */
+static fram_status write_end(run *r, fram_error *error)
 {
-    fill_result(r, result);
-    bool interrupted = asked_to_stop(r) && r->world.clock.step[0] < r->stop_step;
+    double began = wall_clock();
     fram_status status = write_checkpoint(r, error);
     if (status == FRAM_OK)
         status = draw(r, "plan.png", draw_plan, error);
@@ -226,6 +243,19 @@ static fram_status conclude(run *r, run_result *result, fram_error *error)
         status = draw(r, "loads.png", draw_loads, error);
     if (status == FRAM_OK)
         status = write_station(r, error);
+    if (status == FRAM_OK)
+        status = end_checkpoint(r, error);
+    r->end_time = wall_clock() - began;
+    r->record_time += r->end_time;
+    return status;
+}
+
+/* The end of a loop that went well. */
+static fram_status conclude(run *r, run_result *result, fram_error *error)
+{
+    fill_result(r, result);
+    bool interrupted = asked_to_stop(r) && r->world.clock.step[0] < r->stop_step;
+    fram_status status = write_end(r, error);
     if (status == FRAM_OK)
         status = write_summary(r, result->finished ? "finished" : interrupted ? "interrupted" : "stopped", NULL, error);
     if (status != FRAM_OK || !interrupted)
@@ -246,6 +276,7 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
         status = conclude(r, result, &local);
     else
         leave_diagnosis(r, &local);
+    (void)end_checkpoint(r, NULL); /* after another failure: its own is not the first */
     fram_status closed = recorder_close(&r->recorder, status == FRAM_OK ? &local : NULL);
     r->recording = false;
     if (status == FRAM_OK)
@@ -270,14 +301,18 @@ static void run_free(run *r)
 
 /* ---- start ---- */
 
-static fram_status write_scenario(run *r, text_buffer *text, fram_error *error)
+static fram_status write_scenario(run *r, fram_error *error)
 {
     const scenario_print_options options = {.comments = true, .absolute_paths = true};
     char path[PATH_SIZE];
+    text_buffer text = {0};
     fram_status status = join_path(r->options->folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
-        status = scenario_print(r->ctx, r->s, &options, text, error);
-    return status == FRAM_OK ? atomic_file_write(r->ctx, path, text->data, (size_t)text->count, error) : status;
+        status = scenario_print(r->ctx, r->s, &options, &text, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(r->ctx, path, text.data, (size_t)text.count, error);
+    text_free(r->ctx, &text);
+    return status;
 }
 
 static void log_start(const run *r, const build_report *report)
@@ -289,9 +324,15 @@ static void log_start(const run *r, const build_report *report)
         log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", report->displaced_mass * 1e-3);
 }
 
-static fram_status start_streams(run *r, const char *text, fram_error *error)
+/* The record's scenario is for programs: without comments. */
+static fram_status start_streams(run *r, fram_error *error)
 {
-    fram_status status = recorder_create(r->ctx, r->s, r->options->folder, text, &r->recorder, error);
+    const scenario_print_options options = {.absolute_paths = true};
+    text_buffer text = {0};
+    fram_status status = scenario_print(r->ctx, r->s, &options, &text, error);
+    if (status == FRAM_OK)
+        status = recorder_create(r->ctx, r->s, r->options->folder, text.data, &r->recorder, error);
+    text_free(r->ctx, &text);
     if (status != FRAM_OK)
         return status;
     r->recording = true;
@@ -303,7 +344,6 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
                       fram_error *error)
 {
     run r = {.ctx = ctx, .s = s, .options = options, .settings = build_settings(s), .started = wall_clock()};
-    text_buffer text = {0};
     build_report report = {0};
     set_schedule(&r);
     fram_status status = run_folder_check(options->folder, options->force, error);
@@ -317,14 +357,15 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
         return status;
     }
     log_start(&r, &report);
+    double began = wall_clock();
     status = run_folder_prepare(ctx, options->folder, options->force, error);
     if (status == FRAM_OK)
-        status = write_scenario(&r, &text, error);
+        status = write_scenario(&r, error);
     if (status == FRAM_OK)
-        status = start_streams(&r, text.data, error);
+        status = start_streams(&r, error);
+    r.record_time += wall_clock() - began;
     if (status == FRAM_OK)
         status = drive(&r, result, error);
-    text_free(ctx, &text);
     world_free(ctx, &r.world);
     run_free(&r);
     return status;

@@ -35,6 +35,7 @@ static fram_status read_member(json_walk *w, const char *key, run_note *n, fram_
         {"steps", NULL, 0, &n->steps},
         {"time_s", NULL, 0, &n->time},
         {"wall_s", NULL, 0, &n->wall},
+        {"recording_s", NULL, 0, &n->recording},
     };
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         if (strcmp(key, members[i].name) != 0)

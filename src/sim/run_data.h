@@ -10,7 +10,7 @@
 typedef struct run_note {
     char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
     char scenario_hash[65], state_hash[17];
-    double threads, steps, time, wall;
+    double threads, steps, time, wall, recording;
 } run_note;
 
 /* The ice of one frame. */

@@ -214,9 +214,10 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     if (summary->message)
         add_text_member(ctx, &b, "message", summary->message);
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
-    text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->wall,
-                summary->state_hash);
-    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"recording_s\": %.4f,\n  \"recording_end_s\": %.4f,\n", summary->wall,
+                summary->recording, summary->recording_end);
+    text_format(ctx, &b, "  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->state_hash);
+    fram_status status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);
     return status;
 }

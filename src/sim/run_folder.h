@@ -25,7 +25,9 @@ typedef struct run_summary {
     char scenario_hash[65];
     const char *inputs;
     int threads;
-    double wall; /* of the last call [s] */
+    double wall;          /* of the last call [s] */
+    double recording;     /* of it for what the run writes: series, frames, checkpoints, pictures, results [s] */
+    double recording_end; /* of that at the end: the last checkpoint, pictures, results [s] */
     uint64_t state_hash;
 } run_summary;
 fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,

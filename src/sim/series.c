@@ -162,7 +162,7 @@ static count_channels counts_of(const world *w)
     X("splits", "1", (double)w->clock.splits[0])                      \
     X("bendings", "1", (double)w->clock.bendings[0])                  \
     X("crushing_work", "J", w->clock.work_crushed[0])                 \
-    X("kinetic_energy", "J", books.kinetic_energy)                    \
+    X("kinetic_energy", "J", body_kinetic_energy(&w->bodies))         \
     X("solver_residual", "m/s", w->scratch.solver.residual)           \
     X("overlap_mean", "m", w->scratch.solver.mean_depth)              \
     X("overlap_max", "m", w->scratch.solver.max_depth)                \
@@ -202,7 +202,6 @@ void series_row(const world *w, double wall, double out[SERIES_ROOM])
 {
     vessel_channels c = vessel_channels_of(w);
     count_channels n = counts_of(w);
-    body_books books = body_books_of(&w->bodies);
     int k = 0;
 #define VALUE(name, unit, value) out[k++] = (value);
     SERIES(VALUE)

@@ -193,6 +193,15 @@ static void add_channel(context *ctx, text_buffer *b, const station_data *d, con
     add_statistics(ctx, b, &s, end);
 }
 
+/* The end of a channel that may have a limit; null for both where it has none. */
+static void add_limit(context *ctx, text_buffer *b, const station_data *d, const double_array *of, double limit,
+                      double transient)
+{
+    double set = automatic_or(limit, HUGE_VAL);
+    add_number(ctx, b, "limit", set, ", ");
+    add_number(ctx, b, "exceedance", set < HUGE_VAL ? exceedance(d, of, set, transient) : HUGE_VAL, "},\n");
+}
+
 static void add_envelope(context *ctx, text_buffer *b, const station_data *d, double transient)
 {
     double envelope[ENVELOPE_DIRECTIONS];
@@ -264,16 +273,12 @@ static void compose(context *ctx, const scenario *s, const world *w, const stati
     add_number(ctx, b, "transient_s", transient, ",\n  ");
     add_number(ctx, b, "averaging_window_s", s->output.averaging_window, ",\n");
     add_channel(ctx, b, d, "offset_m", &d->offset, transient, ", ");
-    double limit = automatic_or(s->vessel.station.offset_limit, HUGE_VAL);
-    add_number(ctx, b, "limit", limit, ", ");
-    add_number(ctx, b, "exceedance", exceedance(d, &d->offset, limit, transient), "},\n");
+    add_limit(ctx, b, d, &d->offset, s->vessel.station.offset_limit, transient);
     add_envelope(ctx, b, d, transient);
     add_channel(ctx, b, d, "offset_x_m", &c[OFFSET_X], transient, "},\n");
     add_channel(ctx, b, d, "offset_y_m", &c[OFFSET_Y], transient, "},\n");
     add_channel(ctx, b, d, "heading_deviation_deg", &c[HEADING], transient, ", ");
-    limit = automatic_or(s->vessel.station.heading_limit_deg, HUGE_VAL);
-    add_number(ctx, b, "limit", limit, ", ");
-    add_number(ctx, b, "exceedance", exceedance(d, &c[HEADING], limit, transient), "},\n");
+    add_limit(ctx, b, d, &c[HEADING], s->vessel.station.heading_limit_deg, transient);
     add_channel(ctx, b, d, "ice_load_N", &d->load, transient, "},\n");
     add_channel(ctx, b, d, "ice_load_x_N", &c[LOAD_X], transient, "},\n");
     add_channel(ctx, b, d, "ice_load_y_N", &c[LOAD_Y], transient, "},\n");
@@ -295,7 +300,7 @@ fram_status station_results_write(context *ctx, const scenario *s, const world *
     if (status == FRAM_OK) {
         compose(ctx, s, w, &d, &b);
         snprintf(path, sizeof path, "%s/station.json", folder);
-        status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+        status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
     }
     text_free(ctx, &b);
     data_free(ctx, &d);
@@ -316,9 +321,13 @@ static void describe(context *ctx, const scenario *s, const world *w, const stat
     channel_statistics tension = statistics(d, &d->column[TENSION], transient);
     channel_statistics power = statistics(d, &d->column[POWER], transient);
     text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient, s->output.averaging_window);
-    text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m; beyond the limit %.3g %% of the time.\n", offset.mean,
-                offset.greatest,
-                100 * exceedance(d, &d->offset, automatic_or(s->vessel.station.offset_limit, HUGE_VAL), transient));
+    text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m", offset.mean, offset.greatest);
+    double limit = automatic_or(s->vessel.station.offset_limit, HUGE_VAL);
+    if (limit < HUGE_VAL)
+        text_format(ctx, b, "; beyond the limit of %.3g m %.3g %% of the time.\n", limit,
+                    100 * exceedance(d, &d->offset, limit, transient));
+    else
+        text_add(ctx, b, "; no limit is set.\n");
     text_format(ctx, b, "Ice load: mean %.4g kN, significant %.4g kN, peak %.4g kN.\n", load.mean * 1e-3,
                 load.significant * 1e-3, load.greatest * 1e-3);
     if (d->lines > 0)
@@ -344,6 +353,21 @@ static void scale(double_array *values, double by)
         values->data[i] *= by;
 }
 
+/* The envelope as a line round the point, and its largest radius: each direction is the sector that it stands for, so
+   that offsets in one direction alone show as a wedge. */
+enum { EDGE_POINTS = 2 * ENVELOPE_DIRECTIONS + 1 };
+static double envelope_edge(const double envelope[ENVELOPE_DIRECTIONS], double x[EDGE_POINTS], double y[EDGE_POINTS])
+{
+    double largest = 0;
+    for (int i = 0; i < EDGE_POINTS; i++) {
+        int k = i / 2 % ENVELOPE_DIRECTIONS;
+        double a = 2 * PI * (k + (i % 2 == 0 ? -0.5 : 0.5)) / ENVELOPE_DIRECTIONS, r = envelope[k];
+        x[i] = r * real_cos(a), y[i] = r * real_sin(a);
+        largest = fmax(largest, r);
+    }
+    return largest;
+}
+
 static fram_status draw(context *ctx, const scenario *s, const station_data *d, const char *text, const char *path,
                         fram_error *error)
 {
@@ -354,14 +378,9 @@ static fram_status draw(context *ctx, const scenario *s, const station_data *d, 
     }
     const double *time = d->column[TIME].data;
     int32_t n = d->rows;
-    double envelope[ENVELOPE_DIRECTIONS], edge_x[ENVELOPE_DIRECTIONS + 1], edge_y[ENVELOPE_DIRECTIONS + 1];
+    double envelope[ENVELOPE_DIRECTIONS], edge_x[EDGE_POINTS], edge_y[EDGE_POINTS];
     offset_envelope(time, d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, s->run.transient, envelope);
-    double largest = 0;
-    for (int i = 0; i <= ENVELOPE_DIRECTIONS; i++) {
-        double a = 2 * PI * i / ENVELOPE_DIRECTIONS, r = envelope[i % ENVELOPE_DIRECTIONS];
-        edge_x[i] = r * real_cos(a), edge_y[i] = r * real_sin(a);
-        largest = fmax(largest, r);
-    }
+    double largest = envelope_edge(envelope, edge_x, edge_y);
     /* A limit that is far away would leave nothing of the track to be seen. */
     bool far = limit > FAR_LIMIT * largest;
     char note[96];
@@ -371,7 +390,7 @@ static fram_status draw(context *ctx, const scenario *s, const station_data *d, 
              limit);
     const chart_line footprint[3] = {
         chart_line_make("track", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, false),
-        chart_line_make("envelope", edge_x, edge_y, ENVELOPE_DIRECTIONS + 1, false),
+        chart_line_make("envelope", edge_x, edge_y, EDGE_POINTS, false),
         chart_line_make("limit", round_x, round_y, CIRCLE, true)};
     const chart_line offsets[2] = {chart_line_make("along X", time, d->column[OFFSET_X].data, n, true),
                                    chart_line_make("along Y", time, d->column[OFFSET_Y].data, n, true)};

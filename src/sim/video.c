@@ -22,7 +22,7 @@ typedef struct video {
     scenario s;
     double_array time, load; /* of the frames of the record [s], [N] */
     double lo, hi;           /* of the colours */
-    double arrow;            /* [m/N] */
+    double arrow;            /* of the whole video [m/N]; 0: none */
     double most;             /* load [N] */
     double step;             /* between pictures [s] */
     int64_t count;           /* of pictures */
@@ -53,11 +53,22 @@ static void find_extent(video *v)
     v->extent = lo.x < hi.x ? (box2){lo, hi} : (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
 }
 
-/* Times, loads and the range of what is shown (its 98th percentile), from a first reading. */
+/* Sorts the values; 0 where there are none. */
+static double percentile(double_array *values, int percent)
+{
+    if (values->count == 0)
+        return 0;
+    qsort(values->data, (size_t)values->count, sizeof *values->data, ascending);
+    return values->data[(int64_t)(values->count - 1) * percent / 100];
+}
+
+/* Of an arrow of the strongest forces but a few, over the width of what is seen. */
+#define ARROW_LENGTH 0.12
+
+/* Times, loads, the range of what is shown (its 98th percentile) and the scale of the arrows, from a first reading. */
 static fram_status look_ahead(video *v, const char *folder, fram_error *error)
 {
-    double_array values = {0};
-    double strongest = 0;
+    double_array values = {0}, forces = {0};
     bool found = true;
     fram_status status = replay_open(v->ctx, folder, &v->r, error);
     if (status != FRAM_OK)
@@ -72,8 +83,8 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
         double load = sqrt(f->ice_force.x * f->ice_force.x + f->ice_force.y * f->ice_force.y);
         bool good = array_push(v->ctx, &v->time, f->time) && array_push(v->ctx, &v->load, load);
         v->most = fmax(v->most, load);
-        for (int32_t i = 0; i < f->forces.count; i++)
-            strongest = fmax(strongest, vec3_length(f->forces.data[i].force));
+        for (int32_t i = 0; i < f->forces.count && forces.count < VALUES_MOST && good; i++)
+            good = array_push(v->ctx, &forces, vec3_length(f->forces.data[i].force));
         for (int32_t i = 0; i < f->poses.count && values.count < VALUES_MOST && good; i++) {
             const replay_pose *p = &f->poses.data[i];
             double value = plan_colour_value(v->options->colour, &v->r.bodies.data[p->body], p, f->time);
@@ -82,15 +93,15 @@ static fram_status look_ahead(video *v, const char *folder, fram_error *error)
         if (!good)
             status = error_memory(error);
     }
-    if (values.count > 0) {
-        qsort(values.data, (size_t)values.count, sizeof *values.data, ascending);
-        v->hi = values.data[(int64_t)values.count * 98 / 100];
-    }
+    v->hi = percentile(&values, 98);
     if (!(v->hi > 0))
         v->hi = 1;
     double across = v->options->span > 0 ? v->options->span : v->s.domain.x_max - v->s.domain.x_min;
-    v->arrow = strongest > 0 ? 0.12 * across / strongest : 0;
+    /* As on the playback page, a few arrows may be longer: one hard blow must not make all others vanish. */
+    double strong = percentile(&forces, 99);
+    v->arrow = strong > 0 ? ARROW_LENGTH * across / strong : 0;
     array_free(v->ctx, &values);
+    array_free(v->ctx, &forces);
     replay_close(&v->r);
     return status;
 }
@@ -177,6 +188,7 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
                       .mark_count = v->plan.marks.count,
                       .arrows = v->plan.arrows.data,
                       .arrow_count = v->plan.arrows.count,
+                      .arrow_scale = v->arrow,
                       .scale_name = plan_colour_title(v->options->colour),
                       .scale_lo = v->lo,
                       .scale_hi = v->hi};

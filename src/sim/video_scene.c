@@ -177,12 +177,13 @@ static void draw_axes(cairo_t *page, const solid_view *v, const solid_camera *c,
 }
 
 /* It holds at the target. */
-static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_camera *c, double x, double y)
+static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_camera *c, double arrow, double x,
+                             double y)
 {
     double metres = vec3_length(vec3_sub(c->target, c->eye)) / v->focal * SOLID_FINE;
     double length = image_round_step(220 * metres, 2), px = length / metres;
-    char text[32];
-    snprintf(text, sizeof text, "%g m", length);
+    char text[IMAGE_BAR_TEXT];
+    image_bar_text(length, arrow, text);
     image_set_colour(page, ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);
@@ -228,7 +229,7 @@ fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r
     image_text(page, EDGE, 25, 17, ALIGN_LEFT, true, s->title);
     image_text(page, EDGE, 47, 12.5, ALIGN_LEFT, false, s->caption);
     draw_axes(page, &v, &camera, width - 60, 34);
-    double below = ABOVE + h + 24, x = draw_scale_bar(page, &v, &camera, EDGE, below);
+    double below = ABOVE + h + 24, x = draw_scale_bar(page, &v, &camera, s->arrow, EDGE, below);
     if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER]) {
         image_text(page, x, below, 12, ALIGN_LEFT, false, "forces on the vessel:");
         x += image_text_width(page, 12, false, "forces on the vessel:") + 10;

@@ -4,6 +4,7 @@
 #include "testing.h"
 #include <locale.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static const char *text_of(double value)
 {
@@ -38,6 +39,78 @@ START_TEST(digits_are_as_many_as_asked)
     ck_assert_str_eq(text, "1e+10");
     real_to_digits((double)NAN, 12, text);
     ck_assert_str_eq(text, "nan");
+}
+END_TEST
+
+/* The fast way and printf's, digit for digit. */
+static void assert_like_printf(double value, int digits)
+{
+    char text[NUMBER_TEXT_SIZE], expected[NUMBER_TEXT_SIZE];
+    int length = real_to_digits(value, digits, text);
+    snprintf(expected, sizeof expected, "%.*g", digits, value);
+    ck_assert_msg(strcmp(text, expected) == 0, "%.17g to %d digits: %s, expected %s", value, digits, text, expected);
+    ck_assert_int_eq(length, (int)strlen(expected));
+}
+
+START_TEST(digits_are_those_of_printf)
+{
+    static const double odd[] = {0.5,     2.5,          1e11,          1e12,           999999999999.5, 99999999999.95,
+                                 0.1,     1e-4,         9.9999999e-5,  1e-5,           1e21,           1e22,
+                                 1e23,    1e30,         1.0000001e30,  1e-30,          9e-31,          5e-324,
+                                 1.7e308, 123456789012, 1234567890125, 12345678901.25, 0.000123456789, 1 / 3.0};
+    random_stream random = random_begin(7, 0, 0);
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        for (int digits = 1; digits <= 17; digits++) {
+            assert_like_printf(odd[i], digits);
+            assert_like_printf(-odd[i], digits);
+            assert_like_printf(nextafter(odd[i], 0), digits);
+            assert_like_printf(nextafter(odd[i], HUGE_VAL), digits);
+        }
+    }
+    for (int i = 0; i < 30000; i++) {
+        /* Any bits, any size from 1e-33 to 1e33, and a few digits, whose halves are ties. */
+        uint64_t bits = random_bits(&random);
+        double any, part = (double)(bits >> 11) / 9007199254740992.0, size = part;
+        memcpy(&any, &bits, sizeof any);
+        int power = (int)(random_bits(&random) % 67) - 33;
+        for (int k = 0; k < power; k++)
+            size *= 10;
+        for (int k = 0; k > power; k--)
+            size /= 10;
+        if (isfinite(any))
+            assert_like_printf(any, 12);
+        assert_like_printf(size, 12);
+        assert_like_printf(-size, 1 + (int)(bits % 12));
+        assert_like_printf((double)(bits % 20000001) / 16, 1 + (int)(bits % 7));
+        assert_like_printf(floor(part * 1e13) / 10, 12);
+    }
+}
+END_TEST
+
+START_TEST(numbers_are_read_as_by_strtod)
+{
+    static const char *const odd[] = {"0",      "-0",   "-",     "",      ".5",    "5.",       "-.5",   "+1",
+                                      " 1",     "1 ,2", "1,2",   "1e5,",  "1e+5,", "1e-5",     "1e",    "1e+",
+                                      "1e+400", "nan",  "-inf",  "0x1p3", "1.2.3", "1e+22",    "1e+23", "1e-22",
+                                      "1e-23",  "--1",  "1e+5x", "1e5",   "-1.5,", "1e+10000", ".",     "-."};
+    random_stream random = random_begin(8, 0, 0);
+    for (size_t i = 0; i < sizeof odd / sizeof *odd + 30000; i++) {
+        char made[40], *end, *expected_end;
+        const char *text = made;
+        if (i < sizeof odd / sizeof *odd) {
+            text = odd[i];
+        } else {
+            uint64_t bits = random_bits(&random);
+            double value = (double)(int64_t)bits / 9.3e18;
+            int power = (int)(random_bits(&random) % 61) - 30;
+            snprintf(made, sizeof made, "%.*ge%+d%s", 1 + (int)(bits % 17), value, power, bits & 1 ? "," : "");
+            if (bits & 2)
+                snprintf(made, sizeof made, "%.*f", (int)(bits >> 2 & 15), value * 1e5);
+        }
+        double value = real_read(text, &end), expected = strtod(text, &expected_end);
+        ck_assert_msg(end == expected_end, "%s", text);
+        ck_assert_msg(memcmp(&value, &expected, sizeof value) == 0, "%s", text);
+    }
 }
 END_TEST
 
@@ -113,5 +186,6 @@ START_TEST(locales_change_nothing)
 }
 END_TEST
 
-TEST_MAIN("number_text", reals_print_as_the_shortest_text, digits_are_as_many_as_asked, reals_of_any_bits_come_back,
-          reals_are_read_strictly, integers_are_read_strictly, locales_change_nothing)
+TEST_MAIN("number_text", reals_print_as_the_shortest_text, digits_are_as_many_as_asked, digits_are_those_of_printf,
+          numbers_are_read_as_by_strtod, reals_of_any_bits_come_back, reals_are_read_strictly,
+          integers_are_read_strictly, locales_change_nothing)

@@ -43,6 +43,33 @@ for words in "report run" "plot run roll" "compare thin run" "video run" "export
     says "--output" err
 done
 cmp -s run/run.json kept.json || fail "a part of the run was written over"
+# One rule for all commands: what is read is never written over, --force or not; what is there and of another kind only
+# with --force.
+echo "<html>" >page.html
+"$FRAM" hull --length 40 --beam 10 --draught 4 --box -o b.stl >/dev/null
+cp b.stl kept.stl
+for words in "view run --page page.html -o page.html" "hull b.stl -o ./b.stl" "hull b.stl --draw b.stl --force" \
+    "hull b.stl --draw two.png -o two.png" "bench --scene b.stl --dump b.stl"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words
+    says "of its own" err
+done
+cmp -s b.stl kept.stl || fail "a hull was written over by itself"
+for words in "report run -o" "compare run thin -o" "plot run roll -o" "export run --netcdf -o" "video run -o" \
+    "hull kept.stl --draw" "export run --geojson --time 1 -o"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words b.stl
+    says "--force" err
+done
+cmp -s b.stl kept.stl || fail "a file of another kind was written over"
+expect 0 "$FRAM" report run -o b.stl --force -q
+holds "<html" b.stl
+: >empty
+for _ in 1 2; do
+    expect 0 "$FRAM" report run -o again.HTML -q
+    expect 0 "$FRAM" report run -o /dev/null -q
+done
+expect 0 "$FRAM" report run -o empty -q
 expect 2 "$FRAM" view run --page-limit -3
 says "--page-limit" err
 expect 2 "$FRAM" view run --total-limit 1e300

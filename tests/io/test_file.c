@@ -1,5 +1,5 @@
 /* io/file and io/atomic_file: buffering, continuing, replacing, and what the operating system refuses. */
-#include "io/atomic_file.h"
+#include "io/late_commit.h"
 #include "scratch.h"
 #include <fcntl.h>
 #include <signal.h>
@@ -219,6 +219,42 @@ START_TEST(devices_and_links_are_written_through)
 }
 END_TEST
 
+START_TEST(a_late_commit_brings_all_to_its_place)
+{
+    context_init(&ctx);
+    scratch s = scratch_make();
+    file_writer stream, *streams[] = {&stream};
+    late_commit commit = {0};
+    atomic_file a;
+    struct stat about;
+    assert_ok(late_commit_wait(&commit, &error), error); /* none */
+    assert_ok(file_create(&ctx, scratch_path(&s, "stream"), &stream, &error), error);
+    for (int i = 0; i < 3; i++) {
+        char text[2] = {(char)('0' + i), '\0'}, so_far[4] = "012";
+        so_far[i + 1] = '\0';
+        assert_ok(file_write(&stream, text, 1, &error), error);
+        assert_ok(atomic_file_begin(&ctx, scratch_path(&s, "a"), &a, &error), error);
+        assert_ok(file_write(&a.writer, text, 1, &error), error);
+        assert_ok(late_commit_start(&commit, &a, streams, 1, &error), error);
+        assert_content(scratch_path(&s, "stream"), so_far);
+        assert_ok(late_commit_wait(&commit, &error), error);
+        assert_content(scratch_path(&s, "a"), text);
+        ck_assert(stat(scratch_path(&s, "a.new"), &about) != 0);
+    }
+    /* What the rename finds in its way is told, and nothing is left behind. */
+    assert_ok(atomic_file_begin(&ctx, scratch_path(&s, "b"), &a, &error), error);
+    ck_assert_int_eq(mkdir(scratch_path(&s, "b"), 0700), 0);
+    assert_ok(late_commit_start(&commit, &a, NULL, 0, &error), error);
+    ck_assert_int_ne(late_commit_wait(&commit, &error), FRAM_OK);
+    ck_assert_str_eq(error.file, scratch_path(&s, "b"));
+    ck_assert(stat(scratch_path(&s, "b.new"), &about) != 0);
+    ck_assert_int_eq(rmdir(scratch_path(&s, "b")), 0);
+    assert_ok(file_close(&stream, &error), error);
+    ck_assert_int_eq(unlink(scratch_path(&s, "stream")), 0);
+    scratch_remove(&s, "a");
+}
+END_TEST
+
 /* A name without a folder is in the working folder. */
 START_TEST(a_bare_name_is_here)
 {
@@ -260,5 +296,5 @@ END_TEST
 
 TEST_MAIN("file", what_is_written_is_read, a_file_is_continued_after_a_cut, missing_files_and_folders_are_named,
           a_pipe_is_not_waited_for, a_full_disk_is_seen_at_once, a_partial_write_is_seen, replacing_is_all_or_nothing,
-          replacing_a_folder_leaves_nothing_behind, devices_and_links_are_written_through, a_bare_name_is_here,
-          no_memory_is_an_error)
+          a_late_commit_brings_all_to_its_place, replacing_a_folder_leaves_nothing_behind,
+          devices_and_links_are_written_through, a_bare_name_is_here, no_memory_is_an_error)

@@ -47,6 +47,9 @@ START_TEST(poses_keep_their_precision)
     vec3 back;
     quat level;
     record_pose_pack(vec3_make(1, 2, 0), quat_identity(), packed);
+    ck_assert(!record_pose_is_marked(packed));
+    record_pose_mark(packed);
+    ck_assert(record_pose_is_marked(packed));
     record_pose_unpack(packed, &back, &level);
     ck_assert(level.w == 1 && level.x == 0 && level.y == 0 && level.z == 0);
 }
@@ -270,6 +273,7 @@ START_TEST(records_that_lie_are_refused)
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FORCES, births, sizeof births), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRACTURES, births, sizeof births), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, BLOCK_EARLIER_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_TOUCHED_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
     ck_assert_int_eq(write_one(&ctx, folder, 77, many, sizeof many), FRAM_ERROR_INPUT); /* no frame */
     remove_folder(folder);
 }

@@ -166,8 +166,25 @@ def check_pick(browser):
         const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
         let n = 0; for (let i = 3; i < d.length; i += 4) n += d[i] > 0; return n / (c.width * c.height); })()""")
     assert inked > 0.02, f"the history of a floe is blank: {inked}"
+    if browser.run("!document.getElementById('whole').hidden"):
+        check_whole_history(browser)
+    assert browser.run("fram.history.rows.size === Math.min(fram.picked.death, fram.record.frames.length) - "
+                       "fram.picked.birth"), "the history has not all frames"
     browser.click(browser.box("view")[2] / 2, 4)
     assert browser.run("document.getElementById('history').hidden"), "a click on the water does not let go"
+
+
+def check_whole_history(browser):
+    """Of a page with files beside it, on a click: file after file, told, to the last frame; the same as of one file."""
+    assert "frames of its history" in browser.run("document.getElementById('whole').textContent")
+    browser.run("""(fram.told = [], new MutationObserver(() =>
+        fram.told.push(document.getElementById('whole').textContent)).observe(document.getElementById('whole'),
+        { childList: true }), 0)""")
+    browser.click_on("whole")
+    browser.until("document.getElementById('whole').hidden", "the history is not fetched")
+    told = browser.run("fram.told")
+    assert any(" of " in t and t.startswith("file ") for t in told), told
+    assert browser.run("fram.chunks.kept.size") <= 4, "all files are kept at once"
 
 
 def check_colours(browser):
@@ -281,6 +298,16 @@ def check_files_beside(browser, run):
     answer = subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "--json", "--total-limit", "0.66"],
                             check=True, capture_output=True, text=True).stdout
     assert json.loads(answer)["frames_left_out"] > 0, answer
+    # What does not belong to the page is told before the work, and nothing is touched.
+    foreign = run / "in pieces-frames" / "notes.txt"
+    foreign.parent.mkdir()
+    foreign.write_text("mine")
+    before = page.read_bytes()
+    answer = subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "--page-limit", "0.63"], check=False,
+                            capture_output=True, text=True)
+    assert answer.returncode == 2 and "notes.txt" in answer.stderr, answer
+    assert foreign.read_text() == "mine" and page.read_bytes() == before and not list(run.glob("*.new"))
+    foreign.unlink()
     # A file that is gone is named.
     subprocess.run([FRAM, "view", run, "--page", PAGE, "-o", page, "-q", "--page-limit", "0.63"], check=True)
     files[-1].unlink()

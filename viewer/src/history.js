@@ -1,5 +1,5 @@
-// The panel of the picked floe: what it is, where it came from, and its speed and contact force over time, as far as
-// the frames are in the page.
+// The panel of the picked floe: what it is, where it came from, and its speed and contact force over time: of the
+// frames that are in the page, and on a click of those in files beside it too.
 
 import { forceText } from './legend.js';
 
@@ -24,9 +24,41 @@ export class History {
             : death !== null ? `left at ${death.toFixed(1)} s` : 'there to the end';
         this.panel.innerHTML = `<b>Floe ${body.number}</b> ${origin}<br>${body.area.toFixed(1)} m², ${
             body.thickness.toFixed(2)} m thick, ${(body.area * body.thickness * body.density / 1000).toFixed(1)} t<br>${
-            fate}${body.moves ? '' : '<br>fixed'}<canvas></canvas>`;
+            fate}${body.moves ? '' : '<br>fixed'}<canvas></canvas><button id="whole" hidden></button>`;
         this.rows = new Map(); // by frame
+        this.loading = null;
+        this.panel.querySelector('button').onclick = () => this.load();
         this.more();
+    }
+
+    /** Frames of the body's life that are not in the curves because their files were not fetched. */
+    missing() {
+        const { body, record } = this, last = Math.min(body.death, record.frames.length), out = [];
+        for (let f = body.birth; f < last && body.moves; f++)
+            if (!record.frames[f].view && !this.rows.has(f)) out.push(f);
+        return out;
+    }
+
+    /** Fetches file after file; what each tells is taken when it arrives, for few are kept. */
+    async load() {
+        const { body, record, store } = this;
+        const files = [...new Set(this.missing().map((f) => record.frames[f].chunk))];
+        for (let k = 0; k < files.length && this.body === body; k++) {
+            this.loading = `file ${k + 1} of ${files.length} ...`;
+            this.offer();
+            if (await store.chunks.load(files[k]) && this.body === body) this.more();
+        }
+        if (this.body !== body) return;
+        this.loading = null;
+        this.offer();
+    }
+
+    /** The button that fetches the rest, or how far that is. */
+    offer() {
+        const button = this.panel.querySelector('button'), missing = this.missing().length;
+        button.hidden = missing === 0;
+        button.disabled = this.loading !== null;
+        button.textContent = this.loading ?? `load the other ${missing} frames of its history`;
     }
 
     /** What the frames that are in the page now tell beyond what is known. */
@@ -49,6 +81,7 @@ export class History {
         });
         if (this.sorted.length > 1) this.sorted[0].speed = this.sorted[1].speed;
         this.back = null;
+        this.offer();
     }
 
     curve(g, w, top, h, name, tell, colour, value) {

@@ -3,10 +3,10 @@
 // nothing of drawing.  Frames are found at once and decoded when they are shown.
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
-const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FRAME = 8, FORCES = 9, FRAME_BESIDE = 10;
-const EARLIER = [3, 5];
+const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9, FRAME_BESIDE = 10, FRAME = 11;
+const EARLIER = [3, 5, 8];
 const MATERIALS = ['ice', 'hull', 'wall'];
-const HEAD = 24, POSE = 16, ROW = 18, FRAME_HEAD = 48;
+const HEAD = 24, POSE = 16, FRAME_HEAD = 48;
 const NEVER = Infinity;
 
 /** Half floats of all 16-bit patterns. */
@@ -15,7 +15,8 @@ const HALF = Float32Array.from({ length: 65536 }, (_, h) => {
     return (h & 0x8000 ? -1 : 1) * ((h & 1023) + (field ? 1024 : 0)) * 2 ** (Math.max(field, 1) - 25);
 });
 
-/** A pose as src/sim/record_pose.h packs it: x y z, then the unit quaternion as x y z w (the order of three.js). */
+/** A pose as src/sim/record_pose.h packs it: x y z, then the unit quaternion as x y z w (the order of three.js).
+ *  @returns whether it is marked: in a frame, a contact force follows. */
 function unpackPose(view, at, out, to) {
     out[to] = view.getFloat32(at, true);
     out[to + 1] = view.getFloat32(at + 4, true);
@@ -29,6 +30,7 @@ function unpackPose(view, at, out, to) {
     else if (largest === 1) { out[to + 6] = a; out[to + 3] = d; out[to + 4] = b; out[to + 5] = c; }
     else if (largest === 2) { out[to + 6] = a; out[to + 3] = b; out[to + 4] = d; out[to + 5] = c; }
     else { out[to + 6] = a; out[to + 3] = b; out[to + 4] = c; out[to + 5] = d; }
+    return w2 >= 32768;
 }
 
 /** Walks a DataView from front to back. */
@@ -90,7 +92,8 @@ function readBlock(state, type, c, buffer, size) {
     case FRAME: addFrame(state, c, { view: c.view, forces: state.forces ?? -1 }); break;
     case FRAME_BESIDE: addFrame(state, c, { chunk: c.i32(), offset: c.i32() }); break;
     case EARLIER[0]:
-    case EARLIER[1]: throw new Error('an earlier version of Fram wrote it; run the scenario again');
+    case EARLIER[1]:
+    case EARLIER[2]: throw new Error('an earlier version of Fram wrote it; run the scenario again');
     }
 }
 
@@ -194,9 +197,10 @@ export class FrameStore {
 
 function decode(view, at, forces, frame) {
     const count = frame.order.length, poses = new Float32Array(7 * count), contact = new Float32Array(count);
-    for (let i = 0; i < count; i++, at += ROW) {
-        unpackPose(view, at, poses, 7 * i);
+    for (let i = 0; i < count; i++, at += POSE) {
+        if (!unpackPose(view, at, poses, 7 * i)) continue;
         contact[i] = HALF[view.getUint16(at + POSE, true)];
+        at += 2;
     }
     return { poses, contact, forces: forces < 0 ? [] : readForces(new Cursor(view, forces)) };
 }
@@ -221,12 +225,28 @@ export class Chunks {
         this.failed = failed;
         this.kept = new Map();
         this.asked = new Set();
+        this.awaited = new Map(); // by number: calls that wait for load()
         window.framChunk = (number, base64) => {
             if (this.kept.size >= KEPT) this.kept.delete(this.kept.keys().next().value);
             this.kept.set(number, new DataView(bytesOf(base64)));
             this.asked.delete(number);
             arrived();
+            this.settle(number, true);
         };
+    }
+
+    /** @returns {Promise<boolean>} true once the file is here; false when it is missing. */
+    load(number) {
+        if (this.kept.has(number)) return Promise.resolve(true);
+        return new Promise((done) => {
+            this.awaited.set(number, [...this.awaited.get(number) ?? [], done]);
+            this.ask(number);
+        });
+    }
+
+    settle(number, there) {
+        for (const done of this.awaited.get(number) ?? []) done(there);
+        this.awaited.delete(number);
     }
 
     get(number) {
@@ -246,7 +266,11 @@ export class Chunks {
         const script = document.createElement('script'), name = `${String(number).padStart(4, '0')}.js`;
         script.src = `${this.folder}/${name}`;
         script.onload = () => script.remove();
-        script.onerror = () => { script.remove(); this.failed(`${decodeURIComponent(this.folder)}/${name}`); };
+        script.onerror = () => {
+            script.remove();
+            this.failed(`${decodeURIComponent(this.folder)}/${name}`);
+            this.settle(number, false);
+        };
         this.asked.add(number);
         document.head.append(script);
     }
