@@ -314,6 +314,36 @@ START_TEST(floe_smaller_than_the_stencil)
 }
 END_TEST
 
+/* A floe of 10 km breaks as one of 100 m does at the same edge. */
+START_TEST(huge_floe)
+{
+    enum { MOST = 16 };
+    const double sizes[] = {100, 10000};
+    double area[2][MOST] = {{0}};
+    int count[2] = {0};
+    for (int i = 0; i < 2; i++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        double size = sizes[i];
+        int32_t row = plate(&r, size, size, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, row, (vec2){3, 0.1 - size / 2}, 1e7, AREA));
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        const fracture_event *e = &r.events.data[0];
+        ck_assert_int_eq(e->kind, FRACTURE_BENDING);
+        assert_absolute(e->parent_area, e->piece_area + e->area_lost - e->area_gained, 1e-9 * e->parent_area);
+        ck_assert(e->area_lost + e->area_gained <= 1e-3 * e->parent_area);
+        for (int32_t k = 0; k < r.floes.count && count[i] < MOST; k++)
+            if (r.floes.body[k] >= 0 && r.floes.area[k] < 1000)
+                area[i][count[i]++] = r.floes.area[k];
+        fracture_rig_free(&r);
+    }
+    ck_assert_int_eq(count[0], count[1]);
+    ck_assert_int_gt(count[0], 2);
+    for (int k = 0; k < count[0]; k++)
+        assert_relative(area[1][k], area[0][k], 1e-7);
+}
+END_TEST
+
 START_TEST(level_ice_stays)
 {
     fracture_rig r;
@@ -579,6 +609,6 @@ END_TEST
 
 TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, strong_enough, unbreakable, split_in_two,
           no_split, narrow_child, concave_shortest_crack, crack_from_a_corner, split_by_toughness, split_while_spinning,
-          wedge_angles, floe_smaller_than_the_stencil, level_ice_stays, several_patches, overlapping_patches,
+          wedge_angles, floe_smaller_than_the_stencil, huge_floe, level_ice_stays, several_patches, overlapping_patches,
           order_of_patches, several_floes, void_contacts, under_ice_contacts, six_hundred_bites, memory_runs_out,
           nothing_to_do)
