@@ -28,15 +28,10 @@ void image_ramp(double t, double rgb[3])
         rgb[k] = from[k] + part * (to[k] - from[k]);
 }
 
-void image_bar_text(double length, double arrow, char out[IMAGE_BAR_TEXT])
+void image_force_text(double newton, char out[IMAGE_FORCE_TEXT])
 {
-    double force = arrow > 0 ? length / arrow * 1e-3 : 0;
-    if (!(force > 0))
-        snprintf(out, IMAGE_BAR_TEXT, "%g m", length);
-    else if (force < 1000)
-        snprintf(out, IMAGE_BAR_TEXT, "%g m, as an arrow %.3g kN", length, force);
-    else
-        snprintf(out, IMAGE_BAR_TEXT, "%g m, as an arrow %.3g MN", length, force * 1e-3);
+    bool mega = newton >= 1e6;
+    snprintf(out, IMAGE_FORCE_TEXT, "%.3g %s", newton * (mega ? 1e-6 : 1e-3), mega ? "MN" : "kN");
 }
 
 #ifdef FRAM_HAVE_CAIRO

@@ -15,10 +15,9 @@ typedef struct image_colour {
     double r, g, b;
 } image_colour;
 
-/* What stands beside a scale bar: its length [m] and, with an arrow scale [m/N] above 0, the force that an arrow of the
-   bar's length stands for. */
-enum { IMAGE_BAR_TEXT = 64 };
-void image_bar_text(double length, double arrow, char out[IMAGE_BAR_TEXT]);
+/* "636 kN", or meganewtons from 1000 kN on. */
+enum { IMAGE_FORCE_TEXT = 24 };
+void image_force_text(double newton, char out[IMAGE_FORCE_TEXT]);
 
 /* A white page of width x height pixels. */
 fram_status image_begin(int width, int height, cairo_t **page, fram_error *error);

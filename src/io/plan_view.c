@@ -190,8 +190,8 @@ void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double h
 static void draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, double y)
 {
     double length = image_round_step(m->window.hi.x - m->window.lo.x, 6), px = length * m->scale;
-    char text[IMAGE_BAR_TEXT];
-    image_bar_text(length, arrow, text);
+    char text[48], force[IMAGE_FORCE_TEXT];
+    snprintf(text, sizeof text, "%g m", length);
     image_set_colour(page, ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);
@@ -200,6 +200,11 @@ static void draw_scale_bar(cairo_t *page, const map *m, double arrow, double x, 
     cairo_fill(page);
     image_set_colour(page, ink);
     image_text(page, x + px + 8, y, 12, ALIGN_LEFT, false, text);
+    if (!(arrow > 0))
+        return;
+    image_force_text(length / arrow, force);
+    snprintf(text, sizeof text, "as an arrow %s", force);
+    image_text(page, x, y + 14, 12, ALIGN_LEFT, false, text);
 }
 
 /* The axes of the global frame, for there is no north in a scenario. */

@@ -42,7 +42,7 @@ static int ascending(const void *a, const void *b)
 static void find_extent(video *v)
 {
     const scenario_domain *d = &v->s.domain;
-    vec2 lo = {INFINITY, INFINITY}, hi = {-INFINITY, -INFINITY};
+    vec2 lo = {HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL};
     for (int32_t i = 0; i < v->r.frame.poses.count; i++) {
         const replay_pose *p = &v->r.frame.poses.data[i];
         if (v->r.bodies.data[p->body].material == MATERIAL_WALL)

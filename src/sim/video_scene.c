@@ -182,8 +182,9 @@ static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_cam
 {
     double metres = vec3_length(vec3_sub(c->target, c->eye)) / v->focal * SOLID_FINE;
     double length = image_round_step(220 * metres, 2), px = length / metres;
-    char text[IMAGE_BAR_TEXT];
-    image_bar_text(length, arrow, text);
+    char text[64], force[IMAGE_FORCE_TEXT];
+    image_force_text(arrow > 0 ? length / arrow : 0, force);
+    snprintf(text, sizeof text, arrow > 0 ? "%g m, as an arrow %s" : "%g m", length, force);
     image_set_colour(page, ink);
     cairo_rectangle(page, x, y - 6, px, 6);
     cairo_fill(page);
