@@ -31,8 +31,8 @@ def case(out):
         "the ice's mass that of the start less what is booked; do the areas of every event close.",
         "Sums, Newton's law and the conservation of area and mass.",
         "Sums, Newton's law and areas to 1e-9 of the largest value, mass to 1e-10; to Newton's law is added what the "
-        "twelve digits of a speed in series.csv leave open (mass x 1e-11 m/s / dt). Ice lost and gained in an event is under "
-        "0.1 % of the floe, in a run under 0.5 % of what broke.",
+        "twelve digits of a speed in series.csv leave open (mass x 1e-11 m/s / dt). Ice lost and gained in an event is "
+        "under 0.1 % of the floe, in a run under 0.5 % of what broke.",
     )
     c.header = ["quantity", *SCENES]
     rows = {}

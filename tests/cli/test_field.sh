@@ -172,7 +172,12 @@ says "--cover" err
 
 # A bin of a histogram at fault is a line of its file.
 printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n6,12,-5\n' >sizes.csv
-printf 'ice: {source: packed, concentration: 0.6, populations: [{size: histogram, histogram: sizes.csv}]}\n' >packed.yaml
+cat >packed.yaml <<'END'
+ice:
+  source: packed
+  concentration: 0.6
+  populations: [{size: histogram, histogram: sizes.csv}]
+END
 expect 2 "$FRAM" field packed.yaml
 says "sizes.csv:3: the weights of a histogram must not be negative" err
 printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n7,12,5\n' >sizes.csv
