@@ -75,8 +75,9 @@ typedef struct pack_state {
     polygon_list zones;     /* grown */
     polygon_list obstacles; /* zones and convex pieces of what is present */
     polygon_list shapes;    /* about their centroids */
-    polygon_list covers;    /* of the shapes, with fewer vertices: what is packed */
+    polygon_list covers;    /* of the shapes, with fewer vertices: what is packed first */
     vec2_array cover;
+    bool ragged;            /* some cover is not the shape itself */
     field_floe_array drawn; /* of each shape */
     packing_pose_array poses;
     polygon_list floes;
@@ -150,13 +151,14 @@ static fram_status find_obstacles(context *ctx, overlay *o, const field_packed_r
 
 static polygon ring_of(const pack_state *s) { return (polygon){s->ring.data, s->ring.count}; }
 
-/* A ragged outline has many convex pieces, and hooks: what is packed in its place covers it with far fewer.  size: of
-   the floe, over the mean. */
+/* A ragged outline has many convex pieces, and hooks: what is packed first in its place covers it with far fewer.
+   size: of the floe, over the mean. */
 static bool add_cover(context *ctx, pack_state *s, double size)
 {
     polygon shape = ring_of(s);
     if (polygon_is_convex(shape))
         return polygon_list_push(ctx, &s->covers, shape);
+    s->ragged = true;
     double part = fmax(FINEST_COVER, fmin(COVER / size, COARSEST_COVER));
     return polygon_cover(ctx, shape, part, &s->cover) &&
            polygon_list_push(ctx, &s->covers, (polygon){s->cover.data, s->cover.count});
@@ -243,7 +245,8 @@ static fram_status place_floes(context *ctx, overlay *o, const field_packed_requ
     const packing_request packing = {.domain = r->domain,
                                      .periodic_x = r->periodic_x,
                                      .periodic_y = r->periodic_y,
-                                     .shapes = &s->covers,
+                                     .shapes = &s->shapes,
+                                     .coarse = s->ragged ? &s->covers : NULL,
                                      .obstacles = &s->obstacles,
                                      .seed = r->seed,
                                      .effort = r->effort};

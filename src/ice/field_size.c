@@ -135,8 +135,10 @@ static double power_quantile(const size_law *law, double u)
 static double power_part(const size_law *law, double d)
 {
     double lo = law->lo, hi = law->hi, b = law->exponent;
-    if (d <= lo || hi == lo)
+    if (hi == lo)
         return d < lo ? 0 : 1;
+    if (d <= lo)
+        return 0;
     if (d >= hi)
         return 1;
     if (fabs(b) < FLAT)

@@ -20,7 +20,8 @@ typedef struct sized_request {
 
 /* Appends cells: convex, counter-clockwise, tiling the domain (periodic ones reach over its edge), such that
    cells_shrink makes floes of the law of them, whose areas are within about a per cent of those drawn on the mean.
-   FRAM_ERROR_INPUT for a law that does not fit the domain, FRAM_ERROR_MEMORY. */
+   FRAM_ERROR_INPUT for a law that does not fit the domain or whose areas are missed by over two per cent on the mean,
+   FRAM_ERROR_MEMORY. */
 fram_status sized_cells(context *ctx, const sized_request *r, polygon_list *cells, fram_error *error);
 
 #endif

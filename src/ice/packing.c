@@ -15,11 +15,15 @@ enum { GROW_ROUNDS = 400 };
 /* New beginnings from other first places.  In a field of few floes a single large one decides, and they are cheap: as
    many as make up this many floes, and no more than the other number. */
 enum { START_FLOES = 4000, MOST_STARTS = 8 };
-/* Floes that overlap by this part of their size are hooked into each other and better parted by carrying one away.  In
-   a field of concave floes that is squeezed by no more than this on the mean, it is all that keeps them from lying
-   apart, and smaller overlaps count: then floes are carried so many times, with a short shaking after each. */
-static const double HOOKED = 0.05, UNHOOKED = 1e-3, SETTLED = 2e-3, UNHOOK_SHAKE = 0.05, UNHOOK_LENGTH = 0.1;
-enum { MOST_UNHOOKS = 10 };
+/* Floes that overlap by this part of their size are hooked into each other: the smaller is carried away before a new
+   shaking. */
+static const double HOOKED = 0.05;
+/* A field of concave floes that is squeezed by no more than SETTLED on the mean, relative to their size, is shaken
+   gently; one squeezed by less than HOOKED_ONLY has but a few pairs that hook into each other, by UNHOOKED at least:
+   their smaller floes shrink and grow again. */
+static const double SETTLED = 2.5e-3, GENTLE_SHAKE = 0.03, GENTLE_LENGTH = 0.1;
+static const double HOOKED_ONLY = 2e-4, UNHOOKED = 1e-3, REGROW_FROM = 0.6, REGROW_SHAKE = 0.02;
+enum { MOST_FINISHES = 12, REGROW_ROUNDS = 100 };
 /* A field squeezed by more than this part of a floe's size after shaking is beyond hope. */
 static const double HOPELESS = 0.03;
 /* From the seed of one beginning to that of the next: far from any number that is given as a seed. */
@@ -118,27 +122,65 @@ static bool find_fit(pack_work *w, double *scale)
     return true;
 }
 
-static bool unhook(pack_work *w, bool *apart, int32_t *moves)
+/* Floes that hook into others shrink, and grow again at the same place, where they push the others aside instead. */
+static bool unhook(pack_work *w)
 {
-    for (int k = 0; k < MOST_UNHOOKS && !*apart && w->concave && mean_squeeze(w) < SETTLED; k++)
-        if (!pack_move_squeezed(w, UNHOOKED, moves) || !shake(w, UNHOOK_SHAKE, UNHOOK_LENGTH, moves) ||
+    bool apart;
+    pack_shrink_hooked(w, UNHOOKED, REGROW_FROM);
+    for (int32_t k = 1; k <= REGROW_ROUNDS; k++) {
+        for (int32_t i = 0; i < w->movable; i++) {
+            pack_body *b = &w->bodies.data[i];
+            if (b->grown < 1)
+                b->grown = k < REGROW_ROUNDS ? REGROW_FROM + (1 - REGROW_FROM) * k / REGROW_ROUNDS : 1;
+        }
+        if (!do_round(w, REGROW_SHAKE, &apart))
+            return false;
+    }
+    return true;
+}
+
+/* What settled almost: a few hooked pairs are parted, a slight squeeze is shaken gently. */
+static bool finish(pack_work *w, double effort, bool *apart, int32_t *moves)
+{
+    for (int k = 0; k < MOST_FINISHES && !*apart && w->concave; k++) {
+        double squeeze = mean_squeeze(w);
+        if (squeeze > SETTLED)
+            break;
+        if (!(squeeze < HOOKED_ONLY ? unhook(w) : shake(w, GENTLE_SHAKE, effort * GENTLE_LENGTH, moves)) ||
             !settle(w, apart))
             return false;
+    }
     return true;
+}
+
+/* First places; coarse shapes are packed before the fine ones. */
+static bool begin(pack_work *w, double effort, bool *apart, int32_t *moves)
+{
+    w->coarse = w->request->coarse != NULL;
+    if (!pack_bodies_make(w))
+        return false;
+    w->gap = GAP * w->mean_size;
+    if (!pack_start(w) || !pack_sort_bodies(w) || (w->concave && !grow(w, effort, moves)) ||
+        !pack_find_pairs(w, true) || !settle(w, apart))
+        return false;
+    if (!w->coarse)
+        return true;
+    if (!*apart && (!shake(w, SHAKE, effort, moves) || !settle(w, apart)))
+        return false;
+    return pack_refine(w) && pack_find_pairs(w, true) && settle(w, apart) && finish(w, effort, apart, moves);
 }
 
 /* One beginning: settle, then shake ever longer; *apart: it came to an end, *hopeless: another one need not be tried.
    false: no memory. */
 static bool solve_once(pack_work *w, double effort, packing_report *report, bool *apart, bool *hopeless)
 {
-    if (!pack_start(w) || !pack_sort_bodies(w) || (w->concave && !grow(w, effort, &report->moves)) ||
-        !pack_find_pairs(w, true) || !settle(w, apart))
+    if (!begin(w, effort, apart, &report->moves))
         return false;
     for (int k = 0; k < ATTEMPTS && !*apart && !*hopeless; k++) {
         if (k > 0 && !pack_move_squeezed(w, HOOKED, &report->moves))
             return false;
         if (!shake(w, SHAKE, effort * (1 << k), &report->moves) || !settle(w, apart) ||
-            !unhook(w, apart, &report->moves))
+            !finish(w, effort, apart, &report->moves))
             return false;
         *hopeless = mean_squeeze(w) > HOPELESS;
     }
@@ -150,7 +192,7 @@ static bool solve(pack_work *w, packing_report *report)
 {
     bool apart = false, hopeless = false;
     double effort = w->request->effort > 0 ? w->request->effort : 1;
-    int32_t starts = w->movable > 0 ? START_FLOES / w->movable : 1;
+    int32_t floes = polygon_list_count(w->request->shapes), starts = floes > 0 ? START_FLOES / floes : 1;
     starts = starts < 1 ? 1 : starts > MOST_STARTS ? MOST_STARTS : starts;
     for (int32_t k = 0; k < starts && !apart && !hopeless; k++) {
         w->seed = w->request->seed + (uint64_t)k * ANOTHER_SEED;
@@ -164,30 +206,19 @@ static bool solve(pack_work *w, packing_report *report)
     return true;
 }
 
-static void copy_poses(const pack_work *w, packing_pose_array *poses)
-{
-    for (int32_t i = 0; i < w->movable; i++)
-        poses->data[w->shape.data[i]] = (packing_pose){w->bodies.data[i].centre, w->bodies.data[i].turn};
-}
-
 fram_status packing_solve(context *ctx, overlay *o, const packing_request *request, packing_pose_array *poses,
                           packing_report *report, fram_error *error)
 {
     box2 d = request->domain;
-    pack_work w = {.ctx = ctx, .request = request, .scale = 1};
+    pack_work w = {.ctx = ctx, .request = request, .overlay = o, .error = error, .scale = 1};
     w.period = (vec2){request->periodic_x ? d.hi.x - d.lo.x : 0, request->periodic_y ? d.hi.y - d.lo.y : 0};
     *report = (packing_report){0};
-    fram_status status = pack_bodies_make(&w, o, error);
-    w.gap = GAP * w.mean_size;
-    if (status == FRAM_OK && (!solve(&w, report) || !array_resize(ctx, poses, w.movable)))
-        status = error_memory(error);
-    if (status == FRAM_OK) {
-        copy_poses(&w, poses);
-        if (!report->done && !find_fit(&w, &report->scale))
-            status = error_memory(error);
-    }
+    bool good = solve(&w, report) && array_resize(ctx, poses, w.movable);
+    if (good)
+        pack_poses(&w, poses);
+    good = good && (report->done || find_fit(&w, &report->scale));
     pack_work_free(&w);
-    return status;
+    return good ? FRAM_OK : w.status != FRAM_OK ? w.status : error_memory(error);
 }
 
 bool packing_outline(context *ctx, polygon shape, packing_pose pose, vec2_array *out)

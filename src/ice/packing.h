@@ -15,6 +15,7 @@ typedef struct packing_request {
     box2 domain;                   /* [m] */
     bool periodic_x, periodic_y;   /* the field repeats itself beyond the edge; otherwise the edge is a wall */
     const polygon_list *shapes;    /* simple, counter-clockwise, each about its centroid, at its size [m] */
+    const polygon_list *coarse;    /* the shapes with fewer vertices: packed first, as that costs less; may be NULL */
     const polygon_list *obstacles; /* convex, fixed; may be NULL */
     uint64_t seed;
     double effort; /* lengths of the shaking, over the usual ones; 0: 1 */

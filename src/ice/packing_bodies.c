@@ -54,56 +54,57 @@ static double farthest(polygon p)
     return sqrt(most);
 }
 
-static fram_status add_shape(pack_work *w, overlay *o, polygon shape, polygon_list *pieces, fram_error *error)
+static bool add_shape(pack_work *w, polygon shape, polygon_list *pieces)
 {
     polygon_moments m = polygon_moments_of(shape);
     int32_t body = w->bodies.count;
     double inertia = (m.xx + m.yy) / m.area; /* radius of gyration, squared */
-    pack_body b = {.turn = {1, 0}, .radius = farthest(shape), .size = sqrt(m.area), .piece = w->pieces.count};
+    pack_body b = {
+        .turn = {1, 0}, .radius = farthest(shape), .size = sqrt(m.area), .grown = 1, .piece = w->pieces.count};
     /* A mass like the diameter, not like the area: a large floe shall give way to many small ones. */
     b.weight = 1 / b.size;
     b.spin_weight = b.weight / inertia;
     polygon_list_clear(pieces);
     if (polygon_is_convex(shape) && shape.count <= PIECE_VERTICES) {
         if (!add_piece(w, body, shape))
-            return error_memory(error);
+            return false;
     } else {
-        if (!o)
-            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "shapes", "shape %d is concave; it needs an overlay",
-                             (int)body);
-        fram_status status = overlay_convex_pieces(o, shape, 0, PIECE_VERTICES, pieces, NULL, error);
-        if (status != FRAM_OK)
-            return status;
+        if (!w->overlay) {
+            w->status = error_set(w->error, FRAM_ERROR_INPUT, NULL, 0, "shapes",
+                                  "shape %d is concave; it needs an overlay", (int)body);
+            return false;
+        }
+        w->status = overlay_convex_pieces(w->overlay, shape, 0, PIECE_VERTICES, pieces, NULL, w->error);
+        if (w->status != FRAM_OK)
+            return false;
         for (int32_t i = 0; i < polygon_list_count(pieces); i++)
             if (!add_piece(w, body, polygon_list_get(pieces, i)))
-                return error_memory(error);
+                return false;
     }
     b.piece_count = w->pieces.count - b.piece;
     if (!array_push(w->ctx, &w->bodies, b))
-        return error_memory(error);
+        return false;
     mark_seams(w, &b);
-    return FRAM_OK;
+    return true;
 }
 
 /* An obstacle stands where it is given. */
-static fram_status add_obstacle(pack_work *w, polygon zone, fram_error *error)
+static bool add_obstacle(pack_work *w, polygon zone)
 {
     pack_body b = {
         .turn = {1, 0}, .radius = 0, .size = sqrt(polygon_area(zone)), .piece = w->pieces.count, .piece_count = 1};
-    if (!add_piece(w, w->bodies.count, zone) || !array_push(w->ctx, &w->bodies, b))
-        return error_memory(error);
-    return FRAM_OK;
+    return add_piece(w, w->bodies.count, zone) && array_push(w->ctx, &w->bodies, b);
 }
 
-fram_status pack_bodies_make(pack_work *w, overlay *o, fram_error *error)
+static bool add_bodies(pack_work *w, const polygon_list *shapes)
 {
-    const packing_request *r = w->request;
+    const polygon_list *obstacles = w->request->obstacles;
     polygon_list pieces = {0};
-    fram_status status = FRAM_OK;
+    bool good = true;
     double sum = 0, least = HUGE_VAL;
-    for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(r->shapes); i++) {
-        status = add_shape(w, o, polygon_list_get(r->shapes, i), &pieces, error);
-        if (status == FRAM_OK) {
+    for (int32_t i = 0; good && i < polygon_list_count(shapes); i++) {
+        good = add_shape(w, polygon_list_get(shapes, i), &pieces);
+        if (good) {
             sum += w->bodies.data[i].size;
             least = fmin(least, w->bodies.data[i].size);
         }
@@ -113,18 +114,52 @@ fram_status pack_bodies_make(pack_work *w, overlay *o, fram_error *error)
     w->mean_size = w->movable > 0 ? sum / w->movable : 1;
     w->least_size = w->movable > 0 ? least : 1;
     w->grain = fmin(w->mean_size, GRAIN * w->least_size);
-    for (int32_t i = 0; status == FRAM_OK && r->obstacles && i < polygon_list_count(r->obstacles); i++)
-        status = add_obstacle(w, polygon_list_get(r->obstacles, i), error);
+    for (int32_t i = 0; good && obstacles && i < polygon_list_count(obstacles); i++)
+        good = add_obstacle(w, polygon_list_get(obstacles, i));
     polygon_list_free(w->ctx, &pieces);
-    if (status != FRAM_OK)
-        return status;
-    if (!array_resize(w->ctx, &w->shape, w->movable) || !array_resize(w->ctx, &w->vertex, w->local.count) ||
-        !array_resize(w->ctx, &w->normal, w->local.count) || !array_resize(w->ctx, &w->steps, w->bodies.count) ||
-        !array_resize(w->ctx, &w->squeeze, w->bodies.count) || !array_resize(w->ctx, &w->pair_centre, w->bodies.count))
-        return error_memory(error);
+    return good;
+}
+
+bool pack_bodies_make(pack_work *w)
+{
+    const packing_request *r = w->request;
+    const polygon_list *shapes = w->coarse ? r->coarse : r->shapes;
+    array_clear(&w->bodies);
+    array_clear(&w->pieces);
+    array_clear(&w->local);
+    array_clear(&w->local_normal);
+    array_clear(&w->seam);
+    if (!add_bodies(w, shapes) || !array_resize(w->ctx, &w->shape, w->movable) ||
+        !array_resize(w->ctx, &w->vertex, w->local.count) || !array_resize(w->ctx, &w->normal, w->local.count) ||
+        !array_resize(w->ctx, &w->steps, w->bodies.count) || !array_resize(w->ctx, &w->squeeze, w->bodies.count) ||
+        !array_resize(w->ctx, &w->pair_centre, w->bodies.count))
+        return false;
     for (int32_t i = 0; i < w->movable; i++)
         w->shape.data[i] = i;
-    return FRAM_OK;
+    return true;
+}
+
+bool pack_refine(pack_work *w)
+{
+    packing_pose_array poses = {0};
+    bool good = array_resize(w->ctx, &poses, w->movable);
+    if (good) {
+        pack_poses(w, &poses);
+        w->coarse = false;
+        good = pack_bodies_make(w);
+    }
+    for (int32_t i = 0; good && i < w->movable; i++) {
+        w->bodies.data[i].centre = poses.data[i].centre;
+        w->bodies.data[i].turn = poses.data[i].turn;
+    }
+    array_free(w->ctx, &poses);
+    return good && pack_sort_bodies(w);
+}
+
+void pack_poses(const pack_work *w, packing_pose_array *poses)
+{
+    for (int32_t i = 0; i < w->movable; i++)
+        poses->data[w->shape.data[i]] = (packing_pose){w->bodies.data[i].centre, w->bodies.data[i].turn};
 }
 
 /* Appends body i of `from` with its pieces; there is room. */
@@ -186,7 +221,7 @@ bool pack_sort_bodies(pack_work *w)
 void pack_place_body(pack_work *w, int32_t body)
 {
     const pack_body *b = &w->bodies.data[body];
-    double scale = body < w->movable ? w->scale : 1;
+    double scale = body < w->movable ? w->scale * b->grown : 1;
     double c = b->turn.x * scale, s = b->turn.y * scale;
     for (int32_t p = b->piece; p < b->piece + b->piece_count; p++) {
         pack_piece *piece = &w->pieces.data[p];

@@ -196,6 +196,17 @@ static bool list_hooked(pack_work *w, double least, squeezed_array *list)
     return true;
 }
 
+void pack_shrink_hooked(pack_work *w, double least, double part)
+{
+    for (int32_t i = 0; i < w->rows.count; i++) {
+        const pack_row *r = &w->rows.data[i];
+        bool other = r->b >= 0 && r->b < w->movable && w->bodies.data[r->b].size < w->bodies.data[r->a].size;
+        pack_body *b = &w->bodies.data[other ? r->b : r->a];
+        if (-(r->gap + w->gap) > least * b->size)
+            b->grown = part;
+    }
+}
+
 static bool list_squeezed(pack_work *w, squeezed_array *list)
 {
     for (int32_t i = 0; i < w->movable; i++) {

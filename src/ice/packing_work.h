@@ -13,6 +13,7 @@ typedef struct pack_body {
     double weight, spin_weight; /* inverse mass and moment of inertia, in units of their own */
     double radius;              /* [m] */
     double size;                /* square root of the area [m] */
+    double grown;               /* its part of that size, while it is parted from what it hooks into; 1 */
     int32_t piece, piece_count;
 } pack_body;
 
@@ -61,9 +62,13 @@ typedef struct pack_grid {
 typedef struct pack_work {
     context *ctx;
     const packing_request *request;
+    overlay *overlay;  /* may be NULL */
+    fram_error *error; /* and its status, when it is not for memory that a function returned false */
+    fram_status status;
     vec2 period;       /* 0: walls */
     uint64_t seed;     /* of this beginning */
     int32_t movable;   /* bodies from here on are obstacles */
+    bool coarse;       /* the bodies are the request's coarse shapes */
     bool concave;      /* some floe has several pieces */
     int32_array shape; /* of each movable body: the request's */
     double scale;      /* of the floes: 1 but while concave ones grow, or an impossible field is shrunk until it fits */
@@ -91,9 +96,14 @@ typedef struct pack_work {
     int32_t round;
 } pack_work;
 
-/* packing_bodies.c */
-fram_status pack_bodies_make(pack_work *w, overlay *o, fram_error *error);
+/* packing_bodies.c: bodies of the shapes, coarse or not, replace all that there were; false: no memory, or
+   w->status. */
+bool pack_bodies_make(pack_work *w);
+/* Finer shapes in place of coarse ones, as these lie; false: no memory, or w->status. */
+bool pack_refine(pack_work *w);
 void pack_work_free(pack_work *w);
+/* By the request's shapes; there is room. */
+void pack_poses(const pack_work *w, packing_pose_array *poses);
 /* Vertices, normals and boxes as they lie. */
 void pack_place(pack_work *w);
 void pack_place_body(pack_work *w, int32_t body);
@@ -123,5 +133,7 @@ void pack_solve_rows(pack_work *w, double shake);
    each pair that overlaps by more than this part of its size to the widest water there is, whether it helps at once or
    not.  Adds to *moves; false: no memory. */
 bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves);
+/* Of each pair that overlaps by more than `least` of the smaller one's size, that one becomes `part` as large. */
+void pack_shrink_hooked(pack_work *w, double least, double part);
 
 #endif

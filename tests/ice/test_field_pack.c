@@ -85,7 +85,7 @@ START_TEST(wide_sizes_at_90_percent_for_twenty_seeds)
     const field_population p = {.share = 1, .size = power, .shape = convex};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
         made_field f;
-        field_packed_request r = request_of(&p, 1, 0.9, 150, seed);
+        field_packed_request r = request_of(&p, 1, 0.9, 135, seed);
         r.periodic_x = r.periodic_y = true; /* without the water that walls keep: as in a large field */
         assert_ok(make(&f, &r), f.error);
         check_promises(&f, &r);
@@ -99,7 +99,7 @@ START_TEST(wide_sizes_at_85_percent_between_walls_for_twenty_seeds)
     const field_population p = {.share = 1, .size = power, .shape = convex};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
         made_field f;
-        field_packed_request r = request_of(&p, 1, 0.85, 150, seed);
+        field_packed_request r = request_of(&p, 1, 0.85, 120, seed);
         assert_ok(make(&f, &r), f.error);
         check_promises(&f, &r);
         drop(&f);
@@ -112,7 +112,7 @@ START_TEST(nearly_equal_sizes_at_80_percent_for_twenty_seeds)
     const field_population p = {.share = 1, .size = nearly_equal, .shape = convex};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
         made_field f;
-        field_packed_request r = request_of(&p, 1, 0.8, 200, seed);
+        field_packed_request r = request_of(&p, 1, 0.8, 150, seed);
         assert_ok(make(&f, &r), f.error);
         check_promises(&f, &r);
         drop(&f);
@@ -140,7 +140,7 @@ START_TEST(concave_templates_at_75_percent_for_twenty_seeds)
     const field_population p = {.share = 1, .size = power, .shape = {.templates = &templates}};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
         made_field f;
-        field_packed_request r = request_of(&p, 1, 0.75, 150, seed);
+        field_packed_request r = request_of(&p, 1, 0.75, 110, seed);
         assert_ok(make(&f, &r), f.error);
         check_promises(&f, &r);
         drop(&f);
@@ -156,9 +156,9 @@ START_TEST(brash_at_80_percent_for_twenty_seeds)
                                 .shape = {4, 7, 1.5, NULL}};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
         made_field f;
-        field_packed_request r = request_of(&p, 1, 0.8, 20, seed);
+        field_packed_request r = request_of(&p, 1, 0.8, 15, seed);
         assert_ok(make(&f, &r), f.error);
-        ck_assert_int_gt(f.report.field.floes, 400);
+        ck_assert_int_gt(f.report.field.floes, 200);
         check_promises(&f, &r);
         drop(&f);
     }
@@ -173,7 +173,7 @@ START_TEST(mixed_populations_at_85_percent_for_twenty_seeds)
         {.share = 1, .size = {.kind = SIZE_CONSTANT, .mean = 3}, .shape = {4, 6, 1.3, NULL}}};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
         made_field f;
-        field_packed_request r = request_of(p, 3, 0.85, 150, seed);
+        field_packed_request r = request_of(p, 3, 0.85, 130, seed);
         assert_ok(make(&f, &r), f.error);
         check_promises(&f, &r);
         drop(&f);

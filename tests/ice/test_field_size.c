@@ -39,6 +39,17 @@ START_TEST(part_and_quantile_are_inverse)
 }
 END_TEST
 
+/* A floe of the very smallest size is no proof against a law. */
+START_TEST(the_least_diameter_of_a_power_law_has_nothing_under_it)
+{
+    double sample[4] = {4, size_law_quantile(&laws[3], 0.375), size_law_quantile(&laws[3], 0.625),
+                        size_law_quantile(&laws[3], 0.875)};
+    ck_assert(laws[3].kind == SIZE_POWER && laws[3].lo == 4);
+    assert_bits(size_law_part(&laws[3], 4), 0);
+    assert_absolute(size_law_distance(&laws[3], sample, 4), 0.25, 1e-9);
+}
+END_TEST
+
 START_TEST(quantiles_have_their_closed_forms)
 {
     /* (1 - u (1 - 10^-1.7))^(-1/1.7) 4 at the median */
@@ -104,5 +115,5 @@ START_TEST(the_distance_sees_a_wrong_sample)
 END_TEST
 
 TEST_MAIN("field_size", the_normal_distribution_is_right, part_and_quantile_are_inverse,
-          quantiles_have_their_closed_forms, samples_follow_their_law_and_meet_the_area, too_many_floes_are_refused,
-          the_distance_sees_a_wrong_sample)
+          the_least_diameter_of_a_power_law_has_nothing_under_it, quantiles_have_their_closed_forms,
+          samples_follow_their_law_and_meet_the_area, too_many_floes_are_refused, the_distance_sees_a_wrong_sample)

@@ -33,6 +33,16 @@ static void check(context *ctx, const field_request *q, const polygon_list *floe
     ck_assert_int_gt(part.floes, 400);
 }
 
+/* A field that is as it should be; the caller frees the floes. */
+static field_report make_good(context *ctx, const field_request *q, polygon_list *floes)
+{
+    field_report r;
+    fram_error e = {0};
+    assert_ok(field_voronoi(ctx, NULL, q, floes, &r, &e), e);
+    check(ctx, q, floes, &r);
+    return r;
+}
+
 START_TEST(twenty_seeds_of_a_power_law_at_98_percent)
 {
     context ctx;
@@ -41,10 +51,7 @@ START_TEST(twenty_seeds_of_a_power_law_at_98_percent)
         field_request q = request_of(&power, 0.98, seed);
         q.domain = (box2){{-100, 50}, {120, 250}};
         polygon_list floes = {0};
-        field_report r;
-        fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
-        check(&ctx, &q, &floes, &r);
+        make_good(&ctx, &q, &floes);
         polygon_list_free(&ctx, &floes);
     }
 }
@@ -59,10 +66,7 @@ START_TEST(other_laws)
     for (int i = 0; i < 2; i++) {
         field_request q = request_of(laws[i], 0.9, 3);
         polygon_list floes = {0};
-        field_report r;
-        fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
-        check(&ctx, &q, &floes, &r);
+        make_good(&ctx, &q, &floes);
         polygon_list_free(&ctx, &floes);
     }
 }
@@ -79,10 +83,7 @@ START_TEST(sizes_at_lower_concentrations)
         q.domain = (box2){{0, 0}, {270, 270}};
         q.periodic = i % 2;
         polygon_list floes = {0};
-        field_report r;
-        fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
-        check(&ctx, &q, &floes, &r);
+        make_good(&ctx, &q, &floes);
         polygon_list_free(&ctx, &floes);
     }
 }
@@ -97,11 +98,7 @@ START_TEST(without_a_seam)
     q.periodic = true;
     polygon_list floes = {0};
     vec2_array ring = {0};
-    field_report r;
-    fram_error e = {0};
-    assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
-    check(&ctx, &q, &floes, &r);
-    int32_t count = r.floes, across = 0;
+    int32_t count = make_good(&ctx, &q, &floes).floes, across = 0;
     for (int32_t i = 0; i < count; i++) {
         polygon p = polygon_list_get(&floes, i);
         box2 b = polygon_bounds(p);
@@ -155,6 +152,12 @@ START_TEST(wrong_laws_are_refused)
     assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "cover 1.998");
     q = request_of(&dust, 0.9, 1);
     assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain smaller");
+    /* A floe of half the domain's width among small ones: walls leave it no cell of its area. */
+    const size_law wide_law = {.kind = SIZE_POWER, .lo = 1, .hi = 60, .exponent = 1.7};
+    q = request_of(&wide_law, 0.9, 1);
+    q.domain = (box2){{0, 0}, {100, 100}};
+    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "off by");
+    ck_assert_msg(strstr(e.message, "a narrower law") != NULL, "%s", e.message);
     q = request_of(&none, 0.9, 1);
     assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "must be positive");
     ck_assert_int_eq(polygon_list_count(&floes), 0);
