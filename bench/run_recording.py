@@ -29,10 +29,10 @@ floe and frame.
 
 """
 AFTER = """
-The demo is at the bound: single runs of it lay between 4.1 and 5.1 % on 2026-11-22. What does not grow with the run is
-about 0.1 s, half of it for `plan.png`: a run of a second or two is not within the bound on time (120 s of the supply
-ship, 1.0 s, 11 %; 24 s of the 10,000 floes, 2.1 s, 6 %), nor one of a few frames within that on bytes, for outlines,
-written once, take about 130 bytes a floe. Why it is as it is stands in [decision
+The demo is near the bound: single runs of it lay between 4.1 and 5.1 % earlier on 2026-11-22, on a busier machine.
+What does not grow with the run is about 0.1 s, half of it for `plan.png`: a run of a second or two is not within the
+bound on time (120 s of the supply ship, 1.0 s, 11 %; 24 s of the 10,000 floes, 2.1 s, 6 %), nor one of a few frames
+within that on bytes, for outlines, written once, take about 130 bytes a floe. Why it is as it is stands in [decision
 0050](../../docs/decisions/0050-recording-tells-its-cost.md).
 """
 MOST_PART, MOST_BYTES = 5.0, 20.0

@@ -43,6 +43,7 @@ LIBRARY_ROOMS = {
     "geos_c.h": {"geometry"},
     "libfyaml.h": {"io"},
     "cairo": {"io"},
+    "png.h": {"io"},
     "zlib.h": {"base", "io"},
     "nettle/": {"base"},
     "pthread.h": {"base"},

@@ -20,6 +20,7 @@ core libgeos-dev        pc:geos
 core libfyaml-dev       pc:libfyaml
 core libcairo2-dev      pc:cairo
 core libnetcdf-dev      pc:netcdf
+core libpng-dev         pc:libpng
 core zlib1g-dev         pc:zlib
 core nettle-dev         pc:nettle
 core check              pc:check

@@ -21,6 +21,11 @@
 #else
 #define PART_LIBFYAML ""
 #endif
+#ifdef FRAM_HAVE_LIBPNG
+#define PART_LIBPNG ", libpng " FRAM_HAVE_LIBPNG
+#else
+#define PART_LIBPNG ""
+#endif
 #ifdef FRAM_HAVE_NETCDF
 #define PART_NETCDF ", netcdf " FRAM_HAVE_NETCDF
 #define LACK_NETCDF ""
@@ -39,7 +44,7 @@
 #define PART_ZLIB ""
 #endif
 
-static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_NETCDF PART_NETTLE PART_ZLIB;
+static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_LIBPNG PART_NETCDF PART_NETTLE PART_ZLIB;
 static const char lacks[] = LACK_CAIRO LACK_NETCDF;
 
 const char *build_parts(void) { return sizeof parts > 2 ? parts + 2 : "none"; }

@@ -8,6 +8,7 @@ START_TEST(parts_name_what_the_build_cannot_do_without)
 {
     ck_assert_ptr_nonnull(strstr(build_parts(), "geos "));
     ck_assert_ptr_nonnull(strstr(build_parts(), "libfyaml "));
+    ck_assert_ptr_nonnull(strstr(build_parts(), "libpng "));
     ck_assert_ptr_nonnull(strstr(build_parts(), "nettle "));
     ck_assert_ptr_nonnull(strstr(build_parts(), "zlib "));
     ck_assert_int_ne(build_parts()[0], ',');

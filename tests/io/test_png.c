@@ -80,4 +80,46 @@ START_TEST(pixels_come_back)
 }
 END_TEST
 
-TEST_MAIN("png", pixels_come_back)
+static const unsigned char grey[4 * 64 * 64] = {[77] = 0x80};
+
+START_TEST(memory_that_runs_out_leaves_nothing)
+{
+    const png_pixels pixels = {grey, 4 * 64, 64, 64};
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        fram_error error = {0};
+        text_buffer file = {0};
+        fram_status status = png_encode(&ctx, &pixels, &file, &error);
+        bool failed = memory.failed;
+        ck_assert_int_eq(status, failed ? FRAM_ERROR_MEMORY : FRAM_OK);
+        ck_assert_int_eq(file.count == 0, failed);
+        ck_assert_int_eq(error.message[0] != '\0', failed);
+        text_free(&ctx, &file);
+        ck_assert_int_eq(memory.live, 0);
+        if (!failed)
+            break;
+    }
+}
+END_TEST
+
+START_TEST(what_the_library_refuses_is_told_with_its_reason)
+{
+    enum { WIDTH = 1000001 };
+    unsigned char *data = calloc(WIDTH, 4);
+    ck_assert_ptr_nonnull(data);
+    const png_pixels pixels = {data, 4 * (size_t)WIDTH, WIDTH, 1};
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    text_buffer file = {0};
+    ck_assert_int_eq(png_encode(&ctx, &pixels, &file, &error), FRAM_ERROR_MEMORY);
+    ck_assert_ptr_nonnull(strstr(error.message, "1000001 x 1 pixels: "));
+    ck_assert_ptr_nonnull(strstr(error.message, "IHDR"));
+    ck_assert_int_eq(file.count, 0);
+    free(data);
+}
+END_TEST
+
+TEST_MAIN("png", pixels_come_back, memory_that_runs_out_leaves_nothing,
+          what_the_library_refuses_is_told_with_its_reason)
