@@ -1,6 +1,7 @@
 /* fram: the table of commands and the help that teaches them. */
 #include "cli/cli.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -150,6 +151,8 @@ int main(int argc, char **argv)
         print_help(stderr);
         return EXIT_BAD_INPUT;
     }
+    /* A limit on the size of files is an error of the write that meets it, with its message and its tidying up. */
+    signal(SIGXFSZ, SIG_IGN);
     common_options common = {0};
     for (int i = 1; i < argc; i++)
         common.json = common.json || strcmp(argv[i], "--json") == 0;

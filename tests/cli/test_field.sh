@@ -50,7 +50,7 @@ if [ -w /dev/full ]; then
     same "$(value 'j["error"]["file"], j["error"]["status"]')" "full io" "a full disk"
     [ -L full ] || fail "the link to a device was replaced"
 fi
-if "$FRAM" --version | grep -q pictures; then
+if "$FRAM" --version | grep -q cairo; then
     expect 0 "$FRAM" field once.geojson --draw field.png
     head -c 8 field.png | od -An -tx1 | grep -q "89 50 4e 47" || fail "field.png is no PNG"
     expect 2 "$FRAM" field once.geojson --draw no/such/folder/field.png
@@ -112,7 +112,7 @@ printf '%s\n' 'run: {duration: 1}' 'vessel: {present: false}' \
 expect 0 "$FRAM" field managed.yaml --json
 same "$(value 'abs(j["made"]["concentration"] - 0.98) < 1e-6, j["made"]["largest_overlap_m"]')" "True 0" "managed ice"
 same "$(value 'j["made"]["populations"][0]["kolmogorov_smirnov"] < 0.03, j["floes"] > 800')" "True True" cells
-if "$FRAM" --version | grep -q pictures; then
+if "$FRAM" --version | grep -q cairo; then
     expect 0 "$FRAM" field packed.yaml --draw field.png --cover cover.png --cell 10 --json
     for picture in field.png cover.png; do
         head -c 8 $picture | od -An -tx1 | grep -q "89 50 4e 47" || fail "$picture is no PNG"

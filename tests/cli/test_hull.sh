@@ -65,10 +65,19 @@ if [ -r "$fpso" ]; then
 fi
 
 # A drawing.
-if "$FRAM" --version | grep -q pictures; then
+if "$FRAM" --version | grep -q cairo; then
     expect 0 "$FRAM" hull ship.obj --draw ship.png
     head -c 8 ship.png | od -An -tx1 | grep -q "89 50 4e 47" || fail "ship.png is no PNG"
-    expect 1 "$FRAM" hull ship.obj --draw no/such/folder/ship.png
+    expect 2 "$FRAM" hull ship.obj --draw no/such/folder/ship.png
+    # A picture that finds no room is one error and no file, and leaves the picture of before as it was.
+    cp ship.png before.png
+    for picture in half.png ship.png; do
+        expect 1 bash -c 'ulimit -f 4 && exec "$@"' - "$FRAM" hull ship.obj --draw $picture --force
+        says "cannot write" err
+        [ ! -e $picture.new ] || fail "a half-written $picture.new is left"
+    done
+    [ ! -e half.png ] || fail "a half-written picture stands at its place"
+    cmp -s ship.png before.png || fail "a picture that could not be written took the one of before"
 fi
 
 # A hole is refused with its place, and filled on request.
