@@ -69,8 +69,6 @@ fram_status csv_continue(context *ctx, const char *path, uint64_t length, const 
     if (status == FRAM_OK) {
         w->column_count = count;
         status = check_file(w, &header, length, error);
-        if (status == FRAM_OK)
-            status = file_cut(&w->file, length, error);
         if (status != FRAM_OK)
             file_abandon(&w->file);
     }

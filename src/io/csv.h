@@ -21,8 +21,8 @@ typedef struct csv_writer {
 /* A new file with its header row. */
 fram_status csv_create(context *ctx, const char *path, const csv_column *columns, int32_t count, csv_writer *w,
                        fram_error *error);
-/* Continue a file that is cut to `length` (a csv_length of before).  FRAM_ERROR_INPUT when it is shorter, its header
-   row is another or the cut is not after the end of a row. */
+/* Open a file to be continued at `length` (a csv_length of before), once the caller has cut it there by file_cut.
+   FRAM_ERROR_INPUT when it is shorter, its header row is another or the cut is not after the end of a row. */
 fram_status csv_continue(context *ctx, const char *path, uint64_t length, const csv_column *columns, int32_t count,
                          csv_writer *w, fram_error *error);
 /* One value per column. */

@@ -128,8 +128,6 @@ fram_status record_continue(context *ctx, const char *path, uint64_t length, rec
     status = check_head(file->descriptor, path, file->length, error);
     if (status == FRAM_OK)
         status = check_length(file, length, error);
-    if (status == FRAM_OK)
-        status = file_cut(file, length, error);
     if (status != FRAM_OK)
         file_abandon(file);
     return status;

@@ -24,8 +24,9 @@ typedef struct record_part {
 } record_part;
 
 fram_status record_create(context *ctx, const char *path, record_writer *w, fram_error *error);
-/* Continue a record cut to `length` (a record_length of before); FRAM_ERROR_INPUT when the head is not that of a record
-   of this version and byte order, the file is shorter, or `length` is not the end of a block. */
+/* Open a record to be continued at `length` (a record_length of before), once the caller has cut it there by file_cut;
+   FRAM_ERROR_INPUT when the head is not that of a record of this version and byte order, the file is shorter, or
+   `length` is not the end of a block. */
 fram_status record_continue(context *ctx, const char *path, uint64_t length, record_writer *w, fram_error *error);
 fram_status record_append(record_writer *w, uint32_t type, const record_part *parts, int32_t count, fram_error *error);
 fram_status record_flush(record_writer *w, bool sync, fram_error *error);

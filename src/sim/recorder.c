@@ -72,6 +72,45 @@ recorder_lengths recorder_lengths_of(const recorder *r)
     return (recorder_lengths){csv_length(&r->series), record_length(&r->record), csv_length(&r->fractures)};
 }
 
+fram_status recorder_check_block(const char *path, uint32_t type, fram_error *error)
+{
+    if (type != BLOCK_EARLIER_BIRTHS && type != BLOCK_EARLIER_FRAME && type != BLOCK_TOUCHED_FRAME)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                     "an earlier version of Fram wrote this record; run the scenario again");
+}
+
+/* That the record is of the layout which would go on: told by its blocks up to the first frame.  A damaged one is for
+   record_continue to refuse. */
+static fram_status check_layout(context *ctx, const char *folder, fram_error *error)
+{
+    char path[1024];
+    record_reader reader;
+    fram_status status = stream_path(folder, "record.fram", path, error);
+    if (status == FRAM_OK)
+        status = record_open(ctx, path, &reader, error);
+    if (status != FRAM_OK)
+        return status;
+    record_block block = {0};
+    bool found = true;
+    while (status == FRAM_OK && found && block.type != BLOCK_FRAME) {
+        status = record_next(&reader, &block, &found, error);
+        if (status == FRAM_OK && found)
+            status = recorder_check_block(path, block.type, error);
+    }
+    record_reader_close(&reader);
+    return status;
+}
+
+/* All streams are sound: what stands after the checkpoint goes. */
+static fram_status cut_streams(recorder *r, const recorder_lengths *lengths, fram_error *error)
+{
+    fram_status status = file_cut(&r->series.file, lengths->series, error);
+    if (status == FRAM_OK)
+        status = file_cut(&r->fractures.file, lengths->fractures, error);
+    return status == FRAM_OK ? file_cut(&r->record.file, lengths->record, error) : status;
+}
+
 fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, const recorder_lengths *lengths,
                               recorder *r, fram_error *error)
 {
@@ -80,7 +119,9 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     char path[1024];
     series_layout layout;
     series_columns(s, &layout);
-    fram_status status = stream_path(folder, "series.csv", path, error);
+    fram_status status = check_layout(ctx, folder, error);
+    if (status == FRAM_OK)
+        status = stream_path(folder, "series.csv", path, error);
     if (status == FRAM_OK)
         status = csv_continue(ctx, path, lengths->series, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
@@ -94,6 +135,8 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
         status = stream_path(folder, "record.fram", path, error);
     if (status == FRAM_OK)
         status = record_continue(ctx, path, lengths->record, &r->record, error);
+    if (status == FRAM_OK)
+        status = cut_streams(r, lengths, error);
     if (status != FRAM_OK)
         recorder_close(r, NULL);
     return status;

@@ -72,9 +72,12 @@ typedef struct recorder_lengths {
     uint64_t series, record, fractures;
 } recorder_lengths;
 recorder_lengths recorder_lengths_of(const recorder *r);
-/* Continue files cut to the lengths that a checkpoint holds. */
+/* Continue files cut to the lengths that a checkpoint holds.  A failure before all of them are found sound changes
+   none; FRAM_ERROR_INPUT as record_continue, and for a record that an earlier Fram wrote. */
 fram_status recorder_continue(context *ctx, const scenario *s, const char *folder, const recorder_lengths *lengths,
                               recorder *r, fram_error *error);
+/* FRAM_ERROR_INPUT for a type of block that earlier layouts had. */
+fram_status recorder_check_block(const char *path, uint32_t type, fram_error *error);
 /* What is due after a step (or, at step 0, the first frame).  Frames come every frame_interval, or every second,
    fourth, eighth ... time when as many bodies as there are now would else fill the record beyond nine tenths of its
    limit over the run; the rest is for what stands between frames.  This depends on the state alone, so a resumed run

@@ -277,12 +277,8 @@ static fram_status read_block(replay *r, const record_block *block, fram_error *
     case BLOCK_FRAME:
         good = read_frame(r, &c);
         break;
-    case BLOCK_EARLIER_BIRTHS:
-    case BLOCK_EARLIER_FRAME:
-    case BLOCK_TOUCHED_FRAME:
-        return wrong(r, "an earlier version of Fram wrote this record; run the scenario again", error);
-    default: /* of a later version that added something */
-        break;
+    default: /* of another version: of an earlier one it is refused, of a later one passed over */
+        return recorder_check_block(r->reader.path, block->type, error);
     }
     if (!good)
         return error_memory(error);

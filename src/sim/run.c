@@ -384,10 +384,12 @@ static fram_status resume_world(run *r, run_result *result, fram_error *error)
         return error_set(error, FRAM_ERROR_USAGE, r->options->folder, 0, "--until",
                          "expected a time from %g s on, where the newest checkpoint is; found %g s",
                          r->world.clock.time[0], r->options->until);
-    log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);
     recorder_lengths lengths = {note.series_length, note.record_length, note.fractures_length};
     status = recorder_continue(r->ctx, r->s, r->options->folder, &lengths, &r->recorder, error);
-    return status == FRAM_OK ? drive(r, result, error) : status;
+    if (status != FRAM_OK)
+        return status;
+    log_write(r->ctx, LOG_INFO, "resuming at t = %g s", r->world.clock.time[0]);
+    return drive(r, result, error);
 }
 
 fram_status run_resume(context *ctx, const run_options *options, run_result *result, fram_error *error)

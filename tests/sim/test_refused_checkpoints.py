@@ -20,6 +20,8 @@ ice: {mean_floe_area: 100, concentration: 0.5}
 domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40}
 output: {checkpoint_interval: 0.5}
 """
+# Types of blocks of earlier layouts, and the ones of today that took their place (sim/recorder.h).
+EARLIER_BLOCKS = {3: 7, 5: 11, 8: 11}
 
 
 def resume(run):
@@ -69,6 +71,27 @@ DAMAGE = {
 }
 
 
+def with_blocks(data, before, now):
+    """The record with blocks of another type (layout: io/record.h)."""
+    data, at = bytearray(data), 24
+    while at < len(data):
+        kind, size = struct.unpack_from("<IQ", data, at + 4)
+        if kind == now:
+            struct.pack_into("<I", data, at + 4, before)
+            struct.pack_into("<I", data, at + 20, zlib.crc32(data[at:at + 20]))
+        at += 24 + (size + 7) // 8 * 8
+    return bytes(data)
+
+
+def refused(run, words):
+    """resume says the words and changes no file; what it says."""
+    before = {p.name: p.read_bytes() for p in run.iterdir()}
+    code, told = resume(run)
+    assert code == 2 and words in told, (run.name, code, told)
+    assert {p.name: p.read_bytes() for p in run.iterdir()} == before, f"{run.name}: the refusal changed files"
+    return told
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
@@ -104,13 +127,22 @@ def main():
         code, told = resume(run)
         assert code == 2 and "no checkpoint" in told, (code, told)
         # Streams that are shorter than the checkpoint says are no run to go on with.
-        run = folder / "short"
-        shutil.copytree(folder / "run", run)
-        with open(run / "record.fram", "r+b") as file:
-            file.truncate(200)
-        code, told = resume(run)
-        assert code == 2 and "record.fram" in told, (code, told)
-    print(f"{len(DAMAGE)} ways of damage and three of disagreement are refused with the reason")
+        for name in ("record.fram", "series.csv"):
+            run = folder / f"short-{name}"
+            shutil.copytree(folder / "run", run)
+            with open(run / name, "r+b") as file:
+                file.truncate(200)
+            refused(run, name)
+        # Nor is a record of an earlier layout, in which frames of two layouts would stand.
+        for earlier in EARLIER_BLOCKS.items():
+            run = folder / f"earlier-{earlier[0]}"
+            shutil.copytree(folder / "run", run)
+            record = run / "record.fram"
+            record.write_bytes(with_blocks(record.read_bytes(), *earlier))
+            told = refused(run, "record.fram: an earlier version of Fram wrote this record")
+            done = subprocess.run([FRAM, "report", run], capture_output=True, text=True, check=False)
+            assert (done.returncode, done.stderr) == (2, told), (done.stderr, told)
+    print(f"{len(DAMAGE)} ways of damage and {4 + len(EARLIER_BLOCKS)} of disagreement are refused with the reason")
 
 
 main()
