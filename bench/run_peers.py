@@ -361,22 +361,28 @@ def measure_forces(options):
                       flush=True)
 
 
-def main():
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def words_of_runs(about, covers, time, warm):
+    """A parser with the words of every script that runs scenes by run_fram: which ones, how, and how often."""
+    words = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
     words.add_argument("--repeat", type=int, default=3)
-    words.add_argument("--sizes", type=int, nargs="+", default=[1000, 5000, 10000])
-    words.add_argument("--covers", type=int, nargs="+", default=[75, 90])
+    words.add_argument("--covers", type=int, nargs="+", default=covers)
     words.add_argument("--dt", type=float, default=0.02)
     words.add_argument("--iterations", type=int, default=10)
-    words.add_argument("--time", type=float, default=20)
-    words.add_argument("--warm", type=float, default=5)
+    words.add_argument("--time", type=float, default=time)
+    words.add_argument("--warm", type=float, default=warm)
     words.add_argument("--solver", default="fast")
-    words.add_argument("--isa", default="baseline", help="the second row of Fram; empty: none")
     words.add_argument("--core", default="1")
+    words.add_argument("--fram", default=str(ROOT / "build" / "release" / "fram"))
+    return words
+
+
+def main():
+    words = words_of_runs(__doc__, covers=[75, 90], time=20, warm=5)
+    words.add_argument("--sizes", type=int, nargs="+", default=[1000, 5000, 10000])
+    words.add_argument("--isa", default="baseline", help="the second row of Fram; empty: none")
     words.add_argument("--programs", nargs="+", metavar="P",
                        help="some of fram, 'fram baseline', bullet_f32, bullet_f64 and ode")
     words.add_argument("--fresh", action="store_true", help="forget what was measured before")
-    words.add_argument("--fram", default=str(ROOT / "build" / "release" / "fram"))
     words.add_argument("--out", default=str(WORK / "peers"))
     words.add_argument("--threads-only", action="store_true")
     words.add_argument("--forces", action="store_true")

@@ -8,7 +8,6 @@ turn, one thread on one core; ratios are taken inside each round and their media
 floe of a larger field costs more than 1.25 times as much.  Give --write to put the table into the results.
 """
 
-import argparse
 import csv
 import math
 import pathlib
@@ -108,16 +107,7 @@ def measure(options, cover):
 
 
 def main():
-    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("--repeat", type=int, default=3)
-    words.add_argument("--covers", type=int, nargs="+", default=[90, 98])
-    words.add_argument("--dt", type=float, default=0.02)
-    words.add_argument("--iterations", type=int, default=10)
-    words.add_argument("--time", type=float, default=2)
-    words.add_argument("--warm", type=float, default=1)
-    words.add_argument("--solver", default="fast")
-    words.add_argument("--core", default="1")
-    words.add_argument("--fram", default=str(run_peers.ROOT / "build" / "release" / "fram"))
+    words = run_peers.words_of_runs(__doc__, covers=[90, 98], time=2, warm=1)
     words.add_argument("--write", action="store_true")
     options = words.parse_args()
     packed = ", ".join(f"{PACK[c]} s at {c} % cover" for c in options.covers)
