@@ -23,6 +23,7 @@ static const double log_of_ten = 2.302585092994045684;
 typedef struct frame {
     double left, right, top, bottom; /* pixels */
     double x0, x1, y0, y1;           /* data; decades on a logarithmic axis */
+    double step;                     /* of the ticks of both axes, where they have one scale; 0: each has its own */
     bool log_x, log_y;
 } frame;
 
@@ -106,9 +107,10 @@ typedef struct tick_row {
     bool logarithmic;
 } tick_row;
 
-static tick_row ticks_of(double lo, double hi, int parts, bool logarithmic)
+static tick_row ticks_of(double lo, double hi, int parts, double step, bool logarithmic)
 {
-    double step = logarithmic ? fmax(1, ceil((hi - lo) / parts)) : image_round_step(hi - lo, parts);
+    if (!(step > 0))
+        step = logarithmic ? fmax(1, ceil((hi - lo) / parts)) : image_round_step(hi - lo, parts);
     double first = ceil(lo / step - 1e-9) * step;
     int count = (int)fmin(floor((hi - first) / step + 1e-9), MOST_TICKS) + 1;
     return (tick_row){first, step, count, logarithmic};
@@ -127,7 +129,7 @@ static void tick_text(const tick_row *t, double at, char text[32])
 static void draw_y_axis(cairo_t *page, const frame *f)
 {
     char text[32];
-    tick_row t = ticks_of(f->y0, f->y1, 6, f->log_y);
+    tick_row t = ticks_of(f->y0, f->y1, 6, f->step, f->log_y);
     for (int i = 0; i < t.count; i++) {
         double y = t.first + i * t.step, py = floor(axis_to_py(f, y)) + 0.5;
         image_set_colour(page, grid);
@@ -143,7 +145,7 @@ static void draw_y_axis(cairo_t *page, const frame *f)
 static void draw_x_axis(cairo_t *page, const frame *f)
 {
     char text[32];
-    tick_row t = ticks_of(f->x0, f->x1, 10, f->log_x);
+    tick_row t = ticks_of(f->x0, f->x1, 10, f->step, f->log_x);
     for (int i = 0; i < t.count; i++) {
         double x = t.first + i * t.step, px = floor(axis_to_px(f, x)) + 0.5;
         image_set_colour(page, grid);
@@ -306,7 +308,7 @@ static void draw_legend(cairo_t *page, const chart *c, const frame *f)
     }
 }
 
-/* Widen one axis so that both have the same scale, about the middle. */
+/* Widen one axis so that both have the same scale, about the middle, and the same ticks, so that it shows. */
 static void equalise(frame *f)
 {
     double across = (f->x1 - f->x0) / (f->right - f->left), upwards = (f->y1 - f->y0) / (f->bottom - f->top);
@@ -315,6 +317,7 @@ static void equalise(frame *f)
     double x = 0.5 * (f->x0 + f->x1), y = 0.5 * (f->y0 + f->y1);
     f->x0 = x - half_x, f->x1 = x + half_x;
     f->y0 = y - half_y, f->y1 = y + half_y;
+    f->step = image_round_step(fmax(f->x1 - f->x0, f->y1 - f->y0), 8);
 }
 
 void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal)

@@ -50,7 +50,8 @@ static inline chart chart_make(const char *title, const char *subtitle, const ch
    FRAM_ERROR_UNSUPPORTED without cairo. */
 #ifdef FRAM_HAVE_CAIRO
 #include <cairo.h>
-/* Into a part of a page, width x height from its origin; equal: a metre is as long across as upwards. */
+/* Into a part of a page, width x height from its origin; equal: a metre is as long across as upwards, and both axes
+ * have the same ticks. */
 void chart_draw(cairo_t *page, const chart *c, int width, int height, bool equal);
 #endif
 /* To a file, SVG when its name ends in .svg, else PNG. */

@@ -19,6 +19,8 @@ static int compare_heights(const void *a, const void *b)
     const plan_shape *x = a, *y = b;
     if (x->height != y->height)
         return x->height < y->height ? -1 : 1;
+    if (x->style != y->style)
+        return x->style < y->style ? -1 : 1;
     return x->outline.vertex < y->outline.vertex ? -1 : x->outline.vertex > y->outline.vertex;
 }
 
@@ -37,7 +39,6 @@ typedef struct plan_look {
 
 static const plan_look looks[PLAN_STYLE_COUNT] = {
     [PLAN_FLOE] = {{0.95, 0.97, 0.99}, {0.36, 0.48, 0.60}, "floe"},
-    /* Its tiles show no seams: they are neither boundary nor crack. */
     [PLAN_LEVEL_ICE] = {{0.82, 0.89, 0.95}, {0.82, 0.89, 0.95}, "level ice"},
     [PLAN_FIXED_ICE] = {{0.82, 0.89, 0.95}, {0.30, 0.42, 0.55}, "fixed ice"},
     [PLAN_WALL] = {{0.45, 0.42, 0.40}, {0.30, 0.28, 0.26}, "wall"},
@@ -127,11 +128,39 @@ static void draw_shape(cairo_t *page, const map *m, const plan_shape *s)
     paint(page, s);
 }
 
+static bool same_colour(const plan_shape *a, const plan_shape *b)
+{
+    return a->has_value == b->has_value && (!a->has_value || !(a->value < b->value || a->value > b->value));
+}
+
+/* Tiles of level ice of one colour that follow each other, from the first shape on: how many.  They are one area
+   without lines, for their seams are neither boundary nor crack; filled one by one, pixels on a seam would be of both
+   and let what is below shine through. */
+static int32_t draw_level_ice(cairo_t *page, const map *m, const plan_shape *shapes, int32_t count)
+{
+    int32_t n = 0;
+    for (; n < count && shapes[n].style == PLAN_LEVEL_ICE && same_colour(&shapes[n], &shapes[0]); n++) {
+        cairo_new_sub_path(page);
+        for (int32_t i = 0; i < shapes[n].outline.count; i++)
+            line_to(page, m, shapes[n].outline.vertex[i]);
+        cairo_close_path(page);
+    }
+    image_set_colour(page, fill_of(&shapes[0]));
+    cairo_fill(page);
+    return n;
+}
+
 static void draw_shapes(cairo_t *page, const map *m, const plan_view *view, bool used[PLAN_STYLE_COUNT])
 {
-    for (int32_t i = 0; i < view->shape_count; i++) {
-        used[view->shapes[i].style] = true;
-        draw_shape(page, m, &view->shapes[i]);
+    for (int32_t i = 0; i < view->shape_count;) {
+        const plan_shape *s = &view->shapes[i];
+        used[s->style] = true;
+        if (s->style == PLAN_LEVEL_ICE) {
+            i += draw_level_ice(page, m, s, view->shape_count - i);
+        } else {
+            draw_shape(page, m, s);
+            i++;
+        }
     }
     if (view->track_count < 2)
         return;

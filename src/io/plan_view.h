@@ -28,8 +28,8 @@ typedef struct plan_shape {
 
 /* drop and height of a prism of this thickness. */
 void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thickness);
-/* By ascending height, so that what floats is drawn over what lies under it; ties by the place of their vertices, which
-   are all in one array. */
+/* By ascending height, so that what floats is drawn over what lies under it; ties by style, so that the tiles of level
+   ice follow each other, and by the place of their vertices, which are all in one array. */
 void plan_shapes_sort(plan_shape *shapes, int32_t count);
 
 typedef struct plan_arrow {

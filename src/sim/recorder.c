@@ -235,7 +235,7 @@ static bool put_birth(recorder *r, const world *w, int32_t slot)
     int32_t floe = ice ? w->bodies.owner[slot] : -1;
     double thickness = 2 * w->shapes.shapes.half_height[w->bodies.shape[slot]];
     const unsigned char kind[4] = {w->bodies.material[slot], moves(w, slot), floe >= 0 ? w->floes.breakable[floe] : 0,
-                                   0};
+                                   floe >= 0 && w->floes.tile[floe] != 0};
     bool good = put_i32(r, slot) && put_u32(r, w->bodies.generation[slot]) && put(r, kind, 4) &&
                 put_f32(r, thickness) && put_f32(r, floe >= 0 ? w->floes.material[floe].density : 0) &&
                 put_i32(r, floe >= 0 ? w->floes.number[floe] : -1) &&

@@ -9,7 +9,7 @@
      6 fractures i32 count, i32 0; per floe that broke since the block before: f64 time, i32 kind (1 split, 2 bending),
                  i32 number of the floe, i32 pieces, i32 0; f32 x y z of the crack's start, load [N], crack length [m],
                  area of the floe [m2]; before the first frame at or after the event
-     7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 0, f32
+     7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 level ice, f32
    thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none), i32 vertices; f32 x y per
                  outline vertex (body frame); a body that does not move adds its pose
      9 forces    i32 count, i32 0; per force on the first vessel in the last step: i32 kind (1 ice, all contacts with

@@ -136,6 +136,7 @@ static bool read_birth(replay *r, cursor *c)
     b.material = kind[0] < MATERIALS ? kind[0] : MATERIAL_WALL;
     b.moves = kind[1] != 0;
     b.breakable = kind[2] != 0;
+    b.level = kind[3] != 0;
     b.thickness = take_f32(c);
     b.density = take_f32(c);
     b.number = take_i32(c);

@@ -13,6 +13,7 @@ typedef struct replay_body {
     int32_t slot;
     uint8_t material; /* enum material */
     bool moves, solid, breakable;
+    bool level;                         /* a tile of level ice */
     double thickness;                   /* of a prism [m] */
     double density;                     /* of a floe [kg/m3] */
     double area;                        /* of a prism's outline [m2] */

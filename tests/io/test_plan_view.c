@@ -66,6 +66,16 @@ static bool is_floe(cairo_surface_t *page, int longest, vec2 place)
     return rgb[0] > 235;
 }
 
+static cairo_surface_t *drawn(const plan_view *view, int longest)
+{
+    cairo_surface_t *page = cairo_image_surface_create(CAIRO_FORMAT_RGB24, longest, longest);
+    cairo_t *pen = cairo_create(page);
+    plan_view_draw(pen, view, longest, longest);
+    cairo_destroy(pen);
+    cairo_surface_flush(page);
+    return page;
+}
+
 /* On edge, a piece is seen as wide as it is thick; one under the sheet is not seen, one on it is. */
 START_TEST(pieces_on_edge_and_under_the_sheet)
 {
@@ -82,11 +92,7 @@ START_TEST(pieces_on_edge_and_under_the_sheet)
         plan_shape_stand(&s[2], (vec3){0, -4.5, on ? 0.5 : -0.5}, (quat){1, 0, 0, 0}, 1);
         plan_shapes_sort(s, 3);
         plan_view view = {.window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .shapes = s, .shape_count = 3};
-        cairo_surface_t *page = cairo_image_surface_create(CAIRO_FORMAT_RGB24, LONGEST, LONGEST);
-        cairo_t *pen = cairo_create(page);
-        plan_view_draw(pen, &view, LONGEST, LONGEST);
-        cairo_destroy(pen);
-        cairo_surface_flush(page);
+        cairo_surface_t *page = drawn(&view, LONGEST);
         ck_assert(is_floe(page, LONGEST, (vec2){0, 5.3}));
         ck_assert(is_floe(page, LONGEST, (vec2){3, 4.7}));
         ck_assert(!is_floe(page, LONGEST, (vec2){0, 5.8}));
@@ -97,7 +103,45 @@ START_TEST(pieces_on_edge_and_under_the_sheet)
 }
 END_TEST
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, pieces_on_edge_and_under_the_sheet)
+/* Tiles of level ice show no seams, nor what lies under them; a floe on them and the water between parts are seen. */
+START_TEST(level_ice_has_no_seams)
+{
+    enum { LONGEST = 793, ACROSS = 3, TILES = ACROSS * ACROSS };
+    const vec2 floe[4] = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}, apart[3] = {{8, 8}, {9, 8}, {9, 9}};
+    vec2 ring[TILES][4];
+    plan_shape s[TILES + 2] = {{.outline = {floe, 4}, .style = PLAN_FLOE},
+                               {.outline = {apart, 3}, .style = PLAN_LEVEL_ICE}};
+    for (int i = 0; i < TILES; i++) {
+        double x = -9 + 5.1 * (i % ACROSS), y = -8 + 5.3 * (i - i % ACROSS) / ACROSS;
+        const vec2 corner[4] = {{x, y}, {x + 5.1, y}, {x + 5.1, y + 5.3}, {x, y + 5.3}};
+        memcpy(ring[i], corner, sizeof corner);
+        s[i + 2] = (plan_shape){.outline = {ring[i], 4}, .style = PLAN_LEVEL_ICE};
+    }
+    const plan_view view = {
+        .window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .shapes = s, .shape_count = TILES + 2};
+    for (int on = 0; on < 2; on++) {
+        int ice[3], water[3], found[3];
+        for (int i = 0; i < TILES + 2; i++)
+            s[i].height = s[i].style == PLAN_FLOE ? on : 0;
+        plan_shapes_sort(s, TILES + 2);
+        ck_assert_int_eq(s[on ? TILES + 1 : 0].style, PLAN_FLOE);
+        cairo_surface_t *page = drawn(&view, LONGEST);
+        colour_at(page, LONGEST, (vec2){-7, -7}, ice);
+        colour_at(page, LONGEST, (vec2){9, 0}, water);
+        ck_assert_int_ne(ice[0], water[0]);
+        for (double x = -8.9; x < 6.2; x += 0.01) {
+            colour_at(page, LONGEST, (vec2){x, 5}, found);
+            ck_assert_msg(memcmp(found, ice, sizeof ice) == 0, "%d %d %d at x = %g", found[0], found[1], found[2], x);
+        }
+        colour_at(page, LONGEST, (vec2){7, 7.8}, found);
+        ck_assert_mem_eq(found, water, sizeof water);
+        ck_assert_int_eq(is_floe(page, LONGEST, (vec2){0, 0}), on);
+        cairo_surface_destroy(page);
+    }
+}
+END_TEST
+
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, pieces_on_edge_and_under_the_sheet, level_ice_has_no_seams)
 
 #else
 
