@@ -140,9 +140,19 @@ static void list_failures(const world *w, capability *c)
         c->failure[c->failures++] = (capability_failure){true, i};
 }
 
-static void find_limits(world *w, holding_case *h, capability *c)
+fram_status capability_go_on(const capability *c, fram_error *error)
+{
+    if (!c->options.stop || !*c->options.stop)
+        return FRAM_OK;
+    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
+}
+
+static fram_status find_limits(world *w, holding_case *h, capability *c, fram_error *error)
 {
     for (int32_t i = 0; i < c->loads.directions; i++) {
+        fram_status status = capability_go_on(c, error);
+        if (status != FRAM_OK)
+            return status;
         double from = direction_of(c, i);
         h->line_safety = c->options.line_safety;
         c->intact[i] = find_limit(c, h, from);
@@ -159,6 +169,7 @@ static void find_limits(world *w, holding_case *h, capability *c)
                 c->damaged[i] = limit;
         }
     }
+    return FRAM_OK;
 }
 
 /* ---- all of it ---- */
@@ -238,7 +249,7 @@ static fram_status build_still_world(context *ctx, const scenario *s, world *w, 
     return build_world(ctx, &still, w, &report, error);
 }
 
-static void sweep(const scenario *s, world *w, capability *c)
+static fram_status sweep(const scenario *s, world *w, capability *c, fram_error *error)
 {
     int32_t body = w->vessels.body[0];
     const station_table *station = &w->stations;
@@ -253,7 +264,7 @@ static void sweep(const scenario *s, world *w, capability *c)
                       .offset_limit = station->offset_limit[0],
                       .heading_limit = station->heading_limit[0]};
     list_failures(w, c);
-    find_limits(w, &h, c);
+    return find_limits(w, &h, c, error);
 }
 
 fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
@@ -279,7 +290,7 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
                 o->formula ? capability_ice_formula(ctx, s, &w, c, error) : capability_ice_measured(ctx, s, c, error);
     }
     if (status == FRAM_OK)
-        sweep(s, &w, c);
+        status = sweep(s, &w, c, error);
     world_free(ctx, &w);
     if (status != FRAM_OK)
         capability_free(ctx, c);

@@ -75,6 +75,8 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
 double broken_ice_resistance(double density, double gravity, double breadth, double thickness, double concentration,
                              double speed);
 
+/* FRAM_INTERRUPTED when the options' stop flag is set. */
+fram_status capability_go_on(const capability *c, fram_error *error);
 /* All of it, before anything is written; to be freed. */
 fram_status capability_find(context *ctx, const scenario *s, const capability_options *options, capability *c,
                             fram_error *error);

@@ -124,19 +124,19 @@ static fram_status record(context *ctx, const scenario *s, capability *c, load_h
     world w;
     build_report report;
     const step_settings settings = build_settings(s);
-    fram_status status = build_world(ctx, s, &w, &report, error);
+    fram_status status = capability_go_on(c, error);
+    if (status == FRAM_OK)
+        status = build_world(ctx, s, &w, &report, error);
     if (status != FRAM_OK)
         return status;
     if (!(c->thickness > 0))
         describe_ice(&w, &report, c);
     double heading = radians(s->vessel.heading_deg);
     int64_t steps = (int64_t)ceil(c->options.measure / s->run.time_step);
-    const volatile int *stop = c->options.stop;
     for (int64_t i = 0; i < steps && status == FRAM_OK; i++) {
-        if (stop && *stop) {
-            status = error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
+        status = capability_go_on(c, error);
+        if (status != FRAM_OK)
             break;
-        }
         status = world_step(ctx, &settings, &w, error);
         wrench mean = load_window_average(&w);
         vec3 load = plane_to_vessel(heading, vec3_make(mean.force.x, mean.force.y, mean.moment.z));

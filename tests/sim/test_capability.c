@@ -130,4 +130,22 @@ START_TEST(refusals)
 }
 END_TEST
 
-TEST_MAIN("capability", limits_by_hand, broken_ice_by_formula, measured_ice, refusals)
+/* The balances alone, and the runs before them, see the flag. */
+START_TEST(a_stop_flag_is_seen)
+{
+    const volatile int stop = 1;
+    const char *const ice[] = {"ice.source=voronoi", "domain.boundary=feeding"};
+    for (int runs = 0; runs < 2; runs++) {
+        scene k;
+        scene_open_with(&k, box, ice, runs ? 2 : 0);
+        capability_options o = plain;
+        o.stop = &stop;
+        capability c;
+        fram_error error = {0};
+        assert_fails(capability_find(&k.ctx, &k.s, &o, &c, &error), error, FRAM_INTERRUPTED, "nothing was written");
+        scene_close(&k);
+    }
+}
+END_TEST
+
+TEST_MAIN("capability", limits_by_hand, broken_ice_by_formula, measured_ice, refusals, a_stop_flag_is_seen)
