@@ -3,6 +3,7 @@
 
 #include "fram/results.h"
 #include <math.h>
+#include <unistd.h>
 
 static void print_result(const common_options *common, const fram_result *r, const char *advice)
 {
@@ -68,5 +69,10 @@ int command_export(const command_row *self, int argc, char **argv)
                               : "any GIS, geopandas and fram itself read it");
     code = status == FRAM_OK ? EXIT_GOOD : answer_error(&common, &error);
     fram_context_destroy(context);
+    /* HDF5 keeps a file that it could not close for want of room, tries again at exit and reads what it has freed. */
+    if (netcdf && status == FRAM_ERROR_IO) {
+        fflush(NULL);
+        _exit(code);
+    }
     return code;
 }

@@ -91,6 +91,9 @@ PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
+    expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json
+    same "$(value 'j["error"]["status"], j["error"]["file"]')" "io full.nc" "an export that finds no room"
+    [ -z "$(ls full.nc* 2>/dev/null)" ] || fail "an export that found no room left $(ls full.nc*)"
 else
     expect 1 "$FRAM" export run --netcdf -q
 fi
