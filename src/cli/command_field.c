@@ -139,10 +139,11 @@ static fram_status make_field(fram_context *context, const field_words *w, fram_
 static fram_status write_files(const field_words *w, const fram_field *field, fram_error *error)
 {
     fram_status status = FRAM_OK;
-    if (w->draw)
-        status = fram_field_draw(field, field_title(w), w->draw, error);
-    if (status == FRAM_OK && w->cover)
+    /* First, for its cells may be refused: then nothing is written. */
+    if (w->cover)
         status = fram_field_draw_cover(field, w->cell, field_title(w), w->cover, error);
+    if (status == FRAM_OK && w->draw)
+        status = fram_field_draw(field, field_title(w), w->draw, error);
     if (status == FRAM_OK && w->table)
         status = fram_field_table(field, w->table, error);
     if (status == FRAM_OK && w->output)

@@ -170,14 +170,14 @@ static void log_populations(context *ctx, const field_population_report *parts, 
               (int)report->rounds, report->field.largest_overlap);
 }
 
-/* The generator names its own request: its members are keys under ice, but for the domain. */
-static void name_request(const scenario *s, fram_error *error)
+void name_ice_request(const scenario *s, fram_error *error)
 {
     char member[sizeof error->key];
     if (!error || !error->key[0] || error->file[0])
         return;
     snprintf(member, sizeof member, "%s", error->key);
-    snprintf(error->key, sizeof error->key, "%s%.100s", strcmp(member, "domain") == 0 ? "" : "ice.", member);
+    const char *key = strcmp(member, "mean_area") == 0 ? "mean_floe_area" : member;
+    snprintf(error->key, sizeof error->key, "%s%.100s", strcmp(member, "domain") == 0 ? "" : "ice.", key);
     scenario_locate(s, error);
 }
 
@@ -205,7 +205,7 @@ fram_status draw_populations(context *ctx, const scenario *s, world *w, const po
         status =
             field_packed(ctx, w->scratch.plane, &request, &drawn, &out->shapes, out->parts.data, &out->packed, error);
         if (status == FRAM_ERROR_INPUT)
-            name_request(s, error);
+            name_ice_request(s, error);
     }
     for (int32_t i = 0; status == FRAM_OK && i < out->shapes.count; i++)
         if (!polygon_list_push(ctx, &out->outlines, polygon_list_get(&drawn, i)) ||
@@ -231,7 +231,7 @@ fram_status draw_managed(context *ctx, const scenario *s, world *w, field_reques
         request.size = &files.population[0].size;
         status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
         if (status == FRAM_ERROR_INPUT)
-            name_request(s, error);
+            name_ice_request(s, error);
     }
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&out->outlines); i++)
         if (!array_push(ctx, &out->traits, population_traits(s, 0, i)))

@@ -47,6 +47,8 @@ static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const
     if (s->ice.populations.count > 0)
         return draw_managed(ctx, s, w, request, out, error);
     fram_status status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
+    if (status == FRAM_ERROR_INPUT)
+        name_ice_request(s, error);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&out->outlines); i++)
         if (!array_push(ctx, &out->traits, scenario_traits(s, (double)NAN)))
             status = error_memory(error);

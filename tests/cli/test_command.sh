@@ -87,6 +87,10 @@ same "$(value 'j["error"]["key"]')" vessel.hull.file "key of a missing file"
 expect 2 "$FRAM" check scene.yaml --set ice.thickness=-1 --json
 same "$(value 'j["error"]["key"]')" ice.thickness "key of a bad override"
 [ ! -e a ] || fail "a refused scenario left a folder"
+expect 2 "$FRAM" check scene.yaml --build --set ice.concentration=0.99999 --json
+same "$(value 'j["error"]["key"], j["error"]["file"]')" "ice.concentration --set" "place of what cannot be reached"
+expect 2 "$FRAM" check scene.yaml --build --set domain.x_min=-1e7 --set domain.x_max=1e7 --json
+same "$(value 'j["error"]["key"], j["error"]["line"]')" "ice.mean_floe_area 15" "place of too many cells"
 expect 2 "$FRAM" run scene.yaml -o a --set vessel.x=-40 --json
 same "$(value 'j["error"]["key"]')" vessel.x "key of a hull inside a wall"
 same "$(value 'j["error"]["file"]')" --set "place of a hull inside a wall"
