@@ -107,7 +107,8 @@ int refuse_outputs(const common_options *common, const command_files *files);
 /* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.
  */
 int session_open(const common_options *common, fram_context **context);
-/* A flag that Ctrl-C and SIGTERM set; the first signal asks for a checkpoint, the second ends the process. */
+/* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, the second ends
+   the process.  From now on a pipe that closes is an error of the write, and does not end it. */
 const volatile int *session_stop_flag(void);
 /* Progress line on standard error: redrawn on a terminal, a line every ten percent elsewhere. */
 typedef struct progress_view {

@@ -43,6 +43,12 @@ const volatile int *session_stop_flag(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    /* A terminal that closes stops a run as Ctrl-C does, unless nohup has said otherwise; a closed pipe costs it its
+       progress lines, not the run. */
+    struct sigaction hangup;
+    if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN)
+        sigaction(SIGHUP, &action, NULL);
+    signal(SIGPIPE, SIG_IGN);
     return &stop_flag;
 }
 

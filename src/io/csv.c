@@ -38,10 +38,13 @@ static fram_status check_file(csv_writer *w, const text_buffer *header, uint64_t
     file_writer *file = &w->file;
     size_t size = (size_t)header->count;
     const char *expected = header->data ? header->data : "";
-    if (length < size || length > file->length)
+    if (length > file->length)
+        return error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL, "expected at least %llu bytes, found %llu",
+                         (unsigned long long)length, (unsigned long long)file->length);
+    if (length < size)
         return error_set(error, FRAM_ERROR_INPUT, file->path, 0, NULL,
-                         "expected from %zu to %llu bytes to continue after, found %llu", size,
-                         (unsigned long long)file->length, (unsigned long long)length);
+                         "expected a place after the %zu bytes of the header to continue at, found byte %llu", size,
+                         (unsigned long long)length);
     char *found = memory_resize(file->ctx, NULL, size);
     if (!found)
         return error_memory(error);

@@ -5,6 +5,7 @@
 #include "io/scenario_file.h"
 #include "sim/build.h"
 #include "sim/checkpoint.h"
+#include "sim/notes.h"
 #include "sim/pictures.h"
 #include "sim/recorder.h"
 #include "sim/run_folder.h"
@@ -36,6 +37,7 @@ typedef struct run {
     int64_t end_step, stop_step;
     int64_t checkpoint_every, picture_every;
     bool recording;
+    int lock; /* on the folder, -1 */
 } run;
 
 static double wall_clock(void)
@@ -296,6 +298,7 @@ static void run_free(run *r)
 {
     if (r->recording)
         recorder_close(&r->recorder, NULL);
+    run_folder_unlock(r->lock);
     text_free(r->ctx, &r->inputs);
 }
 
@@ -313,6 +316,22 @@ static fram_status write_scenario(run *r, fram_error *error)
         status = atomic_file_write(r->ctx, path, text.data, (size_t)text.count, error);
     text_free(r->ctx, &text);
     return status;
+}
+
+/* What `fram check` warns of. */
+static fram_status log_warnings(const run *r, fram_error *error)
+{
+    static const char sign[] = "warning: ";
+    text_buffer notes = {0};
+    scenario_notes(r->ctx, r->s, &notes);
+    bool good = !notes.failed;
+    char *rest = NULL;
+    for (char *line = good ? strtok_r(notes.data, "\n", &rest) : NULL; line; line = strtok_r(NULL, "\n", &rest)) {
+        if (strncmp(line, sign, sizeof sign - 1) == 0)
+            log_write(r->ctx, LOG_WARNING, "%s", line + sizeof sign - 1);
+    }
+    text_free(r->ctx, &notes);
+    return good ? FRAM_OK : error_memory(error);
 }
 
 static void log_start(const run *r, const build_report *report)
@@ -343,12 +362,15 @@ static fram_status start_streams(run *r, fram_error *error)
 fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
                       fram_error *error)
 {
-    run r = {.ctx = ctx, .s = s, .options = options, .settings = build_settings(s), .started = wall_clock()};
+    run r = {
+        .ctx = ctx, .s = s, .options = options, .settings = build_settings(s), .started = wall_clock(), .lock = -1};
     build_report report = {0};
     set_schedule(&r);
     fram_status status = run_folder_check(options->folder, options->force, error);
     if (status == FRAM_OK)
         status = identify(&r, error);
+    if (status == FRAM_OK)
+        status = log_warnings(&r, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     if (status == FRAM_OK)
         status = build_world(ctx, s, &r.world, &report, error);
@@ -358,7 +380,7 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     }
     log_start(&r, &report);
     double began = wall_clock();
-    status = run_folder_prepare(ctx, options->folder, options->force, error);
+    status = run_folder_prepare(ctx, options->folder, options->force, &r.lock, error);
     if (status == FRAM_OK)
         status = write_scenario(&r, error);
     if (status == FRAM_OK)
@@ -401,9 +423,12 @@ fram_status run_resume(context *ctx, const run_options *options, run_result *res
         status = scenario_read(ctx, path, NULL, &s, error);
     if (status != FRAM_OK)
         return status;
-    run r = {.ctx = ctx, .s = &s, .options = options, .settings = build_settings(&s), .started = wall_clock()};
+    run r = {
+        .ctx = ctx, .s = &s, .options = options, .settings = build_settings(&s), .started = wall_clock(), .lock = -1};
     set_schedule(&r);
-    status = identify(&r, error);
+    status = run_folder_lock(options->folder, &r.lock, error);
+    if (status == FRAM_OK)
+        status = identify(&r, error);
     if (status == FRAM_OK)
         status = build_empty_world(ctx, &s, &r.world, error);
     if (status == FRAM_OK) {

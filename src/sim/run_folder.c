@@ -10,9 +10,11 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -100,9 +102,30 @@ static void remove_results(const char *folder)
     }
 }
 
-fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error)
+fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
+{
+    *lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (*lock < 0)
+        return file_error(error, folder, "open the folder", errno);
+    if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+        return FRAM_OK;
+    run_folder_unlock(*lock);
+    *lock = -1;
+    return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL,
+                     "another run is writing into this folder; wait for its end, or name another folder");
+}
+
+void run_folder_unlock(int lock)
+{
+    if (lock >= 0)
+        close(lock);
+}
+
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int *lock, fram_error *error)
 {
     fram_status status = run_folder_make(folder, error);
+    if (status == FRAM_OK)
+        status = run_folder_lock(folder, lock, error);
     if (status == FRAM_OK)
         status = run_folder_check(folder, force, error);
     if (status != FRAM_OK)

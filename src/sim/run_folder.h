@@ -11,9 +11,14 @@
 fram_status run_folder_make(const char *folder, fram_error *error);
 /* FRAM_ERROR_USAGE for a folder that is not empty, without `force`; nothing is touched. */
 fram_status run_folder_check(const char *folder, bool force, fram_error *error);
-/* Make the folder and those above it, after the same check.  With `force`, checkpoints, pictures and pages of an
-   earlier run are removed, so that they are never mixed with the new one's. */
-fram_status run_folder_prepare(context *ctx, const char *folder, bool force, fram_error *error);
+/* That no other run writes into the folder: FRAM_ERROR_USAGE while one does.  *lock is for run_folder_unlock; the lock
+   ends with the process too, and a file system without locks gives none. */
+fram_status run_folder_lock(const char *folder, int *lock, fram_error *error);
+/* lock -1: nothing. */
+void run_folder_unlock(int lock);
+/* Make the folder and those above it and lock it, after the same check.  With `force`, checkpoints, pictures and pages
+   of an earlier run are removed, so that they are never mixed with the new one's. */
+fram_status run_folder_prepare(context *ctx, const char *folder, bool force, int *lock, fram_error *error);
 
 /* "sha256  path" of every file the scenario names, a line each, the paths absolute. */
 fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out, fram_error *error);

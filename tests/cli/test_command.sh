@@ -172,12 +172,15 @@ for file in damaged/checkpoint-*.fram; do printf 'x' | dd of="$file" bs=1 seek=1
 expect 2 "$FRAM" resume damaged
 
 # Ctrl-C leaves a checkpoint.
+wait_for_start() {
+    for _ in $(seq 100); do
+        [ -s "$1/run.json" ] && break
+        sleep 0.1
+    done
+}
 "$FRAM" run scene.yaml -o long --set run.duration=10000 --set vessel.speed=0 --json >out 2>err &
 pid=$!
-for _ in $(seq 100); do
-    [ -s long/run.json ] && break
-    sleep 0.1
-done
+wait_for_start long
 sleep 0.5
 kill -INT $pid
 code=0
@@ -187,6 +190,37 @@ says "fram resume long" err
 ls long/checkpoint-*.fram >/dev/null || fail "no checkpoint after Ctrl-C"
 now=$(python3 -c 'import json; print(json.load(open("long/run.json"))["time_s"] + 0.1)')
 expect 0 "$FRAM" resume long --until "$now"
+
+# So does a terminal that closes, unless nohup says otherwise; a closed pipe costs the progress lines only.  While a
+# run writes, no other one does.
+"$FRAM" run scene.yaml -o hung --set run.duration=10000 --set vessel.speed=0 -q 2>err &
+pid=$!
+wait_for_start hung
+for words in "resume hung" "run scene.yaml -o hung --force"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words --json
+    same "$(value 'j["error"]["file"]')" hung "folder of a run that goes on"
+    says "another run is writing" err
+done
+kill -HUP $pid
+code=0
+wait $pid || code=$?
+same "$code" 130 "exit code after a hangup"
+now=$(python3 -c 'import json; print(json.load(open("hung/run.json"))["time_s"] + 0.1)')
+expect 0 "$FRAM" resume hung --until "$now"
+nohup "$FRAM" run scene.yaml -o kept --set run.duration=100 --set vessel.speed=0 -q >out 2>err &
+pid=$!
+wait_for_start kept
+kill -HUP $pid || true
+code=0
+wait $pid || code=$?
+same "$code" 0 "exit code of a run under nohup"
+{ "$FRAM" run scene.yaml -o piped --json && echo good >how || echo ended >how; } 2>&1 >out | true
+same "$(cat how) $(value 'j["state_hash"]')" "good $hash" "a run whose log is closed"
+
+# What check warns of, a run warns of too.
+expect 0 "$FRAM" run scene.yaml -o warned --set run.duration=60 --until 0.1
+says "warning: the vessel leaves the domain" err
 
 # A run that goes wrong says so, and leaves its state.
 expect 1 "$FRAM" run scene.yaml -o broken --set run.speed_limit=0.5 --json

@@ -63,8 +63,9 @@ START_TEST(a_file_is_continued_where_a_checkpoint_says)
 
     assert_fails(csv_continue(&ctx, s.path, length - 1, columns, 4, &w, &error), error, FRAM_ERROR_INPUT,
                  "end of a row");
-    assert_fails(csv_continue(&ctx, s.path, 5, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "to continue after");
-    assert_fails(csv_continue(&ctx, s.path, 1000, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "found 1000");
+    assert_fails(csv_continue(&ctx, s.path, 5, columns, 4, &w, &error), error, FRAM_ERROR_INPUT, "to continue at");
+    assert_fails(csv_continue(&ctx, s.path, 1000, columns, 4, &w, &error), error, FRAM_ERROR_INPUT,
+                 "at least 1000 bytes");
     assert_fails(csv_continue(&ctx, s.path, length, columns, 3, &w, &error), error, FRAM_ERROR_INPUT, "columns");
     csv_column renamed[4];
     memcpy(renamed, columns, sizeof renamed);
