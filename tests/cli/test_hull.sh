@@ -89,6 +89,11 @@ says "has one triangle" err
 expect 0 "$FRAM" hull hole.obj --repair --json
 same "$(value 'j["holes_filled"]')" 1 "holes"
 
+# The example that --help gives for main particulars can be made.
+example=$("$FRAM" hull --help | grep -o 'hull --length.*')
+# shellcheck disable=SC2086
+expect 0 "$FRAM" $example
+
 # Words that do not go together.
 expect 2 "$FRAM" hull
 says "needs a mesh file" err
