@@ -39,7 +39,10 @@ fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_er
     snprintf(f->temporary, length + 5, "%s.new", path);
     int code = nc_create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
     if (code != NC_NOERR) {
-        fram_status status = error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", nc_strerror(code));
+        /* Codes of the operating system are positive, and NetCDF's own ones are negative. */
+        fram_status status =
+            code > 0 ? file_error(error, path, "open for writing", code)
+                     : error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", nc_strerror(code));
         forget(f);
         return status;
     }

@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -49,6 +50,16 @@ static fram_status start(video_file *v, char *const *arguments, fram_error *erro
                      strerror(code));
 }
 
+/* An empty file for ffmpeg to fill, so that a name that cannot be written is told as for any other file. */
+static fram_status make_empty(const char *path, const char *temporary, fram_error *error)
+{
+    int file = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0)
+        return file_error(error, path, "open for writing", errno);
+    close(file);
+    return FRAM_OK;
+}
+
 fram_status video_begin(context *ctx, const char *path, int width, int height, int frames_per_second, video_file *v,
                         fram_error *error)
 {
@@ -68,7 +79,12 @@ fram_status video_begin(context *ctx, const char *path, int width, int height, i
                                "bgr0",      "-s",         size,        "-r",       rate,         "-i",       "pipe:0",
                                "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p",    "-crf",     "21",
                                "-movflags", "+faststart", "-f",        "mp4",      v->temporary, NULL};
-    fram_status status = start(v, arguments, error);
+    fram_status status = make_empty(path, v->temporary, error);
+    if (status == FRAM_OK) {
+        status = start(v, arguments, error);
+        if (status != FRAM_OK)
+            unlink(v->temporary);
+    }
     if (status != FRAM_OK)
         forget(v);
     return status;

@@ -70,7 +70,7 @@ static void draw_solid(solid_view *v, const replay *r, const replay_body *b, con
     }
 }
 
-/* Top, sides and upper rim; what is seen from above only. */
+/* Top, sides and, but for tiles of level ice, upper rim; what is seen from above only. */
 static fram_status draw_prism(context *ctx, solid_view *v, const replay *r, const replay_body *b, const replay_pose *p,
                               const double rgb[3], index_array *corners, fram_error *error)
 {
@@ -91,7 +91,8 @@ static fram_status draw_prism(context *ctx, solid_view *v, const replay *r, cons
         vec3 below_a = vec3_mad(a, half, -2), below_c = vec3_mad(c, half, -2);
         solid_view_triangle(v, below_a, below_c, c, rgb);
         solid_view_triangle(v, below_a, c, a, rgb);
-        solid_view_line(v, a, c, rim);
+        if (!b->level)
+            solid_view_line(v, a, c, rim);
     }
     array_free(ctx, &top);
     return good ? FRAM_OK : error_memory(error);

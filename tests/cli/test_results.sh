@@ -91,6 +91,8 @@ PY
 if "$FRAM" --version | grep -q netcdf; then
     expect 0 "$FRAM" export run --netcdf -q
     [ "$(head -c 4 run/run.nc | tail -c 3)" = HDF ] || fail "run.nc is no HDF5 file"
+    expect 2 "$FRAM" export run --netcdf -o no/such/run.nc
+    says "cannot open for writing" err
     expect 1 bash -c 'ulimit -f 20 && exec "$@"' - "$FRAM" export run --netcdf -o full.nc --json
     same "$(value 'j["error"]["status"], j["error"]["file"]')" "io full.nc" "an export that finds no room"
     [ -z "$(ls full.nc* 2>/dev/null)" ] || fail "an export that found no room left $(ls full.nc*)"
@@ -156,8 +158,11 @@ if [ $pictures = yes ]; then
     [ ! -e endless ] || fail "a refused video left a folder"
     expect 0 "$FRAM" video run --pictures --fps 1 --camera follow --width 480 --height 360 -o near
     cmp -s near/frame-000000.png near/frame-000002.png && fail "frames of the video in space are all the same"
+    expect 2 "$FRAM" video run -o no/such/run.mp4
+    says "cannot open for writing" err
     expect 1 env PATH=/nonexistent "$FRAM" video run -o none.mp4
     says "needs ffmpeg" err
+    [ -z "$(ls none.mp4* 2>/dev/null)" ] || fail "a video without ffmpeg left $(ls none.mp4*)"
     if command -v ffmpeg >/dev/null; then
         expect 0 "$FRAM" video run --fps 4 --width 640 --height 480 --camera plan --span 80 -o run.mp4
         [ "$(head -c 8 run.mp4 | tail -c 4)" = ftyp ] || fail "run.mp4 is no MP4"

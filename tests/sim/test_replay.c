@@ -3,6 +3,7 @@
 
 #include "sim/record_pose.h"
 #include "sim/replay_moment.h"
+#include "sim/replay_plan.h"
 #include "sim/run.h"
 
 #include <stdio.h>
@@ -64,7 +65,7 @@ static const char text[] = "run:\n  duration: 6\n  time_step: 0.02\n"
                            "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
                            "output:\n  frame_interval: 0.2\n";
 
-static void run_scene(context *ctx, char folder[PATH])
+static void run_scene(context *ctx, const char *from, char folder[PATH])
 {
     const char *base = getenv("TMPDIR");
     fram_error error = {0};
@@ -72,7 +73,7 @@ static void run_scene(context *ctx, char folder[PATH])
     run_result result = {0};
     snprintf(folder, PATH, "%s/fram-replay-XXXXXX", base && *base ? base : "/tmp");
     ck_assert_ptr_nonnull(mkdtemp(folder));
-    assert_ok(scenario_parse(ctx, "scene.yaml", text, strlen(text), NULL, &s, &error), error);
+    assert_ok(scenario_parse(ctx, "scene.yaml", from, strlen(from), NULL, &s, &error), error);
     run_options options = {.folder = folder};
     assert_ok(run_start(ctx, &s, &options, &result, &error), error);
     scenario_free(ctx, &s);
@@ -90,7 +91,7 @@ START_TEST(a_run_is_read_back)
     context ctx;
     char folder[PATH];
     context_init(&ctx);
-    run_scene(&ctx, folder);
+    run_scene(&ctx, text, folder);
     replay r;
     fram_error error = {0};
     bool found = true;
@@ -143,12 +144,52 @@ START_TEST(a_run_is_read_back)
 }
 END_TEST
 
+/* Tiles of level ice are told from fixed floes, and a map shows them as level ice. */
+START_TEST(level_ice_is_known)
+{
+    static const char level[] = "run: {duration: 0.04, time_step: 0.02}\nvessel: {present: false}\n"
+                                "ice: {source: level, breakable: true}\n"
+                                "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44, boundary: open}\n";
+    const char *const from[2] = {text, level};
+    for (int k = 0; k < 2; k++) {
+        context ctx;
+        char folder[PATH];
+        replay r;
+        replay_moment m = {0};
+        replay_plan plan = {0};
+        fram_error error = {0};
+        bool found = false;
+        int32_t tiles = 0, fixed = 0, shown[PLAN_STYLE_COUNT] = {0};
+        context_init(&ctx);
+        run_scene(&ctx, from[k], folder);
+        assert_ok(replay_open(&ctx, folder, &r, &error), error);
+        assert_ok(replay_next(&r, &found, &error), error);
+        assert_ok(replay_moment_now(&r, &m, &error), error);
+        assert_ok(replay_plan_make(&r, &m, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &plan, &error), error);
+        for (int32_t i = 0; i < r.bodies.count; i++) {
+            tiles += r.bodies.data[i].level;
+            fixed += r.bodies.data[i].material == MATERIAL_ICE && !r.bodies.data[i].moves && !r.bodies.data[i].level;
+        }
+        for (int32_t i = 0; i < plan.shapes.count; i++)
+            shown[plan.shapes.data[i].style]++;
+        ck_assert_int_eq(fixed, k == 0);
+        ck_assert(k == 0 ? tiles == 0 : tiles > 1);
+        ck_assert_int_eq(shown[PLAN_LEVEL_ICE], tiles);
+        ck_assert_int_eq(shown[PLAN_FIXED_ICE], fixed);
+        replay_plan_free(&ctx, &plan);
+        replay_moment_free(&ctx, &m);
+        replay_close(&r);
+        remove_folder(folder);
+    }
+}
+END_TEST
+
 START_TEST(a_moment_lies_between_its_frames)
 {
     context ctx;
     char folder[PATH];
     context_init(&ctx);
-    run_scene(&ctx, folder);
+    run_scene(&ctx, text, folder);
     replay r;
     replay_moment m = {0};
     fram_error error = {0};
@@ -280,4 +321,5 @@ START_TEST(records_that_lie_are_refused)
 END_TEST
 
 TEST_MAIN("replay", half_floats_are_those_of_the_standard, poses_keep_their_precision, a_run_is_read_back,
-          a_moment_lies_between_its_frames, frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
+          level_ice_is_known, a_moment_lies_between_its_frames, frames_come_rarely_enough_for_the_limit,
+          records_that_lie_are_refused)

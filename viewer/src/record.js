@@ -53,8 +53,8 @@ class Cursor {
 
 /** @returns {{scenario: string, bodies: Body[], frames: Frame[], fractures: Fracture[]}}
  *  Body: {index, slot, material, moves, birth, death (frame numbers; death is the first frame without it), number and
- *  parent of a floe, thickness, area and outline [[x, y], ...] of a prism, or vertices and triangles of a solid, pose
- *  of a body that does not move}.
+ *  parent of a floe, thickness, area, outline [[x, y], ...] and level (a tile of level ice) of a prism, or vertices and
+ *  triangles of a solid, pose of a body that does not move}.
  *  Frame: {time, step, force: [x, y, z], order: bodies that move, view and at of its poses or chunk and offset of a
  *  file beside the page}.
  *  Fracture: {time, kind, floe, place, load}. */
@@ -125,7 +125,7 @@ function readSolid(c) {
 function readPrism(c) {
     const body = { slot: c.i32(), generation: c.u32(), material: MATERIALS[c.u8()], moves: c.u8() !== 0 };
     body.breakable = c.u8() !== 0;
-    c.at += 1;
+    body.level = c.u8() !== 0;
     body.thickness = c.f32();
     body.density = c.f32();
     body.number = c.i32();

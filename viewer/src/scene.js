@@ -273,11 +273,11 @@ function addSolid(b, add) {
     }
 }
 
-/** The top rim of every prism. */
+/** The top rim of every prism, but for the tiles of level ice: their seams are neither boundary nor crack. */
 function edgeGeometry(bodies) {
     const position = [], body = [];
     for (const b of bodies) {
-        if (!b.outline) continue;
+        if (!b.outline || b.level) continue;
         b.outline.forEach((a, i) => {
             const c = b.outline[(i + 1) % b.outline.length], z = b.thickness / 2 + 0.01;
             position.push(...a, z, ...c, z);
