@@ -62,6 +62,9 @@ int command_run(const command_row *self, int argc, char **argv)
         return code;
     if (!definition.folder)
         return answer_usage(&common, "--output", "is missing: name a folder for the results, -o DIR");
+    code = refuse_run_folder(&common, path, definition.folder);
+    if (code >= 0)
+        return code;
     definition.force = common.force;
 
     fram_context *context = NULL;

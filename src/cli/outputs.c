@@ -74,3 +74,12 @@ int refuse_outputs(const common_options *common, const command_files *files)
     }
     return -1;
 }
+
+int refuse_run_folder(const common_options *common, const char *scenario, const char *folder)
+{
+    if (!is_of_run(folder, scenario))
+        return -1;
+    return answer_usage(common, "--output",
+                        "names a folder in which the run would write over the scenario that it reads; give it a folder "
+                        "of its own");
+}

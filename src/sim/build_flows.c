@@ -5,6 +5,9 @@
 
 #include <stdio.h>
 
+/* As those of a table in the scenario, in a file too. */
+enum { COEFFICIENT_MOST = 100 };
+
 /* Rows as they are given. */
 typedef struct flow_rows {
     double_array column[4]; /* angle [deg], CX, CY, CN */
@@ -86,6 +89,9 @@ static fram_status check_rows(const scenario *s, const scenario_flow *from, cons
         for (int k = 0; k < 4; k++)
             if (!isfinite(rows->column[k].data[i]))
                 return fault(s, from, key, i, "finite numbers", rows->column[k].data[i], error);
+        for (int k = 1; k < 4; k++)
+            if (!(fabs(rows->column[k].data[i]) <= COEFFICIENT_MOST))
+                return fault(s, from, key, i, "coefficients from -100 to 100", rows->column[k].data[i], error);
         if (i > 0 && !(rows->column[0].data[i] > rows->column[0].data[i - 1]))
             return fault(s, from, key, i, "a larger angle than in the row before", rows->column[0].data[i], error);
     }

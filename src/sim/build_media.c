@@ -6,6 +6,9 @@
 
 enum { AT, ALONG_X, ALONG_Y, COLUMNS };
 
+/* As environment.wind_speed: more is a mistake in the units. */
+enum { SPEED_MOST = 200 };
+
 typedef struct velocity_rows {
     double_array column[COLUMNS];
 } velocity_rows;
@@ -27,6 +30,9 @@ static fram_status check_rows(const velocity_rows *rows, const char *path, const
         double x = rows->column[ALONG_X].data[i], y = rows->column[ALONG_Y].data[i];
         if (!isfinite(at[i]) || !isfinite(x) || !isfinite(y))
             return error_set(error, FRAM_ERROR_INPUT, path, i + 2, first, "expected finite numbers");
+        if (!(fabs(x) <= SPEED_MOST && fabs(y) <= SPEED_MOST))
+            return error_set(error, FRAM_ERROR_INPUT, path, i + 2, first, "expected at most %d m/s, found %g and %g",
+                             (int)SPEED_MOST, x, y);
         if (i > 0 && !(at[i] > at[i - 1]))
             return error_set(error, FRAM_ERROR_INPUT, path, i + 2, first,
                              "expected more than %g, that of the row before, found %g", at[i - 1], at[i]);

@@ -108,6 +108,9 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
     p.panels = memory_array(ctx, (size_t)count, sizeof *p.panels);
     if (!p.panels)
         status = error_memory(error);
+    else if (d.series.rows == 0)
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
+                           "the run's series has no rows; give the scenario a shorter output.csv_interval");
     else if (!p.time)
         status = no_channel(&d, "time", error);
     if (status == FRAM_OK && p.time)

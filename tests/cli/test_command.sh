@@ -95,6 +95,11 @@ expect 2 "$FRAM" run scene.yaml -o a --set vessel.x=-40 --json
 same "$(value 'j["error"]["key"]')" vessel.x "key of a hull inside a wall"
 same "$(value 'j["error"]["file"]')" --set "place of a hull inside a wall"
 
+printf 'angle[deg],cx,cy,cn\n0,1,0,0\n90,0,101,0\n180,-1,0,0\n' >wind.csv
+expect 2 "$FRAM" check scene.yaml --build --set vessel.wind_coefficients.table_file=wind.csv --json
+same "$(value 'j["error"]["file"], j["error"]["line"]')" "wind.csv 3" "place of a coefficient that cannot be"
+says "from -100 to 100" err
+
 # check prints a scenario that reads back as itself.
 expect 0 "$FRAM" check scene.yaml --set run.seed=7
 cp out full.yaml
@@ -128,6 +133,11 @@ same "$(value 'j["state_hash"]')" "$hash" "hash of the second run"
 for file in failed.fram station.json; do
     [ ! -e "straight/$file" ] || fail "--force leaves $file of the run before"
 done
+
+cp straight/scenario.yaml kept.yaml
+expect 2 "$FRAM" run straight/scenario.yaml -o straight --force --set run.seed=3
+says "write over the scenario" err
+cmp -s straight/scenario.yaml kept.yaml || fail "a run wrote over the scenario that it read"
 
 # Stop half way, resume, resume again; threads and instruction sets change nothing.
 expect 0 "$FRAM" run scene.yaml -o halves --until 1 --json

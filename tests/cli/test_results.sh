@@ -137,6 +137,11 @@ fi
 expect 2 "$FRAM" plot run roll
 says "--output" err
 
+cp -r run rare
+head -n 1 run/series.csv >rare/series.csv
+expect 2 "$FRAM" plot rare roll -o none.png
+says "no rows" err
+
 # Two runs.
 expect 0 "$FRAM" compare run run --json
 holds '"same_state":true' out

@@ -151,6 +151,7 @@ START_TEST(wrong_files)
         {"current_file: series.csv", "time,x,y\n0,1,0\n0,2,0\n", "row before", 3},
         {"wind_file: series.csv", "time,x,y\n0,nan,0\n", "finite", 2},
         {"wind_file: series.csv", "time,x,y\n0,fast,0\n", "expected a number", 2},
+        {"current_file: series.csv", "time,x,y\n0,1,0\n5,0,-201\n", "at most 200 m/s", 3},
         {"wind_file: missing.csv", "", "expected a file that can be read", 5},
         {"current_profile_file: series.csv", "depth,x,y\n-1,1,0\n", "depths", 0},
     };
