@@ -226,6 +226,7 @@ typedef struct fram_bench_result {
     double real_time_factor;
     double contact_points; /* that overlap, mean per step */
     double pairs;          /* of bodies that overlap, mean per step */
+    double loaded_pairs;   /* of bodies that press on one another, mean per step */
     double mean_penetration_m, max_penetration_m;
     double ship_force_kN; /* mean ice load against the ship's x axis */
     double kinetic_energy_J;

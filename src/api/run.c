@@ -105,6 +105,7 @@ static fram_bench_result bench_answer(const bench_result *r)
                                .real_time_factor = r->real_time_factor,
                                .contact_points = r->contact_points,
                                .pairs = r->pairs,
+                               .loaded_pairs = r->loaded_pairs,
                                .mean_penetration_m = r->mean_depth,
                                .max_penetration_m = r->max_depth,
                                .ship_force_kN = r->ship_force * 1e-3,

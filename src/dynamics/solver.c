@@ -135,19 +135,6 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
 
 /* ---- positions ---- */
 
-/* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
-static double correction_share(const contact *c, double rate)
-{
-    double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
-    double share = 1 - carried < rate ? 1 - carried : rate;
-    return share > 0 ? share : 0;
-}
-
-double correction_velocity(const contact *c, const solver_settings *settings, double dt)
-{
-    return (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
-}
-
 void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt)
 {
     for (int32_t i = 0; i < s->joints.count; i++) {
@@ -187,10 +174,24 @@ static bool make_correction_rows(solver *s, const solver_settings *settings, dou
     return true;
 }
 
+/* Corrections end at the skin by ever smaller steps: this share of it more is not worth one. */
+#define SKIN_SLACK 0.01
+
+static bool correction_needed(const solver_settings *settings, const joint_table *joints, const contact_array *contacts)
+{
+    bool needed = joints->count > 0;
+    for (int32_t i = 0; i < contacts->count && !needed && !settings->baumgarte; i++)
+        needed = contacts->data[i].correct &&
+                 contact_excess(&contacts->data[i], settings) > SKIN_SLACK * settings->contact_skin;
+    return needed;
+}
+
 fram_status solver_correct_positions(context *ctx, solver *s, const solver_settings *settings, double dt,
                                      body_table *bodies, const joint_table *joints, const contact_array *contacts,
                                      fram_error *error)
 {
+    if (!correction_needed(settings, joints, contacts))
+        return FRAM_OK;
     s->ctx = ctx;
     if (settings->kind == SOLVER_FAST)
         return solver_correct_fast(s, settings, dt, bodies, joints, contacts, error);

@@ -56,6 +56,7 @@ typedef struct contact_batch {
     int32_t hub, copies;                             /* body row of the hub, first of its eight copies; -1 without */
     bool general;                                    /* some body has a mass that depends on the direction */
     bool fixed;                                      /* some body is one that nothing can move */
+    bool overlaps;                                   /* position correction: there is overlap to correct */
 } contact_batch;
 
 /* What kernels work on. */

@@ -67,10 +67,7 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
         c->arm_a = vec3_sub(c->point, bodies->position[c->a]);
         c->arm_b = vec3_sub(c->point, bodies->position[c->b]);
         fill_row(row, &s->bodies.data[row->a], &s->bodies.data[row->b], c, c->arm_a, c->arm_b);
-        if (c->depth < 0) /* an open point may close, no more */
-            row->bias = c->depth / dt;
-        else if (settings->baumgarte && c->correct)
-            row->bias = settings->correction_rate * c->depth / dt;
+        row->bias = wanted_velocity(c, settings, dt);
     }
     return FRAM_OK;
 }

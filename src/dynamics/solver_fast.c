@@ -119,20 +119,34 @@ static void residual_task(const stage *st, batch_task *task)
 /* Sweeps that may follow the last one while impulses give energy, which is rare. */
 enum { MOST_AFTERWARDS = 32 };
 
+/* Energy of a sweep that changed no velocity by more than the tolerance: half the square of that by the lightest body's
+   mass. */
+static double negligible_energy(const fast_rows *f, double tolerance)
+{
+    double lightest = HUGE_VAL;
+    for (int32_t row = 0; row < f->plan.slot.count; row++) {
+        const double *m = row_of(&f->mass, row);
+        double mass = (m[0] + m[1] + m[2]) / 3;
+        lightest = mass > 0 && mass < lightest ? mass : lightest;
+    }
+    return lightest < HUGE_VAL ? 0.5 * lightest * tolerance * tolerance : 0;
+}
+
 /* At most so many sweeps; fewer when nothing is left to do.  x: multipliers of contacts, `rows` of them. */
 static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), aligned_rows *x, int64_t rows, int32_t most,
                     int32_t *iterations)
 {
-    sweep_sums sums = {.energy = 1};
+    sweep_sums sums = {.energy = HUGE_VAL};
     acceleration *a = &st->s->fast->acceleration;
+    double negligible = negligible_energy(st->s->fast, st->settings->tolerance);
     if (!acceleration_begin(st, x, rows))
         return false;
     int32_t next = a->pause;
-    for (*iterations = 0; *iterations < most && sums.energy != 0;) {
+    for (*iterations = 0; *iterations < most && sums.energy > negligible;) {
         sums = sweep_once(st, sweep);
         ++*iterations;
         /* As many sweeps must be left to draw all back into its bounds. */
-        if (*iterations < next || *iterations + a->pause > most || sums.energy == 0)
+        if (*iterations < next || *iterations + a->pause > most || sums.energy <= negligible)
             continue;
         if (!acceleration_go_on(st, sums.energy, sums.wanted))
             return true;
@@ -276,7 +290,8 @@ static void fill_bias(const stage *st, batch_task *task)
     const fast_rows *f = st->s->fast;
     task->energy = 0;
     for (int32_t i = task->first; i < task->end; i++) {
-        const contact_batch *batch = &f->plan.batches.data[i];
+        contact_batch *batch = &f->plan.batches.data[i];
+        batch->overlaps = false;
         for (int32_t k = 0; k < batch->points; k++) {
             double *bias = row_of(&f->bias, batch->first + k);
             for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
@@ -284,9 +299,10 @@ static void fill_bias(const stage *st, batch_task *task)
                 bias[lane] = !c                                       ? 0
                              : c->correct && !st->settings->baumgarte ? correction_velocity(c, st->settings, st->dt)
                                                                       : NEVER;
-                task->energy = bias[lane] > 0 ? 1 : task->energy;
+                batch->overlaps = batch->overlaps || bias[lane] > 0;
             }
         }
+        task->energy += batch->overlaps ? 1 : 0;
     }
 }
 

@@ -179,13 +179,6 @@ static void put3(double *rows, int at, int32_t lane, vec3 v)
     rows[BATCH_LANES * (at + 2) + lane] = v.z;
 }
 
-static double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
-{
-    if (c->depth < 0) /* an open point may close, no more */
-        return c->depth / dt;
-    return settings->baumgarte && c->correct ? settings->correction_rate * c->depth / dt : 0;
-}
-
 static void fill_lane(const stage *st, const contact_batch *batch, double *frame, int32_t lane)
 {
     const fast_rows *f = st->s->fast;

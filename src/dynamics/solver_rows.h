@@ -92,8 +92,39 @@ void solver_bodies_load(solver *s, const body_table *bodies);
 
 /* ---- solver.c ---- */
 
-/* Pseudo velocity at which a contact wants to part, or may close, in the position correction. */
-double correction_velocity(const contact *c, const solver_settings *settings, double dt);
+/* Overlap beyond the contact skin; negative: a gap beyond it; 0: the two touch [m]. */
+static inline double contact_excess(const contact *c, const solver_settings *settings)
+{
+    double skin = settings->contact_skin;
+    return c->depth > skin ? c->depth - skin : c->depth < -skin ? c->depth + skin : 0;
+}
+
+/* Least relative normal velocity after the step: an open point may close, no more [m/s]. */
+static inline double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
+{
+    double excess = contact_excess(c, settings);
+    if (excess < 0)
+        return excess / dt;
+    return settings->baumgarte && c->correct ? settings->correction_rate * excess / dt : 0;
+}
+
+/* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
+static inline double correction_share(const contact *c, double rate)
+{
+    double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
+    double share = 1 - carried < rate ? 1 - carried : rate;
+    return share > 0 ? share : 0;
+}
+
+/* Pseudo velocity at which a contact wants to part, or may close, in the position correction [m/s]. */
+static inline double correction_velocity(const contact *c, const solver_settings *settings, double dt)
+{
+    if (c->depth < 0)
+        return c->depth / dt;
+    double excess = contact_excess(c, settings);
+    return excess > 0 ? correction_share(c, settings->correction_rate) * excess / dt : 0;
+}
+
 /* Joint rows made for velocities now ask for positions. */
 void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt);
 

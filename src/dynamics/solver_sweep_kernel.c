@@ -441,11 +441,29 @@ V8_INLINE void correct_batch(const batch_view *view, int32_t number, const doubl
     hub_collect(view, batch);
 }
 
+/* Whether a sweep of the position correction would change nothing: no overlap, no impulse, no body that moves. */
+V8_INLINE bool correct_passes(const batch_view *view, const contact_batch *batch, const double *impulse)
+{
+    if (batch->overlaps || batch->hub >= 0)
+        return false;
+    v8 zero = v8_set(0);
+    v8_mask moves = v8_less(zero, zero);
+    for (int32_t k = 0; k < batch->points; k++)
+        moves = moves | v8_less(zero, row(impulse, batch->first + k));
+    for (int i = 0; i < BATCH_LANES; i++) {
+        moves = moves | ~v8_less_equal(v8_abs(row(view->velocity, batch->a[i])), zero);
+        moves = moves | ~v8_less_equal(v8_abs(row(view->velocity, batch->b[i])), zero);
+    }
+    return !v8_any(moves);
+}
+
 sweep_sums KERNEL(solver_correct)(const batch_view *view, int32_t first, int32_t end, const double *bias,
                                   double *impulse)
 {
     lanes_sums sums = {v8_set(0), v8_set(0)};
     for (int32_t i = first; i < end; i++) {
+        if (correct_passes(view, &view->batch[i], impulse))
+            continue;
         if (view->batch[i].general)
             correct_batch(view, i, bias, impulse, true, &sums);
         else

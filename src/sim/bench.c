@@ -29,18 +29,31 @@ int64_t bench_steps(double span, double time_step) { return (int64_t)floor(span 
 
 /* ---- what a step did ---- */
 
-/* Overlapping points, and pairs of bodies that have some: contacts of one pair follow one another. */
-static void count_touching(const contact_array *c, bench_result *r)
+/* A pair of bodies that was counted last: contacts of one pair follow one another. */
+typedef struct last_pair {
+    int32_t a, b;
+} last_pair;
+
+static bool is_new(last_pair *last, const contact *c)
 {
-    int32_t a = -1, b = -1;
-    for (int32_t i = 0; i < c->count; i++) {
-        const contact *at = &c->data[i];
-        if (!(at->depth > 0))
-            continue;
-        r->contact_points++;
-        r->pairs += at->a != a || at->b != b;
-        a = at->a;
-        b = at->b;
+    bool new = c->a != last->a || c->b != last->b;
+    *last = (last_pair){c->a, c->b};
+    return new;
+}
+
+/* Points that overlap, pairs of bodies that have some, and pairs that press on one another: with a contact skin, what
+   lies together may be a skin apart. */
+static void count_touching(const contact_array *contacts, bench_result *r)
+{
+    last_pair overlapping = {-1, -1}, loaded = {-1, -1};
+    for (int32_t i = 0; i < contacts->count; i++) {
+        const contact *c = &contacts->data[i];
+        if (c->depth > 0) {
+            r->contact_points++;
+            r->pairs += is_new(&overlapping, c);
+        }
+        if (c->impulse[0] > 0)
+            r->loaded_pairs += is_new(&loaded, c);
     }
 }
 
@@ -105,7 +118,8 @@ static void summarize(const step_settings *settings, const world *w, int64_t ste
         took += times[TIME_WALL * steps + k];
     r->steps = steps;
     r->real_time_factor = took > 0 ? n * settings->time_step / took : 0;
-    r->contact_points /= n, r->pairs /= n, r->mean_depth /= n, r->residual /= n, r->ship_force /= n;
+    r->contact_points /= n, r->pairs /= n, r->loaded_pairs /= n, r->mean_depth /= n, r->residual /= n,
+        r->ship_force /= n;
     r->cpu_median = median(times + TIME_CPU * steps, steps);
     r->wall_median = median(times + TIME_WALL * steps, steps);
     r->forces_median = median(times + TIME_FORCES * steps, steps);

@@ -12,6 +12,7 @@ typedef struct bench_result {
     double forces_median, collide_median, solve_median; /* CPU time of the parts of a step [s] */
     double real_time_factor;
     double contact_points, pairs; /* overlapping points and pairs of bodies with such points, mean per step */
+    double loaded_pairs;          /* pairs of bodies with an impulse between them, mean per step */
     double mean_depth, max_depth; /* mean over steps of the mean overlap, largest overlap [m] */
     double ship_force;            /* mean ice load against the first vessel's x axis [N] */
     double kinetic_energy;        /* at the end [J] */

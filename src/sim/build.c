@@ -58,7 +58,7 @@ step_settings build_settings(const scenario *s)
                      .under_ice_contacts = s->ice.fracture.under_ice_contacts},
         .brash = s->ice.fracture.brash,
         .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
-                   v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
+                   v->contact_skin, v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
         .boundary = s->domain.boundary,
         .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
         .drift_given = !is_automatic(s->domain.drift_speed),
