@@ -2,11 +2,12 @@
    outlines.
 
        field_bench [--kind NAME] [--seeds N] [--first SEED] [--floes N] [--step MS] [--concentration C]
-                   [--templates FILE]
+                   [--templates FILE] [--periodic 1]
 
    --kind: one row only; --seeds: so many, 1; --first: the first of them, 1; --floes: about so many, 10,000; --step:
    what a step of 10,000 floes takes, to tell the multiple; --concentration: instead of the kind's own; --templates: a
-   file of outlines, without which the kind `templates` is passed over. */
+   file of outlines, without which the kinds that need them are passed over; --periodic: the field continues with itself
+   beyond its edges, between which it lies otherwise. */
 #include "base/transcendental.h"
 #include "ice/field_pack.h"
 #include "io/template_file.h"
@@ -24,7 +25,7 @@ typedef struct field_kind {
     double floes; /* over those asked for */
     bool cells;   /* managed ice instead of a packed field */
     bool templates;
-    int32_t populations;
+    int32_t populations; /* 0 with templates: each of them is one, of a single floe as it is */
     field_population population[MOST_POPULATIONS];
 } field_kind;
 
@@ -32,7 +33,16 @@ typedef struct field_words {
     const char *kind, *templates;
     int seeds, first, floes;
     double step_ms, concentration;
+    bool periodic;
 } field_words;
+
+/* Floes to be drawn. */
+typedef struct field_laws {
+    field_population *population;
+    polygon_list *one; /* with a population for every template: that template; else NULL */
+    int32_t count;
+    field_population_report *part; /* of each */
+} field_laws;
 
 /* Worst of all seeds. */
 typedef struct field_worst {
@@ -62,13 +72,22 @@ static const field_kind kinds[] = {
     {"voronoi", "Voronoi, 98 %", 0.98, 1, true, false, 0, {{0, EQUAL, CONVEX}}},
     {"managed", "Voronoi, power law, b 1.7, 4 to 40 m, 98 %", 0.98, 1, true, false, 1, {{1, POWER, CONVEX}}},
     {"templates",
+     "templates, power law, b 1.7, 4 to 40 m, 85 %",
+     0.85,
+     0.0462,
+     false,
+     true,
+     1,
+     {{1, {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7}, CONVEX}}},
+    {"wide",
      "templates, power law, b 1.7, 2 to 40 m, 85 %",
      0.85,
-     1,
+     0.2772,
      false,
      true,
      1,
      {{1, {.kind = SIZE_POWER, .lo = 2, .hi = 40, .exponent = 1.7}, CONVEX}}},
+    {"observed", "every template once, at its own size, 85 %", 0.85, 1, false, true, 0, {{0, EQUAL, CONVEX}}},
     {"mixed",
      "mixed: lognormal 20 m, power law 4 to 40 m, pieces of 3 m; 85 %",
      0.85,
@@ -112,20 +131,58 @@ static double mean_area(const size_law *law)
 }
 
 /* Side of a square that about `floes` floes of a kind fill to its concentration [m]. */
-static double side_of(const field_kind *k, double floes)
+static double side_of(const field_kind *k, const field_laws *laws, double floes)
 {
     double shares = 0, each = 0; /* floes to an area of 1 */
-    for (int p = 0; p < k->populations; p++)
-        shares += k->population[p].share;
-    for (int p = 0; p < k->populations; p++)
-        each += k->population[p].share / shares / mean_area(&k->population[p].size);
-    return k->populations ? sqrt(floes / each / k->concentration) : sqrt(floes * CELL_AREA);
+    for (int p = 0; p < laws->count; p++)
+        shares += laws->population[p].share;
+    if (laws->one) /* the share is the area */
+        return sqrt(shares / k->concentration);
+    for (int p = 0; p < laws->count; p++)
+        each += laws->population[p].share / shares / mean_area(&laws->population[p].size);
+    return laws->count ? sqrt(floes / each / k->concentration) : sqrt(floes * CELL_AREA);
 }
 
-static fram_status make_voronoi(context *ctx, const field_kind *k, double side, uint64_t seed, polygon_list *outlines,
-                                field_population_report *part, field_packed_report *report, fram_error *error)
+static void laws_free(context *ctx, field_laws *laws)
 {
-    const size_law *law = k->populations ? &k->population[0].size : NULL;
+    for (int32_t p = 0; laws->one && p < laws->count; p++)
+        polygon_list_free(ctx, &laws->one[p]);
+    memory_free(ctx, laws->population);
+    memory_free(ctx, laws->one);
+    memory_free(ctx, laws->part);
+}
+
+/* false: no memory */
+static bool laws_make(context *ctx, const field_kind *k, const polygon_list *templates, field_laws *laws)
+{
+    bool own = k->templates && k->populations == 0;
+    int32_t count = own ? polygon_list_count(templates) : k->populations;
+    *laws = (field_laws){.count = count};
+    laws->population = memory_array(ctx, (size_t)count + 1, sizeof *laws->population);
+    laws->part = memory_array(ctx, (size_t)count + 1, sizeof *laws->part);
+    laws->one = own ? memory_array(ctx, (size_t)count, sizeof *laws->one) : NULL;
+    bool good = laws->population && laws->part && (!own || laws->one);
+    for (int32_t p = 0; good && p < count; p++) {
+        laws->part[p] = (field_population_report){0};
+        if (!own) {
+            laws->population[p] = k->population[p];
+            laws->population[p].shape.templates = k->templates ? templates : NULL;
+            continue;
+        }
+        polygon outline = polygon_list_get(templates, p);
+        double area = polygon_area(outline);
+        laws->one[p] = (polygon_list){0};
+        good = polygon_list_push(ctx, &laws->one[p], outline);
+        laws->population[p] = (field_population){
+            area, {.kind = SIZE_CONSTANT, .mean = sqrt(4 / PI * area)}, {.templates = &laws->one[p]}};
+    }
+    return good;
+}
+
+static fram_status make_voronoi(context *ctx, const field_kind *k, const field_laws *laws, double side, uint64_t seed,
+                                polygon_list *outlines, field_packed_report *report, fram_error *error)
+{
+    const size_law *law = laws->count ? &laws->population[0].size : NULL;
     const field_request request = {.domain = {{0, 0}, {side, side}},
                                    .concentration = k->concentration,
                                    .size = law,
@@ -135,32 +192,29 @@ static fram_status make_voronoi(context *ctx, const field_kind *k, double side, 
                                    .seed = seed};
     *report = (field_packed_report){0};
     fram_status status = field_voronoi(ctx, NULL, &request, outlines, &report->field, error);
-    if (status == FRAM_OK && law && !field_population_measure(ctx, law, outlines, NULL, 0, part))
+    if (status == FRAM_OK && law && !field_population_measure(ctx, law, outlines, NULL, 0, laws->part))
         status = error_memory(error);
     return status;
 }
 
-static fram_status make_packed(context *ctx, overlay *plane, const field_kind *k, const polygon_list *templates,
-                               double side, uint64_t seed, polygon_list *outlines, field_population_report *part,
-                               field_packed_report *report, fram_error *error)
+static fram_status make_packed(context *ctx, overlay *plane, const field_kind *k, const field_laws *laws, double side,
+                               bool periodic, uint64_t seed, polygon_list *outlines, field_packed_report *report,
+                               fram_error *error)
 {
-    field_population population[MOST_POPULATIONS];
     field_floe_array of = {0};
-    memcpy(population, k->population, sizeof population);
-    if (k->templates)
-        population[0].shape.templates = templates;
     const field_packed_request request = {.domain = {{0, 0}, {side, side}},
+                                          .periodic_x = periodic,
+                                          .periodic_y = periodic,
                                           .concentration = k->concentration,
-                                          .populations = population,
-                                          .population_count = k->populations,
+                                          .populations = laws->population,
+                                          .population_count = laws->count,
                                           .seed = seed};
-    fram_status status = field_packed(ctx, plane, &request, outlines, &of, part, report, error);
+    fram_status status = field_packed(ctx, plane, &request, outlines, &of, laws->part, report, error);
     array_free(ctx, &of);
     return status;
 }
 
-static void take_worst(const field_kind *k, const field_packed_report *report, const field_population_report *part,
-                       field_worst *w)
+static void take_worst(const field_laws *laws, const field_packed_report *report, field_worst *w)
 {
     const field_report *f = &report->field;
     w->good++;
@@ -168,8 +222,8 @@ static void take_worst(const field_kind *k, const field_packed_report *report, c
     w->least = fmin(w->least, f->concentration);
     w->most = fmax(w->most, f->concentration);
     w->overlap = fmax(w->overlap, f->largest_overlap);
-    for (int p = 0; p < k->populations; p++)
-        w->distance = fmax(w->distance, part[p].size_distance);
+    for (int p = 0; p < laws->count; p++)
+        w->distance = fmax(w->distance, laws->part[p].size_distance);
     w->area_change = fmax(w->area_change, report->area_change);
     w->vertex_changes += (int)report->vertex_changes;
 }
@@ -178,28 +232,33 @@ static bool measure(context *ctx, overlay *plane, const field_kind *k, const pol
                     const field_words *words)
 {
     field_worst w = {.least = 1};
-    double side = side_of(k, k->floes * words->floes);
+    field_laws laws;
+    if (!laws_make(ctx, k, templates, &laws)) {
+        laws_free(ctx, &laws);
+        return false;
+    }
+    double side = side_of(k, &laws, k->floes * words->floes);
     for (int seed = words->first; seed < words->first + words->seeds; seed++) {
         polygon_list outlines = {0};
-        field_population_report part[MOST_POPULATIONS] = {{0}};
         field_packed_report report = {0};
         fram_error error = {0};
         double start = cpu_seconds();
-        fram_status status =
-            k->cells ? make_voronoi(ctx, k, side, (uint64_t)seed, &outlines, part, &report, &error)
-                     : make_packed(ctx, plane, k, templates, side, (uint64_t)seed, &outlines, part, &report, &error);
+        fram_status status = k->cells ? make_voronoi(ctx, k, &laws, side, (uint64_t)seed, &outlines, &report, &error)
+                                      : make_packed(ctx, plane, k, &laws, side, words->periodic, (uint64_t)seed,
+                                                    &outlines, &report, &error);
         double seconds = cpu_seconds() - start;
         w.first_seconds = seed == words->first ? seconds : w.first_seconds;
         w.seconds = fmax(w.seconds, seconds);
         if (status == FRAM_OK)
-            take_worst(k, &report, part, &w);
+            take_worst(&laws, &report, &w);
         else
             snprintf(w.message, sizeof w.message, "seed %d: %s", seed, error.message);
         polygon_list_free(ctx, &outlines);
     }
-    printf("| %s | %d | %d of %d | %.4f to %.4f | %.1f | %.1f | %.0f | %.2g | %.2g | %.1g | %d |\n", k->told, w.floes,
-           w.good, words->seeds, w.least, w.most, w.first_seconds, w.seconds, 1e3 * w.seconds / words->step_ms,
-           w.overlap, w.distance, w.area_change, w.vertex_changes);
+    laws_free(ctx, &laws);
+    printf("| %s%s | %d | %d of %d | %.4f to %.4f | %.1f | %.1f | %.0f | %.2g | %.2g | %.1g | %d |\n", k->told,
+           words->periodic ? ", periodic" : "", w.floes, w.good, words->seeds, w.least, w.most, w.first_seconds,
+           w.seconds, 1e3 * w.seconds / words->step_ms, w.overlap, w.distance, w.area_change, w.vertex_changes);
     if (w.message[0])
         printf("\n%s\n\n", w.message);
     fflush(stdout);
@@ -222,6 +281,8 @@ static bool read_words(int argc, char **argv, field_words *w)
             w->floes = atoi(value);
         else if (value && strcmp(argv[i], "--concentration") == 0)
             w->concentration = atof(value);
+        else if (value && strcmp(argv[i], "--periodic") == 0)
+            w->periodic = atoi(value) != 0;
         else if (value && strcmp(argv[i], "--step") == 0)
             w->step_ms = atof(value);
         else
@@ -242,7 +303,7 @@ int main(int argc, char **argv)
     if (!good)
         fprintf(stderr,
                 "field_bench [--kind NAME] [--seeds N] [--first SEED] [--floes N] [--step MS] [--concentration C] "
-                "[--templates FILE]\n");
+                "[--templates FILE] [--periodic 1]\n");
     if (good && words.templates && template_file_read(&ctx, plane, words.templates, &templates, &error) != FRAM_OK) {
         fprintf(stderr, "%s: %s\n", words.templates, error.message);
         good = false;

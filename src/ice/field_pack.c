@@ -19,7 +19,7 @@ static const double LARGE_FLOE = 0.1;
 
 /* Area that the cover of a concave floe of mean diameter adds, relative; smaller ones, of which there are most and
    which hold little of the ice, have coarser covers, and all within limits. */
-static const double COVER = 0.02, FINEST_COVER = 0.01, COARSEST_COVER = 0.03;
+static const double COVER = 0.04, FINEST_COVER = 0.02, COARSEST_COVER = 0.06;
 
 static fram_status refuse(fram_error *error, const char *key, const char *rule, double value)
 {

@@ -9,21 +9,32 @@ enum { SETTLE_WATCH = 40, MOST_SETTLE = 600 };
 /* Shaking: its length, its greatest amplitude in floe sizes, and how often squeezed floes are carried meanwhile. */
 enum { SHAKE_ROUNDS = 1000, MOVE_EVERY = 40, ATTEMPTS = 3 };
 static const double SHAKE = 0.2;
-/* Growth of concave floes: where it begins, its length, and the amplitude of the shaking meanwhile. */
-static const double GROW_FROM = 0.4, GROW_SHAKE = 0.1;
-enum { GROW_ROUNDS = 400 };
+/* Growth of concave floes: it begins at this part of their size, and they grow by no more than this part in a round, as
+   fast as a wanted squeeze allows; where it is exceeded they shrink at up to half that speed. */
+static const double GROW_FROM = 0.4, GROW_RATE = 0.002, MOST_SHRINK = -0.5;
+enum { GROW_MOVE_EVERY = 10 };
+/* A growth: its length, the amplitude of the shaking at its beginning and at its end, and the mean squeeze that is
+   wanted. */
+typedef struct growth {
+    double rounds, first_shake, last_shake, squeeze;
+} growth;
+/* Of coarse shapes, and of fine ones. */
+static const growth COARSE_GROWTH = {1000, 0.1, 0.01, 0.01}, FINE_GROWTH = {400, 0.03, 0.005, 0.005};
+/* Growths from other first places, each so many times as long: what is not dense takes a short one, and what is dense
+   is no denser for several short ones. */
+static const double GROWTH_LENGTH[] = {1, 5, 8, 8};
+enum { MOST_GROWTHS = sizeof GROWTH_LENGTH / sizeof *GROWTH_LENGTH };
 /* New beginnings from other first places.  In a field of few floes a single large one decides, and they are cheap: as
    many as make up this many floes, and no more than the other number. */
 enum { START_FLOES = 4000, MOST_STARTS = 8 };
 /* Floes that overlap by this part of their size are hooked into each other: the smaller is carried away before a new
    shaking. */
 static const double HOOKED = 0.05;
-/* A field of concave floes that is squeezed by no more than SETTLED on the mean, relative to their size, is shaken
-   gently; one squeezed by less than HOOKED_ONLY has but a few pairs that hook into each other, by UNHOOKED at least:
-   their smaller floes shrink and grow again. */
-static const double SETTLED = 2.5e-3, GENTLE_SHAKE = 0.03, GENTLE_LENGTH = 0.1;
-static const double HOOKED_ONLY = 2e-4, UNHOOKED = 1e-3, REGROW_FROM = 0.6, REGROW_SHAKE = 0.02;
-enum { MOST_FINISHES = 12, REGROW_ROUNDS = 100 };
+/* Full-grown concave floes that still overlap are shaken gently so many times. */
+static const double GENTLE_SHAKE = 0.01, GENTLE_LENGTH = 0.3;
+enum { MOST_FINISHES = 8 };
+/* Concave floes that do not grow to this part of their size are beyond hope. */
+static const double STUNTED = 0.96;
 /* A field squeezed by more than this part of a floe's size after shaking is beyond hope. */
 static const double HOPELESS = 0.03;
 /* From the seed of one beginning to that of the next: far from any number that is given as a seed. */
@@ -32,8 +43,7 @@ static const uint64_t ANOTHER_SEED = 0x9e3779b97f4a7c15;
 static const double SHRINK = 0.997;
 enum { MOST_SHRINKS = 60 };
 
-/* Mean of the floes' deepest overlaps, each over the floe's size. */
-static double mean_squeeze(const pack_work *w)
+double pack_mean_squeeze(const pack_work *w)
 {
     double sum = 0;
     for (int32_t i = 0; i < w->movable; i++)
@@ -67,7 +77,7 @@ static bool settle(pack_work *w, bool *apart)
             return false;
         if (k % SETTLE_WATCH != SETTLE_WATCH - 1)
             continue;
-        double now = mean_squeeze(w);
+        double now = pack_mean_squeeze(w);
         if (now > SETTLING * before)
             break;
         before = now;
@@ -79,8 +89,9 @@ static bool shake(pack_work *w, double amplitude, double length, int32_t *moves)
 {
     bool apart;
     double rounds = length * SHAKE_ROUNDS;
+    int32_t every = w->concave ? GROW_MOVE_EVERY : MOVE_EVERY;
     for (int32_t k = 0; k < rounds; k++) {
-        if (k % MOVE_EVERY == MOVE_EVERY - 1 && !pack_move_squeezed(w, 0, moves))
+        if (k % every == every - 1 && !pack_move_squeezed(w, 0, moves))
             return false;
         double left = 1 - k / rounds;
         if (!do_round(w, amplitude * left * left, &apart))
@@ -89,22 +100,22 @@ static bool shake(pack_work *w, double amplitude, double length, int32_t *moves)
     return true;
 }
 
-/* Growth from a loose field of small floes: concave ones would otherwise hook into each other. */
-static bool grow(pack_work *w, double length, int32_t *moves)
+/* Growth from where the floes are: under a steady squeeze they stay in reach of one another's edges, where full-grown
+   ones would lie across each other. */
+static bool grow(pack_work *w, const growth *g, double length, int32_t *moves)
 {
     bool apart;
-    double rounds = length * GROW_ROUNDS;
-    w->scale = GROW_FROM;
-    if (!pack_find_pairs(w, true) || !settle(w, &apart))
+    double rounds = length * g->rounds;
+    if (!pack_find_pairs(w, true))
         return false;
-    for (int32_t k = 0; k < rounds; k++) {
-        if (k % MOVE_EVERY == MOVE_EVERY - 1 && !pack_move_squeezed(w, 0, moves))
+    for (int32_t k = 0; k < rounds && w->scale < 1; k++) {
+        if (k % GROW_MOVE_EVERY == GROW_MOVE_EVERY - 1 && !pack_move_squeezed(w, 0, moves))
             return false;
-        w->scale = GROW_FROM + (1 - GROW_FROM) * (k + 1) / rounds;
-        if (!do_round(w, GROW_SHAKE, &apart))
+        if (!do_round(w, g->first_shake + (g->last_shake - g->first_shake) * k / rounds, &apart))
             return false;
+        double step = fmax(MOST_SHRINK, 1 - pack_mean_squeeze(w) / g->squeeze);
+        w->scale = fmin(1, w->scale * (1 + GROW_RATE * step));
     }
-    w->scale = 1;
     return true;
 }
 
@@ -122,67 +133,56 @@ static bool find_fit(pack_work *w, double *scale)
     return true;
 }
 
-/* Floes that hook into others shrink, and grow again at the same place, where they push the others aside instead. */
-static bool unhook(pack_work *w)
-{
-    bool apart;
-    pack_shrink_hooked(w, UNHOOKED, REGROW_FROM);
-    for (int32_t k = 1; k <= REGROW_ROUNDS; k++) {
-        for (int32_t i = 0; i < w->movable; i++) {
-            pack_body *b = &w->bodies.data[i];
-            if (b->grown < 1)
-                b->grown = k < REGROW_ROUNDS ? REGROW_FROM + (1 - REGROW_FROM) * k / REGROW_ROUNDS : 1;
-        }
-        if (!do_round(w, REGROW_SHAKE, &apart))
-            return false;
-    }
-    return true;
-}
-
-/* What settled almost: a few hooked pairs are parted, a slight squeeze is shaken gently. */
+/* Full-grown floes come to rest. */
 static bool finish(pack_work *w, double effort, bool *apart, int32_t *moves)
 {
-    for (int k = 0; k < MOST_FINISHES && !*apart && w->concave; k++) {
-        double squeeze = mean_squeeze(w);
-        if (squeeze > SETTLED)
-            break;
-        if (!(squeeze < HOOKED_ONLY ? unhook(w) : shake(w, GENTLE_SHAKE, effort * GENTLE_LENGTH, moves)) ||
-            !settle(w, apart))
+    if (!settle(w, apart))
+        return false;
+    for (int k = 0; k < MOST_FINISHES && !*apart; k++)
+        if (!shake(w, GENTLE_SHAKE, effort * GENTLE_LENGTH, moves) || !settle(w, apart))
             return false;
-    }
     return true;
 }
 
-/* First places; coarse shapes are packed before the fine ones. */
-static bool begin(pack_work *w, double effort, bool *apart, int32_t *moves)
+/* First places. */
+static bool begin(pack_work *w, int32_t number)
 {
+    w->seed = w->request->seed + (uint64_t)number * ANOTHER_SEED;
     w->coarse = w->request->coarse != NULL;
+    w->scale = 1;
     if (!pack_bodies_make(w))
         return false;
     w->gap = GAP * w->mean_size;
-    if (!pack_start(w) || !pack_sort_bodies(w) || (w->concave && !grow(w, effort, moves)) ||
-        !pack_find_pairs(w, true) || !settle(w, apart))
-        return false;
-    if (!w->coarse)
-        return true;
-    if (!*apart && (!shake(w, SHAKE, effort, moves) || !settle(w, apart)))
-        return false;
-    return pack_refine(w) && pack_find_pairs(w, true) && settle(w, apart) && finish(w, effort, apart, moves);
+    return pack_start(w) && pack_sort_bodies(w);
 }
 
-/* One beginning: settle, then shake ever longer; *apart: it came to an end, *hopeless: another one need not be tried.
-   false: no memory. */
-static bool solve_once(pack_work *w, double effort, packing_report *report, bool *apart, bool *hopeless)
+/* One beginning of a field of concave floes: they grow, first as coarse shapes; *apart: it came to an end, *hopeless:
+   another one need not be tried.  false: no memory. */
+static bool solve_grown(pack_work *w, double length, packing_report *report, bool *apart, bool *hopeless)
 {
-    if (!begin(w, effort, apart, &report->moves))
+    w->scale = GROW_FROM;
+    if (!pack_find_pairs(w, true) || !settle(w, apart) || !grow(w, &COARSE_GROWTH, length, &report->moves))
+        return false;
+    if (w->coarse && !pack_refine(w))
+        return false;
+    if (!grow(w, &FINE_GROWTH, length, &report->moves))
+        return false;
+    *apart = false;
+    *hopeless = w->scale < STUNTED;
+    return w->scale < 1 || finish(w, fmin(1, length), apart, &report->moves);
+}
+
+/* One beginning of a field of convex floes: settle, then shake ever longer. */
+static bool solve_shaken(pack_work *w, double effort, packing_report *report, bool *apart, bool *hopeless)
+{
+    if (!pack_find_pairs(w, true) || !settle(w, apart))
         return false;
     for (int k = 0; k < ATTEMPTS && !*apart && !*hopeless; k++) {
         if (k > 0 && !pack_move_squeezed(w, HOOKED, &report->moves))
             return false;
-        if (!shake(w, SHAKE, effort * (1 << k), &report->moves) || !settle(w, apart) ||
-            !finish(w, effort, apart, &report->moves))
+        if (!shake(w, SHAKE, effort * (1 << k), &report->moves) || !settle(w, apart))
             return false;
-        *hopeless = mean_squeeze(w) > HOPELESS;
+        *hopeless = pack_mean_squeeze(w) > HOPELESS;
     }
     return true;
 }
@@ -190,20 +190,23 @@ static bool solve_once(pack_work *w, double effort, packing_report *report, bool
 /* false: no memory */
 static bool solve(pack_work *w, packing_report *report)
 {
-    bool apart = false, hopeless = false;
+    bool apart = false, hopeless = false, good = true;
     double effort = w->request->effort > 0 ? w->request->effort : 1;
     int32_t floes = polygon_list_count(w->request->shapes), starts = floes > 0 ? START_FLOES / floes : 1;
     starts = starts < 1 ? 1 : starts > MOST_STARTS ? MOST_STARTS : starts;
-    for (int32_t k = 0; k < starts && !apart && !hopeless; k++) {
-        w->seed = w->request->seed + (uint64_t)k * ANOTHER_SEED;
-        if (!solve_once(w, effort, report, &apart, &hopeless))
-            return false;
+    for (int32_t k = 0; k < starts && good && !apart && !hopeless; k++) {
+        good = begin(w, k);
+        bool grown = w->coarse || w->concave;
+        starts = grown ? MOST_GROWTHS : starts;
+        if (good)
+            good = grown ? solve_grown(w, effort * GROWTH_LENGTH[k], report, &apart, &hopeless)
+                         : solve_shaken(w, effort, report, &apart, &hopeless);
     }
     report->done = apart;
     report->rounds = w->round;
     report->overlap = apart ? 0 : w->overlap;
     report->scale = 1;
-    return true;
+    return good;
 }
 
 fram_status packing_solve(context *ctx, overlay *o, const packing_request *request, packing_pose_array *poses,

@@ -4,8 +4,9 @@
    The floes start spread over the free area, large ones first, overlapping.  Then all overlaps are removed at once,
    round by round, by projected Gauss-Seidel on positions and angles over all contacts (a linear contact problem as in
    Torquato and Jiao 2010).  Where that gets stuck, the field is shaken ever more gently, as sand is, between the
-   rounds; and a squeezed floe that would have more room in open water elsewhere is carried there.  Everything runs in
-   a fixed order: same request, same bits.  Knows outlines only. */
+   rounds; and a squeezed floe that would have more room in open water elsewhere is carried there.  Concave floes, which
+   hook into each other, grow from small ones under a steady squeeze instead, and swap places.  Everything runs in a
+   fixed order: same request, same bits.  Knows outlines only. */
 #ifndef ICE_PACKING_H
 #define ICE_PACKING_H
 

@@ -59,8 +59,7 @@ static bool add_shape(pack_work *w, polygon shape, polygon_list *pieces)
     polygon_moments m = polygon_moments_of(shape);
     int32_t body = w->bodies.count;
     double inertia = (m.xx + m.yy) / m.area; /* radius of gyration, squared */
-    pack_body b = {
-        .turn = {1, 0}, .radius = farthest(shape), .size = sqrt(m.area), .grown = 1, .piece = w->pieces.count};
+    pack_body b = {.turn = {1, 0}, .radius = farthest(shape), .size = sqrt(m.area), .piece = w->pieces.count};
     /* A mass like the diameter, not like the area: a large floe shall give way to many small ones. */
     b.weight = 1 / b.size;
     b.spin_weight = b.weight / inertia;
@@ -221,7 +220,7 @@ bool pack_sort_bodies(pack_work *w)
 void pack_place_body(pack_work *w, int32_t body)
 {
     const pack_body *b = &w->bodies.data[body];
-    double scale = body < w->movable ? w->scale * b->grown : 1;
+    double scale = body < w->movable ? w->scale : 1;
     double c = b->turn.x * scale, s = b->turn.y * scale;
     for (int32_t p = b->piece; p < b->piece + b->piece_count; p++) {
         pack_piece *piece = &w->pieces.data[p];

@@ -7,8 +7,6 @@ static const double ROW_REACH = 0.3;
 
 /* An overlap of a piece is undone along a seam when that is this much shorter than along any outer edge. */
 static const double SEAM_DEPTH = 1;
-/* A deep overlap is undone in several rounds: this part of a grain at a time. */
-static const double MOST_PUSH = 0.15;
 
 typedef struct axis {
     double gap;
@@ -72,7 +70,7 @@ static axis widest_axis(const pack_work *w, const pack_piece *a, const pack_piec
 static bool push_row(pack_work *w, int32_t body_a, int32_t body_b, vec2 n, vec2 on_a, vec2 on_b, double gap)
 {
     const pack_body *a = &w->bodies.data[body_a], *b = body_b >= 0 ? &w->bodies.data[body_b] : NULL;
-    pack_row row = {.a = body_a, .b = body_b, .normal = n, .gap = fmax(gap - w->gap, -MOST_PUSH * w->grain)};
+    pack_row row = {.a = body_a, .b = body_b, .normal = n, .gap = fmax(gap - w->gap, -PACK_MOST_PUSH * w->grain)};
     row.arm_a = vec2_cross(vec2_sub(on_a, a->centre), n);
     double k = a->weight + a->spin_weight * row.arm_a * row.arm_a;
     if (b) {
@@ -155,7 +153,7 @@ static bool add_pair_rows(pack_work *w, const pack_piece *a, const pack_piece *b
     return true;
 }
 
-static bool boxes_far(box2 a, box2 b, vec2 shift, double far)
+bool pack_boxes_far(box2 a, box2 b, vec2 shift, double far)
 {
     return a.hi.x + far < b.lo.x + shift.x || b.hi.x + shift.x + far < a.lo.x || a.hi.y + far < b.lo.y + shift.y ||
            b.hi.y + shift.y + far < a.lo.y;
@@ -167,7 +165,7 @@ static bool find_pair_rows(pack_work *w, double far)
         pack_pair *pair = &w->pairs.data[i];
         const pack_piece *a = &w->pieces.data[pair->a], *b = &w->pieces.data[pair->b];
         vec2 shift = {pair->shift_x * w->period.x, pair->shift_y * w->period.y};
-        if (boxes_far(a->box, b->box, shift, far))
+        if (pack_boxes_far(a->box, b->box, shift, far))
             continue;
         if (pair->axis >= 0 && axis_gap(w, a, b, shift, pair->axis) > far)
             continue;
@@ -214,12 +212,12 @@ bool pack_find_rows(pack_work *w)
         good = find_wall_rows(w, (vec2){1, 0}, d.hi.x, far) && find_wall_rows(w, (vec2){-1, 0}, -d.lo.x, far);
     if (good && w->period.y == 0)
         good = find_wall_rows(w, (vec2){0, 1}, d.hi.y, far) && find_wall_rows(w, (vec2){0, -1}, -d.lo.y, far);
-    return good;
+    return good && (!w->concave || pack_part_hooked(w));
 }
 
 double pack_depth(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, double enough)
 {
-    if (boxes_far(a->box, b->box, shift, -enough))
+    if (pack_boxes_far(a->box, b->box, shift, -enough))
         return 0;
     int16_t kept;
     axis best = widest_axis(w, a, b, shift, -enough, &kept);

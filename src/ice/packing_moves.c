@@ -20,8 +20,8 @@ static const double SQUEEZED = 0.01;
 static const double LEAST_FILL = 0.7, MOST_FILL = 1.6;
 /* ... and carried there when its overlap shrinks to less than this part. */
 static const double GAIN = 0.7;
-/* Floes tried per place, and angles of each. */
-enum { TRIES = 4, TURNS = 8 };
+/* Floes tried per place. */
+enum { TRIES = 4 };
 
 typedef struct water_map {
     vec2 origin;
@@ -196,17 +196,6 @@ static bool list_hooked(pack_work *w, double least, squeezed_array *list)
     return true;
 }
 
-void pack_shrink_hooked(pack_work *w, double least, double part)
-{
-    for (int32_t i = 0; i < w->rows.count; i++) {
-        const pack_row *r = &w->rows.data[i];
-        bool other = r->b >= 0 && r->b < w->movable && w->bodies.data[r->b].size < w->bodies.data[r->a].size;
-        pack_body *b = &w->bodies.data[other ? r->b : r->a];
-        if (-(r->gap + w->gap) > least * b->size)
-            b->grown = part;
-    }
-}
-
 static bool list_squeezed(pack_work *w, squeezed_array *list)
 {
     for (int32_t i = 0; i < w->movable; i++) {
@@ -226,82 +215,19 @@ static bool find_squeezed(pack_work *w, double hooked, squeezed_array *list)
     return true;
 }
 
-/* Deepest overlap of a piece with what the search grid lists around it. */
-static double piece_depth(const pack_work *w, const pack_piece *p)
-{
-    box2 d = w->request->domain;
-    double deepest = 0;
-    if (w->period.x == 0)
-        deepest = fmax(deepest, fmax(d.lo.x - p->box.lo.x, p->box.hi.x - d.hi.x));
-    if (w->period.y == 0)
-        deepest = fmax(deepest, fmax(d.lo.y - p->box.lo.y, p->box.hi.y - d.hi.y));
-    int32_t lo[2], hi[2];
-    pack_grid_range(&w->grid, p->box, lo, hi);
-    for (int32_t y = lo[1]; y <= hi[1]; y++)
-        for (int32_t x = lo[0]; x <= hi[0]; x++) {
-            int32_t cell = y * w->grid.nx + x;
-            for (int32_t k = w->cell_start.data[cell]; k < w->cell_start.data[cell + 1]; k++) {
-                const pack_item *item = &w->items.data[w->cell_item.data[k]];
-                const pack_piece *q = &w->pieces.data[item->piece];
-                vec2 shift = {item->shift_x * w->period.x, item->shift_y * w->period.y};
-                if (q->body != p->body)
-                    deepest = fmax(deepest, pack_depth(w, p, q, shift, deepest));
-            }
-        }
-    return deepest;
-}
-
-/* Deepest overlap of a body with those that were carried since the last search, which the grid lists at their old
-   places. */
-static double carried_depth(const pack_work *w, int32_t body, const int32_array *carried)
-{
-    const pack_body *b = &w->bodies.data[body];
-    double deepest = 0;
-    for (int32_t i = 0; i < carried->count; i++) {
-        const pack_body *c = &w->bodies.data[carried->data[i]];
-        vec2 way = vec2_sub(c->centre, b->centre), shift = {0, 0};
-        if (w->period.x > 0)
-            shift.x = -w->period.x * floor(way.x / w->period.x + 0.5);
-        if (w->period.y > 0)
-            shift.y = -w->period.y * floor(way.y / w->period.y + 0.5);
-        way = vec2_add(way, shift);
-        double reach = (b->radius + c->radius) * w->scale;
-        if (vec2_dot(way, way) >= reach * reach)
-            continue;
-        for (int32_t p = b->piece; p < b->piece + b->piece_count; p++)
-            for (int32_t q = c->piece; q < c->piece + c->piece_count; q++)
-                deepest = fmax(deepest, pack_depth(w, &w->pieces.data[p], &w->pieces.data[q], shift, deepest));
-    }
-    return deepest;
-}
-
 /* Tries a body at a place at several angles; it stays there if it overlaps less than `bound`. */
 static bool try_place(pack_work *w, int32_t body, vec2 at, double bound, const int32_array *carried)
 {
     pack_body *b = &w->bodies.data[body], old = *b;
     random_stream r = random_begin(w->seed, PACK_STREAM_MOVE, (uint32_t)body);
     r.counter = (uint64_t)w->round;
-    double first = 2 * PI * random_unit(&r), best = bound;
-    vec2 turn = old.turn;
     b->centre = at;
-    for (int k = 0; k < TURNS; k++) {
-        double angle = first + k * 2 * PI / TURNS;
-        b->turn = (vec2){real_cos(angle), real_sin(angle)};
-        pack_place_body(w, body);
-        double depth = carried_depth(w, body, carried);
-        for (int32_t p = b->piece; p < b->piece + b->piece_count && depth < best; p++)
-            depth = fmax(depth, piece_depth(w, &w->pieces.data[p]));
-        if (depth < best) {
-            best = depth;
-            turn = b->turn;
-        }
-    }
-    if (best < bound)
-        b->turn = turn;
-    else
+    bool better = pack_turn_best(w, body, 2 * PI * random_unit(&r), bound, carried) < bound;
+    if (!better) {
         *b = old;
-    pack_place_body(w, body);
-    return best < bound;
+        pack_place_body(w, body);
+    }
+    return better;
 }
 
 /* Each hole gets the worst squeezed floe that does better there. */
@@ -331,6 +257,18 @@ static bool fill_holes(pack_work *w, const water_map *m, const hole_array *holes
     return true;
 }
 
+/* Floes that are still squeezed swap places with others. */
+static bool swap_others(pack_work *w, const squeezed_array *list, int32_array *carried)
+{
+    bool good = true;
+    for (int32_t k = 0; good && k < list->count; k++) {
+        int32_t body = list->data[k].body;
+        if (list->data[k].part > 0 && w->squeeze.data[body] > SQUEEZED * w->bodies.data[body].size)
+            good = pack_swap_squeezed(w, body, carried);
+    }
+    return good;
+}
+
 bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves)
 {
     water_map map = {0};
@@ -341,6 +279,7 @@ bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves)
     if (good && list.count > 0) {
         good = map_make(w, &map) && find_holes(w, &map, &holes);
         good = good && fill_holes(w, &map, &holes, &list, hooked > 0, &carried);
+        good = good && (!w->concave || hooked > 0 || swap_others(w, &list, &carried));
         *moves += carried.count;
     }
     memory_free(w->ctx, map.clear);

@@ -36,6 +36,16 @@ static void wrap_centres(pack_work *w)
     }
 }
 
+vec2 pack_image_shift(const pack_work *w, vec2 from, vec2 to)
+{
+    vec2 shift = {0, 0};
+    if (w->period.x > 0)
+        shift.x = -w->period.x * floor((to.x - from.x) / w->period.x + 0.5);
+    if (w->period.y > 0)
+        shift.y = -w->period.y * floor((to.y - from.y) / w->period.y + 0.5);
+    return shift;
+}
+
 static bool push_item(pack_work *w, int32_t piece, box2 box, int sx, int sy)
 {
     double x = sx * w->period.x, y = sy * w->period.y;

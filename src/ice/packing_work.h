@@ -5,7 +5,7 @@
 #include "ice/packing.h"
 
 /* Random streams of the packing (base/random.h). */
-enum { PACK_STREAM_START = 0x1ce10, PACK_STREAM_SHAKE, PACK_STREAM_MOVE, PACK_STREAM_HOLE };
+enum { PACK_STREAM_START = 0x1ce10, PACK_STREAM_SHAKE, PACK_STREAM_MOVE, PACK_STREAM_HOLE, PACK_STREAM_SWAP };
 
 /* A floe, or an obstacle (weights 0). */
 typedef struct pack_body {
@@ -13,7 +13,6 @@ typedef struct pack_body {
     double weight, spin_weight; /* inverse mass and moment of inertia, in units of their own */
     double radius;              /* [m] */
     double size;                /* square root of the area [m] */
-    double grown;               /* its part of that size, while it is parted from what it hooks into; 1 */
     int32_t piece, piece_count;
 } pack_body;
 
@@ -112,18 +111,32 @@ void pack_place_body(pack_work *w, int32_t body);
    w->shape says which shape is where.  false: no memory. */
 bool pack_sort_bodies(pack_work *w);
 
+/* packing.c: mean of the floes' deepest overlaps, each over the floe's size, as the last rows were found. */
+double pack_mean_squeeze(const pack_work *w);
+
 /* packing_start.c: first places and angles; false: no memory. */
 bool pack_start(pack_work *w);
 
 /* packing_pairs.c: find the pairs anew when bodies may have left the margin of the last search; false: no memory. */
 bool pack_find_pairs(pack_work *w, bool force);
+/* What brings a place in the domain to the image that is nearest to another. */
+vec2 pack_image_shift(const pack_work *w, vec2 from, vec2 to);
 /* Cells of the grid that a box meets. */
 void pack_grid_range(const pack_grid *g, box2 box, int32_t lo[2], int32_t hi[2]);
 
+/* A deep overlap is undone in several rounds: this part of a grain at a time. */
+#define PACK_MOST_PUSH 0.15
+
 /* packing_contacts.c: rows of all pairs and walls; false: no memory. */
 bool pack_find_rows(pack_work *w);
+/* Whether two boxes, the second moved by shift, are farther apart than `far` along an axis. */
+bool pack_boxes_far(box2 a, box2 b, vec2 shift, double far);
 /* How deep b, moved by shift, is in a; what is less than `enough` may be called 0. */
 double pack_depth(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, double enough);
+
+/* packing_hooks.c: pairs of concave floes whose rows contradict one another get one row each instead; false: no
+   memory. */
+bool pack_part_hooked(pack_work *w);
 
 /* packing_solve.c: displacements that part the rows, added to a random step of `shake` floe sizes, and moving by
    them. */
@@ -131,9 +144,15 @@ void pack_solve_rows(pack_work *w, double shake);
 
 /* packing_moves.c: carries squeezed floes into open water where that helps; with `hooked` over 0, the smaller floe of
    each pair that overlaps by more than this part of its size to the widest water there is, whether it helps at once or
-   not.  Adds to *moves; false: no memory. */
+   not.  Concave floes that stay squeezed are turned or swap places.  Adds to *moves; false: no memory. */
 bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves);
-/* Of each pair that overlaps by more than `least` of the smaller one's size, that one becomes `part` as large. */
-void pack_shrink_hooked(pack_work *w, double least, double part);
+/* packing_fit.c: turns a body to the angle, of some from `first` on, at which it overlaps least, if that is by less
+   than `bound`; how deep it overlaps then, or the bound.  carried: bodies that have left the places at which the grid
+   lists them. */
+double pack_turn_best(pack_work *w, int32_t body, double first, double bound, const int32_array *carried);
+
+/* packing_swaps.c: turns a squeezed body to where it fits better, or has it swap places with a smaller one; who moved
+   is added to `carried`. false: no memory. */
+bool pack_swap_squeezed(pack_work *w, int32_t body, int32_array *carried);
 
 #endif
