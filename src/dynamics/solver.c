@@ -174,15 +174,14 @@ static bool make_correction_rows(solver *s, const solver_settings *settings, dou
     return true;
 }
 
-/* Corrections end at the skin by ever smaller steps: this share of it more is not worth one. */
+/* Overlaps shrink by ever smaller steps: what is under this share of the skin is not worth one. */
 #define SKIN_SLACK 0.01
 
 static bool correction_needed(const solver_settings *settings, const joint_table *joints, const contact_array *contacts)
 {
     bool needed = joints->count > 0;
     for (int32_t i = 0; i < contacts->count && !needed && !settings->baumgarte; i++)
-        needed = contacts->data[i].correct &&
-                 contact_excess(&contacts->data[i], settings) > SKIN_SLACK * settings->contact_skin;
+        needed = contacts->data[i].correct && contacts->data[i].depth > SKIN_SLACK * settings->contact_skin;
     return needed;
 }
 

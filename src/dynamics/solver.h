@@ -18,7 +18,7 @@ typedef struct solver_settings {
     int32_t position_iterations; /* position correction sweeps */
     bool warm_start;
     double correction_rate;  /* beta_0 of the position correction, 0.8 (SPEC 9) */
-    double contact_skin;     /* gaps and overlaps up to this are touch: neither closed nor corrected [m] */
+    double contact_skin;     /* bodies nearer than this touch: gaps close down to it, no more [m] */
     bool baumgarte;          /* comparison switch: correct overlap through velocity instead */
     double tolerance;        /* accurate: stop when the largest residual is below this; fast: sweeps that change no
                                 velocity by more are the last [m/s] */
@@ -50,10 +50,10 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
  */
 void integrate_poses(context *ctx, body_table *bodies, double dt);
 
-/* Split impulse on positions: normal rows only, p* >= 0, b = beta (depth - contact_skin) / dt for what overlaps by
-   more than that, beta = min(beta_0, 1 - p_n/p_lim), never below 0; contacts with `correct` false are left alone.
-   Locked joints are drawn together by beta_0 of their error. Moves poses, adds no velocity. Contacts must name living
-   bodies: set `correct` false on those of a body that broke in this step. */
+/* Split impulse on positions: normal rows only, p* >= 0, b = beta depth / dt, beta = min(beta_0, 1 - p_n/p_lim), never
+   below 0; contacts with `correct` false are left alone.  Locked joints are drawn together by beta_0 of their error.
+   Moves poses, adds no velocity.  Contacts must name living bodies: set `correct` false on those of a body that broke
+   in this step.  Overlaps under a hundredth of the contact skin alone move nothing. */
 fram_status solver_correct_positions(context *ctx, solver *s, const solver_settings *settings, double dt,
                                      body_table *bodies, const joint_table *joints, const contact_array *contacts,
                                      fram_error *error);

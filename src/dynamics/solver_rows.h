@@ -92,20 +92,12 @@ void solver_bodies_load(solver *s, const body_table *bodies);
 
 /* ---- solver.c ---- */
 
-/* Overlap beyond the contact skin; negative: a gap beyond it; 0: the two touch [m]. */
-static inline double contact_excess(const contact *c, const solver_settings *settings)
-{
-    double skin = settings->contact_skin;
-    return c->depth > skin ? c->depth - skin : c->depth < -skin ? c->depth + skin : 0;
-}
-
-/* Least relative normal velocity after the step: an open point may close, no more [m/s]. */
+/* Least relative normal velocity after the step: a gap may close to the contact skin, no more [m/s]. */
 static inline double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
 {
-    double excess = contact_excess(c, settings);
-    if (excess < 0)
-        return excess / dt;
-    return settings->baumgarte && c->correct ? settings->correction_rate * excess / dt : 0;
+    if (c->depth < -settings->contact_skin)
+        return (c->depth + settings->contact_skin) / dt;
+    return settings->baumgarte && c->correct && c->depth > 0 ? settings->correction_rate * c->depth / dt : 0;
 }
 
 /* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
@@ -119,10 +111,7 @@ static inline double correction_share(const contact *c, double rate)
 /* Pseudo velocity at which a contact wants to part, or may close, in the position correction [m/s]. */
 static inline double correction_velocity(const contact *c, const solver_settings *settings, double dt)
 {
-    if (c->depth < 0)
-        return c->depth / dt;
-    double excess = contact_excess(c, settings);
-    return excess > 0 ? correction_share(c, settings->correction_rate) * excess / dt : 0;
+    return (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
 }
 
 /* Joint rows made for velocities now ask for positions. */

@@ -54,8 +54,8 @@
     X(position_iterations, INTEGER(10, 0, 1000000), "1", "position correction sweeps of a step")                  \
     X(warm_start, BOOLEAN(true), "", "begin from the impulses of the last step")                                  \
     X(correction_rate, REAL(0.8, 0, 1), "1", "largest part of an overlap that a step corrects")                   \
-    X(contact_skin, SCALED(5e-5, 30, 1, 0, 1), "m",                                                               \
-      "gaps and overlaps up to this count as touch: they are neither closed nor corrected")                       \
+    X(contact_skin, SCALED(1e-4, 30, 1, 0, 1), "m",                                                               \
+      "bodies nearer than this touch: gaps close down to it, no more, so that packed ice rests")                  \
     X(baumgarte, BOOLEAN(false), "", "comparison switch: correct overlaps through velocities; makes ice explode") \
     X(tolerance, SCALED(1e-6, 30, 0.5, 0, 1e3), "m/s",                                                            \
       "accurate: largest residual to stop at; "                                                                   \

@@ -15,9 +15,9 @@
 #define BOX_LOOKAHEAD 0.5
 /* A body this fast means that the run went wrong [m/s]. */
 #define SPEED_LIMIT 100.0
-/* Share of an overlap that is corrected in a step (SPEC 9), and below what it is touch [m]: as in scenarios. */
+/* Share of an overlap that is corrected in a step (SPEC 9), and how near bodies touch [m]: as in scenarios. */
 #define CORRECTION_RATE 0.8
-#define CONTACT_SKIN 5e-5
+#define CONTACT_SKIN 1e-4
 /* Changes of velocity that the solvers leave [m/s]: the fast one as in scenarios, the accurate one to judge by. */
 #define TOLERANCE 1e-6
 #define ACCURATE_TOLERANCE 1e-8

@@ -63,7 +63,7 @@ START_TEST(a_packed_field_neither_jitters_nor_drifts)
     const char *words = getenv("FRAM_SOAK_STEPS");
     long settle = 3000, steps = words ? strtol(words, NULL, 10) : 3000;
     rig r = fast_rig(4, 3, 0.3, 2);
-    r.settings.contact_skin = 5e-5;
+    r.settings.contact_skin = 1e-4;
     rig_run(&r, (int)settle);
     int32_t count = r.bodies.count;
     vec3 *start = memory_array(&r.ctx, (size_t)count, sizeof *start);
