@@ -2,9 +2,9 @@
 """Whether a packed field comes to rest: bench/results/packed.md.
 
 1,000 floes at 98 % cover are pressed against a wall by a current of 0.3 m/s, for several seeds, and one of them for
-10,000 steps from 60 s on.  Means of the last second; root mean square velocity from the kinetic energy (with what turns,
-so no less than it is).  Ends with code 1 when a field moves by more than 1 mm/s or overlaps by more than 1 % of its
-thickness, or when the energy grows.  Give --write to put the tables into the results.
+10,000 steps from 60 s on.  Means of the last second; root mean square velocity from the kinetic energy (with what
+turns, so no less than it is).  Ends with code 1 when a field moves by more than 1 mm/s or overlaps by more than 1 % of
+its thickness, or when the energy grows.  Give --write to put the tables into the results.
 """
 
 import pathlib
