@@ -119,8 +119,8 @@ static void residual_task(const stage *st, batch_task *task)
 /* Sweeps that may follow the last one while impulses give energy, which is rare. */
 enum { MOST_AFTERWARDS = 32 };
 
-/* Energy of a sweep that changed no velocity by more than the tolerance: half the square of that by the lightest body's
-   mass. */
+/* A sweep that took no more energy than this changed no velocity by more than the tolerance at any contact: a contact
+   takes p^2 / m of its impulse p and reduced mass m, which is at most each body's own. [J] */
 static double negligible_energy(const fast_rows *f, double tolerance)
 {
     double lightest = HUGE_VAL;

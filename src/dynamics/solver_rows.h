@@ -92,28 +92,6 @@ void solver_bodies_load(solver *s, const body_table *bodies);
 
 /* ---- solver.c ---- */
 
-/* Least relative normal velocity after the step: a gap may close to the contact skin, no more [m/s]. */
-static inline double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
-{
-    if (c->depth < -settings->contact_skin)
-        return (c->depth + settings->contact_skin) / dt;
-    return settings->baumgarte && c->correct && c->depth > 0 ? settings->correction_rate * c->depth / dt : 0;
-}
-
-/* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
-static inline double correction_share(const contact *c, double rate)
-{
-    double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
-    double share = 1 - carried < rate ? 1 - carried : rate;
-    return share > 0 ? share : 0;
-}
-
-/* Pseudo velocity at which a contact wants to part, or may close, in the position correction [m/s]. */
-static inline double correction_velocity(const contact *c, const solver_settings *settings, double dt)
-{
-    return (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
-}
-
 /* Joint rows made for velocities now ask for positions. */
 void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt);
 
@@ -182,6 +160,28 @@ void fast_rows_free(context *ctx, struct fast_rows *fast);
 fram_status solver_iterate_accurately(solver *s, const solver_settings *settings, int32_t *sweeps);
 
 /* ---- shared by all ---- */
+
+/* Least relative normal velocity after the step: a gap may close to the contact skin, no more [m/s]. */
+static inline double wanted_velocity(const contact *c, const solver_settings *settings, double dt)
+{
+    if (c->depth < -settings->contact_skin)
+        return (c->depth + settings->contact_skin) / dt;
+    return settings->baumgarte && c->correct && c->depth > 0 ? settings->correction_rate * c->depth / dt : 0;
+}
+
+/* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
+static inline double correction_share(const contact *c, double rate)
+{
+    double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
+    double share = 1 - carried < rate ? 1 - carried : rate;
+    return share > 0 ? share : 0;
+}
+
+/* Pseudo velocity at which a contact wants to part, or may close, in the position correction [m/s]. */
+static inline double correction_velocity(const contact *c, const solver_settings *settings, double dt)
+{
+    return (c->depth < 0 ? 1 : correction_share(c, settings->correction_rate)) * c->depth / dt;
+}
 
 static inline row_axis row_axis_make(const solver_body *a, const solver_body *b, vec3 direction, vec3 arm_a, vec3 arm_b)
 {

@@ -15,11 +15,7 @@
 #define BOX_LOOKAHEAD 0.5
 /* A body this fast means that the run went wrong [m/s]. */
 #define SPEED_LIMIT 100.0
-/* Share of an overlap that is corrected in a step (SPEC 9), and how near bodies touch [m]: as in scenarios. */
-#define CORRECTION_RATE 0.8
-#define CONTACT_SKIN 1e-4
-/* Changes of velocity that the solvers leave [m/s]: the fast one as in scenarios, the accurate one to judge by. */
-#define TOLERANCE 1e-6
+/* What the accurate solver aims at, to judge the others by [m/s]. */
 #define ACCURATE_TOLERANCE 1e-8
 #define ACCURATE_ITERATIONS 5000
 
@@ -156,6 +152,9 @@ static fram_status make_world(context *ctx, const scene_text *s, bench_world *b,
 
 static step_settings settings_of(const scene_text *s, const bench_scene_options *o, const bench_world *b)
 {
+    scenario usual;
+    scenario_defaults(&usual, scenario_default_scale());
+    const scenario_solver *keys = &usual.run.solver;
     step_settings out = {
         .time_step = o->time_step,
         .forces = o->exact_water ? FORCES_FLUID : FORCES_COLUMNS,
@@ -168,9 +167,9 @@ static step_settings settings_of(const scene_text *s, const bench_scene_options 
                    .iterations = o->iterations,
                    .position_iterations = o->iterations,
                    .warm_start = true,
-                   .correction_rate = CORRECTION_RATE,
-                   .contact_skin = CONTACT_SKIN,
-                   .tolerance = o->solver == SOLVER_ACCURATE ? ACCURATE_TOLERANCE : TOLERANCE,
+                   .correction_rate = keys->correction_rate,
+                   .contact_skin = keys->contact_skin,
+                   .tolerance = o->solver == SOLVER_ACCURATE ? ACCURATE_TOLERANCE : keys->tolerance,
                    .most_iterations = ACCURATE_ITERATIONS},
         .boundary = DOMAIN_WALLS,
         .domain = s->domain,
