@@ -232,6 +232,8 @@ static double bound_py(const frame *f, double y)
     return at == at ? axis_to_py(f, at) : f->bottom;
 }
 
+#define BAND_OPACITY 0.18
+
 static void draw_band(cairo_t *page, const frame *f, const chart_line *line, image_colour colour)
 {
     for (int32_t i = 0; i < line->count; i++)
@@ -239,7 +241,7 @@ static void draw_band(cairo_t *page, const frame *f, const chart_line *line, ima
     for (int32_t i = line->count - 1; i >= 0; i--)
         cairo_line_to(page, to_px(f, line->x[i]), bound_py(f, line->y2[i]));
     cairo_close_path(page);
-    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, 0.18);
+    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, BAND_OPACITY);
     cairo_fill(page);
 }
 
@@ -299,8 +301,10 @@ static void draw_legend(cairo_t *page, const chart *c, const frame *f)
         x -= image_text_width(page, 12, false, c->lines[k].name);
         image_set_colour(page, ink);
         image_text(page, x, f->top - 8, 12, ALIGN_LEFT, false, c->lines[k].name);
-        image_set_colour(page, colour_of(&c->lines[k], k));
-        cairo_set_line_width(page, 3);
+        bool band = c->lines[k].style == CHART_BAND;
+        image_colour colour = colour_of(&c->lines[k], k);
+        cairo_set_source_rgba(page, colour.r, colour.g, colour.b, band ? BAND_OPACITY : 1);
+        cairo_set_line_width(page, band ? 10 : 3);
         cairo_move_to(page, x - 26, f->top - 12);
         cairo_line_to(page, x - 6, f->top - 12);
         cairo_stroke(page);

@@ -13,7 +13,18 @@ static double step_of(const report *r)
     return rows > 1 ? (time[rows - 1] - time[0]) / (rows - 1) : r->d.s.run.time_step;
 }
 
-static fram_status draw_distribution(report *r, const load_distribution *d, load_unit unit, fram_error *error)
+/* Of few independent values the lower bound falls by decades where nothing was met: an axis that shows it flattens the
+   curve.  What lies under a tenth of the least part of the time goes to the axis's end. */
+static void cut_low_bound(load_distribution *d)
+{
+    double least = 1;
+    for (int32_t i = 0; i < d->exceeded.count; i++)
+        least = d->exceeded.data[i] > 0 ? fmin(least, d->exceeded.data[i]) : least;
+    for (int32_t i = 0; i < d->low.count; i++)
+        d->low.data[i] = d->low.data[i] < 0.1 * least ? 0 : d->low.data[i];
+}
+
+static fram_status draw_distribution(report *r, load_distribution *d, load_unit unit, fram_error *error)
 {
     char x_label[64], subtitle[192];
     double *scaled[2] = {d->level.data, d->bar.data};
@@ -28,6 +39,7 @@ static fram_status draw_distribution(report *r, const load_distribution *d, load
     bars.style = CHART_BARS;
     bars.colour = 2;
     chart histogram = chart_make("Histogram of the load", "", x_label, "part of the time [%]", &bars, 1);
+    cut_low_bound(d);
     chart_line lines[2] = {chart_line_make("95 % confidence", d->level.data, d->low.data, d->level.count, false),
                            chart_line_make("exceeded", d->level.data, d->exceeded.data, d->level.count, true)};
     lines[0].style = CHART_BAND;
