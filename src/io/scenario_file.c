@@ -369,7 +369,11 @@ static fram_status read_all(reader *r, const scenario_overrides *overrides)
     snprintf(r->scenario->file, sizeof r->scenario->file, "%s", r->file);
     value_place root = {.line = 1, .column = 1};
     fram_status status = FRAM_OK;
-    if (r->tree->nodes.count > 0 && !is_empty(r->tree, 0))
+    if (r->tree->nodes.count == 0 || is_empty(r->tree, 0))
+        status = refuse(r, &root,
+                        "expected keys, found an empty file, as is left of one that was cut off; {} alone asks "
+                        "for the default of every key");
+    else
         status = read_section(r, &scenario_schema, r->scenario, 0, &root);
     for (int32_t i = 0; overrides && i < overrides->count && status == FRAM_OK; i++)
         status = apply_override(r, overrides->items[i]);

@@ -184,7 +184,7 @@ static fram_status add_walls(context *ctx, const scenario *s, world *w, fram_err
 /* A hull inside a wall would be thrown out of it by the first step. */
 static fram_status check_clear_of_walls(context *ctx, const scenario *s, const world *w, fram_error *error)
 {
-    if (s->domain.boundary != DOMAIN_WALLS || w->vessels.count == 0)
+    if (s->domain.boundary != DOMAIN_WALLS)
         return FRAM_OK;
     const scenario_domain *d = &s->domain;
     vec2_array plan = {0};
@@ -239,6 +239,8 @@ static fram_status build_before_ice(context *ctx, const scenario *s, const step_
             status = add_vessel(ctx, s, w, &hull, error);
         if (status == FRAM_OK)
             status = build_station(ctx, s, settings, w, error);
+        if (status == FRAM_OK)
+            status = check_clear_of_walls(ctx, s, w, error);
         report->displaced_mass = hull.displaced_mass;
     }
     if (status != FRAM_OK)
@@ -253,8 +255,6 @@ fram_status build_world(context *ctx, const scenario *s, world *w, build_report 
     if (status != FRAM_OK)
         return status;
     status = add_walls(ctx, s, w, error);
-    if (status == FRAM_OK)
-        status = check_clear_of_walls(ctx, s, w, error);
     if (status == FRAM_OK)
         status = name_key(s, build_field(ctx, s, &settings, w, &report->field, error), "ice", error);
     if (status != FRAM_OK)

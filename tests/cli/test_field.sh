@@ -139,6 +139,19 @@ expect 2 "$FRAM" field packed.yaml --json
 same "$(value 'j["error"]["file"].endswith("bow.geojson")')" True "the file of bad templates"
 says "none of its 1 outlines" err
 
+# A hull that reaches into a wall is refused as by a run.
+cat >wall.yaml <<'END'
+vessel: {x: 100, y: 0, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {concentration: 0.5, mean_floe_area: 64}
+domain: {x_min: -100, x_max: 110, y_min: -40, y_max: 40, boundary: walls}
+END
+for words in "field wall.yaml" "run wall.yaml -o walled"; do
+    # shellcheck disable=SC2086
+    expect 2 "$FRAM" $words --json
+    same "$(value 'j["error"]["key"]')" vessel.x "the key of a hull inside a wall, by $words"
+    says "reaches into the walls" err
+done
+
 # Words and files that are wrong.
 expect 2 "$FRAM" field
 expect 2 "$FRAM" field missing.geojson

@@ -79,9 +79,25 @@ START_TEST(values_arrive)
 }
 END_TEST
 
-START_TEST(an_empty_file_is_all_defaults)
+/* What is left of a file that was cut off must not run with defaults. */
+START_TEST(an_empty_file_is_refused)
 {
-    static const char *const texts[] = {"", "\n", "# nothing but a comment\n", "---\n...\n", "{}", "\xef\xbb\xbf{}\n"};
+    static const char *const texts[] = {
+        "", "\n", "# nothing but a comment\n", "---\n...\n", "~\n", "null\n", "\xef\xbb\xbf\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        scenario s;
+        fram_status status = parse_text(texts[i], NULL, &s);
+        ck_assert_msg(status == FRAM_ERROR_INPUT && strstr(error.message, "found an empty file"), "text %zu: %s", i,
+                      status == FRAM_OK ? "was read" : error.message);
+        if (status == FRAM_OK)
+            scenario_free(&ctx, &s);
+    }
+}
+END_TEST
+
+START_TEST(an_empty_mapping_is_all_defaults)
+{
+    static const char *const texts[] = {"{}", "\xef\xbb\xbf{}\n"};
     scenario defaults;
     scenario_defaults(&defaults, scenario_default_scale());
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -354,6 +370,7 @@ START_TEST(size_and_depth_are_limited)
     size_t size = SCENARIO_FILE_LIMIT + 1;
     char *text = malloc(size + 1);
     memset(text, '\n', size);
+    memcpy(text, "{}", 2);
     text[size] = '\0';
     assert_fails(scenario_parse(&ctx, "a", text, size, NULL, &s, &error), error, FRAM_ERROR_INPUT,
                  "at most 1048576 bytes");
@@ -450,8 +467,8 @@ START_TEST(the_committed_reference_is_up_to_date)
 }
 END_TEST
 
-TEST_MAIN("scenario_file", values_arrive, an_empty_file_is_all_defaults, other_ways_to_write_the_same,
-          printing_and_reading_again_gives_the_same, random_scenarios_survive_printing,
+TEST_MAIN("scenario_file", values_arrive, an_empty_file_is_refused, an_empty_mapping_is_all_defaults,
+          other_ways_to_write_the_same, printing_and_reading_again_gives_the_same, random_scenarios_survive_printing,
           the_hash_sees_every_value_and_no_comment, absolute_paths_hold_anywhere,
           the_largest_scenario_can_be_read_again, overrides_win, bad_overrides_are_refused, size_and_depth_are_limited,
           files_that_cannot_be_read, no_memory_is_an_error_everywhere, the_committed_reference_is_up_to_date)
