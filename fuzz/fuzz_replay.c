@@ -4,7 +4,7 @@
    why. */
 #include "fuzzing.h"
 #include "fuzzing_record.h"
-#include "sim/replay_moment.h"
+#include "results/replay_moment.h"
 
 #include <unistd.h>
 

@@ -33,8 +33,9 @@ FLOOR = {
     "model": 6,
     "io": 7,
     "sim": 8,
-    "api": 9,
-    "cli": 10,
+    "results": 8,
+    "api": 10,
+    "cli": 11,
 }
 # Public headers that rooms below the API share: the words for failures, and the version.
 SHARED_HEADERS = {"fram/error.h", "fram/version.h"}

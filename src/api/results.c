@@ -2,11 +2,12 @@
 #include "fram/results.h"
 
 #include "api/handles.h"
+#include "results/export.h"
+#include "results/plot.h"
+#include "results/report.h"
+#include "results/video.h"
 #include "sim/capability.h"
-#include "sim/export.h"
-#include "sim/plot.h"
-#include "sim/report.h"
-#include "sim/video.h"
+#include "sim/notes.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -44,7 +45,7 @@ fram_status fram_export_netcdf(fram_context *c, const char *run, const char *out
 fram_status fram_report(fram_context *c, const char *run, const char *output, fram_result *result, fram_error *error)
 {
     export_report report = {.frames = 0};
-    fram_status status = report_write(&c->inner, run, output, error);
+    fram_status status = report_write(&c->inner, run, output, scenario_notes, error);
     snprintf(report.path, sizeof report.path, output ? "%s" : "%s/report.html", output ? output : run);
     return answer(status, &report, result);
 }
@@ -194,6 +195,6 @@ fram_status fram_capability(const fram_scenario *from, const fram_capability_def
                                         .line_safety_damaged = d->line_safety_damaged,
                                         .stop = d->stop};
     export_report report = {.frames = 0};
-    fram_status status = capability_write(&from->context->inner, &from->inner, &options, &report, error);
+    fram_status status = capability_write(&from->context->inner, &from->inner, &options, report.path, error);
     return answer(status, &report, result);
 }

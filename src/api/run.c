@@ -1,8 +1,9 @@
 /* Runs and benchmarks of the public API. */
 #include "api/handles.h"
 
+#include "results/playback.h"
+#include "results/run_results.h"
 #include "sim/bench.h"
-#include "sim/playback.h"
 #include "sim/run.h"
 
 #include <string.h>
@@ -45,7 +46,8 @@ static run_options options_of(const fram_run_definition *d, progress_bridge *bri
                          .until = d->until,
                          .progress = d->progress ? forward_progress : NULL,
                          .progress_user = bridge,
-                         .stop = d->stop};
+                         .stop = d->stop,
+                         .finish = run_results_write};
 }
 
 static void copy_result(const run_result *from, fram_run_result *to)

@@ -7,7 +7,6 @@
 #ifndef SIM_CAPABILITY_H
 #define SIM_CAPABILITY_H
 
-#include "sim/export.h"
 #include "sim/step.h"
 #include "vessel/holding.h"
 
@@ -83,8 +82,9 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
 void capability_free(context *ctx, capability *c);
 
 /* capability.csv, capability_use.csv, capability.json and, with cairo, capability.png and capability.svg in the folder
-   of the options; report: the picture, or the JSON file. */
-fram_status capability_write(context *ctx, const scenario *s, const capability_options *options, export_report *report,
-                             fram_error *error);
+   of the options; `path` is the file to look at first: the picture, or the JSON file. */
+enum { CAPABILITY_PATH = 1024 };
+fram_status capability_write(context *ctx, const scenario *s, const capability_options *options,
+                             char path[CAPABILITY_PATH], fram_error *error);
 
 #endif

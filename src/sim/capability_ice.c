@@ -2,11 +2,12 @@
    scenario's own field past the hull held fast. */
 #include "sim/capability.h"
 
+#include "base/channel_statistics.h"
 #include "base/transcendental.h"
+#include "io/csv_read.h"
 #include "sim/build.h"
 #include "sim/build_ice.h"
 #include "sim/ice_loads.h"
-#include "sim/station_results.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -240,7 +240,7 @@ static fram_status draw(context *ctx, const scenario *s, const capability *c, co
     return status;
 }
 
-fram_status capability_write(context *ctx, const scenario *s, const capability_options *o, export_report *report,
+fram_status capability_write(context *ctx, const scenario *s, const capability_options *o, char path[CAPABILITY_PATH],
                              fram_error *error)
 {
     capability c;
@@ -260,8 +260,7 @@ fram_status capability_write(context *ctx, const scenario *s, const capability_o
         status = draw(ctx, s, &c, "capability.png", error);
     if (status == FRAM_OK && image_available())
         status = draw(ctx, s, &c, "capability.svg", error);
-    snprintf(report->path, sizeof report->path, "%.1000s/%s", o->folder,
-             image_available() ? "capability.png" : "capability.json");
+    snprintf(path, CAPABILITY_PATH, "%.1000s/%s", o->folder, image_available() ? "capability.png" : "capability.json");
     capability_free(ctx, &c);
     return status;
 }

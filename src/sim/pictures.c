@@ -1,13 +1,11 @@
 #include "sim/pictures.h"
 
-#include "io/chart.h"
-#include "io/csv_read.h"
 #include "io/plan_view.h"
 #include "sim/build_ice.h"
 
 #include <stdio.h>
 
-enum { PLAN_PIXELS = 1000, CHART_WIDTH = 1280, CHART_HEIGHT = 560 };
+enum { PLAN_PIXELS = 1000 };
 
 /* Shapes of a plan view with the vertices they point to. */
 typedef struct plan_store {
@@ -113,54 +111,5 @@ fram_status picture_plan(context *ctx, const scenario *s, const world *w, const 
     if (status == FRAM_OK)
         status = plan_view_write(ctx, &view, path, PLAN_PIXELS, error);
     plan_store_free(ctx, &p);
-    return status;
-}
-
-static double mean_after(const double_array *time, const double_array *value, double transient)
-{
-    double sum = 0;
-    int32_t n = 0;
-    for (int32_t i = 0; i < value->count; i++) {
-        if (time->data[i] < transient)
-            continue;
-        sum += value->data[i];
-        n++;
-    }
-    return n > 0 ? sum / n : 0;
-}
-
-fram_status picture_loads(context *ctx, const scenario *s, const char *folder, fram_error *error)
-{
-    static const char *const names[] = {"time", "ice_force_body_x", "ice_force_body_y", "ice_force_averaged_x",
-                                        "ice_force_averaged_y"};
-    enum { TIME, RAW_X, RAW_Y, MEAN_X, MEAN_Y, COUNT };
-    char from[1024], to[1024];
-    int n = snprintf(from, sizeof from, "%s/series.csv", folder), m = snprintf(to, sizeof to, "%s/loads.png", folder);
-    if (n < 0 || m < 0 || n >= (int)sizeof from || m >= (int)sizeof to)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    double_array column[COUNT] = {0};
-    fram_status status = csv_read(ctx, from, names, COUNT, column, error);
-    if (status == FRAM_OK) {
-        double mean = mean_after(&column[TIME], &column[RAW_X], s->run.transient);
-        for (int k = RAW_X; k < COUNT; k++) {
-            for (int32_t i = 0; i < column[k].count; i++)
-                column[k].data[i] *= 1e-3;
-        }
-        int32_t rows = column[TIME].count;
-        const chart_line lines[] = {
-            chart_line_make("along the vessel, each step", column[TIME].data, column[RAW_X].data, rows, false),
-            chart_line_make("along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true),
-            chart_line_make("along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true),
-        };
-        char subtitle[256];
-        snprintf(
-            subtitle, sizeof subtitle,
-            "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s; a resisting load is negative",
-            s->output.averaging_window, mean * 1e-3, s->run.transient);
-        chart c = chart_make("Ice load on the vessel", subtitle, "time [s]", "force [kN]", lines, 3);
-        status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
-    }
-    for (int k = 0; k < COUNT; k++)
-        array_free(ctx, &column[k]);
     return status;
 }

@@ -1,8 +1,8 @@
 #include "sim/recorder.h"
 
 #include "base/transcendental.h"
+#include "io/record_pose.h"
 #include "sim/ice_loads.h"
-#include "sim/record_pose.h"
 #include "sim/series.h"
 
 #include <stdio.h>
@@ -72,14 +72,6 @@ recorder_lengths recorder_lengths_of(const recorder *r)
     return (recorder_lengths){csv_length(&r->series), record_length(&r->record), csv_length(&r->fractures)};
 }
 
-fram_status recorder_check_block(const char *path, uint32_t type, fram_error *error)
-{
-    if (type != BLOCK_EARLIER_BIRTHS && type != BLOCK_EARLIER_FRAME && type != BLOCK_TOUCHED_FRAME)
-        return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                     "an earlier version of Fram wrote this record; run the scenario again");
-}
-
 /* That the record is of the layout which would go on: told by its blocks up to the first frame.  A damaged one is for
    record_continue to refuse. */
 static fram_status check_layout(context *ctx, const char *folder, fram_error *error)
@@ -96,7 +88,7 @@ static fram_status check_layout(context *ctx, const char *folder, fram_error *er
     while (status == FRAM_OK && found && block.type != BLOCK_FRAME) {
         status = record_next(&reader, &block, &found, error);
         if (status == FRAM_OK && found)
-            status = recorder_check_block(path, block.type, error);
+            status = record_check_block(path, block.type, error);
     }
     record_reader_close(&reader);
     return status;

@@ -9,7 +9,6 @@
 #include "sim/pictures.h"
 #include "sim/recorder.h"
 #include "sim/run_folder.h"
-#include "sim/station_results.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -129,27 +128,6 @@ static fram_status draw_plan(run *r, const char *name, fram_error *error)
     return status == FRAM_OK ? picture_plan(r->ctx, r->s, &r->world, path, error) : status;
 }
 
-static fram_status draw_loads(run *r, const char *name, fram_error *error)
-{
-    (void)name;
-    return picture_loads(r->ctx, r->s, r->options->folder, error);
-}
-
-static fram_status draw_station(run *r, const char *name, fram_error *error)
-{
-    (void)name;
-    return station_page_write(r->ctx, r->s, &r->world, r->options->folder, error);
-}
-
-/* The one-page result of keeping station, where the vessel does. */
-static fram_status write_station(run *r, fram_error *error)
-{
-    if (!station_has_results(r->s))
-        return FRAM_OK;
-    fram_status status = station_results_write(r->ctx, r->s, &r->world, r->options->folder, error);
-    return status == FRAM_OK ? draw(r, "station.png", draw_station, error) : status;
-}
-
 static fram_status draw_numbered_plan(run *r, fram_error *error)
 {
     char name[64], folder[PATH_SIZE];
@@ -241,10 +219,10 @@ static fram_status write_end(run *r, fram_error *error)
     fram_status status = write_checkpoint(r, error);
     if (status == FRAM_OK)
         status = draw(r, "plan.png", draw_plan, error);
-    if (status == FRAM_OK && r->s->vessel.present)
-        status = draw(r, "loads.png", draw_loads, error);
-    if (status == FRAM_OK)
-        status = write_station(r, error);
+    const world *w = &r->world;
+    const station_outcome station = {w->clock.time[0], &w->lines, &w->thrusters, &w->events};
+    if (status == FRAM_OK && r->options->finish)
+        status = r->options->finish(r->ctx, r->s, &station, r->options->folder, error);
     if (status == FRAM_OK)
         status = end_checkpoint(r, error);
     r->end_time = wall_clock() - began;

@@ -3,6 +3,7 @@
 #define SIM_RUN_H
 
 #include "model/scenario.h"
+#include "vessel/outcome.h"
 
 typedef struct run_progress {
     double time, end; /* simulated [s] */
@@ -17,6 +18,10 @@ typedef struct run_options {
     void (*progress)(void *user, const run_progress *p); /* may be NULL */
     void *progress_user;
     const volatile int *stop; /* may be NULL */
+    /* Makes what people read from the finished time series in the folder; its time counts as recording.  May be NULL.
+     */
+    fram_status (*finish)(context *ctx, const scenario *s, const station_outcome *station, const char *folder,
+                          fram_error *error);
 } run_options;
 
 typedef struct run_result {

@@ -1,8 +1,7 @@
-/* Vessels held in ice: the balance of recorded forces of a towed hull, events of a vessel on station, statistics. */
+/* Vessels held in ice: the balance of recorded forces of a towed hull, events of a vessel on station. */
 #include "scene.h"
 
 #include "sim/series.h"
-#include "sim/station_results.h"
 
 #include <stdio.h>
 
@@ -145,27 +144,6 @@ START_TEST(a_moored_ship_begins_in_balance)
 }
 END_TEST
 
-START_TEST(statistics_of_a_channel)
-{
-    enum { N = 2000 };
-    double time[N], value[N];
-    for (int i = 0; i < N; i++) {
-        time[i] = 0.01 * i;
-        double tooth = i % 100 < 50 ? 1 : 0;
-        value[i] = i < 500 ? 1e9 : tooth * (1 + i / 100 % 3); /* peaks of 1, 2 and 3 */
-    }
-    channel_statistics s = channel_statistics_of(time, value, N, 5);
-    ck_assert_int_eq(s.peaks, 10); /* those of 1 do not exceed the mean */
-    assert_relative(s.mean, 1, 1e-12);
-    assert_relative(s.significant, 3, 1e-12);
-    assert_absolute(s.greatest, 3, 0);
-    assert_absolute(s.least, 0, 0);
-    assert_relative(s.deviation, sqrt(0.5 * 14 / 3 - 1), 1e-12);
-    s = channel_statistics_of(time, value, N, 1e9);
-    ck_assert(s.mean == 0 && s.peaks == 0);
-}
-END_TEST
-
 /* Under way by a given thrust: the speed at which drag balances it. */
 START_TEST(transit_at_a_given_thrust)
 {
@@ -255,19 +233,6 @@ START_TEST(feed_forward_of_the_ice_load)
 }
 END_TEST
 
-START_TEST(envelope_of_offsets)
-{
-    const double time[] = {0, 1, 2, 3, 4}, x[] = {9, 2, 3, 0, -1}, y[] = {0, 0, 0.1, -4, -1};
-    double out[ENVELOPE_DIRECTIONS];
-    offset_envelope(time, x, y, 5, 0.5, out);
-    assert_relative(out[0], sqrt(9.01), 1e-12);
-    assert_relative(out[27], 4, 1e-12);
-    assert_relative(out[22] + out[23], sqrt(2.0), 1e-12);
-    for (int i = 1; i < 20; i++)
-        ck_assert(!(out[i] > 0));
-}
-END_TEST
-
 TEST_MAIN("station", transit_at_a_given_thrust, sensors_and_controller_keep_their_own_time,
-          feed_forward_of_the_ice_load, envelope_of_offsets, forces_on_a_towed_hull_balance,
-          a_ship_holds_its_place_until_its_thrusters_fail, a_moored_ship_begins_in_balance, statistics_of_a_channel)
+          feed_forward_of_the_ice_load, forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,
+          a_moored_ship_begins_in_balance)

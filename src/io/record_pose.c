@@ -1,0 +1,103 @@
+#include "io/record_pose.h"
+
+#include <string.h>
+
+/* A component is a whole number of steps from -1/sqrt(2) to 1/sqrt(2), so that zero is kept exactly. */
+enum { HALF_MOST = 0x7bff, HALF_STEPS = 16383, WORD_MASK = 32767, TOP_BIT = 32768 };
+enum { MARKED_WORD = RECORD_POSE_SIZE - (int)sizeof(uint16_t) }; /* place of the third word of the orientation */
+static const double root_half = 0.70710678118654752440;
+
+uint16_t half_from_real(double value)
+{
+    uint16_t sign = value < 0 ? 0x8000 : 0;
+    double size = fabs(value);
+    if (!(size < 65504))
+        return (uint16_t)(sign | HALF_MOST);
+    int exponent = 0; /* of the scale of the last place: 2^(exponent - 24) */
+    double unit = 1.0 / 16777216;
+    while (size >= 2048 * unit) {
+        unit *= 2;
+        exponent++;
+    }
+    double places = size / unit, whole = floor(places), rest = places - whole;
+    bool odd = whole - 2 * floor(whole / 2) == 1;
+    whole += rest > 0.5 || (rest == 0.5 && odd);
+    if (whole >= 2048) {
+        whole /= 2;
+        exponent++;
+    }
+    /* Below 1024 places the number is subnormal and its exponent field is zero. */
+    uint32_t bits = whole < 1024 ? (uint32_t)whole : (uint32_t)(exponent + 1) << 10 | ((uint32_t)whole - 1024);
+    return (uint16_t)(sign | (bits > HALF_MOST ? HALF_MOST : bits));
+}
+
+double real_from_half(uint16_t half)
+{
+    int field = half >> 10 & 31;
+    double places = (half & 1023) + (field > 0 ? 1024 : 0), unit = 1.0 / 16777216;
+    for (int i = 1; i < field; i++)
+        unit *= 2;
+    return (half & 0x8000 ? -1 : 1) * places * unit;
+}
+
+/* 15 bits of a component. */
+static uint16_t pack_component(double part)
+{
+    double step = floor(part / root_half * HALF_STEPS + 0.5);
+    return (uint16_t)(HALF_STEPS + fmin(fmax(step, -HALF_STEPS), HALF_STEPS));
+}
+
+void record_pose_pack(vec3 position, quat orientation, unsigned char out[RECORD_POSE_SIZE])
+{
+    const double part[4] = {orientation.w, orientation.x, orientation.y, orientation.z};
+    int largest = 0;
+    for (int i = 1; i < 4; i++) {
+        if (fabs(part[i]) > fabs(part[largest]))
+            largest = i;
+    }
+    double sign = part[largest] < 0 ? -1 : 1;
+    uint16_t word[4] = {half_from_real(position.z)};
+    for (int i = 0, k = 1; i < 4; i++) {
+        if (i != largest)
+            word[k++] = pack_component(sign * part[i]);
+    }
+    word[1] |= (uint16_t)(largest >> 1 << 15);
+    word[2] |= (uint16_t)((largest & 1) << 15);
+    float plan[2] = {(float)position.x, (float)position.y};
+    memcpy(out, plan, sizeof plan);
+    memcpy(out + sizeof plan, word, sizeof word);
+}
+
+void record_pose_unpack(const unsigned char in[RECORD_POSE_SIZE], vec3 *position, quat *orientation)
+{
+    float plan[2];
+    uint16_t word[4];
+    memcpy(plan, in, sizeof plan);
+    memcpy(word, in + sizeof plan, sizeof word);
+    *position = vec3_make((double)plan[0], (double)plan[1], real_from_half(word[0]));
+    int largest = word[1] >> 15 << 1 | word[2] >> 15;
+    double part[4] = {0}, sum = 0;
+    for (int i = 0, k = 1; i < 4; i++) {
+        if (i == largest)
+            continue;
+        part[i] = ((word[k++] & WORD_MASK) - HALF_STEPS) * root_half / HALF_STEPS;
+        sum += part[i] * part[i];
+    }
+    part[largest] = sqrt(fmax(0, 1 - sum));
+    *orientation = (quat){part[0], part[1], part[2], part[3]};
+}
+
+void record_pose_mark(unsigned char pose[RECORD_POSE_SIZE])
+{
+    uint16_t word;
+    memcpy(&word, pose + MARKED_WORD, sizeof word);
+    word |= TOP_BIT;
+    memcpy(pose + MARKED_WORD, &word, sizeof word);
+}
+
+bool record_pose_is_marked(const unsigned char pose[RECORD_POSE_SIZE])
+{
+    uint16_t word;
+    memcpy(&word, pose + MARKED_WORD, sizeof word);
+    return (word & TOP_BIT) != 0;
+}

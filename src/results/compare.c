@@ -1,0 +1,197 @@
+/* Two runs beside each other: the same numbers of both, and their channels over each other. */
+#include "io/atomic_file.h"
+#include "io/html_page.h"
+#include "results/report.h"
+#include "results/run_data.h"
+#include "results/station_results.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct pair {
+    context *ctx;
+    run_data d[2];
+    html_page page;
+    compare_result *result;
+} pair;
+
+static void add_row(pair *p, const char *name, const char *unit, const double value[2])
+{
+    if (p->result->count == COMPARE_ROWS_MOST || (value[0] != value[0] && value[1] != value[1]))
+        return;
+    compare_row *row = &p->result->row[p->result->count++];
+    *row = (compare_row){.a = value[0], .b = value[1]};
+    snprintf(row->name, sizeof row->name, "%s", name);
+    snprintf(row->unit, sizeof row->unit, "%s", unit);
+}
+
+typedef enum measure { MEAN, DEVIATION, GREATEST, LEAST, SIGNIFICANT, LAST } measure;
+
+static double measure_of(const run_data *d, const char *channel, measure what)
+{
+    const double *time = run_channel(d, "time"), *value = run_channel(d, channel);
+    if (!time || !value || d->series.rows == 0)
+        return (double)NAN;
+    channel_statistics s = channel_statistics_of(time, value, d->series.rows, d->s.run.transient);
+    const double all[] = {[MEAN] = s.mean,   [DEVIATION] = s.deviation,     [GREATEST] = s.greatest,
+                          [LEAST] = s.least, [SIGNIFICANT] = s.significant, [LAST] = value[d->series.rows - 1]};
+    return all[what];
+}
+
+static const struct {
+    const char *channel, *name;
+    measure what;
+    double factor;
+    const char *unit;
+} rows[] = {
+    {"ice_force_averaged_x", "ice load along X, mean", MEAN, 1e-3, "kN"},
+    {"ice_force_averaged_x", "ice load along X, deviation", DEVIATION, 1e-3, "kN"},
+    {"ice_force_averaged_x", "ice load along X, least", LEAST, 1e-3, "kN"},
+    {"ice_force_averaged_x", "ice load along X, greatest", GREATEST, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, mean", MEAN, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, deviation", DEVIATION, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, least", LEAST, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, greatest", GREATEST, 1e-3, "kN"},
+    {"line_tension_max", "largest line tension", GREATEST, 1e-3, "kN"},
+    {"offset_x", "offset along X, deviation", DEVIATION, 1, "m"},
+    {"offset_y", "offset along Y, deviation", DEVIATION, 1, "m"},
+    {"thruster_power", "thruster power, mean", MEAN, 1e-6, "MW"},
+    {"position_x", "x at the end", LAST, 1, "m"},
+    {"position_y", "y at the end", LAST, 1, "m"},
+    {"yaw", "heading at the end", LAST, 1, "deg"},
+    {"floes", "floes at the end", LAST, 1, ""},
+    {"bendings", "floes broken in bending", LAST, 1, ""},
+    {"splits", "floes split", LAST, 1, ""},
+    {"ice_mass_left", "ice that left", LAST, 1e-3, "t"},
+    {"ice_mass_lost", "ice lost in fracture", LAST, 1e-3, "t"},
+    {"crushing_work", "work of crushing", LAST, 1e-3, "kJ"},
+    {"kinetic_energy", "kinetic energy at the end", LAST, 1e-3, "kJ"},
+    {"contacts", "contact points, mean", MEAN, 1, ""},
+    {"solver_residual", "residual, mean", MEAN, 1, "m/s"},
+    {"overlap_max", "largest overlap", GREATEST, 1, "m"},
+    {"step_wall_time", "computing time of a step, mean", MEAN, 1e3, "ms"},
+};
+
+static void find_rows(pair *p)
+{
+    const double time[2] = {p->d[0].note.time, p->d[1].note.time};
+    add_row(p, "simulated time", "s", time);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        double value[2];
+        for (int k = 0; k < 2; k++)
+            value[k] = measure_of(&p->d[k], rows[i].channel, rows[i].what) * rows[i].factor;
+        add_row(p, rows[i].name, rows[i].unit, value);
+    }
+    p->result->same_scenario = strcmp(p->d[0].note.scenario_hash, p->d[1].note.scenario_hash) == 0;
+    p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
+}
+
+/* ---- page ---- */
+
+static fram_status overlay_chart(pair *p, const char *channel, const char *title, const char *label, double factor,
+                                 fram_error *error)
+{
+    chart_line lines[2];
+    double *scaled[2] = {NULL, NULL};
+    static const char *const names[2] = {"A", "B"};
+    int32_t n = 0;
+    fram_status status = FRAM_OK;
+    for (int k = 0; k < 2 && status == FRAM_OK; k++) {
+        const double *value = run_channel(&p->d[k], channel);
+        int32_t count = p->d[k].series.rows;
+        if (!value || count == 0)
+            continue;
+        scaled[k] = memory_array(p->ctx, (size_t)count, sizeof *scaled[k]);
+        if (!scaled[k])
+            status = error_memory(error);
+        for (int32_t i = 0; i < count && status == FRAM_OK; i++)
+            scaled[k][i] = value[i] * factor;
+        lines[n] = chart_line_make(names[k], run_channel(&p->d[k], "time"), scaled[k], count, k == 1);
+        lines[n++].colour = k + 2;
+    }
+    if (status == FRAM_OK && n > 0) {
+        chart c = chart_make(title, "", "time [s]", label, lines, n);
+        status = html_chart(&p->page, &c, false, error);
+    }
+    memory_free(p->ctx, scaled[0]);
+    memory_free(p->ctx, scaled[1]);
+    return status;
+}
+
+static void number_table(pair *p)
+{
+    const char *const heads[] = {"after the transient", "A", "B", "B - A", "B / A"};
+    html_table_begin(&p->page, heads, 5);
+    for (int32_t i = 0; i < p->result->count; i++) {
+        const compare_row *row = &p->result->row[i];
+        char name[96];
+        snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
+        html_row_begin(&p->page);
+        html_cell(&p->page, name);
+        html_number(&p->page, row->a);
+        html_number(&p->page, row->b);
+        html_number(&p->page, row->b - row->a);
+        html_number(&p->page, row->a != 0 ? row->b / row->a : (double)NAN);
+        html_row_end(&p->page);
+    }
+    html_table_end(&p->page);
+}
+
+static fram_status compose(pair *p, fram_error *error)
+{
+    static const struct {
+        const char *channel, *title, *label;
+        double factor;
+    } charts[] = {{"ice_force_averaged_x", "Ice load along X, averaged", "force [kN]", 1e-3},
+                  {"ice_force_averaged_y", "Ice load along Y, averaged", "force [kN]", 1e-3},
+                  {"position_x", "Position along X", "x [m]", 1},
+                  {"position_y", "Position along Y", "y [m]", 1},
+                  {"floes", "Floes", "floes", 1},
+                  {"bendings", "Floes broken in bending", "floes so far", 1},
+                  {"line_tension_max", "Largest line tension", "tension [kN]", 1e-3},
+                  {"crushing_work", "Work of crushing", "work [kJ]", 1e-3}};
+    html_begin(&p->page, "Two runs beside each other", "");
+    html_table_begin(&p->page, NULL, 0);
+    for (int k = 0; k < 2; k++)
+        html_fact(&p->page, k ? "B" : "A", "%s: %s, %s, scenario %.12s, state %s", p->d[k].folder,
+                  p->d[k].s.title[0] ? p->d[k].s.title : "no title", p->d[k].note.status, p->d[k].note.scenario_hash,
+                  p->d[k].note.state_hash);
+    html_fact(&p->page, "scenarios", "%s", p->result->same_scenario ? "the same" : "different");
+    html_fact(&p->page, "states at the end", "%s", p->result->same_state ? "the same to the bit" : "different");
+    html_table_end(&p->page);
+    html_section(&p->page, "Numbers");
+    number_table(p);
+    html_section(&p->page, "Over time");
+    html_grid_begin(&p->page);
+    fram_status status = FRAM_OK;
+    for (size_t i = 0; i < sizeof charts / sizeof *charts && status == FRAM_OK; i++)
+        status = overlay_chart(p, charts[i].channel, charts[i].title, charts[i].label, charts[i].factor, error);
+    html_grid_end(&p->page);
+    html_end(&p->page);
+    return status == FRAM_OK && p->page.text.failed ? error_memory(error) : status;
+}
+
+fram_status compare_runs(context *ctx, const char *a, const char *b, const char *output, compare_result *result,
+                         fram_error *error)
+{
+    pair p = {.ctx = ctx, .page = {.ctx = ctx}, .result = result};
+    *result = (compare_result){0};
+    fram_status status = run_data_read(ctx, a, false, &p.d[0], error);
+    if (status != FRAM_OK)
+        return status;
+    status = run_data_read(ctx, b, false, &p.d[1], error);
+    if (status != FRAM_OK) {
+        run_data_free(ctx, &p.d[0]);
+        return status;
+    }
+    find_rows(&p);
+    if (output) {
+        status = compose(&p, error);
+        if (status == FRAM_OK)
+            status = atomic_file_write(ctx, output, p.page.text.data, (size_t)p.page.text.count, error);
+    }
+    html_free(&p.page);
+    run_data_free(ctx, &p.d[0]);
+    run_data_free(ctx, &p.d[1]);
+    return status;
+}

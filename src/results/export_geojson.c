@@ -1,0 +1,71 @@
+#include "results/export.h"
+
+#include "io/geojson.h"
+#include "results/replay_moment.h"
+
+#include <stdio.h>
+
+enum { THICKNESS, AREA, VELOCITY_X, VELOCITY_Y, CONTACT_FORCE, AGE, NUMBER, PARENT, COLUMNS };
+static const char *const names[COLUMNS] = {"thickness",     "area", "velocity_x", "velocity_y",
+                                           "contact_force", "age",  "floe",       "parent"};
+static const char *const kinds[MATERIAL_COUNT] = {"floe", "vessel", "wall"};
+
+typedef struct plan_columns {
+    ARRAY(double) value[COLUMNS];
+    ARRAY(const char *) kind;
+} plan_columns;
+
+static bool fill_columns(context *ctx, const replay *r, const replay_moment *m, plan_columns *c)
+{
+    const double none = (double)NAN;
+    bool good = true;
+    for (int32_t i = 0; i < m->poses.count && good; i++) {
+        const replay_pose *p = &m->poses.data[i];
+        const replay_body *b = &r->bodies.data[p->body];
+        bool ice = b->material == MATERIAL_ICE;
+        const double row[COLUMNS] = {[THICKNESS] = b->solid ? none : b->thickness,
+                                     [AREA] = b->solid ? none : b->area,
+                                     [VELOCITY_X] = p->velocity.x,
+                                     [VELOCITY_Y] = p->velocity.y,
+                                     [CONTACT_FORCE] = p->contact_force,
+                                     [AGE] = ice ? m->time - b->birth : none,
+                                     [NUMBER] = ice ? b->number : none,
+                                     [PARENT] = ice && b->parent >= 0 ? b->parent : none};
+        for (int k = 0; k < COLUMNS && good; k++)
+            good = array_push(ctx, &c->value[k], row[k]);
+        good = good && array_push(ctx, &c->kind, kinds[b->material]);
+    }
+    return good;
+}
+
+fram_status export_geojson(context *ctx, const char *folder, const char *output, double time, export_report *report,
+                           fram_error *error)
+{
+    replay r;
+    replay_moment m = {0};
+    plan_columns c = {0};
+    *report = (export_report){.frames = 1};
+    int n = output ? snprintf(report->path, sizeof report->path, "%s", output)
+                   : snprintf(report->path, sizeof report->path, "%s/field-%g.geojson", folder, time);
+    if (n < 0 || n >= (int)sizeof report->path)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    fram_status status = replay_open(ctx, folder, &r, error);
+    if (status != FRAM_OK)
+        return status;
+    status = replay_moment_at(&r, time, &m, error);
+    if (status == FRAM_OK && !fill_columns(ctx, &r, &m, &c))
+        status = error_memory(error);
+    if (status == FRAM_OK) {
+        geojson_property property[COLUMNS + 1] = {{.name = "kind", .text = c.kind.data}};
+        for (int k = 0; k < COLUMNS; k++)
+            property[k + 1] = (geojson_property){.name = names[k], .value = c.value[k].data};
+        report->time = m.time;
+        status = geojson_write_properties(ctx, report->path, &m.outlines, property, COLUMNS + 1, m.time, error);
+    }
+    for (int k = 0; k < COLUMNS; k++)
+        array_free(ctx, &c.value[k]);
+    array_free(ctx, &c.kind);
+    replay_moment_free(ctx, &m);
+    replay_close(&r);
+    return status;
+}

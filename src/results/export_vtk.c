@@ -1,0 +1,286 @@
+#include "results/export.h"
+
+#include "io/vtk_file.h"
+#include "results/replay.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <sys/stat.h>
+
+enum { PATH_SIZE = 1024, FIELDS_MOST = 12, PARTS = 3 };
+enum { PART_FLOES, PART_HULL, PART_FORCES };
+static const char *const part_names[PARTS] = {"floes", "hull", "forces"};
+
+/* One data set under construction: points, cells, a column per field. */
+typedef struct sheet {
+    float_array point;
+    int32_array connectivity, offset;
+    float_array column[FIELDS_MOST];
+    vtk_field field[FIELDS_MOST];
+    int32_t fields, cells;
+    bool failed; /* no memory */
+} sheet;
+
+typedef struct vtk_export {
+    context *ctx;
+    replay r;
+    sheet part[PARTS];
+    vtk_step_array steps[PARTS + 1]; /* the last: all together */
+    const char *folder;
+} vtk_export;
+
+static void sheet_clear(sheet *s)
+{
+    array_clear(&s->point);
+    array_clear(&s->connectivity);
+    array_clear(&s->offset);
+    for (int i = 0; i < FIELDS_MOST; i++)
+        array_clear(&s->column[i]);
+    s->cells = 0;
+}
+
+static void sheet_free(context *ctx, sheet *s)
+{
+    array_free(ctx, &s->point);
+    array_free(ctx, &s->connectivity);
+    array_free(ctx, &s->offset);
+    for (int i = 0; i < FIELDS_MOST; i++)
+        array_free(ctx, &s->column[i]);
+}
+
+static int32_t add_point(context *ctx, sheet *s, vec3 p)
+{
+    bool good = array_push(ctx, &s->point, (float)p.x) && array_push(ctx, &s->point, (float)p.y) &&
+                array_push(ctx, &s->point, (float)p.z);
+    s->failed = s->failed || !good;
+    return s->point.count / 3 - 1;
+}
+
+static void add_corner(context *ctx, sheet *s, int32_t point)
+{
+    s->failed = s->failed || !array_push(ctx, &s->connectivity, point);
+}
+
+static void end_cell(context *ctx, sheet *s)
+{
+    s->failed = s->failed || !array_push(ctx, &s->offset, s->connectivity.count);
+    s->cells++;
+}
+
+/* The value of the `field`-th field for the cells added since the last one was given. */
+static void fill(context *ctx, sheet *s, int32_t field, const char *name, int components, const double *value)
+{
+    s->field[field] = (vtk_field){.name = name, .components = components};
+    s->fields = field + 1 > s->fields ? field + 1 : s->fields;
+    while (s->column[field].count < s->cells * components && !s->failed) {
+        for (int k = 0; k < components; k++)
+            s->failed = s->failed || !array_push(ctx, &s->column[field], (float)value[k]);
+    }
+}
+
+static void fill_real(context *ctx, sheet *s, int32_t field, const char *name, double value)
+{
+    fill(ctx, s, field, name, 1, &value);
+}
+
+static void fill_vec3(context *ctx, sheet *s, int32_t field, const char *name, vec3 v)
+{
+    const double value[3] = {v.x, v.y, v.z};
+    fill(ctx, s, field, name, 3, value);
+}
+
+/* ---- the three data sets ---- */
+
+/* A closed prism: top, bottom and sides. */
+static void add_prism(vtk_export *e, const replay_body *b, const replay_pose *p)
+{
+    sheet *s = &e->part[PART_FLOES];
+    polygon ring = replay_outline(&e->r, b);
+    mat3 turn = quat_matrix(p->orientation);
+    int32_t first = s->point.count / 3, n = ring.count;
+    for (int top = 0; top < 2; top++) {
+        for (int32_t i = 0; i < n; i++) {
+            vec3 local = vec3_make(ring.vertex[i].x, ring.vertex[i].y, (top - 0.5) * b->thickness);
+            add_point(e->ctx, s, vec3_add(p->position, mat3_mul_vec(turn, local)));
+        }
+    }
+    for (int top = 1; top >= 0; top--) {
+        for (int32_t i = 0; i < n; i++)
+            add_corner(e->ctx, s, first + (top ? n + i : n - 1 - i));
+        end_cell(e->ctx, s);
+    }
+    for (int32_t i = 0; i < n; i++) {
+        int32_t j = (i + 1) % n;
+        add_corner(e->ctx, s, first + i);
+        add_corner(e->ctx, s, first + j);
+        add_corner(e->ctx, s, first + n + j);
+        add_corner(e->ctx, s, first + n + i);
+        end_cell(e->ctx, s);
+    }
+}
+
+static void fill_floe(vtk_export *e, const replay_body *b, const replay_pose *p)
+{
+    sheet *s = &e->part[PART_FLOES];
+    int32_t f = 0;
+    fill_vec3(e->ctx, s, f++, "velocity [m/s]", p->velocity);
+    fill_real(e->ctx, s, f++, "speed [m/s]", vec3_length(p->velocity));
+    fill_real(e->ctx, s, f++, "contact force [N]", p->contact_force);
+    fill_real(e->ctx, s, f++, "thickness [m]", b->thickness);
+    fill_real(e->ctx, s, f++, "area [m2]", b->area);
+    fill_real(e->ctx, s, f++, "mass [kg]", b->area * b->thickness * b->density);
+    fill_real(e->ctx, s, f++, "age [s]", e->r.frame.time - b->birth);
+    fill_real(e->ctx, s, f++, "floe", b->number);
+    fill_real(e->ctx, s, f++, "parent", b->parent);
+    fill_real(e->ctx, s, f++, "material", b->material);
+    fill_real(e->ctx, s, f++, "moves", b->moves);
+}
+
+static void add_hull(vtk_export *e, const replay_body *b, const replay_pose *p)
+{
+    sheet *s = &e->part[PART_HULL];
+    mat3 turn = quat_matrix(p->orientation);
+    int32_t first = s->point.count / 3;
+    for (int32_t i = 0; i < b->vertex_count; i++)
+        add_point(e->ctx, s, vec3_add(p->position, mat3_mul_vec(turn, e->r.points.data[b->vertex_first + i])));
+    for (int32_t i = 0; i < b->face_count; i++) {
+        for (int k = 0; k < 3; k++)
+            add_corner(e->ctx, s, first + e->r.faces.data[3 * (b->face_first + i) + k]);
+        end_cell(e->ctx, s);
+    }
+    fill_vec3(e->ctx, s, 0, "velocity [m/s]", p->velocity);
+    fill_vec3(e->ctx, s, 1, "ice force, averaged [N]", e->r.frame.ice_force);
+}
+
+/* A vertex at the point of each force on the vessel. */
+static void add_forces(vtk_export *e)
+{
+    sheet *s = &e->part[PART_FORCES];
+    for (int32_t i = 0; i < e->r.frame.forces.count; i++) {
+        const replay_force *force = &e->r.frame.forces.data[i];
+        bool ice = force->kind == RECORD_FORCE_ICE && force->which >= 0;
+        add_corner(e->ctx, s, add_point(e->ctx, s, force->point));
+        end_cell(e->ctx, s);
+        fill_vec3(e->ctx, s, 0, "force [N]", force->force);
+        fill_real(e->ctx, s, 1, "magnitude [N]", vec3_length(force->force));
+        fill_real(e->ctx, s, 2, "kind", force->kind);
+        fill_real(e->ctx, s, 3, "number", ice ? e->r.bodies.data[force->which].number : force->which);
+    }
+    /* A frame without forces has the fields too. */
+    if (s->cells == 0) {
+        fill_vec3(e->ctx, s, 0, "force [N]", vec3_make(0, 0, 0));
+        fill_real(e->ctx, s, 1, "magnitude [N]", 0);
+        fill_real(e->ctx, s, 2, "kind", 0);
+        fill_real(e->ctx, s, 3, "number", 0);
+    }
+}
+
+static fram_status write_part(vtk_export *e, int part, int64_t number, fram_error *error)
+{
+    sheet *s = &e->part[part];
+    vtk_step step = {.time = e->r.frame.time};
+    char path[PATH_SIZE];
+    snprintf(step.name, sizeof step.name, "data/%s_%06lld.vtp", part_names[part], (long long)number);
+    int n = snprintf(path, sizeof path, "%s/%s", e->folder, step.name);
+    if (n < 0 || n >= PATH_SIZE)
+        return error_set(error, FRAM_ERROR_INPUT, e->folder, 0, NULL, "the folder's name is too long");
+    if (s->failed)
+        return error_memory(error);
+    for (int32_t i = 0; i < s->fields; i++)
+        s->field[i].value = s->column[i].data;
+    vtk_data data = {.point = s->point.data,
+                     .point_count = s->point.count / 3,
+                     .kind = part == PART_FORCES ? VTK_VERTICES : VTK_POLYGONS,
+                     .connectivity = s->connectivity.data,
+                     .offset = s->offset.data,
+                     .cell_count = s->cells,
+                     .fields = s->field,
+                     .field_count = s->fields,
+                     .time = step.time};
+    fram_status status = vtk_write(e->ctx, path, &data, error);
+    bool good = array_push(e->ctx, &e->steps[part], step);
+    step.part = part;
+    good = good && array_push(e->ctx, &e->steps[PARTS], step);
+    return status == FRAM_OK && !good ? error_memory(error) : status;
+}
+
+static fram_status write_frame(vtk_export *e, int64_t number, fram_error *error)
+{
+    for (int k = 0; k < PARTS; k++)
+        sheet_clear(&e->part[k]);
+    for (int32_t i = 0; i < e->r.frame.poses.count; i++) {
+        const replay_pose *p = &e->r.frame.poses.data[i];
+        const replay_body *b = &e->r.bodies.data[p->body];
+        if (b->solid) {
+            add_hull(e, b, p);
+        } else {
+            add_prism(e, b, p);
+            fill_floe(e, b, p);
+        }
+    }
+    add_forces(e);
+    fram_status status = FRAM_OK;
+    for (int k = 0; k < PARTS && status == FRAM_OK; k++)
+        status = write_part(e, k, number, error);
+    return status;
+}
+
+static fram_status write_series(vtk_export *e, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int k = 0; k <= PARTS && status == FRAM_OK; k++) {
+        char path[PATH_SIZE];
+        snprintf(path, sizeof path, "%s/%s.pvd", e->folder, k < PARTS ? part_names[k] : "run");
+        status = vtk_series_write(e->ctx, path, e->steps[k].data, e->steps[k].count, error);
+    }
+    return status;
+}
+
+static fram_status write_all(vtk_export *e, int64_t every, export_report *report, fram_error *error)
+{
+    bool found = true;
+    fram_status status = FRAM_OK;
+    while (status == FRAM_OK) {
+        status = replay_next(&e->r, &found, error);
+        if (status != FRAM_OK || !found)
+            break;
+        if (e->r.frame.number % every != 0)
+            continue;
+        if (report->frames == 0)
+            report->time = e->r.frame.time;
+        status = write_frame(e, report->frames++, error);
+    }
+    return status == FRAM_OK ? write_series(e, error) : status;
+}
+
+static fram_status make_folder(const char *path, fram_error *error)
+{
+    return mkdir(path, 0777) != 0 && errno != EEXIST ? file_error(error, path, "make the folder", errno) : FRAM_OK;
+}
+
+fram_status export_vtk(context *ctx, const char *folder, const char *output, int64_t every, export_report *report,
+                       fram_error *error)
+{
+    char beside[PATH_SIZE], data[PATH_SIZE];
+    vtk_export e = {.ctx = ctx, .folder = output ? output : beside};
+    *report = (export_report){0};
+    int n = snprintf(beside, sizeof beside, "%s/vtk", folder);
+    int m = snprintf(data, sizeof data, "%s/data", e.folder);
+    int l = snprintf(report->path, sizeof report->path, "%s/run.pvd", e.folder);
+    if (n < 0 || n >= PATH_SIZE || m < 0 || m >= PATH_SIZE || l < 0 || l >= (int)sizeof report->path)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    fram_status status = replay_open(ctx, folder, &e.r, error);
+    if (status != FRAM_OK)
+        return status;
+    status = make_folder(e.folder, error);
+    if (status == FRAM_OK)
+        status = make_folder(data, error);
+    if (status == FRAM_OK)
+        status = write_all(&e, every < 1 ? 1 : every, report, error);
+    replay_close(&e.r);
+    for (int k = 0; k < PARTS; k++)
+        sheet_free(ctx, &e.part[k]);
+    for (int k = 0; k <= PARTS; k++)
+        array_free(ctx, &e.steps[k]);
+    return status;
+}

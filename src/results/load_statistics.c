@@ -1,0 +1,101 @@
+#include "results/load_statistics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEVELS = 120, BARS = 30, CORRELATED_MOST = 20000 };
+static const double score = 1.959963984540054; /* of the normal distribution, 95 % on both sides */
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Long series are thinned: a correlation that dies within a few steps of the thinned one counts as none. */
+static double integral_time_scale(const double *value, int32_t count, double step)
+{
+    int32_t every = count / CORRELATED_MOST + 1, n = count / every;
+    double mean = 0, variance = 0, sum = 0.5;
+    for (int32_t i = 0; i < n; i++)
+        mean += value[i * every] / n;
+    for (int32_t i = 0; i < n; i++)
+        variance += (value[i * every] - mean) * (value[i * every] - mean) / n;
+    if (!(variance > 0))
+        return 0.5 * step;
+    for (int32_t lag = 1; lag < n; lag++) {
+        double covariance = 0;
+        for (int32_t i = 0; i + lag < n; i++)
+            covariance += (value[i * every] - mean) * (value[(i + lag) * every] - mean) / n;
+        if (covariance <= 0)
+            break;
+        sum += covariance / variance;
+    }
+    return sum * step * every;
+}
+
+static bool add_level(context *ctx, load_distribution *d, double level, double part)
+{
+    double n = d->independent, z2 = score * score, centre = (part + z2 / (2 * n)) / (1 + z2 / n);
+    double half = score / (1 + z2 / n) * sqrt(part * (1 - part) / n + z2 / (4 * n * n));
+    return array_push(ctx, &d->level, level) && array_push(ctx, &d->exceeded, part) &&
+           array_push(ctx, &d->low, fmax(0, centre - half)) && array_push(ctx, &d->high, fmin(1, centre + half));
+}
+
+static bool find_exceedance(context *ctx, const double *sorted, int32_t count, load_distribution *d)
+{
+    double least = sorted[0], greatest = sorted[count - 1];
+    int32_t below = 0;
+    for (int i = 0; i < LEVELS; i++) {
+        double level = least + (greatest - least) * i / (LEVELS - 1);
+        while (below < count && sorted[below] <= level)
+            below++;
+        if (!add_level(ctx, d, level, (double)(count - below) / count))
+            return false;
+    }
+    return true;
+}
+
+static bool find_histogram(context *ctx, const double *sorted, int32_t count, load_distribution *d)
+{
+    double least = sorted[0], width = (sorted[count - 1] - least) / BARS;
+    if (!(width > 0))
+        width = fmax(fabs(least), 1) / BARS;
+    int32_t at = 0;
+    for (int i = 0; i <= BARS; i++) {
+        int32_t from = at;
+        while (at < count && i < BARS && (sorted[at] < least + (i + 1) * width || i == BARS - 1))
+            at++;
+        if (!array_push(ctx, &d->bar, least + i * width) || !array_push(ctx, &d->density, (double)(at - from) / count))
+            return false;
+    }
+    return true;
+}
+
+bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, load_distribution *out)
+{
+    *out = (load_distribution){.independent = 1};
+    if (count < 1)
+        return true;
+    out->time_scale = integral_time_scale(value, count, step);
+    out->independent = fmax(1, count * step / (2 * out->time_scale));
+    double *sorted = memory_array(ctx, (size_t)count, sizeof *sorted);
+    if (!sorted)
+        return false;
+    memcpy(sorted, value, (size_t)count * sizeof *sorted);
+    qsort(sorted, (size_t)count, sizeof *sorted, ascending);
+    bool good = find_exceedance(ctx, sorted, count, out) && find_histogram(ctx, sorted, count, out);
+    memory_free(ctx, sorted);
+    return good;
+}
+
+void load_distribution_free(context *ctx, load_distribution *d)
+{
+    array_free(ctx, &d->level);
+    array_free(ctx, &d->exceeded);
+    array_free(ctx, &d->low);
+    array_free(ctx, &d->high);
+    array_free(ctx, &d->bar);
+    array_free(ctx, &d->density);
+}

@@ -1,0 +1,22 @@
+/* How often a load is exceeded, and how sure that is. */
+#ifndef RESULTS_LOAD_STATISTICS_H
+#define RESULTS_LOAD_STATISTICS_H
+
+#include "io/csv_read.h"
+
+/* The band is Wilson's score interval (Wilson 1927) at 95 %, with the number of independent values that the series is
+   worth in place of its length: duration over twice the integral time scale (Bartlett 1946), the integral of the
+   autocorrelation up to its first zero. */
+typedef struct load_distribution {
+    double_array level;               /* ascending, from the least to the greatest value */
+    double_array exceeded, low, high; /* part of the time above each level, and its band */
+    double_array bar, density;        /* histogram: left edges (the last one ends it) and part of the time in each */
+    double time_scale;                /* integral time scale [unit of step] */
+    double independent;               /* values, at least 1 */
+} load_distribution;
+
+/* Values at equal distances `step` in time.  Without values all is empty.  false: no memory. */
+bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, load_distribution *out);
+void load_distribution_free(context *ctx, load_distribution *d);
+
+#endif

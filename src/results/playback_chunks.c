@@ -1,0 +1,137 @@
+#include "results/playback_chunks.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { NAME_SIZE = PLAYBACK_PATH + 24 };
+static const char ending[] = ".html", suffix[] = "-frames";
+
+static void chunk_name(const char *folder, const char *stage, int32_t number, char out[NAME_SIZE])
+{
+    snprintf(out, NAME_SIZE, "%s%s/%04d.js", folder, stage, (int)number);
+}
+
+/* The folder's files, by their numbers as far as they go, then the folder, if nothing else is in it. */
+static void remove_chunks(const char *folder, const char *stage)
+{
+    char name[NAME_SIZE];
+    for (int32_t i = 0; i < INT32_MAX; i++) {
+        chunk_name(folder, stage, i, name);
+        if (unlink(name) != 0)
+            break;
+    }
+    snprintf(name, sizeof name, "%s%s", folder, stage);
+    (void)rmdir(name);
+}
+
+/* "0012.js" */
+static bool is_chunk(const char *name)
+{
+    size_t digits = strspn(name, "0123456789");
+    return digits >= 4 && strcmp(name + digits, ".js") == 0;
+}
+
+/* Files of another kind would stop the folder from being replaced in the end: they are told before the work. */
+static fram_status refuse_foreign(const char *folder, fram_error *error)
+{
+    DIR *dir = opendir(folder);
+    char other[64] = "";
+    for (struct dirent *e = dir ? readdir(dir) : NULL; e && !other[0]; e = readdir(dir)) {
+        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0 && !is_chunk(e->d_name))
+            snprintf(other, sizeof other, "%.60s", e->d_name);
+    }
+    if (dir)
+        closedir(dir);
+    if (other[0])
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
+                         "the frames of the page go into this folder, where %s is: move that away, or give the page "
+                         "another name",
+                         other);
+    return FRAM_OK;
+}
+
+fram_status chunks_begin(context *ctx, const char *output, uint64_t limit, chunk_writer *w, fram_error *error)
+{
+    size_t length = strlen(output), end = sizeof ending - 1;
+    *w = (chunk_writer){.ctx = ctx, .limit = limit};
+    if (length > end && strcmp(output + length - end, ending) == 0)
+        length -= end;
+    if (length + sizeof suffix > sizeof w->folder)
+        return error_set(error, FRAM_ERROR_INPUT, output, 0, NULL, "the page's name is too long");
+    memcpy(w->folder, output, length);
+    memcpy(w->folder + length, suffix, sizeof suffix);
+    remove_chunks(w->folder, ".new");
+    return FRAM_OK;
+}
+
+static fram_status close_chunk(chunk_writer *w, fram_error *error)
+{
+    static const char tail[] = "\");\n";
+    if (!w->open)
+        return FRAM_OK;
+    fram_status status = base64_end(&w->text, error);
+    if (status == FRAM_OK)
+        status = file_write(&w->file.writer, tail, sizeof tail - 1, error);
+    w->open = false;
+    if (status == FRAM_OK)
+        return atomic_file_commit(&w->file, error);
+    atomic_file_abandon(&w->file);
+    return status;
+}
+
+static fram_status open_chunk(chunk_writer *w, fram_error *error)
+{
+    char name[NAME_SIZE], head[40];
+    if (w->count == 0 && refuse_foreign(w->folder, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
+    snprintf(name, sizeof name, "%s.new", w->folder);
+    if (w->count == 0 && mkdir(name, 0777) != 0 && errno != EEXIST)
+        return file_error(error, name, "make the folder", errno);
+    chunk_name(w->folder, ".new", w->count, name);
+    fram_status status = atomic_file_begin(w->ctx, name, &w->file, error);
+    if (status != FRAM_OK)
+        return status;
+    w->open = true;
+    w->filled = 0;
+    w->text = (base64_writer){.file = &w->file.writer};
+    int length = snprintf(head, sizeof head, "framChunk(%d,\"", (int)w->count++);
+    return file_write(&w->file.writer, head, (size_t)length, error);
+}
+
+fram_status chunks_place(chunk_writer *w, uint64_t size, int32_t *chunk, int32_t *offset, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    if (w->open && w->filled + size > w->limit)
+        status = close_chunk(w, error);
+    if (status == FRAM_OK && !w->open)
+        status = open_chunk(w, error);
+    *chunk = w->count - 1;
+    *offset = (int32_t)w->filled;
+    w->filled += size;
+    return status;
+}
+
+fram_status chunks_commit(chunk_writer *w, fram_error *error)
+{
+    char stage[NAME_SIZE];
+    fram_status status = close_chunk(w, error);
+    if (status != FRAM_OK)
+        return status;
+    remove_chunks(w->folder, "");
+    snprintf(stage, sizeof stage, "%s.new", w->folder);
+    if (w->count > 0 && rename(stage, w->folder) != 0)
+        return file_error(error, w->folder, "write the folder", errno);
+    return FRAM_OK;
+}
+
+void chunks_abandon(chunk_writer *w)
+{
+    if (w->open)
+        atomic_file_abandon(&w->file);
+    w->open = false;
+    remove_chunks(w->folder, ".new");
+}

@@ -1,0 +1,139 @@
+#include "results/plot.h"
+
+#include "io/chart.h"
+#include "io/csv_read.h"
+#include "results/run_data.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { CHANNELS_MOST = 64, WIDTH = 1280, HEIGHT = 460, LABEL = 64 };
+
+/* A panel: the channels of one unit. */
+typedef struct panel {
+    const char *unit;
+    chart_line lines[CHANNELS_MOST];
+    int32_t count;
+    char label[LABEL];
+} panel;
+
+typedef struct plot {
+    panel *panels;
+    int32_t count;
+    const double *time;
+    int32_t first, rows;
+} plot;
+
+/* Characters that both begin with, then fewer left over. */
+static int likeness(const char *a, const char *b)
+{
+    int same = 0;
+    while (a[same] && a[same] == b[same])
+        same++;
+    return 100 * same - (int)strlen(b);
+}
+
+static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
+{
+    const char *nearest = d->series.columns.data[0].name;
+    for (int32_t i = 0; i < d->series.columns.count; i++) {
+        const char *other = d->series.columns.data[i].name;
+        bool inside = strstr(other, name) != NULL && strstr(nearest, name) == NULL;
+        if (inside || (likeness(name, other) > likeness(name, nearest) && strstr(nearest, name) == NULL))
+            nearest = other;
+    }
+    return error_set(
+        error, FRAM_ERROR_INPUT, d->folder, 0, name,
+        "the run has no channel of this name; did you mean %s? Without a channel, fram plot lists them all", nearest);
+}
+
+static panel *panel_of(plot *p, const char *unit)
+{
+    for (int32_t i = 0; i < p->count; i++) {
+        if (strcmp(p->panels[i].unit, unit) == 0)
+            return &p->panels[i];
+    }
+    p->panels[p->count].unit = unit;
+    return &p->panels[p->count++];
+}
+
+static void choose_rows(plot *p, double from, double to, int32_t rows)
+{
+    while (p->first < rows && p->time[p->first] < from)
+        p->first++;
+    int32_t end = p->first;
+    while (end < rows && !(p->time[end] > to))
+        end++;
+    p->rows = end - p->first;
+}
+
+static fram_status add_channel(plot *p, const run_data *d, const char *name, fram_error *error)
+{
+    const csv_table_column *c = csv_table_find(&d->series, name);
+    if (!c)
+        return no_channel(d, name, error);
+    panel *at = panel_of(p, c->unit);
+    chart_line line = chart_line_make(c->name, p->time + p->first, c->value.data + p->first, p->rows, true);
+    line.colour = at->count + 2; /* the palette's first is for backgrounds */
+    at->lines[at->count++] = line;
+    return FRAM_OK;
+}
+
+static fram_status draw(context *ctx, const run_data *d, plot *p, const char *output, fram_error *error)
+{
+    chart charts[CHANNELS_MOST];
+    const char *title = d->s.title[0] ? d->s.title : "Fram";
+    for (int32_t i = 0; i < p->count; i++) {
+        panel *at = &p->panels[i];
+        bool bare = strcmp(at->unit, "1") == 0 || !at->unit[0];
+        snprintf(at->label, sizeof at->label, "%s%s%s%s", at->count == 1 ? at->lines[0].name : "", bare ? "" : " [",
+                 bare ? "" : at->unit, bare ? "" : "]");
+        charts[i] =
+            chart_make(i == 0 ? title : "", "", i + 1 == p->count ? "time [s]" : "", at->label, at->lines, at->count);
+        charts[i].free_y = true;
+    }
+    return chart_stack_write(ctx, charts, p->count, output, WIDTH, HEIGHT, error);
+}
+
+fram_status plot_channels(context *ctx, const char *folder, const char *const *channels, int32_t count, double from,
+                          double to, const char *output, fram_error *error)
+{
+    run_data d;
+    if (count < 1 || count > CHANNELS_MOST)
+        return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL, "expected 1 to %d channels", (int)CHANNELS_MOST);
+    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    if (status != FRAM_OK)
+        return status;
+    plot p = {.time = run_channel(&d, "time")};
+    p.panels = memory_array(ctx, (size_t)count, sizeof *p.panels);
+    if (!p.panels)
+        status = error_memory(error);
+    else if (d.series.rows == 0)
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
+                           "the run's series has no rows; give the scenario a shorter output.csv_interval");
+    else if (!p.time)
+        status = no_channel(&d, "time", error);
+    if (status == FRAM_OK && p.time)
+        choose_rows(&p, from, to, d.series.rows);
+    for (int32_t i = 0; i < count && status == FRAM_OK; i++)
+        status = add_channel(&p, &d, channels[i], error);
+    if (status == FRAM_OK && p.rows == 0)
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the run has no row between these times");
+    if (status == FRAM_OK)
+        status = draw(ctx, &d, &p, output, error);
+    memory_free(ctx, p.panels);
+    run_data_free(ctx, &d);
+    return status;
+}
+
+fram_status plot_list(context *ctx, const char *folder, text_buffer *out, fram_error *error)
+{
+    run_data d;
+    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    if (status != FRAM_OK)
+        return status;
+    for (int32_t i = 0; i < d.series.columns.count; i++)
+        text_format(ctx, out, "%s [%s]\n", d.series.columns.data[i].name, d.series.columns.data[i].unit);
+    run_data_free(ctx, &d);
+    return out->failed ? error_memory(error) : FRAM_OK;
+}

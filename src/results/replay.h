@@ -1,0 +1,87 @@
+/* The record of a run, frame by frame: what every exporter, picture and report of a finished run reads.  Follows the
+   layout in io/record_layout.h; must not know what is made of it. */
+#ifndef RESULTS_REPLAY_H
+#define RESULTS_REPLAY_H
+
+#include "bodies/body.h"
+#include "geometry/polygon.h"
+#include "io/record_layout.h"
+
+/* A body of the record.  Bodies are listed by birth and stay listed when they are gone. */
+typedef struct replay_body {
+    int32_t slot;
+    uint8_t material; /* enum material */
+    bool moves, solid, breakable;
+    bool level;                         /* a tile of level ice */
+    double thickness;                   /* of a prism [m] */
+    double density;                     /* of a floe [kg/m3] */
+    double area;                        /* of a prism's outline [m2] */
+    int32_t number, parent;             /* running numbers of a floe and of the one it broke from; -1: none */
+    int32_t vertex_first, vertex_count; /* prism: in replay.outlines; solid: in replay.points */
+    int32_t face_first, face_count;     /* solid: triangles in replay.faces */
+    int64_t born, died;                 /* number of the first frame with it, and of the first without */
+    double birth;                       /* time of that first frame [s] */
+    vec3 position;                      /* of a body that does not move */
+    quat orientation;
+    vec3 velocity; /* last one known, see replay_pose */
+} replay_body;
+
+typedef struct replay_pose {
+    int32_t body; /* in replay.bodies */
+    vec3 position;
+    quat orientation;
+    vec3 velocity;        /* way to the next frame over its time; of a body's last frame, the one before [m/s] */
+    double contact_force; /* sum of the magnitudes at its contacts; 0 for a body that does not move [N] */
+} replay_pose;
+
+typedef struct replay_force {
+    record_force_kind kind;
+    int32_t which; /* line or thruster, from 1; of ice the floe, in replay.bodies, or -1 */
+    vec3 point;    /* [m] */
+    vec3 force;    /* on the vessel [N] */
+} replay_force;
+
+typedef struct replay_fracture {
+    double time;
+    int32_t kind; /* enum fracture_kind */
+    int32_t floe, pieces;
+    vec3 place;
+    double load, crack_length, area;
+} replay_fracture;
+
+typedef struct replay_frame {
+    int64_t number, step;
+    double time;
+    vec3 ice_force;           /* on the vessel, averaged [N] */
+    ARRAY(replay_pose) poses; /* of all bodies that are there, those that do not move last */
+    ARRAY(replay_force) forces;
+} replay_frame;
+
+typedef struct replay {
+    context *ctx;
+    record_reader reader;
+    char *scenario; /* text */
+    ARRAY(replay_body) bodies;
+    vec2_array outlines;
+    ARRAY(vec3) points;
+    int32_array faces;
+    ARRAY(replay_fracture) fractures; /* all up to the next frame */
+    replay_frame frame;               /* the current one */
+    /* Inside: */
+    replay_frame next;
+    bool has_next;
+    int64_t frames_read;
+    int32_array at_slot;  /* body in each slot, -1 */
+    int32_array next_row; /* scratch: row of each body in `next`, -1 */
+} replay;
+
+/* The record of a run's folder.  FRAM_ERROR_INPUT when there is none, when it holds no frame, or when an earlier Fram
+   wrote it.  A record that is damaged or was cut short is read up to there, with a warning in the log. */
+fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error *error);
+/* To the next frame; found is false after the last. */
+fram_status replay_next(replay *r, bool *found, fram_error *error);
+void replay_close(replay *r);
+
+polygon replay_outline(const replay *r, const replay_body *b);
+
+#endif

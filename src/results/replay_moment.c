@@ -1,0 +1,80 @@
+#include "results/replay_moment.h"
+
+/* Positions on a straight line; quaternions on the shorter way, normalised. */
+static void blend(replay_pose *p, const replay_pose *later, double part)
+{
+    quat a = p->orientation, b = later->orientation;
+    double sign = a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0 ? -1 : 1;
+    p->position = vec3_mad(vec3_scale(p->position, 1 - part), later->position, part);
+    p->orientation = quat_unit((quat){a.w + part * (sign * b.w - a.w), a.x + part * (sign * b.x - a.x),
+                                      a.y + part * (sign * b.y - a.y), a.z + part * (sign * b.z - a.z)});
+    p->contact_force += part * (later->contact_force - p->contact_force);
+}
+
+static bool add_outline(replay *r, const replay_pose *p, replay_moment *out)
+{
+    const replay_body *b = &r->bodies.data[p->body];
+    mat3 turn = quat_matrix(p->orientation);
+    vec2_array plan = {0}, around = {0};
+    bool good = true;
+    for (int32_t i = 0; i < b->vertex_count && good; i++) {
+        vec3 local =
+            b->solid ? r->points.data[b->vertex_first + i]
+                     : vec3_make(r->outlines.data[b->vertex_first + i].x, r->outlines.data[b->vertex_first + i].y, 0);
+        vec3 g = vec3_add(p->position, mat3_mul_vec(turn, local));
+        good = array_push(r->ctx, &plan, vec2_make(g.x, g.y));
+    }
+    polygon ring = {plan.data, plan.count};
+    if (good && b->solid) {
+        good = polygon_convex_hull(r->ctx, ring, &around);
+        ring = (polygon){around.data, around.count};
+    }
+    good = good && polygon_list_push(r->ctx, &out->outlines, ring) && array_push(r->ctx, &out->poses, *p);
+    array_free(r->ctx, &plan);
+    array_free(r->ctx, &around);
+    return good;
+}
+
+static fram_status find_plan(replay *r, double part, replay_moment *out, fram_error *error)
+{
+    out->time = r->frame.time + (r->has_next ? part * (r->next.time - r->frame.time) : 0);
+    polygon_list_clear(&out->outlines);
+    array_clear(&out->poses);
+    for (int32_t i = 0; i < r->frame.poses.count; i++) {
+        replay_pose p = r->frame.poses.data[i];
+        int32_t later = p.body < r->next_row.count && r->has_next ? r->next_row.data[p.body] : -1;
+        if (later >= 0 && part > 0)
+            blend(&p, &r->next.poses.data[later], part);
+        if (!add_outline(r, &p, out))
+            return error_memory(error);
+    }
+    return FRAM_OK;
+}
+
+fram_status replay_moment_now(replay *r, replay_moment *out, fram_error *error) { return find_plan(r, 0, out, error); }
+
+fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_error *error)
+{
+    /* Times are told in decimals and kept in binary. */
+    double slack = 1e-9 * (1 + fabs(time));
+    bool found = true;
+    fram_status status = FRAM_OK;
+    if (r->has_next && r->frame.poses.count == 0 && time < r->next.time - slack)
+        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "--time", "the record begins at %g s",
+                         r->next.time);
+    while (status == FRAM_OK && r->has_next && r->next.time <= time + slack)
+        status = replay_next(r, &found, error);
+    if (status != FRAM_OK)
+        return status;
+    if (!r->has_next && !(time <= r->frame.time + slack))
+        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "--time", "the record ends at %g s",
+                         r->frame.time);
+    double span = r->has_next ? r->next.time - r->frame.time : 0;
+    return find_plan(r, span > 0 ? fmin(fmax((time - r->frame.time) / span, 0), 1) : 0, out, error);
+}
+
+void replay_moment_free(context *ctx, replay_moment *m)
+{
+    polygon_list_free(ctx, &m->outlines);
+    array_free(ctx, &m->poses);
+}

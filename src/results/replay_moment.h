@@ -1,0 +1,22 @@
+/* The plan of the field at one moment of a run, between frames by interpolation. */
+#ifndef RESULTS_REPLAY_MOMENT_H
+#define RESULTS_REPLAY_MOMENT_H
+
+#include "results/replay.h"
+
+/* Outlines in global plan coordinates; row i of all arrays belongs to outline i.  Prisms as their plan, solids as the
+   convex hull of theirs. */
+typedef struct replay_moment {
+    double time; /* [s] */
+    polygon_list outlines;
+    ARRAY(replay_pose) poses;
+} replay_moment;
+
+/* Go to the last frame whose time is not after `time` and find the plan then; the replay goes forwards only.
+   FRAM_ERROR_INPUT when `time` is outside the record. */
+fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_error *error);
+/* The plan of the current frame. */
+fram_status replay_moment_now(replay *r, replay_moment *out, fram_error *error);
+void replay_moment_free(context *ctx, replay_moment *m);
+
+#endif

@@ -1,0 +1,98 @@
+#include "results/replay_plan.h"
+
+static const struct {
+    const char *name, *title;
+} looks[PLAN_COLOUR_COUNT] = {
+    [PLAN_COLOUR_PLAIN] = {"plain", NULL},
+    [PLAN_COLOUR_SPEED] = {"speed", "speed [m/s]"},
+    [PLAN_COLOUR_FORCE] = {"force", "contact force [kN]"},
+    [PLAN_COLOUR_THICKNESS] = {"thickness", "thickness [m]"},
+    [PLAN_COLOUR_AGE] = {"age", "time since it broke off [s]"},
+};
+
+const char *plan_colour_name(plan_colour colour) { return looks[colour].name; }
+const char *plan_colour_title(plan_colour colour) { return looks[colour].title; }
+
+double plan_colour_value(plan_colour colour, const replay_body *b, const replay_pose *p, double time)
+{
+    const double nothing = (double)NAN;
+    if (b->material != MATERIAL_ICE)
+        return nothing;
+    switch (colour) {
+    case PLAN_COLOUR_SPEED:
+        return vec3_length(p->velocity);
+    case PLAN_COLOUR_FORCE:
+        return p->contact_force * 1e-3;
+    case PLAN_COLOUR_THICKNESS:
+        return b->thickness;
+    case PLAN_COLOUR_AGE:
+        return b->parent >= 0 ? time - b->birth : nothing;
+    default:
+        return nothing;
+    }
+}
+
+static bool add_shape(const replay *r, const replay_moment *m, int32_t row, plan_colour colour, double lo, double hi,
+                      replay_plan *out)
+{
+    const replay_pose *p = &m->poses.data[row];
+    const replay_body *b = &r->bodies.data[p->body];
+    plan_shape shape = {.outline = polygon_list_get(&m->outlines, row)};
+    shape.style = b->solid                       ? PLAN_DECK
+                  : b->material == MATERIAL_WALL ? PLAN_WALL
+                  : b->material == MATERIAL_HULL ? PLAN_DECK
+                  : b->moves                     ? PLAN_FLOE
+                  : b->level                     ? PLAN_LEVEL_ICE
+                                                 : PLAN_FIXED_ICE;
+    if (b->solid)
+        shape.height = HUGE_VAL;
+    else
+        plan_shape_stand(&shape, p->position, p->orientation, b->thickness);
+    double value = plan_colour_value(colour, b, p, m->time);
+    shape.has_value = value == value;
+    if (shape.has_value)
+        shape.value = (float)(hi > lo ? fmin(fmax((value - lo) / (hi - lo), 0), 1) : 0);
+    if (b->solid && !out->has_vessel) {
+        out->has_vessel = true;
+        out->vessel = vec2_make(p->position.x, p->position.y);
+    }
+    return array_push(r->ctx, &out->shapes, shape);
+}
+
+/* Ice pushes: its arrows end where it does; lines and thrusters pull: theirs begin there. */
+static bool add_arrow(const replay *r, const replay_force *f, double length, replay_plan *out)
+{
+    vec2 at = vec2_make(f->point.x, f->point.y), way = vec2_make(f->force.x * length, f->force.y * length);
+    plan_arrow arrow = {at, vec2_add(at, way)};
+    if (f->kind == RECORD_FORCE_ICE)
+        arrow = (plan_arrow){vec2_sub(at, way), at};
+    return array_push(r->ctx, &out->arrows, arrow);
+}
+
+fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colour colour, double lo, double hi,
+                             double arrow, double mark_time, replay_plan *out, fram_error *error)
+{
+    bool good = true;
+    array_clear(&out->shapes);
+    array_clear(&out->arrows);
+    array_clear(&out->marks);
+    out->has_vessel = false;
+    for (int32_t i = 0; i < m->poses.count && good; i++)
+        good = add_shape(r, m, i, colour, lo, hi, out);
+    plan_shapes_sort(out->shapes.data, out->shapes.count);
+    for (int32_t i = 0; arrow > 0 && i < r->frame.forces.count && good; i++)
+        good = add_arrow(r, &r->frame.forces.data[i], arrow, out);
+    for (int32_t i = 0; i < r->fractures.count && good; i++) {
+        const replay_fracture *f = &r->fractures.data[i];
+        if (f->time <= m->time && f->time > m->time - mark_time)
+            good = array_push(r->ctx, &out->marks, vec2_make(f->place.x, f->place.y));
+    }
+    return good ? FRAM_OK : error_memory(error);
+}
+
+void replay_plan_free(context *ctx, replay_plan *p)
+{
+    array_free(ctx, &p->shapes);
+    array_free(ctx, &p->arrows);
+    array_free(ctx, &p->marks);
+}

@@ -1,0 +1,28 @@
+/* A run on one page for people: FOLDER/report.html, self-contained, without script; and two runs beside each other. */
+#ifndef RESULTS_REPORT_H
+#define RESULTS_REPORT_H
+
+#include "io/text_buffer.h"
+#include "model/scenario.h"
+
+/* Tells what follows from a scenario; given by the caller, since it takes the rooms that build a world. */
+typedef void (*notes_function)(context *ctx, const scenario *s, text_buffer *out);
+/* output NULL: FOLDER/report.html. */
+fram_status report_write(context *ctx, const char *folder, const char *output, notes_function notes, fram_error *error);
+
+/* One quantity of two runs. */
+typedef struct compare_row {
+    char name[64], unit[16];
+    double a, b; /* a NaN: the run does not have it */
+} compare_row;
+enum { COMPARE_ROWS_MOST = 64 };
+typedef struct compare_result {
+    compare_row row[COMPARE_ROWS_MOST];
+    int32_t count;
+    bool same_scenario, same_state; /* by their hashes */
+} compare_result;
+/* The numbers; output: also a page with the numbers and plots of both, NULL: none. */
+fram_status compare_runs(context *ctx, const char *a, const char *b, const char *output, compare_result *result,
+                         fram_error *error);
+
+#endif

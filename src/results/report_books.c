@@ -1,0 +1,130 @@
+/* The report's sections on books, solver quality and origin. */
+#include "results/report_parts.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static double last_of(const report *r, const char *channel)
+{
+    const double *value = run_channel(&r->d, channel);
+    return value && r->d.series.rows > 0 ? value[r->d.series.rows - 1] : (double)NAN;
+}
+
+static void book_row(report *r, const char *name, double value, const char *unit)
+{
+    char text[32], all[64];
+    html_number_text(value, text);
+    snprintf(all, sizeof all, "%s %s", text, unit);
+    html_row_begin(&r->page);
+    html_cell(&r->page, name);
+    html_cell(&r->page, all);
+    html_row_end(&r->page);
+}
+
+/* "ice_mass_left" as "ice mass left". */
+static void spoken(const char *name, char out[64])
+{
+    snprintf(out, 64, "%s", name);
+    for (char *c = out; *c; c++)
+        *c = *c == '_' ? ' ' : *c;
+}
+
+/* Every channel of a book: those that begin or end with a word. */
+static void book_channels(report *r, const char *begins, const char *ends, double factor, const char *unit)
+{
+    for (int32_t i = 0; i < r->d.series.columns.count; i++) {
+        const char *name = r->d.series.columns.data[i].name;
+        size_t length = strlen(name), tail = strlen(ends);
+        bool fits = (*begins && strncmp(name, begins, strlen(begins)) == 0) ||
+                    (*ends && length >= tail && strcmp(name + length - tail, ends) == 0);
+        char text[64];
+        spoken(name, text);
+        if (fits)
+            book_row(r, text, last_of(r, name) * factor, unit);
+    }
+}
+
+static void mass_books(report *r)
+{
+    const field_state *a = &r->d.before, *b = &r->d.after;
+    static const struct {
+        const char *channel;
+        double sign;
+    } books[] = {{"ice_mass_entered", 1}, {"ice_mass_gained", 1},   {"ice_mass_left", -1},
+                 {"ice_mass_lost", -1},   {"ice_mass_crushed", -1}, {"brash_mass", -1}};
+    double open = a->mass - b->mass;
+    for (size_t i = 0; i < sizeof books / sizeof *books; i++) {
+        double value = last_of(r, books[i].channel);
+        open += value == value ? books[i].sign * value : 0;
+    }
+    bool know = r->d.frames > 0 && r->d.series.rows > 0;
+    const char *const heads[] = {"mass of ice", "at the end"};
+    html_table_begin(&r->page, heads, 2);
+    if (know) {
+        book_row(r, "in the field at the first frame", a->mass * 1e-3, "t");
+        book_row(r, "in the field at the last frame", b->mass * 1e-3, "t");
+    }
+    book_channels(r, "ice_mass_", "brash_mass", 1e-3, "t");
+    if (know && a->mass > 0) {
+        book_row(r, "not accounted for", open * 1e-3, "t");
+        book_row(r, "of the mass at the start", 100 * open / a->mass, "%");
+    }
+    html_table_end(&r->page);
+}
+
+static fram_status solver_quality(report *r, fram_error *error)
+{
+    const report_line residual[] = {{"solver_residual", "residual"}};
+    const report_line overlap[] = {{"overlap_max", "largest"}, {"overlap_mean", "mean"}};
+    html_section(&r->page, "Quality of the solution");
+    report_statistics_heads(r, "each step");
+    report_statistics(r, "solver_residual", "residual of the contact problem [m/s]", 1);
+    report_statistics(r, "overlap_mean", "mean overlap of touching bodies [m]", 1);
+    report_statistics(r, "overlap_max", "largest overlap [m]", 1);
+    report_statistics(r, "contacts", "contact points", 1);
+    report_statistics(r, "step_wall_time", "computing time of a step [ms]", 1e3);
+    html_table_end(&r->page);
+    html_grid_begin(&r->page);
+    fram_status status = report_series(r, "Residual", "residual [m/s]", 1, residual, 1, false, error);
+    if (status == FRAM_OK)
+        status = report_series(r, "Overlap", "overlap [m]", 1, overlap, 2, false, error);
+    html_grid_end(&r->page);
+    return status;
+}
+
+static void origin(report *r)
+{
+    const run_note *n = &r->d.note;
+    html_section(&r->page, "Origin");
+    html_table_begin(&r->page, NULL, 0);
+    html_fact(&r->page, "Fram", "%s, %s", n->version, n->compiler);
+    html_fact(&r->page, "libraries", "%s", n->libraries);
+    html_fact(&r->page, "computed with", "%.0f thread%s, %s; results depend on neither", n->threads,
+              n->threads == 1 ? "" : "s", n->isa);
+    html_fact(&r->page, "scenario", "SHA-256 %s", n->scenario_hash);
+    html_fact(&r->page, "state at the end", "hash %s", n->state_hash);
+    html_fact(&r->page, "status", "%s%s%s", n->status, n->message[0] ? ": " : "", n->message);
+    html_fact(&r->page, "steps", "%.0f of %g s", n->steps, r->d.s.run.time_step);
+    html_fact(&r->page, "computing time", "%.1f s in the last call, %.2g %% of it for what the run wrote", n->wall,
+              n->wall > 0 ? 100 * n->recording / n->wall : 0);
+    html_table_end(&r->page);
+}
+
+fram_status report_books(report *r, fram_error *error)
+{
+    const report_line energy[] = {{"crushing_work", "dissipated by crushing"}, {"kinetic_energy", "kinetic"}};
+    html_section(&r->page, "Mass and energy");
+    mass_books(r);
+    const char *const heads[] = {"energy", "at the end"};
+    html_table_begin(&r->page, heads, 2);
+    book_channels(r, "energy_", "_energy", 1e-3, "kJ");
+    book_channels(r, "work_", "_work", 1e-3, "kJ");
+    html_table_end(&r->page);
+    html_grid_begin(&r->page);
+    fram_status status = report_series(r, "Energy", "energy [kJ]", 1e-3, energy, 2, true, error);
+    html_grid_end(&r->page);
+    if (status == FRAM_OK)
+        status = solver_quality(r, error);
+    origin(r);
+    return status;
+}

@@ -1,0 +1,191 @@
+/* The report's sections on the ice field and on what broke. */
+#include "results/report_parts.h"
+
+#include "results/replay_plan.h"
+
+#include <stdio.h>
+
+enum { MAP_PIXELS = 900, EVENTS_SHOWN = 25 };
+
+static void field_row(report *r, const char *name, double before, double after)
+{
+    html_row_begin(&r->page);
+    html_cell(&r->page, name);
+    html_number(&r->page, before);
+    html_number(&r->page, after);
+    html_row_end(&r->page);
+}
+
+static void field_table(report *r)
+{
+    const field_state *a = &r->d.before, *b = &r->d.after;
+    const scenario_domain *s = &r->d.s.domain;
+    double domain = (s->x_max - s->x_min) * (s->y_max - s->y_min);
+    char first[48], last[48];
+    snprintf(first, sizeof first, "at %g s", a->time);
+    snprintf(last, sizeof last, "at %g s", b->time);
+    const char *const heads[] = {"ice field", first, last};
+    html_table_begin(&r->page, heads, 3);
+    field_row(r, "floes", a->areas.count, b->areas.count);
+    field_row(r, "of these fixed", a->fixed, b->fixed);
+    field_row(r, "ice area [m2]", a->area, b->area);
+    field_row(r, "ice area over the domain's", a->area / domain, b->area / domain);
+    field_row(r, "ice mass [t]", a->mass * 1e-3, b->mass * 1e-3);
+    field_row(r, "mean thickness [m]", a->thickness, b->thickness);
+    field_row(r, "mean floe area [m2]", a->mean, b->mean);
+    field_row(r, "median floe area [m2]", a->median, b->median);
+    field_row(r, "largest floe [m2]", a->greatest, b->greatest);
+    html_table_end(&r->page);
+}
+
+/* Part of the floes that are larger, a step per floe. */
+static fram_status sizes(report *r, fram_error *error)
+{
+    const field_state *state[2] = {&r->d.before, &r->d.after};
+    static const char *const names[2] = {"before", "after"};
+    chart_line lines[2];
+    for (int k = 0; k < 2; k++) {
+        int32_t n = state[k]->areas.count;
+        double *part = memory_array(r->ctx, (size_t)n + 1, sizeof *part);
+        if (!part || !array_push(r->ctx, &r->kept, part)) {
+            memory_free(r->ctx, part);
+            return error_memory(error);
+        }
+        for (int32_t i = 0; i < n; i++)
+            part[i] = (double)(n - i) / n;
+        lines[k] = chart_line_make(names[k], state[k]->areas.data, part, n, true);
+        lines[k].colour = k + 2;
+    }
+    chart c = chart_make("Floe sizes", "part of the floes that are at least this large", "floe area [m2]",
+                         "part of the floes", lines, 2);
+    c.log_x = true;
+    c.log_y = true;
+    return html_chart(&r->page, &c, false, error);
+}
+
+/* ---- maps ---- */
+
+static fram_status draw_map(report *r, const replay *from, const replay_moment *m, double mark_time, fram_error *error)
+{
+    replay_plan plan = {0};
+    text_buffer png = {0};
+    char caption[96];
+    const scenario_domain *s = &r->d.s.domain;
+    snprintf(caption, sizeof caption, "t = %g s%s", m->time, mark_time > 0 ? "; crosses: where floes broke" : "");
+    fram_status status = replay_plan_make(from, m, PLAN_COLOUR_PLAIN, 0, 1, 0, mark_time, &plan, error);
+    plan_view view = {.window = {{s->x_min, s->y_min}, {s->x_max, s->y_max}},
+                      .title = mark_time > 0 ? "The field at the end" : "The field at the start",
+                      .caption = caption,
+                      .shapes = plan.shapes.data,
+                      .shape_count = plan.shapes.count,
+                      .marks = plan.marks.data,
+                      .mark_count = plan.marks.count};
+    if (status == FRAM_OK)
+        status = plan_view_png(r->ctx, &view, MAP_PIXELS, &png, error);
+    if (status == FRAM_OK)
+        html_picture(&r->page, png.data, (size_t)png.count, caption);
+    else if (status == FRAM_ERROR_UNSUPPORTED)
+        status = FRAM_OK;
+    text_free(r->ctx, &png);
+    replay_plan_free(r->ctx, &plan);
+    return status;
+}
+
+static fram_status maps(report *r, fram_error *error)
+{
+    replay from;
+    replay_moment m = {0};
+    bool found = true;
+    fram_status status = replay_open(r->ctx, r->d.folder, &from, error);
+    if (status != FRAM_OK)
+        return status;
+    status = replay_next(&from, &found, error);
+    if (status == FRAM_OK)
+        status = replay_moment_now(&from, &m, error);
+    if (status == FRAM_OK)
+        status = draw_map(r, &from, &m, 0, error);
+    while (status == FRAM_OK && from.has_next)
+        status = replay_next(&from, &found, error);
+    if (status == FRAM_OK)
+        status = replay_moment_now(&from, &m, error);
+    if (status == FRAM_OK)
+        status = draw_map(r, &from, &m, 1e30, error);
+    replay_moment_free(r->ctx, &m);
+    replay_close(&from);
+    return status;
+}
+
+fram_status report_field(report *r, fram_error *error)
+{
+    if (r->d.frames == 0 || r->d.before.areas.count == 0)
+        return FRAM_OK;
+    const report_line floes[] = {{"floes", "floes"}};
+    html_section(&r->page, "Ice field");
+    field_table(r);
+    html_grid_begin(&r->page);
+    fram_status status = maps(r, error);
+    if (status == FRAM_OK)
+        status = sizes(r, error);
+    if (status == FRAM_OK)
+        status = report_series(r, "Floes in the field", "floes", 1, floes, 1, false, error);
+    html_grid_end(&r->page);
+    return status;
+}
+
+/* ---- fractures ---- */
+
+static double cell(const report *r, const char *column, int32_t row)
+{
+    const csv_table_column *c = csv_table_find(&r->d.fractures, column);
+    return c ? c->value.data[row] : (double)NAN;
+}
+
+static void event_table_of(report *r, load_unit unit)
+{
+    char load[32];
+    snprintf(load, sizeof load, "load [%s]", unit.name);
+    const char *const heads[] = {"event", "time [s]",  "floe",      "x [m]", "y [m]",
+                                 load,    "crack [m]", "floe [m2]", "pieces"};
+    int32_t rows = r->d.fractures.rows, shown = rows < EVENTS_SHOWN ? rows : EVENTS_SHOWN;
+    html_table_begin(&r->page, heads, 9);
+    for (int32_t i = 0; i < shown; i++) {
+        html_row_begin(&r->page);
+        html_cell(&r->page, cell(r, "kind", i) < 1.5 ? "split" : "bending");
+        html_number(&r->page, cell(r, "time", i));
+        html_number(&r->page, cell(r, "floe", i));
+        html_number(&r->page, cell(r, "place_x", i));
+        html_number(&r->page, cell(r, "place_y", i));
+        html_number(&r->page, cell(r, "load", i) * unit.factor);
+        html_number(&r->page, cell(r, "crack_length", i));
+        html_number(&r->page, cell(r, "floe_area", i));
+        html_number(&r->page, cell(r, "pieces", i));
+        html_row_end(&r->page);
+    }
+    html_table_end(&r->page);
+    if (rows > shown)
+        html_paragraph(&r->page, "The first %d of %d events; all are in fractures.csv.", (int)shown, (int)rows);
+}
+
+fram_status report_fractures(report *r, fram_error *error)
+{
+    int32_t rows = r->d.fractures.rows;
+    double most = 0, bent = 0;
+    if (!r->d.s.ice.breakable && rows == 0)
+        return FRAM_OK;
+    html_section(&r->page, "Fracture");
+    if (rows == 0) {
+        html_paragraph(&r->page, "Floes may break, and none did.");
+        return FRAM_OK;
+    }
+    for (int32_t i = 0; i < rows; i++) {
+        most = fmax(most, cell(r, "load", i));
+        bent += cell(r, "kind", i) > 1.5;
+    }
+    const report_line kinds[] = {{"bendings", "broken in bending"}, {"splits", "split"}};
+    html_paragraph(&r->page, "%d floes broke: %.0f in bending, %.0f by splitting.", (int)rows, bent, rows - bent);
+    html_grid_begin(&r->page);
+    fram_status status = report_series(r, "Broken floes", "floes so far", 1, kinds, 2, true, error);
+    html_grid_end(&r->page);
+    event_table_of(r, load_unit_for(most));
+    return status;
+}

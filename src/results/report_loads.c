@@ -1,0 +1,180 @@
+/* The report's sections on loads and on keeping station. */
+#include "results/report_parts.h"
+
+#include "io/file.h"
+#include "results/station_results.h"
+
+#include <stdio.h>
+
+static double step_of(const report *r)
+{
+    const double *time = run_channel(&r->d, "time");
+    int32_t rows = r->d.series.rows;
+    return rows > 1 ? (time[rows - 1] - time[0]) / (rows - 1) : r->d.s.run.time_step;
+}
+
+/* Of few independent values the lower bound falls by decades where nothing was met: an axis that shows it flattens the
+   curve.  What lies under a tenth of the least part of the time goes to the axis's end. */
+static void cut_low_bound(load_distribution *d)
+{
+    double least = 1;
+    for (int32_t i = 0; i < d->exceeded.count; i++)
+        least = d->exceeded.data[i] > 0 ? fmin(least, d->exceeded.data[i]) : least;
+    for (int32_t i = 0; i < d->low.count; i++)
+        d->low.data[i] = d->low.data[i] < 0.1 * least ? 0 : d->low.data[i];
+}
+
+static fram_status draw_distribution(report *r, load_distribution *d, load_unit unit, fram_error *error)
+{
+    char x_label[64], subtitle[192];
+    double *scaled[2] = {d->level.data, d->bar.data};
+    for (int32_t i = 0; i < d->level.count; i++)
+        scaled[0][i] *= unit.factor;
+    for (int32_t i = 0; i < d->bar.count; i++)
+        scaled[1][i] *= unit.factor;
+    for (int32_t i = 0; i < d->density.count; i++)
+        d->density.data[i] *= 100;
+    snprintf(x_label, sizeof x_label, "horizontal ice load, averaged [%s]", unit.name);
+    chart_line bars = chart_line_make("", d->bar.data, d->density.data, d->bar.count, false);
+    bars.style = CHART_BARS;
+    bars.colour = 2;
+    chart histogram = chart_make("Histogram of the load", "", x_label, "part of the time [%]", &bars, 1);
+    cut_low_bound(d);
+    chart_line lines[2] = {chart_line_make("95 % confidence", d->level.data, d->low.data, d->level.count, false),
+                           chart_line_make("exceeded", d->level.data, d->exceeded.data, d->level.count, true)};
+    lines[0].style = CHART_BAND;
+    lines[0].y2 = d->high.data;
+    lines[0].colour = lines[1].colour = 2;
+    snprintf(subtitle, sizeof subtitle, "as good as %.0f independent values, one every %.3g s", d->independent,
+             2 * d->time_scale);
+    chart exceedance = chart_make("Exceedance of the load", subtitle, x_label, "part of the time", lines, 2);
+    exceedance.log_y = true;
+    fram_status status = html_chart(&r->page, &histogram, false, error);
+    return status == FRAM_OK ? html_chart(&r->page, &exceedance, false, error) : status;
+}
+
+static fram_status distribution(report *r, load_unit unit, fram_error *error)
+{
+    int32_t first = run_first_row(&r->d);
+    load_distribution d;
+    if (first >= r->load.count)
+        return FRAM_OK;
+    if (!load_distribution_of(r->ctx, r->load.data + first, r->load.count - first, step_of(r), &d)) {
+        load_distribution_free(r->ctx, &d);
+        return error_memory(error);
+    }
+    fram_status status = draw_distribution(r, &d, unit, error);
+    load_distribution_free(r->ctx, &d);
+    return status;
+}
+
+static void load_table(report *r, load_unit unit)
+{
+    static const struct {
+        const char *channel, *name;
+    } rows[] = {{"ice_force_averaged_x", "averaged, along X"},
+                {"ice_force_averaged_y", "averaged, along Y"},
+                {"ice_force_body_x", "each step, along the vessel"},
+                {"ice_force_body_y", "each step, across the vessel"},
+                {"ice_force_body_z", "each step, upwards"},
+                {"ice_force_bow_x", "bow, along X"},
+                {"ice_force_shoulder_x", "shoulder, along X"},
+                {"ice_force_midbody_x", "midbody, along X"},
+                {"ice_force_stern_x", "stern, along X"},
+                {"ice_force_bottom_x", "bottom, along X"},
+                {"ice_force_capped_x", "crushing, along X"},
+                {"ice_force_elastic_x", "below the limit, along X"},
+                {"ice_force_friction_x", "friction, along X"},
+                {"tow_force_x", "towing carriage, along X"}};
+    char head[64];
+    snprintf(head, sizeof head, "load on the vessel [%s]", unit.name);
+    report_statistics_heads(r, head);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        report_statistics(r, rows[i].channel, rows[i].name, unit.factor);
+    html_table_end(&r->page);
+}
+
+/* ---- keeping station ---- */
+
+static fram_status station_picture(report *r, fram_error *error)
+{
+    char path[1100], *png = NULL;
+    size_t size = 0;
+    snprintf(path, sizeof path, "%s/station.png", r->d.folder);
+    fram_error missing;
+    fram_status status = file_read(r->ctx, path, 64 << 20, &png, &size, &missing);
+    if (status == FRAM_ERROR_MEMORY)
+        return error_memory(error);
+    if (status == FRAM_OK)
+        html_picture(&r->page, png, size, "Footprint, offsets, heading, loads and lines");
+    memory_free(r->ctx, png);
+    return FRAM_OK;
+}
+
+static fram_status station(report *r, load_unit unit, fram_error *error)
+{
+    char head[64];
+    if (!station_has_results(&r->d.s))
+        return FRAM_OK;
+    html_section(&r->page, "Keeping station");
+    report_statistics_heads(r, "deviation from the station");
+    report_statistics(r, "offset_x", "along X [m]", 1);
+    report_statistics(r, "offset_y", "along Y [m]", 1);
+    report_statistics(r, "heading_deviation", "heading [deg]", 1);
+    html_table_end(&r->page);
+    snprintf(head, sizeof head, "lines and thrusters [%s]", unit.name);
+    report_statistics_heads(r, head);
+    report_statistics(r, "mooring_force_x", "mooring, along X", unit.factor);
+    report_statistics(r, "mooring_force_y", "mooring, along Y", unit.factor);
+    report_statistics(r, "line_tension_max", "largest line tension", unit.factor);
+    for (int32_t i = 0; i < r->d.series.columns.count; i++) {
+        int line = 0, end = 0;
+        const char *name = r->d.series.columns.data[i].name;
+        if (sscanf(name, "line_%d_tension%n", &line, &end) == 1 && end > 0) {
+            snprintf(head, sizeof head, "tension of line %d", line);
+            report_statistics(r, name, head, unit.factor);
+        } else if (sscanf(name, "thruster_%d_thrust%n", &line, &end) == 1 && end > 0) {
+            snprintf(head, sizeof head, "thrust of thruster %d", line);
+            report_statistics(r, name, head, unit.factor);
+        }
+    }
+    html_table_end(&r->page);
+    return station_picture(r, error);
+}
+
+fram_status report_loads(report *r, fram_error *error)
+{
+    if (!r->d.s.vessel.present)
+        return FRAM_OK;
+    load_unit unit = report_load_unit(r);
+    char label[32];
+    snprintf(label, sizeof label, "force [%s]", unit.name);
+    const report_line force[] = {{"ice_force_body_x", "along the vessel, each step"},
+                                 {"ice_force_averaged_x", "along X, averaged"},
+                                 {"ice_force_averaged_y", "along Y, averaged"}};
+    const report_line tilt[] = {{"roll", "roll"}, {"pitch", "pitch"}};
+    const report_line place[] = {{"position_x", "x"}, {"position_y", "y"}};
+    html_section(&r->page, "Ice load");
+    html_paragraph(
+        &r->page,
+        "Loads are forces of the ice on the vessel, in the global frame unless it says body. Averages are over "
+        "%g s; statistics leave out the first %g s. A significant peak is the mean of the highest third of the "
+        "peaks, on the side of zero where the mean is.",
+        r->d.s.output.averaging_window, r->d.s.run.transient);
+    html_grid_begin(&r->page);
+    fram_status status = report_series(r, "Ice load over time", label, unit.factor, force, 3, true, error);
+    if (status == FRAM_OK)
+        status = distribution(r, unit, error);
+    html_grid_end(&r->page);
+    load_table(r, unit);
+    if (status == FRAM_OK)
+        status = station(r, unit, error);
+    html_section(&r->page, "Motion of the vessel");
+    html_grid_begin(&r->page);
+    if (status == FRAM_OK)
+        status = report_series(r, "Position", "position [m]", 1, place, 2, false, error);
+    if (status == FRAM_OK)
+        status = report_series(r, "Roll and pitch", "angle [deg]", 1, tilt, 2, false, error);
+    html_grid_end(&r->page);
+    return status;
+}

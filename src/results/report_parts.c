@@ -1,0 +1,81 @@
+#include "results/report_parts.h"
+
+#include "results/station_results.h"
+
+load_unit load_unit_for(double newton)
+{
+    if (newton >= 1e7)
+        return (load_unit){"MN", 1e-6};
+    return newton >= 1e4 ? (load_unit){"kN", 1e-3} : (load_unit){"N", 1};
+}
+
+load_unit report_load_unit(const report *r)
+{
+    double most = 0;
+    for (int32_t i = 0; i < r->load.count; i++)
+        most = fmax(most, r->load.data[i]);
+    return load_unit_for(most);
+}
+
+const double *report_scaled(report *r, const char *channel, double factor, int32_t first)
+{
+    const double *from = run_channel(&r->d, channel);
+    int32_t rows = r->d.series.rows - first;
+    if (!from || rows < 1)
+        return NULL;
+    double *to = memory_array(r->ctx, (size_t)rows, sizeof *to);
+    if (!to || !array_push(r->ctx, &r->kept, to)) {
+        memory_free(r->ctx, to);
+        return NULL;
+    }
+    for (int32_t i = 0; i < rows; i++)
+        to[i] = from[first + i] * factor;
+    return to;
+}
+
+enum { LINES_MOST = 5 };
+
+fram_status report_series(report *r, const char *title, const char *y_label, double factor, const report_line *lines,
+                          int32_t count, bool wide, fram_error *error)
+{
+    chart_line drawn[LINES_MOST];
+    int32_t n = 0;
+    for (int32_t i = 0; i < count && i < LINES_MOST; i++) {
+        const double *y = report_scaled(r, lines[i].channel, factor, 0);
+        if (!y)
+            continue;
+        drawn[n] = chart_line_make(lines[i].name, run_channel(&r->d, "time"), y, r->d.series.rows, wide && i > 0);
+        drawn[n].colour = wide && i == 0 && count > 1 ? 1 : n + (wide && count > 1 ? 1 : 2);
+        n++;
+    }
+    if (n == 0)
+        return FRAM_OK;
+    chart c = chart_make(title, "", "time [s]", y_label, drawn, n);
+    return html_chart(&r->page, &c, wide, error);
+}
+
+void report_statistics_heads(report *r, const char *first)
+{
+    const char *const heads[] = {first, "mean", "deviation", "least", "greatest", "significant peak"};
+    html_table_begin(&r->page, heads, 6);
+}
+
+void report_statistics(report *r, const char *channel, const char *name, double factor)
+{
+    const double *time = run_channel(&r->d, "time"), *value = report_scaled(r, channel, factor, 0);
+    if (!time || !value)
+        return;
+    channel_statistics s = channel_statistics_of(time, value, r->d.series.rows, r->d.s.run.transient), p = s;
+    const double side = s.mean < 0 ? -1 : 1; /* a load against its axis peaks downwards */
+    const double *turned = side < 0 ? report_scaled(r, channel, -factor, 0) : value;
+    if (turned && side < 0)
+        p = channel_statistics_of(time, turned, r->d.series.rows, r->d.s.run.transient);
+    html_row_begin(&r->page);
+    html_cell(&r->page, name);
+    html_number(&r->page, s.mean);
+    html_number(&r->page, s.deviation);
+    html_number(&r->page, s.least);
+    html_number(&r->page, s.greatest);
+    html_number(&r->page, p.peaks > 0 ? side * p.significant : (double)NAN);
+    html_row_end(&r->page);
+}

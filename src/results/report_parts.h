@@ -1,0 +1,47 @@
+/* Inside the report: what its sections share. */
+#ifndef RESULTS_REPORT_PARTS_H
+#define RESULTS_REPORT_PARTS_H
+
+#include "io/html_page.h"
+#include "results/load_statistics.h"
+#include "results/report.h"
+#include "results/run_data.h"
+
+typedef struct report {
+    context *ctx;
+    notes_function notes;
+    run_data d;
+    html_page page;
+    ARRAY(double *) kept; /* scaled columns that charts point to, freed at the end */
+    double_array load;    /* horizontal magnitude of the averaged ice load, every row [N] */
+} report;
+
+/* A unit in which a load of this size is told: N, kN or MN. */
+typedef struct load_unit {
+    const char *name;
+    double factor;
+} load_unit;
+load_unit load_unit_for(double newton);
+/* The unit of the run's largest load. */
+load_unit report_load_unit(const report *r);
+
+/* A channel times a factor, from row `first` on; NULL without the channel or memory. */
+const double *report_scaled(report *r, const char *channel, double factor, int32_t first);
+typedef struct report_line {
+    const char *channel, *name;
+} report_line;
+/* A chart of channels over time; those that the run does not have are left out, and with them an empty chart. */
+fram_status report_series(report *r, const char *title, const char *y_label, double factor, const report_line *lines,
+                          int32_t count, bool wide, fram_error *error);
+
+/* Statistics of a channel after the transient as a row: mean, deviation, least, greatest, significant. */
+void report_statistics_heads(report *r, const char *first);
+void report_statistics(report *r, const char *channel, const char *name, double factor);
+
+/* The sections, in files of their own. */
+fram_status report_loads(report *r, fram_error *error);
+fram_status report_field(report *r, fram_error *error);
+fram_status report_fractures(report *r, fram_error *error);
+fram_status report_books(report *r, fram_error *error);
+
+#endif

@@ -1,0 +1,177 @@
+#include "results/run_data.h"
+
+#include "io/file.h"
+#include "io/json_walk.h"
+#include "io/scenario_file.h"
+#include "results/replay.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATH_SIZE = 1100, NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };
+
+/* ---- run.json ---- */
+
+typedef struct note_member {
+    const char *name;
+    char *text; /* NULL: a number */
+    size_t room;
+    double *number;
+} note_member;
+
+static fram_status read_member(json_walk *w, const char *key, run_note *n, fram_error *error)
+{
+    const note_member members[] = {
+        {"fram_version", n->version, sizeof n->version, NULL},
+        {"compiler", n->compiler, sizeof n->compiler, NULL},
+        {"libraries", n->libraries, sizeof n->libraries, NULL},
+        {"isa", n->isa, sizeof n->isa, NULL},
+        {"status", n->status, sizeof n->status, NULL},
+        {"message", n->message, sizeof n->message, NULL},
+        {"scenario_hash", n->scenario_hash, sizeof n->scenario_hash, NULL},
+        {"state_hash", n->state_hash, sizeof n->state_hash, NULL},
+        {"threads", NULL, 0, &n->threads},
+        {"steps", NULL, 0, &n->steps},
+        {"time_s", NULL, 0, &n->time},
+        {"wall_s", NULL, 0, &n->wall},
+        {"recording_s", NULL, 0, &n->recording},
+    };
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        if (strcmp(key, members[i].name) != 0)
+            continue;
+        return members[i].text ? json_walk_text(w, members[i].text, members[i].room, error)
+                               : json_walk_number(w, members[i].number, error);
+    }
+    return json_walk_skip(w, error);
+}
+
+static fram_status read_note(context *ctx, const char *folder, run_note *n, fram_error *error)
+{
+    char path[PATH_SIZE], key[64], *text = NULL;
+    size_t size = 0;
+    snprintf(path, sizeof path, "%s/run.json", folder);
+    fram_status status = file_read(ctx, path, NOTE_LIMIT, &text, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    json_walk w = json_walk_begin(path, text, size, JSON_DEPTH);
+    bool more = true;
+    status = json_walk_enter(&w, JSON_OBJECT, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_member(&w, first, key, sizeof key, &more, error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = read_member(&w, key, n, error);
+    }
+    memory_free(ctx, text);
+    return status;
+}
+
+/* ---- the field ---- */
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static bool note_field(context *ctx, const replay *r, field_state *f)
+{
+    double volume = 0;
+    array_clear(&f->areas);
+    *f = (field_state){.time = r->frame.time, .areas = f->areas};
+    for (int32_t i = 0; i < r->frame.poses.count; i++) {
+        const replay_body *b = &r->bodies.data[r->frame.poses.data[i].body];
+        if (b->material != MATERIAL_ICE)
+            continue;
+        f->area += b->area;
+        f->mass += b->area * b->thickness * b->density;
+        volume += b->area * b->thickness;
+        f->fixed += !b->moves;
+        if (!array_push(ctx, &f->areas, b->area))
+            return false;
+    }
+    int32_t n = f->areas.count;
+    if (n == 0)
+        return true;
+    qsort(f->areas.data, (size_t)n, sizeof *f->areas.data, ascending);
+    f->mean = f->area / n;
+    f->median = 0.5 * (f->areas.data[(n - 1) / 2] + f->areas.data[n / 2]);
+    f->greatest = f->areas.data[n - 1];
+    f->thickness = f->area > 0 ? volume / f->area : 0;
+    return true;
+}
+
+static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
+{
+    replay r;
+    bool found = true;
+    if (d->s.output.frame_interval <= 0)
+        return FRAM_OK;
+    fram_status status = replay_open(ctx, d->folder, &r, error);
+    if (status != FRAM_OK)
+        return status;
+    while (status == FRAM_OK) {
+        status = replay_next(&r, &found, error);
+        if (status != FRAM_OK || !found)
+            break;
+        bool good = d->frames > 0 || note_field(ctx, &r, &d->before);
+        /* The last frame is the one that no other follows. */
+        if (!good || (!r.has_next && !note_field(ctx, &r, &d->after)))
+            status = error_memory(error);
+        d->frames++;
+    }
+    replay_close(&r);
+    return status;
+}
+
+/* ---- all ---- */
+
+fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error)
+{
+    char path[PATH_SIZE];
+    memset(d, 0, sizeof *d);
+    int n = snprintf(d->folder, sizeof d->folder, "%s", folder);
+    if (n < 0 || n >= (int)sizeof d->folder)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    fram_status status = read_note(ctx, folder, &d->note, error);
+    snprintf(path, sizeof path, "%s/scenario.yaml", folder);
+    if (status == FRAM_OK)
+        status = scenario_read(ctx, path, NULL, &d->s, error);
+    if (status != FRAM_OK)
+        return status;
+    snprintf(path, sizeof path, "%s/series.csv", folder);
+    status = csv_table_read(ctx, path, &d->series, error);
+    snprintf(path, sizeof path, "%s/fractures.csv", folder);
+    if (status == FRAM_OK)
+        status = csv_table_read(ctx, path, &d->fractures, error);
+    if (status == FRAM_OK && with_field)
+        status = read_fields(ctx, d, error);
+    if (status != FRAM_OK)
+        run_data_free(ctx, d);
+    return status;
+}
+
+void run_data_free(context *ctx, run_data *d)
+{
+    scenario_free(ctx, &d->s);
+    csv_table_free(ctx, &d->series);
+    csv_table_free(ctx, &d->fractures);
+    array_free(ctx, &d->before.areas);
+    array_free(ctx, &d->after.areas);
+}
+
+const double *run_channel(const run_data *d, const char *name)
+{
+    const csv_table_column *c = csv_table_find(&d->series, name);
+    return c ? c->value.data : NULL;
+}
+
+int32_t run_first_row(const run_data *d)
+{
+    const double *time = run_channel(d, "time");
+    int32_t first = 0;
+    while (time && first < d->series.rows && time[first] < d->s.run.transient)
+        first++;
+    return first;
+}

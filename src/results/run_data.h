@@ -1,0 +1,45 @@
+/* What is read of a run's folder for plots, reports and comparisons: scenario, time series, fractures, run.json and the
+   field at the first and the last frame. */
+#ifndef RESULTS_RUN_DATA_H
+#define RESULTS_RUN_DATA_H
+
+#include "io/csv_read.h"
+#include "model/scenario.h"
+
+/* Texts of run.json; "" for those that are missing. */
+typedef struct run_note {
+    char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
+    char scenario_hash[65], state_hash[17];
+    double threads, steps, time, wall, recording;
+} run_note;
+
+/* The ice of one frame. */
+typedef struct field_state {
+    double time;        /* [s] */
+    double_array areas; /* of the floes, ascending [m2] */
+    double area, mass;  /* of all ice [m2], [kg] */
+    double thickness;   /* mean over the area [m] */
+    double mean, median, greatest;
+    int32_t fixed; /* of the floes */
+} field_state;
+
+typedef struct run_data {
+    char folder[1024];
+    scenario s;
+    run_note note;
+    csv_table series, fractures;
+    field_state before, after; /* empty without a record */
+    int64_t frames;
+} run_data;
+
+/* FRAM_ERROR_INPUT when the folder is not that of a run. with_field: read the record too; a record without frames
+   leaves the fields empty. */
+fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error);
+void run_data_free(context *ctx, run_data *d);
+
+/* Values of a channel, NULL when the run does not have it. */
+const double *run_channel(const run_data *d, const char *name);
+/* First row after the transient. */
+int32_t run_first_row(const run_data *d);
+
+#endif

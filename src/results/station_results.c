@@ -1,0 +1,376 @@
+#include "results/station_results.h"
+
+#include "base/number_text.h"
+#include "base/transcendental.h"
+#include "io/atomic_file.h"
+#include "io/page.h"
+#include "io/text_buffer.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool station_has_results(const scenario *s)
+{
+    const scenario_vessel *v = &s->vessel;
+    return v->present && v->mode == VESSEL_FREE &&
+           (v->mooring.lines.count > 0 || v->thrusters.count > 0 || v->positioning.active);
+}
+
+/* ---- statistics ---- */
+
+void offset_envelope(const double *time, const double *x, const double *y, int32_t count, double transient,
+                     double out[ENVELOPE_DIRECTIONS])
+{
+    memset(out, 0, ENVELOPE_DIRECTIONS * sizeof *out);
+    for (int32_t i = 0; i < count; i++) {
+        if (time[i] < transient)
+            continue;
+        double at = real_atan2(y[i], x[i]) / (2 * PI) * ENVELOPE_DIRECTIONS;
+        int32_t k = (int32_t)floor(at + 0.5);
+        k = (k + ENVELOPE_DIRECTIONS) % ENVELOPE_DIRECTIONS;
+        out[k] = fmax(out[k], sqrt(x[i] * x[i] + y[i] * y[i]));
+    }
+}
+
+/* ---- what is read ---- */
+
+enum { TIME, OFFSET_X, OFFSET_Y, HEADING, LOAD_X, LOAD_Y, POWER, SATURATED, TENSION, FIXED };
+enum { MOST_CHANNELS = FIXED + 128 };
+static const char *const fixed_names[FIXED] = {"time",
+                                               "offset_x",
+                                               "offset_y",
+                                               "heading_deviation",
+                                               "ice_force_averaged_x",
+                                               "ice_force_averaged_y",
+                                               "thruster_power",
+                                               "thrusters_saturated",
+                                               "line_tension_max"};
+
+typedef struct station_data {
+    double_array column[MOST_CHANNELS];
+    double_array offset, load; /* magnitudes */
+    int32_t lines, thrusters, rows;
+} station_data;
+
+static void data_free(context *ctx, station_data *d)
+{
+    for (int i = 0; i < MOST_CHANNELS; i++)
+        array_free(ctx, &d->column[i]);
+    array_free(ctx, &d->offset);
+    array_free(ctx, &d->load);
+}
+
+static fram_status data_read(context *ctx, const station_outcome *o, const char *folder, station_data *d,
+                             fram_error *error)
+{
+    char path[1024], name[MOST_CHANNELS][32];
+    const char *names[MOST_CHANNELS];
+    int n = snprintf(path, sizeof path, "%s/series.csv", folder), count = FIXED;
+    if (n < 0 || n >= (int)sizeof path)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    memcpy(names, fixed_names, sizeof fixed_names);
+    d->lines = o->lines->count;
+    d->thrusters = o->thrusters->count;
+    for (int32_t i = 0; i < d->lines + d->thrusters; i++) {
+        bool line = i < d->lines;
+        snprintf(name[count], sizeof name[count], line ? "line_%d_tension" : "thruster_%d_thrust",
+                 (int)(line ? i + 1 : i - d->lines + 1));
+        names[count] = name[count];
+        count++;
+    }
+    fram_status status = csv_read(ctx, path, names, count, d->column, error);
+    d->rows = d->column[TIME].count;
+    for (int32_t i = 0; i < d->rows && status == FRAM_OK; i++) {
+        double x = d->column[OFFSET_X].data[i], y = d->column[OFFSET_Y].data[i];
+        double fx = d->column[LOAD_X].data[i], fy = d->column[LOAD_Y].data[i];
+        if (!array_push(ctx, &d->offset, sqrt(x * x + y * y)) || !array_push(ctx, &d->load, sqrt(fx * fx + fy * fy)))
+            status = error_memory(error);
+    }
+    return status;
+}
+
+static channel_statistics statistics(const station_data *d, const double_array *of, double transient)
+{
+    return channel_statistics_of(d->column[TIME].data, of->data, d->rows, transient);
+}
+
+/* Part of the rows after the transient beyond a limit. */
+static double exceedance(const station_data *d, const double_array *of, double limit, double transient)
+{
+    int32_t beyond = 0, all = 0;
+    for (int32_t i = 0; i < d->rows; i++) {
+        if (d->column[TIME].data[i] < transient)
+            continue;
+        beyond += fabs(of->data[i]) > limit;
+        all++;
+    }
+    return all > 0 ? (double)beyond / all : 0;
+}
+
+/* ---- JSON ---- */
+
+static void add_number(context *ctx, text_buffer *b, const char *key, double value, const char *end)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_format(ctx, b, "\"%s\": %s%s", key, isfinite(value) ? text : "null", end);
+}
+
+static void add_statistics(context *ctx, text_buffer *b, const channel_statistics *s, const char *end)
+{
+    add_number(ctx, b, "mean", s->mean, ", ");
+    add_number(ctx, b, "deviation", s->deviation, ", ");
+    add_number(ctx, b, "least", s->least, ", ");
+    add_number(ctx, b, "significant", s->significant, ", ");
+    add_number(ctx, b, "peak", s->greatest, end);
+}
+
+static void add_channel(context *ctx, text_buffer *b, const station_data *d, const char *key, const double_array *of,
+                        double transient, const char *end)
+{
+    channel_statistics s = statistics(d, of, transient);
+    text_format(ctx, b, "  \"%s\": {", key);
+    add_statistics(ctx, b, &s, end);
+}
+
+/* The end of a channel that may have a limit; null for both where it has none. */
+static void add_limit(context *ctx, text_buffer *b, const station_data *d, const double_array *of, double limit,
+                      double transient)
+{
+    double set = automatic_or(limit, HUGE_VAL);
+    add_number(ctx, b, "limit", set, ", ");
+    add_number(ctx, b, "exceedance", set < HUGE_VAL ? exceedance(d, of, set, transient) : HUGE_VAL, "},\n");
+}
+
+static void add_envelope(context *ctx, text_buffer *b, const station_data *d, double transient)
+{
+    double envelope[ENVELOPE_DIRECTIONS];
+    offset_envelope(d->column[TIME].data, d->column[OFFSET_X].data, d->column[OFFSET_Y].data, d->rows, transient,
+                    envelope);
+    text_add(ctx, b, "  \"offset_envelope_m\": [");
+    for (int i = 0; i < ENVELOPE_DIRECTIONS; i++) {
+        char text[NUMBER_TEXT_SIZE];
+        real_to_text(envelope[i], text);
+        text_format(ctx, b, "%s%s", i > 0 ? ", " : "", text);
+    }
+    text_add(ctx, b, "],\n");
+}
+
+static void add_lines(context *ctx, text_buffer *b, const station_outcome *o, const station_data *d, double transient)
+{
+    text_add(ctx, b, "  \"lines\": [");
+    for (int32_t i = 0; i < d->lines; i++) {
+        channel_statistics s = statistics(d, &d->column[FIXED + i], transient);
+        text_format(ctx, b, "%s\n    {\"number\": %d, \"parted\": %s, ", i ? "," : "", (int)i + 1,
+                    o->lines->broken[i] ? "true" : "false");
+        add_number(ctx, b, "utilisation", s.greatest / o->lines->breaking_load[i], ", ");
+        add_statistics(ctx, b, &s, "}");
+    }
+    text_add(ctx, b, "],\n  \"thrusters\": [");
+    for (int32_t i = 0; i < d->thrusters; i++) {
+        channel_statistics s = statistics(d, &d->column[FIXED + d->lines + i], transient);
+        text_format(ctx, b, "%s\n    {\"number\": %d, \"failed\": %s, ", i ? "," : "", (int)i + 1,
+                    o->thrusters->failed[i] ? "true" : "false");
+        add_number(ctx, b, "largest_use",
+                   fmax(s.greatest / o->thrusters->ahead[i],
+                        o->thrusters->astern[i] > 0 ? -s.least / o->thrusters->astern[i] : 0),
+                   ", ");
+        add_statistics(ctx, b, &s, "}");
+    }
+    text_add(ctx, b, "],\n");
+}
+
+static void add_events(context *ctx, text_buffer *b, const station_outcome *o)
+{
+    text_add(ctx, b, "  \"events\": [");
+    for (int32_t i = 0; i < o->events->count; i++) {
+        char text[160];
+        event_text(o->events, i, text, sizeof text);
+        text_format(ctx, b, "%s\n    {\"kind\": \"%s\", ", i ? "," : "", event_name((station_event)o->events->kind[i]));
+        add_number(ctx, b, "time_s", o->events->time[i], ", ");
+        add_number(ctx, b, "value", o->events->value[i], ", ");
+        text_format(ctx, b, "\"number\": %d, ", (int)o->events->number[i] + 1);
+        text_format(ctx, b, "\"text\": \"%s\"}", text);
+    }
+    text_add(ctx, b, "]\n}\n");
+}
+
+static double energy_of(const station_data *d)
+{
+    double sum = 0;
+    const double *t = d->column[TIME].data, *p = d->column[POWER].data;
+    for (int32_t i = 1; i < d->rows; i++)
+        sum += 0.5 * (p[i] + p[i - 1]) * (t[i] - t[i - 1]);
+    return sum;
+}
+
+static void compose(context *ctx, const scenario *s, const station_outcome *o, const station_data *d, text_buffer *b)
+{
+    double transient = s->run.transient;
+    const double_array *c = d->column;
+    text_add(ctx, b, "{\n  ");
+    add_number(ctx, b, "time_s", o->time, ",\n  ");
+    add_number(ctx, b, "transient_s", transient, ",\n  ");
+    add_number(ctx, b, "averaging_window_s", s->output.averaging_window, ",\n");
+    add_channel(ctx, b, d, "offset_m", &d->offset, transient, ", ");
+    add_limit(ctx, b, d, &d->offset, s->vessel.station.offset_limit, transient);
+    add_envelope(ctx, b, d, transient);
+    add_channel(ctx, b, d, "offset_x_m", &c[OFFSET_X], transient, "},\n");
+    add_channel(ctx, b, d, "offset_y_m", &c[OFFSET_Y], transient, "},\n");
+    add_channel(ctx, b, d, "heading_deviation_deg", &c[HEADING], transient, ", ");
+    add_limit(ctx, b, d, &c[HEADING], s->vessel.station.heading_limit_deg, transient);
+    add_channel(ctx, b, d, "ice_load_N", &d->load, transient, "},\n");
+    add_channel(ctx, b, d, "ice_load_x_N", &c[LOAD_X], transient, "},\n");
+    add_channel(ctx, b, d, "ice_load_y_N", &c[LOAD_Y], transient, "},\n");
+    add_channel(ctx, b, d, "line_tension_largest_N", &c[TENSION], transient, "},\n");
+    add_channel(ctx, b, d, "thruster_power_W", &c[POWER], transient, ", ");
+    add_number(ctx, b, "energy_J", energy_of(d), "},\n  ");
+    add_number(ctx, b, "thrusters_saturated", statistics(d, &c[SATURATED], transient).mean, ",\n");
+    add_lines(ctx, b, o, d, transient);
+    add_events(ctx, b, o);
+}
+
+fram_status station_results_write(context *ctx, const scenario *s, const station_outcome *o, const char *folder,
+                                  fram_error *error)
+{
+    station_data d = {0};
+    text_buffer b = {0};
+    char path[1024];
+    fram_status status = data_read(ctx, o, folder, &d, error);
+    if (status == FRAM_OK) {
+        compose(ctx, s, o, &d, &b);
+        snprintf(path, sizeof path, "%s/station.json", folder);
+        status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
+    }
+    text_free(ctx, &b);
+    data_free(ctx, &d);
+    return status;
+}
+
+/* ---- page ---- */
+
+/* A limit of more than so many largest offsets is not drawn. */
+#define FAR_LIMIT 6
+
+enum { PAGE_WIDTH = 1600, PAGE_HEIGHT = 1130, CIRCLE = 73 };
+
+static void describe(context *ctx, const scenario *s, const station_outcome *o, const station_data *d, text_buffer *b)
+{
+    double transient = s->run.transient;
+    channel_statistics offset = statistics(d, &d->offset, transient), load = statistics(d, &d->load, transient);
+    channel_statistics tension = statistics(d, &d->column[TENSION], transient);
+    channel_statistics power = statistics(d, &d->column[POWER], transient);
+    text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient, s->output.averaging_window);
+    text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m", offset.mean, offset.greatest);
+    double limit = automatic_or(s->vessel.station.offset_limit, HUGE_VAL);
+    if (limit < HUGE_VAL)
+        text_format(ctx, b, "; beyond the limit of %.3g m %.3g %% of the time.\n", limit,
+                    100 * exceedance(d, &d->offset, limit, transient));
+    else
+        text_add(ctx, b, "; no limit is set.\n");
+    text_format(ctx, b, "Ice load: mean %.4g kN, significant %.4g kN, peak %.4g kN.\n", load.mean * 1e-3,
+                load.significant * 1e-3, load.greatest * 1e-3);
+    if (d->lines > 0)
+        text_format(ctx, b, "Largest line tension: mean %.4g kN, peak %.4g kN.\n", tension.mean * 1e-3,
+                    tension.greatest * 1e-3);
+    if (d->thrusters > 0)
+        text_format(ctx, b,
+                    "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ.\nThrusters saturated %.3g %% of the time.\n",
+                    power.mean * 1e-6, power.greatest * 1e-6, energy_of(d) * 1e-9,
+                    100 * statistics(d, &d->column[SATURATED], transient).mean);
+    for (int32_t i = 0; i < o->events->count && i < 8; i++) {
+        char text[160];
+        event_text(o->events, i, text, sizeof text);
+        text_format(ctx, b, "t = %.1f s: %s.\n", o->events->time[i], text);
+    }
+    if (o->events->count > 8)
+        text_format(ctx, b, "and %d more events.\n", (int)o->events->count - 8);
+}
+
+static void scale(double_array *values, double by)
+{
+    for (int32_t i = 0; i < values->count; i++)
+        values->data[i] *= by;
+}
+
+/* The envelope as a line round the point, and its largest radius: each direction is the sector that it stands for, so
+   that offsets in one direction alone show as a wedge. */
+enum { EDGE_POINTS = 2 * ENVELOPE_DIRECTIONS + 1 };
+static double envelope_edge(const double envelope[ENVELOPE_DIRECTIONS], double x[EDGE_POINTS], double y[EDGE_POINTS])
+{
+    double largest = 0;
+    for (int i = 0; i < EDGE_POINTS; i++) {
+        int k = i / 2 % ENVELOPE_DIRECTIONS;
+        double a = 2 * PI * (k + (i % 2 == 0 ? -0.5 : 0.5)) / ENVELOPE_DIRECTIONS, r = envelope[k];
+        x[i] = r * real_cos(a), y[i] = r * real_sin(a);
+        largest = fmax(largest, r);
+    }
+    return largest;
+}
+
+static fram_status draw(context *ctx, const scenario *s, const station_data *d, const char *text, const char *path,
+                        fram_error *error)
+{
+    double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(s->vessel.station.offset_limit, 0);
+    for (int i = 0; i < CIRCLE; i++) {
+        double a = 2 * PI * i / (CIRCLE - 1);
+        round_x[i] = limit * real_cos(a), round_y[i] = limit * real_sin(a);
+    }
+    const double *time = d->column[TIME].data;
+    int32_t n = d->rows;
+    double envelope[ENVELOPE_DIRECTIONS], edge_x[EDGE_POINTS], edge_y[EDGE_POINTS];
+    offset_envelope(time, d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, s->run.transient, envelope);
+    double largest = envelope_edge(envelope, edge_x, edge_y);
+    /* A limit that is far away would leave nothing of the track to be seen. */
+    bool far = limit > FAR_LIMIT * largest;
+    char note[96];
+    snprintf(note, sizeof note,
+             far ? "offset of the watched point; the limit, %.3g m, lies outside"
+                 : "offset of the watched point; envelope after the transient",
+             limit);
+    const chart_line footprint[3] = {
+        chart_line_make("track", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, false),
+        chart_line_make("envelope", edge_x, edge_y, EDGE_POINTS, false),
+        chart_line_make("limit", round_x, round_y, CIRCLE, true)};
+    const chart_line offsets[2] = {chart_line_make("along X", time, d->column[OFFSET_X].data, n, true),
+                                   chart_line_make("along Y", time, d->column[OFFSET_Y].data, n, true)};
+    const chart_line heading = chart_line_make("heading", time, d->column[HEADING].data, n, true);
+    const chart_line loads[2] = {chart_line_make("along X", time, d->column[LOAD_X].data, n, false),
+                                 chart_line_make("along Y", time, d->column[LOAD_Y].data, n, true)};
+    const chart_line tension = chart_line_make("largest of all lines", time, d->column[TENSION].data, n, true);
+    const chart_line power = chart_line_make("thruster power", time, d->column[POWER].data, n, true);
+    const page_panel panels[5] = {
+        {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 3 : 2), 20, 60, 620, 560, true},
+        {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},
+        {chart_make("Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1), 660, 320, 920, 270, false},
+        {chart_make("Ice load", "averaged", "time [s]", "force [kN]", loads, 2), 660, 580, 920, 270, false},
+        d->lines > 0
+            ? (page_panel){chart_make("Line tension", "", "time [s]", "tension [kN]", &tension, 1), 660, 840, 920, 270,
+                           false}
+            : (page_panel){chart_make("Power", "", "time [s]", "power [MW]", &power, 1), 660, 840, 920, 270, false},
+    };
+    const page p = {s->title[0] ? s->title : "Fram", panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
+    return page_write(ctx, &p, path, error);
+}
+
+fram_status station_page_write(context *ctx, const scenario *s, const station_outcome *o, const char *folder,
+                               fram_error *error)
+{
+    station_data d = {0};
+    text_buffer b = {0};
+    char path[1024];
+    fram_status status = data_read(ctx, o, folder, &d, error);
+    if (status == FRAM_OK) {
+        describe(ctx, s, o, &d, &b);
+        scale(&d.column[LOAD_X], 1e-3);
+        scale(&d.column[LOAD_Y], 1e-3);
+        scale(&d.column[TENSION], 1e-3);
+        scale(&d.column[POWER], 1e-6);
+        snprintf(path, sizeof path, "%s/station.png", folder);
+        status = b.failed ? error_memory(error) : draw(ctx, s, &d, b.data, path, error);
+    }
+    text_free(ctx, &b);
+    data_free(ctx, &d);
+    return status;
+}

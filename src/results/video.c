@@ -1,0 +1,306 @@
+#include "results/video.h"
+
+#include "io/atomic_file.h"
+#include "io/csv_read.h"
+#include "io/image.h"
+#include "io/scenario_file.h"
+#include "io/video_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#ifdef FRAM_HAVE_CAIRO
+
+enum { CURVE_HEIGHT = 120, CURVE_TOP = 18, VALUES_MOST = 400000, FRAMES_MOST = 100000, LONGEST = 30, MARKED = 3 };
+
+typedef struct video {
+    context *ctx;
+    const video_options *options;
+    scenario s;
+    double_array time, load; /* of the frames of the record [s], [N] */
+    double lo, hi;           /* of the colours */
+    double arrow;            /* of the whole video [m/N]; 0: none */
+    double most;             /* load [N] */
+    double step;             /* between pictures [s] */
+    int64_t count;           /* of pictures */
+    box2 extent;             /* of the first frame's bodies but walls [m] */
+    replay r;
+    replay_moment moment;
+    replay_plan plan;
+    char path[1024];
+} video;
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void find_extent(video *v)
+{
+    const scenario_domain *d = &v->s.domain;
+    vec2 lo = {HUGE_VAL, HUGE_VAL}, hi = {-HUGE_VAL, -HUGE_VAL};
+    for (int32_t i = 0; i < v->r.frame.poses.count; i++) {
+        const replay_pose *p = &v->r.frame.poses.data[i];
+        if (v->r.bodies.data[p->body].material == MATERIAL_WALL)
+            continue;
+        lo = vec2_make(fmin(lo.x, p->position.x), fmin(lo.y, p->position.y));
+        hi = vec2_make(fmax(hi.x, p->position.x), fmax(hi.y, p->position.y));
+    }
+    v->extent = lo.x < hi.x ? (box2){lo, hi} : (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
+}
+
+/* Sorts the values; 0 where there are none. */
+static double percentile(double_array *values, int percent)
+{
+    if (values->count == 0)
+        return 0;
+    qsort(values->data, (size_t)values->count, sizeof *values->data, ascending);
+    return values->data[(int64_t)(values->count - 1) * percent / 100];
+}
+
+/* Of an arrow of the strongest forces but a few, over the width of what is seen. */
+#define ARROW_LENGTH 0.12
+
+/* Times, loads, the range of what is shown (its 98th percentile) and the scale of the arrows, from a first reading. */
+static fram_status look_ahead(video *v, const char *folder, fram_error *error)
+{
+    double_array values = {0}, forces = {0};
+    bool found = true;
+    fram_status status = replay_open(v->ctx, folder, &v->r, error);
+    if (status != FRAM_OK)
+        return status;
+    while (status == FRAM_OK) {
+        status = replay_next(&v->r, &found, error);
+        if (status != FRAM_OK || !found)
+            break;
+        const replay_frame *f = &v->r.frame;
+        if (v->time.count == 0)
+            find_extent(v);
+        double load = sqrt(f->ice_force.x * f->ice_force.x + f->ice_force.y * f->ice_force.y);
+        bool good = array_push(v->ctx, &v->time, f->time) && array_push(v->ctx, &v->load, load);
+        v->most = fmax(v->most, load);
+        for (int32_t i = 0; i < f->forces.count && forces.count < VALUES_MOST && good; i++)
+            good = array_push(v->ctx, &forces, vec3_length(f->forces.data[i].force));
+        for (int32_t i = 0; i < f->poses.count && values.count < VALUES_MOST && good; i++) {
+            const replay_pose *p = &f->poses.data[i];
+            double value = plan_colour_value(v->options->colour, &v->r.bodies.data[p->body], p, f->time);
+            good = !(value > 0) || array_push(v->ctx, &values, value);
+        }
+        if (!good)
+            status = error_memory(error);
+    }
+    v->hi = percentile(&values, 98);
+    if (!(v->hi > 0))
+        v->hi = 1;
+    double across = v->options->span > 0 ? v->options->span : v->s.domain.x_max - v->s.domain.x_min;
+    /* As on the playback page, a few arrows may be longer: one hard blow must not make all others vanish. */
+    double strong = percentile(&forces, 99);
+    v->arrow = strong > 0 ? ARROW_LENGTH * across / strong : 0;
+    array_free(v->ctx, &values);
+    array_free(v->ctx, &forces);
+    replay_close(&v->r);
+    return status;
+}
+
+/* ---- one picture ---- */
+
+static void draw_curve(const video *v, cairo_t *page, double now)
+{
+    double left = 14, right = v->options->width - 14, top = v->options->height - CURVE_HEIGHT + CURVE_TOP;
+    double bottom = v->options->height - 10, begin = v->time.data[0], end = v->time.data[v->time.count - 1];
+    double span = end > begin ? end - begin : 1, most = v->most > 0 ? v->most : 1;
+    char text[96];
+    cairo_move_to(page, left, bottom);
+    for (int32_t i = 0; i < v->time.count; i++)
+        cairo_line_to(page, left + (v->time.data[i] - begin) / span * (right - left),
+                      bottom - v->load.data[i] / most * (bottom - top));
+    cairo_line_to(page, right, bottom);
+    cairo_close_path(page);
+    cairo_set_source_rgb(page, 0.79, 0.85, 0.90);
+    cairo_fill(page);
+    double x = left + (now - begin) / span * (right - left);
+    cairo_set_source_rgb(page, 0.69, 0.19, 0.13);
+    cairo_rectangle(page, x - 1, top - 4, 2, bottom - top + 4);
+    cairo_fill(page);
+    image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
+    snprintf(text, sizeof text, "horizontal ice load on the vessel, averaged; largest %.4g kN", v->most * 1e-3);
+    image_text(page, left, top - 5, 12, ALIGN_LEFT, false, text);
+}
+
+static box2 window_of(const video *v, int width, int height)
+{
+    const scenario_domain *d = &v->s.domain;
+    if (!(v->options->span > 0) || !v->plan.has_vessel)
+        return (box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}};
+    double half = v->options->span / 2, upright = half * height / width;
+    vec2 c = v->plan.vessel;
+    return (box2){{c.x - half, c.y - upright}, {c.x + half, c.y + upright}};
+}
+
+static fram_status draw_space(const video *v, double time, const char *caption, cairo_t **page, fram_error *error)
+{
+    int width = v->options->width, height = v->options->height;
+    const video_scene scene = {.camera = v->options->camera,
+                               .extent = v->extent,
+                               .colour = v->options->colour,
+                               .lo = v->lo,
+                               .hi = v->hi,
+                               .arrow = v->arrow,
+                               .mark_time = MARKED,
+                               .title = v->s.title[0] ? v->s.title : "Fram",
+                               .caption = caption};
+    fram_status status = image_begin(width, height, page, error);
+    if (status != FRAM_OK)
+        return status;
+    status = video_scene_draw(v->ctx, &scene, &v->r, &v->moment, *page, width, height - CURVE_HEIGHT, error);
+    if (status == FRAM_OK)
+        draw_curve(v, *page, time);
+    else
+        cairo_destroy(*page);
+    return status;
+}
+
+static fram_status draw_picture(video *v, double time, cairo_t **page, fram_error *error)
+{
+    int width = v->options->width, height = v->options->height - CURVE_HEIGHT;
+    char caption[128];
+    fram_status status = replay_moment_at(&v->r, time, &v->moment, error);
+    snprintf(caption, sizeof caption, "t = %.1f s of %.0f s", time, v->time.data[v->time.count - 1]);
+    if (v->options->camera != VIDEO_PLAN)
+        return status == FRAM_OK ? draw_space(v, time, caption, page, error) : status;
+    if (status == FRAM_OK)
+        status =
+            replay_plan_make(&v->r, &v->moment, v->options->colour, v->lo, v->hi, v->arrow, MARKED, &v->plan, error);
+    if (status == FRAM_OK)
+        status = image_begin(width, v->options->height, page, error);
+    if (status != FRAM_OK)
+        return status;
+    plan_view view = {.window = window_of(v, width - 28, height - 108),
+                      .title = v->s.title[0] ? v->s.title : "Fram",
+                      .caption = caption,
+                      .shapes = v->plan.shapes.data,
+                      .shape_count = v->plan.shapes.count,
+                      .marks = v->plan.marks.data,
+                      .mark_count = v->plan.marks.count,
+                      .arrows = v->plan.arrows.data,
+                      .arrow_count = v->plan.arrows.count,
+                      .arrow_scale = v->arrow,
+                      .scale_name = plan_colour_title(v->options->colour),
+                      .scale_lo = v->lo,
+                      .scale_hi = v->hi};
+    plan_view_draw(*page, &view, width, height);
+    draw_curve(v, *page, time);
+    return FRAM_OK;
+}
+
+/* ---- all pictures ---- */
+
+static fram_status keep_picture(video *v, video_file *file, cairo_t *page, int64_t number, fram_error *error)
+{
+    if (v->options->pictures) {
+        char name[1100];
+        snprintf(name, sizeof name, "%s/frame-%06lld.png", v->path, (long long)number);
+        return image_write(v->ctx, page, name, error);
+    }
+    cairo_surface_t *surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    /* Rows of an RGB24 image lie without gaps when the width is that of the stride. */
+    size_t size = (size_t)cairo_image_surface_get_stride(surface) * (size_t)v->options->height;
+    fram_status status = video_frame(file, cairo_image_surface_get_data(surface), size, error);
+    cairo_destroy(page);
+    return status;
+}
+
+static fram_status find_frames(video *v, fram_error *error)
+{
+    double span = v->time.data[v->time.count - 1] - v->time.data[0], speed = v->options->speed;
+    if (!(speed > 0))
+        speed = fmax(1, span / LONGEST);
+    v->step = speed / v->options->frames_per_second;
+    double frames = floor(span / v->step + 1e-9) + 1;
+    if (!(frames <= FRAMES_MOST))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "speed",
+                         "expected at least %.2g, or fewer frames a second, for %d frames at most, found %g",
+                         span * v->options->frames_per_second / (FRAMES_MOST - 1), (int)FRAMES_MOST, speed);
+    v->count = (int64_t)frames;
+    return FRAM_OK;
+}
+
+static fram_status write_pictures(video *v, const char *folder, video_file *file, int64_t *frames, fram_error *error)
+{
+    double begin = v->time.data[0], end = v->time.data[v->time.count - 1];
+    fram_status status = replay_open(v->ctx, folder, &v->r, error);
+    for (int64_t i = 0; i < v->count && status == FRAM_OK; i++) {
+        cairo_t *page = NULL;
+        status = draw_picture(v, fmin(begin + (double)i * v->step, end), &page, error);
+        if (status == FRAM_OK)
+            status = keep_picture(v, file, page, i, error);
+        *frames = i + 1;
+    }
+    replay_close(&v->r);
+    return status;
+}
+
+static fram_status make_video(video *v, const char *folder, int64_t *frames, fram_error *error)
+{
+    video_file file;
+    fram_status status = video_begin(v->ctx, v->path, v->options->width, v->options->height,
+                                     v->options->frames_per_second, &file, error);
+    if (status != FRAM_OK)
+        return status;
+    status = write_pictures(v, folder, &file, frames, error);
+    if (status == FRAM_OK)
+        return video_end(&file, error);
+    video_abandon(&file);
+    return status;
+}
+
+static fram_status make_pictures(video *v, const char *folder, int64_t *frames, fram_error *error)
+{
+    if (mkdir(v->path, 0777) != 0 && errno != EEXIST)
+        return file_error(error, v->path, "make the folder", errno);
+    return write_pictures(v, folder, NULL, frames, error);
+}
+
+fram_status video_write(context *ctx, const char *folder, const video_options *options, int64_t *frames, char *path,
+                        fram_error *error)
+{
+    video v = {.ctx = ctx, .options = options};
+    char scene[1100];
+    int n = options->output ? snprintf(v.path, sizeof v.path, "%s", options->output)
+                            : snprintf(v.path, sizeof v.path, "%s/%s", folder, options->pictures ? "video" : "run.mp4");
+    if (n < 0 || n >= (int)sizeof v.path || strlen(folder) > 1000)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    snprintf(scene, sizeof scene, "%s/scenario.yaml", folder);
+    *frames = 0;
+    fram_status status = scenario_read(ctx, scene, NULL, &v.s, error);
+    if (status != FRAM_OK)
+        return status;
+    status = look_ahead(&v, folder, error);
+    if (status == FRAM_OK)
+        status = find_frames(&v, error);
+    if (status == FRAM_OK)
+        status = (options->pictures ? make_pictures : make_video)(&v, folder, frames, error);
+    memcpy(path, v.path, sizeof v.path);
+    replay_moment_free(ctx, &v.moment);
+    replay_plan_free(ctx, &v.plan);
+    array_free(ctx, &v.time);
+    array_free(ctx, &v.load);
+    scenario_free(ctx, &v.s);
+    return status;
+}
+
+#else
+
+fram_status video_write(context *ctx, const char *folder, const video_options *options, int64_t *frames, char *path,
+                        fram_error *error)
+{
+    (void)ctx, (void)options, (void)frames, (void)path;
+    return error_set(error, FRAM_ERROR_UNSUPPORTED, folder, 0, NULL, "this build has no cairo, so it draws no videos");
+}
+
+#endif

@@ -1,0 +1,249 @@
+#include "results/video_scene.h"
+
+#include "geometry/ear_clip.h"
+#include "io/solid_view.h"
+
+#include <stdio.h>
+
+static const char *const names[VIDEO_CAMERA_COUNT] = {"plan", "orbit", "follow"};
+
+const char *video_camera_name(video_camera camera) { return names[camera]; }
+
+#ifdef FRAM_HAVE_CAIRO
+
+enum { ABOVE = 60, BELOW = 40, EDGE = 14 };
+static const double sky[3] = {0.87, 0.91, 0.94}, water[3] = {0.18, 0.40, 0.56}, rim[3] = {0.36, 0.45, 0.53};
+static const double ice[3] = {0.95, 0.97, 0.98}, hull[3] = {0.71, 0.25, 0.16}, wall[3] = {0.48, 0.45, 0.42};
+static const double water_cover = 0.86;
+static const image_colour ink = {0.1, 0.1, 0.1}, mark = {0.85, 0.45, 0.05};
+/* By record_force_kind, the same as in the playback page. */
+static const struct {
+    image_colour colour;
+    const char *name;
+} forces[] = {[RECORD_FORCE_ICE] = {{0.76, 0.09, 0.36}, "ice"},
+              [RECORD_FORCE_LINE] = {{0.11, 0.50, 0.23}, "line"},
+              [RECORD_FORCE_THRUSTER] = {{0.42, 0.25, 0.71}, "thruster"}};
+enum { FORCE_KINDS = sizeof forces / sizeof *forces };
+
+/* ---- camera ---- */
+
+static vec3 target_of(const video_scene *s, const replay *r, const replay_moment *m)
+{
+    for (int32_t i = 0; i < m->poses.count && s->camera == VIDEO_FOLLOW; i++) {
+        if (r->bodies.data[m->poses.data[i].body].solid)
+            return vec3_make(m->poses.data[i].position.x, m->poses.data[i].position.y, 0);
+    }
+    return vec3_make((s->extent.lo.x + s->extent.hi.x) / 2, (s->extent.lo.y + s->extent.hi.y) / 2, 0);
+}
+
+static solid_camera camera_of(const video_scene *s, const replay *r, const replay_moment *m)
+{
+    double wide = fmax(s->extent.hi.x - s->extent.lo.x, s->extent.hi.y - s->extent.lo.y);
+    solid_camera c = {.target = target_of(s, r, m), .zoom = 1.374};
+    vec3 away = s->camera == VIDEO_FOLLOW ? vec3_make(-0.28, -0.3, 0.2) : vec3_make(-0.55, -0.75, 0.6);
+    c.eye = vec3_mad(c.target, away, wide);
+    return c;
+}
+
+/* ---- bodies ---- */
+
+static void colour_of(const video_scene *s, const replay_body *b, const replay_pose *p, double time, double rgb[3])
+{
+    const double *own = b->material == MATERIAL_ICE ? ice : b->material == MATERIAL_HULL ? hull : wall;
+    double value = plan_colour_value(s->colour, b, p, time);
+    for (int i = 0; i < 3; i++)
+        rgb[i] = own[i];
+    if (value == value)
+        image_ramp(s->hi > s->lo ? fmin(fmax((value - s->lo) / (s->hi - s->lo), 0), 1) : 0, rgb);
+}
+
+static void draw_solid(solid_view *v, const replay *r, const replay_body *b, const replay_pose *p, const double rgb[3])
+{
+    mat3 turn = quat_matrix(p->orientation);
+    for (int32_t f = 0; f < b->face_count; f++) {
+        vec3 corner[3];
+        for (int k = 0; k < 3; k++) {
+            int32_t at = b->vertex_first + r->faces.data[3 * (b->face_first + f) + k];
+            corner[k] = vec3_add(p->position, mat3_mul_vec(turn, r->points.data[at]));
+        }
+        solid_view_triangle(v, corner[0], corner[1], corner[2], rgb);
+    }
+}
+
+/* Top, sides and, but for tiles of level ice, upper rim; what is seen from above only. */
+static fram_status draw_prism(context *ctx, solid_view *v, const replay *r, const replay_body *b, const replay_pose *p,
+                              const double rgb[3], index_array *corners, fram_error *error)
+{
+    polygon outline = replay_outline(r, b);
+    mat3 turn = quat_matrix(p->orientation);
+    vec3 half = vec3_scale(mat3_column(turn, 2), b->thickness / 2);
+    ARRAY(vec3) top = {0};
+    bool good = polygon_triangulate_ears(ctx, outline, corners) != FRAM_ERROR_MEMORY;
+    for (int32_t i = 0; i < outline.count && good; i++) {
+        vec3 local = vec3_make(outline.vertex[i].x, outline.vertex[i].y, 0);
+        good = array_push(ctx, &top, vec3_add(vec3_add(p->position, mat3_mul_vec(turn, local)), half));
+    }
+    for (int32_t i = 0; i + 2 < corners->count && good && top.data; i += 3)
+        solid_view_triangle(v, top.data[corners->data[i]], top.data[corners->data[i + 1]],
+                            top.data[corners->data[i + 2]], rgb);
+    for (int32_t i = 0; i < top.count && good; i++) {
+        vec3 a = top.data[i], c = top.data[(i + 1) % top.count];
+        vec3 below_a = vec3_mad(a, half, -2), below_c = vec3_mad(c, half, -2);
+        solid_view_triangle(v, below_a, below_c, c, rgb);
+        solid_view_triangle(v, below_a, c, a, rgb);
+        if (!b->level)
+            solid_view_line(v, a, c, rim);
+    }
+    array_free(ctx, &top);
+    return good ? FRAM_OK : error_memory(error);
+}
+
+static fram_status draw_bodies(context *ctx, const video_scene *s, const replay *r, const replay_moment *m,
+                               solid_view *v, fram_error *error)
+{
+    index_array corners = {0};
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < m->poses.count && status == FRAM_OK; i++) {
+        const replay_pose *p = &m->poses.data[i];
+        const replay_body *b = &r->bodies.data[p->body];
+        double rgb[3];
+        colour_of(s, b, p, m->time, rgb);
+        if (b->solid)
+            draw_solid(v, r, b, p, rgb);
+        else
+            status = draw_prism(ctx, v, r, b, p, rgb, &corners, error);
+    }
+    array_free(ctx, &corners);
+    solid_view_water(v, water, water_cover);
+    return status;
+}
+
+/* ---- what is drawn over it ---- */
+
+/* [pixels] */
+enum { ARROW_WIDTH = 2, ARROW_HEAD = 12 };
+
+/* Ice pushes: its arrows end where it does; lines and thrusters pull: theirs begin there. */
+static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, const solid_view *v,
+                        bool used[FORCE_KINDS])
+{
+    for (int32_t i = 0; i < r->frame.forces.count && s->arrow > 0; i++) {
+        const replay_force *f = &r->frame.forces.data[i];
+        vec3 way = vec3_scale(f->force, s->arrow), from = f->point, to = vec3_add(f->point, way);
+        double x0, y0, x1, y1;
+        if (f->kind == RECORD_FORCE_ICE) {
+            to = f->point;
+            from = vec3_sub(f->point, way);
+        }
+        used[f->kind] = true;
+        image_set_colour(page, forces[f->kind].colour);
+        if (solid_view_place(v, from, &x0, &y0) && solid_view_place(v, to, &x1, &y1))
+            image_arrow(page, x0, y0, x1, y1, ARROW_WIDTH, ARROW_HEAD);
+    }
+}
+
+static bool draw_marks(cairo_t *page, const video_scene *s, const replay *r, const replay_moment *m,
+                       const solid_view *v)
+{
+    bool any = false;
+    image_set_colour(page, mark);
+    for (int32_t i = 0; i < r->fractures.count; i++) {
+        const replay_fracture *f = &r->fractures.data[i];
+        double x, y;
+        if (f->time > m->time || f->time <= m->time - s->mark_time || !solid_view_place(v, f->place, &x, &y))
+            continue;
+        cairo_rectangle(page, x - 3, y - 3, 6, 6);
+        cairo_fill(page);
+        any = true;
+    }
+    return any;
+}
+
+/* X and Y as they are seen at the target. */
+static void draw_axes(cairo_t *page, const solid_view *v, const solid_camera *c, double x, double y)
+{
+    double distance = vec3_length(vec3_sub(c->target, c->eye)), x0, y0, x1, y1;
+    static const char *const letters[] = {"X", "Y"};
+    if (!solid_view_place(v, c->target, &x0, &y0))
+        return;
+    for (int i = 0; i < 2; i++) {
+        vec3 step = i == 0 ? vec3_make(0.02 * distance, 0, 0) : vec3_make(0, 0.02 * distance, 0);
+        if (!solid_view_place(v, vec3_add(c->target, step), &x1, &y1))
+            continue;
+        double length = sqrt((x1 - x0) * (x1 - x0) + (y1 - y0) * (y1 - y0)), k = length > 0 ? 20 / length : 0;
+        image_set_colour(page, ink);
+        image_arrow(page, x, y, x + k * (x1 - x0), y + k * (y1 - y0), ARROW_WIDTH, ARROW_HEAD);
+        image_text(page, x + 1.5 * k * (x1 - x0), y + 1.5 * k * (y1 - y0) + 4, 12, ALIGN_CENTRE, true, letters[i]);
+    }
+}
+
+/* It holds at the target. */
+static double draw_scale_bar(cairo_t *page, const solid_view *v, const solid_camera *c, double arrow, double x,
+                             double y)
+{
+    double metres = vec3_length(vec3_sub(c->target, c->eye)) / v->focal * SOLID_FINE;
+    double length = image_round_step(220 * metres, 2), px = length / metres;
+    char text[64], force[IMAGE_FORCE_TEXT];
+    image_force_text(arrow > 0 ? length / arrow : 0, force);
+    snprintf(text, sizeof text, arrow > 0 ? "%g m, as an arrow %s" : "%g m", length, force);
+    image_set_colour(page, ink);
+    cairo_rectangle(page, x, y - 6, px, 6);
+    cairo_fill(page);
+    image_text(page, x + px + 8, y, 12, ALIGN_LEFT, false, text);
+    return x + px + 8 + image_text_width(page, 12, false, text) + 24;
+}
+
+static double draw_key(cairo_t *page, image_colour colour, const char *name, double x, double y)
+{
+    image_set_colour(page, colour);
+    cairo_rectangle(page, x, y - 10, 11, 11);
+    cairo_fill(page);
+    image_set_colour(page, ink);
+    image_text(page, x + 16, y, 12, ALIGN_LEFT, false, name);
+    return x + 16 + image_text_width(page, 12, false, name) + 14;
+}
+
+fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r, const replay_moment *m, cairo_t *page,
+                             int width, int height, fram_error *error)
+{
+    solid_camera camera = camera_of(s, r, m);
+    solid_view v;
+    int h = height - ABOVE - BELOW;
+    fram_status status = solid_view_begin(ctx, &camera, width, h, sky, &v, error);
+    if (status != FRAM_OK)
+        return status;
+    status = draw_bodies(ctx, s, r, m, &v, error);
+    cairo_surface_t *surface = cairo_get_target(page);
+    cairo_surface_flush(surface);
+    int stride = cairo_image_surface_get_stride(surface);
+    solid_view_copy(&v, cairo_image_surface_get_data(surface) + (ptrdiff_t)ABOVE * stride, stride);
+    cairo_surface_mark_dirty(surface);
+
+    bool used[FORCE_KINDS] = {false};
+    cairo_save(page);
+    cairo_rectangle(page, 0, ABOVE, width, h);
+    cairo_clip(page);
+    cairo_translate(page, 0, ABOVE);
+    draw_forces(page, s, r, &v, used);
+    bool marked = draw_marks(page, s, r, m, &v);
+    cairo_restore(page);
+    image_set_colour(page, ink);
+    image_text(page, EDGE, 25, 17, ALIGN_LEFT, true, s->title);
+    image_text(page, EDGE, 47, 12.5, ALIGN_LEFT, false, s->caption);
+    draw_axes(page, &v, &camera, width - 60, 34);
+    double below = ABOVE + h + 24, x = draw_scale_bar(page, &v, &camera, s->arrow, EDGE, below);
+    if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER]) {
+        image_text(page, x, below, 12, ALIGN_LEFT, false, "forces on the vessel:");
+        x += image_text_width(page, 12, false, "forces on the vessel:") + 10;
+    }
+    for (int k = 0; k < FORCE_KINDS; k++)
+        x = used[k] ? draw_key(page, forces[k].colour, forces[k].name, x, below) : x;
+    if (marked)
+        draw_key(page, mark, "a floe broke", x, below);
+    if (plan_colour_title(s->colour))
+        plan_view_colour_scale(page, plan_colour_title(s->colour), s->lo, s->hi, width - EDGE, below);
+    solid_view_free(&v);
+    return status;
+}
+
+#endif

@@ -1,0 +1,95 @@
+/* Exceedance with its band and the histogram, against series whose distribution is known. */
+#include "testing.h"
+
+#include "base/random.h"
+#include "results/load_statistics.h"
+
+/* From 20,000 values on only every second is looked at. */
+enum { LONG = 19000, SHORT = 500, SERIES = 300 };
+
+/* First-order autoregression of variance 1: its values are worth n (1 - a) / (1 + a) independent ones (Bartlett 1946).
+ */
+static void fill(double *value, int32_t count, double a, uint32_t id)
+{
+    random_stream stream = random_begin(11, 1, id);
+    double x = random_normal(&stream);
+    for (int32_t i = 0; i < count; i++) {
+        value[i] = x;
+        x = a * x + sqrt(1 - a * a) * random_normal(&stream);
+    }
+}
+
+START_TEST(a_series_is_worth_its_independent_values)
+{
+    static double value[LONG];
+    context ctx;
+    context_init(&ctx);
+    for (double a = 0; a < 0.95; a += 0.3) {
+        load_distribution d;
+        fill(value, LONG, a, 1);
+        ck_assert(load_distribution_of(&ctx, value, LONG, 0.1, &d));
+        double expected = LONG * (1 - a) / (1 + a);
+        ck_assert_msg(fabs(d.independent / expected - 1) < 0.25, "a %g: %g values instead of %g", a, d.independent,
+                      expected);
+        load_distribution_free(&ctx, &d);
+    }
+}
+END_TEST
+
+/* Where the level 0, the median, lies between the levels, its band must hold one half in 95 of 100 series. */
+START_TEST(the_band_holds_the_truth_as_often_as_it_says)
+{
+    static double value[SHORT];
+    context ctx;
+    context_init(&ctx);
+    int held = 0;
+    for (uint32_t k = 0; k < SERIES; k++) {
+        load_distribution d;
+        fill(value, SHORT, 0.8, 100 + k);
+        ck_assert(load_distribution_of(&ctx, value, SHORT, 1, &d));
+        int32_t i = 1;
+        while (d.level.data[i] < 0)
+            i++;
+        double t = -d.level.data[i - 1] / (d.level.data[i] - d.level.data[i - 1]);
+        double low = d.low.data[i - 1] + t * (d.low.data[i] - d.low.data[i - 1]);
+        double high = d.high.data[i - 1] + t * (d.high.data[i] - d.high.data[i - 1]);
+        held += low <= 0.5 && 0.5 <= high;
+        load_distribution_free(&ctx, &d);
+    }
+    /* The number of independent values is itself an estimate, so a few per cent are missing from 95. */
+    ck_assert_msg(held >= SERIES * 0.88 && held <= SERIES * 0.99, "the truth is held in %d of %d series", held,
+                  (int)SERIES);
+}
+END_TEST
+
+START_TEST(histogram_and_exceedance_count_every_value)
+{
+    const double value[] = {0, 0, 1, 2, 3, 3, 3, 10};
+    context ctx;
+    load_distribution d;
+    context_init(&ctx);
+    ck_assert(load_distribution_of(&ctx, value, 8, 1, &d));
+    double sum = 0;
+    for (int32_t i = 0; i < d.density.count; i++)
+        sum += d.density.data[i];
+    ck_assert_double_eq_tol(sum, 1, 1e-12);
+    ck_assert_double_eq(d.exceeded.data[0], 0.75); /* two of eight are not above the least */
+    ck_assert_double_eq(d.exceeded.data[d.exceeded.count - 1], 0);
+    for (int32_t i = 0; i < d.level.count; i++) {
+        int above = 0;
+        for (int k = 0; k < 8; k++)
+            above += value[k] > d.level.data[i];
+        ck_assert_double_eq(d.exceeded.data[i], above / 8.0);
+        ck_assert(d.low.data[i] <= d.exceeded.data[i] && d.exceeded.data[i] <= d.high.data[i]);
+    }
+    load_distribution_free(&ctx, &d);
+    ck_assert(load_distribution_of(&ctx, value, 0, 1, &d));
+    ck_assert_int_eq(d.level.count, 0);
+    ck_assert(load_distribution_of(&ctx, value, 2, 1, &d)); /* constant */
+    ck_assert_double_eq(d.exceeded.data[0], 0);
+    load_distribution_free(&ctx, &d);
+}
+END_TEST
+
+TEST_MAIN("load statistics", a_series_is_worth_its_independent_values, the_band_holds_the_truth_as_often_as_it_says,
+          histogram_and_exceedance_count_every_value)

@@ -1,0 +1,114 @@
+/* Memory that runs out while a world is made, stepped or run is a status, and nothing leaks. */
+#include "sim/scene.h"
+
+#include "results/run_results.h"
+#include "sim/run.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+static const char text[] = "run:\n  duration: 0.1\n  time_step: 0.02\n"
+                           "vessel:\n  mode: towed\n  x: -10\n  speed: 2\n"
+                           "  hull:\n    length: 24\n    beam: 6\n    draught: 2\n"
+                           "    freeboard: 1\n    parallel_midbody: 0.3\n"
+                           "ice:\n  concentration: 0.8\n  mean_floe_area: 40\n"
+                           "domain:\n  x_min: -24\n  x_max: 24\n  y_min: -16\n  y_max: 16\n"
+                           "output:\n  frame_interval: 0.04\n  checkpoint_interval: 0.06\n";
+
+/* Held by lines that are let go and thrusters that fail: events are booked as memory runs out. */
+static const char held[] =
+    "run:\n  duration: 0.1\n  time_step: 0.02\n"
+    "vessel:\n  mode: free\n"
+    "  hull:\n    length: 24\n    beam: 6\n    draught: 2\n    freeboard: 1\n    parallel_midbody: 0.3\n"
+    "  mooring:\n    lines:\n      - {count: 3, spacing_deg: 120, distance: 400, "
+    "pretension: 2.0e5, release_time: 0.05}\n"
+    "  thrusters:\n    - {x: 9, failure_time: 0.03}\n    - {x: -9}\n"
+    "  positioning: {active: true, waypoints: [{time: 0.05}]}\n"
+    "ice:\n  source: none\n";
+
+static fram_status build_and_step(context *ctx, const scenario *s)
+{
+    fram_error error = {0};
+    world w;
+    build_report report;
+    step_settings settings = build_settings(s);
+    fram_status status = build_world(ctx, s, &w, &report, &error);
+    if (status != FRAM_OK)
+        return status;
+    for (int i = 0; i < 5 && status == FRAM_OK; i++)
+        status = world_step(ctx, &settings, &w, &error);
+    world_free(ctx, &w);
+    return status;
+}
+
+/* The scenario is read once with memory that never fails. */
+static void read_scenario(context *ctx, const char *from, scenario *s)
+{
+    fram_error error = {0};
+    context_init(ctx);
+    assert_ok(scenario_parse(ctx, "scene.yaml", from, strlen(from), NULL, s, &error), error);
+}
+
+static void check_world(const char *from)
+{
+    context plain;
+    scenario s = {0};
+    read_scenario(&plain, from, &s);
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        fram_status status = build_and_step(&ctx, &s);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            ck_assert_int_eq(status, FRAM_OK);
+            ck_assert_int_gt(n, 50);
+            break;
+        }
+        ck_assert_msg(status == FRAM_ERROR_MEMORY, "request %ld: status %d", n, (int)status);
+    }
+    scenario_free(&plain, &s);
+}
+
+START_TEST(world_without_memory)
+{
+    check_world(text);
+    check_world(held);
+}
+END_TEST
+
+/* A whole run with files: every seventh request, for there are many. */
+static void check_run(const char *from)
+{
+    context plain;
+    scenario s = {0};
+    read_scenario(&plain, from, &s);
+    char folder[] = "/tmp/fram-memory-XXXXXX";
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    for (long n = 1;; n += 7) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        fram_error error = {0};
+        run_result result = {0};
+        run_options options = {.folder = folder, .force = true, .finish = run_results_write};
+        fram_status status = run_start(&ctx, &s, &options, &result, &error);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            assert_ok(status, error);
+            break;
+        }
+        ck_assert_msg(status == FRAM_ERROR_MEMORY, "request %ld: status %d: %s", n, (int)status, error.message);
+    }
+    char command[64];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    ck_assert_int_eq(system(command), 0);
+    scenario_free(&plain, &s);
+}
+
+START_TEST(run_without_memory)
+{
+    check_run(text);
+    check_run(held);
+}
+END_TEST
+
+TEST_MAIN("memory", world_without_memory, run_without_memory)

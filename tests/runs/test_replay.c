@@ -1,0 +1,279 @@
+/* The record of a run read back: forces, births and deaths, velocities, damage. */
+#include "sim/scene.h"
+
+#include "results/replay_moment.h"
+#include "results/replay_plan.h"
+#include "sim/run.h"
+
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH = 512 };
+
+static const char text[] = "run:\n  duration: 6\n  time_step: 0.02\n"
+                           "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.5\n"
+                           "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+                           "ice:\n  source: floes\n  thickness: 0.5\n  breakable: true\n  floes:\n"
+                           "    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}\n"
+                           "    - {length: 40, width: 20, x: 20.5, y: -11, velocity_y: -0.25}\n"
+                           "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
+                           "output:\n  frame_interval: 0.2\n";
+
+static void run_scene(context *ctx, const char *from, char folder[PATH])
+{
+    const char *base = getenv("TMPDIR");
+    fram_error error = {0};
+    scenario s = {0};
+    run_result result = {0};
+    snprintf(folder, PATH, "%s/fram-replay-XXXXXX", base && *base ? base : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    assert_ok(scenario_parse(ctx, "scene.yaml", from, strlen(from), NULL, &s, &error), error);
+    run_options options = {.folder = folder};
+    assert_ok(run_start(ctx, &s, &options, &result, &error), error);
+    scenario_free(ctx, &s);
+}
+
+static void remove_folder(const char *folder)
+{
+    char command[PATH + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    ck_assert_int_eq(system(command), 0);
+}
+
+START_TEST(a_run_is_read_back)
+{
+    context ctx;
+    char folder[PATH];
+    context_init(&ctx);
+    run_scene(&ctx, text, folder);
+    replay r;
+    fram_error error = {0};
+    bool found = true;
+    int64_t frames = 0;
+    int32_t pieces = 0, touched = 0;
+    double area[2] = {0};
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    ck_assert_ptr_nonnull(strstr(r.scenario, "source: floes"));
+    while (true) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        if (!found)
+            break;
+        ck_assert_double_le(fabs(r.frame.time - 0.2 * (double)frames), 1e-9);
+        ck_assert_int_eq(r.frame.number, frames);
+        double sum = 0, on_floes = 0, on_vessel = 0;
+        for (int32_t i = 0; i < r.frame.poses.count; i++) {
+            const replay_pose *p = &r.frame.poses.data[i];
+            const replay_body *b = &r.bodies.data[p->body];
+            sum += b->material == MATERIAL_ICE ? b->area : 0;
+            if (b->material == MATERIAL_ICE)
+                on_floes += p->contact_force;
+            if (b->solid)
+                ck_assert_double_le(fabs(p->velocity.y), 1e-3);
+            if (b->number == 1 && frames == 0)
+                ck_assert_double_le(fabs(p->velocity.y + 0.25), 0.05);
+        }
+        for (int32_t i = 0; i < r.frame.forces.count; i++) {
+            ck_assert_int_eq(r.frame.forces.data[i].kind, RECORD_FORCE_ICE);
+            ck_assert_int_ge(r.frame.forces.data[i].which, 0);
+            if (r.bodies.data[r.frame.forces.data[i].which].moves)
+                on_vessel += vec3_length(r.frame.forces.data[i].force);
+        }
+        /* Every newton on the vessel is one on a floe that moves or on one that is fixed; forces of one floe at several
+         * points partly cancel. */
+        ck_assert_double_le(on_vessel, 1.01 * on_floes + 1);
+        touched += r.frame.forces.count;
+        area[frames > 0] = sum;
+        frames++;
+    }
+    ck_assert_int_eq(frames, 31);
+    ck_assert_int_gt(touched, 5);
+    ck_assert_int_gt(r.fractures.count, 0);
+    for (int32_t i = 0; i < r.bodies.count; i++)
+        pieces += r.bodies.data[i].parent >= 0;
+    ck_assert_int_ge(pieces, 2);
+    /* Breaking loses next to no area, and births and deaths are in step. */
+    ck_assert_double_le(fabs(area[1] / area[0] - 1), 0.01);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
+/* Tiles of level ice are told from fixed floes, and a map shows them as level ice. */
+START_TEST(level_ice_is_known)
+{
+    static const char level[] = "run: {duration: 0.04, time_step: 0.02}\nvessel: {present: false}\n"
+                                "ice: {source: level, breakable: true}\n"
+                                "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44, boundary: open}\n";
+    const char *const from[2] = {text, level};
+    for (int k = 0; k < 2; k++) {
+        context ctx;
+        char folder[PATH];
+        replay r;
+        replay_moment m = {0};
+        replay_plan plan = {0};
+        fram_error error = {0};
+        bool found = false;
+        int32_t tiles = 0, fixed = 0, shown[PLAN_STYLE_COUNT] = {0};
+        context_init(&ctx);
+        run_scene(&ctx, from[k], folder);
+        assert_ok(replay_open(&ctx, folder, &r, &error), error);
+        assert_ok(replay_next(&r, &found, &error), error);
+        assert_ok(replay_moment_now(&r, &m, &error), error);
+        assert_ok(replay_plan_make(&r, &m, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &plan, &error), error);
+        for (int32_t i = 0; i < r.bodies.count; i++) {
+            tiles += r.bodies.data[i].level;
+            fixed += r.bodies.data[i].material == MATERIAL_ICE && !r.bodies.data[i].moves && !r.bodies.data[i].level;
+        }
+        for (int32_t i = 0; i < plan.shapes.count; i++)
+            shown[plan.shapes.data[i].style]++;
+        ck_assert_int_eq(fixed, k == 0);
+        ck_assert(k == 0 ? tiles == 0 : tiles > 1);
+        ck_assert_int_eq(shown[PLAN_LEVEL_ICE], tiles);
+        ck_assert_int_eq(shown[PLAN_FIXED_ICE], fixed);
+        replay_plan_free(&ctx, &plan);
+        replay_moment_free(&ctx, &m);
+        replay_close(&r);
+        remove_folder(folder);
+    }
+}
+END_TEST
+
+START_TEST(a_moment_lies_between_its_frames)
+{
+    context ctx;
+    char folder[PATH];
+    context_init(&ctx);
+    run_scene(&ctx, text, folder);
+    replay r;
+    replay_moment m = {0};
+    fram_error error = {0};
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    double before = 0;
+    for (double t = 2; t < 2.6; t += 0.1) {
+        assert_ok(replay_moment_at(&r, t, &m, &error), error);
+        ck_assert_double_le(fabs(m.time - t), 1e-6);
+        for (int32_t i = 0; i < m.poses.count; i++) {
+            if (!r.bodies.data[m.poses.data[i].body].solid)
+                continue;
+            double x = m.poses.data[i].position.x;
+            if (t > 2)
+                ck_assert_double_le(fabs(x - before - 0.3), 1e-3);
+            before = x;
+        }
+    }
+    ck_assert_int_eq(replay_moment_at(&r, 99, &m, &error), FRAM_ERROR_INPUT);
+    replay_moment_free(&ctx, &m);
+    replay_close(&r);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    ck_assert_int_eq(replay_moment_at(&r, -1, &m, &error), FRAM_ERROR_INPUT);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
+static uint64_t record_size(const char *folder)
+{
+    char path[PATH + 32];
+    struct stat about;
+    snprintf(path, sizeof path, "%s/record.fram", folder);
+    ck_assert_int_eq(stat(path, &about), 0);
+    return (uint64_t)about.st_size;
+}
+
+/* Runs the scene with a limit [MB], stopped at half time and resumed when asked to, and counts its frames, which must
+ * be evenly spaced. */
+static int64_t frames_under(context *ctx, const char *limit, bool halves, uint64_t *size)
+{
+    char folder[PATH] = "/tmp/fram-limit-XXXXXX", all[1024];
+    scenario s = {0};
+    fram_error error = {0};
+    run_result result = {0};
+    replay r;
+    bool found = true;
+    int64_t frames = 0;
+    snprintf(all, sizeof all, "%s  record_limit: %s\n", text, limit);
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    assert_ok(scenario_parse(ctx, "scene.yaml", all, strlen(all), NULL, &s, &error), error);
+    run_options options = {.folder = folder, .until = halves ? 3 : 0};
+    assert_ok(run_start(ctx, &s, &options, &result, &error), error);
+    options.until = 0;
+    if (halves)
+        assert_ok(run_resume(ctx, &options, &result, &error), error);
+    assert_ok(replay_open(ctx, folder, &r, &error), error);
+    while (true) {
+        assert_ok(replay_next(&r, &found, &error), error);
+        if (!found)
+            break;
+        ck_assert_int_eq(r.frame.step % 10, 0);
+        frames++;
+    }
+    replay_close(&r);
+    *size = record_size(folder);
+    remove_folder(folder);
+    scenario_free(ctx, &s);
+    return frames;
+}
+
+/* 31 frames at 0.2 s, of about 650 bytes at first: every second one fits the limit, and fewer when there are more than
+ * twenty pieces. */
+START_TEST(frames_come_rarely_enough_for_the_limit)
+{
+    context ctx;
+    uint64_t all = 0, few = 0, again = 0;
+    context_init(&ctx);
+    ck_assert_int_eq(frames_under(&ctx, "0", false, &all), 31);
+    ck_assert_int_eq(frames_under(&ctx, "1", false, &few), 31);
+    ck_assert_uint_eq(few, all);
+    int64_t half = frames_under(&ctx, "0.016", false, &few);
+    ck_assert(half > 8 && half <= 16);
+    ck_assert_uint_lt(few, all);
+    ck_assert_int_eq(frames_under(&ctx, "0.016", true, &again), half);
+    ck_assert_uint_eq(again, few);
+    int64_t quarter = frames_under(&ctx, "0.008", false, &few);
+    ck_assert(quarter > 4 && quarter <= 8);
+}
+END_TEST
+
+static fram_status write_one(context *ctx, const char *folder, uint32_t type, const void *data, size_t size)
+{
+    char path[PATH + 32];
+    record_writer w;
+    record_part part = {data, size};
+    fram_error error = {0};
+    replay r;
+    snprintf(path, sizeof path, "%s/record.fram", folder);
+    assert_ok(record_create(ctx, path, &w, &error), error);
+    assert_ok(record_append(&w, type, &part, 1, &error), error);
+    assert_ok(record_close(&w, &error), error);
+    fram_status status = replay_open(ctx, folder, &r, &error);
+    if (status == FRAM_OK)
+        replay_close(&r);
+    return status;
+}
+
+START_TEST(records_that_lie_are_refused)
+{
+    context ctx;
+    context_init(&ctx);
+    char folder[PATH];
+    snprintf(folder, sizeof folder, "/tmp/fram-replay-XXXXXX");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    const int32_t births[] = {1000000, 0, 0, 0}, slot[] = {1, -5, 1, 0, 0, 0, 0, 0, 0},
+                  closed[] = {0, 1, 1, 1, 0, 0, 0, 0, 9, 0};
+    const int32_t many[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 7, 0};
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_BIRTHS, births, sizeof births), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_BIRTHS, slot, sizeof slot), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_SOLID, closed, sizeof closed), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FORCES, births, sizeof births), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_FRACTURES, births, sizeof births), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_EARLIER_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, BLOCK_TOUCHED_FRAME, many, sizeof many), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(write_one(&ctx, folder, 77, many, sizeof many), FRAM_ERROR_INPUT); /* no frame */
+    remove_folder(folder);
+}
+END_TEST
+
+TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, a_moment_lies_between_its_frames,
+          frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)

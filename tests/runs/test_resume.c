@@ -1,0 +1,160 @@
+/* Every scene runs straight, and through a checkpoint at half time, to the same hash, on 1, 2 and 4 threads. */
+#include "sim/scene.h"
+
+#include "base/pool.h"
+#include "results/run_results.h"
+#include "sim/run.h"
+
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char *const scenes[] = {
+    /* a towed hull in a managed field between walls */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 2\n"
+    "vessel:\n  mode: towed\n  x: -30\n  speed: 2\n  ramp: 0.5\n"
+    "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "ice:\n  concentration: 0.85\n  mean_floe_area: 64\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n"
+    "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
+    /* a free hull, ice that drifts out of an open domain */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 3\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "ice:\n  concentration: 0.7\n  mean_floe_area: 64\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
+    "environment:\n  current_speed: 3\n  current_direction_deg: 160\n",
+    /* a hull on dynamic positioning with a line that is let go and a thruster that fails, noise and all */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 3\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5, "
+    "release_time: 2.5}\n"
+    "  thrusters:\n    - {x: 18}\n    - {x: -18, kind: main, rudder_deg: 25, failure_time: 1}\n"
+    "    - {x: -15, kind: tunnel}\n"
+    "  positioning: {active: true, observer: kalman, heading: vaning, vaning_load: 0, feed_forward: measured}\n"
+    "  station: {offset_limit: 0.01}\n"
+    "ice:\n  concentration: 0.7\n  mean_floe_area: 64\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
+    "environment:\n  current_speed: 1\n  current_direction_deg: 160\n",
+    /* an endless field that drifts past a moored hull, against the current, and breaks */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 4\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
+    "ice:\n  concentration: 0.85\n  mean_floe_area: 64\n  thickness: 0.4\n  breakable: true\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n  drift_speed: 3\n"
+    "  drift_direction_deg: 200\n"
+    "environment:\n  current_speed: 1\n  current_direction_deg: 40\n",
+    /* floes that break, level ice among them */
+    "run:\n  duration: 4\n  time_step: 0.02\n"
+    "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.5\n"
+    "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "ice:\n  source: floes\n  thickness: 0.5\n  breakable: true\n  floes:\n"
+    "    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}\n"
+    "    - {length: 40, width: 20, x: 20.5, y: -11}\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
+    "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
+    /* all at once: lines, thrusters on dynamic positioning and floes that break under the hull */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 5\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
+    "  thrusters:\n    - {x: 18}\n    - {x: -18, kind: main, rudder_deg: 25}\n"
+    "  positioning: {active: true}\n"
+    "ice:\n  concentration: 0.8\n  mean_floe_area: 64\n  thickness: 0.3\n  breakable: true\n"
+    "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
+    "environment:\n  current_speed: 3\n  current_direction_deg: 180\n"
+    "output:\n  frame_interval: 0.3\n",
+    /* floes without a vessel, crushing each other and the walls */
+    "run:\n  duration: 2\n  time_step: 0.01\nvessel:\n  present: false\n"
+    "ice:\n  concentration: 0.9\n  mean_floe_area: 30\n  cap_ice_ice: true\n  cap_ice_wall: true\n"
+    "domain:\n  x_min: 0\n  x_max: 60\n  y_min: 0\n  y_max: 40\n"
+    "environment:\n  current_speed: 0.5\n",
+};
+enum { SCENES = sizeof scenes / sizeof *scenes, PATH = 512 };
+
+static void scratch_folder(char out[PATH])
+{
+    const char *base = getenv("TMPDIR");
+    snprintf(out, PATH, "%s/fram-resume-XXXXXX", base && *base ? base : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(out));
+}
+
+static void remove_folder(const char *folder)
+{
+    char command[PATH + 16];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    ck_assert_int_eq(system(command), 0);
+}
+
+static uint64_t run_to(context *ctx, const scenario *s, const char *folder, double until)
+{
+    fram_error error = {0};
+    run_result result = {0};
+    run_options options = {.folder = folder, .until = until, .finish = run_results_write};
+    assert_ok(run_start(ctx, s, &options, &result, &error), error);
+    return result.state_hash;
+}
+
+static uint64_t resume(context *ctx, const char *folder)
+{
+    fram_error error = {0};
+    run_result result = {0};
+    run_options options = {.folder = folder, .finish = run_results_write};
+    assert_ok(run_resume(ctx, &options, &result, &error), error);
+    ck_assert(result.finished);
+    return result.state_hash;
+}
+
+static bool same_files(const char *a, const char *b, const char *name)
+{
+    char command[3 * PATH];
+    snprintf(command, sizeof command, "cmp -s '%s/%s' '%s/%s'", a, name, b, name);
+    return system(command) == 0;
+}
+
+static bool access_in(const char *folder, const char *name)
+{
+    char path[PATH + 64];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return access(path, R_OK) == 0;
+}
+
+static void check_scene(const char *text, int threads, uint64_t *hash)
+{
+    char straight[PATH], halves[PATH];
+    scratch_folder(straight);
+    scratch_folder(halves);
+    context ctx;
+    context_init(&ctx);
+    if (threads > 1)
+        ck_assert_ptr_nonnull(ctx.threads = pool_create(&ctx, threads));
+    scenario s = {0};
+    fram_error error = {0};
+    assert_ok(scenario_parse(&ctx, "scene.yaml", text, strlen(text), NULL, &s, &error), error);
+
+    *hash = run_to(&ctx, &s, straight, 0);
+    run_to(&ctx, &s, halves, s.run.duration / 2);
+    ck_assert_uint_eq(resume(&ctx, halves), *hash);
+    ck_assert(same_files(straight, halves, "record.fram"));
+    ck_assert(same_files(straight, halves, "fractures.csv"));
+    ck_assert(s.vessel.thrusters.count == 0 || access_in(straight, "station.json"));
+
+    scenario_free(&ctx, &s);
+    if (ctx.threads)
+        pool_free(&ctx, ctx.threads);
+    remove_folder(straight);
+    remove_folder(halves);
+}
+
+START_TEST(straight_and_resumed_runs_agree)
+{
+    for (int i = 0; i < SCENES; i++) {
+        uint64_t one, two, four;
+        check_scene(scenes[i], 1, &one);
+        check_scene(scenes[i], 2, &two);
+        check_scene(scenes[i], 4, &four);
+        ck_assert_uint_eq(one, two);
+        ck_assert_uint_eq(one, four);
+    }
+}
+END_TEST
+
+TEST_MAIN("resume", straight_and_resumed_runs_agree)
