@@ -5,41 +5,64 @@
 
 #include <string.h>
 
-/* A crack starts at a corner when it is nearer to it than this part of R_bending. */
-static const double CORNER_REACH = 1e-6;
-/* An r_start is gone when the outline that is left is farther from it than this part of R_bending. */
-static const double GONE_REACH = 1e-6;
-
 fracture_scratch *fracture_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(fracture_scratch)); }
+
+static void free_floe(context *ctx, floe_work *f)
+{
+    array_free(ctx, &f->outline);
+    polygon_list_free(ctx, &f->whole);
+    polygon_list_free(ctx, &f->wedges);
+    polygon_list_free(ctx, &f->remnants);
+    polygon_list_free(ctx, &f->pieces);
+    polygon_list_free(ctx, &f->room);
+}
+
+static void free_sheet(context *ctx, sheet_work *w)
+{
+    tile_index_free(ctx, &w->index);
+    array_free(ctx, &w->boundary);
+    array_free(ctx, &w->starts);
+    array_free(ctx, &w->touched);
+    array_free(ctx, &w->mark);
+    array_free(ctx, &w->front);
+    array_free(ctx, &w->ring);
+    array_free(ctx, &w->snapped_ring);
+    polygon_list_free(ctx, &w->remnants);
+    polygon_list_free(ctx, &w->wedge_parts);
+    polygon_list_free(ctx, &w->snapped);
+    polygon_list_free(ctx, &w->loose);
+    polygon_list_free(ctx, &w->united);
+}
+
+static void free_trim(context *ctx, trim_work *w)
+{
+    mesh_free(ctx, &w->hull);
+    polygon_list_free(ctx, &w->top);
+    polygon_list_free(ctx, &w->bottom);
+    polygon_list_free(ctx, &w->inner);
+    polygon_list_free(ctx, &w->gone);
+    polygon_list_free(ctx, &w->left);
+    polygon_list_free(ctx, &w->room);
+    array_free(ctx, &w->ring);
+    array_free(ctx, &w->clipped);
+}
 
 void fracture_scratch_free(context *ctx, fracture_scratch *s)
 {
     if (!s)
         return;
-    array_free(ctx, &s->loads);
+    free_floe(ctx, &s->floe);
+    free_sheet(ctx, &s->sheet);
+    free_trim(ctx, &s->trim);
+    array_free(ctx, &s->load.all);
+    array_free(ctx, &s->load.root);
+    array_free(ctx, &s->piece.rows);
+    polygon_list_free(ctx, &s->piece.outlines);
+    polygon_list_free(ctx, &s->piece.pair);
+    polygon_list_free(ctx, &s->piece.joined);
+    array_free(ctx, &s->piece.clean);
     array_free(ctx, &s->broken);
-    polygon_list_free(ctx, &s->whole);
-    polygon_list_free(ctx, &s->remnants);
-    polygon_list_free(ctx, &s->wedges);
-    polygon_list_free(ctx, &s->pieces);
-    polygon_list_free(ctx, &s->outlines);
-    polygon_list_free(ctx, &s->pair);
-    polygon_list_free(ctx, &s->joined);
-    array_free(ctx, &s->cut);
-    array_free(ctx, &s->ring);
-    array_free(ctx, &s->clean);
     array_free(ctx, &s->forgotten);
-    tile_index_free(ctx, &s->index);
-    array_free(ctx, &s->boundary);
-    array_free(ctx, &s->starts);
-    array_free(ctx, &s->touched);
-    array_free(ctx, &s->mark);
-    array_free(ctx, &s->front);
-    mesh_free(ctx, &s->hull);
-    polygon_list_free(ctx, &s->top);
-    polygon_list_free(ctx, &s->bottom);
-    polygon_list_free(ctx, &s->inner);
-    polygon_list_free(ctx, &s->gone);
     memory_free(ctx, s);
 }
 
@@ -51,7 +74,7 @@ typedef struct floe_loads {
 
 static crack_start start_of(polygon p, const fracture_load *l)
 {
-    return crack_start_of(p, l->place, CORNER_REACH * l->stress.breaking_radius);
+    return crack_start_of(p, l->place, CRACK_CORNER_REACH * l->stress.breaking_radius);
 }
 
 fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_kind kind, double length)
@@ -78,10 +101,10 @@ static fram_status commit(const fracture_job *j, const fracture_load *l, fractur
 {
     fracture_scratch *s = j->scratch;
     bool broke;
-    polygon_list_clear(&s->outlines);
-    array_clear(&s->cut);
-    if (!fracture_gather(j->ctx, s, &s->whole, (motion)j->state->bodies->motion[l->body], 0, 0) ||
-        !fracture_gather(j->ctx, s, &s->wedges, MOTION_DYNAMIC, 0, 1))
+    polygon_list_clear(&s->piece.outlines);
+    array_clear(&s->piece.rows);
+    if (!fracture_gather(j->ctx, s, &s->floe.whole, (motion)j->state->bodies->motion[l->body], 0, 0) ||
+        !fracture_gather(j->ctx, s, &s->floe.wedges, MOTION_DYNAMIC, 0, 1))
         return error_memory(j->error);
     fram_status status = fracture_birth(j, &l->floe, 1, 2, event, &broke);
     if (status != FRAM_OK || !broke)
@@ -103,9 +126,9 @@ static fram_status split_floe(const fracture_job *j, polygon outline, floe_loads
         bool memory = false;
         if (!fracture_splits(j->settings, outline, l, j->state->floes->thickness[l->floe], &start, &length))
             continue;
-        polygon_list_clear(&s->whole);
-        polygon_list_clear(&s->wedges);
-        if (fracture_split(j->ctx, j->settings, outline, &start, &s->whole, &memory)) {
+        polygon_list_clear(&s->floe.whole);
+        polygon_list_clear(&s->floe.wedges);
+        if (fracture_split(j->ctx, j->settings, outline, &start, &s->floe.whole, &memory)) {
             fracture_event event = event_of(j, l, &start, FRACTURE_SPLIT, length);
             *done = true;
             return commit(j, l, &event);
@@ -123,7 +146,7 @@ static int32_t ring_with_start(const polygon_list *rings, const fracture_load *l
 {
     for (int32_t i = 0; i < polygon_list_count(rings); i++) {
         vec2 near = polygon_nearest_boundary(polygon_list_get(rings, i), start->point, NULL);
-        if (vec2_length(vec2_sub(near, start->point)) <= GONE_REACH * l->stress.breaking_radius)
+        if (vec2_length(vec2_sub(near, start->point)) <= CRACK_GONE_REACH * l->stress.breaking_radius)
             return i;
     }
     return -1;
@@ -157,38 +180,39 @@ static fram_status cut_stencil(const fracture_job *j, const fracture_load *l, cr
 {
     fracture_scratch *s = j->scratch;
     *cut = false;
-    int32_t at = ring_with_start(&s->whole, l, start);
+    int32_t at = ring_with_start(&s->floe.whole, l, start);
     if (at < 0)
         return FRAM_OK;
-    polygon ring = polygon_list_get(&s->whole, at);
-    *start = crack_start_of(ring, start->point, CORNER_REACH * l->stress.breaking_radius);
+    polygon ring = polygon_list_get(&s->floe.whole, at);
+    *start = crack_start_of(ring, start->point, CRACK_CORNER_REACH * l->stress.breaking_radius);
     if (!has_room(j, ring, l, start))
         return FRAM_OK;
-    polygon_list_clear(&s->remnants);
-    polygon_list_clear(&s->pieces);
+    polygon_list_clear(&s->floe.remnants);
+    polygon_list_clear(&s->floe.pieces);
     fram_status status = fracture_bend(j->ctx, j->plane, j->settings, l->stress.breaking_radius, ring, start,
-                                       &s->remnants, &s->pieces, j->error);
+                                       &s->floe.remnants, &s->floe.pieces, j->error);
     /* No sound cut of this outline: it stays whole, and the next step tries again. */
     if (status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT) {
         log_write(j->ctx, LOG_DEBUG, "a floe could not be cut in bending: %s", j->error ? j->error->message : "");
         return FRAM_OK;
     }
-    if (status != FRAM_OK || polygon_list_count(&s->pieces) == 0)
+    if (status != FRAM_OK || polygon_list_count(&s->floe.pieces) == 0)
         return status;
     *cut = true;
-    for (int32_t i = 0; i < polygon_list_count(&s->pieces); i++)
-        if (!polygon_list_push(j->ctx, &s->wedges, polygon_list_get(&s->pieces, i)))
+    for (int32_t i = 0; i < polygon_list_count(&s->floe.pieces); i++)
+        if (!polygon_list_push(j->ctx, &s->floe.wedges, polygon_list_get(&s->floe.pieces, i)))
             return error_memory(j->error);
-    return replace_ring(j->ctx, &s->whole, at, &s->remnants, &s->pieces) ? FRAM_OK : error_memory(j->error);
+    return replace_ring(j->ctx, &s->floe.whole, at, &s->floe.remnants, &s->floe.room) ? FRAM_OK
+                                                                                      : error_memory(j->error);
 }
 
 /* All failing patches cut in turn; the event tells of the first that did. */
 static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads loads)
 {
     fracture_scratch *s = j->scratch;
-    polygon_list_clear(&s->whole);
-    polygon_list_clear(&s->wedges);
-    if (!polygon_list_push(j->ctx, &s->whole, outline))
+    polygon_list_clear(&s->floe.whole);
+    polygon_list_clear(&s->floe.wedges);
+    if (!polygon_list_push(j->ctx, &s->floe.whole, outline))
         return error_memory(j->error);
     const fracture_load *first = NULL;
     fracture_event event;
@@ -262,10 +286,10 @@ static fram_status break_floe(const fracture_job *j, floe_loads loads)
     fracture_scratch *s = j->scratch;
     polygon view = shape_outline(j->state->shapes, j->state->bodies->shape[loads.load[0].body]);
     /* A copy: new shapes move the pool that the outline stands in. */
-    if (!array_resize(j->ctx, &s->ring, view.count))
+    if (!array_resize(j->ctx, &s->floe.outline, view.count))
         return error_memory(j->error);
-    memcpy(s->ring.data, view.vertex, (size_t)view.count * sizeof *view.vertex);
-    polygon outline = {s->ring.data, s->ring.count};
+    memcpy(s->floe.outline.data, view.vertex, (size_t)view.count * sizeof *view.vertex);
+    polygon outline = {s->floe.outline.data, s->floe.outline.count};
     bool split = false;
     fram_status status = split_floe(j, outline, loads, &split);
     return status != FRAM_OK || split ? status : bend_floe(j, outline, loads);
@@ -273,7 +297,7 @@ static fram_status break_floe(const fracture_job *j, floe_loads loads)
 
 static fram_status break_all(const fracture_job *j)
 {
-    const fracture_load_array *loads = &j->scratch->loads;
+    const fracture_load_array *loads = &j->scratch->load.all;
     fram_status status = FRAM_OK;
     for (int32_t i = 0, end; i < loads->count && status == FRAM_OK; i = end) {
         const fracture_load *l = &loads->data[i];
@@ -297,17 +321,17 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
     if (!fracture_loads(ctx, scratch, settings, patches, state))
         return error_memory(error);
     bool trims = settings->crush_trims && patches->count > 0, trimmed = false;
-    if (scratch->loads.count == 0 && !trims)
+    if (scratch->load.all.count == 0 && !trims)
         return FRAM_OK;
     int32_t slots = state->bodies->count, had = events->count;
     if (!array_resize(ctx, &scratch->broken, slots))
         return error_memory(error);
     memset(scratch->broken.data, 0, (size_t)slots);
-    scratch->index_is_made = scratch->has_changed = false;
+    scratch->sheet.index_is_made = scratch->sheet.has_changed = false;
     fram_status status = break_all(&j);
     if (status == FRAM_OK && trims)
         status = fracture_trim(&j, patches, &trimmed);
-    if (status == FRAM_OK && scratch->has_changed)
+    if (status == FRAM_OK && scratch->sheet.has_changed)
         status = fracture_release(&j);
     if (status != FRAM_OK)
         return status;

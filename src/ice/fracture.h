@@ -1,5 +1,6 @@
-/* Fracture of breakable floes (SPEC 8): from the solved contact impulses of a step to cracks, new floes and the books
-   of every event.  Knows floes, patches and contacts; whose surface pushes, it does not know, but for the material.
+/* Fracture of breakable floes (Metrikin 2014, 5.5): from the solved contact impulses of a step to cracks, new floes and
+   the books of every event.  Knows floes, patches and contacts; whose surface pushes, it does not know, but for the
+   material.
 
    In a floe's own plane, with the velocities and impulses of this step's solve:
      1. loads: one per crushing patch, with the stresses it makes (fracture_load.c);
@@ -25,7 +26,7 @@ typedef enum fracture_kind {
 /* What decides whether a radial crack runs through. */
 typedef enum splitting_rule {
     SPLITTING_LENGTH = 0, /* R_bending < length < S_k R_bending: the reference */
-    SPLITTING_TOUGHNESS,  /* fracture mechanics: in-plane load >= the floe's largest for K_IC (oracles section 3) */
+    SPLITTING_TOUGHNESS,  /* fracture mechanics: in-plane load >= the floe's largest for K_IC (docs/theory.md) */
     SPLITTING_NONE
 } splitting_rule;
 
@@ -111,7 +112,7 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
                                  double load, double horizontal_area);
 
 /* Largest opening force of an edge crack in a floe of this thickness [m], toughness K_IC [Pa m^0.5], length along the
-   crack and width across it [m]: F h K_IC sqrt(length), F by width over length (oracles section 3) [N]. */
+   crack and width across it [m]: F h K_IC sqrt(length), F by width over length (docs/theory.md) [N]. */
 double fracture_splitting_force(double thickness, double toughness, double length, double width);
 
 #endif

@@ -1,5 +1,5 @@
 /* Circumferential cracks: the stencil of 2 N wedges around the load, what it leaves of the floe, and the wedges
-   (SPEC 8.4; section 5.5.3 of the reference). */
+   (Metrikin 2014, 5.5.3). */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"

@@ -1,5 +1,7 @@
-/* From cut outlines to new floes (SPEC 8.5, 8.8): cleaning, poses and velocities of the children, books. */
+/* From cut outlines to new floes : cleaning, poses and velocities of the children, books. */
 #include "ice/fracture_parts.h"
+
+#include <assert.h>
 
 /* What the children inherit, copied before the parent goes. */
 typedef struct parent {
@@ -59,6 +61,7 @@ static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece)
     const fracture_state *to = j->state;
     floe_definition d = b->from.definition;
     int32_t row;
+    assert(polygon_area(outline) > 0 && !polygon_self_intersects(j->ctx, outline, NULL, NULL));
     d.outline = outline;
     d.motion = (motion)piece->motion;
     d.tile = piece->motion == MOTION_DYNAMIC ? 0 : piece->tile;
@@ -82,7 +85,7 @@ static void book(const birth *b, double before, double after)
         b->event->area_gained += after - before;
 }
 
-/* Booked area may be at most this part of the parent (SPEC 8.8). */
+/* Booked area may be at most this part of the parent (docs/level_ice.md, Books). */
 static const double MOST_BOOKED = 1e-3;
 /* Cleaning that would book more is repeated with half the edge, so often; then all of that without spikes. */
 enum { FINER_CLEANINGS = 4 };
@@ -102,7 +105,7 @@ static cleaning_way way_of(const fracture_job *j, int turn)
 /* What is on the sides of a tile's cell stays there: the neighbours fit to it. */
 static bool clean_piece(const fracture_job *j, const cut_piece *piece, polygon ring, cleaning_way way)
 {
-    vec2_array *clean = &j->scratch->clean;
+    vec2_array *clean = &j->scratch->piece.clean;
     bool tile = piece->tile != 0 && piece->motion != MOTION_DYNAMIC;
     box2 cell = tile ? tile_cell(&j->settings->tiles, piece->tile - 1) : (box2){0};
     if (way.spikes_stay)
@@ -115,12 +118,12 @@ static bool clean_piece(const fracture_job *j, const cut_piece *piece, polygon r
    without vertices when none is sound.  false: no memory. */
 static bool clean_within(const fracture_job *j, const cut_piece *piece, double budget, polygon *out)
 {
-    polygon ring = polygon_list_get(&j->scratch->outlines, piece->ring);
+    polygon ring = polygon_list_get(&j->scratch->piece.outlines, piece->ring);
     double area = polygon_area(ring);
     for (int turn = 0; turn < 2 * (FINER_CLEANINGS + 1); turn++) {
         if (!clean_piece(j, piece, ring, way_of(j, turn)))
             return false;
-        *out = (polygon){j->scratch->clean.data, j->scratch->clean.count};
+        *out = (polygon){j->scratch->piece.clean.data, j->scratch->piece.clean.count};
         double after = polygon_area(*out);
         if (fabs(after - area) <= budget && after >= fmin(area, j->settings->smallest_floe_area) &&
             fracture_outline_is_sound(j->ctx, *out))
@@ -142,16 +145,16 @@ bool fracture_is_dust(const fracture_settings *settings, const cut_piece *piece,
 
 static bool is_dust(const fracture_job *j, const cut_piece *piece)
 {
-    return fracture_is_dust(j->settings, piece, polygon_list_get(&j->scratch->outlines, piece->ring));
+    return fracture_is_dust(j->settings, piece, polygon_list_get(&j->scratch->piece.outlines, piece->ring));
 }
 
 /* Area of the pieces that no sibling took: they will be lost [m2]. */
 static double dust_of(const fracture_job *j)
 {
     double sum = 0;
-    for (int32_t i = 0; i < j->scratch->cut.count; i++)
-        if (is_dust(j, &j->scratch->cut.data[i]))
-            sum += j->scratch->cut.data[i].area;
+    for (int32_t i = 0; i < j->scratch->piece.rows.count; i++)
+        if (is_dust(j, &j->scratch->piece.rows.data[i]))
+            sum += j->scratch->piece.rows.data[i].area;
     return sum;
 }
 
@@ -160,19 +163,19 @@ static bool clean_pieces(const fracture_job *j, double budget, bool *sound)
 {
     fracture_scratch *s = j->scratch;
     *sound = true;
-    for (int32_t i = 0; i < s->cut.count; i++) {
-        cut_piece *c = &s->cut.data[i];
+    for (int32_t i = 0; i < s->piece.rows.count; i++) {
+        cut_piece *c = &s->piece.rows.data[i];
         if (is_dust(j, c))
             continue;
         polygon outline;
-        if (!clean_within(j, c, fmax(budget, 0) / (s->cut.count - i), &outline))
+        if (!clean_within(j, c, fmax(budget, 0) / (s->piece.rows.count - i), &outline))
             return false;
         *sound = outline.count > 0;
         if (!*sound)
             return true;
         budget -= fabs(polygon_area(outline) - c->area);
-        c->ring = polygon_list_count(&s->outlines);
-        if (!polygon_list_push(j->ctx, &s->outlines, outline))
+        c->ring = polygon_list_count(&s->piece.outlines);
+        if (!polygon_list_push(j->ctx, &s->piece.outlines, outline))
             return false;
     }
     return true;
@@ -183,25 +186,32 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
 {
     for (int32_t i = 0; i < polygon_list_count(rings); i++) {
         polygon ring = polygon_list_get(rings, i);
-        cut_piece piece = {polygon_list_count(&s->outlines), (uint8_t)kind, tile, wedge, polygon_area(ring)};
-        if (!polygon_list_push(ctx, &s->outlines, ring) || !array_push(ctx, &s->cut, piece))
+        cut_piece piece = {polygon_list_count(&s->piece.outlines), (uint8_t)kind, tile, wedge, polygon_area(ring)};
+        if (!polygon_list_push(ctx, &s->piece.outlines, ring) || !array_push(ctx, &s->piece.rows, piece))
             return false;
     }
     return true;
 }
 
+#ifndef NDEBUG
+/* Area of the parents is that of the pieces and what is booked, but for this part of it. */
+static const double SAME_AREA = 1e-8;
+#endif
+
 static fram_status make_pieces(birth *b)
 {
     const fracture_job *j = b->job;
     fram_status status = FRAM_OK;
-    for (int32_t i = 0; i < j->scratch->cut.count && status == FRAM_OK; i++) {
-        const cut_piece *c = &j->scratch->cut.data[i];
-        polygon outline = polygon_list_get(&j->scratch->outlines, c->ring);
+    for (int32_t i = 0; i < j->scratch->piece.rows.count && status == FRAM_OK; i++) {
+        const cut_piece *c = &j->scratch->piece.rows.data[i];
+        polygon outline = polygon_list_get(&j->scratch->piece.outlines, c->ring);
         bool dust = is_dust(j, c);
         book(b, c->area, dust ? 0 : polygon_area(outline));
         if (!dust)
             status = make_floe(b, outline, c);
     }
+    assert(status != FRAM_OK || fabs(b->event->parent_area - b->event->piece_area - b->event->area_lost +
+                                     b->event->area_gained) <= SAME_AREA * b->event->parent_area);
     double line = b->from.definition.material.density * b->from.definition.thickness;
     b->event->mass_lost = line * b->event->area_lost;
     b->event->mass_gained = line * b->event->area_gained;
@@ -222,7 +232,7 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     fram_status status = fracture_join_dust(j->ctx, s, j->settings, j->plane, j->error);
     double budget = MOST_BOOKED * parent_area - dust_of(j);
     /* What comes loose may be dust itself: nothing holds it. */
-    if (status != FRAM_OK || s->cut.count < least || (budget < 0 && least > 1))
+    if (status != FRAM_OK || s->piece.rows.count < least || (budget < 0 && least > 1))
         return status;
     if (!clean_pieces(j, budget, broke))
         return error_memory(j->error);

@@ -1,4 +1,4 @@
-/* Pieces too small to be floes of their own (SPEC 8.5, 8.8).  The reference deletes them; a stencil cuts some off
+/* Pieces too small to be floes of their own (docs/decisions/0042).  The reference deletes them; a stencil cuts some off
    nearly every floe, though, and of a small floe that would be a good part.  They are joined to a sibling instead. */
 #include "ice/fracture_parts.h"
 
@@ -53,15 +53,15 @@ static double length_on(polygon a, polygon b)
 /* How much boundary two pieces share: an edge of one may be a part of an edge of the other. */
 static double shared_length(const fracture_scratch *s, int32_t i, int32_t k)
 {
-    polygon a = polygon_list_get(&s->outlines, s->cut.data[i].ring);
-    polygon b = polygon_list_get(&s->outlines, s->cut.data[k].ring);
+    polygon a = polygon_list_get(&s->piece.outlines, s->piece.rows.data[i].ring);
+    polygon b = polygon_list_get(&s->piece.outlines, s->piece.rows.data[k].ring);
     return fmax(length_on(a, b), length_on(b, a));
 }
 
 /* A tile stays inside its cell. */
 static bool may_join(const fracture_scratch *s, int32_t i, int32_t k)
 {
-    const cut_piece *a = &s->cut.data[i], *b = &s->cut.data[k];
+    const cut_piece *a = &s->piece.rows.data[i], *b = &s->piece.rows.data[k];
     return b->motion == MOTION_DYNAMIC || b->tile == a->tile;
 }
 
@@ -70,7 +70,7 @@ static int32_t neighbour_of(const fracture_scratch *s, int32_t i, double *under)
 {
     int32_t best = -1;
     double longest = 0;
-    for (int32_t k = 0; k < s->cut.count; k++) {
+    for (int32_t k = 0; k < s->piece.rows.count; k++) {
         double length = k == i || !may_join(s, i, k) ? 0 : shared_length(s, i, k);
         if (length > longest && length < *under) {
             longest = length;
@@ -89,10 +89,10 @@ static bool merge_corners(context *ctx, fracture_scratch *s, polygon *ring, doub
     double corner = SAME_CORNER * polygon_perimeter(joined);
     *sound = false;
     for (int turn = 0; turn < 2 && !*sound; turn++) {
-        if (!(turn == 0 ? polygon_merge(ctx, joined, corner, NULL, &s->clean)
-                        : polygon_clean(ctx, joined, corner, &s->clean)))
+        if (!(turn == 0 ? polygon_merge(ctx, joined, corner, NULL, &s->piece.clean)
+                        : polygon_clean(ctx, joined, corner, &s->piece.clean)))
             return false;
-        *ring = (polygon){s->clean.data, s->clean.count};
+        *ring = (polygon){s->piece.clean.data, s->piece.clean.count};
         *sound = fabs(polygon_area(*ring) - area) <= SAME_AREA * area && fracture_outline_is_sound(ctx, *ring);
     }
     return true;
@@ -102,35 +102,35 @@ fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, in
                            fram_error *error)
 {
     *joined = false;
-    polygon_list_clear(&s->pair);
-    polygon_list_clear(&s->joined);
-    if (!polygon_list_push(ctx, &s->pair, polygon_list_get(&s->outlines, s->cut.data[i].ring)) ||
-        !polygon_list_push(ctx, &s->pair, polygon_list_get(&s->outlines, s->cut.data[k].ring)))
+    polygon_list_clear(&s->piece.pair);
+    polygon_list_clear(&s->piece.joined);
+    if (!polygon_list_push(ctx, &s->piece.pair, polygon_list_get(&s->piece.outlines, s->piece.rows.data[i].ring)) ||
+        !polygon_list_push(ctx, &s->piece.pair, polygon_list_get(&s->piece.outlines, s->piece.rows.data[k].ring)))
         return error_memory(error);
-    fram_status status = overlay_union(plane, &s->pair, &s->joined, error);
+    fram_status status = overlay_union(plane, &s->piece.pair, &s->piece.joined, error);
     if (status == FRAM_ERROR_MEMORY)
         return status;
-    if (status != FRAM_OK || polygon_list_count(&s->joined) != 1)
+    if (status != FRAM_OK || polygon_list_count(&s->piece.joined) != 1)
         return FRAM_OK;
-    polygon ring = polygon_list_get(&s->joined, 0);
+    polygon ring = polygon_list_get(&s->piece.joined, 0);
     bool sound;
-    if (!merge_corners(ctx, s, &ring, s->cut.data[i].area + s->cut.data[k].area, &sound))
+    if (!merge_corners(ctx, s, &ring, s->piece.rows.data[i].area + s->piece.rows.data[k].area, &sound))
         return error_memory(error);
     if (!sound)
         return FRAM_OK;
-    s->cut.data[k].ring = polygon_list_count(&s->outlines);
-    s->cut.data[k].area = polygon_area(ring);
-    if (s->cut.data[k].tile != s->cut.data[i].tile)
-        s->cut.data[k].tile = 0;
+    s->piece.rows.data[k].ring = polygon_list_count(&s->piece.outlines);
+    s->piece.rows.data[k].area = polygon_area(ring);
+    if (s->piece.rows.data[k].tile != s->piece.rows.data[i].tile)
+        s->piece.rows.data[k].tile = 0;
     *joined = true;
-    return polygon_list_push(ctx, &s->outlines, ring) ? FRAM_OK : error_memory(error);
+    return polygon_list_push(ctx, &s->piece.outlines, ring) ? FRAM_OK : error_memory(error);
 }
 
 void fracture_drop_piece(fracture_scratch *s, int32_t i)
 {
-    for (int32_t m = i; m + 1 < s->cut.count; m++)
-        s->cut.data[m] = s->cut.data[m + 1];
-    s->cut.count--;
+    for (int32_t m = i; m + 1 < s->piece.rows.count; m++)
+        s->piece.rows.data[m] = s->piece.rows.data[m + 1];
+    s->piece.rows.count--;
 }
 
 /* Piece i joined to the first neighbour that takes it; -1 when none does. */
@@ -152,14 +152,14 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
    crosses itself. */
 static bool judge(context *ctx, fracture_scratch *s, const fracture_settings *settings, int32_t i, bool *dust)
 {
-    const cut_piece *piece = &s->cut.data[i];
-    polygon ring = polygon_list_get(&s->outlines, piece->ring);
+    const cut_piece *piece = &s->piece.rows.data[i];
+    polygon ring = polygon_list_get(&s->piece.outlines, piece->ring);
     *dust = fracture_is_dust(settings, piece, ring);
     if (*dust || (piece->tile != 0 && piece->motion != MOTION_DYNAMIC))
         return true;
-    if (!polygon_clean(ctx, ring, settings->edge_threshold, &s->clean))
+    if (!polygon_clean(ctx, ring, settings->edge_threshold, &s->piece.clean))
         return false;
-    polygon left = {s->clean.data, s->clean.count};
+    polygon left = {s->piece.clean.data, s->piece.clean.count};
     *dust = polygon_area(left) < fmax(settings->smallest_floe_area, piece->area / 2) ||
             !polygon_is_clean(left, settings->edge_threshold) || !fracture_outline_is_sound(ctx, left);
     return true;
@@ -168,7 +168,7 @@ static bool judge(context *ctx, fracture_scratch *s, const fracture_settings *se
 fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
                                fram_error *error)
 {
-    for (int32_t i = 0; i < s->cut.count;) {
+    for (int32_t i = 0; i < s->piece.rows.count;) {
         int32_t to = -1;
         bool dust;
         if (!judge(ctx, s, settings, i, &dust))

@@ -1,4 +1,4 @@
-/* Loads of crushing patches on floes, and the stresses they make (SPEC 8.1, 8.2, 8.4). */
+/* Loads of crushing patches on floes, and the stresses they make (Metrikin 2014, 5.5). */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"
@@ -75,7 +75,7 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
         .horizontal_area = own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
         .thickness = state->floes->thickness[floe],
         .ice = state->floes->material[floe]};
-    return array_push(ctx, &s->loads, l);
+    return array_push(ctx, &s->load.all, l);
 }
 
 /* ---- patches that a seam divides ---- */
@@ -116,10 +116,10 @@ static int32_t root_of(const int32_t *root, int32_t i)
 
 static bool merge_seams(context *ctx, fracture_scratch *s, const tile_grid *g)
 {
-    fracture_load_array *l = &s->loads;
-    if (!array_resize(ctx, &s->front, l->count))
+    fracture_load_array *l = &s->load.all;
+    if (!array_resize(ctx, &s->load.root, l->count))
         return false;
-    int32_t *root = s->front.data, kept = 0;
+    int32_t *root = s->load.root.data, kept = 0;
     for (int32_t i = 0; i < l->count; i++) {
         root[i] = i;
         for (int32_t k = 0; k < i; k++) {
@@ -152,8 +152,8 @@ static bool may_fail(const fracture_load *l)
 static void keep_failing(fracture_scratch *s, const fracture_settings *settings)
 {
     int32_t kept = 0;
-    for (int32_t i = 0; i < s->loads.count; i++) {
-        fracture_load l = s->loads.data[i];
+    for (int32_t i = 0; i < s->load.all.count; i++) {
+        fracture_load l = s->load.all.data[i];
         l.force = fabs(l.vector.z);
         l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
         if (!may_fail(&l))
@@ -162,9 +162,9 @@ static void keep_failing(fracture_scratch *s, const fracture_settings *settings)
         l.radial_ratio = l.stress.radial_stress / l.ice.flexural_strength;
         l.wedge_ratio = l.stress.wedge_stress / l.ice.flexural_strength;
         if (l.radial_ratio >= 1 || l.wedge_ratio >= 1)
-            s->loads.data[kept++] = l;
+            s->load.all.data[kept++] = l;
     }
-    s->loads.count = kept;
+    s->load.all.count = kept;
 }
 
 static double severity(const fracture_load *l) { return fmax(l->radial_ratio, l->wedge_ratio); }
@@ -184,7 +184,7 @@ static int compare_loads(const void *a, const void *b)
 bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *settings,
                     const crushing_patch_array *patches, const fracture_state *state)
 {
-    array_clear(&s->loads);
+    array_clear(&s->load.all);
     for (int32_t i = 0; i < patches->count; i++) {
         const crushing_patch *p = &patches->data[i];
         uint8_t other = state->bodies->material[p->surface_body];
@@ -198,7 +198,7 @@ bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *
     if (!merge_seams(ctx, s, &settings->tiles))
         return false;
     keep_failing(s, settings);
-    if (s->loads.count > 1)
-        qsort(s->loads.data, (size_t)s->loads.count, sizeof *s->loads.data, compare_loads);
+    if (s->load.all.count > 1)
+        qsort(s->load.all.data, (size_t)s->load.all.count, sizeof *s->load.all.data, compare_loads);
     return true;
 }

@@ -46,7 +46,7 @@ typedef struct crack_start {
 
 /* An outline on its way to become a floe. */
 typedef struct cut_piece {
-    int32_t ring;   /* in fracture_scratch.outlines */
+    int32_t ring;   /* in piece_work.outlines */
     uint8_t motion; /* enum motion of the floe to be */
     int32_t tile;   /* cell of the sheet that it lies in plus 1; 0: of no sheet, or in several */
     int32_t wedge;  /* number in the stencil plus 1; 0: what is left of the floe */
@@ -54,32 +54,72 @@ typedef struct cut_piece {
 } cut_piece;
 typedef ARRAY(cut_piece) cut_piece_array;
 
-struct fracture_scratch {
-    fracture_load_array loads;
-    ARRAY(uint8_t) broken; /* one per body slot: broke in this step */
-    polygon_list whole;    /* what is left uncut of the floe at hand, its frame; remnants in the end */
-    polygon_list remnants; /* of one ring under one stencil */
-    polygon_list wedges;   /* broken off */
-    polygon_list pieces;   /* wedges of one ring under one stencil */
-    polygon_list outlines; /* rings of the cut pieces, and of what became of them */
-    polygon_list pair, joined;
-    cut_piece_array cut;
-    vec2_array ring, clean;
-    ARRAY(uint8_t) forgotten; /* rows of the contact memory */
+/* The loads at hand. */
+typedef struct load_work {
+    fracture_load_array all;
+    int32_array root; /* the least load that is one with each, across seams */
+} load_work;
 
-    /* Level ice. */
+/* One floe being cut, in its own frame. */
+typedef struct floe_work {
+    vec2_array outline;
+    polygon_list whole;    /* what is left uncut; remnants in the end */
+    polygon_list wedges;   /* broken off */
+    polygon_list remnants; /* of one ring under one stencil */
+    polygon_list pieces;   /* wedges of one ring under one stencil */
+    polygon_list room;     /* spare of `whole` */
+} floe_work;
+
+/* Cut pieces on their way to become floes. */
+typedef struct piece_work {
+    cut_piece_array rows;
+    polygon_list outlines;     /* rings of the rows, and of what became of them */
+    polygon_list pair, joined; /* two siblings, and their union */
+    vec2_array clean;
+} piece_work;
+
+/* Level ice. */
+typedef struct sheet_work {
     tile_index index;
     bool index_is_made;
     tile_segment_array boundary;
-    ARRAY(crack_start) starts;
-    int32_array touched; /* floe rows that the crack at hand reaches, or that come loose */
-    ARRAY(uint8_t) mark; /* one per floe row */
-    int32_array front;   /* of a flood */
-    tile_range changed;  /* cells in which something broke in this step, */
-    bool has_changed;    /* if there are any */
-    mesh hull;           /* a hull in the frame of the floe at hand */
-    polygon_list top, bottom, inner, gone;
+    ARRAY(crack_start) starts; /* one per load */
+    int32_array touched;       /* floe rows that the crack at hand reaches, or that come loose */
+    ARRAY(uint8_t) mark;       /* one per floe row */
+    int32_array front;         /* of a flood */
+    tile_range changed;        /* cells in which something broke in this step, */
+    bool has_changed;          /* if there are any */
+    vec2_array ring;           /* of the tile at hand, global plan */
+    vec2_array snapped_ring;
+    polygon_list remnants, wedge_parts; /* of that tile */
+    polygon_list snapped;               /* the same with corners back on the cell's sides */
+    polygon_list loose, united;         /* tiles that nothing holds, and their union */
+} sheet_work;
+
+/* Crushed ice being cut away from one floe. */
+typedef struct trim_work {
+    mesh hull;                /* in the frame of that floe */
+    polygon_list top, bottom; /* its sections with the floe's faces */
+    polygon_list inner;       /* one of these, moved inwards */
+    polygon_list gone;        /* where no ice may be */
+    polygon_list left, room;  /* of the floe, and its spare */
+    vec2_array ring, clipped;
+} trim_work;
+
+struct fracture_scratch {
+    load_work load;
+    floe_work floe;
+    piece_work piece;
+    sheet_work sheet;
+    trim_work trim;
+    ARRAY(uint8_t) broken;    /* one per body slot: broke in this step */
+    ARRAY(uint8_t) forgotten; /* rows of the contact memory */
 };
+
+/* A crack starts at a corner when it is nearer to it than this part of R_bending. */
+#define CRACK_CORNER_REACH 1e-6
+/* A start is gone when the boundary that is left is farther from it than this part of R_bending. */
+#define CRACK_GONE_REACH 1e-6
 
 /* Loads of this step on breakable floes that fail in one way at least, by ascending slot, then falling stress over
    strength, ties by patch.  false: no memory. */
@@ -88,7 +128,9 @@ bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *
 
 crack_start crack_start_of(polygon p, vec2 load, double snap);
 
-/* Way of a ray from the start to where it first leaves the polygon; edge gets the edge met, -1 when there is none. */
+/* Whether the crack's ray crosses the segment ab; *length gets the distance from the start, which may be negative. */
+bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length);
+/* Length of the crack's ray to where it first leaves the polygon; edge gets the edge met, -1 when there is none. */
 double crack_length(polygon p, const crack_start *start, int32_t *edge);
 
 /* Cut `outline` from the start along its direction: two children are appended to out.  false when the reference refuses
@@ -133,7 +175,7 @@ bool fracture_is_dust(const fracture_settings *settings, const cut_piece *piece,
 
 /* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,
    and the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than
-   `least`, or when they are so small that more than the booked area of SPEC 8.8 would be lost with them. */
+   `least`, or when they are so small that more area would be lost with them than an event may book. */
 fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least,
                            fracture_event *event, bool *broke);
 
@@ -142,11 +184,15 @@ fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_ki
 
 /* Bending of a level sheet under its failing loads, by falling stress over strength. */
 fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *load, int32_t count);
-/* Static floes lose the ice whose place a hull has taken (SPEC 6); *trimmed says whether any did. */
+/* Static floes lose the ice whose place a hull has taken (docs/decisions/0041); *trimmed says whether any did. */
 fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *patches, bool *trimmed);
-/* After a change of the sheet: the index anew, and the cells of s->touched among those that changed. */
+/* After a change of the sheet: the index anew, and the cells of sheet.touched among those that changed. */
 fram_status fracture_sheet_changed(const fracture_job *j);
 void fracture_sheet_touch(const fracture_job *j);
+/* What the queries of tiles look at. */
+tile_sheet_view fracture_sheet_view(const fracture_job *j);
+/* The bodies of sheet.touched broke in this step. */
+void fracture_mark_broken(const fracture_job *j);
 
 /* What hangs on no anchored side any more drifts; seams are marked anew.  After all loads of a step. */
 fram_status fracture_release(const fracture_job *j);

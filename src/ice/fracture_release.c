@@ -1,6 +1,6 @@
-/* What a level sheet lets go of (SPEC 8.6): tiles that no chain of seams joins to an anchored side become one floe,
-   which drifts.  Before an event every tile hangs on an anchored side, so only the neighbourhood of what changed is
-   looked at as long as that holds together. */
+/* What a level sheet lets go of (docs/decisions/0040): tiles that no chain of seams joins to an anchored side become
+   one floe, which drifts.  Before an event every tile hangs on an anchored side, so only the neighbourhood of what
+   changed is looked at as long as that holds together. */
 #include "ice/fracture_parts.h"
 
 #include <string.h>
@@ -9,12 +9,6 @@
 enum { NEIGHBOURHOOD = 2 };
 /* Marks of floe rows. */
 enum { MARK_NONE = 0, MARK_HELD, MARK_LOOSE };
-
-static tile_sheet_view view_of(const fracture_job *j)
-{
-    const fracture_state *s = j->state;
-    return (tile_sheet_view){&j->settings->tiles, &j->scratch->index, s->bodies, s->shapes, s->floes};
-}
 
 static tile_range grown(const tile_grid *g, tile_range r, int32_t by)
 {
@@ -35,10 +29,10 @@ static bool holds(const tile_range *r, int32_t column, int32_t row)
 static bool flood(const fracture_job *j, const tile_range *within, uint8_t mark, int32_array *out)
 {
     fracture_scratch *s = j->scratch;
-    tile_sheet_view v = view_of(j);
+    tile_sheet_view v = fracture_sheet_view(j);
     const int32_t step[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
-    while (s->front.count > 0) {
-        int32_t row = s->front.data[--s->front.count], cell = v.floes->tile[row] - 1;
+    while (s->sheet.front.count > 0) {
+        int32_t row = s->sheet.front.data[--s->sheet.front.count], cell = v.floes->tile[row] - 1;
         if (out && !array_push(j->ctx, out, row))
             return false;
         for (int k = 0; k < 4; k++) {
@@ -47,10 +41,10 @@ static bool flood(const fracture_job *j, const tile_range *within, uint8_t mark,
                 continue;
             int32_t other = v.index->first.data[column + line * v.grid->columns];
             for (; other >= 0; other = v.index->next.data[other]) {
-                if (s->mark.data[other] != MARK_NONE || !(tile_seam(&v, row, other) > v.grid->least_seam))
+                if (s->sheet.mark.data[other] != MARK_NONE || !(tile_seam(&v, row, other) > v.grid->least_seam))
                     continue;
-                s->mark.data[other] = mark;
-                if (!array_push(j->ctx, &s->front, other))
+                s->sheet.mark.data[other] = mark;
+                if (!array_push(j->ctx, &s->sheet.front, other))
                     return false;
             }
         }
@@ -62,11 +56,11 @@ static bool start_marks(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
     int32_t rows = j->state->floes->count;
-    array_clear(&s->front);
-    if (!array_resize(j->ctx, &s->mark, rows))
+    array_clear(&s->sheet.front);
+    if (!array_resize(j->ctx, &s->sheet.mark, rows))
         return false;
     if (rows > 0)
-        memset(s->mark.data, MARK_NONE, (size_t)rows);
+        memset(s->sheet.mark.data, MARK_NONE, (size_t)rows);
     return true;
 }
 
@@ -87,9 +81,9 @@ static bool on_anchored_side(const tile_grid *g, const tile_range *r)
 static bool hangs_together(const fracture_job *j, bool *together)
 {
     fracture_scratch *s = j->scratch;
-    tile_sheet_view v = view_of(j);
-    tile_range around = grown(v.grid, s->changed, NEIGHBOURHOOD);
-    *together = !on_anchored_side(v.grid, &s->changed);
+    tile_sheet_view v = fracture_sheet_view(j);
+    tile_range around = grown(v.grid, s->sheet.changed, NEIGHBOURHOOD);
+    *together = !on_anchored_side(v.grid, &s->sheet.changed);
     if (!*together)
         return true;
     if (!start_marks(j))
@@ -97,9 +91,9 @@ static bool hangs_together(const fracture_job *j, bool *together)
     for (int32_t k = around.row_first; k <= around.row_last; k++)
         for (int32_t i = around.column_first; i <= around.column_last; i++) {
             int32_t row = first_of(&v, i, k);
-            if (row >= 0 && s->front.count == 0) {
-                s->mark.data[row] = MARK_HELD;
-                if (!array_push(j->ctx, &s->front, row))
+            if (row >= 0 && s->sheet.front.count == 0) {
+                s->sheet.mark.data[row] = MARK_HELD;
+                if (!array_push(j->ctx, &s->sheet.front, row))
                     return false;
             }
         }
@@ -108,7 +102,7 @@ static bool hangs_together(const fracture_job *j, bool *together)
     for (int32_t k = around.row_first; k <= around.row_last; k++)
         for (int32_t i = around.column_first; i <= around.column_last; i++)
             for (int32_t row = first_of(&v, i, k); row >= 0; row = v.index->next.data[row])
-                *together = *together && s->mark.data[row] == MARK_HELD;
+                *together = *together && s->sheet.mark.data[row] == MARK_HELD;
     return true;
 }
 
@@ -116,37 +110,37 @@ static bool hangs_together(const fracture_job *j, bool *together)
 static bool mark_held(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    tile_sheet_view v = view_of(j);
+    tile_sheet_view v = fracture_sheet_view(j);
     tile_range all = {0, v.grid->columns - 1, 0, v.grid->rows - 1};
     if (!start_marks(j))
         return false;
     for (int32_t row = 0; row < v.floes->count; row++) {
         if (v.floes->body[row] < 0 || v.floes->tile[row] == 0 || !tile_is_anchored(&v, row))
             continue;
-        s->mark.data[row] = MARK_HELD;
-        if (!array_push(j->ctx, &s->front, row))
+        s->sheet.mark.data[row] = MARK_HELD;
+        if (!array_push(j->ctx, &s->sheet.front, row))
             return false;
     }
     return flood(j, &all, MARK_HELD, NULL);
 }
 
-/* One outline for the tiles in s->touched where there is one, theirs otherwise, as pieces that move. */
+/* One outline for the tiles in sheet.touched where there is one, theirs otherwise, as pieces that move. */
 static fram_status gather_loose(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    tile_sheet_view v = view_of(j);
-    polygon_list_clear(&s->outlines);
-    array_clear(&s->cut);
-    polygon_list_clear(&s->pair);
-    polygon_list_clear(&s->joined);
-    for (int32_t i = 0; i < s->touched.count; i++)
-        if (!tile_outline(j->ctx, &v, s->touched.data[i], &s->ring) ||
-            !polygon_list_push(j->ctx, &s->pair, (polygon){s->ring.data, s->ring.count}))
+    tile_sheet_view v = fracture_sheet_view(j);
+    polygon_list_clear(&s->piece.outlines);
+    array_clear(&s->piece.rows);
+    polygon_list_clear(&s->sheet.loose);
+    polygon_list_clear(&s->sheet.united);
+    for (int32_t i = 0; i < s->sheet.touched.count; i++)
+        if (!tile_outline(j->ctx, &v, s->sheet.touched.data[i], &s->sheet.ring) ||
+            !polygon_list_push(j->ctx, &s->sheet.loose, (polygon){s->sheet.ring.data, s->sheet.ring.count}))
             return error_memory(j->error);
-    fram_status status = overlay_union(j->plane, &s->pair, &s->joined, j->error);
+    fram_status status = overlay_union(j->plane, &s->sheet.loose, &s->sheet.united, j->error);
     if (status == FRAM_ERROR_MEMORY)
         return status;
-    const polygon_list *rings = status == FRAM_OK ? &s->joined : &s->pair;
+    const polygon_list *rings = status == FRAM_OK ? &s->sheet.united : &s->sheet.loose;
     return fracture_gather(j->ctx, s, rings, MOTION_DYNAMIC, 0, 0) ? FRAM_OK : error_memory(j->error);
 }
 
@@ -156,18 +150,14 @@ static fram_status let_go(const fracture_job *j)
     fram_status status = gather_loose(j);
     if (status != FRAM_OK)
         return status;
-    polygon first = polygon_list_get(&s->outlines, 0);
+    polygon first = polygon_list_get(&s->piece.outlines, 0);
     vec2 centre = polygon_moments_of(first).centroid;
     fracture_event event = {
         .kind = FRACTURE_RELEASE,
-        .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z}};
-    for (int32_t i = 0; i < s->touched.count; i++) {
-        int32_t body = j->state->floes->body[s->touched.data[i]];
-        if (body < s->broken.count)
-            s->broken.data[body] = 1;
-    }
+        .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->sheet.touched.data[0]]].z}};
+    fracture_mark_broken(j);
     bool broke;
-    status = fracture_birth(j, s->touched.data, s->touched.count, 1, &event, &broke);
+    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count, 1, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, event) ? FRAM_OK : error_memory(j->error);
@@ -179,18 +169,18 @@ static fram_status release_loose(const fracture_job *j)
     fracture_scratch *s = j->scratch;
     const floe_table *floes = j->state->floes;
     tile_range all = {0, j->settings->tiles.columns - 1, 0, j->settings->tiles.rows - 1};
-    for (int32_t row = 0; row < s->mark.count; row++) {
-        if (s->mark.data[row] != MARK_NONE || floes->body[row] < 0 || floes->tile[row] == 0)
+    for (int32_t row = 0; row < s->sheet.mark.count; row++) {
+        if (s->sheet.mark.data[row] != MARK_NONE || floes->body[row] < 0 || floes->tile[row] == 0)
             continue;
-        array_clear(&s->touched);
-        s->mark.data[row] = MARK_LOOSE;
-        if (!array_push(j->ctx, &s->front, row) || !flood(j, &all, MARK_LOOSE, &s->touched))
+        array_clear(&s->sheet.touched);
+        s->sheet.mark.data[row] = MARK_LOOSE;
+        if (!array_push(j->ctx, &s->sheet.front, row) || !flood(j, &all, MARK_LOOSE, &s->sheet.touched))
             return error_memory(j->error);
         fram_status status = let_go(j);
         if (status != FRAM_OK)
             return status;
         /* What was made stands in rows that were marked, or behind them, and is of no sheet. */
-        if (!tile_index_build(j->ctx, &s->index, &j->settings->tiles, floes))
+        if (!tile_index_build(j->ctx, &s->sheet.index, &j->settings->tiles, floes))
             return error_memory(j->error);
     }
     return FRAM_OK;
@@ -209,7 +199,7 @@ fram_status fracture_release(const fracture_job *j)
         if (status != FRAM_OK)
             return status;
     }
-    tile_sheet_view v = view_of(j);
-    tile_mark_seams(&v, j->state->shapes, grown(v.grid, s->changed, 1));
+    tile_sheet_view v = fracture_sheet_view(j);
+    tile_mark_seams(&v, j->state->shapes, grown(v.grid, s->sheet.changed, 1));
     return FRAM_OK;
 }

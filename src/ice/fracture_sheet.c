@@ -1,27 +1,23 @@
-/* Level ice breaks (SPEC 8.6): the stencil of a load cuts the tiles that it reaches, and no others; what it takes out
-   of several tiles is one piece.  All in the global plan. */
+/* Level ice breaks (docs/decisions/0040): the stencil of a load cuts the tiles that it reaches, and no others; what it
+   takes out of several tiles is one piece.  All in the global plan. */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"
 
 #include <string.h>
 
-/* A crack starts at a corner when it is nearer to it than this part of R_bending; an r_start is gone when the boundary
-   that is left is farther from it. */
-static const double CORNER_REACH = 1e-6, GONE_REACH = 1e-6;
-
-static tile_sheet_view view_of(const fracture_job *j)
+tile_sheet_view fracture_sheet_view(const fracture_job *j)
 {
     const fracture_state *s = j->state;
-    return (tile_sheet_view){&j->settings->tiles, &j->scratch->index, s->bodies, s->shapes, s->floes};
+    return (tile_sheet_view){&j->settings->tiles, &j->scratch->sheet.index, s->bodies, s->shapes, s->floes};
 }
 
 static fram_status make_index(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    if (!s->index_is_made && !tile_index_build(j->ctx, &s->index, &j->settings->tiles, j->state->floes))
+    if (!s->sheet.index_is_made && !tile_index_build(j->ctx, &s->sheet.index, &j->settings->tiles, j->state->floes))
         return error_memory(j->error);
-    s->index_is_made = true;
+    s->sheet.index_is_made = true;
     return FRAM_OK;
 }
 
@@ -78,34 +74,29 @@ static fram_status find_start(const fracture_job *j, vec2 load, double reach, do
                               bool *found)
 {
     fracture_scratch *s = j->scratch;
-    tile_sheet_view v = view_of(j);
+    tile_sheet_view v = fracture_sheet_view(j);
     tile_range range;
     *found = false;
-    array_clear(&s->boundary);
+    array_clear(&s->sheet.boundary);
     if (!tile_range_of(v.grid, box_around(load, reach), &range))
         return FRAM_OK;
-    if (!tile_boundary(j->ctx, &v, range, &s->boundary))
+    if (!tile_boundary(j->ctx, &v, range, &s->sheet.boundary))
         return error_memory(j->error);
-    *found = nearest_start(&s->boundary, load, reach, CORNER_REACH * radius, start);
+    *found = nearest_start(&s->sheet.boundary, load, reach, CRACK_CORNER_REACH * radius, start);
     return FRAM_OK;
 }
 
-/* Way of the crack's ray to the boundary within the range at hand (option wedge_room). */
-static double way_to_boundary(const tile_segment_array *boundary, const crack_start *start, double snap)
+/* Length of the crack's ray to the boundary within the range at hand (option wedge_room). */
+static double sheet_crack_length(const tile_segment_array *boundary, const crack_start *start, double snap)
 {
     double least = HUGE_VAL;
     for (int32_t i = 0; i < boundary->count; i++) {
         const tile_segment *e = &boundary->data[i];
         if (vec2_length(vec2_sub(segment_nearest(e->a, e->b, start->point), start->point)) <= snap)
             continue;
-        vec2 a = vec2_sub(e->a, start->point), b = vec2_sub(e->b, start->point);
-        double side_a = vec2_cross(start->direction, a), side_b = vec2_cross(start->direction, b);
-        if ((side_a > 0) == (side_b > 0))
-            continue;
-        double share = side_a / (side_a - side_b);
-        double way = (1 - share) * vec2_dot(start->direction, a) + share * vec2_dot(start->direction, b);
-        if (way > 0 && way < least)
-            least = way;
+        double length;
+        if (crack_meets(start, e->a, e->b, &length) && length > 0 && length < least)
+            least = length;
     }
     return least;
 }
@@ -116,20 +107,20 @@ static double way_to_boundary(const tile_segment_array *boundary, const crack_st
 static bool snap_rings(const fracture_job *j, polygon_list *rings, int32_t cell)
 {
     fracture_scratch *s = j->scratch;
-    polygon_list_clear(&s->pair);
+    polygon_list_clear(&s->sheet.snapped);
     for (int32_t i = 0; i < polygon_list_count(rings); i++) {
         polygon p = polygon_list_get(rings, i);
-        if (!array_resize(j->ctx, &s->clean, p.count))
+        if (!array_resize(j->ctx, &s->sheet.snapped_ring, p.count))
             return false;
-        memcpy(s->clean.data, p.vertex, (size_t)p.count * sizeof *p.vertex);
-        tile_snap(&j->settings->tiles, cell, &s->clean);
-        p = (polygon){s->clean.data, s->clean.count};
-        if (p.count >= 3 && polygon_area(p) > 0 && !polygon_list_push(j->ctx, &s->pair, p))
+        memcpy(s->sheet.snapped_ring.data, p.vertex, (size_t)p.count * sizeof *p.vertex);
+        tile_snap(&j->settings->tiles, cell, &s->sheet.snapped_ring);
+        p = (polygon){s->sheet.snapped_ring.data, s->sheet.snapped_ring.count};
+        if (p.count >= 3 && polygon_area(p) > 0 && !polygon_list_push(j->ctx, &s->sheet.snapped, p))
             return false;
     }
     polygon_list swap = *rings;
-    *rings = s->pair;
-    s->pair = swap;
+    *rings = s->sheet.snapped;
+    s->sheet.snapped = swap;
     return true;
 }
 
@@ -137,29 +128,29 @@ static bool snap_rings(const fracture_job *j, polygon_list *rings, int32_t cell)
 static fram_status cut_tile(const fracture_job *j, int32_t row, const vec2 *stencil, int count, vec2 centre)
 {
     fracture_scratch *s = j->scratch;
-    tile_sheet_view v = view_of(j);
+    tile_sheet_view v = fracture_sheet_view(j);
     int32_t tile = j->state->floes->tile[row];
-    if (!tile_outline(j->ctx, &v, row, &s->ring))
+    if (!tile_outline(j->ctx, &v, row, &s->sheet.ring))
         return error_memory(j->error);
-    polygon ring = {s->ring.data, s->ring.count};
+    polygon ring = {s->sheet.ring.data, s->sheet.ring.count};
     if (!(polygon_overlap_area(ring, (polygon){stencil, count}) > 0))
         return FRAM_OK;
-    polygon_list_clear(&s->remnants);
-    fram_status status = overlay_difference(j->plane, ring, (polygon){stencil, count}, &s->remnants, j->error);
+    polygon_list_clear(&s->sheet.remnants);
+    fram_status status = overlay_difference(j->plane, ring, (polygon){stencil, count}, &s->sheet.remnants, j->error);
     if (status != FRAM_OK)
         return status;
-    if (!array_push(j->ctx, &s->touched, row) || !snap_rings(j, &s->remnants, tile - 1) ||
-        !fracture_gather(j->ctx, s, &s->remnants, MOTION_STATIC, tile, 0))
+    if (!array_push(j->ctx, &s->sheet.touched, row) || !snap_rings(j, &s->sheet.remnants, tile - 1) ||
+        !fracture_gather(j->ctx, s, &s->sheet.remnants, MOTION_STATIC, tile, 0))
         return error_memory(j->error);
     bool convex = polygon_is_convex(ring);
     for (int i = 0; i < count; i++) {
         const vec2 tip[3] = {centre, stencil[i], stencil[i + 1 < count ? i + 1 : 0]};
-        polygon_list_clear(&s->pieces);
-        status = fracture_cut_wedge(j->ctx, j->plane, ring, convex, tip, &s->pieces, j->error);
+        polygon_list_clear(&s->sheet.wedge_parts);
+        status = fracture_cut_wedge(j->ctx, j->plane, ring, convex, tip, &s->sheet.wedge_parts, j->error);
         if (status != FRAM_OK)
             return status;
-        if (!snap_rings(j, &s->pieces, tile - 1) ||
-            !fracture_gather(j->ctx, s, &s->pieces, MOTION_DYNAMIC, tile, i + 1))
+        if (!snap_rings(j, &s->sheet.wedge_parts, tile - 1) ||
+            !fracture_gather(j->ctx, s, &s->sheet.wedge_parts, MOTION_DYNAMIC, tile, i + 1))
             return error_memory(j->error);
     }
     return FRAM_OK;
@@ -169,9 +160,9 @@ static fram_status cut_tile(const fracture_job *j, int32_t row, const vec2 *sten
 static fram_status unite_wedges(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    for (int32_t i = 0; i < s->cut.count; i++) {
-        for (int32_t k = 0; k < s->cut.count; k++) {
-            const cut_piece *a = &s->cut.data[i], *b = &s->cut.data[k];
+    for (int32_t i = 0; i < s->piece.rows.count; i++) {
+        for (int32_t k = 0; k < s->piece.rows.count; k++) {
+            const cut_piece *a = &s->piece.rows.data[i], *b = &s->piece.rows.data[k];
             bool joined = false;
             if (i == k || a->wedge == 0 || a->wedge != b->wedge || (a->tile != 0 && a->tile == b->tile))
                 continue;
@@ -191,13 +182,13 @@ static fram_status unite_wedges(const fracture_job *j)
 void fracture_sheet_touch(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    tile_range *c = &s->changed;
-    for (int32_t i = 0; i < s->touched.count; i++) {
-        int32_t cell = j->state->floes->tile[s->touched.data[i]] - 1;
+    tile_range *c = &s->sheet.changed;
+    for (int32_t i = 0; i < s->sheet.touched.count; i++) {
+        int32_t cell = j->state->floes->tile[s->sheet.touched.data[i]] - 1;
         int32_t column = cell % j->settings->tiles.columns, row = cell / j->settings->tiles.columns;
-        if (!s->has_changed)
+        if (!s->sheet.has_changed)
             *c = (tile_range){column, column, row, row};
-        s->has_changed = true;
+        s->sheet.has_changed = true;
         c->column_first = column < c->column_first ? column : c->column_first;
         c->column_last = column > c->column_last ? column : c->column_last;
         c->row_first = row < c->row_first ? row : c->row_first;
@@ -207,15 +198,15 @@ void fracture_sheet_touch(const fracture_job *j)
 
 fram_status fracture_sheet_changed(const fracture_job *j)
 {
-    j->scratch->index_is_made = false;
+    j->scratch->sheet.index_is_made = false;
     return make_index(j);
 }
 
-static void mark_broken(const fracture_job *j)
+void fracture_mark_broken(const fracture_job *j)
 {
     fracture_scratch *s = j->scratch;
-    for (int32_t i = 0; i < s->touched.count; i++) {
-        int32_t body = j->state->floes->body[s->touched.data[i]];
+    for (int32_t i = 0; i < s->sheet.touched.count; i++) {
+        int32_t body = j->state->floes->body[s->sheet.touched.data[i]];
         if (body < s->broken.count)
             s->broken.data[body] = 1;
     }
@@ -239,30 +230,31 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     int count = fracture_stencil(j->settings->wedges, radius, start, stencil);
     tile_range range;
     bool refused = false, broke;
-    polygon_list_clear(&s->outlines);
-    array_clear(&s->cut);
-    array_clear(&s->touched);
+    polygon_list_clear(&s->piece.outlines);
+    array_clear(&s->piece.rows);
+    array_clear(&s->sheet.touched);
     if (!tile_range_of(g, box_around(start->point, radius), &range))
         return FRAM_OK;
     fram_status status = FRAM_OK;
     for (int32_t k = range.row_first; k <= range.row_last; k++)
         for (int32_t i = range.column_first; i <= range.column_last; i++)
-            for (int32_t row = s->index.first.data[i + k * g->columns]; row >= 0; row = s->index.next.data[row]) {
+            for (int32_t row = s->sheet.index.first.data[i + k * g->columns]; row >= 0;
+                 row = s->sheet.index.next.data[row]) {
                 status = or_refuse(j, cut_tile(j, row, stencil, count, start->point), &refused);
                 if (status != FRAM_OK || refused)
                     return status;
             }
-    if (s->touched.count == 0)
+    if (s->sheet.touched.count == 0)
         return FRAM_OK;
     status = unite_wedges(j);
     if (status != FRAM_OK)
         return status;
-    double z = j->state->bodies->position[j->state->floes->body[s->touched.data[0]]].z;
+    double z = j->state->bodies->position[j->state->floes->body[s->sheet.touched.data[0]]].z;
     vec3 place = {start->point.x, start->point.y, z};
     fracture_event event = fracture_event_of(l, place, FRACTURE_BENDING, radius);
     fracture_sheet_touch(j);
-    mark_broken(j);
-    status = fracture_birth(j, s->touched.data, s->touched.count, 2, &event, &broke);
+    fracture_mark_broken(j);
+    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count, 2, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, event) ? fracture_sheet_changed(j) : error_memory(j->error);
@@ -274,16 +266,16 @@ static fram_status find_starts(const fracture_job *j, const fracture_load *load,
 {
     fracture_scratch *s = j->scratch;
     double reach = cell_size(&j->settings->tiles);
-    if (!array_resize(j->ctx, &s->starts, count))
+    if (!array_resize(j->ctx, &s->sheet.starts, count))
         return error_memory(j->error);
     for (int32_t i = 0; i < count; i++) {
         bool found;
         fram_status status =
-            find_start(j, load[i].place, reach, load[i].stress.breaking_radius, &s->starts.data[i], &found);
+            find_start(j, load[i].place, reach, load[i].stress.breaking_radius, &s->sheet.starts.data[i], &found);
         if (status != FRAM_OK)
             return status;
         if (!found)
-            s->starts.data[i].distance = -1;
+            s->sheet.starts.data[i].distance = -1;
     }
     return FRAM_OK;
 }
@@ -296,9 +288,9 @@ static fram_status renew_start(const fracture_job *j, const fracture_load *l, cr
     fram_status status = find_start(j, point, radius, radius, start, is_there);
     if (status != FRAM_OK || !*is_there)
         return status;
-    *is_there = start->distance <= GONE_REACH * radius;
+    *is_there = start->distance <= CRACK_GONE_REACH * radius;
     if (*is_there && j->settings->wedge_room)
-        *is_there = way_to_boundary(&j->scratch->boundary, start, CORNER_REACH * radius) > radius;
+        *is_there = sheet_crack_length(&j->scratch->sheet.boundary, start, CRACK_CORNER_REACH * radius) > radius;
     start->distance = distance;
     return FRAM_OK;
 }
@@ -309,7 +301,7 @@ fram_status fracture_break_sheet(const fracture_job *j, const fracture_load *loa
     if (status == FRAM_OK)
         status = find_starts(j, load, count);
     for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
-        crack_start start = j->scratch->starts.data[i];
+        crack_start start = j->scratch->sheet.starts.data[i];
         bool there;
         if (load[i].wedge_ratio < 1 || start.distance < 0)
             continue;

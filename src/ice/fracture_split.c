@@ -1,8 +1,10 @@
-/* Radial cracks: where they start, which way they run, and floes that split along them (SPEC 8.2, 8.3; Algorithms 7, 8
-   and the reference's checks of the children). */
+/* Radial cracks: where they start, which way they run, and floes that split along them (Metrikin 2014, 5.5, Algorithms
+   7 and 8, and his checks of the children). */
 #include "ice/fracture_parts.h"
 
 #include "base/transcendental.h"
+
+#include <assert.h>
 
 /* ---- the start ---- */
 
@@ -44,6 +46,17 @@ static bool touches_start(polygon p, int32_t i, const crack_start *start)
     return i == start->edge || (a.x == s.x && a.y == s.y) || (b.x == s.x && b.y == s.y);
 }
 
+bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length)
+{
+    vec2 from = vec2_sub(a, start->point), to = vec2_sub(b, start->point);
+    double side_a = vec2_cross(start->direction, from), side_b = vec2_cross(start->direction, to);
+    if ((side_a > 0) == (side_b > 0))
+        return false;
+    double share = side_a / (side_a - side_b);
+    *length = (1 - share) * vec2_dot(start->direction, from) + share * vec2_dot(start->direction, to);
+    return true;
+}
+
 double crack_length(polygon p, const crack_start *start, int32_t *edge)
 {
     double least = HUGE_VAL;
@@ -51,15 +64,10 @@ double crack_length(polygon p, const crack_start *start, int32_t *edge)
     for (int32_t i = 0; i < p.count; i++) {
         if (touches_start(p, i, start))
             continue;
-        vec2 a = vec2_sub(p.vertex[i], start->point);
-        vec2 b = vec2_sub(p.vertex[i + 1 < p.count ? i + 1 : 0], start->point);
-        double side_a = vec2_cross(start->direction, a), side_b = vec2_cross(start->direction, b);
-        if ((side_a > 0) == (side_b > 0))
-            continue;
-        double share = side_a / (side_a - side_b);
-        double way = (1 - share) * vec2_dot(start->direction, a) + share * vec2_dot(start->direction, b);
-        if (way > 0 && way < least) {
-            least = way;
+        double length;
+        if (crack_meets(start, p.vertex[i], p.vertex[i + 1 < p.count ? i + 1 : 0], &length) && length > 0 &&
+            length < least) {
+            least = length;
             *edge = i;
         }
     }
@@ -177,6 +185,8 @@ bool fracture_split(context *ctx, const fracture_settings *settings, polygon out
         }
     }
     array_free(ctx, &side);
+    assert(!sound || fabs(polygon_area(polygon_list_get(out, had)) + polygon_area(polygon_list_get(out, had + 1)) -
+                          polygon_area(outline)) <= SNAP * length * polygon_perimeter(outline));
     if (!sound && polygon_list_count(out) > had) {
         out->vertex.count = out->start.data[had];
         out->start.count = had + 1;

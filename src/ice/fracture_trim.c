@@ -1,6 +1,6 @@
-/* Crushed ice goes (SPEC 6, crush_trims): a static floe keeps no ice where a hull has been, so that a hull that comes
-   again meets nothing before the old face, and so that cracks start at the face, not at an edge the hull has long
-   passed.
+/* Crushed ice goes (crush_trims; docs/decisions/0041): a static floe keeps no ice where a hull has been, so that a hull
+   that comes again meets nothing before the old face, and so that cracks start at the face, not at an edge the hull has
+   long passed.
 
    While the hull presses on, only what it fills over the whole thickness is cut away, less a rim of the edge threshold:
    the hull's surface inside the floe, and so patch and load, stay what they were.  When it has drawn back from its
@@ -23,7 +23,7 @@ static bool place_hull(const fracture_job *j, const trim_pair *p)
     const shape_store *shapes = j->state->shapes;
     int32_t body = j->state->floes->body[p->floe];
     const solid *hull = &shapes->solids.data[shapes->shapes.solid[b->shape[p->surface]]];
-    mesh *m = &j->scratch->hull;
+    mesh *m = &j->scratch->trim.hull;
     if (!mesh_copy(j->ctx, m, &hull->surface))
         return false;
     mat3 turn = mat3_transpose(quat_matrix(b->orientation[body]));
@@ -40,7 +40,7 @@ static bool place_hull(const fracture_job *j, const trim_pair *p)
 /* Rings moved inwards by `rim` [m]; of a concave ring that part which is inside all its edges' lines, moved. */
 static bool inset(const fracture_job *j, const polygon_list *rings, double rim, polygon_list *out)
 {
-    vec2_array *from = &j->scratch->ring, *to = &j->scratch->clean;
+    vec2_array *from = &j->scratch->trim.ring, *to = &j->scratch->trim.clipped;
     polygon_list_clear(out);
     for (int32_t i = 0; i < polygon_list_count(rings); i++) {
         polygon p = polygon_list_get(rings, i);
@@ -69,49 +69,49 @@ static bool inset(const fracture_job *j, const polygon_list *rings, double rim, 
     return true;
 }
 
-/* What may go of the floe, into s->gone: rings of the hull's sections at its two faces. */
+/* What may go of the floe, into s->trim.gone: rings of the hull's sections at its two faces. */
 static fram_status find_gone(const fracture_job *j, const trim_pair *p)
 {
     fracture_scratch *s = j->scratch;
     double half = j->state->floes->thickness[p->floe] / 2;
     if (!place_hull(j, p))
         return error_memory(j->error);
-    polygon_list_clear(&s->top);
-    polygon_list_clear(&s->bottom);
-    polygon_list_clear(&s->gone);
-    fram_status status = mesh_section(j->ctx, &s->hull, half, &s->top, j->error);
+    polygon_list_clear(&s->trim.top);
+    polygon_list_clear(&s->trim.bottom);
+    polygon_list_clear(&s->trim.gone);
+    fram_status status = mesh_section(j->ctx, &s->trim.hull, half, &s->trim.top, j->error);
     if (status == FRAM_OK)
-        status = mesh_section(j->ctx, &s->hull, -half, &s->bottom, j->error);
+        status = mesh_section(j->ctx, &s->trim.hull, -half, &s->trim.bottom, j->error);
     if (status != FRAM_OK)
         return status;
     if (p->retreats) {
         for (int k = 0; k < 2; k++) {
-            const polygon_list *rings = k ? &s->bottom : &s->top;
+            const polygon_list *rings = k ? &s->trim.bottom : &s->trim.top;
             for (int32_t i = 0; i < polygon_list_count(rings); i++)
                 if (polygon_area(polygon_list_get(rings, i)) > 0 &&
-                    !polygon_list_push(j->ctx, &s->gone, polygon_list_get(rings, i)))
+                    !polygon_list_push(j->ctx, &s->trim.gone, polygon_list_get(rings, i)))
                     return error_memory(j->error);
         }
         return FRAM_OK;
     }
-    if (!inset(j, &s->top, j->settings->edge_threshold, &s->inner))
+    if (!inset(j, &s->trim.top, j->settings->edge_threshold, &s->trim.inner))
         return error_memory(j->error);
-    polygon_list swap = s->top;
-    s->top = s->inner;
-    s->inner = swap;
-    if (!inset(j, &s->bottom, j->settings->edge_threshold, &s->inner))
+    polygon_list swap = s->trim.top;
+    s->trim.top = s->trim.inner;
+    s->trim.inner = swap;
+    if (!inset(j, &s->trim.bottom, j->settings->edge_threshold, &s->trim.inner))
         return error_memory(j->error);
-    for (int32_t i = 0; i < polygon_list_count(&s->top); i++)
-        for (int32_t k = 0; k < polygon_list_count(&s->inner) && status == FRAM_OK; k++)
-            status = overlay_intersection(j->plane, polygon_list_get(&s->top, i), polygon_list_get(&s->inner, k),
-                                          &s->gone, j->error);
+    for (int32_t i = 0; i < polygon_list_count(&s->trim.top); i++)
+        for (int32_t k = 0; k < polygon_list_count(&s->trim.inner) && status == FRAM_OK; k++)
+            status = overlay_intersection(j->plane, polygon_list_get(&s->trim.top, i),
+                                          polygon_list_get(&s->trim.inner, k), &s->trim.gone, j->error);
     return status;
 }
 
 static bool floe_ring(const fracture_job *j, int32_t floe, vec2_array *out)
 {
     const fracture_state *st = j->state;
-    tile_sheet_view v = {&j->settings->tiles, &j->scratch->index, st->bodies, st->shapes, st->floes};
+    tile_sheet_view v = fracture_sheet_view(j);
     if (st->floes->tile[floe] != 0)
         return tile_outline(j->ctx, &v, floe, out);
     polygon p = shape_outline(st->shapes, st->bodies->shape[st->floes->body[floe]]);
@@ -121,20 +121,20 @@ static bool floe_ring(const fracture_job *j, int32_t floe, vec2_array *out)
     return true;
 }
 
-/* The floe's rings less one of the gone rings, in s->remnants; s->pieces is the spare. */
+/* The floe's rings less one of the gone rings, in s->trim.left; s->trim.room is the spare. */
 static fram_status take_off(const fracture_job *j, polygon gone)
 {
     fracture_scratch *s = j->scratch;
-    polygon_list_clear(&s->pieces);
-    for (int32_t i = 0; i < polygon_list_count(&s->remnants); i++) {
+    polygon_list_clear(&s->trim.room);
+    for (int32_t i = 0; i < polygon_list_count(&s->trim.left); i++) {
         fram_status status =
-            overlay_difference(j->plane, polygon_list_get(&s->remnants, i), gone, &s->pieces, j->error);
+            overlay_difference(j->plane, polygon_list_get(&s->trim.left, i), gone, &s->trim.room, j->error);
         if (status != FRAM_OK)
             return status;
     }
-    polygon_list swap = s->remnants;
-    s->remnants = s->pieces;
-    s->pieces = swap;
+    polygon_list swap = s->trim.left;
+    s->trim.left = s->trim.room;
+    s->trim.room = swap;
     return FRAM_OK;
 }
 
@@ -145,16 +145,17 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
     const floe_table *f = j->state->floes;
     int32_t tile = f->tile[floe], body = f->body[floe];
     double line = f->material[floe].density * f->thickness[floe], area = f->area[floe];
-    array_clear(&s->touched);
-    polygon_list_clear(&s->outlines);
-    array_clear(&s->cut);
-    if (!array_push(j->ctx, &s->touched, floe) || !fracture_gather(j->ctx, s, &s->remnants, MOTION_STATIC, tile, 0))
+    array_clear(&s->sheet.touched);
+    polygon_list_clear(&s->piece.outlines);
+    array_clear(&s->piece.rows);
+    if (!array_push(j->ctx, &s->sheet.touched, floe) ||
+        !fracture_gather(j->ctx, s, &s->trim.left, MOTION_STATIC, tile, 0))
         return error_memory(j->error);
     fracture_event event = {0};
     bool broke;
     if (tile)
         fracture_sheet_touch(j);
-    fram_status status = fracture_birth(j, s->touched.data, 1, 0, &event, &broke);
+    fram_status status = fracture_birth(j, s->sheet.touched.data, 1, 0, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     *trimmed = true;
@@ -171,20 +172,20 @@ static fram_status trim_floe(const fracture_job *j, const trim_pair *p, bool *tr
     fram_status status = find_gone(j, p);
     if (status != FRAM_OK)
         return status;
-    if (!floe_ring(j, p->floe, &s->ring))
+    if (!floe_ring(j, p->floe, &s->trim.ring))
         return error_memory(j->error);
-    polygon ring = {s->ring.data, s->ring.count};
+    polygon ring = {s->trim.ring.data, s->trim.ring.count};
     double overlap = 0;
-    for (int32_t i = 0; i < polygon_list_count(&s->gone); i++)
-        overlap += polygon_overlap_area(ring, polygon_list_get(&s->gone, i));
+    for (int32_t i = 0; i < polygon_list_count(&s->trim.gone); i++)
+        overlap += polygon_overlap_area(ring, polygon_list_get(&s->trim.gone, i));
     /* Less than a floe is not worth a cut; the next one takes it. */
     if (!(overlap > (p->retreats ? 0 : j->settings->smallest_floe_area)))
         return FRAM_OK;
-    polygon_list_clear(&s->remnants);
-    if (!polygon_list_push(j->ctx, &s->remnants, ring))
+    polygon_list_clear(&s->trim.left);
+    if (!polygon_list_push(j->ctx, &s->trim.left, ring))
         return error_memory(j->error);
-    for (int32_t i = 0; i < polygon_list_count(&s->gone) && status == FRAM_OK; i++)
-        status = take_off(j, polygon_list_get(&s->gone, i));
+    for (int32_t i = 0; i < polygon_list_count(&s->trim.gone) && status == FRAM_OK; i++)
+        status = take_off(j, polygon_list_get(&s->trim.gone, i));
     return status == FRAM_OK ? commit(j, p->floe, trimmed) : status;
 }
 

@@ -14,7 +14,7 @@ typedef struct ice_material {
 
 /* Stiffness of a plate of thickness h [m]: D = E h^3 / (12 (1 - nu^2)) [N m]. */
 double ice_plate_stiffness(const ice_material *m, double thickness);
-/* Characteristic length of that plate on water, l = (D / (rho_w g))^(1/4) [m] (Hertz 1884; oracles section 1). */
+/* Characteristic length of that plate on water, l = (D / (rho_w g))^(1/4) [m] (Hertz 1884). */
 double ice_characteristic_length(const ice_material *m, double thickness, double water_density, double gravity);
 /* Crushing pressure sigma(A) [Pa] on a contact area A [m2]; 0 on no area when the law has an exponent (there A^e would
    be infinite for e < 0, but the force A sigma goes to 0 for e > -1). */

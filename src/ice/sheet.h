@@ -1,5 +1,5 @@
 /* A floating ice sheet with a straight free edge, loaded at that edge: the stress that opens the first, radial crack
-   (SPEC 8.2).  Pure formulas in dimensionless form; knows neither floes nor loads.
+   (Westergaard 1926; docs/theory.md).  Pure formulas in dimensionless form; knows neither floes nor loads.
 
    The load P is spread as uniform pressure over a half disk of radius a (or a strip 2 c long) at the edge; stress is
    the bending stress along the edge, sigma_yy, at the middle of the load, as sigma h^2 / P; lengths are over the

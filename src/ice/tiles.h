@@ -1,5 +1,5 @@
-/* Level ice (SPEC 8.6): an intact sheet, held as static floes that are the tiles of a grid, so that an event touches
-   only the tiles that its crack reaches.  Between two tiles of neighbouring cells runs a seam, which is neither
+/* Level ice (docs/decisions/0040): an intact sheet, held as static floes that are the tiles of a grid, so that an event
+   touches only the tiles that its crack reaches.  Between two tiles of neighbouring cells runs a seam, which is neither
    boundary nor crack; what a tile has on its cell's sides and shares with no neighbour is boundary, as is the sheet's
    outer edge.  Tiles stand level and unturned.  Knows floes; must not know loads. */
 #ifndef ICE_TILES_H

@@ -1,4 +1,4 @@
-/* Nevel's wedge by Frobenius series (oracles section 1).  The exponents at the tip are 0, 1, 1, 2; of the four
+/* Nevel's wedge by Frobenius series (Nevel 1961).  The exponents at the tip are 0, 1, 1, 2; of the four
    solutions f0, f1, f2, fL two combinations decay far from the tip: TIP, which a unit force on the tip makes, and MOM,
    which a unit moment makes. */
 #include "ice/wedge.h"

@@ -1,4 +1,4 @@
-/* A wedge-shaped beam of ice on water, loaded at its tip: the circumferential crack (Nevel 1961; SPEC 8.4).  Pure
+/* A wedge-shaped beam of ice on water, loaded at its tip: the circumferential crack (Nevel 1961).  Pure
    formulas in dimensionless form; knows neither floes nor loads.
 
    Width b = b0 x, characteristic length l, load P spread as uniform pressure over the tip 0 < x < a.  With xi = x/l and

@@ -34,7 +34,7 @@ START_TEST(loaded_radius)
 }
 END_TEST
 
-/* Oracles, section 1: N = 3, a/l = 0.1. */
+/* Nevel 1961 (docs/theory.md): N = 3, a/l = 0.1. */
 START_TEST(wedge_capacity)
 {
     fracture_settings s = fracture_rig_settings();
@@ -222,7 +222,7 @@ START_TEST(split_by_toughness)
 }
 END_TEST
 
-/* Oracles, section 6: a floe at 20 deg tilt, spinning, split in two: corners, momenta and energy stay. */
+/* A floe at 20 deg tilt, spinning, split in two: corners, momenta and energy stay. */
 START_TEST(split_while_spinning)
 {
     fracture_rig r;
@@ -261,7 +261,7 @@ END_TEST
 
 /* ---- bending ---- */
 
-/* A straight edge and N = 3: wedges of 30, 60, 60 and 30 degrees, and one remnant (oracles, section 1); for other N
+/* A straight edge and N = 3: wedges of 30, 60, 60 and 30 degrees, and one remnant (docs/theory.md); for other N
    the angles there too. */
 START_TEST(wedge_angles)
 {

@@ -1,4 +1,4 @@
-/* A whole break, end to end (oracles, section 1): an inclined plate driven into the straight edge of level ice, through
+/* A whole break, end to end (Nevel 1961): an inclined plate driven into the straight edge of level ice, through
    crushing, solve, fracture and integration. */
 #include "base/transcendental.h"
 #include "ice/fracture.h"

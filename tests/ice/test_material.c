@@ -13,7 +13,7 @@ START_TEST(plate_stiffness)
 }
 END_TEST
 
-/* Oracles, section 1. */
+/* Hertz 1884. */
 START_TEST(characteristic_length)
 {
     assert_absolute(ice_characteristic_length(&SAMPLE, 1, 1025, 9.81), 14.6079, 5e-5);

@@ -1,4 +1,4 @@
-/* The edge-loaded sheet against the oracles, section 2. */
+/* The edge-loaded sheet against Westergaard (1926) and the exact plate (docs/theory.md). */
 #include "base/transcendental.h"
 #include "ice/sheet.h"
 #include "ice/wedge.h"

@@ -1,4 +1,4 @@
-/* Nevel's wedge against the table and the profile of the oracles, section 1. */
+/* Nevel's wedge against the table and the profile of his own solution (docs/theory.md). */
 #include "base/transcendental.h"
 #include "ice/wedge.h"
 #include "testing.h"
