@@ -23,6 +23,7 @@ tools/sources.sh '*.sh' '.ci/run' | grep -v '^bench/peers/' | xargs shellcheck |
 
 echo "lint: rooms (tools/check_rooms.py)"
 python3 tools/check_rooms.py || bad=1
+python3 tools/draw_architecture.py --check || bad=1
 
 echo "lint: objects (tools/check_objects.py)"
 cmake --build "$build" -j"$jobs" >"$build/lint-build.log" || { cat "$build/lint-build.log"; exit 1; }
