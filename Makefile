@@ -15,7 +15,7 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-kill test-views bench-recording viewer demo scenes test-sanitize test-asan test-tsan test-clang lint format fuzz fuzz-fracture bench bench-peers bench-views soak validate coverage install deps clean help
+.PHONY: build test test-kill test-views bench-recording viewer demo scenes test-sanitize test-asan test-tsan test-clang test-bare lint format fuzz fuzz-fracture bench bench-peers bench-views soak validate coverage install deps clean help
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -61,6 +61,10 @@ test-tsan: build/tsan/build.ninja
 test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
 	@cmake --build --preset clang -j$(JOBS)
 	@cd build/clang && $(CTEST) -LE '^(package|tools)$$'
+
+test-bare: build/bare/build.ninja ## build without the optional libraries, and run the tests that meet them
+	@cmake --build --preset bare -j$(JOBS)
+	@cd build/bare && $(CTEST) -L '^(io|cli|api|results)$$'
 
 lint: build/release/build.ninja $(STAMPS)/dev ## check form, includes, libm and the static analysers
 	@tools/lint.sh

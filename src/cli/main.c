@@ -1,9 +1,11 @@
 /* fram: the table of commands and the help that teaches them. */
 #include "cli/cli.h"
 
+#include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const command_row commands[] = {
     {"run", "SCENARIO -o DIR", "simulate a scenario and write its results to a folder",
@@ -145,8 +147,22 @@ static int run_words(const common_options *common, int argc, char **argv)
     return answer_usage(common, word, "is not a command; fram --help lists them");
 }
 
+/* A standard stream that is closed at the start would be the next file that is opened, and progress lines would go into
+   results.  Opened the wrong way round, so that what is lost is told as for any other stream that cannot be written. */
+static bool open_standard_streams(void)
+{
+    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++) {
+        int flags = descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+        if (fcntl(descriptor, F_GETFD) < 0 && open("/dev/null", flags) != descriptor)
+            return false;
+    }
+    return true;
+}
+
 int main(int argc, char **argv)
 {
+    if (!open_standard_streams())
+        return EXIT_RUN_FAILED;
     if (argc < 2) {
         print_help(stderr);
         return EXIT_BAD_INPUT;

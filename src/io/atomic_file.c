@@ -7,8 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static const char suffix[] = ".new";
-
 /* What a rename would take away instead of filling it: a device, a pipe, a link.  Not a folder. */
 static bool is_special(const char *path)
 {
@@ -24,24 +22,6 @@ static fram_status refuse_folder(const char *path, fram_error *error)
     return FRAM_OK;
 }
 
-/* The writer of PATH.new, or of the path itself where that is special. */
-static fram_status open_writer(context *ctx, atomic_file *a, fram_error *error)
-{
-    if (a->direct)
-        return file_create(ctx, a->path, &a->writer, error);
-    size_t length = strlen(a->path);
-    char *temporary = memory_resize(ctx, NULL, length + sizeof suffix);
-    if (!temporary)
-        return error_memory(error);
-    memcpy(temporary, a->path, length);
-    memcpy(temporary + length, suffix, sizeof suffix);
-    fram_status status = file_create(ctx, temporary, &a->writer, error);
-    memory_free(ctx, temporary);
-    if (status != FRAM_OK && status != FRAM_ERROR_MEMORY && error) /* the name that the user knows */
-        snprintf(error->file, sizeof error->file, "%s", a->path);
-    return status;
-}
-
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error)
 {
     memset(a, 0, sizeof *a);
@@ -50,7 +30,10 @@ fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fr
         return status;
     a->direct = is_special(path);
     a->path = memory_string(ctx, path);
-    status = a->path ? open_writer(ctx, a, error) : error_memory(error);
+    if (!a->path)
+        return error_memory(error);
+    status =
+        a->direct ? file_create(ctx, path, &a->writer, error) : file_create_temporary(ctx, path, &a->writer, error);
     if (status != FRAM_OK) {
         memory_free(ctx, a->path);
         a->path = NULL;

@@ -11,14 +11,14 @@ typedef struct atomic_file {
     bool direct; /* no temporary file: the path is no regular one */
 } atomic_file;
 
-/* Begin the temporary file PATH.new.  FRAM_ERROR_INPUT when the path is a folder. */
+/* Begin the temporary file (io/temporary.h).  FRAM_ERROR_INPUT when the path is a folder. */
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error);
 /* Flush, sync, rename, sync the folder.  On an error the old file is untouched and the temporary one is removed. */
 fram_status atomic_file_commit(atomic_file *a, fram_error *error);
 /* Remove the temporary file. */
 void atomic_file_abandon(atomic_file *a);
 
-/* For a file that something else wrote and closed as PATH.new (`temporary`): sync, rename, sync the folder; on an error
+/* For a temporary file that something else has filled and closed: sync, rename, sync the folder; on an error
    the temporary file is removed.  FRAM_ERROR_INPUT when the path is no regular file. */
 fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error);
 

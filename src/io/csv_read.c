@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAMES_MOST = 32 };
 /* That some programs begin a text with. */
 #define BYTE_ORDER_MARK "\xef\xbb\xbf"
 
@@ -130,7 +129,7 @@ typedef struct column_reader {
     context *ctx;
     const char *const *names;
     int32_t count;
-    int32_t at[NAMES_MOST];
+    int32_t *at; /* column of each name */
     double_array *columns;
 } column_reader;
 
@@ -144,11 +143,14 @@ static fram_status read_columns(void *user, const char *path, int line, const ch
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error)
 {
-    column_reader r = {.ctx = ctx, .names = names, .count = count, .columns = columns};
-    if (count > NAMES_MOST)
-        return error_set(error, FRAM_ERROR_INTERNAL, path, 0, NULL, "too many columns are asked for");
+    int32_t *at = memory_array(ctx, (size_t)count, sizeof *at);
+    if (!at)
+        return error_memory(error);
+    column_reader r = {.ctx = ctx, .names = names, .count = count, .at = at, .columns = columns};
     const line_reader reader = {read_columns, &r, true};
-    return read_lines(path, &reader, error);
+    fram_status status = read_lines(path, &reader, error);
+    memory_free(ctx, at);
+    return status;
 }
 
 /* ---- all columns ---- */

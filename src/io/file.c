@@ -1,5 +1,6 @@
 /* Files through the calls of POSIX, so that every failure is seen where it happens. */
-#include "io/file.h"
+#include "io/temporary.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
@@ -90,19 +91,34 @@ fram_status file_read(context *ctx, const char *path, uint64_t limit, char **dat
 
 /* ---- writing ---- */
 
-static fram_status begin(context *ctx, const char *path, int flags, file_writer *w, fram_error *error)
+static fram_status make_room(context *ctx, const char *path, file_writer *w, fram_error *error)
 {
     memset(w, 0, sizeof *w);
     w->ctx = ctx;
     w->descriptor = -1;
-    w->path = memory_string(ctx, path);
+    w->path = path ? memory_string(ctx, path) : NULL;
     w->buffer = memory_resize(ctx, NULL, BUFFER_SIZE);
-    fram_status status = w->path && w->buffer ? FRAM_OK : error_memory(error);
+    return (w->path || !path) && w->buffer ? FRAM_OK : error_memory(error);
+}
+
+static fram_status begin(context *ctx, const char *path, int flags, file_writer *w, fram_error *error)
+{
+    fram_status status = make_room(ctx, path, w, error);
     if (status == FRAM_OK) {
         w->descriptor = open_file(path, flags);
         if (w->descriptor < 0)
             status = file_error(error, path, "open for writing", errno);
     }
+    if (status != FRAM_OK)
+        file_abandon(w);
+    return status;
+}
+
+fram_status file_create_temporary(context *ctx, const char *path, file_writer *w, fram_error *error)
+{
+    fram_status status = make_room(ctx, NULL, w, error);
+    if (status == FRAM_OK)
+        status = temporary_file(ctx, path, &w->path, &w->descriptor, error);
     if (status != FRAM_OK)
         file_abandon(w);
     return status;
@@ -141,6 +157,13 @@ static fram_status put(file_writer *w, const char *data, size_t size, fram_error
             w->failed = errno;
     }
     return w->failed ? file_error(error, w->path, "write", w->failed) : FRAM_OK;
+}
+
+bool file_is_in_place(const file_writer *w)
+{
+    struct stat open_one, named;
+    return fstat(w->descriptor, &open_one) == 0 && stat(w->path, &named) == 0 && open_one.st_dev == named.st_dev &&
+           open_one.st_ino == named.st_ino;
 }
 
 fram_status file_cut(file_writer *w, uint64_t length, fram_error *error)

@@ -32,8 +32,12 @@ typedef struct file_writer {
 
 /* An empty file, whatever was there.  When this or file_open fails, nothing is left to close. */
 fram_status file_create(context *ctx, const char *path, file_writer *w, fram_error *error);
+/* The same in a temporary file (io/temporary.h) beside `path`; its name is w->path. */
+fram_status file_create_temporary(context *ctx, const char *path, file_writer *w, fram_error *error);
 /* An existing file, to be continued at its end; FRAM_ERROR_INPUT when it is not there. */
 fram_status file_open(context *ctx, const char *path, file_writer *w, fram_error *error);
+/* Whether the writer's file is still what its path names. */
+bool file_is_in_place(const file_writer *w);
 /* Forget what stands after `length`; FRAM_ERROR_INPUT when the file is shorter. */
 fram_status file_cut(file_writer *w, uint64_t length, fram_error *error);
 fram_status file_write(file_writer *w, const void *data, size_t size, fram_error *error);

@@ -15,10 +15,6 @@ typedef struct image_colour {
     double r, g, b;
 } image_colour;
 
-/* "636 kN", or meganewtons from 1000 kN on. */
-enum { IMAGE_FORCE_TEXT = 24 };
-void image_force_text(double newton, char out[IMAGE_FORCE_TEXT]);
-
 /* A white page of width x height pixels. */
 fram_status image_begin(int width, int height, cairo_t **page, fram_error *error);
 /* Write the page to `path` and free it; frees it on failure too. */
@@ -43,6 +39,10 @@ typedef enum image_align { ALIGN_LEFT, ALIGN_CENTRE, ALIGN_RIGHT } image_align;
 void image_text(cairo_t *page, double x, double y, double size, image_align align, bool bold, const char *text);
 double image_text_width(cairo_t *page, double size, bool bold, const char *text);
 #endif
+
+/* "636 kN", or meganewtons from 1000 kN on. */
+enum { IMAGE_FORCE_TEXT = 24 };
+void image_force_text(double newton, char out[IMAGE_FORCE_TEXT]);
 
 /* Colours of a scale from 0 (the white of ice) over 0.5 (amber) to 1 (dark purple), none of which is that of water or a
    hull; the same as in the playback page.  r g b from 0 to 1. */

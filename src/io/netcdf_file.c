@@ -1,8 +1,8 @@
 #include "io/netcdf_file.h"
 
 #include "io/atomic_file.h"
+#include "io/temporary.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -27,22 +27,23 @@ static void forget(netcdf_file *f)
 
 fram_status netcdf_begin(context *ctx, const char *path, netcdf_file *f, fram_error *error)
 {
-    size_t length = strlen(path);
+    int descriptor = -1;
     memset(f, 0, sizeof *f);
     f->ctx = ctx;
     f->path = memory_string(ctx, path);
-    f->temporary = memory_array(ctx, length + 5, 1);
-    if (!f->path || !f->temporary) {
+    fram_status made = f->path ? temporary_file(ctx, path, &f->temporary, &descriptor, error) : error_memory(error);
+    if (made != FRAM_OK) {
         forget(f);
-        return error_memory(error);
+        return made;
     }
-    snprintf(f->temporary, length + 5, "%s.new", path);
+    close(descriptor); /* NetCDF takes a name */
     int code = nc_create(f->temporary, NC_NETCDF4 | NC_CLOBBER, &f->id);
     if (code != NC_NOERR) {
         /* Codes of the operating system are positive, and NetCDF's own ones are negative. */
         fram_status status =
             code > 0 ? file_error(error, path, "open for writing", code)
                      : error_set(error, FRAM_ERROR_IO, path, 0, NULL, "cannot write: %s", nc_strerror(code));
+        unlink(f->temporary);
         forget(f);
         return status;
     }

@@ -1,9 +1,9 @@
 #include "io/video_file.h"
 
 #include "io/atomic_file.h"
+#include "io/temporary.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
@@ -50,43 +50,40 @@ static fram_status start(video_file *v, char *const *arguments, fram_error *erro
                      strerror(code));
 }
 
-/* An empty file for ffmpeg to fill, so that a name that cannot be written is told as for any other file. */
-static fram_status make_empty(const char *path, const char *temporary, fram_error *error)
-{
-    int file = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0)
-        return file_error(error, path, "open for writing", errno);
-    close(file);
-    return FRAM_OK;
-}
-
 fram_status video_begin(context *ctx, const char *path, int width, int height, int frames_per_second, video_file *v,
                         fram_error *error)
 {
-    size_t length = strlen(path) + 5;
+    static const char protocol[] = "file:";
+    int descriptor = -1;
     *v = (video_file){.ctx = ctx, .socket = -1, .path = memory_string(ctx, path)};
-    v->temporary = memory_array(ctx, length, 1);
-    if (!v->path || !v->temporary) {
+    fram_status status = v->path ? temporary_file(ctx, path, &v->temporary, &descriptor, error) : error_memory(error);
+    if (status != FRAM_OK) {
+        forget(v);
+        return status;
+    }
+    close(descriptor); /* ffmpeg takes a name, and as a file only with its protocol */
+    size_t room = sizeof protocol + strlen(v->temporary);
+    char *output = memory_array(ctx, room, 1);
+    if (!output) {
+        unlink(v->temporary);
         forget(v);
         return error_memory(error);
     }
-    snprintf(v->temporary, length, "%s.new", path);
+    snprintf(output, room, "%s%s", protocol, v->temporary);
     char size[32], rate[16];
     snprintf(size, sizeof size, "%dx%d", width, height);
     snprintf(rate, sizeof rate, "%d", frames_per_second);
     /* What spawn takes is not const, and it changes nothing. */
-    char *const arguments[] = {"ffmpeg",    "-y",         "-loglevel", "error",    "-f",         "rawvideo", "-pix_fmt",
-                               "bgr0",      "-s",         size,        "-r",       rate,         "-i",       "pipe:0",
-                               "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p",    "-crf",     "21",
-                               "-movflags", "+faststart", "-f",        "mp4",      v->temporary, NULL};
-    fram_status status = make_empty(path, v->temporary, error);
-    if (status == FRAM_OK) {
-        status = start(v, arguments, error);
-        if (status != FRAM_OK)
-            unlink(v->temporary);
-    }
-    if (status != FRAM_OK)
+    char *const arguments[] = {"ffmpeg",    "-y",         "-loglevel", "error",    "-f",      "rawvideo", "-pix_fmt",
+                               "bgr0",      "-s",         size,        "-r",       rate,      "-i",       "pipe:0",
+                               "-an",       "-c:v",       "libx264",   "-pix_fmt", "yuv420p", "-crf",     "21",
+                               "-movflags", "+faststart", "-f",        "mp4",      output,    NULL};
+    status = start(v, arguments, error);
+    memory_free(ctx, output);
+    if (status != FRAM_OK) {
+        unlink(v->temporary);
         forget(v);
+    }
     return status;
 }
 

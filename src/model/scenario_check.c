@@ -142,6 +142,21 @@ static fram_status check_path(const scenario *s, fram_error *error)
     return FRAM_OK;
 }
 
+/* Mooring lines of one vessel, those of a count each: as many as the table of results has columns for. */
+enum { MOST_LINES = 64 };
+
+static fram_status check_line_count(const scenario *s, fram_error *error)
+{
+    const scenario_mooring_line_list *lines = &s->vessel.mooring.lines;
+    int64_t all = 0;
+    for (int32_t i = 0; i < lines->count; i++)
+        all += lines->data[i].count;
+    if (all <= MOST_LINES)
+        return FRAM_OK;
+    return fault(s, error, "vessel.mooring.lines", "expected at most %d lines in all, found %d", (int)MOST_LINES,
+                 (int)all);
+}
+
 /* A line of kind table has one table, others have none. */
 static fram_status check_line_tables(const scenario *s, fram_error *error)
 {
@@ -181,7 +196,9 @@ static fram_status check_station(const scenario *s, fram_error *error)
         snprintf(key, sizeof key, "vessel.positioning.waypoints[%d].time", (int)i);
         return fault(s, error, key, "expected a later time than that of the way point before");
     }
-    fram_status status = check_line_tables(s, error);
+    fram_status status = check_line_count(s, error);
+    if (status == FRAM_OK)
+        status = check_line_tables(s, error);
     return status == FRAM_OK ? check_path(s, error) : status;
 }
 

@@ -1,5 +1,7 @@
 #include "results/playback_chunks.h"
 
+#include "io/temporary.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -7,25 +9,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { NAME_SIZE = PLAYBACK_PATH + 24 };
+enum { NAME_SIZE = PLAYBACK_PATH + 64 };
+enum { TRIES_MOST = 100 };
 static const char ending[] = ".html", suffix[] = "-frames";
 
-static void chunk_name(const char *folder, const char *stage, int32_t number, char out[NAME_SIZE])
+static void chunk_name(const char *folder, int32_t number, char out[NAME_SIZE])
 {
-    snprintf(out, NAME_SIZE, "%s%s/%04d.js", folder, stage, (int)number);
+    snprintf(out, NAME_SIZE, "%s/%04d.js", folder, (int)number);
 }
 
 /* The folder's files, by their numbers as far as they go, then the folder, if nothing else is in it. */
-static void remove_chunks(const char *folder, const char *stage)
+static void remove_chunks(const char *folder)
 {
     char name[NAME_SIZE];
     for (int32_t i = 0; i < INT32_MAX; i++) {
-        chunk_name(folder, stage, i, name);
+        chunk_name(folder, i, name);
         if (unlink(name) != 0)
             break;
     }
-    snprintf(name, sizeof name, "%s%s", folder, stage);
-    (void)rmdir(name);
+    (void)rmdir(folder);
 }
 
 /* "0012.js" */
@@ -64,7 +66,6 @@ fram_status chunks_begin(context *ctx, const char *output, uint64_t limit, chunk
         return error_set(error, FRAM_ERROR_INPUT, output, 0, NULL, "the page's name is too long");
     memcpy(w->folder, output, length);
     memcpy(w->folder + length, suffix, sizeof suffix);
-    remove_chunks(w->folder, ".new");
     return FRAM_OK;
 }
 
@@ -88,11 +89,11 @@ static fram_status open_chunk(chunk_writer *w, fram_error *error)
     char name[NAME_SIZE], head[40];
     if (w->count == 0 && refuse_foreign(w->folder, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
-    snprintf(name, sizeof name, "%s.new", w->folder);
-    if (w->count == 0 && mkdir(name, 0777) != 0 && errno != EEXIST)
-        return file_error(error, name, "make the folder", errno);
-    chunk_name(w->folder, ".new", w->count, name);
-    fram_status status = atomic_file_begin(w->ctx, name, &w->file, error);
+    fram_status status = w->stage ? FRAM_OK : temporary_folder(w->ctx, w->folder, &w->stage, error);
+    if (status != FRAM_OK)
+        return status;
+    chunk_name(w->stage, w->count, name);
+    status = atomic_file_begin(w->ctx, name, &w->file, error);
     if (status != FRAM_OK)
         return status;
     w->open = true;
@@ -117,14 +118,19 @@ fram_status chunks_place(chunk_writer *w, uint64_t size, int32_t *chunk, int32_t
 
 fram_status chunks_commit(chunk_writer *w, fram_error *error)
 {
-    char stage[NAME_SIZE];
     fram_status status = close_chunk(w, error);
     if (status != FRAM_OK)
         return status;
-    remove_chunks(w->folder, "");
-    snprintf(stage, sizeof stage, "%s.new", w->folder);
-    if (w->count > 0 && rename(stage, w->folder) != 0)
-        return file_error(error, w->folder, "write the folder", errno);
+    int failure = ENOTEMPTY;
+    /* Another program may put its own frames there in between: the last one's stay. */
+    for (int i = 0; i < TRIES_MOST && (failure == ENOTEMPTY || failure == EEXIST); i++) {
+        remove_chunks(w->folder);
+        failure = !w->stage || rename(w->stage, w->folder) == 0 ? 0 : errno;
+    }
+    if (failure != 0)
+        return file_error(error, w->folder, "write the folder", failure);
+    memory_free(w->ctx, w->stage);
+    w->stage = NULL;
     return FRAM_OK;
 }
 
@@ -133,5 +139,8 @@ void chunks_abandon(chunk_writer *w)
     if (w->open)
         atomic_file_abandon(&w->file);
     w->open = false;
-    remove_chunks(w->folder, ".new");
+    if (w->stage)
+        remove_chunks(w->stage);
+    memory_free(w->ctx, w->stage);
+    w->stage = NULL;
 }

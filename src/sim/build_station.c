@@ -38,8 +38,6 @@ static fram_status name_line(const scenario *s, fram_status status, int32_t item
     return error_set(error, FRAM_ERROR_INPUT, path, row ? point + 2 : 0, row ? column : NULL, "%s", why);
 }
 
-enum { MOST_LINES = 64 };
-
 /* Rules of the points stand in vessel/mooring.c; here only where they come from. */
 static fram_status read_curve(context *ctx, const scenario *s, const char *file, line_definition *d, fram_error *error)
 {
@@ -105,12 +103,7 @@ static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_err
                 return name_line(s, status, i, error);
         }
     }
-    if (w->lines.count <= MOST_LINES)
-        return FRAM_OK;
-    error_set(error, FRAM_ERROR_INPUT, NULL, 0, "vessel.mooring.lines", "expected at most %d lines in all, found %d",
-              MOST_LINES, (int)w->lines.count);
-    scenario_locate(s, error);
-    return FRAM_ERROR_INPUT;
+    return FRAM_OK;
 }
 
 /* Current and wind on the hull as it lies still. */

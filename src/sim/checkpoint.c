@@ -26,6 +26,8 @@ static int64_t step_of_name(const char *name)
     return step;
 }
 
+bool checkpoint_is_name(const char *name) { return step_of_name(name) >= 0; }
+
 static bool checkpoint_path(const char *folder, int64_t step, char out[PATH_SIZE])
 {
     int n = snprintf(out, PATH_SIZE, "%s/checkpoint-%012" PRId64 ".fram", folder, step);

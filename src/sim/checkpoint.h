@@ -28,6 +28,8 @@ fram_status checkpoint_write_failed(context *ctx, const char *folder, const worl
    inputs. note->scenario_hash and inputs say what is expected; the lengths are filled. */
 fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, checkpoint_note *note,
                                    fram_error *error);
+/* Whether a file of this name, without its folder, is a checkpoint. */
+bool checkpoint_is_name(const char *name);
 /* Remove every checkpoint of a folder. */
 void checkpoint_remove_all(context *ctx, const char *folder);
 

@@ -15,6 +15,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { PATH_SIZE = 1024 };
 
@@ -185,15 +186,14 @@ static fram_status step_loop(run *r, fram_error *error)
     return status;
 }
 
-/* The state as it went wrong and a summary; the last good checkpoint stays.  The first error is the one to report. */
-static void leave_diagnosis(run *r, const fram_error *error)
+/* The state as it went wrong; the last good checkpoint stays. */
+static void leave_state(run *r)
 {
     checkpoint_note note = {.inputs = r->inputs.data};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     (void)end_checkpoint(r, NULL);
     (void)recorder_flush(&r->recorder, NULL);
     (void)checkpoint_write_failed(r->ctx, r->options->folder, &r->world, &note, NULL);
-    (void)write_summary(r, "failed", error ? error->message : NULL, NULL);
 }
 
 static void fill_result(run *r, run_result *result)
@@ -230,19 +230,59 @@ static fram_status write_end(run *r, fram_error *error)
     return status;
 }
 
-/* The end of a loop that went well. */
-static fram_status conclude(run *r, run_result *result, fram_error *error)
+/* A folder that was taken away while the run went on: its files are written, and nobody finds them. */
+static fram_status check_streams(run *r, fram_error *error)
 {
-    fill_result(r, result);
-    bool interrupted = asked_to_stop(r) && r->world.clock.step[0] < r->stop_step;
-    fram_status status = write_end(r, error);
-    if (status == FRAM_OK)
-        status = write_summary(r, result->finished ? "finished" : interrupted ? "interrupted" : "stopped", NULL, error);
-    if (status != FRAM_OK || !interrupted)
+    file_writer *streams[RECORDER_STREAMS];
+    recorder_streams(&r->recorder, streams);
+    for (int i = 0; i < RECORDER_STREAMS; i++) {
+        if (!file_is_in_place(streams[i]))
+            return error_set(error, FRAM_ERROR_IO, streams[i]->path, 0, NULL,
+                             "the file was removed or replaced while the run wrote it; the results are lost");
+    }
+    return FRAM_OK;
+}
+
+/* A file that cannot be written while a run goes on is no fault of what was given to it. */
+static fram_status as_failure(fram_status status, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT && status != FRAM_ERROR_USAGE)
         return status;
-    return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
-                     "interrupted at t = %g s; a checkpoint was written, continue with: fram resume %s", result->time,
-                     r->options->folder);
+    error->status = FRAM_ERROR_IO;
+    return FRAM_ERROR_IO;
+}
+
+/* How the run stands, last of all: whatever fails before, run.json does not stay at "running".  One that cannot be
+   replaced is removed, which may make the room that it takes. */
+static fram_status end_summary(run *r, const char *state, const char *message, fram_error *error)
+{
+    fram_status status = write_summary(r, state, message, error);
+    if (status == FRAM_OK)
+        return FRAM_OK;
+    char path[PATH_SIZE];
+    if (join_path(r->options->folder, "run.json", path, NULL) == FRAM_OK)
+        (void)unlink(path);
+    return write_summary(r, state, message, NULL) == FRAM_OK ? FRAM_OK : status;
+}
+
+/* Steps, then all that is written at the end.  The first error is the one to report. */
+static fram_status step_and_write(run *r, run_result *result, fram_error *error)
+{
+    fram_status status = step_loop(r, error);
+    if (status == FRAM_OK) {
+        fill_result(r, result);
+        status = check_streams(r, error);
+        if (status == FRAM_OK)
+            status = write_end(r, error);
+    } else {
+        leave_state(r);
+    }
+    (void)end_checkpoint(r, NULL); /* after another failure: its own is not the first */
+    if (status == FRAM_OK)
+        status = check_streams(r, error);
+    fram_status closed = recorder_close(&r->recorder, status == FRAM_OK ? error : NULL);
+    r->recording = false;
+    return as_failure(status == FRAM_OK ? closed : status, error);
 }
 
 static fram_status drive(run *r, run_result *result, fram_error *error)
@@ -251,16 +291,21 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
     r->start_time = r->world.clock.time[0];
     r->drawn = 0;
     fram_error local = {0};
-    fram_status status = step_loop(r, &local);
-    if (status == FRAM_OK)
-        status = conclude(r, result, &local);
+    fram_status status = step_and_write(r, result, &local);
+    bool interrupted = asked_to_stop(r) && r->world.clock.step[0] < r->stop_step;
+    if (status != FRAM_OK)
+        (void)end_summary(r, "failed", local.message, NULL);
     else
-        leave_diagnosis(r, &local);
-    (void)end_checkpoint(r, NULL); /* after another failure: its own is not the first */
-    fram_status closed = recorder_close(&r->recorder, status == FRAM_OK ? &local : NULL);
-    r->recording = false;
-    if (status == FRAM_OK)
-        status = closed;
+        status = as_failure(end_summary(r,
+                                        result->finished ? "finished"
+                                        : interrupted    ? "interrupted"
+                                                         : "stopped",
+                                        NULL, &local),
+                            &local);
+    if (status == FRAM_OK && interrupted)
+        status = error_set(&local, FRAM_INTERRUPTED, NULL, 0, NULL,
+                           "interrupted at t = %g s; a checkpoint was written, continue with: fram resume %s",
+                           result->time, r->options->folder);
     if (status != FRAM_OK && error)
         *error = local;
     return status;

@@ -5,6 +5,7 @@
 #include "fram/version.h"
 #include "io/atomic_file.h"
 #include "io/scenario_file.h"
+#include "io/temporary.h"
 #include "model/scenario_schema.h"
 #include "sim/checkpoint.h"
 
@@ -102,13 +103,45 @@ static void remove_results(const char *folder)
     }
 }
 
+/* A file that a run writes in one go: where a run was killed, its temporary file stays. */
+static bool is_leftover(const char *name)
+{
+    static const char *const names[] = {"scenario.yaml", "run.json",    "plan.png",   "loads.png",
+                                        "station.json",  "station.png", "failed.fram"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (temporary_is_of(name, names[i]))
+            return true;
+    }
+    char base[64];
+    const char *dot = strstr(name, ".fram.");
+    int length = dot ? (int)(dot - name) + 5 : 0;
+    if (length <= 0 || length >= (int)sizeof base)
+        return false;
+    snprintf(base, sizeof base, "%.*s", length, name);
+    return checkpoint_is_name(base) && temporary_is_of(name, base);
+}
+
+static void remove_leftovers(const char *folder)
+{
+    DIR *dir = opendir(folder);
+    if (!dir)
+        return;
+    for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
+        if (is_leftover(e->d_name))
+            (void)unlinkat(dirfd(dir), e->d_name, 0);
+    }
+    closedir(dir);
+}
+
 fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
 {
     *lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (*lock < 0)
         return file_error(error, folder, "open the folder", errno);
-    if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+        remove_leftovers(folder);
         return FRAM_OK;
+    }
     run_folder_unlock(*lock);
     *lock = -1;
     return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL,

@@ -12,7 +12,8 @@ fram_status run_folder_make(const char *folder, fram_error *error);
 /* FRAM_ERROR_USAGE for a folder that is not empty, without `force`; nothing is touched. */
 fram_status run_folder_check(const char *folder, bool force, fram_error *error);
 /* That no other run writes into the folder: FRAM_ERROR_USAGE while one does.  *lock is for run_folder_unlock; the lock
-   ends with the process too, and a file system without locks gives none. */
+   ends with the process too, and a file system without locks gives none.  What a run that was killed left half-written
+   goes. */
 fram_status run_folder_lock(const char *folder, int *lock, fram_error *error);
 /* lock -1: nothing. */
 void run_folder_unlock(int lock);

@@ -5,6 +5,7 @@
 #include "sim/station_forces.h"
 #include "vessel/path.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static fram_status water_and_air(context *ctx, const step_settings *s, world *w, fram_error *error)
@@ -192,6 +193,54 @@ static fram_status cross_edge(context *ctx, const step_settings *s, world *w, fr
     return shape_compact(ctx, &w->shapes) == FRAM_OK ? FRAM_OK : error_memory(error);
 }
 
+static bool is_touched(const world *w, int32_t body)
+{
+    for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
+        if (w->scratch.contacts.data[i].a == body || w->scratch.contacts.data[i].b == body)
+            return true;
+    }
+    return false;
+}
+
+/* What a user can do about a body that is too fast. */
+static const char *remedy_of(const world *w, int32_t body)
+{
+    if (!body_is_dynamic(&w->bodies, body))
+        return "it moves as the scenario says: correct that, or raise run.speed_limit";
+    if (is_touched(w, body))
+        return "contacts act on it; a smaller run.time_step may help";
+    return "nothing touches it, so that its own forces did it: look at its mass, radii of gyration and centre of "
+           "gravity, at lines, thrusters and coefficients, and at what fram check says of them";
+}
+
+static fram_status refuse_state(const world *w, int32_t body, const char *what, fram_error *error)
+{
+    const body_table *b = &w->bodies;
+    vec3 r = b->position[body];
+    const char *kind = b->material[body] == MATERIAL_ICE    ? "floe"
+                       : b->material[body] == MATERIAL_HULL ? "vessel"
+                                                            : "wall or carriage";
+    return error_set(error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
+                     "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m %s; %s",
+                     (long long)w->clock.step[0], w->clock.time[0], (int)body, kind, b->mass[body], r.x, r.y, r.z, what,
+                     remedy_of(w, body));
+}
+
+static fram_status tell_state(const step_settings *s, const world *w, int32_t body, double reach, fram_error *error)
+{
+    char what[120];
+    double speed = vec3_length(w->bodies.velocity[body]), turn = vec3_length(w->bodies.angular_velocity[body]);
+    if (!(isfinite(speed) && isfinite(turn) && isfinite(vec3_length(w->bodies.position[body]))))
+        return refuse_state(w, body, "has a place or velocity that is no finite number", error);
+    if (speed > s->speed_limit)
+        snprintf(what, sizeof what, "moves at %.4g m/s, and run.speed_limit is %g m/s", speed, s->speed_limit);
+    else
+        snprintf(what, sizeof what,
+                 "turns at %.4g rad/s, its rim %.4g m off at %.4g m/s, and run.speed_limit is %g m/s", turn, reach,
+                 turn * reach, s->speed_limit);
+    return refuse_state(w, body, what, error);
+}
+
 /* A run that goes wrong stops with a diagnosis, never with silent nonsense.  Comparisons are written so that a value
    that is no number fails them. */
 static fram_status check_state(const step_settings *s, const world *w, fram_error *error)
@@ -204,18 +253,24 @@ static fram_status check_state(const step_settings *s, const world *w, fram_erro
         double reach = w->bodies.shape[i] >= 0 ? w->shapes.shapes.radius[w->bodies.shape[i]] : 0;
         bool slow = vec3_dot(v, v) <= limit && vec3_dot(o, o) * reach * reach <= limit;
         bool finite = isfinite(r.x) && isfinite(r.y) && isfinite(r.z);
-        if (slow && finite)
-            continue;
-        return error_set(
-            error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
-            "the simulation went wrong in step %lld (t = %g s): body %d (%s, %g kg) at (%g, %g, %g) m moves at "
-            "(%g, %g, %g) "
-            "m/s, (%g, %g, %g) rad/s; the limit run.speed_limit is %g m/s. A smaller run.time_step may help",
-            (long long)w->clock.step[0], w->clock.time[0], (int)i,
-            w->bodies.material[i] == MATERIAL_ICE ? "floe" : "vessel or wall", w->bodies.mass[i], r.x, r.y, r.z, v.x,
-            v.y, v.z, o.x, o.y, o.z, s->speed_limit);
+        if (!slow || !finite)
+            return tell_state(s, w, i, reach, error);
     }
     return FRAM_OK;
+}
+
+/* The rooms below tell a polygon or a table that cannot be as bad input; in a step nobody has given it: the simulation
+   failed. */
+static fram_status stage_failure(const world *w, fram_status status, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT && status != FRAM_ERROR_USAGE)
+        return status;
+    char why[sizeof error->message] = "";
+    if (error)
+        memcpy(why, error->message, sizeof why);
+    return error_set(error, FRAM_ERROR_SIMULATION, NULL, 0, NULL,
+                     "the simulation could not go on in step %lld (t = %g s): %s", (long long)w->clock.step[0] + 1,
+                     w->clock.time[0], why);
 }
 
 fram_status world_step_watched(context *ctx, const step_settings *s, world *w, const step_watch *watch,
@@ -234,7 +289,7 @@ fram_status world_step_watched(context *ctx, const step_settings *s, world *w, c
     for (int i = 0; i < STAGE_COUNT; i++) {
         fram_status status = stages[i](ctx, s, w, error);
         if (status != FRAM_OK)
-            return status;
+            return stage_failure(w, status, error);
         if (watch)
             watch->done(watch->user, (step_stage)i);
     }

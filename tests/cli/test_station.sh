@@ -52,6 +52,33 @@ case $("$FRAM" --version) in
     ;;
 esac
 
+# As many lines and thrusters as a scenario may have, to the last result; one line more is refused before the run.
+{
+    echo 'run: {duration: 2, time_step: 0.1}'
+    echo 'vessel:'
+    echo '  mode: free'
+    echo '  hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}'
+    echo '  mooring:'
+    echo '    depth: 60'
+    echo '    lines: [{count: 64, direction_deg: 0, spacing_deg: 5.625, distance: 400, pretension: 1.0e5}]'
+    echo '  thrusters:'
+    for i in $(seq 32); do echo "    - {x: $((i - 16)), thrust: 1.0e3}"; done
+    echo '  positioning: {active: true}'
+    echo 'ice: {source: none}'
+    echo 'domain: {boundary: open}'
+} >many.yaml
+expect 0 "$FRAM" run many.yaml -o many -q
+python3 - many <<'END' || fail "station.json of many lines"
+import json, sys
+j = json.load(open(sys.argv[1] + "/station.json"))
+assert len(j["lines"]) == 64 and len(j["thrusters"]) == 32, (len(j["lines"]), len(j["thrusters"]))
+assert all(line["mean"] > 0 for line in j["lines"]), "tensions"
+END
+expect 0 "$FRAM" report many -q
+sed 's/lines: \[/&{direction_deg: 3, distance: 400, pretension: 1.0e5}, /' many.yaml >more.yaml
+expect 2 "$FRAM" check more.yaml --json
+same "$(value 'j["error"]["key"], j["error"]["line"]')" "vessel.mooring.lines 7" "place of a line too many"
+
 # A table of a scenario in another folder is named with that folder, its line and its key.
 mkdir tables
 printf 'angle[deg],cx,cy,cn\n0,1,0,0\n90,0,1,0\n80,0,1,0\n180,-1,0,0\n' >tables/hull.csv

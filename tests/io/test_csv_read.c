@@ -82,5 +82,36 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
 }
 END_TEST
 
+/* As many columns as a vessel of 64 lines and 32 thrusters asks for, and more. */
+START_TEST(hundreds_of_columns_are_read)
+{
+    enum { MANY = 300, ROOM = 8 };
+    static char name[MANY][ROOM], text[2 * MANY * ROOM];
+    static const char *asked[MANY];
+    static double_array columns[MANY];
+    size_t length = 0;
+    for (int k = 0; k < MANY; k++) {
+        snprintf(name[k], ROOM, "c%d", k);
+        asked[MANY - 1 - k] = name[k];
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", k > 0 ? "," : "", name[k]);
+    }
+    text[length++] = '\n';
+    for (int k = 0; k < MANY; k++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%d%c", k, k + 1 < MANY ? ',' : '\n');
+    context ctx;
+    fram_error error = {0};
+    context_init(&ctx);
+    scratch place = scratch_make();
+    scratch_write(scratch_path(&place, "wide.csv"), text, length);
+    ck_assert_msg(csv_read(&ctx, place.path, asked, MANY, columns, &error) == FRAM_OK, "%s", error.message);
+    for (int k = 0; k < MANY; k++) {
+        ck_assert_int_eq(columns[k].count, 1);
+        assert_bits(columns[k].data[0], MANY - 1 - k);
+        array_free(&ctx, &columns[k]);
+    }
+    scratch_remove(&place, "wide.csv");
+}
+END_TEST
+
 TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter,
-          what_is_wrong_is_refused_at_its_line)
+          what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read)

@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# What a shell, a disk or another program does to the command: nothing is mixed, lost without a word, or left behind.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+cat >scene.yaml <<'YAML'
+run: {duration: 4, time_step: 0.02}
+vessel:
+  mode: towed
+  x: -30
+  speed: 2
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+ice: {mean_floe_area: 64}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+output: {checkpoint_interval: 1}
+YAML
+status_of() { python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["status"])' "$1/run.json"; }
+
+# Standard streams that are closed at the start: no result has a line of progress in it, and lost answers are told.
+expect 0 "$FRAM" run scene.yaml -o open
+for streams in '<&-' '>&-' '2>&-' '<&- >&-' '<&- 2>&-' '<&- >&- 2>&-'; do
+    rm -rf closed
+    code=0
+    eval "\"\$FRAM\" run scene.yaml -o closed $streams" || code=$?
+    same "$code" 0 "exit code of a run with $streams"
+    for file in record.fram fractures.csv scenario.yaml; do
+        cmp -s open/$file closed/$file || fail "$file is another one with $streams"
+    done
+    same "$(wc -l <closed/series.csv)" "$(wc -l <open/series.csv)" "rows with $streams"
+done
+code=0
+"$FRAM" check scene.yaml --json >&- 2>err || code=$?
+same "$code" 1 "exit code of an answer to a stream that is closed"
+says "standard output: cannot be written" err
+
+# A folder that is taken away in the middle is a failed run, and so is one whose end cannot be written.
+sed 's/duration: 4/duration: 4000/' scene.yaml >long.yaml
+"$FRAM" run long.yaml -o gone -q >out 2>err &
+run=$!
+for _ in $(seq 300); do
+    if ls gone/checkpoint-* >/dev/null 2>&1; then break; fi
+    sleep 0.1
+done
+rm -rf gone
+code=0
+wait $run || code=$?
+same "$code" 1 "exit code of a run whose folder was taken away"
+grep -q "gone" err || fail "the run does not name the folder that was taken away: $(cat err)"
+# One without checkpoints on the way notices at its end.
+"$FRAM" run scene.yaml -o moved -q --set output.checkpoint_interval=0 --set run.duration=20 >out 2>err &
+run=$!
+for _ in $(seq 300); do
+    if [ -s moved/run.json ]; then break; fi
+    sleep 0.02
+done
+mv moved elsewhere
+mkdir moved
+code=0
+wait $run || code=$?
+same "$code" 1 "exit code of a run whose folder was replaced"
+says "was removed or replaced" err
+same "$(status_of moved)" failed "status of a run whose folder was replaced"
+
+# run.json does not stay at "running" when the end fails.
+if "$FRAM" --version | grep -q cairo; then
+    expect 0 "$FRAM" run scene.yaml -o blocked -q --until 1
+    rm -f blocked/loads.png
+    mkdir blocked/loads.png
+    expect 1 "$FRAM" resume blocked -q
+    same "$(status_of blocked)" failed "status of a run whose picture cannot be written"
+fi
+
+# A simulation that goes wrong is a failed run, and what it says is about what happened.
+expect 1 "$FRAM" run scene.yaml -o fast --set run.speed_limit=0.5 --json
+same "$(value 'j["error"]["status"]')" simulation "status of a run that went wrong"
+says "run.speed_limit is 0.5 m/s" err
+grep -q "m/s, (" err && fail "a vessel on a straight way is told to turn"
+same "$(status_of fast)" failed "status of a run that went wrong"
+
+# Two programs that write one output: each ends well, and the file is whole.
+for _ in 1 2 3 4; do
+    "$FRAM" report open -o same.html -q 2>>errors &
+    "$FRAM" export open --geojson --time 1 -o same.geojson -q 2>>errors &
+done
+for job in $(jobs -p); do wait "$job" || fail "a command beside others failed: $(cat errors)"; done
+tail -c 16 same.html | grep -q '</html>' || fail "same.html is not whole"
+python3 -c 'import json; json.load(open("same.geojson"))' || fail "same.geojson is not whole"
+
+# A link laid where a temporary file used to be is not followed.
+echo mine >other
+for name in target.html.new .target.html.new; do ln -s other $name; done
+expect 0 "$FRAM" report open -o target.html -q
+same "$(cat other)" mine "a file behind a link"
+rm -f target.html.new .target.html.new
+
+# What a run that was killed left behind goes with the next one; what others are writing stays.
+touch open/run.json.0123456789abcdef.new open/checkpoint-000000000050.fram.0123456789abcdef.new
+touch open/report.html.0123456789abcdef.new open/mine.new
+expect 0 "$FRAM" resume open -q
+[ -e open/report.html.0123456789abcdef.new ] && [ -e open/mine.new ] || fail "a run took files that are not its own"
+rm open/report.html.0123456789abcdef.new open/mine.new
+[ -z "$(find . -name '*.new')" ] || fail "temporary files are left: $(find . -name '*.new')"
+
+# Names that look like options or addresses reach ffmpeg as files.
+mkdir bin
+cat >bin/ffmpeg <<'END'
+#!/bin/bash
+cat >/dev/null
+printf '%s\n' "$@" >"$ARGUMENTS"
+last=${!#}
+echo video >"${last#file:}"
+END
+chmod +x bin/ffmpeg
+case $("$FRAM" --version) in
+*cairo*)
+    for name in -y.mp4 pipe:1.mp4 http:x.mp4 'a b.mp4'; do
+        ARGUMENTS=$scratch/arguments PATH="$scratch/bin:$PATH" "$FRAM" video open --fps 1 --speed 2 --width 640 \
+            --height 480 "--output=$name" -q 2>err || fail "video to $name: $(cat err)"
+        [ -s "./$name" ] || fail "$name is missing"
+        tail -n 1 arguments | grep -q '^file:\./' || fail "ffmpeg is given $(tail -n 1 arguments)"
+    done
+    ;;
+esac
+
+finish "what the world does to the command is told"
