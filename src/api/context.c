@@ -1,4 +1,5 @@
 /* Version and contexts of the public API. */
+#include "api/arguments.h"
 #include "api/handles.h"
 
 #include "base/build.h"
@@ -38,6 +39,8 @@ const char *fram_status_name(fram_status status)
 
 void fram_context_default(fram_context_definition *definition)
 {
+    if (!definition)
+        return;
     *definition = (fram_context_definition){.size = sizeof *definition, .verbosity = FRAM_LOG_INFO, .threads = 1};
 }
 
@@ -68,12 +71,13 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
 {
     fram_context_definition d;
     fram_context_default(&d);
-    if (definition) {
-        if (definition->size != sizeof d)
-            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_context_definition.size",
-                             "the definition was not filled by fram_context_default of this version");
+    fram_status status = REFUSE_NULL(error, {"context", out});
+    if (status == FRAM_OK && definition)
+        status = definition_check(definition, sizeof d, "fram_context", error);
+    if (status != FRAM_OK)
+        return status;
+    if (definition)
         d = *definition;
-    }
     if (d.threads < 1 || d.threads > 256)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "threads", "expected 1 to 256, found %d", d.threads);
     context inner;
@@ -83,7 +87,7 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
         inner.memory_user = d.memory_user;
     }
     inner.verbosity = (log_level)d.verbosity;
-    fram_status status = choose_isa(&inner, d.isa, error);
+    status = choose_isa(&inner, d.isa, error);
     if (status != FRAM_OK)
         return status;
     fram_context *made = memory_array(&inner, 1, sizeof *made);
@@ -118,4 +122,8 @@ void fram_context_destroy(fram_context *c)
     memory_free(&inner, c);
 }
 
-void fram_text_free(fram_context *c, char *text) { memory_free(&c->inner, text); }
+void fram_text_free(fram_context *c, char *text)
+{
+    if (c)
+        memory_free(&c->inner, text);
+}

@@ -1,6 +1,7 @@
 /* Ice fields of the public API. */
 #include "fram/field.h"
 
+#include "api/arguments.h"
 #include "api/field_handle.h"
 #include "io/geojson.h"
 #include "io/outline_file.h"
@@ -10,7 +11,11 @@
 _Static_assert((int)FRAM_FIELD_BINS == (int)IMPORT_HISTOGRAM_BINS, "one number of bins");
 _Static_assert((int)FRAM_FIELD_REPAIR == (int)IMPORT_REPAIR, "the same order of choices");
 
-void fram_field_default(fram_field_definition *d) { *d = (fram_field_definition){.size = sizeof *d, .scale = 1}; }
+void fram_field_default(fram_field_definition *d)
+{
+    if (d)
+        *d = (fram_field_definition){.size = sizeof *d, .scale = 1};
+}
 
 /* ---- making ---- */
 
@@ -109,14 +114,19 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
 fram_status fram_field_load(fram_context *c, const char *path, const fram_field_definition *definition,
                             fram_field **out, fram_error *error)
 {
-    context *ctx = &c->inner;
     fram_field_definition d;
     fram_field_default(&d);
-    if (definition)
-        d = *definition;
-    fram_status status = check(&d, error);
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"field", out});
+    if (status == FRAM_OK && definition)
+        status = definition_check(definition, sizeof d, "fram_field", error);
     if (status != FRAM_OK)
         return status;
+    if (definition)
+        d = *definition;
+    status = check(&d, error);
+    if (status != FRAM_OK)
+        return status;
+    context *ctx = &c->inner;
     fram_field *f = memory_array(ctx, 1, sizeof *f);
     overlay *plane = f ? overlay_create(ctx) : NULL;
     if (f) {
@@ -146,11 +156,17 @@ void fram_field_destroy(fram_field *f)
 
 /* ---- what it is ---- */
 
-void fram_field_summary_get(const fram_field *f, fram_field_summary *summary) { *summary = f->about; }
+void fram_field_summary_get(const fram_field *f, fram_field_summary *summary)
+{
+    if (summary)
+        *summary = f ? f->about : (fram_field_summary){0};
+}
 
 int fram_field_notes(const fram_field *f, fram_field_note *notes, int room)
 {
-    for (int32_t i = 0; i < f->floes.notes.count && i < room; i++) {
+    if (!f)
+        return 0;
+    for (int32_t i = 0; notes && i < f->floes.notes.count && i < room; i++) {
         const import_note *note = &f->floes.notes.data[i];
         const import_place *place = &f->source.place.data[note->ring];
         notes[i] = (fram_field_note){place->feature, place->polygon, place->ring,
@@ -161,10 +177,10 @@ int fram_field_notes(const fram_field *f, fram_field_note *notes, int room)
 
 int fram_field_outline(const fram_field *f, int floe, double *vertices, int room)
 {
-    if (floe < 0 || floe >= polygon_list_count(&f->floes.outlines))
+    if (!f || floe < 0 || floe >= polygon_list_count(&f->floes.outlines))
         return 0;
     polygon p = polygon_list_get(&f->floes.outlines, floe);
-    for (int32_t i = 0; i < p.count && i < room; i++) {
+    for (int32_t i = 0; vertices && i < p.count && i < room; i++) {
         vertices[2 * (size_t)i] = p.vertex[i].x;
         vertices[2 * (size_t)i + 1] = p.vertex[i].y;
     }
@@ -175,5 +191,8 @@ int fram_field_outline(const fram_field *f, int floe, double *vertices, int room
 
 fram_status fram_field_save(const fram_field *f, const char *path, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
+    if (status != FRAM_OK)
+        return status;
     return geojson_write(&f->context->inner, path, &f->floes.outlines, f->floes.thickness.data, error);
 }

@@ -1,4 +1,5 @@
 /* Pictures and the table of an ice field. */
+#include "api/arguments.h"
 #include "api/field_handle.h"
 
 #include "base/number_text.h"
@@ -16,6 +17,9 @@ enum { COVER_CELLS = 40, MOST_COVER_CELLS = 1000 };
 
 fram_status fram_field_draw(const fram_field *f, const char *title, const char *path, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
+    if (status != FRAM_OK)
+        return status;
     context *ctx = &f->context->inner;
     const fram_field_summary *a = &f->about;
     plan_shape *shapes = memory_array(ctx, (size_t)a->floes, sizeof *shapes);
@@ -31,7 +35,7 @@ fram_status fram_field_draw(const fram_field *f, const char *title, const char *
                             .caption = caption,
                             .shapes = shapes,
                             .shape_count = a->floes};
-    fram_status status = plan_view_write(ctx, &view, path, PICTURE_PIXELS, error);
+    status = plan_view_write(ctx, &view, path, PICTURE_PIXELS, error);
     memory_free(ctx, shapes);
     return status;
 }
@@ -63,8 +67,13 @@ static void cover_cells(box2 box, int32_t nx, int32_t ny, const double *cover, v
 fram_status fram_field_draw_cover(const fram_field *f, double cell, const char *title, const char *path,
                                   fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
+    if (status != FRAM_OK)
+        return status;
     context *ctx = &f->context->inner;
     double wide = f->window.hi.x - f->window.lo.x, high = f->window.hi.y - f->window.lo.y, longest = fmax(wide, high);
+    if (!(isfinite(longest) && longest > 0))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "field", "expected a field with floes, found none to map");
     cell = cell == 0 ? longest / COVER_CELLS : cell;
     if (!(cell >= longest / MOST_COVER_CELLS && cell <= longest))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "cell",
@@ -75,7 +84,7 @@ fram_status fram_field_draw_cover(const fram_field *f, double cell, const char *
     double *cover = memory_array(ctx, cells, sizeof *cover);
     vec2 *corners = memory_array(ctx, 4 * cells, sizeof *corners);
     plan_shape *shapes = memory_array(ctx, cells, sizeof *shapes);
-    fram_status status = cover && corners && shapes ? FRAM_OK : error_memory(error);
+    status = cover && corners && shapes ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK) {
         field_cover_map(&f->floes.outlines, f->window, nx, ny, cover);
         cover_cells(f->window, nx, ny, cover, corners, shapes);
@@ -115,6 +124,9 @@ static void add_real(context *ctx, text_buffer *b, double value)
 
 fram_status fram_field_table(const fram_field *f, const char *path, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"field", f}, {"path", path});
+    if (status != FRAM_OK)
+        return status;
     context *ctx = &f->context->inner;
     text_buffer b = {0};
     text_add(ctx, &b,
@@ -137,7 +149,7 @@ fram_status fram_field_table(const fram_field *f, const char *path, fram_error *
         else
             text_add(ctx, &b, ",\n");
     }
-    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);
     return status;
 }

@@ -1,8 +1,11 @@
 /* Ice fields of scenarios, and how they were made. */
+#include "api/arguments.h"
 #include "api/field_handle.h"
 
 #include "ice/field_measure.h"
 #include "sim/build.h"
+
+#include <math.h>
 
 _Static_assert((int)FRAM_FIELD_BINS == (int)SIZE_BINS, "one number of bins");
 
@@ -23,6 +26,9 @@ static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fr
 
 fram_status fram_field_generate(const fram_scenario *s, fram_field **out, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"scenario", s}, {"field", out});
+    if (status != FRAM_OK)
+        return status;
     context *ctx = &s->context->inner;
     fram_field *f = memory_array(ctx, 1, sizeof *f);
     overlay *plane = f ? overlay_create(ctx) : NULL;
@@ -30,7 +36,7 @@ fram_status fram_field_generate(const fram_scenario *s, fram_field **out, fram_e
         *f = (fram_field){.context = s->context, .generated = true};
         fram_field_default(&f->made);
     }
-    fram_status status = plane ? generate(f, &s->inner, plane, error) : error_memory(error);
+    status = plane ? generate(f, &s->inner, plane, error) : error_memory(error);
     if (plane)
         overlay_free(plane);
     if (status == FRAM_OK)
@@ -42,12 +48,15 @@ fram_status fram_field_generate(const fram_scenario *s, fram_field **out, fram_e
 
 double fram_field_concentration(const fram_field *f, const double lo[2], const double hi[2])
 {
+    bool window = f && lo && hi && lo[0] < hi[0] && lo[1] < hi[1];
+    if (!window || !isfinite(hi[0] - lo[0]) || !isfinite(hi[1] - lo[1]))
+        return (double)NAN;
     return field_concentration(&f->floes.outlines, (box2){{lo[0], lo[1]}, {hi[0], hi[1]}});
 }
 
 bool fram_field_making_get(const fram_field *f, fram_field_making *making)
 {
-    if (!f->generated)
+    if (!f || !making || !f->generated)
         return false;
     const drawn_ice *d = &f->drawn;
     *making = (fram_field_making){
@@ -67,6 +76,9 @@ bool fram_field_making_get(const fram_field *f, fram_field_making *making)
 
 fram_status fram_field_population_get(const fram_field *f, int number, fram_field_population *out, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"field", f}, {"population", out});
+    if (status != FRAM_OK)
+        return status;
     if (number < 0 || number >= f->drawn.parts.count)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "number", "expected 0 to under %d populations, found %d",
                          (int)f->drawn.parts.count, number);

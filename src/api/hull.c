@@ -1,6 +1,7 @@
 /* Hulls of the public API. */
 #include "fram/hull.h"
 
+#include "api/arguments.h"
 #include "api/handles.h"
 #include "base/transcendental.h"
 #include "io/hull_file.h"
@@ -86,7 +87,8 @@ static fram_status hull_end(fram_hull *h, fram_status status, fram_hull **out)
 void fram_hull_file_default(fram_hull_file_definition *d)
 {
     hull_file_options o = hull_file_defaults();
-    *d = (fram_hull_file_definition){sizeof *d, o.scale, o.seal_width, o.repair, o.freeboard};
+    if (d)
+        *d = (fram_hull_file_definition){sizeof *d, o.scale, o.seal_width, o.repair, o.freeboard};
 }
 
 fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_file_definition *definition,
@@ -94,6 +96,11 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
 {
     fram_hull_file_definition d;
     fram_hull_file_default(&d);
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"hull", out});
+    if (status == FRAM_OK && definition)
+        status = definition_check(definition, sizeof d, "fram_hull_file", error);
+    if (status != FRAM_OK)
+        return status;
     if (definition)
         d = *definition;
     const hull_file_options options = {d.scale, d.seal_width, d.repair, d.freeboard};
@@ -101,7 +108,7 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
     if (!h)
         return error_memory(error);
     hull_file_report report;
-    fram_status status = hull_file_read(&c->inner, path, &options, &h->surface, &report, error);
+    status = hull_file_read(&c->inner, path, &options, &h->surface, &report, error);
     if (status == FRAM_OK)
         describe_file(h, &report);
     return hull_end(h, status, out);
@@ -109,6 +116,8 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
 
 void fram_hull_particulars_default(fram_hull_particulars *p)
 {
+    if (!p)
+        return;
     *p = (fram_hull_particulars){.size = sizeof *p,
                                  .length = 100,
                                  .beam = 20,
@@ -123,6 +132,11 @@ void fram_hull_particulars_default(fram_hull_particulars *p)
 
 fram_status fram_hull_make(fram_context *c, const fram_hull_particulars *p, fram_hull **out, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"hull", out});
+    if (status == FRAM_OK)
+        status = definition_check(p, sizeof *p, "fram_hull_particulars", error);
+    if (status != FRAM_OK)
+        return status;
     const hull_particulars particulars = {.form = p->box ? HULL_BOX : HULL_ICEBREAKER,
                                           .length = p->length,
                                           .beam = p->beam,
@@ -137,7 +151,7 @@ fram_status fram_hull_make(fram_context *c, const fram_hull_particulars *p, fram
     fram_hull *h = hull_begin(c);
     if (!h)
         return error_memory(error);
-    fram_status status = hull_make(&c->inner, &particulars, &h->surface, &h->pieces, error);
+    status = hull_make(&c->inner, &particulars, &h->surface, &h->pieces, error);
     h->about.format = "particulars";
     return hull_end(h, status, out);
 }
@@ -152,14 +166,20 @@ void fram_hull_destroy(fram_hull *h)
     memory_free(ctx, h);
 }
 
-void fram_hull_surface_get(const fram_hull *h, fram_hull_surface *surface) { *surface = h->about; }
+void fram_hull_surface_get(const fram_hull *h, fram_hull_surface *surface)
+{
+    if (surface)
+        *surface = h ? h->about : (fram_hull_surface){.format = ""};
+}
 
 void fram_hull_triangles(const fram_hull *h, double *vertices, int vertex_room, int *triangles, int triangle_room)
 {
+    if (!h)
+        return;
     const mesh *m = &h->surface;
-    for (int32_t i = 0; i < m->vertex.count && i < vertex_room; i++)
+    for (int32_t i = 0; vertices && i < m->vertex.count && i < vertex_room; i++)
         copy3(vertices + 3 * (size_t)i, m->vertex.data[i]);
-    for (int32_t i = 0; i < m->face.count && i < triangle_room; i++)
+    for (int32_t i = 0; triangles && i < m->face.count && i < triangle_room; i++)
         for (int k = 0; k < 3; k++)
             triangles[3 * (size_t)i + (size_t)k] = m->face.data[i].v[k];
 }
@@ -168,6 +188,8 @@ void fram_hull_triangles(const fram_hull *h, double *vertices, int vertex_room, 
 
 void fram_hull_condition_default(fram_hull_condition *c)
 {
+    if (!c)
+        return;
     *c =
         (fram_hull_condition){sizeof *c, (double)NAN, (double)NAN, {(double)NAN, (double)NAN, (double)NAN}, 1025, 9.81};
 }
@@ -186,6 +208,13 @@ static fram_status check_condition(const fram_hull_condition *c, fram_error *err
     if (!isnan(c->draught) && !(c->draught > 0 && c->draught < HUGE_VAL))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught", "expected a positive draught, found %g",
                          c->draught);
+    if (!isnan(c->mass) && !(c->mass > 0 && c->mass < HUGE_VAL))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "mass", "expected a positive mass, found %g", c->mass);
+    for (int i = 0; i < 3; i++) {
+        if (isinf(c->centre[i]))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "centre", "expected finite coordinates, found %g",
+                             c->centre[i]);
+    }
     return FRAM_OK;
 }
 
@@ -214,10 +243,15 @@ static fram_status find_stability(const fram_hull *h, const fram_hull_condition 
                                   hull_attitude *a, hull_stability *s, fram_error *error)
 {
     vec3 centre;
+    fram_status status = REFUSE_NULL(error, {"hull", h});
+    if (status == FRAM_OK && condition)
+        status = definition_check(condition, sizeof *c, "fram_hull_condition", error);
+    if (status != FRAM_OK)
+        return status;
     fram_hull_condition_default(c);
     if (condition)
         *c = *condition;
-    fram_status status = find_attitude(h, c, a, &centre, error);
+    status = find_attitude(h, c, a, &centre, error);
     return status == FRAM_OK ? hull_stability_of(&h->context->inner, &h->surface, a, centre, s, error) : status;
 }
 
@@ -227,7 +261,9 @@ fram_status fram_hull_float(const fram_hull *h, const fram_hull_condition *condi
     fram_hull_condition c;
     hull_attitude a;
     hull_stability s;
-    fram_status status = find_stability(h, condition, &c, &a, &s, error);
+    fram_status status = REFUSE_NULL(error, {"floating", out});
+    if (status == FRAM_OK)
+        status = find_stability(h, condition, &c, &a, &s, error);
     if (status != FRAM_OK)
         return status;
     double k = c.water_density * c.gravity;
@@ -280,6 +316,9 @@ fram_status fram_hull_float(const fram_hull *h, const fram_hull_condition *condi
 
 fram_status fram_hull_cut(fram_hull *h, double tolerance, int most, fram_hull_pieces *out, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"hull", h}, {"pieces", out});
+    if (status != FRAM_OK)
+        return status;
     context *ctx = &h->context->inner;
     if (most < 1)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "pieces", "expected at least one piece, found %d", most);
@@ -288,7 +327,7 @@ fram_status fram_hull_cut(fram_hull *h, double tolerance, int most, fram_hull_pi
                          tolerance);
     polyhedron_array pieces = {0};
     double concavity = 0;
-    fram_status status = hull_cut(ctx, &h->surface, &tolerance, most, &pieces, &concavity, error);
+    status = hull_cut(ctx, &h->surface, &tolerance, most, &pieces, &concavity, error);
     if (status != FRAM_OK)
         return status;
     polyhedron_array_free(ctx, &h->pieces);
@@ -349,7 +388,9 @@ fram_status fram_hull_draw(const fram_hull *h, const fram_hull_condition *condit
     fram_hull_condition c;
     hull_attitude a;
     hull_stability s;
-    fram_status status = find_stability(h, condition, &c, &a, &s, error);
+    fram_status status = REFUSE_NULL(error, {"path", path});
+    if (status == FRAM_OK)
+        status = find_stability(h, condition, &c, &a, &s, error);
     if (status != FRAM_OK)
         return status;
     view_table table = {.count = 0};
@@ -374,5 +415,8 @@ fram_status fram_hull_draw(const fram_hull *h, const fram_hull_condition *condit
 
 fram_status fram_hull_save(const fram_hull *h, const char *path, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"hull", h}, {"path", path});
+    if (status != FRAM_OK)
+        return status;
     return mesh_file_write(&h->context->inner, path, &h->surface, error);
 }

@@ -1,7 +1,7 @@
 /* Breaking ice of the public API. */
 #include "fram/ice.h"
 
-#include "base/context.h"
+#include "api/arguments.h"
 #include "ice/fracture.h"
 #include "ice/sheet.h"
 #include "ice/wedge.h"
@@ -30,7 +30,9 @@ static fram_status need_ratio(double poisson_ratio, fram_error *error)
 
 fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_error *error)
 {
-    fram_status status = need_load_length(a_over_l, error);
+    fram_status status = REFUSE_NULL(error, {"result", result});
+    if (status == FRAM_OK)
+        status = need_load_length(a_over_l, error);
     if (status != FRAM_OK)
         return status;
     wedge w = wedge_solve(a_over_l);
@@ -40,7 +42,9 @@ fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_
 
 fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet_result *result, fram_error *error)
 {
-    fram_status status = need_load_length(a_over_l, error);
+    fram_status status = REFUSE_NULL(error, {"result", result});
+    if (status == FRAM_OK)
+        status = need_load_length(a_over_l, error);
     if (status == FRAM_OK)
         status = need_ratio(poisson_ratio, error);
     if (status != FRAM_OK)
@@ -53,6 +57,8 @@ fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet
 
 void fram_ice_edge_default(fram_ice_edge *load)
 {
+    if (!load)
+        return;
     *load = (fram_ice_edge){.size = sizeof *load,
                             .thickness = 1,
                             .elastic_modulus = 5e9,
@@ -92,9 +98,12 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
 
 fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error)
 {
-    if (load->size != sizeof *load)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "size", "call fram_ice_edge_default first");
-    fram_status status = check_load(load, error);
+    fram_status status = REFUSE_NULL(error, {"breaking", breaking});
+    if (status == FRAM_OK)
+        status = definition_check(load, sizeof *load, "fram_ice_edge", error);
+    if (status != FRAM_OK)
+        return status;
+    status = check_load(load, error);
     if (status != FRAM_OK)
         return status;
     ice_material m = {.elastic_modulus = load->elastic_modulus,

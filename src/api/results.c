@@ -1,6 +1,7 @@
 /* Exports, reports and pictures of the public API. */
 #include "fram/results.h"
 
+#include "api/arguments.h"
 #include "api/handles.h"
 #include "results/export.h"
 #include "results/plot.h"
@@ -11,6 +12,11 @@
 
 #include <stdio.h>
 #include <string.h>
+
+/* Bounds of what a caller may ask for, far beyond every use: times [s], simulated seconds a second, metres across. */
+#define TIME_MOST 1e12
+#define SPEED_MOST 1e9
+#define SPAN_MOST 1e7
 
 static fram_status answer(fram_status status, const export_report *from, fram_result *to)
 {
@@ -25,6 +31,12 @@ fram_status fram_export_vtk(fram_context *c, const char *run, const char *output
                             fram_error *error)
 {
     export_report report;
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK && every < 1)
+        status =
+            error_set(error, FRAM_ERROR_USAGE, NULL, 0, "every", "expected 1 or more, found %lld", (long long)every);
+    if (status != FRAM_OK)
+        return status;
     return answer(export_vtk(&c->inner, run, output, every, &report, error), &report, result);
 }
 
@@ -32,6 +44,11 @@ fram_status fram_export_geojson(fram_context *c, const char *run, const char *ou
                                 fram_error *error)
 {
     export_report report;
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK)
+        status = number_check("time", time, -TIME_MOST, TIME_MOST, error);
+    if (status != FRAM_OK)
+        return status;
     return answer(export_geojson(&c->inner, run, output, time, &report, error), &report, result);
 }
 
@@ -39,13 +56,19 @@ fram_status fram_export_netcdf(fram_context *c, const char *run, const char *out
                                fram_error *error)
 {
     export_report report;
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status != FRAM_OK)
+        return status;
     return answer(export_netcdf(&c->inner, run, output, &report, error), &report, result);
 }
 
 fram_status fram_report(fram_context *c, const char *run, const char *output, fram_result *result, fram_error *error)
 {
     export_report report = {.frames = 0};
-    fram_status status = report_write(&c->inner, run, output, scenario_notes, error);
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status != FRAM_OK)
+        return status;
+    status = report_write(&c->inner, run, output, scenario_notes, error);
     snprintf(report.path, sizeof report.path, output ? "%s" : "%s/report.html", output ? output : run);
     return answer(status, &report, result);
 }
@@ -53,13 +76,21 @@ fram_status fram_report(fram_context *c, const char *run, const char *output, fr
 fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,
                       double to, const char *output, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"channels", channels}, {"output", output});
+    for (int i = 0; i < channel_count && status == FRAM_OK; i++)
+        status = REFUSE_NULL(error, {"channels", channels[i]});
+    if (status != FRAM_OK)
+        return status;
     return plot_channels(&c->inner, run, channels, channel_count, from, to, output, error);
 }
 
 fram_status fram_channels(fram_context *c, const char *run, char **text, fram_error *error)
 {
     text_buffer out = {0};
-    fram_status status = plot_list(&c->inner, run, &out, error);
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"text", text});
+    if (status != FRAM_OK)
+        return status;
+    status = plot_list(&c->inner, run, &out, error);
     if (status == FRAM_OK)
         *text = out.data;
     else
@@ -77,10 +108,14 @@ typedef struct comparison_inside {
 fram_status fram_compare(fram_context *c, const char *run_a, const char *run_b, const char *output,
                          fram_comparison *comparison, fram_error *error)
 {
+    fram_status status =
+        REFUSE_NULL(error, {"context", c}, {"run_a", run_a}, {"run_b", run_b}, {"comparison", comparison});
+    if (status != FRAM_OK)
+        return status;
     comparison_inside *in = memory_array(&c->inner, 1, sizeof *in);
     if (!in)
         return error_memory(error);
-    fram_status status = compare_runs(&c->inner, run_a, run_b, output, &in->result, error);
+    status = compare_runs(&c->inner, run_a, run_b, output, &in->result, error);
     if (status != FRAM_OK) {
         memory_free(&c->inner, in);
         return status;
@@ -95,6 +130,8 @@ fram_status fram_compare(fram_context *c, const char *run_a, const char *run_b, 
 
 void fram_comparison_free(fram_context *c, fram_comparison *comparison)
 {
+    if (!c || !comparison)
+        return;
     memory_free(&c->inner, comparison->inside);
     *comparison = (fram_comparison){0};
 }
@@ -103,6 +140,8 @@ void fram_comparison_free(fram_context *c, fram_comparison *comparison)
 
 void fram_video_default(fram_video_definition *definition)
 {
+    if (!definition)
+        return;
     *definition = (fram_video_definition){.size = sizeof *definition,
                                           .colour = "speed",
                                           .camera = "orbit",
@@ -136,9 +175,15 @@ static fram_status find_camera(const char *name, video_camera *camera, fram_erro
 fram_status fram_video(fram_context *c, const char *run, const fram_video_definition *d, fram_result *result,
                        fram_error *error)
 {
-    if (d->size != sizeof *d)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_video_definition.size",
-                         "the definition was not filled by fram_video_default of this version");
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK)
+        status = definition_check(d, sizeof *d, "fram_video", error);
+    if (status == FRAM_OK)
+        status = number_check("speed", d->speed, -SPEED_MOST, SPEED_MOST, error);
+    if (status == FRAM_OK)
+        status = number_check("span", d->span, -SPAN_MOST, SPAN_MOST, error);
+    if (status != FRAM_OK)
+        return status;
     if (d->width < 320 || d->width > 7680 || d->height < 320 || d->height > 4320 || d->width % 2 || d->height % 2)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "width", "expected even sizes from 320 to 7680 x 4320");
     if (d->frames_per_second < 1 || d->frames_per_second > 120)
@@ -151,7 +196,7 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
                              .height = d->height,
                              .pictures = d->pictures};
     export_report report = {.frames = 0};
-    fram_status status = find_colour(d->colour, &options.colour, error);
+    status = find_colour(d->colour, &options.colour, error);
     if (status == FRAM_OK)
         status = find_camera(d->camera, &options.camera, error);
     if (status == FRAM_OK && d->span > 0 && options.camera != VIDEO_PLAN)
@@ -165,6 +210,8 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
 
 void fram_capability_default(fram_capability_definition *definition)
 {
+    if (!definition)
+        return;
     *definition = (fram_capability_definition){.size = sizeof *definition,
                                                .measure = 120,
                                                .directions = 36,
@@ -178,9 +225,11 @@ void fram_capability_default(fram_capability_definition *definition)
 fram_status fram_capability(const fram_scenario *from, const fram_capability_definition *d, fram_result *result,
                             fram_error *error)
 {
-    if (d->size != sizeof *d)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_capability_definition.size",
-                         "the definition was not filled by fram_capability_default of this version");
+    fram_status status = REFUSE_NULL(error, {"scenario", from});
+    if (status == FRAM_OK)
+        status = definition_check(d, sizeof *d, "fram_capability", error);
+    if (status != FRAM_OK)
+        return status;
     if (!d->folder || !*d->folder)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     const capability_options options = {.folder = d->folder,
@@ -195,6 +244,6 @@ fram_status fram_capability(const fram_scenario *from, const fram_capability_def
                                         .line_safety_damaged = d->line_safety_damaged,
                                         .stop = d->stop};
     export_report report = {.frames = 0};
-    fram_status status = capability_write(&from->context->inner, &from->inner, &options, report.path, error);
+    status = capability_write(&from->context->inner, &from->inner, &options, report.path, error);
     return answer(status, &report, result);
 }

@@ -1,4 +1,5 @@
 /* Runs and benchmarks of the public API. */
+#include "api/arguments.h"
 #include "api/handles.h"
 
 #include "results/playback.h"
@@ -10,7 +11,8 @@
 
 void fram_run_default(fram_run_definition *definition)
 {
-    *definition = (fram_run_definition){.size = sizeof *definition};
+    if (definition)
+        *definition = (fram_run_definition){.size = sizeof *definition};
 }
 
 /* The caller's progress function with its user pointer. */
@@ -28,9 +30,9 @@ static void forward_progress(void *user, const run_progress *p)
 
 static fram_status check_definition(const fram_run_definition *d, fram_error *error)
 {
-    if (d->size != sizeof *d)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_run_definition.size",
-                         "the definition was not filled by fram_run_default of this version");
+    fram_status status = definition_check(d, sizeof *d, "fram_run", error);
+    if (status != FRAM_OK)
+        return status;
     if (!d->folder || !*d->folder)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     if (!(d->until < 1e300))
@@ -67,7 +69,9 @@ static void copy_result(const run_result *from, fram_run_result *to)
 fram_status fram_run(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
                      fram_error *error)
 {
-    fram_status status = check_definition(definition, error);
+    fram_status status = REFUSE_NULL(error, {"scenario", s});
+    if (status == FRAM_OK)
+        status = check_definition(definition, error);
     if (status != FRAM_OK)
         return status;
     progress_bridge bridge;
@@ -81,7 +85,9 @@ fram_status fram_run(const fram_scenario *s, const fram_run_definition *definiti
 fram_status fram_resume(fram_context *c, const fram_run_definition *definition, fram_run_result *result,
                         fram_error *error)
 {
-    fram_status status = check_definition(definition, error);
+    fram_status status = REFUSE_NULL(error, {"context", c});
+    if (status == FRAM_OK)
+        status = check_definition(definition, error);
     if (status != FRAM_OK)
         return status;
     progress_bridge bridge;
@@ -93,6 +99,10 @@ fram_status fram_resume(fram_context *c, const fram_run_definition *definition, 
 }
 
 /* ---- benchmarks ---- */
+
+/* Simulated seconds and steps of a benchmark, far beyond every use. */
+#define BENCH_TIME_MOST 1e6
+#define BENCH_STEPS_MOST 1e8
 
 static fram_bench_result bench_answer(const bench_result *r)
 {
@@ -119,7 +129,17 @@ static fram_bench_result bench_answer(const bench_result *r)
 fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_bench_result *result, fram_error *error)
 {
     bench_result r;
-    fram_status status = bench_scenario(&s->context->inner, &s->inner, warm, time, &r, error);
+    fram_status status = REFUSE_NULL(error, {"scenario", s}, {"result", result});
+    if (status == FRAM_OK)
+        status = number_check("warm", warm, 0, BENCH_TIME_MOST, error);
+    if (status == FRAM_OK)
+        status = number_check("time", time, 0, BENCH_TIME_MOST, error);
+    if (status == FRAM_OK &&
+        !(warm / s->inner.run.time_step <= BENCH_STEPS_MOST && time / s->inner.run.time_step <= BENCH_STEPS_MOST))
+        status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "time", "expected at most %g steps", BENCH_STEPS_MOST);
+    if (status != FRAM_OK)
+        return status;
+    status = bench_scenario(&s->context->inner, &s->inner, warm, time, &r, error);
     if (status == FRAM_OK)
         *result = bench_answer(&r);
     return status;
@@ -127,6 +147,8 @@ fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_be
 
 void fram_bench_scene_default(fram_bench_scene_definition *definition)
 {
+    if (!definition)
+        return;
     *definition = (fram_bench_scene_definition){
         .size = sizeof *definition, .time_step = 0.02, .warm = 5, .time = 20, .iterations = 10, .solver = "fast"};
 }
@@ -134,17 +156,17 @@ void fram_bench_scene_default(fram_bench_scene_definition *definition)
 /* Times so that the number of steps is an ordinary one. */
 static bool times_are_good(const fram_bench_scene_definition *d)
 {
-    return d->time_step > 1e-9 && d->time_step <= 1e6 && d->warm >= 0 && d->warm < d->time && d->time <= 1e6 &&
-           d->time / d->time_step <= 1e8;
+    return d->time_step > 1e-9 && d->time_step <= 1e6 && d->warm >= 0 && d->warm < d->time &&
+           d->time <= BENCH_TIME_MOST && d->time / d->time_step <= BENCH_STEPS_MOST;
 }
 
 static fram_status scene_options(const fram_bench_scene_definition *d, bench_scene_options *out, fram_error *error)
 {
     static const char *const solvers[] = {
         [SOLVER_SEQUENTIAL] = "sequential", [SOLVER_FAST] = "fast", [SOLVER_ACCURATE] = "accurate"};
-    if (d->size != sizeof *d)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_bench_scene_definition.size",
-                         "the definition was not filled by fram_bench_scene_default of this version");
+    fram_status status = definition_check(d, sizeof *d, "fram_bench_scene", error);
+    if (status != FRAM_OK)
+        return status;
     if (!times_are_good(d))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "time",
                          "expected 0 <= warm < time, a positive time step, and at most 1e8 steps");
@@ -170,7 +192,9 @@ fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench
 {
     bench_scene_options options;
     scene_text scene;
-    fram_status status = scene_options(definition, &options, error);
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"result", result});
+    if (status == FRAM_OK)
+        status = scene_options(definition, &options, error);
     if (status == FRAM_OK)
         status = scene_file_read(&c->inner, path, &scene, error);
     if (status != FRAM_OK)
@@ -185,18 +209,23 @@ fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench
 
 void fram_playback_default(fram_playback_definition *definition)
 {
-    *definition = (fram_playback_definition){.size = sizeof *definition};
+    if (definition)
+        *definition = (fram_playback_definition){.size = sizeof *definition};
 }
 
 fram_status fram_playback(fram_context *c, const fram_playback_definition *d, fram_playback_result *result,
                           fram_error *error)
 {
-    if (d->size != sizeof *d)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_playback_definition.size",
-                         "the definition was not filled by fram_playback_default of this version");
+    fram_status status = REFUSE_NULL(error, {"context", c});
+    if (status == FRAM_OK)
+        status = definition_check(d, sizeof *d, "fram_playback", error);
+    if (status == FRAM_OK)
+        status = REFUSE_NULL(error, {"folder", d->folder}, {"viewer_page", d->viewer_page}, {"output", d->output});
+    if (status != FRAM_OK)
+        return status;
     const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit};
     playback_report report = {0};
-    fram_status status = playback_write(&c->inner, d->folder, &options, &report, error);
+    status = playback_write(&c->inner, d->folder, &options, &report, error);
     if (result)
         *result = (fram_playback_result){report.frames, report.left_out, report.files};
     return status;

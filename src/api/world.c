@@ -1,10 +1,16 @@
 /* Worlds of the public API: stepping, reading the state, acting on bodies. */
+#include "api/arguments.h"
 #include "api/handles.h"
 
 #include "sim/build.h"
 
+#include <math.h>
+
 fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"scenario", s}, {"world", out});
+    if (status != FRAM_OK)
+        return status;
     context *ctx = &s->context->inner;
     fram_world *w = memory_array(ctx, 1, sizeof *w);
     if (!w)
@@ -12,7 +18,7 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
     w->scenario = s;
     w->settings = build_settings(&s->inner);
     build_report report;
-    fram_status status = build_world(ctx, &s->inner, &w->inner, &report, error);
+    status = build_world(ctx, &s->inner, &w->inner, &report, error);
     if (status != FRAM_OK) {
         memory_free(ctx, w);
         return status;
@@ -32,16 +38,21 @@ void fram_world_destroy(fram_world *w)
 
 fram_status fram_world_step(fram_world *w, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status != FRAM_OK)
+        return status;
     return world_step(&w->scenario->context->inner, &w->settings, &w->inner, error);
 }
 
-double fram_world_time(const fram_world *w) { return w->inner.clock.time[0]; }
-int64_t fram_world_steps(const fram_world *w) { return w->inner.clock.step[0]; }
-uint64_t fram_world_hash(const fram_world *w) { return world_hash(&w->inner); }
-int fram_world_slots(const fram_world *w) { return w->inner.bodies.count; }
+double fram_world_time(const fram_world *w) { return w ? w->inner.clock.time[0] : (double)NAN; }
+int64_t fram_world_steps(const fram_world *w) { return w ? w->inner.clock.step[0] : 0; }
+uint64_t fram_world_hash(const fram_world *w) { return w ? world_hash(&w->inner) : 0; }
+int fram_world_slots(const fram_world *w) { return w ? w->inner.bodies.count : 0; }
 
 bool fram_world_body(const fram_world *w, int slot, fram_body_id *id)
 {
+    if (!w || !id)
+        return false;
     const body_table *b = &w->inner.bodies;
     if (slot < 0 || slot >= b->count || !body_is_alive(b, slot))
         return false;
@@ -51,7 +62,7 @@ bool fram_world_body(const fram_world *w, int slot, fram_body_id *id)
 
 bool fram_world_vessel(const fram_world *w, fram_body_id *id)
 {
-    return w->inner.vessels.count > 0 && fram_world_body(w, w->inner.vessels.body[0], id);
+    return w && w->inner.vessels.count > 0 && fram_world_body(w, w->inner.vessels.body[0], id);
 }
 
 static bool lives(const body_table *b, fram_body_id id)
@@ -86,6 +97,9 @@ static void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = 
 
 fram_status fram_body_state_get(const fram_world *w, fram_body_id id, fram_body_state *state, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"state", state});
+    if (status != FRAM_OK)
+        return status;
     const body_table *b = &w->inner.bodies;
     if (!lives(b, id))
         return no_such_body(id, error);
@@ -102,12 +116,14 @@ fram_status fram_body_state_get(const fram_world *w, fram_body_id id, fram_body_
 
 int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room)
 {
+    if (!w)
+        return 0;
     const body_table *b = &w->inner.bodies;
     const shape_store *s = &w->inner.shapes;
     if (!lives(b, id) || b->shape[id.slot] < 0 || s->shapes.kind[b->shape[id.slot]] != SHAPE_PRISM)
         return 0;
     polygon outline = shape_outline(s, b->shape[id.slot]);
-    for (int32_t i = 0; i < outline.count && i < room; i++) {
+    for (int32_t i = 0; xy && i < outline.count && i < room; i++) {
         vec3 p = body_to_global(b, id.slot, vec3_make(outline.vertex[i].x, outline.vertex[i].y, 0));
         xy[2 * i] = p.x, xy[2 * i + 1] = p.y;
     }
@@ -117,6 +133,9 @@ int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room
 fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double force[3], const double moment[3],
                                    fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"force", force}, {"moment", moment});
+    if (status != FRAM_OK)
+        return status;
     if (!lives(&w->inner.bodies, id))
         return no_such_body(id, error);
     if (!body_is_dynamic(&w->inner.bodies, id.slot))
@@ -131,6 +150,9 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
 
 fram_status fram_world_ice_load(const fram_world *w, fram_body_id id, fram_ice_load *load, fram_error *error)
 {
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"load", load});
+    if (status != FRAM_OK)
+        return status;
     const world *in = &w->inner;
     if (!lives(&in->bodies, id))
         return no_such_body(id, error);

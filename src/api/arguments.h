@@ -1,0 +1,25 @@
+/* What every function of the public interface looks at first: nothing that a program hands over is undefined.  Numbers
+   that cannot be are refused where they are used, by name and range. */
+#ifndef API_ARGUMENTS_H
+#define API_ARGUMENTS_H
+
+#include "base/context.h"
+
+typedef struct argument {
+    const char *name; /* as the header of the function has it */
+    const void *pointer;
+} argument;
+
+/* FRAM_ERROR_USAGE, with the name as key, for the first that is NULL. */
+fram_status arguments_check(const argument *arguments, size_t count, fram_error *error);
+#define REFUSE_NULL(error, ...) \
+    arguments_check((const argument[]){__VA_ARGS__}, sizeof(const argument[]){__VA_ARGS__} / sizeof(argument), (error))
+
+/* FRAM_ERROR_USAGE for a definition that its default function did not fill: `definition` is NULL, or its first member,
+   `size`, is not `wanted`. */
+fram_status definition_check(const void *definition, size_t wanted, const char *type, fram_error *error);
+
+/* FRAM_ERROR_INPUT, with the name as key, unless the number lies between the bounds, which are in. */
+fram_status number_check(const char *name, double value, double least, double most, fram_error *error);
+
+#endif
