@@ -17,8 +17,8 @@
    out-pointers are left alone.  A NULL where a pointer is needed, or a definition that its default function did not
    fill, is FRAM_ERROR_USAGE, and a number that cannot be (NaN, infinite, out of range) an error that names it as key;
    functions without a status return 0, false, "" or NaN for NULL, or do nothing.  What may be NULL says so, and so may
-   the result of runs, exports and pages.  Objects are not locked: use one world from one thread at a time; worlds of different
-   contexts are independent.  A context must outlive its scenarios, a scenario its worlds.
+   the result of runs, exports and pages.  Objects are not locked: use one world from one thread at a time; worlds of
+   different contexts are independent.  A context must outlive its scenarios, a scenario its worlds.
 
    Units are SI.  Global frame: X, Y horizontal, Z up, still water at z = 0.  Body frame of a vessel: x forward, y to
    port, z up, origin at the centre of mass.  Quaternions are w, x, y, z and turn body coordinates into global ones. */

@@ -56,6 +56,9 @@ int options_read(const command_row *command, const option_row *rows, int row_cou
 int options_read_some(const command_row *command, const option_row *rows, int row_count, common_options *common,
                       int argc, char **argv, const char **positional, int least, int most);
 
+/* Whether --json is among the words, before a -- that ends the options. */
+bool words_ask_for_json(int count, char **words);
+
 /* --- answer.c --- */
 
 /* Print an error for people on standard error, and as JSON on standard output if asked; returns the exit code. */

@@ -50,11 +50,36 @@ int command_report(const command_row *self, int argc, char **argv)
 
 enum { CHANNELS_MOST = 64 };
 
-static fram_status list_channels(fram_context *context, const char *run, fram_error *error)
+/* "name [unit]" of each line as an object. */
+static void json_channels(char *text)
+{
+    json j = json_begin();
+    json_open_list(&j, "channels");
+    for (char *line = text, *end; (end = strchr(line, '\n')) != NULL; line = end + 1) {
+        *end = '\0';
+        char *unit = strstr(line, " [");
+        size_t length = unit ? strlen(unit) : 0;
+        json_open(&j, NULL);
+        if (length > 2) {
+            unit[length - 1] = '\0';
+            *unit = '\0';
+        }
+        json_text(&j, "name", line);
+        json_text(&j, "unit", length > 2 ? unit + 2 : "");
+        json_close(&j);
+    }
+    json_close_list(&j);
+    json_end(&j);
+}
+
+static fram_status list_channels(const common_options *common, fram_context *context, const char *run,
+                                 fram_error *error)
 {
     char *text = NULL;
     fram_status status = fram_channels(context, run, &text, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK && common->json)
+        json_channels(text);
+    else if (status == FRAM_OK)
         fputs(text, stdout);
     fram_text_free(context, text);
     return status;
@@ -88,7 +113,7 @@ int command_plot(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     fram_error error = {0};
-    fram_status status = count == 0 ? list_channels(context, word[0], &error)
+    fram_status status = count == 0 ? list_channels(&common, context, word[0], &error)
                                     : fram_plot(context, word[0], word + 1, count, from, to, output, &error);
     code = status == FRAM_OK ? EXIT_GOOD : answer_error(&common, &error);
     if (status == FRAM_OK && count > 0)

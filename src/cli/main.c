@@ -133,9 +133,35 @@ static int answer_version(const common_options *common)
     return EXIT_GOOD;
 }
 
+/* Options that every command has may stand before it: `fram --json run` is `fram run --json`. */
+static bool is_shared_flag(const char *word)
+{
+    static const char *const flags[] = {"--json", "--quiet", "-q", "--verbose", "-v", "--force"};
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        if (strcmp(word, flags[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* The command goes before the flags that stood before it. */
+static void bring_command_forward(int argc, char **argv)
+{
+    int at = 1;
+    while (at < argc && is_shared_flag(argv[at]))
+        at++;
+    if (at == argc)
+        return;
+    char *command = argv[at];
+    memmove(argv + 2, argv + 1, (size_t)(at - 1) * sizeof *argv);
+    argv[1] = command;
+}
+
 static int run_words(const common_options *common, int argc, char **argv)
 {
     const char *word = argv[1];
+    if (is_shared_flag(word))
+        return answer_usage(common, "COMMAND", "is missing; fram --help lists them");
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
         return answer_help(common);
     if (strcmp(word, "--version") == 0)
@@ -144,7 +170,9 @@ static int run_words(const common_options *common, int argc, char **argv)
         if (strcmp(word, commands[i].name) == 0)
             return commands[i].run(&commands[i], argc - 2, argv + 2);
     }
-    return answer_usage(common, word, "is not a command; fram --help lists them");
+    return answer_usage(common, *word ? word : "COMMAND",
+                        *word ? "is not a command; fram --help lists them"
+                              : "expected a command, found an empty word; fram --help lists them");
 }
 
 /* A standard stream that is closed at the start would be the next file that is opened, and progress lines would go into
@@ -170,8 +198,8 @@ int main(int argc, char **argv)
     /* A limit on the size of files is an error of the write that meets it, with its message and its tidying up. */
     signal(SIGXFSZ, SIG_IGN);
     common_options common = {0};
-    for (int i = 1; i < argc; i++)
-        common.json = common.json || strcmp(argv[i], "--json") == 0;
+    common.json = words_ask_for_json(argc - 1, argv + 1);
+    bring_command_forward(argc, argv);
     int code = run_words(&common, argc, argv);
     /* A full disk or a closed pipe shows here at the latest. */
     bool lost = ferror(stdout) != 0;

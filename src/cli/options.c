@@ -113,7 +113,8 @@ typedef struct word_list {
     const option_row *rows, *shared;
     int row_count;
     common_options *common;
-    int count, at; /* the next one */
+    int count, at;         /* the next one */
+    const char *arguments; /* as the help has them */
     char **word;
 } word_list;
 
@@ -135,8 +136,8 @@ static int read_option(word_list *list)
         return -1;
     }
     const char *text = equals ? equals + 1 : list->at < list->count ? list->word[list->at++] : NULL;
-    if (!text)
-        return answer_usage(list->common, row->name, "needs a value");
+    if (!text || !*text)
+        return answer_usage(list->common, row->name, text ? "needs a value, found an empty word" : "needs a value");
     const char *wrong = store_value(row, text);
     return wrong ? answer_usage(list->common, row->name, wrong) : -1;
 }
@@ -155,6 +156,8 @@ static int read_words(word_list *list, const char **positional, int most, int *f
             if (code >= 0)
                 return code;
         } else {
+            if (!*word)
+                return answer_usage(list->common, list->arguments, "expected a word, found an empty one; see --help");
             if (*found == most)
                 return answer_usage(list->common, word, "is one word too many; see --help");
             positional[(*found)++] = word;
@@ -162,6 +165,15 @@ static int read_words(word_list *list, const char **positional, int most, int *f
         }
     }
     return -1;
+}
+
+bool words_ask_for_json(int count, char **words)
+{
+    for (int i = 0; i < count && strcmp(words[i], "--") != 0; i++) {
+        if (strcmp(words[i], "--json") == 0)
+            return true;
+    }
+    return false;
 }
 
 static int answer_command_help(const command_row *command, const word_list *list)
@@ -180,11 +192,11 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
 {
     *common = (common_options){.threads = 1};
     /* --json anywhere, so that a usage error before it is JSON too. */
-    for (int i = 0; i < argc; i++)
-        common->json = common->json || strcmp(argv[i], "--json") == 0;
+    common->json = words_ask_for_json(argc, argv);
     option_row shared[COMMON_ROWS];
     common_rows(common, shared);
-    word_list list = {rows, shared, row_count, common, argc, 0, argv};
+    word_list list = {
+        rows, shared, row_count, common, argc, 0, *command->arguments ? command->arguments : command->name, argv};
     int found = 0, code = read_words(&list, positional, most, &found);
     if (code >= 0)
         return code;

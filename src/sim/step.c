@@ -202,10 +202,19 @@ static bool is_touched(const world *w, int32_t body)
     return false;
 }
 
+static bool is_towed(const world *w, int32_t body)
+{
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        if (w->vessels.body[v] == body && w->vessels.joint[v] >= 0)
+            return true;
+    }
+    return false;
+}
+
 /* What a user can do about a body that is too fast. */
 static const char *remedy_of(const world *w, int32_t body)
 {
-    if (!body_is_dynamic(&w->bodies, body))
+    if (!body_is_dynamic(&w->bodies, body) || is_towed(w, body))
         return "it moves as the scenario says: correct that, or raise run.speed_limit";
     if (is_touched(w, body))
         return "contacts act on it; a smaller run.time_step may help";
