@@ -57,6 +57,8 @@ uint64_t contact_key(const body_table *bodies, int32_t a, int32_t b, int32_t pie
     return contact_key_end(contact_key_begin(bodies, a, b, piece_a, piece_b), feature);
 }
 
+uint64_t contact_key_pair(uint64_t key) { return key & ~FEATURE_MASK; }
+
 void contact_keys_part(contact *contacts, int32_t count)
 {
     for (int32_t i = 1; i < count; i++) {

@@ -43,6 +43,8 @@ typedef struct contact_key_stem {
 } contact_key_stem;
 contact_key_stem contact_key_begin(const body_table *bodies, int32_t a, int32_t b, int32_t piece_a, int32_t piece_b);
 uint64_t contact_key_end(contact_key_stem stem, uint32_t feature);
+/* The least key of two bodies' contacts: the same for all of them. */
+uint64_t contact_key_pair(uint64_t key);
 /* Makes the keys of all contacts of one pair differ: of equal ones the later are counted up. */
 void contact_keys_part(contact *contacts, int32_t count);
 
@@ -60,6 +62,9 @@ typedef struct pair_policies {
     X(key, uint64_t, FIELD_U64, 1, "1", "contact key") \
     X(impulse, vec3, FIELD_F64, 3, "N s", "impulse on body a, global frame")
 TABLE_DECLARE(contact_memory, CONTACT_MEMORY_FIELDS)
+/* Row of the memory with this key, -1 without.  place: where the last search ended, from 0; keys mostly come in the
+   memory's order. */
+int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place);
 
 /* Pairs of bodies whose margins overlap, kept until they part; ascending (a, b), a < b. */
 #define PAIR_FIELDS(X)                                                                              \

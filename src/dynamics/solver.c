@@ -26,6 +26,7 @@ void solver_free(context *ctx, solver *s)
     array_free(ctx, &s->direction);
     array_free(ctx, &s->island);
     array_free(ctx, &s->gain);
+    array_free(ctx, &s->recalled);
     memory_free(ctx, s->entries);
     fast_rows_free(ctx, s->fast);
     memory_free(ctx, s);
@@ -42,7 +43,7 @@ static fram_status iterate(solver *s, const solver_settings *settings, int32_t *
         return solver_iterate_accurately(s, settings, iterations) == FRAM_OK ? FRAM_OK : error_memory(error);
     for (; *iterations < settings->iterations; ++*iterations) {
         joint_row_sweep(s);
-        contact_row_sweep(s);
+        contact_row_sweep(s, *iterations % 2 > 0);
     }
     return FRAM_OK;
 }
@@ -97,8 +98,7 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
     solver_bodies_load(s, bodies);
     if (settings->warm_start) {
         joint_rows_recall(s, joints);
-        contact_rows_recall(s, contacts, memory);
-        if (!solver_warm_start(s))
+        if (!contact_rows_recall(s, contacts, memory) || !solver_warm_start(s))
             return error_memory(error);
     }
     int32_t iterations;
@@ -207,7 +207,7 @@ fram_status solver_correct_positions(context *ctx, solver *s, const solver_setti
         s->bodies.data[i].velocity = s->bodies.data[i].angular_velocity = vec3_make(0, 0, 0);
     for (int32_t i = 0; i < settings->position_iterations; i++) {
         joint_row_sweep(s);
-        contact_row_sweep(s);
+        contact_row_sweep(s, i % 2 > 0);
     }
     for (int32_t i = 0; i < s->bodies.count; i++) {
         const solver_body *b = &s->bodies.data[i];

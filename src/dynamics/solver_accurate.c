@@ -55,7 +55,7 @@ static double sweep_change(solver *s, int32_t count)
     for (int32_t i = 0; i < count; i++)
         before[i] = *multiplier_of(s, i);
     joint_row_sweep(s);
-    contact_row_sweep(s);
+    contact_row_sweep(s, false);
     for (int32_t i = 0; i < count; i++) {
         before[i] = *multiplier_of(s, i) - before[i];
         square += before[i] * before[i];

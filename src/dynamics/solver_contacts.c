@@ -1,7 +1,6 @@
 /* Contact rows: made, warm started, swept, judged and written back (SPEC 6, 7). */
 #include "dynamics/solver_rows.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* A hull driven against static ice takes its cap while they approach, and kinetic friction against the sliding; all
@@ -74,37 +73,6 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
 
 /* ---- warm start ---- */
 
-/* Keys looked at on either side before a search by halves: of a few pairs. */
-enum { NEAR_KEYS = 16 };
-
-/* The first row whose key is not below `key`, near `place` or anywhere. */
-static int32_t memory_place(const contact_memory_table *memory, uint64_t key, int32_t place)
-{
-    int32_t low = place > NEAR_KEYS ? place - NEAR_KEYS : 0;
-    int32_t high = place + NEAR_KEYS < memory->count ? place + NEAR_KEYS : memory->count;
-    if ((low == 0 || memory->key[low - 1] < key) && (high == memory->count || memory->key[high] >= key)) {
-        while (place > low && memory->key[place - 1] >= key)
-            place--;
-        while (place < high && memory->key[place] < key)
-            place++;
-        return place;
-    }
-    for (low = 0, high = memory->count; low < high;) {
-        int32_t middle = low + (high - low) / 2;
-        if (memory->key[middle] < key)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place)
-{
-    *place = memory_place(memory, key, *place);
-    return *place < memory->count && memory->key[*place] == key ? *place : -1;
-}
-
 /* Largest friction impulse: mu_s p_n while sticking, mu_k p_n once sliding.  A contact slides when kinetic friction
    could not stop it within this step; below that it counts as sticking, so that what a finite number of sweeps leaves
    of a velocity does not free a body at rest. */
@@ -124,22 +92,22 @@ static void project_friction(const contact_row *row, double *p1, double *p2)
     *p2 *= scale;
 }
 
-void contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory)
+bool contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory)
 {
-    int32_t place = 0;
+    if (!array_resize(s->ctx, &s->recalled, contacts->count))
+        return false;
+    contacts_recall(memory, contacts, 0, contacts->count, s->recalled.data);
     for (int32_t i = 0; i < s->contacts.count; i++) {
         contact_row *row = &s->contacts.data[i];
-        int32_t at = contact_memory_find(memory, contacts->data[row->contact].key, &place);
-        if (at < 0)
-            continue;
         double p[3];
         for (int k = 0; k < 3; k++)
-            p[k] = vec3_dot(row->axis[k].direction, memory->impulse[at]);
+            p[k] = vec3_dot(row->axis[k].direction, s->recalled.data[row->contact]);
         row->impulse[0] = fmin(fmax(p[0], 0), row->limit);
         project_friction(row, &p[1], &p[2]);
         row->impulse[1] = p[1];
         row->impulse[2] = p[2];
     }
+    return true;
 }
 
 /* ---- one sweep ---- */
@@ -163,19 +131,27 @@ static void solve_friction(contact_row *row, solver_body *a, solver_body *b)
     row->impulse[2] = p2;
 }
 
-void contact_row_sweep(solver *s)
+static void solve_contact(solver *s, contact_row *row)
 {
-    for (int32_t i = 0; i < s->contacts.count; i++) {
-        contact_row *row = &s->contacts.data[i];
-        solver_body *a = &s->bodies.data[row->a], *b = &s->bodies.data[row->b];
-        double u = row_axis_velocity(&row->axis[0], a, b);
-        double p = row->impulse[0] - (u - row->bias) * row->normal_mass;
-        p = p > 0 ? p : 0;
-        p = p < row->limit ? p : row->limit;
-        row_axis_push(&row->axis[0], a, b, p - row->impulse[0]);
-        row->impulse[0] = p;
-        if (row->friction_static > 0)
-            solve_friction(row, a, b);
+    solver_body *a = &s->bodies.data[row->a], *b = &s->bodies.data[row->b];
+    double u = row_axis_velocity(&row->axis[0], a, b);
+    double p = row->impulse[0] - (u - row->bias) * row->normal_mass;
+    p = p > 0 ? p : 0;
+    p = p < row->limit ? p : row->limit;
+    row_axis_push(&row->axis[0], a, b, p - row->impulse[0]);
+    row->impulse[0] = p;
+    if (row->friction_static > 0)
+        solve_friction(row, a, b);
+}
+
+void contact_row_sweep(solver *s, bool back)
+{
+    contact_row *rows = s->contacts.data;
+    for (int32_t first = 0, end; first < s->contacts.count; first = end) {
+        for (end = first + 1; end < s->contacts.count && rows[end].a == rows[first].a && rows[end].b == rows[first].b;)
+            end++;
+        for (int32_t i = first; i < end; i++)
+            solve_contact(s, &rows[back ? first + end - 1 - i : i]);
     }
 }
 
@@ -203,72 +179,6 @@ double contact_row_slip_residual(const solver *s, const contact_row *row)
 }
 
 /* ---- write back ---- */
-
-typedef struct memory_entry {
-    uint64_t key;
-    int32_t contact;
-} memory_entry;
-
-static int compare_entries(const void *a, const void *b)
-{
-    const memory_entry *x = a, *y = b;
-    if (x->key != y->key)
-        return x->key < y->key ? -1 : 1;
-    return (x->contact > y->contact) - (x->contact < y->contact);
-}
-
-/* Adds an entry to the sorted ones when its place is near their end: points of one pair come in any order. */
-static bool insert_near_end(memory_entry *entries, int32_t count, memory_entry e)
-{
-    enum { MOST_MOVED = 8 };
-    int32_t at = count;
-    while (at > 0 && compare_entries(&entries[at - 1], &e) > 0)
-        if (count - --at > MOST_MOVED)
-            return false;
-    memmove(entries + at + 1, entries + at, (size_t)(count - at) * sizeof *entries);
-    entries[at] = e;
-    return true;
-}
-
-/* The narrow phase lists pairs by ascending keys, and others follow in an order of their own: the tail is sorted and
-   merged. */
-static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, memory_entry *tail)
-{
-    int32_t left = count - sorted;
-    if (left == 0)
-        return;
-    qsort(entries + sorted, (size_t)left, sizeof *entries, compare_entries);
-    memcpy(tail, entries + sorted, (size_t)left * sizeof *entries);
-    for (int32_t i = sorted - 1, to = count - 1; left > 0; to--)
-        entries[to] = i >= 0 && compare_entries(&entries[i], &tail[left - 1]) > 0 ? entries[i--] : tail[--left];
-}
-
-fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
-                              contact_memory_table *memory, fram_error *error)
-{
-    if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, 2 * contacts->count, sizeof *s->entries) ||
-        !table_reserve(s->ctx, memory, &contact_memory_table_info, contacts->count))
-        return error_memory(error);
-    int32_t count = 0, sorted = 0;
-    for (int32_t i = 0; i < contacts->count; i++) {
-        const contact *c = &contacts->data[i];
-        if (c->impulse[0] <= 0 || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
-            continue;
-        memory_entry e = {c->key, i};
-        if (sorted == count && insert_near_end(s->entries, sorted, e))
-            sorted++;
-        else
-            s->entries[count] = e;
-        count++;
-    }
-    sort_entries(s->entries, count, sorted, s->entries + contacts->count);
-    memory->count = count;
-    for (int32_t i = 0; i < count; i++) {
-        memory->key[i] = s->entries[i].key;
-        memory->impulse[i] = contact_impulse(&contacts->data[s->entries[i].contact]);
-    }
-    return FRAM_OK;
-}
 
 fram_status contact_rows_finish(solver *s, const body_table *bodies, contact_array *contacts,
                                 contact_memory_table *memory, fram_error *error)

@@ -186,28 +186,26 @@ static void find_block(void *arg, int32_t block, int32_t thread)
     const find_work *w = arg;
     int32_t count = w->contacts->count, first = FIND_BLOCK * block;
     int32_t end = first + FIND_BLOCK < count ? first + FIND_BLOCK : count;
-    int32_t place = w->memory ? (int32_t)((int64_t)first * w->memory->count / count) : 0;
     (void)thread;
     for (int32_t i = first; i < end; i++) {
         contact *c = &w->contacts->data[i];
-        w->s->fast->memory_row.data[i] = -1;
         if (!body_is_dynamic(w->bodies, c->a) && !body_is_dynamic(w->bodies, c->b)) {
             contact_load_immovable(w->bodies, c);
             continue;
         }
         c->arm_a = vec3_sub(c->point, w->bodies->position[c->a]);
         c->arm_b = vec3_sub(c->point, w->bodies->position[c->b]);
-        if (w->memory)
-            w->s->fast->memory_row.data[i] = contact_memory_find(w->memory, c->key, &place);
     }
+    if (w->memory)
+        contacts_recall(w->memory, w->contacts, first, end, w->s->recalled.data);
 }
 
-/* Arms of contacts, and where the memory has them. */
+/* Arms of contacts, and what they carried. */
 static bool find_contacts(solver *s, const contact_memory_table *memory, const body_table *bodies,
                           contact_array *contacts)
 {
     find_work work = {s, memory, bodies, contacts};
-    if (!array_resize(s->ctx, &s->fast->memory_row, contacts->count))
+    if (!array_resize(s->ctx, &s->recalled, contacts->count))
         return false;
     pool_run(s->ctx, find_block, &work, (contacts->count + FIND_BLOCK - 1) / FIND_BLOCK);
     return true;

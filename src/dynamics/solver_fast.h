@@ -49,7 +49,6 @@ typedef struct fast_rows {
     acceleration acceleration;
     int32_array joint_row;      /* body row of each entry of solver.bodies */
     int32_array island;         /* of each body row, see solver_warm.c */
-    int32_array memory_row;     /* of each contact, -1: none */
     ARRAY(energy_gain) gain;    /* of each body row that leads an island */
     ARRAY(way_products) blocks; /* sums of each block of body rows */
     int32_t planned;            /* number of contacts that the rows were made for, -1: none */

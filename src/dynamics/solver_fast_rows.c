@@ -31,7 +31,6 @@ void fast_rows_free(context *ctx, fast_rows *f)
     acceleration_free(ctx, &f->acceleration);
     array_free(ctx, &f->joint_row);
     array_free(ctx, &f->island);
-    array_free(ctx, &f->memory_row);
     array_free(ctx, &f->gain);
     array_free(ctx, &f->blocks);
     batch_plan_free(ctx, &f->plan);
@@ -195,10 +194,9 @@ static void fill_lane(const stage *st, const contact_batch *batch, double *frame
             continue;
         }
         const contact *c = &st->contacts->data[number];
-        int32_t remembered = st->memory ? f->memory_row.data[number] : -1;
         put3(point, POINT_ARM_A, lane, c->arm_a);
         put3(point, POINT_ARM_B, lane, c->arm_b);
-        put3(impulse, 0, lane, remembered < 0 ? zero : st->memory->impulse[remembered]);
+        put3(impulse, 0, lane, st->memory ? st->s->recalled.data[number] : zero);
         point[BATCH_LANES * POINT_BIAS + lane] = wanted_velocity(c, st->settings, st->dt);
         point[BATCH_LANES * POINT_LIMIT + lane] = c->impulse_limit;
     }

@@ -69,6 +69,7 @@ struct solver {
     ARRAY(double) direction; /* accurate solver: search direction */
     int32_array island;      /* of each touched body: one nearer to the island's leader, itself for the leader */
     ARRAY(energy_gain) gain; /* of each leader */
+    ARRAY(vec3) recalled;    /* of each contact: impulse of the last step */
     struct memory_entry *entries;
     int32_t entry_capacity;
     struct fast_rows *fast; /* of the fast solver, made when it is first used */
@@ -102,23 +103,28 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
                               contact_array *contacts, fram_error *error);
 /* The impulse of a contact between two bodies that nothing can move. */
 void contact_load_immovable(const body_table *bodies, contact *c);
-/* Row of the memory with this key, -1 without.  place: where the last search ended, from 0; keys mostly come in the
-   memory's order. */
-int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place);
-/* The memory of this step: contacts that carry something, by ascending keys. */
-fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
-                              contact_memory_table *memory, fram_error *error);
-/* Impulses of the last step into the rows, within this step's bounds; solver_warm_start applies them. */
-void contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory);
+/* Impulses of the last step into the rows, within this step's bounds; solver_warm_start applies them.
+   false: no memory. */
+bool contact_rows_recall(solver *s, const contact_array *contacts, const contact_memory_table *memory);
 /* Impulses back into the contacts, and the memory of this step. */
 fram_status contact_rows_finish(solver *s, const body_table *bodies, contact_array *contacts,
                                 contact_memory_table *memory, fram_error *error);
-void contact_row_sweep(solver *s);
+/* back: the points of each pair in reverse order. */
+void contact_row_sweep(solver *s, bool back);
 /* Complementarity residual of the normal row [m/s]. */
 double contact_row_residual(const solver *s, const contact_row *row);
 /* The same of the tangent rows. */
 double contact_row_slip_residual(const solver *s, const contact_row *row);
 
+/* ---- contact_memory.c ---- */
+
+/* Impulses of the last step, on body a, global frame, of the contacts of all pairs that begin in [first, end) into
+   `recalled`, which has a place for every contact. */
+void contacts_recall(const contact_memory_table *memory, const contact_array *contacts, int32_t first, int32_t end,
+                     vec3 *recalled);
+/* The memory of this step: contacts that carry something, by ascending keys. */
+fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
+                              contact_memory_table *memory, fram_error *error);
 /* ---- joint.c ---- */
 
 fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, const joint_table *joints,

@@ -236,20 +236,6 @@ static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads 
 
 /* ---- contacts of broken floes ---- */
 
-static bool row_of_key(const contact_memory_table *memory, uint64_t key, int32_t *row)
-{
-    int32_t low = 0, high = memory->count;
-    while (low < high) {
-        int32_t middle = low + (high - low) / 2;
-        if (memory->key[middle] < key)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    *row = low;
-    return low < memory->count && memory->key[low] == key;
-}
-
 /* A child may stand in its parent's slot: what contacts of the parent carried must not reach it. */
 static bool void_contacts(const fracture_job *j)
 {
@@ -259,13 +245,13 @@ static bool void_contacts(const fracture_job *j)
         return false;
     if (memory->count > 0)
         memset(s->forgotten.data, 0, (size_t)memory->count);
-    for (int32_t i = 0; i < j->state->contacts->count; i++) {
+    for (int32_t i = 0, place = 0; i < j->state->contacts->count; i++) {
         contact *c = &j->state->contacts->data[i];
-        int32_t row;
         if (!s->broken.data[c->a] && !s->broken.data[c->b])
             continue;
         c->correct = false;
-        if (row_of_key(memory, c->key, &row))
+        int32_t row = contact_memory_find(memory, c->key, &place);
+        if (row >= 0)
             s->forgotten.data[row] = 1;
     }
     int32_t kept = 0;

@@ -1,4 +1,5 @@
 /* Caps, position correction, memory of impulses, mass ratios, agreement of the solvers, and what is refused. */
+#include "dynamics/solver_rows.h"
 #include "rig.h"
 
 /* Two equal boxes that overlap by 2 cm along x, at rest. */
@@ -320,6 +321,79 @@ START_TEST(pile_comes_to_rest)
 }
 END_TEST
 
+/* Ten boxes of one size: corners upon corners, so that rounding names the points of contact.  Each step the load must
+   find them again, or the stack begins to rock and to wander. */
+START_TEST(a_stack_stays_where_it_stands)
+{
+    enum { BOXES = 10, SECONDS = 10 };
+    rig r = rig_make(0.01);
+    rig_friction(&r, 0.3, 0.3);
+    rig_box(&r, MOTION_STATIC, vec3_make(60, 60, 1), 1, vec3_make(0, 0, -0.5));
+    for (int i = 0; i < BOXES; i++)
+        rig_box(&r, MOTION_DYNAMIC, vec3_make(1, 1, 1), 1000, vec3_make(0, 0, 0.5 + i));
+    double aside = 0, sunk = 0;
+    for (int k = 0; k < SECONDS * 100; k++) {
+        rig_step(&r);
+        for (int i = 1; i <= BOXES; i++) {
+            vec3 p = r.bodies.position[i];
+            aside = fmax(aside, sqrt(p.x * p.x + p.y * p.y));
+            sunk = fmax(sunk, fabs(p.z - (i - 0.5)));
+        }
+    }
+    ck_assert_msg(aside < 1e-3 && sunk < 2e-3, "%g m aside, %g m down", aside, sunk);
+    rig_free(&r);
+}
+END_TEST
+
+/* What `count` points with these names recall of a memory of pair (1, 2): names 2, 4, 6 carry 1, 10, 100 N s along x;
+   pairs before and after carry more. */
+static double recalled_of(const uint32_t *names, int32_t count, double *each)
+{
+    rig r = rig_make(0.01);
+    for (int i = 0; i < 4; i++)
+        body_create(&r.ctx, &r.bodies, MOTION_DYNAMIC, MATERIAL_ICE);
+    uint64_t pair = contact_key_pair(contact_key(&r.bodies, 1, 2, 0, 0, 0));
+    uint64_t low = contact_key_pair(contact_key(&r.bodies, 0, 2, 0, 0, 0));
+    const uint64_t keys[] = {low | 4, pair | 2, pair | 4, pair | 6,
+                             contact_key_pair(contact_key(&r.bodies, 1, 3, 0, 0, 0))};
+    const double carried[] = {5000, 1, 10, 100, 7000};
+    ck_assert(table_resize(&r.ctx, &r.memory, &contact_memory_table_info, 5));
+    for (int i = 0; i < 5; i++) {
+        r.memory.key[i] = keys[i];
+        r.memory.impulse[i] = vec3_make(carried[i], 0, 0);
+    }
+    for (int32_t i = 0; i < count; i++)
+        ck_assert(array_push(&r.ctx, &r.contacts, ((contact){.a = 1, .b = 2, .key = pair | names[i]})));
+    vec3 recalled[8];
+    double sum = 0;
+    contacts_recall(&r.memory, &r.contacts, 0, count, recalled);
+    for (int32_t i = 0; i < count; i++) {
+        each[i] = recalled[i].x;
+        sum += recalled[i].x;
+    }
+    /* The pair belongs to the range that it begins in. */
+    recalled[1].x = -1;
+    contacts_recall(&r.memory, &r.contacts, 1, count, recalled);
+    assert_bits(recalled[1].x, -1);
+    rig_free(&r);
+    return sum;
+}
+
+START_TEST(points_with_new_names_share_what_the_pair_carried)
+{
+    double each[8];
+    assert_bits(recalled_of((uint32_t[]){6, 4, 2}, 3, each), 111); /* all found, in any order */
+    assert_bits(each[0], 100);
+    assert_bits(recalled_of((uint32_t[]){4, 9, 1}, 3, each), 111); /* 2 and 6 are gone: 9 and 1 share them */
+    assert_bits(each[0], 10);
+    assert_bits(each[1], 50.5);
+    assert_bits(each[2], 50.5);
+    assert_bits(recalled_of((uint32_t[]){4, 2}, 2, each), 11); /* one is gone, nobody came for it */
+    assert_bits(recalled_of((uint32_t[]){2, 4, 6, 8}, 4, each), 111);
+    assert_bits(each[3], 0); /* a point more than before starts from nothing */
+}
+END_TEST
+
 START_TEST(memory_is_sorted_and_matches)
 {
     rig r = pile();
@@ -409,5 +483,6 @@ RIG_MAIN("solver", correction_leaves_a_fifth_of_the_depth, correction_yields_to_
          baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told, friction_is_bounded_by_the_capped_force,
          driven_bodies_take_the_cap_while_approaching, static_friction_holds_more_than_kinetic,
          heavy_body_under_a_light_one, heavy_body_pushes_light_ones, heavy_body_on_a_light_one_sinks_without_a_bang,
-         warm_start_helps, solvers_agree, pile_comes_to_rest, memory_is_sorted_and_matches,
+         warm_start_helps, solvers_agree, pile_comes_to_rest, a_stack_stays_where_it_stands,
+         points_with_new_names_share_what_the_pair_carried, memory_is_sorted_and_matches,
          added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)

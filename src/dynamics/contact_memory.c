@@ -1,0 +1,172 @@
+/* What contacts carry from step to step: found again by name, shared out where names changed, remembered by ascending
+   names. */
+#include "dynamics/solver_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- find ---- */
+
+/* Keys looked at on either side before a search by halves: of a few pairs. */
+enum { NEAR_KEYS = 16 };
+
+/* The first row whose key is not below `key`, near `place` or anywhere. */
+static int32_t memory_place(const contact_memory_table *memory, uint64_t key, int32_t place)
+{
+    int32_t low = place > NEAR_KEYS ? place - NEAR_KEYS : 0;
+    int32_t high = place + NEAR_KEYS < memory->count ? place + NEAR_KEYS : memory->count;
+    if ((low == 0 || memory->key[low - 1] < key) && (high == memory->count || memory->key[high] >= key)) {
+        while (place > low && memory->key[place - 1] >= key)
+            place--;
+        while (place < high && memory->key[place] < key)
+            place++;
+        return place;
+    }
+    for (low = 0, high = memory->count; low < high;) {
+        int32_t middle = low + (high - low) / 2;
+        if (memory->key[middle] < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place)
+{
+    *place = memory_place(memory, key, *place);
+    return *place < memory->count && memory->key[*place] == key ? *place : -1;
+}
+
+/* ---- recall ---- */
+
+static bool has_key(const contact *contacts, int32_t first, int32_t end, uint64_t key)
+{
+    for (int32_t i = first; i < end; i++)
+        if (contacts[i].key == key)
+            return true;
+    return false;
+}
+
+/* Contacts [first, end) of one pair.  Impulses whose names are gone are shared equally among points without any: where
+   corners of two bodies meet, rounding decides which of them names a point, and a pair that pressed in the last step
+   must not start from nothing. */
+static void recall_pair(const contact_memory_table *memory, const contact *contacts, int32_t first, int32_t end,
+                        int32_t *place, vec3 *recalled)
+{
+    const vec3 none = {0, 0, 0};
+    uint64_t pair = contact_key_pair(contacts[first].key);
+    *place = memory_place(memory, pair, *place);
+    int32_t begin = *place, last = begin, found = 0;
+    while (last < memory->count && contact_key_pair(memory->key[last]) == pair)
+        last++;
+    for (int32_t i = first; i < end; i++) {
+        recalled[i] = none;
+        for (int32_t k = begin; k < last; k++) {
+            if (memory->key[k] != contacts[i].key)
+                continue;
+            recalled[i] = memory->impulse[k];
+            found++;
+        }
+    }
+    *place = last;
+    if (found == last - begin || found == end - first)
+        return;
+    vec3 lost = none;
+    for (int32_t k = begin; k < last; k++)
+        if (!has_key(contacts, first, end, memory->key[k]))
+            lost = vec3_add(lost, memory->impulse[k]);
+    lost = vec3_scale(lost, 1.0 / (end - first - found));
+    for (int32_t i = first; i < end; i++) {
+        int32_t at = begin;
+        while (at < last && memory->key[at] != contacts[i].key)
+            at++;
+        if (at == last)
+            recalled[i] = lost;
+    }
+}
+
+void contacts_recall(const contact_memory_table *memory, const contact_array *contacts, int32_t first, int32_t end,
+                     vec3 *recalled)
+{
+    const contact *c = contacts->data;
+    int32_t place = first < end ? (int32_t)((int64_t)first * memory->count / contacts->count) : 0;
+    /* A pair belongs to the range that it begins in. */
+    while (first < end && first > 0 && contact_key_pair(c[first].key) == contact_key_pair(c[first - 1].key))
+        first++;
+    while (first < end) {
+        int32_t next = first + 1;
+        while (next < contacts->count && contact_key_pair(c[next].key) == contact_key_pair(c[first].key))
+            next++;
+        recall_pair(memory, c, first, next, &place, recalled);
+        first = next;
+    }
+}
+
+/* ---- remember ---- */
+
+typedef struct memory_entry {
+    uint64_t key;
+    int32_t contact;
+} memory_entry;
+
+static int compare_entries(const void *a, const void *b)
+{
+    const memory_entry *x = a, *y = b;
+    if (x->key != y->key)
+        return x->key < y->key ? -1 : 1;
+    return (x->contact > y->contact) - (x->contact < y->contact);
+}
+
+/* Adds an entry to the sorted ones when its place is near their end: points of one pair come in any order. */
+static bool insert_near_end(memory_entry *entries, int32_t count, memory_entry e)
+{
+    enum { MOST_MOVED = 8 };
+    int32_t at = count;
+    while (at > 0 && compare_entries(&entries[at - 1], &e) > 0)
+        if (count - --at > MOST_MOVED)
+            return false;
+    memmove(entries + at + 1, entries + at, (size_t)(count - at) * sizeof *entries);
+    entries[at] = e;
+    return true;
+}
+
+/* The narrow phase lists pairs by ascending keys, and others follow in an order of their own: the tail is sorted and
+   merged. */
+static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, memory_entry *tail)
+{
+    int32_t left = count - sorted;
+    if (left == 0)
+        return;
+    qsort(entries + sorted, (size_t)left, sizeof *entries, compare_entries);
+    memcpy(tail, entries + sorted, (size_t)left * sizeof *entries);
+    for (int32_t i = sorted - 1, to = count - 1; left > 0; to--)
+        entries[to] = i >= 0 && compare_entries(&entries[i], &tail[left - 1]) > 0 ? entries[i--] : tail[--left];
+}
+
+fram_status contacts_remember(solver *s, const body_table *bodies, const contact_array *contacts,
+                              contact_memory_table *memory, fram_error *error)
+{
+    if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, 2 * contacts->count, sizeof *s->entries) ||
+        !table_reserve(s->ctx, memory, &contact_memory_table_info, contacts->count))
+        return error_memory(error);
+    int32_t count = 0, sorted = 0;
+    for (int32_t i = 0; i < contacts->count; i++) {
+        const contact *c = &contacts->data[i];
+        if (c->impulse[0] <= 0 || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
+            continue;
+        memory_entry e = {c->key, i};
+        if (sorted == count && insert_near_end(s->entries, sorted, e))
+            sorted++;
+        else
+            s->entries[count] = e;
+        count++;
+    }
+    sort_entries(s->entries, count, sorted, s->entries + contacts->count);
+    memory->count = count;
+    for (int32_t i = 0; i < count; i++) {
+        memory->key[i] = s->entries[i].key;
+        memory->impulse[i] = contact_impulse(&contacts->data[s->entries[i].contact]);
+    }
+    return FRAM_OK;
+}
