@@ -15,7 +15,8 @@ STAMPS = build/stamps
 
 .DEFAULT_GOAL = build
 .PRECIOUS: $(STAMPS)/% build/%/build.ninja
-.PHONY: build test test-kill test-views bench-recording viewer demo scenes test-sanitize test-asan test-tsan test-clang test-bare lint format fuzz fuzz-fracture bench bench-peers bench-views soak validate coverage install deps clean help
+# Every target with a line of help is a command, not a file.
+.PHONY: $(shell awk -F ':.*## ' '/^[a-z-]+:.*## / { print $$1 }' Makefile)
 
 build: build/release/build.ninja ## build the command, build/release/fram, and the library
 	@cmake --build --preset release -j$(JOBS) --target fram_command fram_shared fram_static
@@ -93,6 +94,9 @@ bench-views: viewer build ## speed of the playback page with 10,000 floes, again
 
 validate: build | $(STAMPS)/validate ## the validation book, docs/validation (VALIDATE_FLAGS=--quick: its short cases)
 	@$(PYTHON) validation/run.py $(VALIDATE_FLAGS)
+
+validate-status: ## which pages of the validation book were made on other code than there is now
+	@$(PYTHON) validation/status.py
 
 soak: build/release/build.ninja ## a million steps of a small packed field: no jitter, no drift (a few minutes)
 	@cmake --build --preset release -j$(JOBS) --target test_dynamics_packed

@@ -23,6 +23,7 @@ import traceback
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
 import ladder  # noqa: E402  (beside this script)
+import status  # noqa: E402
 
 RUNGS = {
     1: "Identities and conservation",
@@ -146,6 +147,7 @@ def main():
     chosen = [n for n, module in modules.items() if not (options.only and n not in options.only
                                                         or options.quick and module.LONG)]
     head = f"{program()}, revision {revision()}, {datetime.date.today()}, {machine()}, {options.jobs} runs at a time"
+    code = status.of_checkout()
     failed, skipped, begun, reused_before = 0, 0, time.monotonic(), len(ladder.REUSED)
     for name in chosen:
         start, before = time.monotonic(), len(ladder.REUSED)
@@ -171,7 +173,7 @@ def main():
         book = read_book(options.out / "verdicts.json", modules)
         book["cases"][name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
                                "failed": [what for what, good in case.checks if not good],
-                               "made": f"{datetime.date.today()}, {revision()}"}
+                               "made": f"{datetime.date.today()}, {revision()}", "code": code}
         write_book(options.out, book, modules)
     seconds = time.monotonic() - begun
     if not options.only and not skipped:

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""The code that a page of the validation book was made on is told by what it says, not by how it is commented."""
+import os
+import pathlib
+import sys
+
+ROOT = pathlib.Path(os.environ["FRAM_SOURCE"])
+sys.path.insert(0, str(ROOT / "validation"))
+import status  # noqa: E402
+
+FILES = {
+    "src/dynamics/solver.c": "/* sweeps */\ndouble beta = 0.8;  // rate\n",
+    "src/dynamics/narrow_phase.c": "int pairs;\n",
+    "src/ice/fracture.c": 'const char *no = "/* text */";\n',
+    "src/ice/packing.c": "int packed;\n",
+    "src/fluid/drag.c": "double drag;\n",
+}
+
+
+def parts_changed(**changes):
+    changed = {path.replace("__", "/") + ".c": text for path, text in changes.items()}
+    before = status.fingerprint(FILES, FILES.__getitem__)
+    after = status.fingerprint(FILES, lambda path: changed.get(path, FILES[path]))
+    return [part for part in status.PARTS if before[part] != after[part]]
+
+
+assert parts_changed(src__dynamics__solver="double   beta\n= 0.8;") == []
+assert parts_changed(src__dynamics__solver="double beta = 0.7;") == ["solver"]
+assert parts_changed(src__dynamics__narrow_phase="int pairs, more;") == ["contact"]
+assert parts_changed(src__ice__fracture='const char *no = "/* other */";') == ["fracture"]
+assert parts_changed(src__ice__packing="int loose;") == []
+assert parts_changed(src__fluid__drag="double lift;") == ["water"]
+# Each part has files in this checkout: a pattern that matches nothing would call every page fresh.
+empty = status.fingerprint([], None)
+now = status.of_checkout()
+assert all(now[part] != empty[part] for part in status.PARTS), now
+print("comments change no fingerprint, code changes that of its part")

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""Which pages of the validation book were made on other solver, contact, fracture or water code than there is now.
+
+  validation/status.py            names them; exit code 0 whatever it finds: a page may wait, but not in silence
+  validation/status.py --adopt    for pages without a record of their code: take that of the revision they name
+
+Told by content, not by date: the code of a part is the hash of its files without comments and white space, so that a
+page does not age by a better comment.
+"""
+
+import fnmatch
+import hashlib
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BOOK = ROOT / "docs" / "validation" / "verdicts.json"
+CONTACT = ("src/dynamics/broad*", "src/dynamics/narrow*", "src/dynamics/prism*", "src/dynamics/manifold*",
+           "src/dynamics/separation*", "src/dynamics/collision*", "src/dynamics/contact.*",
+           "src/ice/crushing*", "src/ice/patch*")
+FIELDS = ("src/ice/field*", "src/ice/packing*", "src/ice/import*", "src/ice/feeding*", "src/ice/floe.*")
+# Part -> its files, and those of them that belong to another part.
+PARTS = {
+    "solver": (("src/dynamics/*",), CONTACT),
+    "contact": (CONTACT, ()),
+    "fracture": (("src/ice/*",), CONTACT + FIELDS),
+    "water": (("src/fluid/*",), ()),
+}
+COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*|("(?:\\.|[^"\\\n])*")', re.S)
+
+
+def bare(text):
+    """Code without comments and without white space where it says nothing."""
+    return " ".join(COMMENT.sub(lambda found: found.group(1) or " ", text).split())
+
+
+def fingerprint(files, read):
+    """Part -> hash of its code.  files: paths from the root; read: path -> text."""
+    out = {}
+    for part, (names, others) in PARTS.items():
+        digest = hashlib.sha256()
+        for path in sorted(files):
+            if any(fnmatch.fnmatch(path, n) for n in names) and not any(fnmatch.fnmatch(path, n) for n in others):
+                digest.update(f"{path}\n{bare(read(path))}\n".encode())
+        out[part] = digest.hexdigest()[:16]
+    return out
+
+
+def of_checkout():
+    files = [str(p.relative_to(ROOT)) for room in ("dynamics", "ice", "fluid") for p in (ROOT / "src" / room).iterdir()]
+    return fingerprint([f for f in files if f.endswith((".c", ".h"))], lambda f: (ROOT / f).read_text())
+
+
+def of_revision(revision):
+    def git(*words):
+        return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True).stdout
+
+    files = git("ls-tree", "-r", "--name-only", revision, "src/dynamics", "src/ice", "src/fluid").split()
+    return fingerprint([f for f in files if f.endswith((".c", ".h"))], lambda f: git("show", f"{revision}:{f}"))
+
+
+def adopt():
+    book, known = json.loads(BOOK.read_text()), {}
+    for verdict in book["cases"].values():
+        revision = verdict["made"].split(", ")[1].rstrip("+")
+        if "code" not in verdict:
+            verdict["code"] = known.setdefault(revision, None) or of_revision(revision)
+            known[revision] = verdict["code"]
+    BOOK.write_text(json.dumps(book, indent=1, sort_keys=True) + "\n")
+
+
+def main():
+    if sys.argv[1:] == ["--adopt"]:
+        adopt()
+        return 0
+    now, cases = of_checkout(), json.loads(BOOK.read_text())["cases"]
+    older = {}
+    for name, verdict in cases.items():
+        was = verdict.get("code", {})
+        other = [part for part in PARTS if was.get(part) != now[part]]
+        if other:
+            older.setdefault((verdict["made"], ", ".join(other)), []).append(name)
+    fresh = len(cases) - sum(map(len, older.values()))
+    print(f"validation: {fresh} of {len(cases)} pages were made on the solver, contact, fracture and water code of now")
+    for (made, parts), names in sorted(older.items()):
+        print(f"  made {made}, on other {parts} code: {', '.join(sorted(names))}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
