@@ -191,7 +191,7 @@ static fram_status make_voronoi(context *ctx, const field_kind *k, const field_l
                                    .roundness = 0.5,
                                    .seed = seed};
     *report = (field_packed_report){0};
-    fram_status status = field_voronoi(ctx, NULL, &request, outlines, &report->field, error);
+    fram_status status = field_voronoi(ctx, &request, outlines, &report->field, error);
     if (status == FRAM_OK && law && !field_population_measure(ctx, law, outlines, NULL, 0, laws->part))
         status = error_memory(error);
     return status;

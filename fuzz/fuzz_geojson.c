@@ -44,7 +44,7 @@ static void import_all(context *ctx, overlay *plane, const import_rings *rings, 
     check_refusal(status, &error);
     if (status == FRAM_OK) {
         check_field(plane, rings, &field, options.domain);
-        status = import_field_measure(ctx, plane, &field.outlines, &measure, &error);
+        status = import_field_measure(ctx, plane, NULL, &field.outlines, &measure, &error);
         check_refusal(status, &error);
     }
     import_field_free(ctx, &field);

@@ -58,6 +58,9 @@ typedef enum fram_log_level { FRAM_LOG_ERROR, FRAM_LOG_WARNING, FRAM_LOG_INFO, F
 /* realloc's contract: ptr NULL allocates, size 0 frees and returns NULL; NULL otherwise means no memory. */
 typedef void *(*fram_memory_function)(void *user, void *ptr, size_t size);
 typedef void (*fram_log_function)(void *user, fram_log_level level, const char *text);
+/* How far the making of a world or a field is: `done` of `total`; total 0: rounds that are done, of nobody knows how
+   many.  what: "packing the ice", valid during the call.  Called often: look at the clock before you draw. */
+typedef void (*fram_work_function)(void *user, const char *what, double done, double total);
 
 typedef struct fram_context_definition {
     size_t size;                 /* of this struct, set by fram_context_default */
@@ -66,8 +69,11 @@ typedef struct fram_context_definition {
     fram_log_function log; /* NULL: silent */
     void *log_user;
     fram_log_level verbosity;
-    int threads;     /* >= 1, the caller's included; results never depend on it */
-    const char *isa; /* "baseline", "avx2", "avx512", or NULL for the best; results never depend on it */
+    int threads;              /* >= 1, the caller's included; results never depend on it */
+    const char *isa;          /* "baseline", "avx2", "avx512", or NULL for the best; results never depend on it */
+    const volatile int *stop; /* non-zero: making a world or a field ends with FRAM_INTERRUPTED; may be NULL */
+    fram_work_function work;  /* NULL: silent */
+    void *work_user;
 } fram_context_definition;
 
 FRAM_API void fram_context_default(fram_context_definition *definition);
@@ -174,7 +180,8 @@ typedef struct fram_run_definition {
     double until;       /* stop at this simulated time with a checkpoint; <= 0: run to the end of the scenario */
     fram_progress_function progress; /* called a few times a second at most; may be NULL */
     void *progress_user;
-    const volatile int *stop; /* non-zero: write a checkpoint and return FRAM_INTERRUPTED; may be NULL */
+    const volatile int *stop; /* non-zero: write a checkpoint, once the world is made, and return FRAM_INTERRUPTED;
+                                 NULL: the context's, while the world is made */
 } fram_run_definition;
 
 typedef struct fram_run_result {

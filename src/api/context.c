@@ -87,6 +87,9 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
         inner.memory_user = d.memory_user;
     }
     inner.verbosity = (log_level)d.verbosity;
+    inner.stop = d.stop;
+    inner.work = d.work;
+    inner.work_user = d.work_user;
     status = choose_isa(&inner, d.isa, error);
     if (status != FRAM_OK)
         return status;

@@ -57,11 +57,11 @@ static int feature_of(const fram_field *f, int32_t floe)
     return floe < 0 ? 0 : (int)f->source.place.data[f->floes.ring.data[floe]].feature;
 }
 
-fram_status field_describe(fram_field *f, overlay *plane, fram_error *error)
+fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error)
 {
     import_measure measure;
     const import_measure *m = &measure;
-    fram_status status = import_field_measure(&f->context->inner, plane, &f->floes.outlines, &measure, error);
+    fram_status status = import_field_measure(&f->context->inner, plane, name, &f->floes.outlines, &measure, error);
     if (status != FRAM_OK)
         return status;
     f->window = f->made.crop ? window_of(&f->made) : f->generated ? f->window : m->bounds;
@@ -108,7 +108,7 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
     fram_status status = outline_file_read(ctx, path, &f->source, error);
     if (status == FRAM_OK)
         status = import_field_make(ctx, plane, &f->source, &options, &f->floes, error);
-    return status == FRAM_OK ? field_describe(f, plane, error) : status;
+    return status == FRAM_OK ? field_describe(f, plane, path, error) : status;
 }
 
 fram_status fram_field_load(fram_context *c, const char *path, const fram_field_definition *definition,

@@ -21,7 +21,7 @@ static fram_status generate(fram_field *f, const scenario *s, overlay *plane, fr
     f->floes.outlines = f->drawn.outlines;
     f->drawn.outlines = (polygon_list){0};
     f->target = s->ice.concentration;
-    return field_describe(f, plane, error);
+    return field_describe(f, plane, NULL, error);
 }
 
 fram_status fram_field_generate(const fram_scenario *s, fram_field **out, fram_error *error)

@@ -19,6 +19,6 @@ struct fram_field {
 };
 
 /* Measures the outlines: window (unless given by a scenario) and summary. */
-fram_status field_describe(fram_field *f, overlay *plane, fram_error *error);
+fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram_error *error);
 
 #endif

@@ -92,6 +92,15 @@ void log_write(context *ctx, log_level level, const char *format, ...)
     ctx->log(ctx->log_user, level, text);
 }
 
+fram_status work_continue(context *ctx, const char *what, double done, double total, fram_error *error)
+{
+    if (ctx->stop && *ctx->stop)
+        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted while %s; nothing was written", what);
+    if (ctx->work)
+        ctx->work(ctx->work_user, what, done, total);
+    return FRAM_OK;
+}
+
 /* memmove, because a caller may wrap an error in its own words: text may point into the record itself. */
 static void text_copy(char *out, size_t size, const char *text)
 {

@@ -17,6 +17,9 @@ typedef enum log_level { LOG_ERROR, LOG_WARNING, LOG_INFO, LOG_DEBUG } log_level
 /* realloc's contract: ptr NULL allocates, size 0 frees and returns NULL, NULL otherwise means no memory. */
 typedef void *(*memory_function)(void *user, void *ptr, size_t size);
 typedef void (*log_function)(void *user, log_level level, const char *text);
+/* How far long work is that is no time step: `done` of `total`; total 0: rounds that are done, of nobody knows how
+   many. what: "packing the ice". */
+typedef void (*work_function)(void *user, const char *what, double done, double total);
 
 typedef enum isa { ISA_BASELINE, ISA_AVX2, ISA_AVX512 } isa;
 
@@ -26,6 +29,9 @@ typedef struct context {
     log_function log; /* NULL: silent */
     void *log_user;
     log_level verbosity;
+    const volatile int *stop; /* non-zero: work that asks work_continue ends; may be NULL */
+    work_function work;       /* NULL: silent */
+    void *work_user;
     pool *threads; /* NULL: everything runs on the calling thread */
     isa isa;       /* which kernels to run; results are the same to the bit */
 } context;
@@ -46,6 +52,10 @@ char *memory_string(context *ctx, const char *text);
 
 /* printf to the log sink when level <= verbosity. */
 void log_write(context *ctx, log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
+
+/* Asked again and again by what may take longer than a second and is no time step, from the caller's thread: tells how
+   far it is; FRAM_INTERRUPTED when the stop flag is set. */
+fram_status work_continue(context *ctx, const char *what, double done, double total, fram_error *error);
 
 /* Fill e (which may be NULL) and return status.  file, key may be NULL. */
 fram_status error_set(fram_error *e, fram_status status, const char *file, int line, const char *key,

@@ -112,6 +112,14 @@ int refuse_run_folder(const common_options *common, const char *scenario, const 
 /* Context with log to standard error as the common options say; on failure reports and returns an exit code, else -1.
  */
 int session_open(const common_options *common, fram_context **context);
+/* The same for commands that make worlds or fields: Ctrl-C ends the making (see session_stop_flag), and how far it is
+   is shown on standard error, by a view that lives as long as the context. */
+typedef struct work_view {
+    char what[80];
+    double begun, shown; /* wall clock [s] */
+    bool terminal;
+} work_view;
+int session_open_making(const common_options *common, work_view *view, fram_context **context);
 /* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, the second ends
    the process.  From now on a pipe that closes is an error of the write, and does not end it. */
 const volatile int *session_stop_flag(void);

@@ -161,8 +161,9 @@ int command_bench(const command_row *self, int argc, char **argv)
         w.scene.warm = w.warm < 0 ? w.scene.warm : w.warm;
         w.scene.time = w.time < 0 ? w.scene.time : w.time;
     }
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&w.common, &context);
+    code = session_open_making(&w.common, &work, &context);
     if (code >= 0)
         return code;
     code = w.all_solvers ? bench_solvers(context, &w) : bench_once(context, &w);

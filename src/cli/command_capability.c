@@ -7,7 +7,8 @@ static int find(const common_options *common, const char *path, const option_lis
                 const fram_capability_definition *d)
 {
     fram_context *context = NULL;
-    int code = session_open(common, &context);
+    work_view work;
+    int code = session_open_making(common, &work, &context);
     if (code >= 0)
         return code;
     fram_scenario *scenario = NULL;

@@ -32,8 +32,9 @@ int command_check(const command_row *self, int argc, char **argv)
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_making(&common, &work, &context);
     if (code >= 0)
         return code;
 

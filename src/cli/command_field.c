@@ -161,8 +161,9 @@ int command_field(const command_row *self, int argc, char **argv)
         code = check_words(&common, &w);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_making(&common, &work, &context);
     if (code >= 0)
         return code;
 

@@ -67,8 +67,9 @@ int command_run(const command_row *self, int argc, char **argv)
         return code;
     definition.force = common.force;
 
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_making(&common, &work, &context);
     if (code >= 0)
         return code;
     progress_view view;

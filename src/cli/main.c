@@ -96,7 +96,8 @@ static const char help_after[] =
     "      loads.png        ice load on the vessel over time\n"
     "      series.csv       all channels, one row a step, name[unit] headers\n"
     "      record.fram      every frame, for playback\n"
-    "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted (runs write a checkpoint).\n"
+    "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted (a run that steps: after a\n"
+    "checkpoint).\n"
     "fram --version prints the version and the optional parts of this build.\n";
 
 static void print_help(FILE *file)

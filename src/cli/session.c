@@ -2,6 +2,8 @@
 #include "cli/cli.h"
 
 #include <signal.h>
+#include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 static void log_to_stderr(void *user, fram_log_level level, const char *text)
@@ -11,7 +13,7 @@ static void log_to_stderr(void *user, fram_log_level level, const char *text)
     fprintf(stderr, "%s%s\n", prefix[level], text);
 }
 
-int session_open(const common_options *common, fram_context **context)
+static fram_context_definition session_definition(const common_options *common)
 {
     fram_context_definition definition;
     fram_context_default(&definition);
@@ -19,10 +21,64 @@ int session_open(const common_options *common, fram_context **context)
     definition.verbosity = common->quiet ? FRAM_LOG_ERROR : common->verbose ? FRAM_LOG_DEBUG : FRAM_LOG_INFO;
     definition.threads = common->threads;
     definition.isa = common->isa;
+    return definition;
+}
+
+static int create(const common_options *common, const fram_context_definition *definition, fram_context **context)
+{
     fram_error error;
-    if (fram_context_create(&definition, context, &error) != FRAM_OK)
-        return answer_error(common, &error);
-    return -1;
+    return fram_context_create(definition, context, &error) == FRAM_OK ? -1 : answer_error(common, &error);
+}
+
+int session_open(const common_options *common, fram_context **context)
+{
+    const fram_context_definition definition = session_definition(common);
+    return create(common, &definition, context);
+}
+
+/* What takes less time than the first is not worth a word; then a word after each of the others, on a terminal and
+   elsewhere [s]. */
+#define QUIET_TIME 1.0
+#define TERMINAL_PERIOD 0.2
+#define LINE_PERIOD 5.0
+
+static double wall_clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void work_show(void *user, const char *what, double done, double total)
+{
+    work_view *view = user;
+    double now = wall_clock();
+    if (strcmp(view->what, what) != 0) {
+        snprintf(view->what, sizeof view->what, "%s", what);
+        view->begun = now;
+        view->shown = now - LINE_PERIOD;
+    }
+    if (now - view->begun < QUIET_TIME || now - view->shown < (view->terminal ? TERMINAL_PERIOD : LINE_PERIOD))
+        return;
+    view->shown = now;
+    fprintf(stderr, "%s%s: ", view->terminal ? "\033[K" : "", what);
+    if (total > 0)
+        fprintf(stderr, "%.0f %%", 100 * done / total);
+    else
+        fprintf(stderr, "round %.0f", done);
+    /* On a terminal whatever comes next is written over it. */
+    fputs(view->terminal ? "\r" : "\n", stderr);
+    fflush(stderr);
+}
+
+int session_open_making(const common_options *common, work_view *view, fram_context **context)
+{
+    fram_context_definition definition = session_definition(common);
+    *view = (work_view){.terminal = isatty(STDERR_FILENO) == 1};
+    definition.stop = session_stop_flag();
+    definition.work = common->quiet ? NULL : work_show;
+    definition.work_user = view;
+    return create(common, &definition, context);
 }
 
 /* The only mutable global of Fram: a signal handler can reach nothing else. */

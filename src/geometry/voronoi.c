@@ -7,6 +7,9 @@
 /* Sites in one grid cell on average: fewer cost empty cells, more cost sites that are too far to matter. */
 #define SITES_PER_CELL 2.0
 
+/* After so many cells, some milliseconds, the caller is asked whether to go on. */
+enum { CELLS_A_WORD = 256 };
+
 typedef struct diagram {
     context *ctx;
     const vec2 *site;
@@ -203,7 +206,10 @@ static fram_status make_cells(diagram *d, polygon_list *out, fram_error *error)
     if (status == FRAM_OK && !make_grid(d))
         status = error_memory(error);
     for (int32_t i = 0; status == FRAM_OK && i < d->count; i++) {
-        status = make_cell(d, i, error);
+        if (i % CELLS_A_WORD == 0)
+            status = work_continue(d->ctx, "making Voronoi cells", i, d->count, error);
+        if (status == FRAM_OK)
+            status = make_cell(d, i, error);
         if (status == FRAM_OK && !polygon_list_push(d->ctx, out, (polygon){d->cell.data, d->cell.count}))
             status = error_memory(error);
     }

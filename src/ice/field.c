@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "geometry/voronoi.h"
 #include "ice/field_cells.h"
+#include "ice/field_measure.h"
 #include "ice/field_sized.h"
 
 /* More cells than this are a mistake in the units rather than a field. */
@@ -164,9 +165,10 @@ static fram_status shrink_to_target(context *ctx, const field_request *r, field_
         if (!(surplus >= 0))
             return unreachable(r, w, free_area, covered, error);
         double inset;
-        if (!cells_shrink(ctx, &w->kept, r->roundness * (1 - GAP_SHARE), target, &w->scratch, &w->cut, &w->floes,
-                          &inset))
-            return error_memory(error);
+        fram_status status = cells_shrink(ctx, &w->kept, r->roundness * (1 - GAP_SHARE), target, &w->scratch, &w->cut,
+                                          &w->floes, &inset, error);
+        if (status != FRAM_OK)
+            return status;
         *gap = 2 * inset;
         polygon_list_clear(&w->cut);
         if (!keep_large(ctx, &w->kept, &w->floes, r->smallest_area, &w->cut))
@@ -226,9 +228,10 @@ static fram_status make_floes(context *ctx, const field_request *r, field_work *
     status = shrink_to_target(ctx, r, w, free_area, &gap, error);
     if (status != FRAM_OK)
         return status;
-    double overlap = cells_largest_overlap(ctx, &w->floes);
-    if (overlap < 0)
-        return error_memory(error);
+    double overlap = 0;
+    status = field_largest_overlap(ctx, NULL, &w->floes, NULL, &overlap, error);
+    if (status != FRAM_OK)
+        return status;
     *report = (field_report){.floes = polygon_list_count(&w->floes),
                              .concentration = cells_area(&w->floes) / free_area,
                              .free_area = free_area,
@@ -237,10 +240,9 @@ static fram_status make_floes(context *ctx, const field_request *r, field_work *
     return FRAM_OK;
 }
 
-fram_status field_voronoi(context *ctx, overlay *o, const field_request *request, polygon_list *outlines,
-                          field_report *report, fram_error *error)
+fram_status field_voronoi(context *ctx, const field_request *request, polygon_list *outlines, field_report *report,
+                          fram_error *error)
 {
-    (void)o;
     fram_status status = request_check(request, error);
     if (status != FRAM_OK)
         return status;

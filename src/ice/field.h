@@ -37,9 +37,9 @@ typedef struct field_report {
    would put wide water around large floes and leave small ones stuck together.  With a law of size the cells are those
    of a power diagram (ice/field_sized.h), and floes follow it where no zone cuts them.  All outlines are convex and
    counter-clockwise, stay clear of each other, of the domain's edge (by half a gap) and of the zones; floes come in the
-   order of their sites. Appends to outlines, which is unchanged on failure.  o may be NULL: convex zones need no
-   general overlay. FRAM_ERROR_INPUT when the target cannot be reached, saying what was reached and why. */
-fram_status field_voronoi(context *ctx, overlay *o, const field_request *request, polygon_list *outlines,
-                          field_report *report, fram_error *error);
+   order of their sites. Appends to outlines, which is unchanged on failure.  FRAM_ERROR_INPUT when the target cannot be
+   reached, saying what was reached and why. */
+fram_status field_voronoi(context *ctx, const field_request *request, polygon_list *outlines, field_report *report,
+                          fram_error *error);
 
 #endif

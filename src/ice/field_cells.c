@@ -1,8 +1,6 @@
 /* Work on lists of convex cells; see field_cells.h. */
 #include "ice/field_cells.h"
 
-#include <stdlib.h>
-
 /* Corners whose edges turn by less are left alone (sine of the turn). */
 static const double STRAIGHT_CORNER = 0.05;
 
@@ -259,89 +257,54 @@ static void join_vertices(vec2_array *ring)
     ring->count = kept >= 3 ? kept : 0;
 }
 
-static bool inset_all(context *ctx, const polygon_list *cells, double inset, cells_scratch *s, polygon_list *out,
-                      double *area, double *perimeter)
+static fram_status inset_all(context *ctx, const polygon_list *cells, double inset, cells_scratch *s, polygon_list *out,
+                             double *area, double *perimeter, fram_error *error)
 {
+    int32_t count = polygon_list_count(cells);
     polygon_list_clear(out);
     *area = *perimeter = 0;
-    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+    for (int32_t i = 0; i < count; i++) {
+        fram_status status = work_continue(ctx, "shrinking cells to floes", i, count, error);
+        if (status != FRAM_OK)
+            return status;
         if (!inset_ring(ctx, polygon_list_get(cells, i), inset, s))
-            return false;
+            return error_memory(error);
         join_vertices(&s->a);
         if (s->a.count >= 3) {
             *area += polygon_area(view(&s->a));
             *perimeter += polygon_perimeter(view(&s->a));
         }
         if (!polygon_list_push(ctx, out, view(&s->a)))
-            return false;
+            return error_memory(error);
     }
-    return true;
+    return FRAM_OK;
 }
 
-bool cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s, polygon_list *out,
-                         double *inset)
+fram_status cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s,
+                                polygon_list *out, double *inset, fram_error *error)
 {
     /* The area of a convex cell falls with the inset at the rate of its perimeter, which falls too: Newton's method
        from zero comes from one side and cannot overshoot. */
     double area, perimeter;
     *inset = 0;
     for (int step = 0; step < MOST_STEPS; step++) {
-        if (!inset_all(ctx, cells, *inset, s, out, &area, &perimeter))
-            return false;
+        fram_status status = inset_all(ctx, cells, *inset, s, out, &area, &perimeter, error);
+        if (status != FRAM_OK)
+            return status;
         if (!(area - target > AREA_MET * target) || !(perimeter > 0))
             break;
         *inset += (area - target) / perimeter;
     }
-    return true;
+    return FRAM_OK;
 }
 
-bool cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
-                  polygon_list *cut, polygon_list *out, double *inset)
+fram_status cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
+                         polygon_list *cut, polygon_list *out, double *inset, fram_error *error)
 {
     double most = cells_corner_area(cells), wanted = corners * (cells_area(cells) - target);
     double part = most > 0 && wanted > 0 ? sqrt(wanted / most) : 0;
     polygon_list_clear(cut);
-    return cells_cut_corners(ctx, cells, fmin(part, LONGEST_CUT), s, cut) &&
-           cells_inset_to_area(ctx, cut, target, s, out, inset);
-}
-
-/* ---- overlap ---- */
-
-typedef struct sweep_item {
-    box2 box;
-    int32_t cell;
-} sweep_item;
-
-static int sweep_order(const void *a, const void *b)
-{
-    const sweep_item *p = a, *q = b;
-    if (p->box.lo.x != q->box.lo.x)
-        return p->box.lo.x < q->box.lo.x ? -1 : 1;
-    return (p->cell > q->cell) - (p->cell < q->cell);
-}
-
-double cells_largest_overlap(context *ctx, const polygon_list *cells)
-{
-    int32_t count = polygon_list_count(cells), used = 0;
-    double deepest = 0;
-    sweep_item *item = memory_array(ctx, (size_t)count + 1, sizeof *item);
-    if (!item)
-        return -1;
-    for (int32_t i = 0; i < count; i++) {
-        polygon p = polygon_list_get(cells, i);
-        if (p.count >= 3)
-            item[used++] = (sweep_item){polygon_bounds(p), i};
-    }
-    qsort(item, (size_t)used, sizeof *item, sweep_order);
-    for (int32_t i = 0; i < used; i++)
-        for (int32_t j = i + 1; j < used && item[j].box.lo.x < item[i].box.hi.x; j++) {
-            if (boxes_apart(item[i].box, item[j].box))
-                continue;
-            double depth = polygon_convex_depth(polygon_list_get(cells, item[i].cell),
-                                                polygon_list_get(cells, item[j].cell), NULL);
-            if (depth > deepest)
-                deepest = depth;
-        }
-    memory_free(ctx, item);
-    return deepest;
+    if (!cells_cut_corners(ctx, cells, fmin(part, LONGEST_CUT), s, cut))
+        return error_memory(error);
+    return cells_inset_to_area(ctx, cut, target, s, out, inset, error);
 }

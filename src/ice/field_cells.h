@@ -29,15 +29,12 @@ bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cel
 
 /* Every edge of every cell moved inwards by the one distance `inset` [m] that leaves `target` area [m2], at most the
    area there is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */
-bool cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s, polygon_list *out,
-                         double *inset);
+fram_status cells_inset_to_area(context *ctx, const polygon_list *cells, double target, cells_scratch *s,
+                                polygon_list *out, double *inset, fram_error *error);
 
 /* Both: `corners` of the area that must go is cut off the corners, as far as every edge keeps a part, and the rest goes
    off the edges.  cut and out are made anew. */
-bool cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
-                  polygon_list *cut, polygon_list *out, double *inset);
-
-/* Largest overlap depth of any two cells [m], 0 when none overlap; negative without memory. */
-double cells_largest_overlap(context *ctx, const polygon_list *cells);
+fram_status cells_shrink(context *ctx, const polygon_list *cells, double corners, double target, cells_scratch *s,
+                         polygon_list *cut, polygon_list *out, double *inset, fram_error *error);
 
 #endif

@@ -1,80 +1,64 @@
 /* Measures of a field; see field_measure.h. */
 #include "ice/field_measure.h"
 
-#include <stdlib.h>
+#include "geometry/box_pairs.h"
 
 enum { PIECE_VERTICES = 24 };
 
-/* A convex piece and the outline it is of; outlines of the second list are counted from -1 down. */
-typedef struct measured_piece {
-    box2 box;
-    int32_t piece, owner;
-} measured_piece;
-typedef ARRAY(measured_piece) measured_array;
+/* Convex pieces, and the outline that each is of; outlines of the second list are counted from -1 down. */
+typedef struct measured_pieces {
+    polygon_list pieces;
+    int32_array owner;
+    ARRAY(box2) box;
+    double deepest;
+} measured_pieces;
 
-static int by_left_edge(const void *a, const void *b)
-{
-    const measured_piece *p = a, *q = b;
-    if (p->box.lo.x != q->box.lo.x)
-        return p->box.lo.x < q->box.lo.x ? -1 : 1;
-    return (p->piece > q->piece) - (p->piece < q->piece);
-}
-
-static fram_status add_pieces(context *ctx, overlay *o, const polygon_list *list, bool second, polygon_list *pieces,
-                              measured_array *index, fram_error *error)
+static fram_status add_pieces(context *ctx, overlay *o, const polygon_list *list, bool second, measured_pieces *m,
+                              fram_error *error)
 {
     for (int32_t i = 0; list && i < polygon_list_count(list); i++) {
         polygon p = polygon_list_get(list, i);
-        int32_t first = polygon_list_count(pieces);
-        if (polygon_is_convex(p)) {
-            if (!polygon_list_push(ctx, pieces, p))
-                return error_memory(error);
-        } else {
-            fram_status status = overlay_convex_pieces(o, p, 0, PIECE_VERTICES, pieces, NULL, error);
-            if (status != FRAM_OK)
-                return status;
-        }
-        for (int32_t k = first; k < polygon_list_count(pieces); k++)
-            if (!array_push(ctx, index,
-                            (measured_piece){polygon_bounds(polygon_list_get(pieces, k)), k, second ? -1 - i : i}))
+        fram_status status = work_continue(ctx, "cutting floes into convex pieces", i, polygon_list_count(list), error);
+        if (status == FRAM_OK && (!o || polygon_is_convex(p)))
+            status = polygon_list_push(ctx, &m->pieces, p) ? FRAM_OK : error_memory(error);
+        else if (status == FRAM_OK)
+            status = overlay_convex_pieces(o, p, 0, PIECE_VERTICES, &m->pieces, NULL, error);
+        if (status != FRAM_OK)
+            return status;
+        for (int32_t k = m->box.count; k < polygon_list_count(&m->pieces); k++)
+            if (!array_push(ctx, &m->box, polygon_bounds(polygon_list_get(&m->pieces, k))) ||
+                !array_push(ctx, &m->owner, second ? -1 - i : i))
                 return error_memory(error);
     }
     return FRAM_OK;
 }
 
-static double deepest_pair(const polygon_list *pieces, const measured_array *index)
+static fram_status measure_pair(void *user, int32_t a, int32_t b, fram_error *error)
 {
-    double deepest = 0;
-    for (int32_t i = 0; i < index->count; i++) {
-        const measured_piece *a = &index->data[i];
-        for (int32_t k = i + 1; k < index->count && index->data[k].box.lo.x < a->box.hi.x; k++) {
-            const measured_piece *b = &index->data[k];
-            bool same = a->owner == b->owner || (a->owner < 0 && b->owner < 0);
-            if (same || b->box.lo.y >= a->box.hi.y || a->box.lo.y >= b->box.hi.y)
-                continue;
-            double depth =
-                polygon_convex_depth(polygon_list_get(pieces, a->piece), polygon_list_get(pieces, b->piece), NULL);
-            deepest = depth > deepest ? depth : deepest;
-        }
-    }
-    return deepest;
+    (void)error;
+    measured_pieces *m = user;
+    int32_t of_a = m->owner.data[a], of_b = m->owner.data[b];
+    if (of_a == of_b || (of_a < 0 && of_b < 0))
+        return FRAM_OK;
+    double depth = polygon_convex_depth(polygon_list_get(&m->pieces, a), polygon_list_get(&m->pieces, b), NULL);
+    m->deepest = depth > m->deepest ? depth : m->deepest;
+    return FRAM_OK;
 }
 
 fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *floes, const polygon_list *others,
                                   double *overlap, fram_error *error)
 {
-    polygon_list pieces = {0};
-    measured_array index = {0};
-    fram_status status = add_pieces(ctx, o, floes, false, &pieces, &index, error);
+    measured_pieces m = {.deepest = 0};
+    fram_status status = add_pieces(ctx, o, floes, false, &m, error);
     if (status == FRAM_OK)
-        status = add_pieces(ctx, o, others, true, &pieces, &index, error);
-    if (status == FRAM_OK) {
-        if (index.count > 0)
-            qsort(index.data, (size_t)index.count, sizeof *index.data, by_left_edge);
-        *overlap = deepest_pair(&pieces, &index);
-    }
-    polygon_list_free(ctx, &pieces);
-    array_free(ctx, &index);
+        status = add_pieces(ctx, o, others, true, &m, error);
+    if (status == FRAM_OK)
+        status = box_pairs(ctx, m.box.data, m.box.count, "looking for overlaps", measure_pair, &m, error);
+    if (status == FRAM_OK)
+        *overlap = m.deepest;
+    polygon_list_free(ctx, &m.pieces);
+    array_free(ctx, &m.owner);
+    array_free(ctx, &m.box);
     return status;
 }
 

@@ -6,7 +6,8 @@
 #include "geometry/overlay.h"
 
 /* The deepest overlap of any two outlines of `floes`, or of one of `floes` and one of `others` (may be NULL), as the
-   least way that parts their convex pieces [m]; 0 when none overlap.  Pieces of one outline are not compared. */
+   least way that parts their convex pieces [m]; 0 when none overlap.  Pieces of one outline are not compared.
+   o NULL: all outlines are convex. */
 fram_status field_largest_overlap(context *ctx, overlay *o, const polygon_list *floes, const polygon_list *others,
                                   double *overlap, fram_error *error);
 

@@ -164,23 +164,26 @@ static bool add_cover(context *ctx, pack_state *s, double size)
            polygon_list_push(ctx, &s->covers, (polygon){s->cover.data, s->cover.count});
 }
 
-static bool draw_shapes(context *ctx, const field_packed_request *r, int32_t number, const real_array *sizes,
-                        pack_state *s)
+static fram_status draw_shapes(context *ctx, const field_packed_request *r, int32_t number, const real_array *sizes,
+                               pack_state *s, fram_error *error)
 {
     double mean = 0;
     for (int32_t i = 0; i < sizes->count; i++)
         mean += sizes->data[i] / sizes->count;
     for (int32_t i = 0; i < sizes->count; i++) {
+        fram_status status = work_continue(ctx, "drawing the shapes of the floes", i, sizes->count, error);
+        if (status != FRAM_OK)
+            return status;
         random_stream stream = random_begin(r->seed, (uint32_t)(STREAM_SHAPE + number), (uint32_t)i);
         if (!shape_draw(ctx, &r->populations[number].shape, sizes->data[i], &stream, &s->ring) ||
             !polygon_list_push(ctx, &s->shapes, ring_of(s)) || !add_cover(ctx, s, sizes->data[i] / mean) ||
             !array_push(ctx, &s->drawn, ((field_floe){number, s->ring.count, polygon_area(ring_of(s))})))
-            return false;
+            return error_memory(error);
         double d = sizes->data[i];
         s->drawn_area += PI / 4 * d * d;
         s->largest = fmax(s->largest, d);
     }
-    return true;
+    return FRAM_OK;
 }
 
 static fram_status draw_floes(context *ctx, const field_packed_request *r, pack_state *s, fram_error *error)
@@ -199,8 +202,8 @@ static fram_status draw_floes(context *ctx, const field_packed_request *r, pack_
         array_clear(&sizes);
         double area = wanted * r->populations[p].share / shares;
         status = size_law_draw(ctx, &r->populations[p].size, area, r->seed, (uint32_t)(STREAM_SIZE + p), &sizes, error);
-        if (status == FRAM_OK && !draw_shapes(ctx, r, p, &sizes, s))
-            status = error_memory(error);
+        if (status == FRAM_OK)
+            status = draw_shapes(ctx, r, p, &sizes, s, error);
     }
     array_free(ctx, &sizes);
     if (status != FRAM_OK)

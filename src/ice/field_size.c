@@ -8,6 +8,8 @@
 
 /* Slices by which the mean area is found, halvings of an inverse. */
 enum { MEAN_SLICES = 8192, HALVINGS = 200, SHIFT_HALVINGS = 60 };
+/* After so many diameters, some milliseconds, the caller is asked whether to go on. */
+enum { SLICES_A_WORD = 1024 };
 /* More floes than this are a mistake in the units rather than a field. */
 static const double MOST_FLOES = 5e6;
 /* Half the width of the histogram of floes that are all of one size, relative. */
@@ -227,17 +229,24 @@ static double mean_area(const size_law *law)
     return sum / MEAN_SLICES;
 }
 
-/* The diameters of n slices, each at its own random place in it, moved by `shift`; their area. */
-static double fill_slices(const size_law *law, const double *place, int32_t n, double shift, double *d)
+/* The diameters of n slices, each at its own random place in it, moved by `shift`; *area: of all together. */
+static fram_status fill_slices(context *ctx, const size_law *law, const double *place, int32_t n, double shift,
+                               double *d, double *area_sum, fram_error *error)
 {
     double area = 0;
     for (int32_t i = 0; i < n; i++) {
+        if (i % SLICES_A_WORD == 0) {
+            fram_status status = work_continue(ctx, "drawing the sizes of the floes", i, n, error);
+            if (status != FRAM_OK)
+                return status;
+        }
         double at = place[i] + shift;
         at = at < 0 ? 0 : at > 1 ? 1 : at;
         d[i] = size_law_quantile(law, (i + at) / n);
         area += disc_area(d[i]);
     }
-    return area;
+    *area_sum = area;
+    return FRAM_OK;
 }
 
 fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64_t seed, uint32_t stream,
@@ -263,17 +272,23 @@ fram_status size_law_draw(context *ctx, const size_law *law, double area, uint64
         random_stream r = random_begin(seed, stream, (uint32_t)i);
         place[i] = random_unit(&r);
     }
-    double lo = -1, hi = 1;
-    if (law->kind != SIZE_CONSTANT) {
-        for (int k = 0; k < SHIFT_HALVINGS; k++) {
-            double middle = 0.5 * (lo + hi);
-            if (fill_slices(law, place, n, middle, d) < area)
-                lo = middle;
-            else
-                hi = middle;
-        }
+    double lo = -1, hi = 1, found;
+    fram_status status = FRAM_OK;
+    for (int k = 0; k < SHIFT_HALVINGS && law->kind != SIZE_CONSTANT && status == FRAM_OK; k++) {
+        double middle = 0.5 * (lo + hi);
+        status = fill_slices(ctx, law, place, n, middle, d, &found, error);
+        if (status == FRAM_OK && found < area)
+            lo = middle;
+        else
+            hi = middle;
     }
-    fill_slices(law, place, n, 0.5 * (lo + hi), d);
+    if (status == FRAM_OK)
+        status = fill_slices(ctx, law, place, n, 0.5 * (lo + hi), d, &found, error);
+    if (status != FRAM_OK) {
+        out->count = first;
+        memory_free(ctx, place);
+        return status;
+    }
     for (int32_t i = n - 1; i > 0; i--) { /* Fisher and Yates */
         random_stream r = random_begin(seed, stream, (uint32_t)i);
         r.counter = 1;

@@ -171,8 +171,10 @@ static fram_status improve_weights(context *ctx, const sized_request *r, sized_w
                                    fram_error *error)
 {
     double inset;
-    if (!cells_shrink(ctx, &w->cells, r->corners, w->floes, &w->scratch, &w->cut, &w->shrunk, &inset))
-        return error_memory(error);
+    fram_status status =
+        cells_shrink(ctx, &w->cells, r->corners, w->floes, &w->scratch, &w->cut, &w->shrunk, &inset, error);
+    if (status != FRAM_OK)
+        return status;
     *off = 0;
     for (int32_t i = 0; i < w->site.count; i++) {
         polygon floe = polygon_list_get(&w->shrunk, i);

@@ -286,10 +286,13 @@ fram_status import_field_make(context *ctx, overlay *o, const import_rings *ring
                    .out = out,
                    .error = error};
     fram_status status = FRAM_OK;
-    for (; status == FRAM_OK && m.ring < rings->place.count; m.ring++)
-        status = import_ring(&m);
+    for (; status == FRAM_OK && m.ring < rings->place.count; m.ring++) {
+        status = work_continue(ctx, "looking at the outlines", m.ring, rings->place.count, error);
+        if (status == FRAM_OK)
+            status = import_ring(&m);
+    }
     if (status == FRAM_OK && options->bad == IMPORT_REPAIR)
-        status = import_cut_overlaps(ctx, o, options->smallest_area, out, error);
+        status = import_cut_overlaps(ctx, o, options, out, error);
     if (status == FRAM_OK && polygon_list_count(&out->outlines) == 0)
         status = refuse_empty(&m);
     array_free(ctx, &m.vertex);

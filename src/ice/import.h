@@ -99,8 +99,10 @@ typedef struct import_measure {
     double edge[IMPORT_HISTOGRAM_BINS + 1]; /* [m] */
     int32_t bin[IMPORT_HISTOGRAM_BINS];
 } import_measure;
-/* Common area under 1e-12 of the areas of both is rounding and counts as none.  No outlines give zeros. */
-fram_status import_field_measure(context *ctx, overlay *o, const polygon_list *outlines, import_measure *out,
-                                 fram_error *error);
+/* Common area under 1e-12 of the areas of both is rounding and counts as none.  No outlines give zeros.  name: of
+   their file for errors, or NULL.  FRAM_ERROR_INPUT when more lie over one another than a field can have (ice/crowd.h).
+ */
+fram_status import_field_measure(context *ctx, overlay *o, const char *name, const polygon_list *outlines,
+                                 import_measure *out, fram_error *error);
 
 #endif

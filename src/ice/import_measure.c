@@ -22,14 +22,17 @@ static fram_status common_width(context *ctx, overlay *o, polygon a, polygon b, 
     return status;
 }
 
-static fram_status measure_overlaps(context *ctx, overlay *o, const polygon_list *outlines, import_measure *out,
-                                    fram_error *error)
+static fram_status measure_overlaps(context *ctx, overlay *o, const char *name, const polygon_list *outlines,
+                                    import_measure *out, fram_error *error)
 {
     import_pair_array pairs = {0};
-    fram_status status = import_pairs(ctx, outlines, &pairs, error);
+    fram_status status = import_pairs(ctx, name, outlines, &pairs, error);
     out->overlaps = pairs.count;
     for (int32_t i = 0; status == FRAM_OK && i < pairs.count; i++) {
         const import_pair *p = &pairs.data[i];
+        status = work_continue(ctx, "measuring overlaps", i, pairs.count, error);
+        if (status != FRAM_OK)
+            break;
         out->overlap_area += p->area;
         if (p->area > out->largest_overlap) {
             out->largest_overlap = p->area;
@@ -65,8 +68,8 @@ static void count_sizes(const polygon_list *outlines, import_measure *out)
     }
 }
 
-fram_status import_field_measure(context *ctx, overlay *o, const polygon_list *outlines, import_measure *out,
-                                 fram_error *error)
+fram_status import_field_measure(context *ctx, overlay *o, const char *name, const polygon_list *outlines,
+                                 import_measure *out, fram_error *error)
 {
     *out = (import_measure){
         .floes = polygon_list_count(outlines), .vertices = outlines->vertex.count, .overlap_pair = {-1, -1}};
@@ -84,5 +87,5 @@ fram_status import_field_measure(context *ctx, overlay *o, const polygon_list *o
         out->concave += !polygon_is_convex(p);
     }
     count_sizes(outlines, out);
-    return measure_overlaps(ctx, o, outlines, out, error);
+    return measure_overlaps(ctx, o, name, outlines, out, error);
 }

@@ -1,6 +1,9 @@
 /* Floes that overlap: which do, and cutting them apart. */
 #include "ice/import_parts.h"
 
+#include "geometry/box_pairs.h"
+#include "ice/crowd.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -11,19 +14,6 @@
 
 /* ---- pairs ---- */
 
-typedef struct sweep_entry {
-    box2 box;
-    int32_t outline;
-} sweep_entry;
-
-static int by_left_end(const void *a, const void *b)
-{
-    const sweep_entry *p = a, *q = b;
-    if (p->box.lo.x != q->box.lo.x)
-        return p->box.lo.x < q->box.lo.x ? -1 : 1;
-    return (p->outline > q->outline) - (p->outline < q->outline);
-}
-
 static int by_outlines(const void *a, const void *b)
 {
     const import_pair *p = a, *q = b;
@@ -32,37 +22,43 @@ static int by_outlines(const void *a, const void *b)
     return (p->b > q->b) - (p->b < q->b);
 }
 
-static bool add_if_common(context *ctx, const polygon_list *outlines, int32_t i, int32_t k, import_pair_array *out)
+typedef struct pair_search {
+    context *ctx;
+    const char *name; /* of their file, or NULL */
+    const polygon_list *outlines;
+    int64_t met; /* boxes that overlap */
+    import_pair_array *out;
+} pair_search;
+
+static fram_status add_if_common(void *user, int32_t i, int32_t k, fram_error *error)
 {
+    pair_search *s = user;
+    int32_t count = polygon_list_count(s->outlines);
+    if (++s->met > crowd_most_pairs(count))
+        return crowd_refuse(s->name, count, error);
     import_pair pair = {i < k ? i : k, i < k ? k : i, 0};
-    polygon a = polygon_list_get(outlines, pair.a), b = polygon_list_get(outlines, pair.b);
+    polygon a = polygon_list_get(s->outlines, pair.a), b = polygon_list_get(s->outlines, pair.b);
     pair.area = polygon_overlap_area(a, b);
-    return !(pair.area > OVERLAP_ROUNDING * (polygon_area(a) + polygon_area(b))) || array_push(ctx, out, pair);
+    bool common = pair.area > OVERLAP_ROUNDING * (polygon_area(a) + polygon_area(b));
+    return !common || array_push(s->ctx, s->out, pair) ? FRAM_OK : error_memory(error);
 }
 
-fram_status import_pairs(context *ctx, const polygon_list *outlines, import_pair_array *out, fram_error *error)
+fram_status import_pairs(context *ctx, const char *name, const polygon_list *outlines, import_pair_array *out,
+                         fram_error *error)
 {
     int32_t count = polygon_list_count(outlines);
+    pair_search s = {.ctx = ctx, .name = name, .outlines = outlines, .out = out};
+    box2 *box = memory_array(ctx, (size_t)count, sizeof *box);
     array_clear(out);
-    if (count == 0)
-        return FRAM_OK;
-    sweep_entry *entry = memory_array(ctx, (size_t)count, sizeof *entry);
-    if (!entry)
+    if (!box)
         return error_memory(error);
     for (int32_t i = 0; i < count; i++)
-        entry[i] = (sweep_entry){polygon_bounds(polygon_list_get(outlines, i)), i};
-    qsort(entry, (size_t)count, sizeof *entry, by_left_end);
-    bool good = true;
-    for (int32_t i = 0; i < count; i++) {
-        for (int32_t k = i + 1; good && k < count && entry[k].box.lo.x < entry[i].box.hi.x; k++) {
-            if (entry[k].box.lo.y < entry[i].box.hi.y && entry[i].box.lo.y < entry[k].box.hi.y)
-                good = add_if_common(ctx, outlines, entry[i].outline, entry[k].outline, out);
-        }
-    }
-    memory_free(ctx, entry);
-    if (good && out->count > 0)
+        box[i] = polygon_bounds(polygon_list_get(outlines, i));
+    fram_status status = box_pairs(ctx, box, count, "looking for overlaps", add_if_common, &s, error);
+    memory_free(ctx, box);
+    if (status == FRAM_OK && out->count > 0)
         qsort(out->data, (size_t)out->count, sizeof *out->data, by_outlines);
-    return good ? FRAM_OK : error_memory(error);
+    return status;
 }
 
 /* ---- cutting ---- */
@@ -71,10 +67,12 @@ fram_status import_pairs(context *ctx, const polygon_list *outlines, import_pair
 typedef struct cutting {
     context *ctx;
     overlay *plane;
-    double smallest_area;
+    const import_options *options;
     import_field *was, now;
     import_pair_array pairs;
     int32_array larger; /* of each pair: the floe that is cut */
+    int32_array first;  /* of each floe: it is cut by by[first[i]] to before by[first[i + 1]], */
+    int32_array by;     /* in the order of the pairs */
     polygon_list pieces, rest;
     fram_error *error;
 } cutting;
@@ -113,12 +111,9 @@ static fram_status cut_floe(cutting *c, int32_t floe, bool *touched)
     polygon_list_clear(&c->pieces);
     if (!polygon_list_push(c->ctx, &c->pieces, whole))
         return error_memory(c->error);
-    for (int32_t i = 0; status == FRAM_OK && i < c->pairs.count; i++) {
-        const import_pair *pair = &c->pairs.data[i];
-        if (c->larger.data[i] != floe)
-            continue;
+    for (int32_t i = c->first.data[floe]; status == FRAM_OK && i < c->first.data[floe + 1]; i++) {
         *touched = true;
-        status = subtract(c, polygon_list_get(&c->was->outlines, pair->a == floe ? pair->b : pair->a));
+        status = subtract(c, polygon_list_get(&c->was->outlines, c->by.data[i]));
     }
     return status;
 }
@@ -130,7 +125,7 @@ static fram_status replace_floe(cutting *c, int32_t floe)
     fram_status status = cut_floe(c, floe, &touched);
     if (status != FRAM_OK || !touched)
         return status != FRAM_OK ? status : keep(c, floe, whole) ? FRAM_OK : error_memory(c->error);
-    double least = fmax(c->smallest_area, SLIVER * polygon_area(whole));
+    double least = fmax(c->options->smallest_area, SLIVER * polygon_area(whole));
     status = add_note(c, floe, IMPORT_NOTE_OVERLAP, polygon_list_count(&c->pieces) == 0, whole.vertex[0]);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&c->pieces); i++) {
         polygon p = polygon_list_get(&c->pieces, i);
@@ -142,9 +137,29 @@ static fram_status replace_floe(cutting *c, int32_t floe)
     return status;
 }
 
+/* Who cuts whom, by the floe that is cut; a counting sort, which keeps the order of the pairs. */
+static bool list_cuts(cutting *c, int32_t count)
+{
+    if (!array_resize(c->ctx, &c->first, count + 1) || !array_resize(c->ctx, &c->by, c->pairs.count))
+        return false;
+    int32_t *first = c->first.data;
+    for (int32_t i = 0; i <= count; i++)
+        first[i] = 0;
+    for (int32_t i = 0; i < c->pairs.count; i++)
+        first[c->larger.data[i]]++;
+    for (int32_t i = 1; i <= count; i++)
+        first[i] += first[i - 1];
+    for (int32_t i = c->pairs.count - 1; i >= 0; i--) {
+        const import_pair *p = &c->pairs.data[i];
+        int32_t cut = c->larger.data[i];
+        c->by.data[--first[cut]] = p->a == cut ? p->b : p->a;
+    }
+    return true;
+}
+
 static fram_status cut_all(cutting *c)
 {
-    fram_status status = import_pairs(c->ctx, &c->was->outlines, &c->pairs, c->error);
+    fram_status status = import_pairs(c->ctx, c->options->name, &c->was->outlines, &c->pairs, c->error);
     for (int32_t i = 0; status == FRAM_OK && i < c->pairs.count; i++) {
         const import_pair *p = &c->pairs.data[i];
         double a = polygon_area(polygon_list_get(&c->was->outlines, p->a));
@@ -153,8 +168,13 @@ static fram_status cut_all(cutting *c)
             status = error_memory(c->error);
     }
     int32_t count = c->pairs.count > 0 ? polygon_list_count(&c->was->outlines) : 0;
-    for (int32_t i = 0; status == FRAM_OK && i < count; i++)
-        status = replace_floe(c, i);
+    if (status == FRAM_OK && !list_cuts(c, count))
+        status = error_memory(c->error);
+    for (int32_t i = 0; status == FRAM_OK && i < count; i++) {
+        status = work_continue(c->ctx, "cutting floes that overlap", i, count, c->error);
+        if (status == FRAM_OK)
+            status = replace_floe(c, i);
+    }
     return status;
 }
 
@@ -169,15 +189,18 @@ static void exchange(cutting *c)
     c->now.notes.count = c->now.notes.capacity = 0;
 }
 
-fram_status import_cut_overlaps(context *ctx, overlay *o, double smallest_area, import_field *field, fram_error *error)
+fram_status import_cut_overlaps(context *ctx, overlay *o, const import_options *options, import_field *field,
+                                fram_error *error)
 {
-    cutting c = {.ctx = ctx, .plane = o, .smallest_area = smallest_area, .was = field, .error = error};
+    cutting c = {.ctx = ctx, .plane = o, .options = options, .was = field, .error = error};
     fram_status status = cut_all(&c);
     if (status == FRAM_OK && c.pairs.count > 0)
         exchange(&c);
     import_field_free(ctx, &c.now);
     array_free(ctx, &c.pairs);
     array_free(ctx, &c.larger);
+    array_free(ctx, &c.first);
+    array_free(ctx, &c.by);
     polygon_list_free(ctx, &c.pieces);
     polygon_list_free(ctx, &c.rest);
     return status;

@@ -11,11 +11,14 @@ typedef struct import_pair {
 } import_pair;
 typedef ARRAY(import_pair) import_pair_array;
 
-/* All such pairs, ordered by a, then b. */
-fram_status import_pairs(context *ctx, const polygon_list *outlines, import_pair_array *out, fram_error *error);
+/* All such pairs, ordered by a, then b.  name: of the outlines' file, or NULL.  FRAM_ERROR_INPUT for a crowd
+ * (ice/crowd.h). */
+fram_status import_pairs(context *ctx, const char *name, const polygon_list *outlines, import_pair_array *out,
+                         fram_error *error);
 
 /* What two floes have in common goes to the smaller one (of equal ones to the first): the larger is cut, and noted.
-   Cut pieces under smallest_area or a thousandth of their floe are left out. */
-fram_status import_cut_overlaps(context *ctx, overlay *o, double smallest_area, import_field *field, fram_error *error);
+   Cut pieces under the smallest area or a thousandth of their floe are left out. */
+fram_status import_cut_overlaps(context *ctx, overlay *o, const import_options *options, import_field *field,
+                                fram_error *error);
 
 #endif

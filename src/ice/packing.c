@@ -51,11 +51,11 @@ double pack_mean_squeeze(const pack_work *w)
     return w->movable > 0 ? sum / w->movable : 0;
 }
 
-/* One round; `apart` tells that nothing overlapped before it. false: no memory. */
+/* One round; `apart` tells that nothing overlapped before it. false: no memory, or w->status. */
 static bool do_round(pack_work *w, double shake, bool *apart)
 {
-    bool good = pack_find_pairs(w, false);
-    if (!good)
+    w->status = work_continue(w->ctx, "packing the ice", w->round, 0, w->error);
+    if (w->status != FRAM_OK || !pack_find_pairs(w, false))
         return false;
     pack_place(w);
     if (!pack_find_rows(w))

@@ -102,7 +102,8 @@ static bool add_bodies(pack_work *w, const polygon_list *shapes)
     bool good = true;
     double sum = 0, least = HUGE_VAL;
     for (int32_t i = 0; good && i < polygon_list_count(shapes); i++) {
-        good = add_shape(w, polygon_list_get(shapes, i), &pieces);
+        w->status = work_continue(w->ctx, "packing the ice: shapes", i, polygon_list_count(shapes), w->error);
+        good = w->status == FRAM_OK && add_shape(w, polygon_list_get(shapes, i), &pieces);
         if (good) {
             sum += w->bodies.data[i].size;
             least = fmin(least, w->bodies.data[i].size);

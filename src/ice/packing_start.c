@@ -7,6 +7,8 @@
 #include <stdlib.h>
 
 enum { CANDIDATES = 20 };
+/* After so many floes, some milliseconds, the caller is asked whether to go on. */
+enum { BODIES_A_WORD = 256 };
 /* Width of a search cell, and the clearance beyond which all places are equally good, in mean floe sizes. */
 static const double CELL = 1.5, ENOUGH = 3;
 
@@ -145,9 +147,12 @@ static bool put_all(pack_work *w, places *p, ranked *order)
     for (int32_t i = 0; i < w->movable; i++)
         order[i] = (ranked){w->bodies.data[i].size, i};
     qsort(order, (size_t)w->movable, sizeof *order, larger_first);
-    for (int32_t i = 0; i < w->movable; i++)
-        if (!put_body(w, p, order[i].body))
+    for (int32_t i = 0; i < w->movable; i++) {
+        if (i % BODIES_A_WORD == 0)
+            w->status = work_continue(w->ctx, "packing the ice: first places", i, w->movable, w->error);
+        if (w->status != FRAM_OK || !put_body(w, p, order[i].body))
             return false;
+    }
     return true;
 }
 

@@ -114,7 +114,7 @@ bool pack_sort_bodies(pack_work *w);
 /* packing.c: mean of the floes' deepest overlaps, each over the floe's size, as the last rows were found. */
 double pack_mean_squeeze(const pack_work *w);
 
-/* packing_start.c: first places and angles; false: no memory. */
+/* packing_start.c: first places and angles; false: no memory, or w->status. */
 bool pack_start(pack_work *w);
 
 /* packing_pairs.c: find the pairs anew when bodies may have left the margin of the last search; false: no memory. */

@@ -86,7 +86,9 @@ fram_status tile_sheet(context *ctx, const tile_grid *g, overlay *plane, const p
     vec2_array ring = {0};
     fram_status status = FRAM_OK;
     for (int32_t cell = 0; cell < g->columns * g->rows && status == FRAM_OK; cell++) {
-        status = open_cell(ctx, plane, tile_cell(g, cell), openings, &left, &room, error);
+        status = work_continue(ctx, "making the tiles of the sheet", cell, g->columns * g->rows, error);
+        if (status == FRAM_OK)
+            status = open_cell(ctx, plane, tile_cell(g, cell), openings, &left, &room, error);
         for (int32_t i = 0; i < polygon_list_count(&left) && status == FRAM_OK; i++) {
             polygon p = polygon_list_get(&left, i);
             if (!array_resize(ctx, &ring, p.count)) {

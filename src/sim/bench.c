@@ -137,9 +137,16 @@ fram_status bench_measure(context *ctx, const step_settings *settings, world *w,
     if (!times)
         return error_memory(error);
     fram_status status = FRAM_OK;
-    for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++)
-        status = world_step(ctx, settings, w, error);
+    double all = (double)(warm_steps + steps);
+    for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++) {
+        status = work_continue(ctx, "measuring", (double)k, all, error);
+        if (status == FRAM_OK)
+            status = world_step(ctx, settings, w, error);
+    }
     for (int64_t k = 0; k < steps && status == FRAM_OK; k++) {
+        status = work_continue(ctx, "measuring", (double)(warm_steps + k), all, error);
+        if (status != FRAM_OK)
+            break;
         status = measure_step(ctx, settings, w, k, steps, times, error);
         add_step(settings, w, ship, out);
     }

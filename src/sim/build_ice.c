@@ -1,12 +1,15 @@
 #include "sim/build_ice.h"
 
 #include "base/transcendental.h"
+#include "geometry/box_pairs.h"
 #include "geometry/space_curve.h"
+#include "ice/crowd.h"
 #include "ice/tiles.h"
 #include "sim/build_keep_out.h"
 #include "sim/draw_ice.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static ice_material material_of(const scenario *s)
@@ -81,6 +84,9 @@ static fram_status add_drawn_floes(context *ctx, const scenario *s, world *w, co
     fram_status status = order ? FRAM_OK : error_memory(error);
     for (int32_t i = 0; i < polygon_list_count(outlines) && status == FRAM_OK; i++) {
         int32_t row;
+        status = work_continue(ctx, "making the floes", i, polygon_list_count(outlines), error);
+        if (status != FRAM_OK)
+            break;
         floe_traits t = drawn->traits.data[order[i]];
         d.outline = polygon_list_get(outlines, order[i]);
         d.thickness = t.thickness;
@@ -194,6 +200,9 @@ static fram_status build_level(context *ctx, const scenario *s, world *w, field_
     double area = 0;
     for (int32_t i = 0; i < polygon_list_count(&outlines) && status == FRAM_OK; i++) {
         int32_t row;
+        status = work_continue(ctx, "making the floes of the sheet", i, polygon_list_count(&outlines), error);
+        if (status != FRAM_OK)
+            break;
         d.outline = polygon_list_get(&outlines, i);
         d.tile = cells.data[i] + 1;
         area += polygon_area(d.outline);
@@ -260,6 +269,49 @@ static fram_status add_single_floe(context *ctx, const scenario *s, world *w, co
     return FRAM_OK;
 }
 
+/* Pairs that were found so far. */
+typedef struct crowd_search {
+    const world *w;
+    int64_t pairs;
+} crowd_search;
+
+static fram_status count_pair(void *user, int32_t a, int32_t b, fram_error *error)
+{
+    crowd_search *c = user;
+    const floe_table *f = &c->w->floes;
+    double rise = fabs(c->w->bodies.position[f->body[a]].z - c->w->bodies.position[f->body[b]].z);
+    if (rise >= 0.5 * (f->thickness[a] + f->thickness[b]))
+        return FRAM_OK; /* one above the other */
+    return ++c->pairs > crowd_most_pairs(f->count) ? crowd_refuse(NULL, f->count, error) : FRAM_OK;
+}
+
+/* Floes that all lie in one place end here, and not by memory and time in the first step. */
+static fram_status check_crowd(context *ctx, const scenario *s, const world *w, fram_error *error)
+{
+    crowd_search c = {.w = w};
+    int32_t count = w->floes.count;
+    box2 *box = memory_array(ctx, (size_t)count, sizeof *box);
+    if (!box)
+        return error_memory(error);
+    for (int32_t i = 0; i < count; i++) {
+        int32_t body = w->floes.body[i];
+        polygon p = shape_outline(&w->shapes, w->bodies.shape[body]);
+        box[i] = (box2){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+        for (int32_t k = 0; k < p.count; k++) {
+            vec3 at = body_to_global(&w->bodies, body, vec3_make(p.vertex[k].x, p.vertex[k].y, 0));
+            box[i] = (box2){{fmin(box[i].lo.x, at.x), fmin(box[i].lo.y, at.y)},
+                            {fmax(box[i].hi.x, at.x), fmax(box[i].hi.y, at.y)}};
+        }
+    }
+    fram_status status = box_pairs(ctx, box, count, "looking for overlaps", count_pair, &c, error);
+    memory_free(ctx, box);
+    if (status == FRAM_ERROR_INPUT && error) {
+        snprintf(error->key, sizeof error->key, "ice.floes");
+        scenario_locate(s, error);
+    }
+    return status;
+}
+
 fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *report, fram_error *error)
 {
     if (s->ice.source == ICE_VORONOI || s->ice.source == ICE_FILE || s->ice.source == ICE_PACKED)
@@ -274,5 +326,5 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
             return status;
     }
     report->floes = s->ice.floes.count;
-    return FRAM_OK;
+    return check_crowd(ctx, s, w, error);
 }

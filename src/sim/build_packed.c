@@ -229,7 +229,7 @@ fram_status draw_managed(context *ctx, const scenario *s, world *w, field_reques
                                                            : error_memory(error);
     if (status == FRAM_OK) {
         request.size = &files.population[0].size;
-        status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
+        status = field_voronoi(ctx, &request, &out->outlines, &out->report, error);
         if (status == FRAM_ERROR_INPUT)
             name_ice_request(s, error);
     }

@@ -46,7 +46,7 @@ static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const
                              .periodic = s->domain.boundary == DOMAIN_FEEDING};
     if (s->ice.populations.count > 0)
         return draw_managed(ctx, s, w, request, out, error);
-    fram_status status = field_voronoi(ctx, w->scratch.plane, &request, &out->outlines, &out->report, error);
+    fram_status status = field_voronoi(ctx, &request, &out->outlines, &out->report, error);
     if (status == FRAM_ERROR_INPUT)
         name_ice_request(s, error);
     for (int32_t i = 0; status == FRAM_OK && i < polygon_list_count(&out->outlines); i++)
@@ -69,11 +69,12 @@ static void log_notes(context *ctx, const import_rings *rings, const import_fiel
 }
 
 /* What became of the file: counts of what was left out and mended, overlaps, concentration. */
-static fram_status report_import(context *ctx, const scenario *s, world *w, const polygon_list *keep_out,
-                                 const import_field *field, field_report *report, fram_error *error)
+static fram_status report_import(context *ctx, const scenario *s, world *w, const char *path,
+                                 const polygon_list *keep_out, const import_field *field, field_report *report,
+                                 fram_error *error)
 {
     import_measure m;
-    fram_status status = import_field_measure(ctx, w->scratch.plane, &field->outlines, &m, error);
+    fram_status status = import_field_measure(ctx, w->scratch.plane, path, &field->outlines, &m, error);
     if (status != FRAM_OK)
         return status;
     box2 d = domain_of(s);
@@ -122,7 +123,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
         status = import_field_make(ctx, w->scratch.plane, &rings, &options, &field, error);
     if (status == FRAM_OK) {
         log_notes(ctx, &rings, &field);
-        status = report_import(ctx, s, w, keep_out, &field, &out->report, error);
+        status = report_import(ctx, s, w, path, keep_out, &field, &out->report, error);
     }
     for (int32_t i = 0; status == FRAM_OK && i < field.thickness.count; i++)
         if (!polygon_list_push(ctx, &out->outlines, polygon_list_get(&field.outlines, i)) ||

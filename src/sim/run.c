@@ -395,8 +395,12 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     if (status == FRAM_OK)
         status = log_warnings(&r, error);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
+    const volatile int *stop = ctx->stop;
+    if (options->stop)
+        ctx->stop = options->stop;
     if (status == FRAM_OK)
         status = build_world(ctx, s, &r.world, &report, error);
+    ctx->stop = stop;
     if (status != FRAM_OK) {
         run_free(&r);
         return status;

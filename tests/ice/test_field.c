@@ -1,9 +1,9 @@
 /* Managed ice fields: concentration, separation, zones, determinism, errors. */
 #include "base/pool.h"
 #include "base/transcendental.h"
+#include "floes_apart.h"
 #include "ice/field.h"
 #include "ice/field_cells.h"
-#include "testing.h"
 
 static field_request request_of(double concentration, uint64_t seed)
 {
@@ -37,7 +37,7 @@ static void check_field(context *ctx, const field_request *q, const polygon_list
     assert_relative(r->concentration, q->concentration, 1e-6);
     assert_relative(area, q->concentration * r->free_area, 1e-6);
     assert_bits(r->largest_overlap, 0);
-    assert_bits(cells_largest_overlap(ctx, floes), 0);
+    assert_apart(ctx, floes);
     ck_assert(r->gap > 0);
 }
 
@@ -61,7 +61,7 @@ START_TEST(concentrations)
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         assert_relative(r.free_area, 60000, 1e-12);
         check_field(&ctx, &q, &floes, &r);
         /* Neighbours stand one gap apart.  Where the edge that parted two of them has vanished from both, the edge
@@ -86,7 +86,7 @@ START_TEST(twenty_seeds)
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         check_field(&ctx, &q, &floes, &r);
         double x = floes.vertex.data[0].x;
         ck_assert(seed == 0 || x != first);
@@ -107,7 +107,7 @@ START_TEST(deterministic)
     fram_error e = {0};
     for (int i = 0; i < 2; i++) {
         ctx.threads = i == 0 ? NULL : pool_create(&ctx, 3);
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes[i], &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes[i], &r, &e), e);
         if (ctx.threads)
             pool_free(&ctx, ctx.threads);
         ctx.threads = NULL;
@@ -118,7 +118,7 @@ START_TEST(deterministic)
                      0);
     /* Appended after what is there. */
     int32_t count = polygon_list_count(&floes[0]);
-    assert_ok(field_voronoi(&ctx, NULL, &q, &floes[0], &r, &e), e);
+    assert_ok(field_voronoi(&ctx, &q, &floes[0], &r, &e), e);
     ck_assert_int_eq(polygon_list_count(&floes[0]), 2 * count);
     for (int i = 0; i < 2; i++)
         polygon_list_free(&ctx, &floes[i]);
@@ -139,7 +139,7 @@ START_TEST(sizes)
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         check_field(&ctx, &q, &floes, &r);
         assert_relative(r.floes, 300, 0.03);
         double sum = 0, squares = 0, hexagons = 0;
@@ -172,7 +172,7 @@ START_TEST(roundness)
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         check_field(&ctx, &q, &floes, &r);
         gap[i] = r.gap;
         for (int32_t k = 0; k < r.floes; k++)
@@ -208,7 +208,7 @@ START_TEST(keep_out_zones)
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, o, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         check_field(&ctx, &q, &floes, &r);
         /* The free area, from the union of the grown zones inside the domain. */
         polygon_list grown = {0}, clipped = {0}, joined = {0};
@@ -275,7 +275,7 @@ START_TEST(impossible_targets)
     fram_error e = {0};
     field_request q = request_of(0.9, 1);
     q.smallest_area = 220; /* larger than most cells */
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "cannot be reached");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "cannot be reached");
     ck_assert_ptr_nonnull(strstr(e.message, "smallest area"));
     ck_assert_str_eq(e.key, "concentration");
     static const vec2 all[4] = {{-200, 0}, {300, 0}, {300, 300}, {-200, 300}};
@@ -283,11 +283,11 @@ START_TEST(impossible_targets)
     ck_assert(polygon_list_push(&ctx, &zones, (polygon){all, 4}));
     q = request_of(0.9, 1);
     q.keep_out = &zones;
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "no free area");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "no free area");
     polygon_list_clear(&zones);
     static const vec2 dart[4] = {{0, 60}, {40, 100}, {0, 80}, {-40, 100}};
     ck_assert(polygon_list_push(&ctx, &zones, (polygon){dart, 4}));
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "convex");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "convex");
     polygon_list_free(&ctx, &zones);
     ck_assert_int_eq(polygon_list_count(&floes), 0);
     ck_assert_ptr_null(floes.vertex.data);
@@ -342,7 +342,7 @@ START_TEST(wrong_requests)
             break;
         }
         fram_error e = {0};
-        ck_assert_int_eq(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), FRAM_ERROR_INPUT);
+        ck_assert_int_eq(field_voronoi(&ctx, &q, &floes, &r, &e), FRAM_ERROR_INPUT);
         ck_assert_str_eq(e.key, key);
         ck_assert_ptr_nonnull(strstr(e.message, key));
     }
@@ -366,7 +366,7 @@ START_TEST(few_cells)
         polygon_list floes = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         check_field(&ctx, &q, &floes, &r);
         ck_assert_int_eq(r.floes, i < 2 ? 1 : i == 2 ? 2 : i == 3 ? 10 : 5);
         polygon_list_free(&ctx, &floes);
@@ -389,7 +389,7 @@ START_TEST(memory_runs_out)
         q.keep_out_margin = 3;
         field_report r;
         fram_error e = {0};
-        fram_status status = field_voronoi(&ctx, NULL, &q, &floes, &r, &e);
+        fram_status status = field_voronoi(&ctx, &q, &floes, &r, &e);
         if (status != FRAM_OK)
             ck_assert_int_eq(polygon_list_count(&floes), 0);
         polygon_list_free(&ctx, &floes);
@@ -417,7 +417,7 @@ START_TEST(periodic_fields)
         polygon_list floes = {0}, all = {0};
         field_report r;
         fram_error e = {0};
-        assert_ok(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e);
+        assert_ok(field_voronoi(&ctx, &q, &floes, &r, &e), e);
         assert_relative(r.concentration, 0.9, 1e-6);
         assert_relative(r.free_area, 60000, 1e-9);
         for (int copy = 0; copy < 9; copy++)
@@ -429,7 +429,7 @@ START_TEST(periodic_fields)
                     moved[k] = vec2_add(p.vertex[k], vec2_make(300 * (copy % 3), 200.0 * (copy / 3)));
                 ck_assert(polygon_list_push(&ctx, &all, (polygon){moved, p.count}));
             }
-        assert_bits(cells_largest_overlap(&ctx, &all), 0);
+        assert_apart(&ctx, &all);
         double least = least_gap(&all);
         ck_assert_msg(least <= r.gap * (1 + 1e-6) && least > 0.6 * r.gap, "gap %g, least %g", r.gap, least);
         polygon_list_free(&ctx, &floes);

@@ -1,9 +1,9 @@
 /* Managed ice whose floes follow a law of size. */
 #include "base/pool.h"
 #include "base/transcendental.h"
+#include "floes_apart.h"
 #include "ice/field_cells.h"
 #include "ice/field_pack.h"
-#include "testing.h"
 
 static const size_law power = {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7};
 static const size_law lognormal = {.kind = SIZE_LOGNORMAL, .mean = 10, .deviation = 4};
@@ -23,7 +23,7 @@ static void check(context *ctx, const field_request *q, const polygon_list *floe
 {
     field_population_report part;
     assert_relative(r->concentration, q->concentration, 1e-6);
-    assert_bits(cells_largest_overlap(ctx, floes), 0);
+    assert_apart(ctx, floes);
     for (int32_t i = 0; i < r->floes; i++)
         ck_assert(polygon_is_convex(polygon_list_get(floes, i)));
     ck_assert(field_population_measure(ctx, q->size, floes, NULL, 0, &part));
@@ -38,7 +38,7 @@ static field_report make_good(context *ctx, const field_request *q, polygon_list
 {
     field_report r;
     fram_error e = {0};
-    assert_ok(field_voronoi(ctx, NULL, q, floes, &r, &e), e);
+    assert_ok(field_voronoi(ctx, q, floes, &r, &e), e);
     check(ctx, q, floes, &r);
     return r;
 }
@@ -109,7 +109,7 @@ START_TEST(without_a_seam)
         ck_assert(polygon_list_push(&ctx, &floes, (polygon){ring.data, ring.count}));
     }
     ck_assert_int_gt(across, 5);
-    assert_bits(cells_largest_overlap(&ctx, &floes), 0);
+    assert_apart(&ctx, &floes);
     polygon_list_free(&ctx, &floes);
     array_free(&ctx, &ring);
 }
@@ -125,8 +125,8 @@ START_TEST(same_bits_on_three_threads)
     field_report r;
     fram_error e = {0};
     field_request q = request_of(&lognormal, 0.95, 9);
-    assert_ok(field_voronoi(&one, NULL, &q, &a, &r, &e), e);
-    assert_ok(field_voronoi(&three, NULL, &q, &b, &r, &e), e);
+    assert_ok(field_voronoi(&one, &q, &a, &r, &e), e);
+    assert_ok(field_voronoi(&three, &q, &b, &r, &e), e);
     ck_assert_int_eq(a.vertex.count, b.vertex.count);
     assert_array_bits(&a.vertex.data[0].x, &b.vertex.data[0].x, 2 * a.vertex.count);
     polygon_list_free(&one, &a);
@@ -144,22 +144,22 @@ START_TEST(wrong_laws_are_refused)
     fram_error e = {0};
     const size_law wide = {.kind = SIZE_CONSTANT, .mean = 400}, none = {.kind = SIZE_CONSTANT};
     field_request q = request_of(&wide, 0.9, 1);
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain larger");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain larger");
     /* Two, and there is room for one and a half. */
     const size_law pair = {.kind = SIZE_CONSTANT, .mean = 1.128}, dust = {.kind = SIZE_CONSTANT, .mean = 1e-3};
     q = request_of(&pair, 0.95, 1);
     q.domain = (box2){{0, 0}, {1.265, 1.265}};
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "cover 1.998");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "cover 1.998");
     q = request_of(&dust, 0.9, 1);
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain smaller");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "make the domain smaller");
     /* A floe of half the domain's width among small ones: walls leave it no cell of its area. */
     const size_law wide_law = {.kind = SIZE_POWER, .lo = 1, .hi = 60, .exponent = 1.7};
     q = request_of(&wide_law, 0.9, 1);
     q.domain = (box2){{0, 0}, {100, 100}};
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "off by");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "off by");
     ck_assert_msg(strstr(e.message, "a narrower law") != NULL, "%s", e.message);
     q = request_of(&none, 0.9, 1);
-    assert_fails(field_voronoi(&ctx, NULL, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "must be positive");
+    assert_fails(field_voronoi(&ctx, &q, &floes, &r, &e), e, FRAM_ERROR_INPUT, "must be positive");
     ck_assert_int_eq(polygon_list_count(&floes), 0);
 }
 END_TEST
@@ -175,7 +175,7 @@ START_TEST(memory_ends)
         fram_error e;
         field_request q = request_of(&law, 0.9, 2);
         q.domain = (box2){{0, 0}, {50, 40}};
-        fram_status status = field_voronoi(&ctx, NULL, &q, &floes, &r, &e);
+        fram_status status = field_voronoi(&ctx, &q, &floes, &r, &e);
         polygon_list_free(&ctx, &floes);
         ck_assert_int_eq(memory.live, 0);
         if (!memory.failed) {

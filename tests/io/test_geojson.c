@@ -305,7 +305,7 @@ START_TEST(overlaps_are_measured_and_cut)
     import_options o = options_of(IMPORT_REFUSE);
     import_measure m;
     assert_ok(import(r, &o), r->error);
-    assert_ok(import_field_measure(&r->ctx, r->plane, &r->field.outlines, &m, &r->error), r->error);
+    assert_ok(import_field_measure(&r->ctx, r->plane, NULL, &r->field.outlines, &m, &r->error), r->error);
     ck_assert_int_eq(m.floes, 3);
     ck_assert_int_eq(m.vertices, 11);
     ck_assert_int_eq(m.concave, 0);
@@ -324,7 +324,7 @@ START_TEST(overlaps_are_measured_and_cut)
 
     o.bad = IMPORT_REPAIR;
     assert_ok(import(r, &o), r->error);
-    assert_ok(import_field_measure(&r->ctx, r->plane, &r->field.outlines, &m, &r->error), r->error);
+    assert_ok(import_field_measure(&r->ctx, r->plane, NULL, &r->field.outlines, &m, &r->error), r->error);
     ck_assert_int_eq(m.floes, 4);
     ck_assert_int_eq(m.overlaps, 0);
     assert_relative(m.area, 104.5, 1e-12);
@@ -468,7 +468,7 @@ START_TEST(memory_that_runs_out_is_reported)
         if (status == FRAM_OK)
             status = import_field_make(&ctx, plane, &rings, &o, &field, &error);
         if (status == FRAM_OK)
-            status = import_field_measure(&ctx, plane, &field.outlines, &m, &error);
+            status = import_field_measure(&ctx, plane, NULL, &field.outlines, &m, &error);
         import_rings_free(&ctx, &rings);
         import_field_free(&ctx, &field);
         if (plane)
