@@ -3,6 +3,7 @@
    can be hashed and freed. */
 #include "fuzzing.h"
 #include "io/table_file.h"
+#include "model/world_check.h"
 #include <string.h>
 #include <zlib.h>
 
@@ -44,6 +45,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fram_status status = table_file_decode(&ctx, "fuzz.fram", copy, size, &content, &error);
     if (status == FRAM_OK) {
         world_hash(&w);
+        status = world_check(&w, 0, &error);
+        PROMISE(status == FRAM_OK || (error.status == status && error.message[0] != '\0'));
         table_file_free_bytes(&ctx, &content);
     } else {
         PROMISE(error.status == status && error.message[0] != '\0');

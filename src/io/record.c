@@ -252,6 +252,12 @@ fram_status record_next(record_reader *r, record_block *block, bool *found, fram
     return FRAM_OK;
 }
 
+void record_tell_damage(const record_reader *r, const char *consequence)
+{
+    if (r->damage[0])
+        log_write(r->ctx, LOG_WARNING, "%s: %s; %s", r->path, r->damage, consequence);
+}
+
 void record_seek(record_reader *r, uint64_t offset) { r->position = offset; }
 
 void record_reader_close(record_reader *r)

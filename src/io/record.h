@@ -59,6 +59,8 @@ fram_status record_open(context *ctx, const char *path, record_reader *r, fram_e
 /* The next block.  found is false at the end of the file and at the first damaged or unfinished block: the reader's
    `damage` then says which.  Statuses are for what is not the file's fault. */
 fram_status record_next(record_reader *r, record_block *block, bool *found, fram_error *error);
+/* Warn in the log of what stopped the reading before the end of the file, if something did, and what follows. */
+void record_tell_damage(const record_reader *r, const char *consequence);
 /* Go to a block whose offset is known. */
 void record_seek(record_reader *r, uint64_t offset);
 void record_reader_close(record_reader *r);

@@ -29,6 +29,8 @@ static fram_status measure(record_reader *r, record_measure *m, fram_error *erro
     *m = (record_measure){0};
     while (true) {
         fram_status status = record_next(r, &block, &found, error);
+        if (status == FRAM_OK && !found)
+            record_tell_damage(r, "what comes before it is played");
         if (status != FRAM_OK || !found)
             return status;
         m->frames += block.type == BLOCK_FRAME;

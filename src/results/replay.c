@@ -296,8 +296,8 @@ static fram_status read_ahead(replay *r, fram_error *error)
     while (r->frames_read == before) {
         record_block block;
         fram_status status = record_next(&r->reader, &block, &found, error);
-        if (status == FRAM_OK && !found && r->reader.damage[0])
-            log_write(r->ctx, LOG_WARNING, "%s: %s; what comes before it is used", r->reader.path, r->reader.damage);
+        if (status == FRAM_OK && !found)
+            record_tell_damage(&r->reader, "what comes before it is used");
         if (status != FRAM_OK || !found)
             return status;
         status = read_block(r, &block, error);

@@ -2,6 +2,7 @@
 
 #include "fram/version.h"
 #include "io/table_file.h"
+#include "model/world_check.h"
 
 #include <dirent.h>
 #include <inttypes.h>
@@ -148,11 +149,19 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
         {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}};
     table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}};
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
+    fram_error unsound = {0};
     *other = false;
     fram_status status = table_file_read(ctx, path, &content, error);
     if (status != FRAM_OK)
         return status;
-    if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
+    if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
+        *other = true;
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                           "expected a checkpoint of Fram %s, found one of Fram %.*s: continue the run with that version, "
+                           "or start it again",
+                           FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
+                           bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
+    } else if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
         *other = true;
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                            "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
@@ -160,6 +169,8 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
         *other = true;
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                            "a file that the run was started with was changed since; restore it or start a new run");
+    } else if (world_check(w, note->tiles, &unsound) != FRAM_OK) {
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     } else if (world_hash(w) != numbers[NUMBER_HASH].value) {
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
     }

@@ -12,6 +12,7 @@ typedef struct checkpoint_note {
     uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
     char scenario_hash[65];
     const char *inputs; /* text of inputs_list, compared on resume */
+    int32_t tiles;      /* cells of the level sheet that the scenario asks for, for reading */
 } checkpoint_note;
 
 /* Write FOLDER/checkpoint-STEP.fram, in two parts: the state is taken now, and brought to the disk after the streams

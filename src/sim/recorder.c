@@ -72,9 +72,10 @@ recorder_lengths recorder_lengths_of(const recorder *r)
     return (recorder_lengths){csv_length(&r->series), record_length(&r->record), csv_length(&r->fractures)};
 }
 
-/* That the record is of the layout which would go on: told by its blocks up to the first frame.  A damaged one is for
-   record_continue to refuse. */
-static fram_status check_layout(context *ctx, const char *folder, fram_error *error)
+/* That the record is of the layout which would go on: told by its blocks up to `length`.  One whose blocks do not go on
+   to there is for record_continue to refuse; one with other bytes in a block than were written is told, for the run can
+   go on, and what reads the record cannot. */
+static fram_status check_layout(context *ctx, const char *folder, uint64_t length, fram_error *error)
 {
     char path[1024];
     record_reader reader;
@@ -85,11 +86,13 @@ static fram_status check_layout(context *ctx, const char *folder, fram_error *er
         return status;
     record_block block = {0};
     bool found = true;
-    while (status == FRAM_OK && found && block.type != BLOCK_FRAME) {
+    while (status == FRAM_OK && found && reader.position < length) {
         status = record_next(&reader, &block, &found, error);
         if (status == FRAM_OK && found)
             status = record_check_block(path, block.type, error);
     }
+    if (status == FRAM_OK && !found)
+        record_tell_damage(&reader, "the run can go on, but pages and reports of it end there: better start it again");
     record_reader_close(&reader);
     return status;
 }
@@ -111,7 +114,7 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     char path[1024];
     series_layout layout;
     series_columns(s, &layout);
-    fram_status status = check_layout(ctx, folder, error);
+    fram_status status = check_layout(ctx, folder, lengths->record, error);
     if (status == FRAM_OK)
         status = stream_path(folder, "series.csv", path, error);
     if (status == FRAM_OK)

@@ -424,7 +424,8 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
 
 static fram_status resume_world(run *r, run_result *result, fram_error *error)
 {
-    checkpoint_note note = {.inputs = r->inputs.data};
+    const tile_grid *tiles = &r->settings.fracture.tiles;
+    checkpoint_note note = {.inputs = r->inputs.data, .tiles = tiles->columns * tiles->rows};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     fram_status status = checkpoint_read_newest(r->ctx, r->options->folder, &r->world, &note, error);
     if (status != FRAM_OK)

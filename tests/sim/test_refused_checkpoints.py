@@ -57,6 +57,28 @@ def swapped(data):
     return with_sums(data)
 
 
+def other_program(data):
+    """As another version of Fram would have written it."""
+    name = b"fram_version"
+    at = data.index(name) + len(name)
+    size = struct.unpack_from("<Q", data, at)[0]
+    version = bytearray(data[at + 8:at + 8 + size])
+    version[-1] = ord("9")
+    return with_sums(data[:at + 8] + bytes(version) + data[at + 8 + size:])
+
+
+def lost_index(data):
+    """A row of a vessel's body that no table has; every checksum fits."""
+    data, name = bytearray(data), struct.pack("<I", 6) + b"vessel"
+    at = data.index(name) + len(name)
+    fields, at = struct.unpack_from("<I", data, at)[0], at + 4
+    for _ in range(fields):
+        at += 4 + struct.unpack_from("<I", data, at)[0] + 8
+    assert struct.unpack_from("<i", data, at)[0] == 1, "one vessel"
+    struct.pack_into("<i", data, at + 4, 1 << 20)
+    return with_sums(bytes(data))
+
+
 DAMAGE = {
     "empty": (lambda data: b"", "too short|cut short|expected"),
     "cut in its head": (lambda data: data[:20], "short|expected"),
@@ -66,6 +88,7 @@ DAMAGE = {
     "flipped in its state": (flipped(-900), "damaged|checksum"),
     "another kind of file": (lambda data: b"GIF89a" + data[6:], "another kind|expected a"),
     "another version": (other_version, "version"),
+    "an index that names nothing": (lost_index, r"vessel\[0\].body: |the state cannot be: found 1048576"),
     "another byte order": (swapped, "byte order"),
     "a state that was changed with care": (lambda data: with_sums(flipped(-1)(data)), "state is not the one|expected"),
 }
@@ -126,6 +149,12 @@ def main():
             name.unlink()
         code, told = resume(run)
         assert code == 2 and "no checkpoint" in told, (code, told)
+        # One of another version of Fram is told as that, and nothing older is taken in its place.
+        run = folder / "version"
+        shutil.copytree(folder / "run", run)
+        for file in run.glob("checkpoint-*.fram"):
+            file.write_bytes(other_program(file.read_bytes()))
+        refused(run, "continue the run with that version")
         # Streams that are shorter than the checkpoint says are no run to go on with.
         for name in ("record.fram", "series.csv"):
             run = folder / f"short-{name}"
@@ -133,6 +162,16 @@ def main():
             with open(run / name, "r+b") as file:
                 file.truncate(200)
             refused(run, name)
+        # A flipped byte in a block of the record is told by all that read it, and by what would go on with it.
+        run = folder / "flipped"
+        shutil.copytree(folder / "run", run)
+        record = run / "record.fram"
+        record.write_bytes(flipped(record.stat().st_size // 2)(record.read_bytes()))
+        page = folder / "viewer.html"
+        page.write_text("<html></html>")
+        for words in (["report", run], ["export", run, "--vtk"], ["view", run, "--page", page], ["resume", run]):
+            done = subprocess.run([FRAM, *words], capture_output=True, text=True, check=False)
+            assert re.search(r"warning: .*record.fram: damaged block at byte \d+", done.stderr), (words, done.stderr)
         # Nor is a record of an earlier layout, in which frames of two layouts would stand.
         for earlier in EARLIER_BLOCKS.items():
             run = folder / f"earlier-{earlier[0]}"
@@ -142,7 +181,7 @@ def main():
             told = refused(run, "record.fram: an earlier version of Fram wrote this record")
             done = subprocess.run([FRAM, "report", run], capture_output=True, text=True, check=False)
             assert (done.returncode, done.stderr) == (2, told), (done.stderr, told)
-    print(f"{len(DAMAGE)} ways of damage and {4 + len(EARLIER_BLOCKS)} of disagreement are refused with the reason")
+    print(f"{len(DAMAGE)} ways of damage and {5 + len(EARLIER_BLOCKS)} of disagreement are refused with the reason")
 
 
 main()

@@ -1,0 +1,155 @@
+/* model/world_check: the states of runs are sound, and one with a number that names nothing is refused with its place;
+   as a checkpoint too, whose checksums and hash fit. */
+#include "model/world_check.h"
+#include "scene.h"
+#include "sim/checkpoint.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+static const char moored[] =
+    "run: {duration: 5, time_step: 0.1}\n"
+    "vessel:\n  mode: free\n  x: -10\n"
+    "  hull: {form: box, length: 20, beam: 8, draught: 2, freeboard: 2}\n"
+    "  mooring: {depth: 60, lines: [{count: 2, spacing_deg: 180, distance: 200, pretension: 3e5}]}\n"
+    "  thrusters: [{x: 5, thrust: 1e4}, {x: -5, thrust: 1e4}]\n"
+    "  positioning: {active: true, waypoints: [{time: 1, x: -10, y: 0}]}\n"
+    "ice: {mean_floe_area: 64, concentration: 0.5}\n"
+    "domain: {x_min: -40, x_max: 40, y_min: -20, y_max: 20}\n";
+
+static const char towed_level[] = "run: {duration: 5, time_step: 0.1}\n"
+                                  "vessel:\n  mode: towed\n  x: -35\n  speed: 1\n"
+                                  "  hull: {form: box, length: 20, beam: 8, draught: 2, freeboard: 2}\n"
+                                  "ice: {source: level, level: {x_min: -20, tile_size: 10}}\n"
+                                  "domain: {x_min: -60, x_max: 40, y_min: -20, y_max: 20}\n";
+
+static int32_t tiles_of(const scene *k)
+{
+    return k->settings.fracture.tiles.columns * k->settings.fracture.tiles.rows;
+}
+
+static void assert_sound(const scene *k)
+{
+    fram_error error = {0};
+    assert_ok(world_check(&k->w, tiles_of(k), &error), error);
+}
+
+START_TEST(states_of_runs_are_sound)
+{
+    static const char *const texts[] = {moored, towed_level};
+    for (int i = 0; i < 2; i++) {
+        scene k;
+        scene_open(&k, texts[i]);
+        assert_sound(&k);
+        scene_steps(&k, 20);
+        assert_sound(&k);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+/* One number of the state changed: refused with this key, and sound again with the number of before. */
+static void assert_found(scene *k, void *number, size_t size, int64_t value, const char *key)
+{
+    fram_error error = {0};
+    unsigned char kept[8];
+    ck_assert_uint_le(size, sizeof kept);
+    memcpy(kept, number, size);
+    memcpy(number, &value, size); /* little-endian, as all that Fram runs on */
+    ck_assert_int_eq(world_check(&k->w, tiles_of(k), &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, key);
+    memcpy(number, kept, size);
+    assert_sound(k);
+}
+#define FOUND(k, member, value, key) assert_found((k), &(k)->w.member, sizeof (k)->w.member, (value), (key))
+
+START_TEST(what_names_nothing_is_found)
+{
+    scene k;
+    scene_open(&k, moored);
+    scene_steps(&k, 3);
+    const world *w = &k.w;
+    int32_t vessel = w->vessels.body[0], floe = scene_floe(&k, 0), shape = w->bodies.shape[floe];
+    char key[64];
+    ck_assert(w->pairs.count > 0 && w->lines.count == 2 && w->thrusters.count == 2 && w->stations.count == 1);
+    snprintf(key, sizeof key, "body[%d].motion", (int)vessel);
+    FOUND(&k, bodies.motion[vessel], 77, key);
+    snprintf(key, sizeof key, "body[%d].material", (int)vessel);
+    FOUND(&k, bodies.material[vessel], MATERIAL_COUNT, key);
+    snprintf(key, sizeof key, "body[%d].shape", (int)floe);
+    FOUND(&k, bodies.shape[floe], w->shapes.shapes.count, key);
+    FOUND(&k, bodies.shape[floe], -2, key);
+    snprintf(key, sizeof key, "body[%d].owner", (int)floe);
+    FOUND(&k, bodies.owner[floe], w->floes.count, key);
+    FOUND(&k, bodies.owner[floe], -1, key);
+    FOUND(&k, floes.body[0], w->bodies.count, "floe[0].body");
+    FOUND(&k, floes.body[0], vessel, "floe[0].body");
+    FOUND(&k, floes.tile[0], 1, "floe[0].tile");
+    FOUND(&k, floes.number[0], INT32_MAX, "floe[0].number");
+    FOUND(&k, vessels.body[0], -1, "vessel[0].body");
+    FOUND(&k, vessels.joint[0], w->joints.count, "vessel[0].joint");
+    FOUND(&k, vessels.mode[0], 9, "vessel[0].mode");
+    FOUND(&k, pairs.a[0], -1, "pair[0].a");
+    FOUND(&k, pairs.b[0], w->bodies.count, "pair[0].b");
+    FOUND(&k, lines.vessel[1], 1, "line[1].vessel");
+    FOUND(&k, lines.kind[0], 200, "line[0].kind");
+    FOUND(&k, lines.points[0], LINE_POINTS + 1, "line[0].points");
+    FOUND(&k, thrusters.vessel[0], -1, "thruster[0].vessel");
+    FOUND(&k, thrusters.kind[1], 3, "thruster[1].kind");
+    FOUND(&k, waypoints.vessel[0], 5, "waypoint[0].vessel");
+    FOUND(&k, stations.control_every[0], 0, "station[0].control_every");
+    FOUND(&k, stations.observer[0], 7, "station[0].observer");
+    FOUND(&k, clock.step[0], -1, "clock[0].step");
+    snprintf(key, sizeof key, "shape[%d].kind", (int)shape);
+    FOUND(&k, shapes.shapes.kind[shape], 3, key);
+    snprintf(key, sizeof key, "shape[%d].outline_first", (int)shape);
+    FOUND(&k, shapes.shapes.outline_first[shape], w->shapes.vertices.count, key);
+    FOUND(&k, shapes.shapes.outline_first[shape], INT32_MAX, key);
+    FOUND(&k, shapes.shapes.outline_count[shape], 2, key);
+    FOUND(&k, shapes.shapes.outline_count[shape], INT32_MAX, key);
+    FOUND(&k, shapes.shapes.piece_first[shape], -1, key);
+    FOUND(&k, shapes.shapes.piece_count[shape], INT32_MAX, key);
+    FOUND(&k, shapes.pieces.size[w->shapes.shapes.piece_first[shape]], PIECE_MOST_VERTICES + 1, key);
+    FOUND(&k, shapes.vertices.corner[w->shapes.pieces.first[w->shapes.shapes.piece_first[shape]]], INT32_MAX, key);
+    int32_t hull = w->bodies.shape[vessel];
+    snprintf(key, sizeof key, "shape[%d].outline_first", (int)hull);
+    FOUND(&k, shapes.shapes.solid[hull], w->shapes.solids.count, key);
+    FOUND(&k, clock.count, 0, "clock");
+    scene_close(&k);
+}
+END_TEST
+
+START_TEST(a_checkpoint_of_such_a_state_is_refused)
+{
+    scene k;
+    char folder[200], path[300];
+    const char *root = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/fram_check_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    scene_open(&k, moored);
+    scene_steps(&k, 2);
+    fram_error error = {0};
+    checkpoint_note note = {.scenario_hash = "of this test", .inputs = ""};
+    for (int bad = 0; bad < 2; bad++) {
+        late_commit commit = {0};
+        if (bad)
+            k.w.pairs.b[0] = 1 << 20;
+        assert_ok(checkpoint_begin(&k.ctx, folder, &k.w, &note, NULL, 0, &commit, &error), error);
+        assert_ok(checkpoint_end(&k.ctx, folder, &commit, &error), error);
+        world w;
+        assert_ok(build_empty_world(&k.ctx, &k.s, &w, &error), error);
+        fram_status status = checkpoint_read_newest(&k.ctx, folder, &w, &note, &error);
+        ck_assert_int_eq(status, bad ? FRAM_ERROR_INPUT : FRAM_OK);
+        if (bad)
+            ck_assert_str_eq(error.key, "pair[0].b");
+        world_free(&k.ctx, &w);
+    }
+    checkpoint_remove_all(&k.ctx, folder);
+    snprintf(path, sizeof path, "%s", folder);
+    ck_assert_int_eq(rmdir(path), 0);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("world_check", states_of_runs_are_sound, what_names_nothing_is_found,
+          a_checkpoint_of_such_a_state_is_refused)
