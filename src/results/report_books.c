@@ -1,6 +1,7 @@
 /* The report's sections on books, solver quality and origin. */
 #include "results/report_parts.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -8,6 +9,25 @@ static double last_of(const report *r, const char *channel)
 {
     const double *value = run_channel(&r->d, channel);
     return value && r->d.series.rows > 0 ? value[r->d.series.rows - 1] : (double)NAN;
+}
+
+/* Row of the series at a time, within half a step; -1: there is none. */
+static int32_t row_at(const report *r, double time)
+{
+    const double *at = run_channel(&r->d, "time");
+    for (int32_t i = 0; at && i < r->d.series.rows; i++) {
+        if (fabs(at[i] - time) <= 0.5 * r->d.s.run.time_step)
+            return i;
+    }
+    return -1;
+}
+
+/* What a book grew by between two rows, from -1: since the start; 0 for one that the run does not have. */
+static double growth(const report *r, const char *channel, int32_t from, int32_t to)
+{
+    const double *value = run_channel(&r->d, channel);
+    double by = value ? value[to] - (from < 0 ? 0 : value[from]) : 0;
+    return isfinite(by) ? by : 0;
 }
 
 static void book_row(report *r, const char *name, double value, const char *unit)
@@ -44,19 +64,36 @@ static void book_channels(report *r, const char *begins, const char *ends, doubl
     }
 }
 
-static void mass_books(report *r)
+/* What is left between the masses of two frames when the books of the same two moments are closed.  Frames and rows of
+   the series come at times of their own: where no row is at a frame's time, nothing is said of it. */
+static void mass_balance(report *r)
 {
     const field_state *a = &r->d.before, *b = &r->d.after;
+    /* The series begins after the first step, and its books with 0 before it. */
+    bool from_start = a->time == 0;
+    int32_t from = from_start ? -1 : row_at(r, a->time), to = row_at(r, b->time);
     static const struct {
         const char *channel;
         double sign;
     } books[] = {{"ice_mass_entered", 1}, {"ice_mass_gained", 1},   {"ice_mass_left", -1},
                  {"ice_mass_lost", -1},   {"ice_mass_crushed", -1}, {"brash_mass", -1}};
-    double open = a->mass - b->mass;
-    for (size_t i = 0; i < sizeof books / sizeof *books; i++) {
-        double value = last_of(r, books[i].channel);
-        open += value == value ? books[i].sign * value : 0;
+    if ((from < 0 && !from_start) || to < 0) {
+        html_row_begin(&r->page);
+        html_cell(&r->page, "not accounted for");
+        html_cell(&r->page, "unknown: no row of the series is at the time of the last frame");
+        html_row_end(&r->page);
+        return;
     }
+    double open = a->mass - b->mass;
+    for (size_t i = 0; i < sizeof books / sizeof *books; i++)
+        open += books[i].sign * growth(r, books[i].channel, from, to);
+    book_row(r, "not accounted for at the last frame", open * 1e-3, "t");
+    book_row(r, "of the mass at the start", 100 * open / a->mass, "%");
+}
+
+static void mass_books(report *r)
+{
+    const field_state *a = &r->d.before, *b = &r->d.after;
     bool know = r->d.frames > 0 && r->d.series.rows > 0;
     const char *const heads[] = {"mass of ice", "at the end"};
     html_table_begin(&r->page, heads, 2);
@@ -65,10 +102,8 @@ static void mass_books(report *r)
         book_row(r, "in the field at the last frame", b->mass * 1e-3, "t");
     }
     book_channels(r, "ice_mass_", "brash_mass", 1e-3, "t");
-    if (know && a->mass > 0) {
-        book_row(r, "not accounted for", open * 1e-3, "t");
-        book_row(r, "of the mass at the start", 100 * open / a->mass, "%");
-    }
+    if (know && a->mass > 0)
+        mass_balance(r);
     html_table_end(&r->page);
 }
 

@@ -156,11 +156,12 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
         return status;
     if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
         *other = true;
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                           "expected a checkpoint of Fram %s, found one of Fram %.*s: continue the run with that version, "
-                           "or start it again",
-                           FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
-                           bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
+        status =
+            error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                      "expected a checkpoint of Fram %s, found one of Fram %.*s: continue the run with that version, "
+                      "or start it again",
+                      FRAM_VERSION, (int)bytes[BYTES_VERSION].size,
+                      bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
     } else if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
         *other = true;
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,

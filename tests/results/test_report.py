@@ -106,6 +106,30 @@ def check(name, run, pictures):
     return number(rows["of the mass at the start"][0])
 
 
+def check_times(folder):
+    """Frames that end before the series: the balance is of the last frame's time, or nothing is said of it."""
+    file = folder / "feeding.yaml"
+    for interval, unknown in (("0", False), ("3", True)):
+        run = folder / f"frames-{interval}"
+        subprocess.run([FRAM, "run", file, "-o", run, "-q", "--set", "output.frame_interval=5", "--set",
+                        f"output.csv_interval={interval}"], check=True)
+        subprocess.run([FRAM, "report", run, "-q"], check=True)
+        tables = Tables()
+        tables.feed((run / "report.html").read_text())
+        rows = tables.rows
+        if unknown:
+            assert rows["not accounted for"][0].startswith("unknown"), rows["not accounted for"]
+        else:
+            left = number(rows["of the mass at the start"][0])
+            assert abs(left) < 0.1, f"{left} % of the ice is not accounted for at the last frame"
+            with open(run / "series.csv", newline="") as series:
+                table = list(csv.DictReader(series))
+            entered = [float(row["ice_mass_entered[kg]"]) for row in table if abs(float(row["time[s]"]) - 10) < 0.01]
+            start = number(rows["in the field at the first frame"][0]) * 1e3
+            late = float(table[-1]["ice_mass_entered[kg]"]) - entered[0]
+            assert late > 0.002 * start, "too little came in after the last frame for this test to tell"
+
+
 def main():
     pictures = "cairo" in subprocess.run([FRAM, "--version"], capture_output=True, text=True, check=True).stdout
     said = []
@@ -116,6 +140,7 @@ def main():
             subprocess.run([FRAM, "run", file, "-o", run, "-q"], check=True)
             subprocess.run([FRAM, "report", run, "-q"], check=True)
             said.append(f"{name}: {check(name, run, pictures):g} %")
+        check_times(pathlib.Path(folder))
     print("mass not accounted for, " + ", ".join(said))
 
 

@@ -23,10 +23,7 @@ static const char towed_level[] = "run: {duration: 5, time_step: 0.1}\n"
                                   "ice: {source: level, level: {x_min: -20, tile_size: 10}}\n"
                                   "domain: {x_min: -60, x_max: 40, y_min: -20, y_max: 20}\n";
 
-static int32_t tiles_of(const scene *k)
-{
-    return k->settings.fracture.tiles.columns * k->settings.fracture.tiles.rows;
-}
+static int32_t tiles_of(const scene *k) { return k->settings.fracture.tiles.columns * k->settings.fracture.tiles.rows; }
 
 static void assert_sound(const scene *k)
 {
@@ -61,7 +58,7 @@ static void assert_found(scene *k, void *number, size_t size, int64_t value, con
     memcpy(number, kept, size);
     assert_sound(k);
 }
-#define FOUND(k, member, value, key) assert_found((k), &(k)->w.member, sizeof (k)->w.member, (value), (key))
+#define FOUND(k, member, value, key) assert_found((k), &(k)->w.member, sizeof(k)->w.member, (value), (key))
 
 START_TEST(what_names_nothing_is_found)
 {
@@ -151,5 +148,4 @@ START_TEST(a_checkpoint_of_such_a_state_is_refused)
 }
 END_TEST
 
-TEST_MAIN("world_check", states_of_runs_are_sound, what_names_nothing_is_found,
-          a_checkpoint_of_such_a_state_is_refused)
+TEST_MAIN("world_check", states_of_runs_are_sound, what_names_nothing_is_found, a_checkpoint_of_such_a_state_is_refused)
