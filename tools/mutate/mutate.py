@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""Make small faults one at a time and say which test caught each:  tools/mutate/mutate.py [options]
+
+    --check       only look whether each fault of tests/mutants still fits the code (seconds; part of lint)
+    --rooms A,B   faults of these rooms only
+    --jobs N      so many at once, each in a copy of the tree under build/mutate
+    --minutes M   begin no fault after that time; the next call goes on
+    --own         tests of the fault's own room only; what they miss is left open
+    --least P     exit code 1 when less than P % (95) are caught
+
+Verdicts stand in bench/results/mutants.csv; one on equal code and by an equal test is not asked for again.
+"""
+
+import argparse
+import pathlib
+import queue
+import sys
+import threading
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import mutants as listing  # noqa: E402
+import table  # noqa: E402
+from verdicts import CAUGHT, SURVIVED, Verdicts, all_tests, digest, test_code  # noqa: E402
+from workplace import LEAST_PATIENCE_S, PATIENCE, Workplace, first_failure, likely  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def order(place, mutant, path, own_only):
+    """Tests of the own room first, the likeliest ahead, then quick ones of the others; none of rooms below."""
+    def sort_key(test):
+        return (-likely(test, path), place.seconds.get(test["name"], 1))
+    own = sorted((t for t in place.tests if t["room"] == mutant.room), key=sort_key)
+    if own_only:
+        return own
+    above = listing.ROOMS[listing.ROOMS.index(mutant.room) + 1:]
+    return own + sorted((t for t in place.tests if t["room"] in above), key=lambda t: place.seconds.get(t["name"], 1))
+
+
+def judge(place, mutant, path, text, own_only):
+    """A row: caught by which test, or survived.  The copy is as before when it returns."""
+    row = {"code": digest(text), "seconds": ""}
+    made = False
+    for test in order(place, mutant, path, own_only):
+        if test["name"] not in place.seconds:
+            # Its time without a fault.
+            place.restore(path)
+            made = False
+        usual = place.know(test)
+        if usual is None:
+            continue
+        if not made:
+            place.put(path, text)
+            made = True
+        problem = place.make(test)
+        if problem:
+            place.restore(path)
+            return {"problem": problem}
+        good, said, seconds = place.run(test, max(PATIENCE * usual, LEAST_PATIENCE_S))
+        if not good:
+            place.restore(path)
+            return {**row, "verdict": CAUGHT, "test": test["name"], "function": first_failure(said),
+                    "seconds": f"{seconds:.1f}", "test_code": test_code(ROOT, test["name"])}
+    place.restore(path)
+    return {**row, "verdict": SURVIVED, "test": "", "function": "", "test_code": all_tests(ROOT)}
+
+
+def work(place, jobs, verdicts, lock, options, end):
+    """Take faults until there are none, or no time."""
+    place.prepare()
+    while time.monotonic() < end:
+        try:
+            mutant, path, text = jobs.get_nowait()
+        except queue.Empty:
+            return
+        began = time.monotonic()
+        row = judge(place, mutant, path, text, options.own)
+        with lock:
+            spent = f"{time.monotonic() - began:.0f} s"
+            if "problem" in row:
+                print(f"{mutant.place}: does not compile\n{row['problem']}", flush=True)
+                continue
+            caught = f"[{row['test']} {row['function']}]"
+            print(f"{row['verdict']:8} {mutant.room}: {mutant.what} {caught} {spent}", flush=True)
+            if row["verdict"] == CAUGHT or not options.own:
+                verdicts.put(mutant, row)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--rooms", default="")
+    parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=1e6)
+    parser.add_argument("--own", action="store_true")
+    parser.add_argument("--least", type=float, default=95)
+    parser.add_argument("--results", type=pathlib.Path, default=ROOT / "bench/results/mutants.csv")
+    options = parser.parse_args()
+    problems, count = listing.check(ROOT)
+    print("\n".join(problems) if problems else f"mutants: {count} fit the code")
+    if options.check:
+        return 1 if problems else 0
+    verdicts, jobs, wanted = Verdicts(options.results), queue.Queue(), []
+    every = listing.read(ROOT)
+    for mutant in every:
+        if options.rooms and mutant.room not in options.rooms.split(","):
+            continue
+        try:
+            path, text = listing.locate(ROOT, mutant)
+        except listing.Stale:
+            continue
+        wanted.append(mutant)
+        if not verdicts.known(ROOT, mutant, digest(text)):
+            jobs.put((mutant, path, text))
+    print(f"{jobs.qsize()} of {len(wanted)} to be tried", flush=True)
+    lock, end = threading.Lock(), time.monotonic() + 60 * options.minutes
+    workers = [threading.Thread(target=work, args=(Workplace(ROOT, n), jobs, verdicts, lock, options, end))
+               for n in range(min(options.jobs, jobs.qsize()))]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    verdicts.keep_only(every)
+    verdicts.write()
+    share, survivors, missing = table.write(options.results.with_suffix(".md"), ROOT, every, verdicts)
+    print(f"{share:.1f} % caught, {survivors} survive, {missing} not tried yet; {options.results.with_suffix('.md')}")
+    return 1 if problems or share < options.least or missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

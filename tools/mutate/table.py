@@ -1,0 +1,50 @@
+"""The page about the mutants: bench/results/mutants.md."""
+
+import collections
+import datetime
+import subprocess
+
+from verdicts import CAUGHT
+
+HEAD = """# Faults made on purpose
+
+`make mutate` makes each small fault of `tests/mutants` alone, in a copy of the tree, and looks which test notices it:
+signs, factors, indices, comparisons, terms and limits left out. The tests of the fault's own room come first, then
+those of the others. `mutants.csv` beside this page has each fault with the test that caught it.
+"""
+
+
+def code(root):
+    done = subprocess.run(["git", "-C", str(root), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
+                          check=False)
+    return done.stdout.strip()
+
+
+def write(path, root, mutants, verdicts):
+    """Counts by room, and every survivor with its reason."""
+    count = {room: collections.Counter() for room in dict.fromkeys(m.room for m in mutants)}
+    survivors, missing = [], 0
+    for m in mutants:
+        row = verdicts.rows.get((m.room, m.what))
+        if not row:
+            missing += 1
+            continue
+        count[m.room]["tried"] += 1
+        if row["verdict"] == CAUGHT:
+            own = row["test"].split("/")[0] == m.room
+            count[m.room]["own" if own else "other"] += 1
+        else:
+            why = m.survives or "No reason is known: a test is missing."
+            survivors.append(f"- {m.room}, {m.kind}: {m.what}. {why}")
+    total = sum(count.values(), collections.Counter())
+    rows = ["| room | faults tried | caught by its own tests | by tests of other rooms | survive |",
+            "|---|---|---|---|---|"]
+    for name, c in [*count.items(), ("all", total)]:
+        rows.append(f"| {name} | {c['tried']} | {c['own']} | {c['other']} | {c['tried'] - c['own'] - c['other']} |")
+    share = 100 * (total["own"] + total["other"]) / max(1, total["tried"])
+    all_of_them = total["tried"] + missing
+    text = (f"{HEAD}\n{datetime.date.today().isoformat()}, code {code(root)}: {total['tried']} of {all_of_them} "
+            f"faults tried, {share:.1f} % caught.\n\n" + "\n".join(rows) + "\n\n## Survivors\n\n" +
+            ("\n".join(survivors) or "None.") + "\n")
+    path.write_text(text, encoding="utf-8")
+    return share, len(survivors), missing

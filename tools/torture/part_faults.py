@@ -1,0 +1,115 @@
+"""Allocations, file calls and threads that fail at the n-th call, over all commands."""
+
+import json
+import os
+import subprocess
+
+import fixture
+from finding import Case
+
+NAME = "faults"
+SAYS = "an allocation, a file call or a thread fails at its n-th call, once or from then on, over all commands"
+
+# In a copy of the fixture's folder; each writes what it writes into that copy.
+COMMANDS = (
+    "run scene.yaml -o new --threads 2", "run level.yaml -o new --threads 1", "run packed.yaml -o new --threads 2",
+    "resume half", "check scene.yaml", "check level.yaml --build", "bench scene.yaml --warm 0.1 --time 0.2",
+    "view done", "export done --vtk", "export done --netcdf", "export done --geojson --time 0.6", "report done",
+    "report level", "plot done ice_force_x roll -o plot.png", "plot done ice_force_x -o plot.svg", "plot done",
+    "compare done level -o both.html", "video level --pictures -o frames", "hull hull.obj --draw hull.png -o out.stl",
+    "hull --length 50 --beam 12 --draught 4 -o ship.obj",
+    "field floes.geojson --bad repair -o clean.geojson --draw f.png",
+    "field scene.yaml --table floes.csv --cover cover.png", "ice wedge --a-over-l 0.1",
+    "ice break --force 3e5 --contact-area 0.2 --thickness 0.8 --flexural-strength 6e5", "keys",
+)
+# Needs a page that only `make viewer` builds.
+MAY_BE_ABSENT = ("view",)
+# May have been meant for standard output, which then holds no JSON.
+STREAMS = ("fputc", "fputs", "fprintf", "fwrite", "fflush", "fclose")
+KINDS = ("memory", "memory", "files", "files", "files", "threads")
+
+
+def shim(rig):
+    """The preloaded library, compiled once."""
+    def make(path):
+        path = path.with_suffix(".so")
+        subprocess.run([os.environ.get("CC", "cc"), "-std=gnu17", "-O1", "-fPIC", "-shared",
+                        rig.root / "tools/torture/fault_shim.c", "-o", path, "-ldl"], check=True)
+        return path
+    return rig.once("fault_shim", make)
+
+
+def environment(rig, kind, at, goes_on, report):
+    """What makes a call of the command fail there."""
+    return {"LD_PRELOAD": str(shim(rig)), "FRAM_FAULT_KIND": kind, "FRAM_FAULT_AT": str(at),
+            "FRAM_FAULT_ON": "1" if goes_on else "0", "FRAM_FAULT_REPORT": str(report)}
+
+
+def told(report):
+    """(name of the call that failed or None, number of calls or None)"""
+    hit, calls = None, None
+    for line in report.read_text().splitlines() if report.exists() else ():
+        word, _, rest = line.partition(" ")
+        hit, calls = (rest if word == "hit" else hit), (int(rest) if word == "calls" else calls)
+    return hit, calls
+
+
+def plain(rig, words, kind, folder):
+    """Without a failure: how many calls there are, and what the command leaves."""
+    def make(_):
+        fixture.copy(rig, folder)
+        report = folder.parent / (folder.name + "-count")
+        outcome = rig.fram.call(*words.split(), "--json", folder=folder,
+                                environment=environment(rig, kind, 0, False, report))
+        if outcome.code != 0 and words.split()[0] not in MAY_BE_ABSENT:
+            raise RuntimeError(f"fram {words}: {outcome.err}")
+        if outcome.code != 0:
+            return 0, {}, ""
+        return told(report)[1] or 0, fixture.contents(folder), outcome.err
+    return rig.once(f"plain-{kind}-{words}", make)
+
+
+def stays_running(folder):
+    """The run that was to be made says that it is still running."""
+    for name in ("new", "half"):
+        try:
+            if json.loads((folder / name / "run.json").read_text()).get("status") == "running":
+                return True
+        except (OSError, ValueError):
+            continue
+    return False
+
+
+def case(rig, draw, folder):
+    """One command with one failure."""
+    done = Case()
+    words, kind, goes_on = draw.choice(COMMANDS), draw.choice(KINDS), draw.random() < 0.3
+    calls, contents, err = plain(rig, words, kind, folder / "plain")
+    if calls == 0:
+        done.counts["had no such call"] += 1
+        return done
+    at = draw.randint(1, calls)
+    work, report = fixture.copy(rig, folder / "work"), folder / "report"
+    outcome = rig.fram.call(*words.split(), "--json", folder=work,
+                            environment=environment(rig, kind, at, goes_on, report))
+    hit, _ = told(report)
+    if hit is None:
+        done.counts["ended before the failure"] += 1
+        return done
+    note = f"{kind}: call {at} of {calls}, {hit}, fails{' and all after it' if goes_on else ''}"
+    fault = outcome.fault(json_asked=not goes_on and hit not in STREAMS)
+    if not fault and outcome.code == 0 and "warning" not in outcome.err.replace(err, ""):
+        try:
+            now = fixture.contents(work)
+        except ValueError as problem:
+            now = str(problem)
+        others = [n for n in sorted(set(contents) | set(now)) if contents.get(n) != now.get(n)] \
+            if isinstance(now, dict) else [now]
+        if others:
+            fault, note = "hides a failure", note + "; other than without it: " + ", ".join(others[:5])
+    if not fault and not goes_on and outcome.code != 0 and stays_running(work):
+        fault = "leaves run.json at \"running\""
+    done.counts["told the failure" if outcome.code else "did without"] += 1
+    if fault:
+        done.found(f"{words.split()[0]} {fault} when {hit} fails", outcome, told=note)
+    return done
