@@ -5,6 +5,9 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 FUZZ_SECONDS ?= 20
 FUZZ_EVENTS ?= 1000000
+TORTURE_MINUTES ?= 60
+TORTURE_FLAGS ?=
+MUTATE_FLAGS ?=
 BENCH_SCENE ?= scenes/demo.yaml
 BENCH_FLAGS ?=
 VALIDATE_FLAGS ?=
@@ -82,6 +85,20 @@ fuzz-fracture: build/release/build.ninja build/asan/build.ninja ## break FUZZ_EV
 	@cmake --build --preset asan -j$(JOBS) --target test_ice_fracture_fuzz
 	@tools/fuzz_fracture.sh build/release/tests/test_ice_fracture_fuzz build/asan/tests/test_ice_fracture_fuzz \
 	    $(FUZZ_EVENTS)
+
+.PHONY: torture torture-short mutate mutate-check
+
+torture: build ## the campaign of faults for TORTURE_MINUTES (60), findings under out/torture (docs/torture.md)
+	@$(PYTHON) tools/torture/torture.py --minutes $(TORTURE_MINUTES) --jobs $(JOBS) $(TORTURE_FLAGS)
+
+torture-short: ## the same for three minutes
+	@$(MAKE) --no-print-directory torture TORTURE_MINUTES=3
+
+mutate: build/release/build.ninja ## make each small fault of tests/mutants and say which test caught it (hours)
+	@$(PYTHON) tools/mutate/mutate.py --jobs $(JOBS) $(MUTATE_FLAGS)
+
+mutate-check: ## whether each fault of tests/mutants still fits the code (seconds)
+	@$(PYTHON) tools/mutate/mutate.py --check
 
 bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `fram bench`
 	@build/release/fram bench $(BENCH_SCENE) $(BENCH_FLAGS)

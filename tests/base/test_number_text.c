@@ -2,6 +2,7 @@
 #include "base/number_text.h"
 #include "base/random.h"
 #include "testing.h"
+#include <inttypes.h>
 #include <locale.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,6 +84,13 @@ START_TEST(digits_are_those_of_printf)
         assert_like_printf(-size, 1 + (int)(bits % 12));
         assert_like_printf((double)(bits % 20000001) / 16, 1 + (int)(bits % 7));
         assert_like_printf(floor(part * 1e13) / 10, 12);
+        /* Twelve digits and a half, but for the last bit of the double: scaling rounds these to the wrong side. */
+        char half[40];
+        snprintf(half, sizeof half, "%" PRIu64 "5e%d", 100000000000 + bits % 900000000000, power);
+        double middle = strtod(half, NULL);
+        assert_like_printf(middle, 12);
+        assert_like_printf(nextafter(middle, 0), 12);
+        assert_like_printf(nextafter(middle, HUGE_VAL), 12);
     }
 }
 END_TEST

@@ -80,6 +80,9 @@ START_TEST(growth_keeps_rows_and_zeroes_new_ones)
     context ctx = failing_context(&m, 0);
     sample_table t = sample_make(&ctx, 100);
     ck_assert(table_resize(&ctx, &t, &sample_table_info, 50));
+    ck_assert(table_resize(&ctx, &t, &sample_table_info, 60)); /* in the memory that held rows 50..59 */
+    ck_assert(t.mass[50] == 0 && t.shape[59] == 0 && t.flags[55] == 0);
+    ck_assert(table_resize(&ctx, &t, &sample_table_info, 50));
     ck_assert(table_resize(&ctx, &t, &sample_table_info, 1000));
     ck_assert_int_eq(t.count, 1000);
     ck_assert(t.position[49].y == 98 && t.born[49] == (int64_t)49 << 33);

@@ -1,0 +1,128 @@
+/* Loads of ice from contacts whose impulses are set by hand: who gets what, work at the cap, the window of the last
+   steps. */
+#include "scene.h"
+
+#include "sim/ice_loads.h"
+
+static const char still[] = "run: {duration: 1, time_step: 0.1}\n"
+                            "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                            "ice:\n  source: floes\n  floes:\n    - {x: 40, y: 0}\n    - {x: 40, y: 20}\n"
+                            "domain: {x_min: -100, x_max: 100, y_min: -60, y_max: 60, boundary: open}\n"
+                            "output: {averaging_window: 0.3}\n";
+
+static contact contact_of(int32_t a, int32_t b, double impulse, double limit)
+{
+    return (contact){
+        .a = a, .b = b, .point = {30, 2, -1}, .normal = {-1, 0, 0}, .impulse = {impulse, 0, 0}, .impulse_limit = limit};
+}
+
+/* The loads of one contact alone, on the first vessel. */
+static ice_load load_of(scene *k, contact c)
+{
+    fram_error error = {0};
+    array_clear(&k->w.scratch.contacts);
+    ck_assert(array_push(&k->ctx, &k->w.scratch.contacts, c));
+    assert_ok(sum_ice_loads(&k->ctx, &k->settings, &k->w, &error), error);
+    return k->w.scratch.ice_loads.data[0];
+}
+
+/* A contact pushes its first body along the normal and the second one against it; the load is impulse over time. */
+START_TEST(either_side_of_a_contact)
+{
+    scene k;
+    scene_open(&k, still);
+    int32_t hull = k.w.vessels.body[0], floe = scene_floe(&k, 0);
+    vec3 centre = k.w.bodies.position[hull];
+    ice_load first = load_of(&k, contact_of(hull, floe, 50, HUGE_VAL));
+    assert_absolute(first.total.force.x, -500, 1e-9);
+    ice_load second = load_of(&k, contact_of(floe, hull, 50, HUGE_VAL));
+    assert_absolute(second.total.force.x, 500, 1e-9);
+    /* About the centre of mass. */
+    assert_absolute(second.total.moment.z, -500 * (2 - centre.y), 1e-9);
+    assert_absolute(second.total.moment.y, 500 * (-1 - centre.z), 1e-9);
+    ck_assert_int_eq(second.contacts, 1);
+    /* Not of two floes. */
+    ck_assert(vec3_length(load_of(&k, contact_of(floe, scene_floe(&k, 1), 50, HUGE_VAL)).total.force) == 0);
+    scene_close(&k);
+}
+END_TEST
+
+/* Normal part at the limit, normal part below it, and friction sum to the load. */
+START_TEST(parts_of_the_load)
+{
+    scene k;
+    scene_open(&k, still);
+    int32_t hull = k.w.vessels.body[0], floe = scene_floe(&k, 0);
+    for (int capped = 0; capped < 2; capped++) {
+        contact c = contact_of(floe, hull, 50, capped ? 50 : 51);
+        c.impulse[1] = 3;
+        c.impulse[2] = -4;
+        ice_load l = load_of(&k, c);
+        assert_absolute(vec3_length(l.capped.force), capped ? 500 : 0, 1e-9);
+        assert_absolute(vec3_length(l.elastic.force), capped ? 0 : 500, 1e-9);
+        assert_absolute(vec3_length(l.friction.force), 50, 1e-9);
+        vec3 sum = vec3_add(vec3_add(l.capped.force, l.elastic.force), l.friction.force);
+        assert_absolute(vec3_length(vec3_sub(sum, l.total.force)), 0, 1e-9);
+        /* All of it on one part of the hull: where the contact is. */
+        int zones = 0;
+        for (int z = 0; z < ZONE_COUNT; z++)
+            zones += vec3_length(l.zone[z].force) > 0;
+        ck_assert_int_eq(zones, 1);
+        assert_absolute(vec3_length(l.zone[ZONE_BOW].force), vec3_length(l.total.force), 1e-9);
+    }
+    contact c = contact_of(floe, hull, 50, HUGE_VAL);
+    c.point.x = -20;
+    assert_absolute(vec3_length(load_of(&k, c).zone[ZONE_STERN].force), 500, 1e-9);
+    scene_close(&k);
+}
+END_TEST
+
+/* Ice that is crushed at its limit takes impulse times approach, and nothing while the bodies part or below the limit.
+ */
+START_TEST(work_at_the_cap)
+{
+    scene k;
+    scene_open(&k, still);
+    int32_t hull = k.w.vessels.body[0], floe = scene_floe(&k, 0);
+    double *work = &k.w.clock.work_crushed[0];
+    k.w.bodies.velocity[floe] = vec3_make(0.75, 0, 0); /* against the normal, into the hull */
+    k.w.bodies.velocity[hull] = vec3_make(0.25, 0, 0);
+    load_of(&k, contact_of(floe, hull, 60, 60));
+    assert_absolute(*work, 60 * 0.5, 1e-9);
+    load_of(&k, contact_of(floe, hull, 60, 60));
+    assert_absolute(*work, 2 * 60 * 0.5, 1e-9);
+    load_of(&k, contact_of(floe, hull, 59, 60));
+    load_of(&k, contact_of(floe, hull, 60, HUGE_VAL));
+    k.w.bodies.velocity[floe].x = 0;
+    load_of(&k, contact_of(floe, hull, 60, 60));
+    assert_absolute(*work, 2 * 60 * 0.5, 1e-9);
+    scene_close(&k);
+}
+END_TEST
+
+/* The window holds the load of each of the last steps; the newest is that of the step before, whichever row it is in.
+ */
+START_TEST(the_window_of_loads)
+{
+    scene k;
+    scene_open(&k, still);
+    ck_assert_int_eq(k.w.load_window.count, 3);
+    ck_assert(vec3_length(last_ice_load(&k.w, 0).force) == 0);
+    for (int step = 0; step < 8; step++) {
+        k.w.clock.step[0] = step;
+        load_of(&k, contact_of(scene_floe(&k, 0), k.w.vessels.body[0], 10 * (step + 1), HUGE_VAL));
+        k.w.clock.step[0] = step + 1;
+        wrench last = last_ice_load(&k.w, 0), mean = load_window_average(&k.w);
+        assert_absolute(last.force.x, 100 * (step + 1), 1e-9);
+        double expected = step == 0 ? 100 : step == 1 ? 150 : 100.0 * step;
+        assert_absolute(mean.force.x, expected, 1e-9);
+        /* Moments are kept with the forces. */
+        assert_absolute(last.moment.z / last.force.x, mean.moment.z / mean.force.x, 1e-12);
+        ck_assert(fabs(last.moment.z) > 0);
+        ck_assert(vec3_length(last_ice_load(&k.w, 1).force) == 0);
+    }
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("ice_loads", either_side_of_a_contact, parts_of_the_load, work_at_the_cap, the_window_of_loads)

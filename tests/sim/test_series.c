@@ -1,0 +1,146 @@
+/* Channels as recorded: each column holds what its name says, from tables that are filled by hand. */
+#include "scene.h"
+
+#include "sim/series.h"
+
+#include <stdio.h>
+
+static const char moored[] =
+    "run: {duration: 1, time_step: 0.1}\n"
+    "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+    "  mooring: {depth: 60, lines: [{count: 2, spacing_deg: 180, distance: 300, pretension: 2.0e5}]}\n"
+    "  thrusters: [{x: 18, thrust: 1.0e5, power: 4.0e5}, {x: -18, thrust: 1.0e5, power: 4.0e5}]\n"
+    "  positioning: {active: true}\n"
+    "ice: {source: voronoi, concentration: 0.5, mean_floe_area: 200}\n"
+    "domain: {x_min: -80, x_max: 80, y_min: -60, y_max: 60, boundary: feeding}\n";
+
+typedef struct row {
+    series_layout layout;
+    double value[SERIES_ROOM];
+} row;
+
+static void take(const scene *k, row *r)
+{
+    series_columns(&k->s, &r->layout);
+    series_row(&k->w, 0, r->value);
+}
+
+static double channel(const row *r, const char *name)
+{
+    for (int32_t i = 0; i < r->layout.count; i++)
+        if (strcmp(r->layout.column[i].name, name) == 0)
+            return r->value[i];
+    ck_abort_msg("no channel %s", name);
+}
+
+static void assert_channels(const row *r, const char *name, vec3 expected)
+{
+    const double v[3] = {expected.x, expected.y, expected.z};
+    for (int i = 0; i < 3; i++) {
+        char full[64];
+        snprintf(full, sizeof full, "%s_%c", name, "xyz"[i]);
+        ck_assert_msg(channel(r, full) == v[i], "%s is %.17g, expected %.17g", full, channel(r, full), v[i]);
+    }
+}
+
+START_TEST(station_as_recorded)
+{
+    scene k;
+    row r;
+    scene_open(&k, moored);
+    station_table *s = &k.w.stations;
+    s->mooring_load[0] = (wrench){{1, 2, 3}, {4, 5, 6}};
+    s->thruster_load[0] = (wrench){{7, 8, 9}, {10, 11, 12}};
+    s->demand[0] = vec3_make(13, 14, 15);
+    s->estimate[0].bias = vec3_make(16, 17, 18);
+    s->offset[0] = vec3_make(19, 20, radians(21));
+    take(&k, &r);
+    assert_channels(&r, "mooring_force", vec3_make(1, 2, 3));
+    assert_channels(&r, "mooring_moment", vec3_make(4, 5, 6));
+    assert_channels(&r, "thruster_force", vec3_make(7, 8, 9));
+    assert_channels(&r, "thruster_moment", vec3_make(10, 11, 12));
+    assert_channels(&r, "demanded_force", vec3_make(13, 14, 15));
+    assert_channels(&r, "estimated_load", vec3_make(16, 17, 18));
+    ck_assert(channel(&r, "offset_x") == 19 && channel(&r, "offset_y") == 20);
+    assert_relative(channel(&r, "heading_deviation"), 21, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
+/* The load of all lines as recorded is about the centre of mass, as the sum of the single lines is. */
+START_TEST(mooring_moments_are_about_the_centre_of_mass)
+{
+    scene k;
+    row r;
+    scene_open(&k, moored);
+    int32_t body = k.w.vessels.body[0];
+    vec3 at = k.w.bodies.position[body];
+    k.w.bodies.position[body] = vec3_make(at.x + 3, at.y - 5, at.z);
+    k.w.bodies.orientation[body] = quat_from_roll_pitch_yaw(0.05, -0.02, 0.4);
+    wrench expected = mooring_pull(&k.w.lines, 0, k.w.bodies.position[body], k.w.bodies.orientation[body]);
+    scene_steps(&k, 1);
+    take(&k, &r);
+    ck_assert(fabs(expected.moment.z) > 1e4);
+    const double scale = vec3_length(expected.force) * 24;
+    assert_absolute(channel(&r, "mooring_force_x"), expected.force.x, 1e-9 * scale);
+    assert_absolute(channel(&r, "mooring_moment_x"), expected.moment.x, 1e-9 * scale);
+    assert_absolute(channel(&r, "mooring_moment_y"), expected.moment.y, 1e-9 * scale);
+    assert_absolute(channel(&r, "mooring_moment_z"), expected.moment.z, 1e-9 * scale);
+    scene_close(&k);
+}
+END_TEST
+
+START_TEST(counts_as_recorded)
+{
+    scene k;
+    row r;
+    scene_open(&k, moored);
+    k.w.lines.tension[0] = 700;
+    k.w.lines.tension[1] = 500;
+    k.w.lines.broken[1] = 1;
+    k.w.thrusters.failed[0] = 1;
+    k.w.thrusters.thrust[0] = k.w.thrusters.thrust[1] = 1e5;
+    k.w.feeding.entered[0] = 11;
+    k.w.feeding.held_back[0] = 12;
+    k.w.feeding.velocity[0] = vec2_make(13, 14);
+    take(&k, &r);
+    ck_assert(channel(&r, "line_tension_max") == 700 && channel(&r, "lines_parted") == 1);
+    ck_assert(channel(&r, "thrusters_failed") == 1);
+    assert_relative(channel(&r, "thruster_power"), 4e5, 1e-12);
+    ck_assert(channel(&r, "ice_mass_entered") == 11 && channel(&r, "ice_mass_held_back") == 12);
+    ck_assert(channel(&r, "drift_x") == 13 && channel(&r, "drift_y") == 14);
+    double bodies = channel(&r, "bodies"), floes = channel(&r, "floes");
+    floe_remove(&k.w.bodies, &k.w.shapes, &k.w.floes, 2);
+    take(&k, &r);
+    ck_assert(channel(&r, "bodies") == bodies - 1 && channel(&r, "floes") == floes - 1);
+    scene_close(&k);
+}
+END_TEST
+
+/* Loads in the vessel's axes: a hull that heads along Y feels a push along Y from behind. */
+START_TEST(loads_in_the_vessels_axes)
+{
+    scene k;
+    row r;
+    scene_open(&k, moored);
+    int32_t body = k.w.vessels.body[0];
+    k.w.bodies.orientation[body] = quat_from_roll_pitch_yaw(0, 0, PI / 2);
+    ck_assert(array_resize(&k.ctx, &k.w.scratch.ice_loads, 1));
+    k.w.scratch.ice_loads.data[0] = (ice_load){.total = {{0, 500, 0}, {0, 300, 40}}};
+    ck_assert(array_resize(&k.ctx, &k.w.scratch.fluid, 1));
+    k.w.scratch.fluid.data[0] = (fluid_load){.hydrostatic = {{0, 0, 100}, {0, 0, 0}},
+                                             .water_drag = {{0, 20, 0}, {0, 0, 0}},
+                                             .wind_drag = {{3, 0, 0}, {0, 0, 4}}};
+    take(&k, &r);
+    assert_absolute(channel(&r, "ice_force_body_x"), 500, 1e-9);
+    assert_absolute(channel(&r, "ice_force_body_y"), 0, 1e-9);
+    assert_absolute(channel(&r, "ice_moment_body_x"), 300, 1e-9);
+    assert_absolute(channel(&r, "ice_moment_body_z"), 40, 1e-9);
+    assert_channels(&r, "fluid_force", vec3_make(3, 20, 100));
+    assert_channels(&r, "fluid_moment", vec3_make(0, 0, 4));
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("series", station_as_recorded, mooring_moments_are_about_the_centre_of_mass, counts_as_recorded,
+          loads_in_the_vessels_axes)
