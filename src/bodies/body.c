@@ -1,6 +1,7 @@
 /* The body table: slots, frames of reference and books.  Knows neither why bodies move nor what they are made for. */
 #include "bodies/body.h"
 
+#include <assert.h>
 #include <string.h>
 
 #define TABLE_SELF body_table
@@ -15,6 +16,7 @@ int32_t body_create(context *ctx, body_table *bodies, motion kind, material subs
     int32_t slot = hole ? (int32_t)(hole - bodies->motion) : bodies->count;
     if (!hole && !table_resize(ctx, bodies, &body_table_info, bodies->count + 1))
         return -1;
+    assert(kind != MOTION_NONE);
     bodies->orientation[slot] = quat_identity();
     bodies->shape[slot] = -1;
     bodies->owner[slot] = -1;
@@ -26,6 +28,7 @@ int32_t body_create(context *ctx, body_table *bodies, motion kind, material subs
 
 void body_remove(body_table *bodies, int32_t slot)
 {
+    assert(slot >= 0 && slot < bodies->count && body_is_alive(bodies, slot));
     /* Everything but the generation becomes zero, so that the state's hash forgets the body. */
     uint32_t generation = bodies->generation[slot];
     for (int f = 0; f < body_table_info.field_count; f++) {

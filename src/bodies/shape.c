@@ -3,6 +3,7 @@
 
 #include "geometry/predicate.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -177,6 +178,24 @@ static bool pieces_are_outline(int32_t piece_count, int32_t first_size, int32_t 
     return piece_count == 1 && first_size == outline_count;
 }
 
+#ifndef NDEBUG
+/* Areas are sums of products of coordinates: what rounding may add to the pieces of an outline, as a part of it. */
+static const double SAME_AREA = 1e-9;
+
+/* Pieces have 3 to PIECE_MOST_VERTICES vertices in the pool, and together no more area than the outline. */
+static bool prism_is_sound(const shape_store *s, int32_t row)
+{
+    double outline = polygon_area(shape_outline(s, row)), sum = 0;
+    for (int32_t i = 0; i < s->shapes.piece_count[row]; i++) {
+        polygon p = shape_piece(s, row, i);
+        if (p.count < 3 || p.count > PIECE_MOST_VERTICES || p.vertex + p.count > s->vertices.point + s->vertices.count)
+            return false;
+        sum += polygon_area(p);
+    }
+    return s->shapes.piece_count[row] > 0 && outline > 0 && sum <= (1 + SAME_AREA) * outline;
+}
+#endif
+
 /* Everything is reserved before anything is written, so that a failure leaves the store as it was. */
 static fram_status store_prism(context *ctx, shape_store *s, polygon outline, double half_height,
                                const polygon_list *pieces, int32_t *row, fram_error *error)
@@ -216,6 +235,7 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
         t->piece_first[*row] = piece_first;
         t->piece_count[*row] = piece_count;
         t->solid[*row] = -1;
+        assert(prism_is_sound(s, *row));
     }
     memory_free(ctx, inner);
     memory_free(ctx, corner);
@@ -310,6 +330,7 @@ fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_ar
 
 void shape_remove(shape_store *s, int32_t row)
 {
+    assert(row >= 0 && row < s->shapes.count);
     for (int f = 0; f < shape_table_info.field_count; f++) {
         const field_info *field = &shape_table_info.fields[f];
         memset((char *)table_field(&s->shapes, field) + field->size * (size_t)row, 0, field->size);
@@ -378,6 +399,7 @@ fram_status shape_compact(context *ctx, shape_store *s)
     table_free(ctx, &s->pieces, &piece_table_info);
     s->vertices = vertices;
     s->pieces = pieces;
+    assert(vertices.count == live_vertices && pieces.count == live_pieces);
     return FRAM_OK;
 }
 
@@ -388,6 +410,7 @@ polygon shape_outline(const shape_store *s, int32_t row)
 
 polygon shape_piece(const shape_store *s, int32_t row, int32_t piece)
 {
+    assert(piece >= 0 && piece < s->shapes.piece_count[row]);
     int32_t at = s->shapes.piece_first[row] + piece;
     return (polygon){s->vertices.point + s->pieces.first[at], s->pieces.size[at]};
 }

@@ -64,7 +64,7 @@ enum { PIECE_MOST_VERTICES = 16 };
 
 /* A prism of a simple outline given about its centroid (the caller moves it there), cut into convex pieces of at most
    PIECE_MOST_VERTICES vertices through `o` (may be NULL when the outline is convex).  piece_area_limit [m2]: smaller
-   triangles are dropped (SPEC 2).  row gets the shape's row.  The outline may be one of this store.
+   triangles are dropped (docs/theory.md, Ice fields).  row gets the shape's row.  The outline may be one of this store.
    FRAM_ERROR_INPUT: fewer than 3 vertices, no area, not finite, no thickness, or a concave outline without `o`; the
    store is then unchanged, as it is without memory. */
 fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon outline, double half_height,

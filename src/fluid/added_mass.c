@@ -2,7 +2,8 @@
 
 #include "base/transcendental.h"
 
-/* Coefficient of a rectangle, by shorter over longer side. */
+/* Coefficient of a rectangle, by shorter over longer side (DNV-RP-C205 2010, table D-2, which has longer over
+   shorter). */
 static double rectangle_coefficient(double ratio)
 {
     static const double table[][2] = {{0, 1},       {0.1, 0.947},  {0.125, 0.934},    {0.16, 0.917},
@@ -29,11 +30,14 @@ plate_added_mass plate_added_mass_of(const polygon_moments *outline, double wate
     return (plate_added_mass){heave, per_moment * outline->xx, per_moment * outline->yy};
 }
 
+/* Each halves the differences of the three arguments twice: after so many they are equal to the last bit. */
+enum { DUPLICATIONS = 40 };
+
 /* R_D(x, y, z) = 3/2 int_0^inf dt / (sqrt(t + x) sqrt(t + y) (t + z)^(3/2)) by duplication (Carlson 1979). */
 static double carlson_rd(double x, double y, double z)
 {
     double sum = 0, factor = 1;
-    for (int i = 0; i < 40; i++) {
+    for (int i = 0; i < DUPLICATIONS; i++) {
         double rx = sqrt(x), ry = sqrt(y), rz = sqrt(z), shift = rx * ry + ry * rz + rz * rx;
         sum += factor / (rz * (z + shift));
         factor *= 0.25;

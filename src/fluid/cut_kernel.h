@@ -31,7 +31,7 @@ typedef struct cut_points {
    water, body axes; writes a point for the wet and one for the dry part of each, up to a multiple of eight.  Makes the
    rest of the last eight of the batch triangles without area. A corner alone on its side of the plane makes a triangle
    whose sides are t1 and t2 of those of the whole, so its area is t1 t2 of the whole; the other part is what is left.
-   The pressure is that of oracles section 5. */
+   The pressure integrals are those of facet_add_pressure (docs/oracles.md, section 5). */
 KERNEL_DECLARE(void, cut_triangles,
                (const water_plane *plane, cut_batch *batch, point_sums *pressure, cut_points *wet, cut_points *dry));
 

@@ -1,6 +1,8 @@
 #include "fluid/facet.h"
 #include "geometry/mesh.h"
 
+#include <assert.h>
+
 stream stream_of_water(const media *m, const drag_coefficients *c, vec3 velocity, vec3 spin, double height)
 {
     return (stream){vec3_sub(velocity, media_current(m, height)), spin, 0.5 * m->water_density * c->water_form,
@@ -18,6 +20,7 @@ static vec3 double_area(vec3 a, vec3 b, vec3 c) { return vec3_cross(vec3_sub(b, 
 
 void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double height)
 {
+    assert(n <= FACET_VERTICES);
     for (int i = 1; i + 1 < n; i++) {
         vec3 a = vertex[0], b = vertex[i], c = vertex[i + 1];
         double za = a.z + height, zb = b.z + height, zc = c.z + height, z = za + zb + zc;
@@ -145,6 +148,7 @@ static void add_skin(wrench *load, const stream *s, const vec3 *vertex, int n, v
 
 void facet_add_drag(wrench *load, const stream *s, const vec3 *vertex, int n, vec3 normal)
 {
+    assert(n < FACET_VERTICES);
     if (n < 3)
         return;
     if (s->form > 0)

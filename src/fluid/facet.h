@@ -11,7 +11,7 @@
 #include "fluid/media.h"
 
 /* Most vertices of a facet: a quadrilateral cut by the water plane and by the line where it stops moving into the
- * medium. */
+   medium; each cut adds one, and facet_clip may write one more. */
 enum { FACET_VERTICES = 8 };
 
 /* Integrals over the wet facets: of z n dS [m3] and of r x z n dS [m4], z the height over still water. */
@@ -49,10 +49,12 @@ static inline vec3 prism_current(const media *m, const body_table *b, const shap
 static inline bool stream_acts(const stream *s) { return s->form > 0 || s->skin > 0; }
 
 /* Adds a wet facet of n vertices, n <= FACET_VERTICES; height: of the centre of mass over still water.  Exact:
-   int z dS = zbar N, int z r dS = (|N|/12) [sum z_i r_i + (sum z_i)(sum r_i)] per triangle (oracles section 5). */
+   int z dS = zbar N, int z r dS = (|N|/12) [sum z_i r_i + (sum z_i)(sum r_i)] per triangle (docs/oracles.md, section
+   5). */
 void facet_add_pressure(pressure_sum *sum, const vec3 *vertex, int n, double height);
 
-/* Adds form and skin drag of a facet, n <= FACET_VERTICES - 1, with the velocity of each of its points (SPEC 5).
+/* Adds form and skin drag of a facet, n <= FACET_VERTICES - 1, with the velocity of each of its points (docs/theory.md,
+   Water and air).
    Form drag is exact: the part that moves into the medium is cut out, and |vn| vn is a polynomial there.
    Skin drag is a quadrature: 6 points of degree 4 on a triangle (Dunavant 1985, table II, p = 4), 2 x 2 Gauss points on
    a quadrilateral, triangles about the mean vertex beyond.  It is exact while the body does not turn. */

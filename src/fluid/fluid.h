@@ -16,8 +16,8 @@ typedef struct fluid_load {
     double submerged_volume; /* [m3] */
 } fluid_load;
 
-/* What else fluid_apply is to write, without gravity; NULL where it is not wanted.  All of the split of 10,000 floes is
-   so much memory that writing it takes a quarter of the time of reckoning it. */
+/* What else fluid_apply is to write, without gravity; NULL where it is not wanted.  The whole split of 10,000 floes is
+   so much memory that writing it takes a quarter of the time of computing it. */
 typedef struct fluid_details {
     double *volume;     /* submerged, per body slot [m3]; zero for bodies that are not dynamic */
     fluid_load *solids; /* per row of the store's solids; rows without a dynamic body are left as they are */
@@ -30,11 +30,11 @@ typedef struct fluid_motion {
     vec3 velocity, angular_velocity;
 } fluid_motion;
 
-/* Hydrostatic wrench of a closed mesh: exact pressure integral over each triangle clipped at z = 0 (oracles section 5):
-   F = rho g zbar N, torque = rho g (int z r dS) x n.  Writes the whole load; drag is zero. */
+/* Hydrostatic wrench of a closed mesh: exact pressure integral over each triangle clipped at z = 0 (docs/oracles.md,
+   section 5): F = rho g zbar N, torque = rho g (int z r dS) x n.  Writes the whole load; drag is zero. */
 void hydrostatics_mesh(const media *m, const mesh *surface, const fluid_motion *state, fluid_load *load);
-/* Drag on the wet (dry) part of each triangle with the velocity of each of its points (SPEC 5): form drag exactly, skin
-   drag by quadrature (fluid/facet.h); adds to load. */
+/* Drag on the wet (dry) part of each triangle with the velocity of each of its points (docs/theory.md, Water and air):
+   form drag exactly, skin drag by quadrature (fluid/facet.h); adds to load. */
 void drag_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                fluid_load *load);
 /* Both in one walk; writes the whole load. */

@@ -4,7 +4,7 @@
    Everything is done in the body's axes, where the wet part of a side is a trapezium between the wet cap and the
    waterline, and the caps are the outline itself.
 
-   Hydrostatics are exact, from the second moments of the outline (oracles section 5).
+   Hydrostatics are exact, from the second moments of the outline (docs/oracles.md, section 5).
    Form drag of the caps is exact for any motion: the inflow f = L + g . r is linear, and where it changes its sign the
    part with f > 0 is made of triangles from a point of the line f = 0.
    Form drag of a side is exact along the edge and, unless its motion changes its sign over the depth, over the depth.

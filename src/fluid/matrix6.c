@@ -4,8 +4,8 @@
 
 static void to_array(pair6 x, double out[6])
 {
-    out[0] = x.line.x, out[1] = x.line.y, out[2] = x.line.z;
-    out[3] = x.turn.x, out[4] = x.turn.y, out[5] = x.turn.z;
+    out[0] = x.linear.x, out[1] = x.linear.y, out[2] = x.linear.z;
+    out[3] = x.angular.x, out[4] = x.angular.y, out[5] = x.angular.z;
 }
 
 static pair6 from_array(const double x[6]) { return (pair6){{x[0], x[1], x[2]}, {x[3], x[4], x[5]}}; }

@@ -11,9 +11,9 @@ typedef struct matrix6 {
     double m[6][6];
 } matrix6;
 
-/* A pair of vectors, translation and rotation. */
+/* A linear and an angular vector: velocity and angular velocity, or force and moment. */
 typedef struct pair6 {
-    vec3 line, turn;
+    vec3 linear, angular;
 } pair6;
 
 pair6 matrix6_mul(const matrix6 *a, pair6 x);

@@ -1,5 +1,7 @@
 #include "fluid/media.h"
 
+#include <assert.h>
+
 void media_history_free(context *ctx, media_history *h)
 {
     memory_free(ctx, h->current.time);
@@ -13,6 +15,7 @@ void media_history_free(context *ctx, media_history *h)
 
 vec3 velocity_series_at(const velocity_series *s, double time)
 {
+    assert(s->count > 0);
     /* The last row that is not later: low, or the first one. */
     int32_t low = 0, high = s->count;
     while (high - low > 1) {

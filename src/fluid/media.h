@@ -50,7 +50,7 @@ media media_at(const media *still, const media_history *history, double time);
 vec3 media_current(const media *m, double height);
 
 /* Drag of one body's surface: form -1/2 rho Cd A |vn| vn n on faces moving into the medium, skin -1/2 rho Cf A |vt| vt
-   (SPEC 5). */
+   (docs/theory.md, Water and air). */
 typedef struct drag_coefficients {
     double water_form, water_skin; /* [1] */
     double air_form, air_skin;     /* [1] */

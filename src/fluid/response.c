@@ -27,8 +27,8 @@ typedef struct response_work {
 
 /* A prism as this room sees it. */
 typedef struct prism_view {
-    double along, up, turn,
-        tilt; /* speeds across and along its axis, relative to the water; spin about and across it */
+    /* Speeds relative to the water, in its plane and along its axis [m/s]; spin about and across the axis [rad/s]. */
+    double along, up, turn, tilt;
     double area, radius, half_height;
     /* Only where added mass or damping are asked for: body axes. */
     mat3 rotation;
@@ -71,7 +71,7 @@ static prism_view view_of(const response_work *w, int32_t slot)
 /* ---- drag by velocity ---- */
 
 typedef struct drag_bound {
-    vec3 line, turn; /* [N s/m], [N m s], body axes */
+    vec3 linear, angular; /* [N s/m], [N m s], body axes */
 } drag_bound;
 
 /* Bounds of the derivatives: twice the drag of every face at its largest speed over that speed; sides are those of the
@@ -149,9 +149,9 @@ static void add_damping(const response_work *w, int32_t slot, const prism_view *
     wrench *load = &w->loads[slot];
     load->force = vec3_add(load->force, mat3_mul_vec(v->rotation, force));
     load->moment = vec3_add(load->moment, mat3_mul_vec(v->rotation, moment));
-    bound->line.z += heave;
-    bound->turn.x += roll;
-    bound->turn.y += pitch;
+    bound->linear.z += heave;
+    bound->angular.x += roll;
+    bound->angular.y += pitch;
 }
 
 static void respond(const response_work *w, int32_t slot)
@@ -166,12 +166,12 @@ static void respond(const response_work *w, int32_t slot)
         add_mass(w, slot, &v, share, &mass, &inertia);
     if (w->settings->damping_ratio > 0)
         add_damping(w, slot, &v, share * wave_share(w, slot, &v), mass, inertia, &bound);
-    mass.x += implicit_part(bound.line.x, b->mass[slot] + mass.x, dt);
-    mass.y += implicit_part(bound.line.y, b->mass[slot] + mass.y, dt);
-    mass.z += implicit_part(bound.line.z, b->mass[slot] + mass.z, dt);
-    inertia.x += implicit_part(bound.turn.x, b->inertia[slot].xx + inertia.x, dt);
-    inertia.y += implicit_part(bound.turn.y, b->inertia[slot].yy + inertia.y, dt);
-    inertia.z += implicit_part(bound.turn.z, b->inertia[slot].zz + inertia.z, dt);
+    mass.x += implicit_part(bound.linear.x, b->mass[slot] + mass.x, dt);
+    mass.y += implicit_part(bound.linear.y, b->mass[slot] + mass.y, dt);
+    mass.z += implicit_part(bound.linear.z, b->mass[slot] + mass.z, dt);
+    inertia.x += implicit_part(bound.angular.x, b->inertia[slot].xx + inertia.x, dt);
+    inertia.y += implicit_part(bound.angular.y, b->inertia[slot].yy + inertia.y, dt);
+    inertia.z += implicit_part(bound.angular.z, b->inertia[slot].zz + inertia.z, dt);
     b->added_mass[slot] = mass;
     b->added_inertia[slot] = inertia;
 }
@@ -201,10 +201,13 @@ static void respond_block(void *arg, int32_t block, int32_t thread)
         respond_group(w, slot);
 }
 
-/* A hair under the limit of implicit_part, so that rounding decides nothing. */
+/* The screening by weak_drag_kernel.h takes a limit this part of implicit_part's own, so that rounding decides nothing.
+ */
+#define SCREEN_MARGIN 0.999
+
 static drag_limits limits_of(const media *m, const drag_coefficients coefficients[MATERIAL_COUNT], double time_step)
 {
-    drag_limits limits = {.current = m->current, .rate = 0.999 * EXPLICIT_DRAG / time_step};
+    drag_limits limits = {.current = m->current, .rate = SCREEN_MARGIN * EXPLICIT_DRAG / time_step};
     for (int i = 0; i < MATERIAL_COUNT; i++) {
         limits.form[i] = m->water_density * coefficients[i].water_form;
         limits.skin[i] = m->water_density * coefficients[i].water_skin;
@@ -262,31 +265,36 @@ static matrix6 rigid_matrix(const body_table *b, int32_t slot)
 /* Kirchhoff's terms for all of A, less what the dynamics know: w x (diagonal of A's last block) w. */
 static pair6 turning_terms(const matrix6 *a, pair6 v)
 {
-    pair6 p = matrix6_mul(a, v), shift = matrix6_mul(a, (pair6){vec3_cross(v.turn, v.line), {0, 0, 0}});
-    vec3 known = {a->m[3][3] * v.turn.x, a->m[4][4] * v.turn.y, a->m[5][5] * v.turn.z};
-    vec3 force = vec3_sub(shift.line, vec3_cross(v.turn, p.line));
-    vec3 moment =
-        vec3_sub(shift.turn, vec3_add(vec3_cross(v.line, p.line), vec3_cross(v.turn, vec3_sub(p.turn, known))));
+    pair6 p = matrix6_mul(a, v), shift = matrix6_mul(a, (pair6){vec3_cross(v.angular, v.linear), {0, 0, 0}});
+    vec3 known = {a->m[3][3] * v.angular.x, a->m[4][4] * v.angular.y, a->m[5][5] * v.angular.z};
+    vec3 force = vec3_sub(shift.linear, vec3_cross(v.angular, p.linear));
+    vec3 moment = vec3_sub(shift.angular,
+                           vec3_add(vec3_cross(v.linear, p.linear), vec3_cross(v.angular, vec3_sub(p.angular, known))));
     return (pair6){force, moment};
 }
 
 static pair6 pair_sum(pair6 a, pair6 b, double scale)
 {
-    return (pair6){vec3_mad(a.line, b.line, scale), vec3_mad(a.turn, b.turn, scale)};
+    return (pair6){vec3_mad(a.linear, b.linear, scale), vec3_mad(a.angular, b.angular, scale)};
 }
+
+/* What is made up for shrinks from one step to the next by this factor at least: under 1, so that it dies out; nearer
+   to 1 more is made up for, and oscillations die out more slowly. */
+#define DEFERRED_SHRINK 0.9
+/* Instead of no coupling at all, in a division. */
+#define LEAST_COUPLING 1e-300
 
 /* Part of the contacts' load of the step before that is made up for.  In units in which the known matrix is 1 the whole
    one is 1 + K, and a load is made up for by -K / (1 + K) of it; held against a contact this repeats itself from step
    to step and must shrink.  No eigenvalue of K is under -f, f = |K| / sqrt 2 for couplings in pairs. */
 static double deferred_share(const matrix6 *whole, const matrix6 *known)
 {
-    const double shrink = 0.9; /* from one step to the next, at most */
     double sum = 0;
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < i; j++)
             sum += whole->m[i][j] * whole->m[j][i] / (known->m[i][i] * known->m[j][j]);
     double f = sqrt(fmax(0, sum));
-    return f < 1 ? fmin(1, shrink * (1 - f) / fmax(f, 1e-300)) : 0;
+    return f < 1 ? fmin(1, DEFERRED_SHRINK * (1 - f) / fmax(f, LEAST_COUPLING)) : 0;
 }
 
 void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
@@ -304,25 +312,25 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
     pair6 deferred = {{0, 0, 0}, {0, 0, 0}};
     if (coupled) {
         double share = deferred_share(&whole, &known);
-        deferred.line = mat3_tmul_vec(r, vec3_scale(contacts->force, share));
-        deferred.turn = mat3_tmul_vec(r, vec3_scale(contacts->moment, share));
+        deferred.linear = mat3_tmul_vec(r, vec3_scale(contacts->force, share));
+        deferred.angular = mat3_tmul_vec(r, vec3_scale(contacts->moment, share));
         /* Known to the dynamics, who divide it by what they know: it must be divided by all, and then put back. */
-        vec3 turning = matrix6_mul(&diagonal, v).turn;
-        gyroscopic = vec3_cross(v.turn, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.turn), turning));
+        vec3 turning = matrix6_mul(&diagonal, v).angular;
+        gyroscopic = vec3_cross(v.angular, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.angular), turning));
         force = pair_sum(force, turning_terms(&added, v), 1);
-        force.turn = vec3_sub(force.turn, gyroscopic);
+        force.angular = vec3_sub(force.angular, gyroscopic);
     }
     pair6 acceleration;
     if (!matrix6_solve(&whole, pair_sum(force, deferred, 1), &acceleration))
         return;
     pair6 changed = pair_sum(matrix6_mul(&known, acceleration), deferred, -1);
-    load->force = mat3_mul_vec(r, changed.line);
-    load->moment = mat3_mul_vec(r, vec3_add(changed.turn, gyroscopic));
+    load->force = mat3_mul_vec(r, changed.linear);
+    load->moment = mat3_mul_vec(r, vec3_add(changed.angular, gyroscopic));
 }
 
 double hydrodynamics_energy(const hydrodynamics *h, const media *m, const body_table *bodies, int32_t slot)
 {
     pair6 v = relative_velocity(m, bodies, slot, quat_matrix(bodies->orientation[slot]));
     pair6 p = matrix6_mul(&h->added_mass, v);
-    return 0.5 * (vec3_dot(v.line, p.line) + vec3_dot(v.turn, p.turn));
+    return 0.5 * (vec3_dot(v.linear, p.linear) + vec3_dot(v.angular, p.angular));
 }

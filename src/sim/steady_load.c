@@ -10,7 +10,7 @@ static vec3 damping_load(const world *w, int32_t body, const media *m, double he
     vec3 current = media_current(m, fmin(0, w->bodies.position[body].z));
     pair6 past = {plane_to_vessel(heading, current), {0, 0, 0}};
     pair6 push = matrix6_mul(&w->hydrodynamics.damping, past);
-    return plane_to_global(heading, vec3_make(push.line.x, push.line.y, push.turn.z));
+    return plane_to_global(heading, vec3_make(push.linear.x, push.linear.y, push.angular.z));
 }
 
 vec3 steady_media_load(const step_settings *settings, const world *w, int32_t body, const media *m, double heading)

@@ -102,19 +102,19 @@ START_TEST(reference_points_and_axes)
         matrix6 at_q = matrix6_moved(&at_p, arm);
         pair6 p = matrix6_mul(&at_p, (pair6){vec3_add(v, vec3_cross(w, arm)), w});
         pair6 q = matrix6_mul(&at_q, (pair6){v, w});
-        assert_vec3_close(q.line, p.line, 1e-12);
-        assert_vec3_close(q.turn, vec3_add(p.turn, vec3_cross(arm, p.line)), 1e-12);
+        assert_vec3_close(q.linear, p.linear, 1e-12);
+        assert_vec3_close(q.angular, vec3_add(p.angular, vec3_cross(arm, p.linear)), 1e-12);
         matrix6 over = matrix6_turned_over(&at_p);
         pair6 x = {{v.x, -v.y, -v.z}, {w.x, -w.y, -w.z}};
         pair6 up = matrix6_mul(&over, (pair6){v, w}), down = matrix6_mul(&at_p, x);
-        assert_vec3_close(up.line, vec3_make(down.line.x, -down.line.y, -down.line.z), 1e-13);
-        assert_vec3_close(up.turn, vec3_make(down.turn.x, -down.turn.y, -down.turn.z), 1e-13);
+        assert_vec3_close(up.linear, vec3_make(down.linear.x, -down.linear.y, -down.linear.z), 1e-13);
+        assert_vec3_close(up.angular, vec3_make(down.angular.x, -down.angular.y, -down.angular.z), 1e-13);
         pair6 back;
         ck_assert(matrix6_solve(&at_p, p, &back));
-        assert_vec3_close(back.turn, w, 1e-12);
+        assert_vec3_close(back.angular, w, 1e-12);
     }
-    /* The supply ship of oracles section 7, sway and yaw about midships, z down: a point 3 m ahead of midships sees
-       m23 + 3 m22 ... with the sign of the other axes. */
+    /* The supply ship of the MSS toolbox (docs/oracles.md, section 7), sway and yaw about midships, z down: a point 3 m
+       ahead of midships sees m23 + 3 m22 ... with the sign of the other axes. */
     matrix6 fossen = {{{6.7644e6},
                        {0, 1.13412e7, 0, 0, 0, -3.401568e7},
                        {0, 0, 1},

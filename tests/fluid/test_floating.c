@@ -21,7 +21,7 @@ static floater make_box(void)
                      {1, 0, 0, 0}};
 }
 
-/* Symplectic Euler: velocities first, poses by the new ones (SPEC 9). */
+/* Symplectic Euler: velocities first, poses by the new ones (docs/theory.md, A time step). */
 static void step(floater *f, double dt)
 {
     fluid_load load;

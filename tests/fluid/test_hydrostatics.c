@@ -1,4 +1,4 @@
-/* Buoyancy of meshes and prisms: oracles of section 5, and each against the other. */
+/* Buoyancy of meshes and prisms: closed forms (docs/oracles.md, section 5), and each against the other. */
 #include "samples.h"
 
 static context make_context(void)

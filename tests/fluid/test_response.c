@@ -83,12 +83,12 @@ START_TEST(whole_matrix_accelerates)
         pair6 a = {random_vector(&r, 1), random_vector(&r, 1)};
         mat3 turn = quat_matrix(k.bodies.orientation[slot]);
         pair6 f = matrix6_mul(&h.added_mass, a);
-        f.line = vec3_mad(f.line, a.line, 900);
-        f.turn = vec3_add(f.turn, sym3_mul_vec(k.bodies.inertia[slot], a.turn));
-        wrench load = {mat3_mul_vec(turn, f.line), mat3_mul_vec(turn, f.turn)};
+        f.linear = vec3_mad(f.linear, a.linear, 900);
+        f.angular = vec3_add(f.angular, sym3_mul_vec(k.bodies.inertia[slot], a.angular));
+        wrench load = {mat3_mul_vec(turn, f.linear), mat3_mul_vec(turn, f.angular)};
         hydrodynamics_respond(&h, true, &still_water, 1e-3, &k.bodies, slot, &nothing, &load);
         step(&k.bodies, slot, &load, 1);
-        assert_vec3_close(mat3_tmul_vec(turn, k.bodies.velocity[slot]), a.line, 1e-12);
+        assert_vec3_close(mat3_tmul_vec(turn, k.bodies.velocity[slot]), a.linear, 1e-12);
         wrench none = {{0, 0, 0}, {0, 0, 0}};
         rig still;
         slot = rig_open(&still, 900, (sym3){800, 900, 1000, 20, -30, 10});
@@ -105,7 +105,7 @@ static double answer(const matrix6 *mass, vec3 n, vec3 point)
 {
     pair6 push = {n, vec3_cross(point, n)}, v;
     ck_assert(matrix6_solve(mass, push, &v));
-    return vec3_dot(n, v.line) + vec3_dot(push.turn, v.turn);
+    return vec3_dot(n, v.linear) + vec3_dot(push.angular, v.angular);
 }
 
 /* Contacts know the diagonal of the added mass only.  FPSO, supply ship, box: how a push by ice at stem, shoulder,
@@ -150,7 +150,8 @@ START_TEST(contacts_meet_the_diagonal)
 }
 END_TEST
 
-/* Sway and yaw coupled as those of the supply ship of the oracles are, about a centre of mass 2 m ahead of amidships.
+/* Sway and yaw coupled as those of the supply ship of the MSS toolbox are, about a centre of mass 2 m ahead of
+ * amidships.
  */
 static int32_t open_ship(rig *k, hydrodynamics *h)
 {
@@ -192,8 +193,8 @@ START_TEST(contacts_meet_all_of_it_in_time)
     pair6 v;
     ck_assert(matrix6_solve(&whole, (pair6){contact.force, contact.moment}, &v));
     double time = 0.05 * steps, by_diagonal = time / (6e6 + 5.3e6);
-    assert_relative(k.bodies.velocity[slot].y, time * v.line.y, 2.0 / steps);
-    assert_relative(k.bodies.angular_velocity[slot].z, time * v.turn.z, 2.0 / steps);
+    assert_relative(k.bodies.velocity[slot].y, time * v.linear.y, 2.0 / steps);
+    assert_relative(k.bodies.angular_velocity[slot].z, time * v.angular.z, 2.0 / steps);
     ck_assert(fabs(by_diagonal / k.bodies.velocity[slot].y - 1) > 0.1);
     rig_close(&k);
 }
@@ -212,7 +213,7 @@ START_TEST(contacts_settle_at_a_wall)
     const wrench thrust = {{0, -1, 0}, {0, 0, 10}};
     pair6 free;
     ck_assert(matrix6_solve(&whole, (pair6){thrust.force, thrust.moment}, &free));
-    double wanted = -(free.line.y + 36 * free.turn.z) / answer(&whole, along, bow), miss = HUGE_VAL;
+    double wanted = -(free.linear.y + 36 * free.angular.z) / answer(&whole, along, bow), miss = HUGE_VAL;
     wrench contact = nothing;
     for (int i = 0; i < 60; i++) {
         wrench load = thrust;
@@ -520,7 +521,8 @@ START_TEST(floe_with_added_mass)
     plate_added_mass plate = plate_added_mass_of(&(polygon_moments){100, {0, 0}, 1e4 / 12, 1e4 / 12, 0}, 1025);
     double period = 2 * PI * sqrt((92000 + plate.heave) / (1025 * 9.81 * 100));
     assert_relative((last - first) / 3, period, 1e-5);
-    assert_absolute(period, 2 * PI * sqrt(325e3 / (1025 * 9.81 * 100)), 1e-3); /* oracles: 233 t */
+    assert_absolute(period, 2 * PI * sqrt(325e3 / (1025 * 9.81 * 100)),
+                    1e-3); /* 233 t of added mass (DNV-RP-C205 2010, table D-2) */
     rig_close(&k);
 }
 END_TEST
