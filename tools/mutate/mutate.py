@@ -5,7 +5,7 @@
     --rooms A,B   faults of these rooms only
     --jobs N      so many at once, each in a copy of the tree under build/mutate
     --minutes M   begin no fault after that time; the next call goes on
-    --own         tests of the fault's own room only; what they miss is left open
+    --first N     only the N likeliest tests of the fault's own room; what they miss is left open
     --least P     exit code 1 when less than P % (95) are caught
 
 Verdicts stand in bench/results/mutants.csv; one on equal code and by an equal test is not asked for again.
@@ -25,24 +25,26 @@ from verdicts import CAUGHT, SURVIVED, Verdicts, all_tests, digest, test_code  #
 from workplace import LEAST_PATIENCE_S, PATIENCE, Workplace, first_failure, likely  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Groups of tests that are no rooms: of whole runs.
+OTHERS = {"runs"}
 
 
-def order(place, mutant, path, own_only):
+def order(place, mutant, path, first):
     """Tests of the own room first, the likeliest ahead, then quick ones of the others; none of rooms below."""
     def sort_key(test):
-        return (-likely(test, path), place.seconds.get(test["name"], 1))
+        return (-likely(test, path), place.usual(test))
     own = sorted((t for t in place.tests if t["room"] == mutant.room), key=sort_key)
-    if own_only:
-        return own
-    above = listing.ROOMS[listing.ROOMS.index(mutant.room) + 1:]
-    return own + sorted((t for t in place.tests if t["room"] in above), key=lambda t: place.seconds.get(t["name"], 1))
+    if first:
+        return own[:first]
+    above = set(listing.ROOMS[listing.ROOMS.index(mutant.room) + 1:]) | OTHERS
+    return own + sorted((t for t in place.tests if t["room"] in above), key=place.usual)
 
 
-def judge(place, mutant, path, text, own_only):
+def judge(place, mutant, path, text, first):
     """A row: caught by which test, or survived.  The copy is as before when it returns."""
     row = {"code": digest(text), "seconds": ""}
     made = False
-    for test in order(place, mutant, path, own_only):
+    for test in order(place, mutant, path, first):
         if test["name"] not in place.seconds:
             # Its time without a fault.
             place.restore(path)
@@ -75,7 +77,7 @@ def work(place, jobs, verdicts, lock, options, end):
         except queue.Empty:
             return
         began = time.monotonic()
-        row = judge(place, mutant, path, text, options.own)
+        row = judge(place, mutant, path, text, options.first)
         with lock:
             spent = f"{time.monotonic() - began:.0f} s"
             if "problem" in row:
@@ -83,7 +85,7 @@ def work(place, jobs, verdicts, lock, options, end):
                 continue
             caught = f"[{row['test']} {row['function']}]"
             print(f"{row['verdict']:8} {mutant.room}: {mutant.what} {caught} {spent}", flush=True)
-            if row["verdict"] == CAUGHT or not options.own:
+            if row["verdict"] == CAUGHT or not options.first:
                 verdicts.put(mutant, row)
 
 
@@ -93,7 +95,7 @@ def main():
     parser.add_argument("--rooms", default="")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=1e6)
-    parser.add_argument("--own", action="store_true")
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--least", type=float, default=95)
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "bench/results/mutants.csv")
     options = parser.parse_args()

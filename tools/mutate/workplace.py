@@ -14,6 +14,12 @@ LEFT_OUT = {"tools", "package", "views", "fuzz"}
 PATIENCE, LEAST_PATIENCE_S = 20, 60
 
 
+def told_seconds(path):
+    """Times by name from the report of a whole run of the tests."""
+    text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+    return {name: float(seconds) for name, seconds in re.findall(r'<testcase name="([^"]+)"[^>]* time="([\d.]+)"', text)}
+
+
 class Workplace:
     """Under build/mutate/<number>; the checkout itself is never touched."""
 
@@ -23,6 +29,7 @@ class Workplace:
         self.build = self.root / "build/release"
         self.tests = []
         self.seconds = {}
+        self.told = told_seconds(root / "build/release/tests.xml")
         self.broken = set()
 
     def prepare(self):
@@ -103,6 +110,10 @@ class Workplace:
             process.communicate()
             return False, "hangs", time.monotonic() - began
         return process.returncode in (0, 77), out, time.monotonic() - began
+
+    def usual(self, test):
+        """Time of a test without a fault [s], as measured here or by the last `make test`; a guess where neither is."""
+        return self.seconds.get(test["name"], self.told.get(test["name"], 1.0))
 
     def know(self, test):
         """Run the test without a fault, once: its time; None when it fails by itself."""
