@@ -175,6 +175,72 @@ START_TEST(solids_take_over_their_mesh)
 }
 END_TEST
 
+/* The corner that lies farthest out may be the last one. */
+START_TEST(the_radius_of_a_solid_is_that_of_its_farthest_corner)
+{
+    context ctx;
+    context_init(&ctx);
+    for (int far = 0; far < 4; far++) {
+        shape_store s = {0};
+        mesh m = {0};
+        polyhedron_array pieces = {0};
+        int32_t index;
+        fram_error e = {0};
+        vec3 v[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        v[far] = vec3_scale(vec3_add(v[far], vec3_make(-0.1, -0.1, -0.1)), 10);
+        for (int i = 0; i < 4; i++)
+            ck_assert(mesh_add_vertex(&ctx, &m, v[i]));
+        ck_assert(mesh_add_triangle(&ctx, &m, 0, 2, 1) && mesh_add_triangle(&ctx, &m, 0, 1, 3) &&
+                  mesh_add_triangle(&ctx, &m, 1, 2, 3) && mesh_add_triangle(&ctx, &m, 2, 0, 3));
+        double radius = vec3_length(v[far]);
+        assert_ok(solid_add(&ctx, &s, &m, &pieces, 0, &index, &e), e);
+        assert_absolute(s.solids.data[index].radius, radius > 1 ? radius : 1, 1e-14);
+        shape_store_free(&ctx, &s);
+    }
+}
+END_TEST
+
+/* The C library's memory, but what is given back is scrubbed, and every resize moves. */
+static void *scrubbing_memory(void *user, void *old, size_t size)
+{
+    (void)user;
+    /* The size stands before the block. */
+    size_t had = 0;
+    unsigned char *before = old ? (unsigned char *)old - 16 : NULL;
+    if (before)
+        memcpy(&had, before, sizeof had);
+    unsigned char *block = size > 0 ? malloc(size + 16) : NULL;
+    if (block) {
+        memcpy(block, &size, sizeof size);
+        if (before)
+            memcpy(block + 16, old, had < size ? had : size);
+    }
+    if (before && (block || size == 0)) {
+        memset(before, 0xff, had + 16);
+        free(before);
+    }
+    return block ? block + 16 : NULL;
+}
+
+/* An outline may be one of the store's own, whose memory moves while the prism is made. */
+START_TEST(an_outline_of_the_store_itself)
+{
+    context ctx;
+    context_init(&ctx);
+    ctx.memory = scrubbing_memory;
+    shape_store s = {0};
+    fram_error e = {0};
+    int32_t row;
+    assert_ok(shape_add_prism(&ctx, &s, NULL, (polygon){square, 4}, 0.5, 0, &row, &e), e);
+    for (int k = 0; k < 40; k++) {
+        assert_ok(shape_add_prism(&ctx, &s, NULL, shape_outline(&s, row), 0.5, 0, &row, &e), e);
+        ck_assert(memcmp(shape_outline(&s, row).vertex, square, sizeof square) == 0);
+        assert_relative(s.shapes.area[row], polygon_area((polygon){square, 4}), 1e-14);
+    }
+    shape_store_free(&ctx, &s);
+}
+END_TEST
+
 START_TEST(rows_are_used_again_and_pools_squeezed)
 {
     context ctx;
@@ -253,7 +319,8 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("shape", a_convex_prism_is_its_own_piece, many_corners_are_cut_into_small_pieces,
+TEST_MAIN("shape", the_radius_of_a_solid_is_that_of_its_farthest_corner, an_outline_of_the_store_itself,
+          a_convex_prism_is_its_own_piece, many_corners_are_cut_into_small_pieces,
           a_concave_prism_knows_its_seams_and_corners, a_dropped_triangle_leaves_a_piece_of_its_own,
           wrong_outlines_are_refused, solids_take_over_their_mesh, rows_are_used_again_and_pools_squeezed,
           memory_runs_out)

@@ -89,6 +89,27 @@ START_TEST(open_edges_are_counted_and_the_first_is_named)
 }
 END_TEST
 
+/* Two tetrahedra with a wall between them: no open edge, and three triangles at each edge of the wall. */
+START_TEST(a_wall_inside)
+{
+    mesh m;
+    context ctx = box_context(&m);
+    mesh_clear(&m);
+    const vec3 v[5] = {{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const int32_t f[7][3] = {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {1, 0, 4}, {2, 1, 4}, {0, 2, 4}, {0, 1, 2}};
+    for (int i = 0; i < 5; i++)
+        ck_assert(mesh_add_vertex(&ctx, &m, v[i]));
+    for (int i = 0; i < 7; i++)
+        ck_assert(mesh_add_triangle(&ctx, &m, f[i][0], f[i][1], f[i][2]));
+    mesh_report r = check(&ctx, &m);
+    ck_assert_int_eq(r.defect, MESH_NOT_MANIFOLD);
+    ck_assert_int_eq(r.open_edges, 0);
+    m.face.count = 6;
+    ck_assert_int_eq(check(&ctx, &m).defect, MESH_CLOSED);
+    mesh_free(&ctx, &m);
+}
+END_TEST
+
 START_TEST(three_triangles_at_an_edge)
 {
     mesh m;
@@ -313,6 +334,6 @@ START_TEST(large_meshes_are_checked)
 END_TEST
 
 TEST_MAIN("mesh_check", sound_surfaces_pass, empty_and_bad_index, not_finite_and_degenerate,
-          open_edges_are_counted_and_the_first_is_named, three_triangles_at_an_edge, turned_triangles,
+          open_edges_are_counted_and_the_first_is_named, three_triangles_at_an_edge, a_wall_inside, turned_triangles,
           cavities_turn_inward_and_only_they, crossing_boxes, a_spike_through_the_surface, pairs_of_triangles,
           memory_runs_out, large_meshes_are_checked)

@@ -27,6 +27,11 @@ START_TEST(nothing_to_clean)
     expect(square, 4, 0.005, square, 4);
     expect(square, 3, 5, square, 3); /* three vertices stay whatever their size */
     expect(square, 2, 0.005, square, 2);
+    /* Four with a short edge become three. */
+    const vec2 clipped[] = {{0, 0}, {1, 0}, {1, 0.003}, {0, 1}}, triangle[] = {{0, 0}, {1, 0}, {0, 1}};
+    ck_assert_int_eq(clean(clipped, 4, 0.005).count, 3);
+    assert_absolute(polygon_area(clean(clipped, 4, 0.005)), polygon_area((polygon){triangle, 3}), 0.002);
+    array_free(&plain, &out);
     ck_assert_int_eq(clean(NULL, 0, 0.005).count, 0);
 }
 END_TEST

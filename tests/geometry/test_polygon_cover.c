@@ -90,4 +90,25 @@ START_TEST(memory_ends)
 }
 END_TEST
 
-TEST_MAIN("polygon_cover", ragged_rings, bays_and_short_edges, memory_ends)
+/* Sides that converge far beyond a short edge do not grow into a spike, though there is area enough to spend. */
+START_TEST(no_spikes)
+{
+    const vec2 blunt[] = {{0, 0}, {10, 1}, {10, 2}, {0, 3}}; /* the sides would meet at x = 15: five edges farther */
+    const vec2 sharp[] = {{0, 0}, {10, 4.5}, {10, 5.5}, {0, 10}}; /* at x = 11.1: about an edge farther */
+    vec2_array cover = {0};
+    context_init(&ctx);
+    ck_assert(polygon_cover(&ctx, (polygon){blunt, 4}, 0.5, &cover));
+    ck_assert_int_eq(cover.count, 4);
+    ck_assert(polygon_cover(&ctx, (polygon){sharp, 4}, 0.5, &cover));
+    ck_assert_int_eq(cover.count, 4);                          /* 1.2 edges */
+    const vec2 wide[] = {{0, 0}, {10, 4}, {10, 6}, {0, 10}};   /* 5 over 2: and a shorter way */
+    const vec2 steep[] = {{0, 0}, {10, 9}, {10, 11}, {0, 20}}; /* 1.1 over 2 */
+    ck_assert(polygon_cover(&ctx, (polygon){wide, 4}, 0.5, &cover));
+    ck_assert_int_eq(cover.count, 4);
+    ck_assert(polygon_cover(&ctx, (polygon){steep, 4}, 0.5, &cover));
+    ck_assert_int_eq(cover.count, 3);
+    array_free(&ctx, &cover);
+}
+END_TEST
+
+TEST_MAIN("polygon_cover", no_spikes, ragged_rings, bays_and_short_edges, memory_ends)

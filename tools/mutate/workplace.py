@@ -17,7 +17,8 @@ PATIENCE, LEAST_PATIENCE_S = 20, 60
 def told_seconds(path):
     """Times by name from the report of a whole run of the tests."""
     text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
-    return {name: float(seconds) for name, seconds in re.findall(r'<testcase name="([^"]+)"[^>]* time="([\d.]+)"', text)}
+    found = re.findall(r'<testcase name="([^"]+)"[^>]* time="([\d.]+)"', text)
+    return {name: float(seconds) for name, seconds in found}
 
 
 class Workplace:
