@@ -195,7 +195,7 @@ fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, cons
         factorise(j);
         s->joints.count++;
     }
-    return FRAM_OK;
+    return guided_bodies_find(s) ? FRAM_OK : error_memory(error);
 }
 
 void joint_rows_recall(solver *s, const joint_table *joints)
@@ -208,11 +208,25 @@ void joint_rows_recall(solver *s, const joint_table *joints)
 }
 
 /* What the block's velocities miss, with the sign of the impulse that is wanted. */
-static void block_want(const solver *s, const joint_block *j, double want[JOINT_MOST_ROWS])
+static void block_want(const joint_block *j, const solver_body *body, const solver_body *base,
+                       double want[JOINT_MOST_ROWS])
 {
-    const solver_body *body = &s->bodies.data[j->body], *base = &s->bodies.data[j->base];
     for (int r = 0; r < j->count; r++)
         want[r] = -(row_axis_velocity(&j->axis[r], body, base) + j->bias[r] + j->softness * j->impulse[r]);
+}
+
+double joint_block_solve(joint_block *j, solver_body *body, solver_body *base)
+{
+    double want[JOINT_MOST_ROWS], step[JOINT_MOST_ROWS], energy = 0;
+    block_want(j, body, base, want);
+    memcpy(step, want, sizeof step);
+    block_solve(j, step);
+    for (int r = 0; r < j->count; r++) {
+        row_axis_push(&j->axis[r], body, base, step[r]);
+        j->impulse[r] += step[r];
+        energy += want[r] * step[r];
+    }
+    return energy;
 }
 
 double joint_row_sweep(solver *s)
@@ -220,15 +234,7 @@ double joint_row_sweep(solver *s)
     double energy = 0;
     for (int32_t i = 0; i < s->joints.count; i++) {
         joint_block *j = &s->joints.data[i];
-        double want[JOINT_MOST_ROWS], step[JOINT_MOST_ROWS];
-        block_want(s, j, want);
-        memcpy(step, want, sizeof step);
-        block_solve(j, step);
-        for (int r = 0; r < j->count; r++) {
-            row_axis_push(&j->axis[r], &s->bodies.data[j->body], &s->bodies.data[j->base], step[r]);
-            j->impulse[r] += step[r];
-            energy += want[r] * step[r];
-        }
+        energy += joint_block_solve(j, &s->bodies.data[j->body], &s->bodies.data[j->base]);
     }
     return energy;
 }
@@ -238,7 +244,7 @@ double joint_row_residual(const solver *s, const joint_block *block)
     double want[JOINT_MOST_ROWS], largest = 0;
     const solver_body *body = &s->bodies.data[block->body], *base = &s->bodies.data[block->base];
     double lightness = fmax(body->inverse_mass.xx, base->inverse_mass.xx);
-    block_want(s, block, want);
+    block_want(block, body, base, want);
     for (int r = 0; r < block->count; r++) {
         bool turn = block->motion[r] >= 3;
         double radius = turn ? sqrt(lightness / row_axis_coupling(&block->axis[r], &block->axis[r])) : 1;
@@ -247,21 +253,42 @@ double joint_row_residual(const solver *s, const joint_block *block)
     return largest;
 }
 
+/* Linear rows act at the anchor on b and have no moment about it; turning rows have no direction. */
+static void block_finish(const joint_block *j, double dt, joint_table *joints)
+{
+    vec3 *force = &joints->reaction_force[j->joint], *moment = &joints->reaction_moment[j->joint];
+    for (int r = 0; r < j->count; r++) {
+        *force = vec3_mad(*force, j->axis[r].direction, j->impulse[r] / dt);
+        if (j->motion[r] >= 3)
+            *moment = vec3_mad(*moment, j->axis[r].arm_a, j->impulse[r] / dt);
+        joints->impulse[j->joint].row[j->motion[r]] = j->impulse[r];
+    }
+}
+
 void joint_rows_finish(solver *s, double dt, joint_table *joints)
 {
     for (int32_t i = 0; i < joints->count; i++) {
         joints->reaction_force[i] = joints->reaction_moment[i] = vec3_make(0, 0, 0);
         joints->impulse[i] = (joint_impulse){{0}};
     }
-    for (int32_t i = 0; i < s->joints.count; i++) {
-        const joint_block *j = &s->joints.data[i];
-        for (int r = 0; r < j->count; r++) {
-            /* Linear rows act at the anchor on b and have no moment about it; turning rows have no direction. */
-            vec3 *force = &joints->reaction_force[j->joint], *moment = &joints->reaction_moment[j->joint];
-            *force = vec3_mad(*force, j->axis[r].direction, j->impulse[r] / dt);
-            if (j->motion[r] >= 3)
-                *moment = vec3_mad(*moment, j->axis[r].arm_a, j->impulse[r] / dt);
-            joints->impulse[j->joint].row[j->motion[r]] = j->impulse[r];
-        }
-    }
+    for (int32_t i = 0; i < s->joints.count; i++)
+        block_finish(&s->joints.data[i], dt, joints);
+    for (int32_t i = 0; i < s->guided.count; i++)
+        block_finish(&s->guided.data[i].block, dt, joints);
+}
+
+static void block_for_positions(joint_block *j, double rate, double dt)
+{
+    if (j->softness > 0) /* springs hold no position */
+        j->count = 0;
+    for (int r = 0; r < j->count; r++)
+        j->bias[r] = rate * j->error[r] / dt;
+}
+
+void joint_rows_for_positions(solver *s, double rate, double dt)
+{
+    for (int32_t i = 0; i < s->joints.count; i++)
+        block_for_positions(&s->joints.data[i], rate, dt);
+    for (int32_t i = 0; i < s->guided.count; i++)
+        block_for_positions(&s->guided.data[i].block, rate, dt);
 }

@@ -22,6 +22,7 @@ void solver_free(context *ctx, solver *s)
     array_free(ctx, &s->place);
     array_free(ctx, &s->contacts);
     array_free(ctx, &s->joints);
+    array_free(ctx, &s->guided);
     array_free(ctx, &s->before);
     array_free(ctx, &s->direction);
     array_free(ctx, &s->island);
@@ -95,6 +96,7 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
     if (status != FRAM_OK)
         return status;
     bodies_accelerate(s->ctx, bodies, loads, dt);
+    guided_bodies_drive(s, bodies);
     solver_bodies_load(s, bodies);
     if (settings->warm_start) {
         joint_rows_recall(s, joints);
@@ -106,10 +108,12 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
     if (status != FRAM_OK)
         return status;
     write_velocities(s, bodies);
-    joint_rows_finish(s, dt, joints);
     report->iterations = iterations;
     report->residual = largest_residual(s);
-    return contact_rows_finish(s, bodies, contacts, memory, error);
+    status = contact_rows_finish(s, bodies, contacts, memory, error);
+    guided_bodies_load(s, bodies, contacts);
+    joint_rows_finish(s, dt, joints);
+    return status;
 }
 
 fram_status solver_solve(context *ctx, solver *s, const solver_settings *settings, double dt, body_table *bodies,
@@ -135,17 +139,6 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
 
 /* ---- positions ---- */
 
-void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt)
-{
-    for (int32_t i = 0; i < s->joints.count; i++) {
-        joint_block *j = &s->joints.data[i];
-        if (j->softness > 0) /* springs hold no position */
-            j->count = 0;
-        for (int r = 0; r < j->count; r++)
-            j->bias[r] = settings->correction_rate * j->error[r] / dt;
-    }
-}
-
 /* Normal rows only, wanting the speed that takes away its share of the overlap within the step. */
 static bool make_correction_rows(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
                                  const contact_array *contacts)
@@ -167,7 +160,7 @@ static bool make_correction_rows(solver *s, const solver_settings *settings, dou
         /* The arms of the solve: bodies have moved since, and not all by the same way (Galileo's symmetry). */
         row->axis[0] = row_axis_make(&s->bodies.data[row->a], &s->bodies.data[row->b], c->normal,
                                      vec3_cross(c->arm_a, c->normal), vec3_cross(c->arm_b, c->normal));
-        row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
+        row->normal_mass = 1 / contact_row_coupling(row, &s->bodies.data[row->a], &s->bodies.data[row->b], 0, 0);
         row->limit = HUGE_VAL;
         row->bias = correction_velocity(c, settings, dt);
     }
@@ -201,7 +194,7 @@ fram_status solver_correct_positions(context *ctx, solver *s, const solver_setti
         return status;
     if (!make_correction_rows(s, settings, dt, bodies, contacts))
         return error_memory(error);
-    joint_rows_for_positions(s, settings, dt);
+    joint_rows_for_positions(s, settings->correction_rate, dt);
     /* Pseudo velocities start from rest and are forgotten: no kinetic energy is added. */
     for (int32_t i = 0; i < s->bodies.count; i++)
         s->bodies.data[i].velocity = s->bodies.data[i].angular_velocity = vec3_make(0, 0, 0);
@@ -214,5 +207,6 @@ fram_status solver_correct_positions(context *ctx, solver *s, const solver_setti
         if (b->slot >= 0 && body_is_dynamic(bodies, b->slot))
             body_move(bodies, b->slot, b->velocity, b->angular_velocity, dt);
     }
+    guided_bodies_place(s, bodies, dt);
     return FRAM_OK;
 }

@@ -114,7 +114,7 @@ static void products_of_block(void *arg, int32_t block, int32_t thread)
 static solver_body fixed_part(const solver_body *body)
 {
     solver_body part = {.slot = body->slot};
-    if (body->inverse_mass.xx == 0) {
+    if (!solver_body_is_movable(body)) {
         part.velocity = body->velocity;
         part.angular_velocity = body->angular_velocity;
     }

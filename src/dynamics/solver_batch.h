@@ -25,7 +25,7 @@ enum { BATCH_LANES = 8, BATCH_MOST_POINTS = 4 };
 enum { BODY_VELOCITY = 0, BODY_SPIN = 3, BODY_ROW = 8 }; /* `velocity`: global frame */
 /* `inverse`: xx yy zz xy xz yz; 1/m; 1 for a mass that depends on the direction */
 enum { INVERSE_INERTIA = 0, INVERSE_MASS = 6, INVERSE_GENERAL = 7, INVERSE_ROW = 8 };
-enum { TENSOR_ROW = 8 }; /* `tensor`: inverse mass as xx yy zz xy xz yz */
+enum { TENSOR_GIVE = 6, TENSOR_ROW = 8 }; /* `tensor`: inverse mass as xx yy zz xy xz yz; give of a guided body */
 
 /* Rows of eight lanes that a batch has once, */
 enum { FRAME_NORMAL = 0, FRAME_STATIC = 3, FRAME_KINETIC = 4, FRAME_ROWS = 5 };
@@ -55,13 +55,14 @@ typedef struct contact_batch {
     int32_t first;                                   /* number of its first point */
     int32_t hub, copies;                             /* body row of the hub, first of its eight copies; -1 without */
     bool general;                                    /* some body has a mass that depends on the direction */
-    bool fixed;                                      /* some body is one that nothing can move */
+    bool driven;                                     /* some body has a velocity that no impulse changes */
     bool overlaps;                                   /* position correction: there is overlap to correct */
 } contact_batch;
 
 /* What kernels work on. */
 typedef struct batch_view {
     double *velocity;
+    const double *driven; /* the part of velocities that no impulse changes */
     const double *inverse, *tensor;
     const contact_batch *batch;
     const double *frame;

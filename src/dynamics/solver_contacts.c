@@ -3,6 +3,14 @@
 
 #include <string.h>
 
+/* A relative velocity is known to about 1e-16 of the velocities that it is the difference of.  Approaches and slips
+   below this share of those bring less in proportion, so that rounding brings nothing; a slip of a billionth of the
+   speed is no direction of sliding that any real wall has. */
+#define RESOLVED_SHARE 1e-9
+
+/* From 0 to 1 as a speed grows from nothing to what is resolved. */
+static double resolved(double speed, double least) { return speed < least ? speed / least : 1; }
+
 /* A hull driven against static ice takes its cap while they approach, and kinetic friction against the sliding; all
    others carry nothing. */
 void contact_load_immovable(const body_table *bodies, contact *c)
@@ -10,15 +18,18 @@ void contact_load_immovable(const body_table *bodies, contact *c)
     memset(c->impulse, 0, sizeof c->impulse);
     if (!c->crush_infinite || !isfinite(c->impulse_limit))
         return;
-    vec3 t1, t2, u = vec3_sub(body_point_velocity(bodies, c->a, c->point), body_point_velocity(bodies, c->b, c->point));
-    contact_tangents(c->normal, &t1, &t2);
-    if (vec3_dot(u, c->normal) >= 0)
+    vec3 va = body_point_velocity(bodies, c->a, c->point), vb = body_point_velocity(bodies, c->b, c->point);
+    vec3 t1, t2, u = vec3_sub(va, vb);
+    double approach = -vec3_dot(u, c->normal), least = RESOLVED_SHARE * (vec3_length(va) + vec3_length(vb));
+    if (approach <= 0)
         return;
+    contact_tangents(c->normal, &t1, &t2);
     double u1 = vec3_dot(u, t1), u2 = vec3_dot(u, t2), speed = sqrt(u1 * u1 + u2 * u2);
-    c->impulse[0] = c->impulse_limit;
+    c->impulse[0] = c->impulse_limit * resolved(approach, least);
     if (speed > 0) {
-        c->impulse[1] = -c->friction_kinetic * c->impulse_limit * u1 / speed;
-        c->impulse[2] = -c->friction_kinetic * c->impulse_limit * u2 / speed;
+        double share = c->friction_kinetic * c->impulse[0] * resolved(speed, least) / speed;
+        c->impulse[1] = -share * u1;
+        c->impulse[2] = -share * u2;
     }
 }
 
@@ -30,9 +41,9 @@ static void fill_row(contact_row *row, const solver_body *a, const solver_body *
     for (int i = 0; i < 3; i++)
         row->axis[i] =
             row_axis_make(a, b, direction[i], vec3_cross(arm_a, direction[i]), vec3_cross(arm_b, direction[i]));
-    row->normal_mass = 1 / row_axis_coupling(&row->axis[0], &row->axis[0]);
-    double k11 = row_axis_coupling(&row->axis[1], &row->axis[1]), k12 = row_axis_coupling(&row->axis[1], &row->axis[2]);
-    double k22 = row_axis_coupling(&row->axis[2], &row->axis[2]), scale = 1 / (k11 * k22 - k12 * k12);
+    row->normal_mass = 1 / contact_row_coupling(row, a, b, 0, 0);
+    double k11 = contact_row_coupling(row, a, b, 1, 1), k12 = contact_row_coupling(row, a, b, 1, 2);
+    double k22 = contact_row_coupling(row, a, b, 2, 2), scale = 1 / (k11 * k22 - k12 * k12);
     row->stick[0] = k22 * scale;
     row->stick[1] = -k12 * scale;
     row->stick[2] = k11 * scale;

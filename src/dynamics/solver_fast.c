@@ -258,8 +258,10 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         !fast_rows_make(&st))
         return error_memory(error);
     bodies_accelerate(s->ctx, bodies, loads, dt);
+    guided_bodies_drive(s, bodies);
     fast_velocities_load(f, bodies);
     fast_velocities_centre(f);
+    fast_driven_make(&st);
     st.free_energy = fast_energy(f);
     if (settings->warm_start) {
         joint_rows_recall(s, joints);
@@ -271,8 +273,9 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         return error_memory(error);
     fast_velocities_of_impulses(&st);
     fast_velocities_store(f, bodies);
-    joint_rows_finish(s, dt, joints);
     stage_run(&st, finish_task);
+    guided_bodies_load(s, bodies, contacts);
+    joint_rows_finish(s, dt, joints);
     report->residual = largest_residual(&st);
     f->planned = contacts->count;
     return contacts_remember(s, bodies, contacts, memory, error);
@@ -347,7 +350,7 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
     fram_status status = joint_rows_make(s, dt, bodies, joints, error);
     if (status != FRAM_OK)
         return status;
-    joint_rows_for_positions(s, settings, dt);
+    joint_rows_for_positions(s, settings->correction_rate, dt);
     stage st = {.s = s,
                 .bodies = bodies,
                 .moved = bodies,
@@ -366,5 +369,6 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
         return error_memory(error);
     if (needed)
         pool_run(s->ctx, move_block, &st, (f->plan.slot.count + FIND_BLOCK - 1) / FIND_BLOCK);
+    guided_bodies_place(s, bodies, dt);
     return FRAM_OK;
 }

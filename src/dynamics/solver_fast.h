@@ -41,6 +41,7 @@ typedef struct acceleration {
 typedef struct fast_rows {
     batch_plan plan;
     aligned_rows velocity, inverse, tensor; /* of each body row */
+    aligned_rows driven;                    /* the part of velocities that no impulse changes; for the sums `wanted` */
     aligned_rows mass, inertia;             /* the same, not inverted: xx yy zz xy xz yz; zero for copies of a hub */
     aligned_rows frame, point, impulse;
     aligned_rows work, share;      /* a row for each batch */
@@ -99,6 +100,8 @@ void fast_velocities_store(const fast_rows *f, body_table *bodies);
 /* From here on velocities, those of bodies that nothing moves included, are relative to the mean of all that is
    movable: what is judged by energies is then the same in every frame, and a common drift costs no digits. */
 void fast_velocities_centre(fast_rows *f);
+/* Takes the driven part of velocities out of the rows, once they are loaded and centred. */
+void fast_driven_make(stage *st);
 /* Kinetic energy of the body rows. */
 double fast_energy(const fast_rows *f);
 /* The body slot in a lane; that of the hub for its copies. */

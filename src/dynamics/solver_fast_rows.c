@@ -23,9 +23,9 @@ void fast_rows_free(context *ctx, fast_rows *f)
 {
     if (!f)
         return;
-    aligned_rows *rows[] = {&f->velocity, &f->inverse,    &f->tensor,       &f->mass, &f->inertia,
-                            &f->frame,    &f->point,      &f->impulse,      &f->work, &f->share,
-                            &f->bias,     &f->correction, &f->joint_impulse};
+    aligned_rows *rows[] = {&f->velocity, &f->driven, &f->inverse,    &f->tensor,       &f->mass,
+                            &f->inertia,  &f->frame,  &f->point,      &f->impulse,      &f->work,
+                            &f->share,    &f->bias,   &f->correction, &f->joint_impulse};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         array_free(ctx, &rows[i]->memory);
     acceleration_free(ctx, &f->acceleration);
@@ -40,6 +40,7 @@ void fast_rows_free(context *ctx, fast_rows *f)
 batch_view fast_view(const fast_rows *f)
 {
     return (batch_view){.velocity = f->velocity.rows,
+                        .driven = f->driven.rows,
                         .inverse = f->inverse.rows,
                         .tensor = f->tensor.rows,
                         .batch = f->plan.batches.data,
@@ -98,6 +99,40 @@ static bool find_joint_rows(solver *s, const body_table *bodies)
     return true;
 }
 
+static void put_tensor(double *row, sym3 s, double factor)
+{
+    const double part[6] = {s.xx, s.yy, s.zz, s.xy, s.xz, s.yz};
+    for (int i = 0; i < 6; i++)
+        row[i] = factor * part[i];
+}
+
+/* Rows of a guided body have what is free of its mass.  factor: as of solver_masses. */
+static void put_guided(fast_rows *f, const solver *s, const guided_body *g, int32_t row, double factor)
+{
+    const solver_body *b = &s->bodies.data[g->place];
+    const sym3 none = {0};
+    body_rows rows = rows_at(f, row);
+    put_tensor(rows.mass, factor == 1 ? g->mass : none, 1);
+    put_tensor(rows.inertia, none, 1);
+    put_tensor(rows.inverse + INVERSE_INERTIA, none, 1);
+    put_tensor(rows.tensor, b->inverse_mass, factor);
+    rows.inverse[INVERSE_MASS] = factor * (b->inverse_mass.xx + b->inverse_mass.yy + b->inverse_mass.zz) / 3;
+    rows.inverse[INVERSE_GENERAL] = 1;
+    rows.tensor[TENSOR_GIVE] = factor * b->give;
+}
+
+static void put_guided_bodies(fast_rows *f, const solver *s)
+{
+    for (int32_t i = 0; i < s->guided.count; i++) {
+        const guided_body *g = &s->guided.data[i];
+        int32_t slot = s->bodies.data[g->place].slot;
+        put_guided(f, s, g, f->joint_row.data[g->place], 1);
+        for (int32_t h = 0; h < f->plan.hubs.count; h++)
+            for (int32_t k = 0; k < BATCH_LANES && f->plan.hubs.data[h] == slot; k++)
+                put_guided(f, s, g, f->plan.movable + BATCH_LANES * h + k, BATCH_LANES);
+    }
+}
+
 bool fast_bodies_make(stage *st)
 {
     context *ctx = st->s->ctx;
@@ -105,9 +140,9 @@ bool fast_bodies_make(stage *st)
     if (!find_joint_rows(st->s, st->bodies))
         return false;
     int32_t rows = padded_rows(f);
-    if (!rows_reserve(ctx, &f->velocity, rows) || !rows_reserve(ctx, &f->inverse, rows) ||
-        !rows_reserve(ctx, &f->tensor, rows) || !rows_reserve(ctx, &f->mass, rows) ||
-        !rows_reserve(ctx, &f->inertia, rows))
+    if (!rows_reserve(ctx, &f->velocity, rows) || !rows_reserve(ctx, &f->driven, rows) ||
+        !rows_reserve(ctx, &f->inverse, rows) || !rows_reserve(ctx, &f->tensor, rows) ||
+        !rows_reserve(ctx, &f->mass, rows) || !rows_reserve(ctx, &f->inertia, rows))
         return false;
     pool_run(ctx, fill_body_rows, st, (rows + ROW_BLOCK - 1) / ROW_BLOCK);
     for (int32_t h = 0; h < f->plan.hubs.count; h++) { /* an eighth of the hub in each of its copies */
@@ -115,6 +150,7 @@ bool fast_bodies_make(stage *st)
         body_rows copies = rows_at(f, f->plan.movable + BATCH_LANES * h);
         KERNEL_PICK(ctx, solver_masses)(st->bodies, slot, BATCH_LANES, &copies);
     }
+    put_guided_bodies(f, st->s);
     return true;
 }
 
@@ -152,6 +188,34 @@ void fast_velocities_centre(fast_rows *f)
     for (int32_t row = 0; row < f->plan.slot.count; row++)
         for (int k = 0; k < 3; k++)
             row_of(&f->velocity, row)[BODY_VELOCITY + k] -= mean[k];
+}
+
+void fast_driven_make(stage *st)
+{
+    const solver *s = st->s;
+    fast_rows *f = s->fast;
+    const batch_plan *plan = &f->plan;
+    int32_t first_copy = plan->movable, end_copy = plan->movable + BATCH_LANES * plan->hubs.count;
+    rows_clear(&f->driven, plan->slot.count);
+    for (int32_t row = end_copy; row < plan->slot.count; row++) {
+        int32_t slot = plan->slot.data[row];
+        if (slot < 0 || !body_is_dynamic(st->bodies, slot))
+            memcpy(row_of(&f->driven, row), row_of(&f->velocity, row), BODY_ROW * sizeof(double));
+    }
+    for (int32_t i = 0; i < s->guided.count; i++) {
+        const guided_body *g = &s->guided.data[i];
+        int32_t row = f->joint_row.data[g->place];
+        const double *velocity = row_of(&f->velocity, row);
+        double driven[BODY_ROW] = {0};
+        vec3 locked = guided_velocity(
+            g, vec3_make(velocity[BODY_VELOCITY], velocity[BODY_VELOCITY + 1], velocity[BODY_VELOCITY + 2]));
+        memcpy(driven + BODY_VELOCITY, &locked, sizeof locked);
+        memcpy(driven + BODY_SPIN, velocity + BODY_SPIN, sizeof(vec3));
+        memcpy(row_of(&f->driven, row), driven, sizeof driven);
+        for (int32_t h = 0; h < plan->hubs.count; h++)
+            for (int32_t k = 0; k < BATCH_LANES && plan->hubs.data[h] == s->bodies.data[g->place].slot; k++)
+                memcpy(row_of(&f->driven, first_copy + BATCH_LANES * h + k), driven, sizeof driven);
+    }
 }
 
 static sym3 tensor_of(const double *row) { return (sym3){row[0], row[1], row[2], row[3], row[4], row[5]}; }
@@ -220,16 +284,22 @@ static bool has_general(const fast_rows *f, const contact_batch *batch)
     return general;
 }
 
-/* Not only driven bodies: in the frame of the solve walls move too. */
-static bool has_fixed(const stage *st, const contact_batch *batch)
+static bool is_driven(const stage *st, int32_t slot)
 {
-    bool fixed = false;
+    int32_t place = st->s->place.data[slot];
+    return !body_is_dynamic(st->bodies, slot) || (place >= 0 && st->s->bodies.data[place].guided);
+}
+
+/* Not only driven bodies: in the frame of the solve walls move too. */
+static bool has_driven(const stage *st, const contact_batch *batch)
+{
+    bool driven = false;
     for (int32_t lane = 0; lane < BATCH_LANES; lane++) {
         int32_t number = batch->contact[0][lane];
         const contact *c = number < 0 ? NULL : &st->contacts->data[number];
-        fixed = fixed || (c && (!body_is_dynamic(st->bodies, c->a) || !body_is_dynamic(st->bodies, c->b)));
+        driven = driven || (c && (is_driven(st, c->a) || is_driven(st, c->b)));
     }
-    return fixed;
+    return driven;
 }
 
 static void fill_task(const stage *st, batch_task *task)
@@ -238,7 +308,7 @@ static void fill_task(const stage *st, batch_task *task)
     for (int32_t i = task->first; i < task->end; i++) {
         contact_batch *batch = &f->plan.batches.data[i];
         batch->general = has_general(f, batch);
-        batch->fixed = has_fixed(st, batch);
+        batch->driven = has_driven(st, batch);
         for (int32_t lane = 0; lane < BATCH_LANES; lane++)
             fill_lane(st, batch, row_of(&f->frame, FRAME_ROWS * i), lane);
     }

@@ -15,6 +15,8 @@ typedef struct solver_body {
     vec3 velocity, angular_velocity;
     sym3 inverse_mass, inverse_inertia;
     int32_t slot; /* -1: the world */
+    bool guided;  /* only its free mass stands here (solver_guided.c) */
+    double give;  /* of a guided body: added to the inverse mass that a contact's own row sees [1/kg] */
 } solver_body;
 
 /* One direction at a point: relative velocity = direction . (v_a - v_b) + arm_a . w_a - arm_b . w_b. */
@@ -54,6 +56,16 @@ typedef struct joint_block {
     double impulse[JOINT_MOST_ROWS];
 } joint_block;
 
+/* A body whose turns and some ways are driven by the one joint it has. */
+typedef struct guided_body {
+    joint_block block;                  /* made with the whole mass */
+    int32_t place;                      /* in the body array */
+    sym3 inverse_mass, inverse_inertia; /* whole, global frame */
+    sym3 mass;                          /* in the free ways, zero in the others */
+    vec3 axis[3];                       /* of the locked ways */
+    int ways;                           /* their number */
+} guided_body;
+
 /* What the impulses of the last step would do to the energy of an island. */
 typedef struct energy_gain {
     double linear, square;
@@ -64,7 +76,8 @@ struct solver {
     ARRAY(solver_body) bodies;
     int32_array place; /* of each body slot in `bodies`, -1: not touched */
     ARRAY(contact_row) contacts;
-    ARRAY(joint_block) joints;
+    ARRAY(joint_block) joints; /* but those of guided bodies */
+    ARRAY(guided_body) guided;
     ARRAY(double) before;    /* accurate solver: multipliers before a sweep */
     ARRAY(double) direction; /* accurate solver: search direction */
     int32_array island;      /* of each touched body: one nearer to the island's leader, itself for the leader */
@@ -90,11 +103,6 @@ fram_status bodies_check(const body_table *bodies, fram_error *error);
 void bodies_accelerate(context *ctx, body_table *bodies, const wrench *loads, double dt);
 /* Velocities of the table into the list. */
 void solver_bodies_load(solver *s, const body_table *bodies);
-
-/* ---- solver.c ---- */
-
-/* Joint rows made for velocities now ask for positions. */
-void joint_rows_for_positions(solver *s, const solver_settings *settings, double dt);
 
 /* ---- solver_contacts.c ---- */
 
@@ -131,10 +139,31 @@ fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, cons
                             fram_error *error);
 void joint_rows_recall(solver *s, const joint_table *joints);
 void joint_rows_finish(solver *s, double dt, joint_table *joints);
+/* Joint rows made for velocities now ask for positions: by `rate` of their error within dt. */
+void joint_rows_for_positions(solver *s, double rate, double dt);
 /* Returns an energy as contact sweeps do: minus the changes of impulses times the velocities that asked for them. */
 double joint_row_sweep(solver *s);
 /* Largest unmet velocity of the block [m/s]; turning is taken at the radius of gyration. */
 double joint_row_residual(const solver *s, const joint_block *block);
+
+/* One exact solution of the block alone; returns an energy as sweeps do. */
+double joint_block_solve(joint_block *j, solver_body *body, solver_body *base);
+
+/* ---- solver_guided.c ---- */
+
+/* Whether an impulse can move it. */
+bool solver_body_is_movable(const solver_body *b);
+/* Takes the joints of guided bodies out of the joint rows, and leaves those bodies the mass that is free.  Before rows
+   of contacts are made.  false: no memory. */
+bool guided_bodies_find(solver *s);
+/* Velocities of guided bodies in the table become those that their joints lock; the joints carry what that takes. */
+void guided_bodies_drive(solver *s, body_table *bodies);
+/* Joints of guided bodies carry what contacts press on them, besides. */
+void guided_bodies_load(solver *s, const body_table *bodies, const contact_array *contacts);
+/* Draws joints of guided bodies together, after joint_rows_for_positions. */
+void guided_bodies_place(solver *s, body_table *bodies, double dt);
+/* The part of a guided body's velocity that its joint locks. */
+vec3 guided_velocity(const guided_body *g, vec3 velocity);
 
 /* ---- solver_warm.c ---- */
 
@@ -211,6 +240,13 @@ static inline double row_axis_coupling(const row_axis *x, const row_axis *y)
 {
     return vec3_dot(x->direction, vec3_add(y->push_a, y->push_b)) + vec3_dot(x->arm_a, y->turn_a) +
            vec3_dot(x->arm_b, y->turn_b);
+}
+
+/* The same of two directions of a contact, as its own row sees it. */
+static inline double contact_row_coupling(const contact_row *row, const solver_body *a, const solver_body *b, int i,
+                                          int k)
+{
+    return row_axis_coupling(&row->axis[i], &row->axis[k]) + (i == k ? a->give + b->give : 0);
 }
 
 static inline void row_axis_push(const row_axis *x, solver_body *a, solver_body *b, double impulse)

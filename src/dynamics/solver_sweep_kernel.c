@@ -11,6 +11,7 @@ typedef struct lanes_body {
     lanes3 velocity, spin;
     v8 inertia[6]; /* inverse, xx yy zz xy xz yz */
     v8 mass[6];    /* inverse; only [0] unless it depends on the direction */
+    v8 give;       /* of guided bodies, where the mass depends on the direction */
 } lanes_body;
 
 typedef struct lanes_frame {
@@ -38,6 +39,7 @@ V8_INLINE lanes_body body_load(const batch_view *view, const int32_t *rows, bool
         v8_gather_rows(view->tensor, rows, c);
         for (int i = 0; i < 6; i++)
             body.mass[i] = c[i];
+        body.give = c[TENSOR_GIVE];
     }
     return body;
 }
@@ -154,11 +156,18 @@ V8_INLINE void prepare_batch(const batch_view *view, int32_t number, bool genera
         lanes3 n = answer(&a, &b, arm_a, arm_b, f.normal, general);
         lanes3 t1 = answer(&a, &b, arm_a, arm_b, f.tangent[0], general);
         lanes3 t2 = answer(&a, &b, arm_a, arm_b, f.tangent[1], general);
-        v8 k11 = lanes3_dot(f.tangent[0], t1), k12 = lanes3_dot(f.tangent[1], t1), k22 = lanes3_dot(f.tangent[1], t2);
+        v8 k00 = lanes3_dot(f.normal, n), k11 = lanes3_dot(f.tangent[0], t1), k12 = lanes3_dot(f.tangent[1], t1);
+        v8 k22 = lanes3_dot(f.tangent[1], t2);
+        if (general) {
+            v8 give = a.give + b.give;
+            k00 = k00 + give;
+            k11 = k11 + give;
+            k22 = k22 + give;
+        }
         v8 share = inverse_or_zero(k11 * k22 - k12 * k12), slide = 2 * inverse_or_zero(k11 + k22);
         lanes3 u = velocity_at(&a, &b, arm_a, arm_b);
         v8 u1 = lanes3_dot(f.tangent[0], u), u2 = lanes3_dot(f.tangent[1], u);
-        put(p, POINT_MASS, inverse_or_zero(lanes3_dot(f.normal, n)));
+        put(p, POINT_MASS, inverse_or_zero(k00));
         put(p, POINT_COUPLING, lanes3_dot(f.tangent[0], n));
         put(p, POINT_COUPLING + 1, lanes3_dot(f.tangent[1], n));
         put(p, POINT_STICK, k22 * share);
@@ -328,26 +337,24 @@ typedef struct lanes_sums {
     v8 energy, wanted;
 } lanes_sums;
 
-/* A body if nothing can move it, else one at rest. */
-V8_INLINE lanes_body fixed_part(const lanes_body *body)
+/* Bodies with the part of their velocities that no impulse changes. */
+V8_INLINE lanes_body driven_load(const batch_view *view, const int32_t *rows)
 {
-    v8 zero = v8_set(0);
-    v8_mask fixed = v8_less_equal(body->mass[0], zero);
-    lanes3 v = body->velocity, w = body->spin;
-    return (lanes_body){
-        .velocity = {v8_select(fixed, v.x, zero), v8_select(fixed, v.y, zero), v8_select(fixed, v.z, zero)},
-        .spin = {v8_select(fixed, w.x, zero), v8_select(fixed, w.y, zero), v8_select(fixed, w.z, zero)}};
+    lanes_body body;
+    v8 c[8];
+    v8_gather_rows(view->driven, rows, c);
+    body.velocity = (lanes3){c[BODY_VELOCITY], c[BODY_VELOCITY + 1], c[BODY_VELOCITY + 2]};
+    body.spin = (lanes3){c[BODY_SPIN], c[BODY_SPIN + 1], c[BODY_SPIN + 2]};
+    return body;
 }
 
-/* What the impulses of a batch do at the velocities of bodies that nothing can move. */
-static v8 fixed_work(const batch_view *view, int32_t number)
+/* What the impulses of a batch do at velocities that no impulse changes. */
+static v8 driven_work(const batch_view *view, int32_t number)
 {
     const contact_batch *batch = &view->batch[number];
-    lanes_body a = body_load(view, batch->a, false), b = body_load(view, batch->b, false);
+    lanes_body a = driven_load(view, batch->a), b = driven_load(view, batch->b);
     lanes_frame f = frame_load(view, number);
     v8 sum = v8_set(0);
-    a = fixed_part(&a);
-    b = fixed_part(&b);
     for (int32_t point = batch->first; point < batch->first + batch->points; point++) {
         const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
         lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
@@ -363,8 +370,8 @@ double KERNEL(solver_wanted)(const batch_view *view, int32_t first, int32_t end)
         const contact_batch *batch = &view->batch[i];
         for (int32_t point = batch->first; point < batch->first + batch->points; point++)
             sum = sum + row(impulse_rows(view, point), 0) * row(point_rows(view, point), POINT_BIAS);
-        if (batch->fixed)
-            sum = sum - fixed_work(view, i);
+        if (batch->driven)
+            sum = sum - driven_work(view, i);
     }
     return v8_sum(sum);
 }
@@ -384,7 +391,7 @@ V8_INLINE void sweep_batch(const batch_view *view, int32_t number, bool general,
         lanes3 u = velocity_at(&a, &b, arm_a, arm_b);
         v8 old0 = row(impulse, 0), old1 = row(impulse, 1), old2 = row(impulse, 2), mass = row(p, POINT_MASS);
         v8 bias = row(p, POINT_BIAS), u0 = lanes3_dot(f.normal, u) - bias;
-        v8 p0 = v8_min(v8_max(old0 - u0 * mass, zero), row(p, POINT_LIMIT)), change0 = p0 - old0;
+        v8 limit = row(p, POINT_LIMIT), p0 = v8_min(v8_max(old0 - u0 * mass, zero), limit), change0 = p0 - old0;
         v8 u1 = lanes3_dot(f.tangent[0], u) + row(p, POINT_COUPLING) * change0;
         v8 u2 = lanes3_dot(f.tangent[1], u) + row(p, POINT_COUPLING + 1) * change0;
         v8 p1 = old1, p2 = old2;
@@ -394,8 +401,11 @@ V8_INLINE void sweep_batch(const batch_view *view, int32_t number, bool general,
         put(impulse, 0, p0);
         put(impulse, 1, p1);
         put(impulse, 2, p2);
-        /* Friction that only follows the normal impulse may go against the sliding; it asks for nothing itself. */
-        sums->energy = sums->energy - change0 * u0 + v8_max(-(change1 * u1 + change2 * u2), zero);
+        /* What is only drawn back asks for nothing: a normal impulse from beyond its cap while the bodies approach, and
+           friction that follows the normal impulse against the sliding. */
+        v8 taken = -(change0 * u0);
+        taken = v8_select(v8_less(limit, old0), v8_max(taken, zero), taken);
+        sums->energy = sums->energy + taken + v8_max(-(change1 * u1 + change2 * u2), zero);
         sums->wanted = sums->wanted + p0 * bias;
     }
     body_store(view, batch->a, &a);
@@ -411,8 +421,8 @@ sweep_sums KERNEL(solver_sweep)(const batch_view *view, int32_t first, int32_t e
             sweep_batch(view, i, true, &sums);
         else
             sweep_batch(view, i, false, &sums);
-        if (view->batch[i].fixed)
-            sums.wanted = sums.wanted - fixed_work(view, i);
+        if (view->batch[i].driven)
+            sums.wanted = sums.wanted - driven_work(view, i);
     }
     return (sweep_sums){v8_sum(sums.energy), v8_sum(sums.wanted)};
 }
@@ -477,6 +487,12 @@ sweep_sums KERNEL(solver_correct)(const batch_view *view, int32_t first, int32_t
 /* On the cone but for rounding. */
 #define ON_CONE (1 - 1e-9)
 
+V8_INLINE v8_mask capped_of(const batch_view *view, int32_t point)
+{
+    v8 limit = row(point_rows(view, point), POINT_LIMIT);
+    return v8_less_equal(limit, row(impulse_rows(view, point), 0)) & v8_less(v8_set(0), limit);
+}
+
 V8_INLINE v8_mask slides_of(const batch_view *view, const friction_lanes *mu, int32_t point)
 {
     const double *impulse = impulse_rows(view, point);
@@ -494,16 +510,18 @@ V8_INLINE void slide_batch(const batch_view *view, int32_t number, const frictio
     lanes_frame f = frame_load(view, number);
     v8 zero = v8_set(0);
     for (int32_t point = batch->first; point < batch->first + batch->points; point++) {
-        v8_mask slides = slides_of(view, mu, point);
+        v8_mask slides = slides_of(view, mu, point), capped = capped_of(view, point);
         const double *p = point_rows(view, point), *impulse = impulse_rows(view, point);
         const ptrdiff_t at = (ptrdiff_t)IMPULSE_ROWS * BATCH_LANES * point;
         lanes3 u = velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B));
+        v8 u0 = v8_select(capped, v8_min(lanes3_dot(f.normal, u) - row(p, POINT_BIAS), zero), zero);
         v8 u1 = v8_select(slides, lanes3_dot(f.tangent[0], u), zero),
            u2 = v8_select(slides, lanes3_dot(f.tangent[1], u), zero);
+        v8 way0 = row(impulse, 0) - row(start + at, 0);
         v8 way1 = row(impulse, 1) - row(start + at, 1), way2 = row(impulse, 2) - row(start + at, 2);
-        sum[0] = sum[0] + (u1 * way1 + u2 * way2);
+        sum[0] = sum[0] + (u0 * way0 + (u1 * way1 + u2 * way2));
         for (int w = 1; w < SWEEP_WAYS; w++)
-            sum[w] = sum[w] + (u1 * row(way[w] + at, 1) + u2 * row(way[w] + at, 2));
+            sum[w] = sum[w] + (u0 * row(way[w] + at, 0) + (u1 * row(way[w] + at, 1) + u2 * row(way[w] + at, 2)));
     }
 }
 
@@ -516,7 +534,7 @@ void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, co
         friction_lanes mu = friction_load(view, i);
         bool slides = false;
         for (int32_t k = 0; k < batch->points; k++)
-            slides = slides || v8_any(slides_of(view, &mu, batch->first + k));
+            slides = slides || v8_any(slides_of(view, &mu, batch->first + k) | capped_of(view, batch->first + k));
         if (slides)
             slide_batch(view, i, &mu, start, way, lanes);
     }

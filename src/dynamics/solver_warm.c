@@ -12,7 +12,7 @@ int32_t island_leader(int32_t *parent, int32_t i)
     return i;
 }
 
-static bool is_movable(const solver *s, int32_t place) { return s->bodies.data[place].inverse_mass.xx > 0; }
+static bool is_movable(const solver *s, int32_t place) { return solver_body_is_movable(&s->bodies.data[place]); }
 
 void island_join(int32_t *parent, int32_t i, int32_t j)
 {
