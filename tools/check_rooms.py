@@ -34,6 +34,7 @@ FLOOR = {
     "io": 7,
     "sim": 8,
     "results": 8,
+    "study": 9,
     "api": 10,
     "cli": 11,
 }

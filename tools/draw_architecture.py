@@ -29,6 +29,7 @@ KNOWS = {
     "io": "files to plain data and back",
     "sim": "scenario to world, the step, runs",
     "results": "finished runs read again",
+    "study": "conditions, seeds, many runs, summaries",
     "api": "implements include/fram",
     "cli": "commands; sees include/fram only",
 }

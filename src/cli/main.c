@@ -27,6 +27,18 @@ static const command_row commands[] = {
      "  fram bench scenes/demo.yaml --threads 2 --json\n"
      "  fram bench --scene bench/scenes/n1000_c90.scene --dt 0.02 --iterations 10 --json\n",
      command_bench},
+    {"study", "[check] STUDY -o DIR",
+     "run a scenario under many conditions with several seeds each, and tell means with their intervals",
+     "  fram study check study.yaml              how many runs, how long, how much disk\n"
+     "  fram study study.yaml -o out/study       go on with the same command after a stop\n"
+     "A study in six lines:\n"
+     "  scenario: demo.yaml\n"
+     "  set: {run.duration: 60, run.transient: 15}\n"
+     "  seeds: {least: 6, most: 60, mean_within: 0.05}\n"
+     "  vary:\n"
+     "    grid: {ice.thickness: [0.6, 1.1], vessel.speed: [1, 2]}\n"
+     "  keep: summary\n",
+     command_study},
     {"view", "RUN", "make a page that plays a run in a browser, from disk",
      "  fram view out/demo                      writes out/demo/playback.html\n"
      "  fram view out/demo -o demo.html\n",

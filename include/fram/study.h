@@ -1,0 +1,59 @@
+/* Studies: one scenario under many conditions with several seeds each, run as processes of the command `fram` on the
+   cores of this machine.  What a study leaves does not depend on the number of processes nor on the order in which they
+   end. */
+#ifndef FRAM_STUDY_H
+#define FRAM_STUDY_H
+
+#include "fram/fram.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fram_study fram_study;
+
+/* Read a study file and check every condition as a scenario.  The context must outlive the study. */
+FRAM_API fram_status fram_study_load(fram_context *context, const char *path, fram_study **study, fram_error *error);
+FRAM_API void fram_study_destroy(fram_study *study);
+
+/* What a study will take. */
+typedef struct fram_study_extent {
+    int conditions;
+    int64_t runs_least, runs_most; /* equal unless seeds go on until an interval is narrow */
+    double run_seconds;            /* wall-clock time of one run on one core, told by a short start of the first and the
+                                      last condition on this machine */
+    double run_bytes;              /* on disk, that stay of a run */
+} fram_study_extent;
+FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error);
+
+typedef struct fram_study_progress {
+    int64_t done, failed, planned; /* runs; more may be planned as intervals turn out wide */
+    double wall, eta;              /* [s]; eta is 0 until it can be told */
+} fram_study_progress;
+typedef void (*fram_study_progress_function)(void *user, const fram_study_progress *progress);
+
+typedef struct fram_study_definition {
+    size_t size;         /* of this struct, set by fram_study_default */
+    const char *folder;  /* of the results; one that holds this study, earlier or smaller, is gone on with */
+    const char *program; /* the command `fram`, path */
+    int jobs;            /* processes at a time, 0: as many as this process may use cores */
+    bool retry;          /* run again what failed */
+    fram_study_progress_function progress; /* may be NULL; called from the caller's thread */
+    void *progress_user;
+    const volatile int *stop; /* may be NULL; set it to stop: what ended is kept */
+} fram_study_definition;
+FRAM_API void fram_study_default(fram_study_definition *definition);
+
+typedef struct fram_study_result {
+    int64_t conditions, runs, failed, made; /* made: runs of this call, the others were there */
+} fram_study_result;
+/* Leaves summary.csv (a row a run) and conditions.csv (a row a condition) in the folder.  A run that fails is a row
+   with its reason and stops nothing.  FRAM_INTERRUPTED when stopped. */
+FRAM_API fram_status fram_study_run(const fram_study *study, const fram_study_definition *definition,
+                                    fram_study_result *result, fram_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

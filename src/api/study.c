@@ -1,0 +1,167 @@
+/* Studies of the public API. */
+#include "fram/study.h"
+
+#include "api/handles.h"
+#include "sim/bench.h"
+#include "study/study_file.h"
+#include "study/study_run.h"
+
+#include <math.h>
+#include <time.h>
+
+struct fram_study {
+    fram_context *context;
+    study inner;
+};
+
+fram_status fram_study_load(fram_context *c, const char *path, fram_study **out, fram_error *error)
+{
+    if (!c || !path || !out)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "path",
+                         "a context, a path and a place for the study are needed");
+    fram_study *s = memory_array(&c->inner, 1, sizeof *s);
+    if (!s)
+        return error_memory(error);
+    s->context = c;
+    fram_status status = study_read(&c->inner, path, &s->inner, error);
+    if (status == FRAM_OK)
+        *out = s;
+    else
+        memory_free(&c->inner, s);
+    return status;
+}
+
+void fram_study_destroy(fram_study *s)
+{
+    if (!s)
+        return;
+    context *ctx = &s->context->inner;
+    study_free(ctx, &s->inner);
+    memory_free(ctx, s);
+}
+
+/* ---- what it will take ---- */
+
+/* Steps of the short start: the first ones settle, the others are measured. */
+enum { START_SETTLES = 10, START_MEASURES = 60 };
+/* A number of series.csv with its comma, and of a row of a summary. */
+enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
+/* Columns of series.csv, about; and bytes of a floe in a frame. */
+enum { SERIES_COLUMNS = 120, POSE_BYTES = 18 };
+
+static double wall_clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t floes)
+{
+    double rows = s->output.csv_interval > 0 ? s->run.duration / s->output.csv_interval : steps;
+    double frames = s->output.frame_interval > 0 ? s->run.duration / s->output.frame_interval : 0;
+    double bytes = ROW_BYTES;
+    if (keep != KEEP_SUMMARY)
+        bytes += rows * SERIES_COLUMNS * NUMBER_BYTES;
+    if (keep == KEEP_ALL)
+        bytes += fmin(frames * floes * POSE_BYTES, s->output.record_limit);
+    return bytes;
+}
+
+/* Time and bytes of a run of one condition, added to those of the others. */
+static fram_status measure_condition(const fram_study *s, int32_t condition, fram_study_extent *out, fram_error *error)
+{
+    context *ctx = &s->context->inner;
+    scenario one = {0};
+    bench_result r;
+    fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
+    if (status != FRAM_OK)
+        return status;
+    double steps = ceil(one.run.duration / one.run.time_step), began = wall_clock();
+    double dt = one.run.time_step;
+    status = bench_scenario(ctx, &one, START_SETTLES * dt, (START_SETTLES + START_MEASURES) * dt, &r, error);
+    if (status == FRAM_OK) {
+        double build = wall_clock() - began - (START_SETTLES + START_MEASURES) * r.wall_median;
+        out->run_seconds += fmax(build, 0) + steps * r.wall_median;
+        out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
+    }
+    scenario_free(ctx, &one);
+    return status;
+}
+
+fram_status fram_study_measure(const fram_study *s, fram_study_extent *out, fram_error *error)
+{
+    if (!s || !out)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study and a place for its extent are needed");
+    const study *inner = &s->inner;
+    fram_study_extent e = {.conditions = inner->conditions,
+                           .runs_least = (int64_t)inner->conditions * inner->seeds.least,
+                           .runs_most = (int64_t)inner->conditions * inner->seeds.most};
+    int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1;
+    fram_status status = measure_condition(s, 0, &e, error);
+    if (status == FRAM_OK && last > 0)
+        status = measure_condition(s, last, &e, error);
+    if (status != FRAM_OK)
+        return status;
+    e.run_seconds /= measured;
+    e.run_bytes /= measured;
+    *out = e;
+    return FRAM_OK;
+}
+
+/* ---- run ---- */
+
+void fram_study_default(fram_study_definition *definition)
+{
+    if (definition)
+        *definition = (fram_study_definition){.size = sizeof *definition};
+}
+
+typedef struct study_progress_bridge {
+    fram_study_progress_function function;
+    void *user;
+} study_progress_bridge;
+
+static void forward_progress(void *user, const study_progress *p)
+{
+    const study_progress_bridge *bridge = user;
+    const fram_study_progress out = {p->done, p->failed, p->planned, p->wall, p->eta};
+    bridge->function(bridge->user, &out);
+}
+
+static fram_status check_definition(const fram_study_definition *d, fram_error *error)
+{
+    if (!d || d->size != sizeof *d)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_study_definition.size",
+                         "the definition was not filled by fram_study_default of this version");
+    if (!d->folder || !*d->folder)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
+    if (!d->program || !*d->program)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "program", "the path of the command fram must be given");
+    if (d->jobs < 0 || d->jobs > 4096)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "jobs", "expected 0 to 4096 processes, found %d", d->jobs);
+    return FRAM_OK;
+}
+
+fram_status fram_study_run(const fram_study *s, const fram_study_definition *d, fram_study_result *result,
+                           fram_error *error)
+{
+    if (!s)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study is needed");
+    fram_status status = check_definition(d, error);
+    if (status != FRAM_OK)
+        return status;
+    study_progress_bridge bridge = {d->progress, d->progress_user};
+    const study_options options = {.folder = d->folder,
+                                   .program = d->program,
+                                   .jobs = d->jobs,
+                                   .retry = d->retry,
+                                   .progress = d->progress ? forward_progress : NULL,
+                                   .progress_user = &bridge,
+                                   .stop = d->stop};
+    study_result inner = {0};
+    status = study_run(&s->context->inner, &s->inner, &options, &inner, error);
+    if (result)
+        *result = (fram_study_result){inner.conditions, inner.runs, inner.failed, inner.made};
+    return status;
+}

@@ -1,0 +1,312 @@
+#include "study/conditions.h"
+
+#include "base/number_text.h"
+#include "base/random.h"
+#include "io/csv_read.h"
+#include "io/text_buffer.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Streams of random numbers of this room: of strata, and of places inside them. */
+enum { STREAM_STRATA = 901, STREAM_PLACES };
+
+fram_status study_refuse(const study_source *r, const yaml_node *node, const char *format, ...)
+{
+    char text[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, node->line, study_key(r, node), "%s", text);
+}
+
+const char *study_key(const study_source *r, const yaml_node *node)
+{
+    /* An element of a list is told by the key of the list. */
+    while (node->key < 0 && node->parent >= 0)
+        node = &r->tree->nodes.data[node->parent];
+    return node->key >= 0 ? yaml_text(r->tree, node->key) : "";
+}
+
+const yaml_node *study_child(const study_source *r, const yaml_node *node)
+{
+    return node->first >= 0 ? &r->tree->nodes.data[node->first] : NULL;
+}
+
+const yaml_node *study_next(const study_source *r, const yaml_node *node)
+{
+    return node->next >= 0 ? &r->tree->nodes.data[node->next] : NULL;
+}
+
+fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out)
+{
+    const char *text = node->kind == YAML_SCALAR && !node->quoted ? yaml_text(r->tree, node->value) : "";
+    char *end = NULL;
+    double value = strtod(text, &end);
+    if (!*text || *end || !(value >= lo && value <= hi))
+        return study_refuse(r, node, "expected a number from %g to %g, found %s", lo, hi, *text ? text : "none");
+    *out = value;
+    return FRAM_OK;
+}
+
+fram_status study_whole(const study_source *r, const yaml_node *node, double lo, double hi, int64_t *out)
+{
+    double value = 0;
+    fram_status status = study_number(r, node, lo, hi, &value);
+    if (status != FRAM_OK)
+        return status;
+    if (value != floor(value))
+        return study_refuse(r, node, "expected a whole number, found %g", value);
+    *out = (int64_t)value;
+    return FRAM_OK;
+}
+
+/* ---- keys and values ---- */
+
+static fram_status add_key(const study_source *r, const yaml_node *node)
+{
+    const char *key = study_key(r, node);
+    if (strcmp(key, "run.seed") == 0)
+        return study_refuse(r, node, "seeds are given by `seeds`, not as a condition");
+    return text_list_add(r->ctx, &r->out->keys, key) ? FRAM_OK : error_memory(r->error);
+}
+
+static fram_status add_value(const study_source *r, const yaml_node *node)
+{
+    if (node->kind != YAML_SCALAR)
+        return study_refuse(r, node, "expected one value of the key, found a %s",
+                            node->kind == YAML_MAPPING ? "mapping" : "list");
+    return text_list_add(r->ctx, &r->out->values, yaml_text(r->tree, node->value)) ? FRAM_OK : error_memory(r->error);
+}
+
+static fram_status expect(const study_source *r, const yaml_node *node, yaml_kind kind, const char *what)
+{
+    if (node->kind != kind || node->count == 0)
+        return study_refuse(r, node, "expected %s, which is not empty", what);
+    return FRAM_OK;
+}
+
+static fram_status count_conditions(const study_source *r, const yaml_node *node, double conditions)
+{
+    if (conditions > STUDY_CONDITIONS_MOST)
+        return study_refuse(r, node, "found %.0f conditions, expected at most %d", conditions, STUDY_CONDITIONS_MOST);
+    r->out->conditions = (int32_t)conditions;
+    return FRAM_OK;
+}
+
+/* ---- grid: all combinations, the last key fastest ---- */
+
+static const yaml_node *nth_child(const study_source *r, const yaml_node *node, int32_t n)
+{
+    const yaml_node *child = study_child(r, node);
+    while (n-- > 0)
+        child = study_next(r, child);
+    return child;
+}
+
+static fram_status read_grid(const study_source *r, const yaml_node *node)
+{
+    double conditions = 1;
+    fram_status status = expect(r, node, YAML_MAPPING, "keys with a list of values each");
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
+        status = expect(r, k, YAML_SEQUENCE, "a list of values, as [0.6, 1.1]");
+        if (status == FRAM_OK)
+            status = add_key(r, k);
+        conditions *= k->count;
+    }
+    if (status == FRAM_OK)
+        status = count_conditions(r, node, conditions);
+    for (int32_t c = 0; status == FRAM_OK && c < r->out->conditions; c++) {
+        int32_t block = r->out->conditions;
+        for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
+            block /= k->count;
+            status = add_value(r, nth_child(r, k, c / block % k->count));
+        }
+    }
+    return status;
+}
+
+/* ---- list ---- */
+
+static fram_status read_list(const study_source *r, const yaml_node *node)
+{
+    fram_status status = expect(r, node, YAML_SEQUENCE, "a list of conditions");
+    if (status == FRAM_OK)
+        status = count_conditions(r, node, node->count);
+    for (const yaml_node *c = study_child(r, node); c && status == FRAM_OK; c = study_next(r, c)) {
+        status = expect(r, c, YAML_MAPPING, "keys with a value each");
+        bool first = c == study_child(r, node);
+        if (status == FRAM_OK && !first && c->count != r->out->keys.count)
+            status = study_refuse(r, c, "expected the keys of the first condition: %d, found %d",
+                                  (int)r->out->keys.count, (int)c->count);
+        int32_t at = 0;
+        for (const yaml_node *k = study_child(r, c); k && status == FRAM_OK; k = study_next(r, k), at++) {
+            if (first)
+                status = add_key(r, k);
+            else if (strcmp(r->out->keys.data[at], study_key(r, k)) != 0)
+                status = study_refuse(r, k, "expected the keys of the first condition in their order: %s",
+                                      r->out->keys.data[at]);
+            if (status == FRAM_OK)
+                status = add_value(r, k);
+        }
+    }
+    return status;
+}
+
+/* ---- table ---- */
+
+static fram_status add_table(const study_source *r, const yaml_node *node, const csv_table *t)
+{
+    if (t->rows == 0 || t->columns.count == 0)
+        return study_refuse(r, node, "the table has no rows");
+    fram_status status = count_conditions(r, node, t->rows);
+    for (int32_t k = 0; k < t->columns.count && status == FRAM_OK; k++) {
+        if (strcmp(t->columns.data[k].name, "run.seed") == 0)
+            return study_refuse(r, node, "the table has a column run.seed; seeds are given by `seeds`");
+        if (!text_list_add(r->ctx, &r->out->keys, t->columns.data[k].name))
+            status = error_memory(r->error);
+    }
+    for (int32_t row = 0; row < t->rows && status == FRAM_OK; row++) {
+        for (int32_t k = 0; k < t->columns.count && status == FRAM_OK; k++) {
+            char text[NUMBER_TEXT_SIZE];
+            real_to_text(t->columns.data[k].value.data[row], text);
+            if (!text_list_add(r->ctx, &r->out->values, text))
+                status = error_memory(r->error);
+        }
+    }
+    return status;
+}
+
+static fram_status read_table(const study_source *r, const yaml_node *node)
+{
+    if (node->kind != YAML_SCALAR)
+        return study_refuse(r, node, "expected the name of a CSV file with a column for each key");
+    const char *name = yaml_text(r->tree, node->value), *slash = strrchr(r->out->file, '/');
+    text_buffer path = {0};
+    if (name[0] != '/' && slash)
+        text_add_bytes(r->ctx, &path, r->out->file, (size_t)(slash + 1 - r->out->file));
+    text_add(r->ctx, &path, name);
+    csv_table t = {0};
+    fram_status status = path.failed ? error_memory(r->error) : csv_table_read(r->ctx, path.data, &t, r->error);
+    text_free(r->ctx, &path);
+    if (status == FRAM_OK)
+        status = add_table(r, node, &t);
+    csv_table_free(r->ctx, &t);
+    return status;
+}
+
+/* ---- Latin hypercube (McKay, Beckman and Conover 1979): every key's range in `count` strata, each met once ---- */
+
+typedef struct latin_key {
+    double lo, hi;
+    int32_array stratum; /* of each condition */
+} latin_key;
+
+/* A random order of 0 .. count - 1 (Fisher and Yates). */
+static bool shuffle(context *ctx, int32_array *order, int32_t count, random_stream *random)
+{
+    if (!array_resize(ctx, order, count))
+        return false;
+    for (int32_t i = 0; i < count; i++)
+        order->data[i] = i;
+    for (int32_t i = count - 1; i > 0; i--) {
+        int32_t j = (int32_t)(random_unit(random) * (i + 1)), keep = order->data[i];
+        order->data[i] = order->data[j];
+        order->data[j] = keep;
+    }
+    return true;
+}
+
+static fram_status read_range(const study_source *r, const yaml_node *k, latin_key *out)
+{
+    if (k->kind != YAML_SEQUENCE || k->count != 2)
+        return study_refuse(r, k, "expected the ends of a range, as [0.5, 1.5]");
+    const yaml_node *lo = study_child(r, k), *hi = study_next(r, lo);
+    fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
+    return status == FRAM_OK ? study_number(r, hi, out->lo, 1e300, &out->hi) : status;
+}
+
+enum { LATIN_KEYS_MOST = 64 };
+
+static fram_status draw_latin(const study_source *r, const latin_key *keys, random_stream *places)
+{
+    for (int32_t c = 0; c < r->out->conditions; c++) {
+        for (int32_t k = 0; k < r->out->keys.count; k++) {
+            double at = (keys[k].stratum.data[c] + random_unit(&places[k])) / r->out->conditions;
+            char text[32];
+            /* Nine digits are read well, and stay within the stratum. */
+            snprintf(text, sizeof text, "%.9g", keys[k].lo + at * (keys[k].hi - keys[k].lo));
+            if (!text_list_add(r->ctx, &r->out->values, text))
+                return error_memory(r->error);
+        }
+    }
+    return FRAM_OK;
+}
+
+static fram_status fill_latin(const study_source *r, const yaml_node *node, int64_t seed)
+{
+    latin_key keys[LATIN_KEYS_MOST] = {{0}};
+    random_stream places[LATIN_KEYS_MOST];
+    fram_status status = expect(r, node, YAML_MAPPING, "keys with a range each");
+    if (status == FRAM_OK && node->count > LATIN_KEYS_MOST)
+        status = study_refuse(r, node, "found %d keys, expected at most %d", (int)node->count, LATIN_KEYS_MOST);
+    int32_t n = 0;
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k), n++) {
+        random_stream strata = random_begin((uint64_t)seed, STREAM_STRATA, (uint32_t)n);
+        places[n] = random_begin((uint64_t)seed, STREAM_PLACES, (uint32_t)n);
+        status = read_range(r, k, &keys[n]);
+        if (status == FRAM_OK)
+            status = add_key(r, k);
+        if (status == FRAM_OK && !shuffle(r->ctx, &keys[n].stratum, r->out->conditions, &strata))
+            status = error_memory(r->error);
+    }
+    if (status == FRAM_OK)
+        status = draw_latin(r, keys, places);
+    for (int32_t k = 0; k < LATIN_KEYS_MOST; k++)
+        array_free(r->ctx, &keys[k].stratum);
+    return status;
+}
+
+static fram_status read_latin(const study_source *r, const yaml_node *node)
+{
+    const yaml_node *keys = NULL;
+    int64_t count = 0, seed = 1;
+    fram_status status = expect(r, node, YAML_MAPPING, "count, keys and, if wanted, seed");
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
+        const char *name = study_key(r, k);
+        if (strcmp(name, "count") == 0)
+            status = study_whole(r, k, 1, STUDY_CONDITIONS_MOST, &count);
+        else if (strcmp(name, "seed") == 0)
+            status = study_whole(r, k, 0, 1e15, &seed);
+        else if (strcmp(name, "keys") == 0)
+            keys = k;
+        else
+            status = study_refuse(r, k, "unknown key: expected count, seed or keys");
+    }
+    if (status != FRAM_OK)
+        return status;
+    if (!keys || count == 0)
+        return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
+    r->out->conditions = (int32_t)count;
+    return fill_latin(r, keys, seed);
+}
+
+fram_status study_conditions_read(const study_source *r, const yaml_node *node)
+{
+    static const struct {
+        const char *name;
+        fram_status (*read)(const study_source *, const yaml_node *);
+    } ways[] = {{"grid", read_grid}, {"list", read_list}, {"table", read_table}, {"latin", read_latin}};
+    if (node->kind != YAML_MAPPING || node->count != 1)
+        return study_refuse(r, node, "expected one of grid, list, table and latin");
+    const yaml_node *way = study_child(r, node);
+    r->out->keys_line = way->line;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
+        if (strcmp(study_key(r, way), ways[i].name) == 0)
+            return ways[i].read(r, way);
+    return study_refuse(r, way, "unknown key: expected grid, list, table or latin");
+}

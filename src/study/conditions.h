@@ -1,0 +1,32 @@
+/* The conditions of a study, from a grid, a list, a table or a Latin hypercube. */
+#ifndef STUDY_CONDITIONS_H
+#define STUDY_CONDITIONS_H
+
+#include "io/yaml_tree.h"
+#include "study/study.h"
+
+/* Where a study is read from. */
+typedef struct study_source {
+    context *ctx;
+    const yaml_tree *tree;
+    study *out;
+    fram_error *error;
+} study_source;
+
+/* A refusal at a node's value: file, line, key. */
+fram_status study_refuse(const study_source *r, const yaml_node *node, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The key a node stands under, of an element of a list that of the list; "" for none. */
+const char *study_key(const study_source *r, const yaml_node *node);
+/* A scalar as a number within a range. */
+fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
+/* The same, whole. */
+fram_status study_whole(const study_source *r, const yaml_node *node, double lo, double hi, int64_t *out);
+/* Children of a mapping or sequence. */
+const yaml_node *study_child(const study_source *r, const yaml_node *node);
+const yaml_node *study_next(const study_source *r, const yaml_node *node);
+
+/* Reads the node under `vary` into keys, values and conditions. */
+fram_status study_conditions_read(const study_source *r, const yaml_node *node);
+
+#endif

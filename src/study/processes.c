@@ -1,0 +1,75 @@
+/* sched_getaffinity is Linux's own. */
+#define _GNU_SOURCE
+#include "study/processes.h"
+
+#include "io/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sched.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+int processes_cores(void)
+{
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set) == 0)
+        return CPU_COUNT(&set);
+    long online = sysconf(_SC_NPROCESSORS_ONLN);
+    return online > 0 ? (int)online : 1;
+}
+
+fram_status processes_start(context *ctx, process_pool *all, const char *const *words, const char *log, int32_t task,
+                            fram_error *error)
+{
+    posix_spawn_file_actions_t files;
+    process p = {.task = task};
+    if (!array_reserve(ctx, &all->running, all->running.count + 1))
+        return error_memory(error);
+    if (posix_spawn_file_actions_init(&files) != 0)
+        return error_memory(error);
+    int bad = posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (bad == 0)
+        bad = posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (bad == 0)
+        bad = posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    /* posix_spawn does not change the words. */
+    if (bad == 0)
+        bad = posix_spawn(&p.id, words[0], &files, NULL, (char *const *)(uintptr_t)words, environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (bad != 0)
+        return file_error(error, words[0], "start the program", bad);
+    all->running.data[all->running.count++] = p;
+    return FRAM_OK;
+}
+
+bool processes_ended(process_pool *all, int32_t *task, int *exit_code)
+{
+    for (int32_t i = 0; i < all->running.count; i++) {
+        int state = 0;
+        pid_t id = waitpid(all->running.data[i].id, &state, WNOHANG);
+        if (id == 0 || (id < 0 && errno == EINTR))
+            continue;
+        *task = all->running.data[i].task;
+        *exit_code = id < 0 ? 1 : WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+        all->running.data[i] = all->running.data[--all->running.count];
+        return true;
+    }
+    return false;
+}
+
+void processes_stop(process_pool *all)
+{
+    for (int32_t i = 0; i < all->running.count; i++)
+        kill(all->running.data[i].id, SIGTERM);
+    for (int32_t i = 0; i < all->running.count; i++)
+        while (waitpid(all->running.data[i].id, NULL, 0) < 0 && errno == EINTR)
+            ;
+    array_clear(&all->running);
+}
+
+void processes_free(context *ctx, process_pool *all) { array_free(ctx, &all->running); }

@@ -1,0 +1,29 @@
+/* Runs as processes of their own on this machine: started, waited for, stopped.  Knows programs, not studies. */
+#ifndef STUDY_PROCESSES_H
+#define STUDY_PROCESSES_H
+
+#include "base/array.h"
+
+#include <sys/types.h>
+
+typedef struct process {
+    pid_t id;
+    int32_t task; /* the caller's number for it */
+} process;
+typedef struct process_pool {
+    ARRAY(process) running;
+} process_pool;
+
+/* Cores that this process may use. */
+int processes_cores(void);
+/* Start `words` (ended by NULL; the first is the program's path) without input, standard output and error into the file
+   `log`. */
+fram_status processes_start(context *ctx, process_pool *all, const char *const *words, const char *log, int32_t task,
+                            fram_error *error);
+/* Whether one has ended; then its task and exit code, 128 + signal for one that a signal ended. */
+bool processes_ended(process_pool *all, int32_t *task, int *exit_code);
+/* Ask all to stop, and wait until they have. */
+void processes_stop(process_pool *all);
+void processes_free(context *ctx, process_pool *all);
+
+#endif

@@ -1,0 +1,233 @@
+#include "study/run_row.h"
+
+#include "base/channel_statistics.h"
+#include "base/number_text.h"
+#include "io/atomic_file.h"
+#include "results/run_data.h"
+#include "results/station_results.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name, *unit;
+} figures[ROW_FIGURES] = {
+#define RUN_ROW_HEAD(name, unit) [ROW_##name] = {#name, unit},
+    RUN_ROW_FIGURES(RUN_ROW_HEAD)
+#undef RUN_ROW_HEAD
+};
+
+/* ---- from a run ---- */
+
+/* Statistics of a channel, or of the magnitude of two. */
+static fram_status statistics(context *ctx, const run_data *d, const char *x, const char *y, channel_statistics *out,
+                              fram_error *error)
+{
+    const double *time = run_channel(d, "time"), *a = run_channel(d, x), *b = y ? run_channel(d, y) : NULL;
+    double none = (double)NAN;
+    *out = (channel_statistics){none, none, none, none, none, 0};
+    if (!time || !a || (y && !b))
+        return FRAM_OK;
+    double_array value = {0};
+    if (!array_resize(ctx, &value, d->series.rows))
+        return error_memory(error);
+    for (int32_t i = 0; i < value.count; i++)
+        value.data[i] = b ? sqrt(a[i] * a[i] + b[i] * b[i]) : fabs(a[i]);
+    *out = channel_statistics_of(time, value.data, value.count, d->s.run.transient);
+    array_free(ctx, &value);
+    return FRAM_OK;
+}
+
+static fram_status add_station(context *ctx, const run_data *d, run_row *out, fram_error *error)
+{
+    channel_statistics offset, heading, tension, power, parted;
+    fram_status status = statistics(ctx, d, "offset_x", "offset_y", &offset, error);
+    if (status == FRAM_OK)
+        status = statistics(ctx, d, "heading_deviation", NULL, &heading, error);
+    if (status == FRAM_OK)
+        status = statistics(ctx, d, "line_tension_max", NULL, &tension, error);
+    if (status == FRAM_OK)
+        status = statistics(ctx, d, "thruster_power", NULL, &power, error);
+    if (status == FRAM_OK)
+        status = statistics(ctx, d, "lines_parted", NULL, &parted, error);
+    if (status != FRAM_OK)
+        return status;
+    out->figure[ROW_offset_mean] = offset.mean;
+    out->figure[ROW_offset_largest] = offset.greatest;
+    out->figure[ROW_heading_deviation_largest] = heading.greatest;
+    out->figure[ROW_line_tension_significant] = tension.significant;
+    out->figure[ROW_line_tension_largest] = tension.greatest;
+    out->figure[ROW_lines_parted] = parted.greatest;
+    out->figure[ROW_thruster_power_mean] = power.mean;
+    return FRAM_OK;
+}
+
+static double mean_of(const run_data *d, const char *channel)
+{
+    const double *time = run_channel(d, "time"), *value = run_channel(d, channel);
+    return time && value ? channel_statistics_of(time, value, d->series.rows, d->s.run.transient).mean : (double)NAN;
+}
+
+static fram_status fill(context *ctx, const run_data *d, run_row *out, fram_error *error)
+{
+    channel_statistics load;
+    fram_status status = statistics(ctx, d, "ice_force_averaged_x", "ice_force_averaged_y", &load, error);
+    if (status == FRAM_OK && station_has_results(&d->s))
+        status = add_station(ctx, d, out, error);
+    out->figure[ROW_time] = d->note.time;
+    out->figure[ROW_load_mean] = load.mean;
+    out->figure[ROW_load_deviation] = load.deviation;
+    out->figure[ROW_load_significant] = load.significant;
+    out->figure[ROW_load_largest] = load.greatest;
+    out->figure[ROW_force_x_mean] = mean_of(d, "ice_force_averaged_x");
+    out->figure[ROW_force_y_mean] = mean_of(d, "ice_force_averaged_y");
+    out->figure[ROW_fractures] = d->fractures.rows;
+    snprintf(out->state_hash, sizeof out->state_hash, "%s", d->note.state_hash);
+    return status;
+}
+
+static void begin_row(run_row *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < ROW_FIGURES; i++)
+        out->figure[i] = (double)NAN;
+}
+
+fram_status run_row_of(context *ctx, const char *folder, run_row *out, fram_error *error)
+{
+    run_data d;
+    begin_row(out);
+    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    if (status != FRAM_OK)
+        return status;
+    status = fill(ctx, &d, out, error);
+    run_data_free(ctx, &d);
+    return status;
+}
+
+void run_row_failed(context *ctx, const char *folder, int exit_code, run_row *out)
+{
+    run_data d;
+    begin_row(out);
+    out->failed = true;
+    snprintf(out->reason, sizeof out->reason, "it ended with exit code %d", exit_code);
+    if (run_data_read(ctx, folder, false, &d, NULL) != FRAM_OK)
+        return;
+    if (d.note.message[0])
+        snprintf(out->reason, sizeof out->reason, "%.255s", d.note.message);
+    out->figure[ROW_time] = d.note.time;
+    run_data_free(ctx, &d);
+    for (char *c = out->reason; *c; c++)
+        if ((unsigned char)*c < ' ')
+            *c = ' ';
+}
+
+/* ---- as a file ---- */
+
+static const char mark[] = "fram study row 1";
+
+static void number(context *ctx, text_buffer *out, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_add(ctx, out, isfinite(value) ? text : "");
+}
+
+fram_status run_row_write(context *ctx, const char *path, const run_row *row, fram_error *error)
+{
+    text_buffer text = {0};
+    text_format(ctx, &text, "%s\n%s\n%s\n%s\n", mark, row->failed ? "failed" : "finished", row->reason,
+                row->state_hash);
+    for (int i = 0; i < ROW_FIGURES; i++) {
+        text_format(ctx, &text, "%s ", figures[i].name);
+        number(ctx, &text, row->figure[i]);
+        text_add(ctx, &text, "\n");
+    }
+    text_add(ctx, &text, "end\n");
+    fram_status status =
+        text.failed ? error_memory(error) : atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
+    text_free(ctx, &text);
+    return status;
+}
+
+/* The next line without its end; NULL after the last. */
+static char *next_line(char **rest)
+{
+    char *line = *rest, *end = line ? strchr(line, '\n') : NULL;
+    if (!end)
+        return NULL;
+    *end = '\0';
+    *rest = end + 1;
+    return line;
+}
+
+static bool read_lines(char *text, run_row *row)
+{
+    const char *head = next_line(&text), *state = next_line(&text), *reason = next_line(&text),
+               *hash = next_line(&text);
+    if (!head || !state || !reason || !hash || strcmp(head, mark) != 0 || strlen(reason) >= sizeof row->reason ||
+        strlen(hash) >= sizeof row->state_hash)
+        return false;
+    begin_row(row);
+    row->failed = strcmp(state, "failed") == 0;
+    memcpy(row->reason, reason, strlen(reason) + 1);
+    memcpy(row->state_hash, hash, strlen(hash) + 1);
+    for (int i = 0; i < ROW_FIGURES; i++) {
+        char *line = next_line(&text), *end = NULL;
+        size_t length = strlen(figures[i].name);
+        if (!line || strncmp(line, figures[i].name, length) != 0 || line[length] != ' ')
+            return false;
+        if (!line[length + 1])
+            continue;
+        row->figure[i] = strtod(line + length + 1, &end);
+        if (*end)
+            return false;
+    }
+    const char *end = next_line(&text);
+    return end && strcmp(end, "end") == 0;
+}
+
+enum { ROW_FILE_LIMIT = 1 << 16 };
+
+fram_status run_row_read(context *ctx, const char *path, run_row *row, bool *found, fram_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    *found = false;
+    if (!file_is_readable(path))
+        return FRAM_OK;
+    fram_status status = file_read(ctx, path, ROW_FILE_LIMIT, &text, &size, error);
+    *found = status == FRAM_OK && strlen(text) == size && read_lines(text, row);
+    memory_free(ctx, text);
+    return status;
+}
+
+/* ---- in summary.csv ---- */
+
+void run_row_heads(context *ctx, text_buffer *out)
+{
+    text_add(ctx, out, ",status");
+    for (int i = 0; i < ROW_FIGURES; i++)
+        text_format(ctx, out, ",%s[%s]", figures[i].name, figures[i].unit);
+    text_add(ctx, out, ",state_hash,reason\n");
+}
+
+void run_row_line(context *ctx, const run_row *row, text_buffer *out)
+{
+    text_add(ctx, out, row->failed ? ",failed" : ",finished");
+    for (int i = 0; i < ROW_FIGURES; i++) {
+        text_add(ctx, out, ",");
+        number(ctx, out, row->figure[i]);
+    }
+    text_format(ctx, out, ",%s,", row->state_hash);
+    if (row->reason[0]) {
+        text_add(ctx, out, "\"");
+        for (const char *c = row->reason; *c; c++)
+            text_format(ctx, out, *c == '"' ? "\"\"" : "%c", *c);
+        text_add(ctx, out, "\"");
+    }
+    text_add(ctx, out, "\n");
+}

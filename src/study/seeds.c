@@ -1,0 +1,43 @@
+#include "study/seeds.h"
+
+#include "study/student.h"
+
+#include <math.h>
+
+seed_interval seed_interval_of(const double *value, int32_t count, double confidence)
+{
+    double sum = 0, square = 0;
+    int32_t n = 0;
+    for (int32_t i = 0; i < count; i++) {
+        if (isnan(value[i]))
+            continue;
+        sum += value[i];
+        n++;
+    }
+    seed_interval out = {n > 0 ? sum / n : (double)NAN, (double)NAN};
+    if (n < 2)
+        return out;
+    for (int32_t i = 0; i < count; i++)
+        square += isnan(value[i]) ? 0 : (value[i] - out.mean) * (value[i] - out.mean);
+    out.half = student_quantile(confidence, n - 1) * sqrt(square / (n - 1) / n);
+    return out;
+}
+
+static bool is_narrow(const double *value, int32_t count, double within, double confidence)
+{
+    seed_interval i = seed_interval_of(value, count, confidence);
+    return !(within > 0) || i.half <= within * fabs(i.mean);
+}
+
+int32_t seeds_wanted(const study_seeds *rule, const double *mean, const double *largest, int32_t count)
+{
+    int32_t n = rule->least;
+    while (n <= count && n < rule->most) {
+        if (is_narrow(mean, n, rule->mean_within, rule->confidence) &&
+            is_narrow(largest, n, rule->largest_within, rule->confidence))
+            break;
+        int32_t batch = n / 4 > 1 ? n / 4 : 1;
+        n = n + batch < rule->most ? n + batch : rule->most;
+    }
+    return n;
+}

@@ -1,0 +1,34 @@
+#include "study/student.h"
+
+#include "base/transcendental.h"
+
+#include <math.h>
+
+double student_within(double t, int freedom)
+{
+    double root = sqrt(freedom), angle = real_atan2(t, root), length = sqrt(t * t + freedom);
+    double sine = t / length, cosine = root / length, square = cosine * cosine;
+    int odd = freedom % 2;
+    double term = odd ? cosine : 1, sum = 0;
+    /* cos^k with k = 1, 3, ... or 0, 2, ... up to freedom - 2. */
+    for (int k = odd; k <= freedom - 2; k += 2) {
+        sum += term;
+        term *= square * (k + 1) / (k + 2);
+    }
+    return odd ? (angle + sine * sum) * 2 / PI : sine * sum;
+}
+
+double student_quantile(double confidence, int freedom)
+{
+    double lo = 0, hi = 1;
+    while (student_within(hi, freedom) < confidence && hi < 1e300)
+        hi *= 2;
+    /* Until the two are neighbours. */
+    for (double mid = 0.5 * (lo + hi); mid > lo && mid < hi; mid = 0.5 * (lo + hi)) {
+        if (student_within(mid, freedom) < confidence)
+            lo = mid;
+        else
+            hi = mid;
+    }
+    return hi;
+}

@@ -1,0 +1,33 @@
+#include "study/study.h"
+
+#include <string.h>
+
+bool text_list_add(context *ctx, text_list *list, const char *text)
+{
+    char *copy = memory_string(ctx, text);
+    if (copy && array_push(ctx, list, copy))
+        return true;
+    memory_free(ctx, copy);
+    return false;
+}
+
+void text_list_free(context *ctx, text_list *list)
+{
+    for (int32_t i = 0; i < list->count; i++)
+        memory_free(ctx, list->data[i]);
+    array_free(ctx, list);
+}
+
+void study_free(context *ctx, study *s)
+{
+    memory_free(ctx, s->file);
+    memory_free(ctx, s->scenario);
+    for (int32_t i = 0; i < s->set.count; i++) {
+        memory_free(ctx, s->set.data[i].key);
+        memory_free(ctx, s->set.data[i].value);
+    }
+    array_free(ctx, &s->set);
+    text_list_free(ctx, &s->keys);
+    text_list_free(ctx, &s->values);
+    memset(s, 0, sizeof *s);
+}

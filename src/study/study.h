@@ -1,0 +1,60 @@
+/* A study: one scenario under many conditions, each with several seeds.  Plain data, made from a study file
+   (study/study_file.h) and never changed; what is to be run follows from it and from the results so far alone, never
+   from where or in which order runs end.  Knows scenarios by their text; must not know a world. */
+#ifndef STUDY_STUDY_H
+#define STUDY_STUDY_H
+
+#include "base/array.h"
+
+/* Texts of the study's own. */
+typedef ARRAY(char *) text_list;
+
+/* A text and where the study file has it, for errors. */
+typedef struct study_assignment {
+    char *key, *value;
+    int line; /* 0: not from a line of the study file */
+} study_assignment;
+typedef ARRAY(study_assignment) assignment_list;
+
+/* How many seeds a condition gets: `least`, and then more until the confidence intervals of the mean over seeds are
+   narrow enough, `most` at the end. */
+typedef struct study_seeds {
+    int64_t first;         /* seeds are first, first + 1, ... */
+    int32_t least, most;   /* equal: a fixed number */
+    double mean_within;    /* half width of the interval of the mean load over that mean; 0: not asked */
+    double largest_within; /* the same for the largest load of a run; 0: not asked */
+    double confidence;     /* of the intervals, 0.95 */
+} study_seeds;
+
+/* What stays of a run that ended well. */
+typedef enum study_keep {
+    KEEP_SUMMARY = 0, /* its figures alone */
+    KEEP_SERIES,      /* the time series too */
+    KEEP_ALL          /* the whole folder */
+} study_keep;
+
+typedef struct study {
+    char *file;          /* the study file */
+    char *scenario;      /* path of the scenario, to be opened from here */
+    assignment_list set; /* for all runs */
+    text_list keys;      /* that the conditions vary */
+    text_list values;    /* conditions x keys, one condition after the other */
+    int32_t conditions;  /* at least 1 */
+    int32_t keys_line;   /* in the study file */
+    study_seeds seeds;
+    study_keep keep;
+} study;
+
+/* Most conditions of a study, and most seeds of a condition: far beyond what anybody waits for. */
+enum { STUDY_CONDITIONS_MOST = 100000, STUDY_SEEDS_MOST = 100000 };
+
+void study_free(context *ctx, study *s);
+static inline const char *study_value(const study *s, int32_t condition, int32_t key)
+{
+    return s->values.data[condition * s->keys.count + key];
+}
+
+bool text_list_add(context *ctx, text_list *list, const char *text);
+void text_list_free(context *ctx, text_list *list);
+
+#endif

@@ -1,0 +1,234 @@
+#include "study/study_file.h"
+
+#include "io/file.h"
+#include "io/scenario_file.h"
+#include "study/conditions.h"
+
+#include <string.h>
+
+static bool set_text(context *ctx, char **out, const char *text)
+{
+    memory_free(ctx, *out);
+    *out = memory_string(ctx, text);
+    return *out != NULL;
+}
+
+/* ---- single keys ---- */
+
+static fram_status read_scenario(const study_source *r, const yaml_node *node)
+{
+    if (node->kind != YAML_SCALAR || !*yaml_text(r->tree, node->value))
+        return study_refuse(r, node, "expected the name of a scenario file");
+    const char *name = yaml_text(r->tree, node->value), *slash = strrchr(r->out->file, '/');
+    text_buffer path = {0};
+    if (name[0] != '/' && slash)
+        text_add_bytes(r->ctx, &path, r->out->file, (size_t)(slash + 1 - r->out->file));
+    text_add(r->ctx, &path, name);
+    bool good = !path.failed && set_text(r->ctx, &r->out->scenario, path.data);
+    text_free(r->ctx, &path);
+    return good ? FRAM_OK : error_memory(r->error);
+}
+
+static fram_status read_set(const study_source *r, const yaml_node *node)
+{
+    if (node->kind != YAML_MAPPING)
+        return study_refuse(r, node, "expected scenario keys with a value each, as {run.duration: 60}");
+    for (const yaml_node *k = study_child(r, node); k; k = study_next(r, k)) {
+        if (k->kind != YAML_SCALAR)
+            return study_refuse(r, k, "expected one value of the key");
+        if (strcmp(study_key(r, k), "run.seed") == 0)
+            return study_refuse(r, k, "seeds are given by `seeds`");
+        study_assignment a = {memory_string(r->ctx, study_key(r, k)),
+                              memory_string(r->ctx, yaml_text(r->tree, k->value)), k->line};
+        if (!a.key || !a.value || !array_push(r->ctx, &r->out->set, a)) {
+            memory_free(r->ctx, a.key);
+            memory_free(r->ctx, a.value);
+            return error_memory(r->error);
+        }
+    }
+    return FRAM_OK;
+}
+
+static fram_status read_seeds_member(const study_source *r, const yaml_node *k, bool *most_given)
+{
+    study_seeds *s = &r->out->seeds;
+    const char *name = study_key(r, k);
+    int64_t whole = 0;
+    if (strcmp(name, "mean_within") == 0)
+        return study_number(r, k, 1e-6, 10, &s->mean_within);
+    if (strcmp(name, "largest_within") == 0)
+        return study_number(r, k, 1e-6, 10, &s->largest_within);
+    if (strcmp(name, "confidence") == 0)
+        return study_number(r, k, 0.01, 0.9999, &s->confidence);
+    if (strcmp(name, "first") == 0)
+        return study_whole(r, k, 0, 1e15, &s->first);
+    bool least = strcmp(name, "least") == 0, most = strcmp(name, "most") == 0;
+    if (!least && !most)
+        return study_refuse(r, k,
+                            "unknown key: expected least, most, mean_within, largest_within, confidence or first");
+    fram_status status = study_whole(r, k, 1, STUDY_SEEDS_MOST, &whole);
+    *most_given = *most_given || most;
+    *(least ? &s->least : &s->most) = (int32_t)whole;
+    return status;
+}
+
+static fram_status read_seeds(const study_source *r, const yaml_node *node)
+{
+    study_seeds *s = &r->out->seeds;
+    if (node->kind == YAML_SCALAR) {
+        int64_t count = 0;
+        fram_status status = study_whole(r, node, 1, STUDY_SEEDS_MOST, &count);
+        s->least = s->most = (int32_t)count;
+        return status;
+    }
+    if (node->kind != YAML_MAPPING)
+        return study_refuse(r, node, "expected a number, or least, most, mean_within, ...");
+    bool most_given = false;
+    for (const yaml_node *k = study_child(r, node); k; k = study_next(r, k)) {
+        fram_status status = read_seeds_member(r, k, &most_given);
+        if (status != FRAM_OK)
+            return status;
+    }
+    bool until = s->mean_within > 0 || s->largest_within > 0;
+    if (!most_given)
+        s->most = s->least;
+    if (until && s->least < 2)
+        return study_refuse(r, node, "an interval takes two seeds: expected least from 2 on, found %d", (int)s->least);
+    if (until != (s->most > s->least))
+        return study_refuse(r, node,
+                            until ? "mean_within and largest_within take `most`, larger than least"
+                                  : "more than `least` seeds take mean_within or largest_within");
+    if (s->most < s->least)
+        return study_refuse(r, node, "expected most from least on, found %d and %d", (int)s->most, (int)s->least);
+    return FRAM_OK;
+}
+
+static fram_status read_keep(const study_source *r, const yaml_node *node)
+{
+    static const char *const names[] = {[KEEP_SUMMARY] = "summary", [KEEP_SERIES] = "series", [KEEP_ALL] = "all"};
+    for (int i = 0; node->kind == YAML_SCALAR && i < (int)(sizeof names / sizeof *names); i++) {
+        if (strcmp(yaml_text(r->tree, node->value), names[i]) == 0) {
+            r->out->keep = (study_keep)i;
+            return FRAM_OK;
+        }
+    }
+    return study_refuse(r, node, "expected summary, series or all");
+}
+
+static fram_status read_root(const study_source *r)
+{
+    static const struct {
+        const char *name;
+        fram_status (*read)(const study_source *, const yaml_node *);
+    } keys[] = {{"scenario", read_scenario},
+                {"set", read_set},
+                {"seeds", read_seeds},
+                {"vary", study_conditions_read},
+                {"keep", read_keep}};
+    if (r->tree->nodes.count == 0 || r->tree->nodes.data[0].kind != YAML_MAPPING)
+        return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, NULL,
+                         "the file is no study: expected keys as `scenario: FILE` and `seeds: 20`");
+    for (const yaml_node *k = study_child(r, &r->tree->nodes.data[0]); k; k = study_next(r, k)) {
+        fram_status status = FRAM_OK;
+        bool known = false;
+        for (size_t i = 0; i < sizeof keys / sizeof *keys && !known; i++) {
+            known = strcmp(study_key(r, k), keys[i].name) == 0;
+            if (known)
+                status = keys[i].read(r, k);
+        }
+        if (!known)
+            status = study_refuse(r, k, "unknown key: expected scenario, set, seeds, vary or keep");
+        if (status != FRAM_OK)
+            return status;
+    }
+    if (!r->out->scenario)
+        return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, "scenario", "is missing: name a scenario file");
+    return FRAM_OK;
+}
+
+/* ---- checks of all conditions ---- */
+
+/* An error in a value that the study gave, at its place in the study file. */
+static void place_error(const study *s, int32_t condition, fram_error *error)
+{
+    if (!error || strcmp(error->file, "--set") != 0)
+        return;
+    int line = s->keys_line;
+    for (int32_t i = 0; i < s->set.count; i++)
+        if (strcmp(s->set.data[i].key, error->key) == 0)
+            line = s->set.data[i].line;
+    char message[sizeof error->message], key[sizeof error->key];
+    memcpy(message, error->message, sizeof message);
+    memcpy(key, error->key, sizeof key);
+    error_set(error, FRAM_ERROR_INPUT, s->file, line, key, "condition %d: %.400s", (int)condition + 1, message);
+}
+
+fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,
+                           fram_error *error)
+{
+    text_list items = {0};
+    text_buffer text = {0};
+    bool good = true;
+    for (int32_t i = 0; i <= s->set.count + s->keys.count && good; i++) {
+        text.count = 0;
+        if (i < s->set.count)
+            text_format(ctx, &text, "%s=%s", s->set.data[i].key, s->set.data[i].value);
+        else if (i < s->set.count + s->keys.count)
+            text_format(ctx, &text, "%s=%s", s->keys.data[i - s->set.count],
+                        study_value(s, condition, i - s->set.count));
+        else
+            text_format(ctx, &text, "run.seed=%lld", (long long)seed);
+        good = !text.failed && text_list_add(ctx, &items, text.data);
+    }
+    const scenario_overrides overrides = {(const char *const *)items.data, items.count};
+    fram_status status = good ? scenario_read(ctx, s->scenario, &overrides, out, error) : error_memory(error);
+    if (status == FRAM_ERROR_INPUT)
+        place_error(s, condition, error);
+    text_list_free(ctx, &items);
+    text_free(ctx, &text);
+    return status;
+}
+
+static fram_status check_conditions(context *ctx, const study *s, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++) {
+        scenario one = {0};
+        status = study_scenario(ctx, s, c, s->seeds.first, &one, error);
+        if (status == FRAM_OK)
+            scenario_free(ctx, &one);
+    }
+    return status;
+}
+
+fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error)
+{
+    yaml_tree tree = {0};
+    *s = (study){.conditions = 1, .seeds = {.first = 1, .least = 1, .most = 1, .confidence = 0.95}};
+    fram_status status = set_text(ctx, &s->file, name) ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK)
+        status = yaml_tree_parse(ctx, name, data, size, STUDY_DEPTH_LIMIT, &tree, error);
+    const study_source source = {ctx, &tree, s, error};
+    if (status == FRAM_OK)
+        status = read_root(&source);
+    yaml_tree_free(ctx, &tree);
+    if (status != FRAM_OK)
+        study_free(ctx, s);
+    return status;
+}
+
+fram_status study_read(context *ctx, const char *path, study *s, fram_error *error)
+{
+    char *data = NULL;
+    size_t size = 0;
+    fram_status status = file_read(ctx, path, STUDY_FILE_LIMIT, &data, &size, error);
+    if (status == FRAM_OK)
+        status = study_parse(ctx, path, data, size, s, error);
+    memory_free(ctx, data);
+    if (status != FRAM_OK)
+        return status;
+    status = check_conditions(ctx, s, error);
+    if (status != FRAM_OK)
+        study_free(ctx, s);
+    return status;
+}

@@ -1,0 +1,33 @@
+/* Study files: YAML to a checked study.
+
+       scenario: demo.yaml                        relative to the study file
+       set: {run.duration: 60, run.transient: 15} for all runs
+       seeds: 20                                  or {least: 6, most: 60, mean_within: 0.05, largest_within: 0.1,
+                                                      confidence: 0.95, first: 1}
+       vary:                                      one of
+         grid: {ice.thickness: [0.6, 1.1], vessel.speed: [1, 2]}
+         list: [{ice.thickness: 0.6, vessel.speed: 1}, ...]
+         table: conditions.csv                    a column a key
+         latin: {count: 50, seed: 1, keys: {ice.thickness: [0.5, 1.5]}}
+       keep: summary                              or series, all
+
+   Every condition is checked as a scenario; an error names file, line and key. */
+#ifndef STUDY_STUDY_FILE_H
+#define STUDY_STUDY_FILE_H
+
+#include "model/scenario.h"
+#include "study/study.h"
+
+enum { STUDY_FILE_LIMIT = 1 << 24, STUDY_DEPTH_LIMIT = 8 };
+
+/* On success free with study_free; on failure nothing is left to free. */
+fram_status study_read(context *ctx, const char *path, study *s, fram_error *error);
+
+/* The same from memory, and without the check of the conditions; `name` stands for the file in errors and for relative
+   paths. */
+fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error);
+/* The scenario of one run; on success free with scenario_free. */
+fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,
+                           fram_error *error);
+
+#endif

@@ -1,0 +1,195 @@
+#include "study/study_folder.h"
+
+#include "base/hash.h"
+#include "fram/version.h"
+#include "io/atomic_file.h"
+#include "io/scenario_file.h"
+#include "sim/run_folder.h"
+#include "study/study_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- names ---- */
+
+static char *joined(context *ctx, const text_buffer *b) { return b->failed ? NULL : memory_string(ctx, b->data); }
+
+char *study_run_path(const study_folder *f, int32_t condition, int64_t seed, const char *ending)
+{
+    text_buffer b = {0};
+    text_format(f->ctx, &b, "%s/runs/%s/%lld%s", f->path, f->id[condition], (long long)seed, ending);
+    char *path = joined(f->ctx, &b);
+    text_free(f->ctx, &b);
+    return path;
+}
+
+char *study_scenario_path(const study_folder *f, int32_t condition)
+{
+    text_buffer b = {0};
+    text_format(f->ctx, &b, "%s/conditions/%s.yaml", f->path, f->id[condition]);
+    char *path = joined(f->ctx, &b);
+    text_free(f->ctx, &b);
+    return path;
+}
+
+/* ---- making the folder ---- */
+
+/* What decides the result of a run, but for its seed. */
+static fram_status name_condition(study_folder *f, int32_t condition, const scenario *one, fram_error *error)
+{
+    char hash[65];
+    text_buffer b = {0}, inputs = {0};
+    fram_status status = scenario_hash(f->ctx, one, hash, error);
+    if (status == FRAM_OK)
+        status = run_folder_inputs(f->ctx, one, &inputs, error);
+    text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? hash : "");
+    /* Of each line "sha256  path" the hash: the same files elsewhere are the same input. */
+    for (const char *line = inputs.data; status == FRAM_OK && line && *line; line = strchr(line, '\n') + 1)
+        text_format(f->ctx, &b, " %.64s", line);
+    if (status == FRAM_OK && b.failed)
+        status = error_memory(error);
+    if (status == FRAM_OK) {
+        sha256_text(b.data, (size_t)b.count, hash);
+        memcpy(f->id[condition], hash, CONDITION_ID - 1);
+        f->id[condition][CONDITION_ID - 1] = '\0';
+    }
+    text_free(f->ctx, &b);
+    text_free(f->ctx, &inputs);
+    return status;
+}
+
+static fram_status make_folder(const study_folder *f, const char *name, const char *under, fram_error *error)
+{
+    text_buffer b = {0};
+    text_format(f->ctx, &b, under ? "%s/%s/%s" : "%s/%s", f->path, name, under);
+    fram_status status = FRAM_OK;
+    if (b.failed)
+        status = error_memory(error);
+    else if (mkdir(b.data, 0777) != 0 && errno != EEXIST)
+        status = file_error(error, b.data, "make the folder", errno);
+    text_free(f->ctx, &b);
+    return status;
+}
+
+/* The scenario of a condition at seed 0, to be run with other seeds from any folder. */
+static fram_status write_condition(study_folder *f, int32_t condition, fram_error *error)
+{
+    const scenario_print_options options = {.absolute_paths = true};
+    scenario one = {0};
+    text_buffer text = {0};
+    fram_status status = study_scenario(f->ctx, f->s, condition, 0, &one, error);
+    if (status != FRAM_OK)
+        return status;
+    status = name_condition(f, condition, &one, error);
+    if (status == FRAM_OK)
+        status = scenario_print(f->ctx, &one, &options, &text, error);
+    if (status == FRAM_OK)
+        status = make_folder(f, "runs", f->id[condition], error);
+    char *path = status == FRAM_OK ? study_scenario_path(f, condition) : NULL;
+    if (status == FRAM_OK)
+        status = path ? atomic_file_put(f->ctx, path, text.data, (size_t)text.count, error) : error_memory(error);
+    memory_free(f->ctx, path);
+    text_free(f->ctx, &text);
+    scenario_free(f->ctx, &one);
+    return status;
+}
+
+/* A folder that holds something else is left alone. */
+static fram_status check_folder(context *ctx, const char *path, fram_error *error)
+{
+    text_buffer b = {0};
+    text_format(ctx, &b, "%s/study.yaml", path);
+    fram_status status = b.failed ? error_memory(error) : FRAM_OK;
+    if (status == FRAM_OK && !file_is_readable(b.data))
+        status = run_folder_check(path, false, error);
+    text_free(ctx, &b);
+    return status;
+}
+
+static fram_status copy_study(const study_folder *f, fram_error *error)
+{
+    char *data = NULL;
+    size_t size = 0;
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/study.yaml", f->path);
+    fram_status status = path.failed ? error_memory(error) : FRAM_OK;
+    if (status == FRAM_OK)
+        status = file_read(f->ctx, f->s->file, STUDY_FILE_LIMIT, &data, &size, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(f->ctx, path.data, data, size, error);
+    memory_free(f->ctx, data);
+    text_free(f->ctx, &path);
+    return status;
+}
+
+fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error)
+{
+    *f = (study_folder){ctx, s, path, memory_array(ctx, (size_t)s->conditions, CONDITION_ID), -1};
+    fram_status status = f->id ? check_folder(ctx, path, error) : error_memory(error);
+    if (status == FRAM_OK)
+        status = run_folder_make(path, error);
+    if (status == FRAM_OK)
+        status = run_folder_lock(path, &f->lock, error);
+    if (status == FRAM_OK)
+        status = copy_study(f, error);
+    if (status == FRAM_OK)
+        status = make_folder(f, "conditions", NULL, error);
+    if (status == FRAM_OK)
+        status = make_folder(f, "runs", NULL, error);
+    for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
+        status = write_condition(f, c, error);
+    if (status != FRAM_OK)
+        study_folder_close(f);
+    return status;
+}
+
+void study_folder_close(study_folder *f)
+{
+    run_folder_unlock(f->lock);
+    f->lock = -1;
+    memory_free(f->ctx, f->id);
+    f->id = NULL;
+}
+
+/* ---- what stays of a run ---- */
+
+/* All files of a folder but those named, and the folder when it is empty then. */
+static void remove_but(context *ctx, const char *folder, const char *const *kept, int32_t count)
+{
+    DIR *dir = opendir(folder);
+    if (!dir)
+        return;
+    for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
+        bool keep = strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0;
+        for (int32_t i = 0; i < count; i++)
+            keep = keep || strcmp(e->d_name, kept[i]) == 0;
+        text_buffer path = {0};
+        text_format(ctx, &path, "%s/%s", folder, e->d_name);
+        struct stat state;
+        if (!keep && !path.failed && lstat(path.data, &state) == 0) {
+            /* Pictures and chunks of a page stand in folders of their own. */
+            if (S_ISDIR(state.st_mode))
+                remove_but(ctx, path.data, NULL, 0);
+            else
+                (void)unlink(path.data);
+        }
+        text_free(ctx, &path);
+    }
+    closedir(dir);
+    (void)rmdir(folder);
+}
+
+void study_run_tidy(const study_folder *f, int32_t condition, int64_t seed, study_keep keep)
+{
+    static const char *const series[] = {"scenario.yaml", "run.json", "series.csv", "fractures.csv"};
+    if (keep == KEEP_ALL)
+        return;
+    char *folder = study_run_path(f, condition, seed, "");
+    if (folder)
+        remove_but(f->ctx, folder, series, keep == KEEP_SERIES ? 4 : 0);
+    memory_free(f->ctx, folder);
+}

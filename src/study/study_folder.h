@@ -1,0 +1,36 @@
+/* Names and files in the folder of a study (study/study_run.h has its layout). */
+#ifndef STUDY_STUDY_FOLDER_H
+#define STUDY_STUDY_FOLDER_H
+
+#include "study/run_row.h"
+#include "study/study.h"
+
+enum { CONDITION_ID = 13 };
+typedef struct study_folder {
+    context *ctx;
+    const study *s;
+    const char *path;
+    char (*id)[CONDITION_ID]; /* of each condition */
+    int lock;                 /* -1 */
+} study_folder;
+
+/* Makes the folder with what does not depend on runs, and locks it: FRAM_ERROR_USAGE while another program runs a study
+   in it, or when it holds something else. */
+fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error);
+void study_folder_close(study_folder *f);
+
+/* "DIR/runs/ID/SEED" and an ending, to be freed; NULL without memory. */
+char *study_run_path(const study_folder *f, int32_t condition, int64_t seed, const char *ending);
+/* "DIR/conditions/ID.yaml", to be freed. */
+char *study_scenario_path(const study_folder *f, int32_t condition);
+/* What a run leaves but its row: nothing, its series, or all. */
+void study_run_tidy(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
+
+/* The results of a condition, by seed from the first. */
+typedef struct condition_rows {
+    ARRAY(run_row) rows; /* of the first seeds without a gap */
+} condition_rows;
+/* DIR/summary.csv and DIR/conditions.csv of the seeds that each condition takes. */
+fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+
+#endif

@@ -1,0 +1,315 @@
+#include "study/study_run.h"
+
+#include "sim/run_folder.h"
+#include "study/processes.h"
+#include "study/seeds.h"
+#include "study/study_folder.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Between looks at the processes: far less than a run, far more than a look. */
+enum { LOOK_NANOSECONDS = 5000000 };
+/* Exit code of a run that was interrupted, which is none of its own. */
+enum { INTERRUPTED = 130 };
+
+/* What is known of one seed of a condition. */
+typedef enum run_state {
+    RUN_MISSING = 0,
+    RUN_BUSY, /* another program still makes it */
+    RUN_GOING,
+    RUN_THERE
+} run_state;
+typedef struct study_seed {
+    run_state state;
+    run_row row;
+} study_seed;
+
+typedef struct study_condition {
+    ARRAY(study_seed) seeds; /* from the first on */
+    int32_t wanted;          /* seeds */
+} study_condition;
+
+typedef struct study_work {
+    context *ctx;
+    const study *s;
+    const study_options *options;
+    study_folder folder;
+    study_condition *conditions;
+    process_pool pool;
+    ARRAY(int64_t) task; /* condition and seed of each that was started */
+    int jobs;
+    int32_t busy; /* runs that another program still makes */
+    double started;
+    int32_t made;
+} study_work;
+
+static double wall_clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- what is there ---- */
+
+static fram_status load_row(study_work *w, int32_t condition, int32_t index, fram_error *error)
+{
+    study_seed *seed = &w->conditions[condition].seeds.data[index];
+    char *path = study_run_path(&w->folder, condition, w->s->seeds.first + index, ".row");
+    bool found = false;
+    fram_status status = path ? run_row_read(w->ctx, path, &seed->row, &found, error) : error_memory(error);
+    memory_free(w->ctx, path);
+    seed->state = found && !(seed->row.failed && w->options->retry) ? RUN_THERE : RUN_MISSING;
+    return status;
+}
+
+/* Seeds from the first without a gap. */
+static int32_t prefix_of(const study_condition *c)
+{
+    int32_t n = 0;
+    while (n < c->seeds.count && c->seeds.data[n].state == RUN_THERE)
+        n++;
+    return n;
+}
+
+/* How many seeds the condition takes, as far as its results tell now; rows of seeds that are new are looked for. */
+static fram_status update_wanted(study_work *w, int32_t condition, fram_error *error)
+{
+    study_condition *c = &w->conditions[condition];
+    for (;;) {
+        int32_t n = prefix_of(c), room = n > 0 ? n : 1;
+        double *value = memory_array(w->ctx, (size_t)room, 2 * sizeof *value);
+        if (!value)
+            return error_memory(error);
+        for (int32_t i = 0; i < n; i++) {
+            value[i] = c->seeds.data[i].row.figure[ROW_load_mean];
+            value[room + i] = c->seeds.data[i].row.figure[ROW_load_largest];
+        }
+        c->wanted = seeds_wanted(&w->s->seeds, value, value + room, n);
+        memory_free(w->ctx, value);
+        if (c->wanted <= c->seeds.count)
+            return FRAM_OK;
+        for (int32_t i = c->seeds.count; i < c->wanted; i++) {
+            const study_seed fresh = {0};
+            if (!array_push(w->ctx, &c->seeds, fresh))
+                return error_memory(error);
+            fram_status status = load_row(w, condition, i, error);
+            if (status != FRAM_OK)
+                return status;
+        }
+    }
+}
+
+/* ---- runs ---- */
+
+static fram_status start_run(study_work *w, int32_t condition, int32_t index, fram_error *error)
+{
+    int64_t seed = w->s->seeds.first + index;
+    char *path = study_scenario_path(&w->folder, condition), set[48];
+    char *folder = study_run_path(&w->folder, condition, seed, "");
+    char *log = study_run_path(&w->folder, condition, seed, ".log");
+    snprintf(set, sizeof set, "run.seed=%lld", (long long)seed);
+    /* What an earlier call left of this run is no result. */
+    const char *const words[] = {w->options->program, "run", path,      "-o",      folder, "--set", set,
+                                 "--threads",         "1",   "--force", "--quiet", NULL};
+    fram_status status = path && folder && log && array_push(w->ctx, &w->task, (int64_t)condition << 32 | index)
+                             ? processes_start(w->ctx, &w->pool, words, log, w->task.count - 1, error)
+                             : error_memory(error);
+    if (status == FRAM_OK)
+        w->conditions[condition].seeds.data[index].state = RUN_GOING;
+    memory_free(w->ctx, path);
+    memory_free(w->ctx, folder);
+    memory_free(w->ctx, log);
+    return status;
+}
+
+/* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */
+static bool is_busy(const study_work *w, int32_t condition, int32_t index)
+{
+    char *folder = study_run_path(&w->folder, condition, w->s->seeds.first + index, "");
+    int lock = -1;
+    bool busy = folder && access(folder, F_OK) == 0 && run_folder_lock(folder, &lock, NULL) != FRAM_OK;
+    run_folder_unlock(lock);
+    memory_free(w->ctx, folder);
+    return busy;
+}
+
+/* The next run that is wanted: all conditions' first seeds come before anybody's later ones. */
+static bool next_run(const study_work *w, int32_t *condition, int32_t *index)
+{
+    int32_t least = INT32_MAX;
+    for (int32_t c = 0; c < w->s->conditions; c++) {
+        const study_condition *of = &w->conditions[c];
+        for (int32_t i = 0; i < of->wanted && i < least; i++) {
+            if (of->seeds.data[i].state != RUN_MISSING)
+                continue;
+            *condition = c;
+            *index = least = i;
+        }
+    }
+    return least < INT32_MAX;
+}
+
+/* Busy runs are looked at again. */
+static void look_again(study_work *w)
+{
+    w->busy = 0;
+    for (int32_t c = 0; c < w->s->conditions; c++) {
+        study_condition *of = &w->conditions[c];
+        for (int32_t i = 0; i < of->seeds.count; i++)
+            if (of->seeds.data[i].state == RUN_BUSY)
+                of->seeds.data[i].state = RUN_MISSING;
+    }
+}
+
+static fram_status fill_pool(study_work *w, fram_error *error)
+{
+    int32_t condition = 0, index = 0;
+    fram_status status = FRAM_OK;
+    while (status == FRAM_OK && w->pool.running.count < w->jobs && next_run(w, &condition, &index)) {
+        if (!is_busy(w, condition, index)) {
+            status = start_run(w, condition, index, error);
+            continue;
+        }
+        w->conditions[condition].seeds.data[index].state = RUN_BUSY;
+        w->busy++;
+    }
+    return status;
+}
+
+static fram_status take_result(study_work *w, int32_t condition, int32_t index, int exit_code, fram_error *error)
+{
+    int64_t seed = w->s->seeds.first + index;
+    study_seed *of = &w->conditions[condition].seeds.data[index];
+    of->state = RUN_MISSING;
+    if (exit_code == INTERRUPTED)
+        return FRAM_OK;
+    char *folder = study_run_path(&w->folder, condition, seed, "");
+    char *row = study_run_path(&w->folder, condition, seed, ".row");
+    char *log = study_run_path(&w->folder, condition, seed, ".log");
+    fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK && exit_code == 0)
+        status = run_row_of(w->ctx, folder, &of->row, error);
+    else if (status == FRAM_OK)
+        run_row_failed(w->ctx, folder, exit_code, &of->row);
+    if (status == FRAM_OK)
+        status = run_row_write(w->ctx, row, &of->row, error);
+    if (status == FRAM_OK) {
+        of->state = RUN_THERE;
+        w->made++;
+    }
+    if (status == FRAM_OK && !of->row.failed) {
+        (void)unlink(log);
+        study_run_tidy(&w->folder, condition, seed, w->s->keep);
+    }
+    memory_free(w->ctx, folder);
+    memory_free(w->ctx, row);
+    memory_free(w->ctx, log);
+    return status == FRAM_OK ? update_wanted(w, condition, error) : status;
+}
+
+static void show_progress(const study_work *w)
+{
+    study_progress p = {.wall = wall_clock() - w->started};
+    for (int32_t c = 0; c < w->s->conditions; c++) {
+        const study_condition *of = &w->conditions[c];
+        p.planned += of->wanted;
+        for (int32_t i = 0; i < of->wanted; i++) {
+            p.done += of->seeds.data[i].state == RUN_THERE;
+            p.failed += of->seeds.data[i].state == RUN_THERE && of->seeds.data[i].row.failed;
+        }
+    }
+    if (w->made >= w->jobs)
+        p.eta = p.wall / w->made * (p.planned - p.done);
+    if (w->options->progress)
+        w->options->progress(w->options->progress_user, &p);
+}
+
+static bool asked_to_stop(const study_work *w) { return w->options->stop && *w->options->stop; }
+
+static fram_status work_loop(study_work *w, fram_error *error)
+{
+    const struct timespec pause = {0, LOOK_NANOSECONDS};
+    fram_status status = fill_pool(w, error);
+    show_progress(w);
+    while (status == FRAM_OK && (w->pool.running.count > 0 || w->busy > 0) && !asked_to_stop(w)) {
+        int32_t task = 0;
+        int exit_code = 0;
+        if (!processes_ended(&w->pool, &task, &exit_code)) {
+            nanosleep(&pause, NULL);
+            if (w->pool.running.count == 0) {
+                look_again(w);
+                status = fill_pool(w, error);
+            }
+            continue;
+        }
+        status = take_result(w, (int32_t)(w->task.data[task] >> 32), (int32_t)(w->task.data[task] & INT32_MAX),
+                             exit_code, error);
+        if (status == FRAM_OK && !asked_to_stop(w))
+            status = fill_pool(w, error);
+        show_progress(w);
+    }
+    processes_stop(&w->pool);
+    if (status == FRAM_OK && asked_to_stop(w))
+        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
+                         "interrupted; what ended is kept, continue with the same command");
+    return status;
+}
+
+/* ---- all ---- */
+
+static fram_status write_tables(const study_work *w, study_result *result, fram_error *error)
+{
+    condition_rows *rows = memory_array(w->ctx, (size_t)w->s->conditions, sizeof *rows);
+    fram_status status = rows ? FRAM_OK : error_memory(error);
+    *result = (study_result){.conditions = w->s->conditions, .made = w->made};
+    for (int32_t c = 0; c < w->s->conditions && status == FRAM_OK; c++) {
+        const study_condition *of = &w->conditions[c];
+        int32_t n = prefix_of(of) < of->wanted ? prefix_of(of) : of->wanted;
+        for (int32_t i = 0; i < n && status == FRAM_OK; i++) {
+            if (!array_push(w->ctx, &rows[c].rows, of->seeds.data[i].row))
+                status = error_memory(error);
+            result->runs++;
+            result->failed += of->seeds.data[i].row.failed;
+        }
+    }
+    if (status == FRAM_OK)
+        status = study_tables_write(&w->folder, rows, error);
+    for (int32_t c = 0; rows && c < w->s->conditions; c++)
+        array_free(w->ctx, &rows[c].rows);
+    memory_free(w->ctx, rows);
+    return status;
+}
+
+fram_status study_run(context *ctx, const study *s, const study_options *options, study_result *result,
+                      fram_error *error)
+{
+    study_work w = {.ctx = ctx, .s = s, .options = options, .started = wall_clock()};
+    w.jobs = options->jobs > 0 ? options->jobs : processes_cores();
+    fram_status status = study_folder_open(ctx, s, options->folder, &w.folder, error);
+    if (status != FRAM_OK)
+        return status;
+    w.conditions = memory_array(ctx, (size_t)s->conditions, sizeof *w.conditions);
+    if (!w.conditions)
+        status = error_memory(error);
+    for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
+        status = update_wanted(&w, c, error);
+    if (status == FRAM_OK)
+        status = work_loop(&w, error);
+    /* The tables of what is there, also of a study that was stopped. */
+    if (status == FRAM_OK || status == FRAM_INTERRUPTED) {
+        fram_status written = write_tables(&w, result, status == FRAM_OK ? error : NULL);
+        status = status == FRAM_OK ? written : status;
+    }
+    for (int32_t c = 0; w.conditions && c < s->conditions; c++)
+        array_free(ctx, &w.conditions[c].seeds);
+    memory_free(ctx, w.conditions);
+    array_free(ctx, &w.task);
+    processes_free(ctx, &w.pool);
+    study_folder_close(&w.folder);
+    return status;
+}

@@ -1,0 +1,40 @@
+/* A study run on this machine: its folder, what is left to do, the processes that do it, and the tables at the end.
+
+     DIR/study.yaml              the study file as it was read last
+     DIR/conditions/ID.yaml      the effective scenario of a condition, at seed 0
+     DIR/runs/ID/SEED.row        the figures of a run that ended (study/run_row.h)
+     DIR/runs/ID/SEED/           its folder, as far as it is kept; of a run that failed, all of it, with SEED.log beside
+     DIR/summary.csv             a row a run, by condition and seed
+     DIR/conditions.csv          a row a condition: number of seeds, means over them with their confidence intervals
+
+   ID names what decides a run's result: the effective scenario, the contents of its files and the version of Fram.  A
+   study that is widened finds the runs that are there, and one whose inputs changed runs anew. */
+#ifndef STUDY_STUDY_RUN_H
+#define STUDY_STUDY_RUN_H
+
+#include "study/study.h"
+
+typedef struct study_progress {
+    int32_t done, failed, planned; /* runs; more may be planned as intervals turn out wide */
+    double wall, eta;              /* [s]; eta is 0 until it can be told */
+} study_progress;
+
+typedef struct study_options {
+    const char *folder;
+    const char *program;                                   /* the command `fram`, which is run for each run */
+    int jobs;                                              /* processes at a time; 0: the cores of this machine */
+    bool retry;                                            /* run again what failed */
+    void (*progress)(void *user, const study_progress *p); /* may be NULL */
+    void *progress_user;
+    const volatile int *stop; /* may be NULL */
+} study_options;
+
+typedef struct study_result {
+    int32_t conditions, runs, failed, made; /* made: runs that were not there before */
+} study_result;
+
+/* FRAM_INTERRUPTED when stopped: what ended is kept. */
+fram_status study_run(context *ctx, const study *s, const study_options *options, study_result *result,
+                      fram_error *error);
+
+#endif

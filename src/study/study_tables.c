@@ -1,0 +1,113 @@
+/* The tables of a study.  No wall-clock times and no order of ends: the same study leaves the same bytes. */
+#include "base/number_text.h"
+#include "io/atomic_file.h"
+#include "study/seeds.h"
+#include "study/study_folder.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A value of a key, quoted where a comma or a quotation mark would divide it. */
+static void add_value(context *ctx, text_buffer *b, const char *value)
+{
+    if (!strpbrk(value, ",\"")) {
+        text_format(ctx, b, ",%s", value);
+        return;
+    }
+    text_add(ctx, b, ",\"");
+    for (const char *c = value; *c; c++)
+        text_format(ctx, b, *c == '"' ? "\"\"" : "%c", *c);
+    text_add(ctx, b, "\"");
+}
+
+static void add_condition(const study_folder *f, int32_t condition, text_buffer *b)
+{
+    text_format(f->ctx, b, "%d", (int)condition + 1);
+    for (int32_t k = 0; k < f->s->keys.count; k++)
+        add_value(f->ctx, b, study_value(f->s, condition, k));
+}
+
+static void add_condition_heads(const study_folder *f, text_buffer *b)
+{
+    text_add(f->ctx, b, "condition");
+    for (int32_t k = 0; k < f->s->keys.count; k++)
+        text_format(f->ctx, b, ",%s", f->s->keys.data[k]);
+}
+
+static void summarise(const study_folder *f, const condition_rows *conditions, text_buffer *b)
+{
+    add_condition_heads(f, b);
+    text_add(f->ctx, b, ",seed");
+    run_row_heads(f->ctx, b);
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        for (int32_t i = 0; i < conditions[c].rows.count; i++) {
+            add_condition(f, c, b);
+            text_format(f->ctx, b, ",%lld", (long long)(f->s->seeds.first + i));
+            run_row_line(f->ctx, &conditions[c].rows.data[i], b);
+        }
+    }
+}
+
+static void add_number(context *ctx, text_buffer *b, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_format(ctx, b, ",%s", isfinite(value) ? text : "");
+}
+
+static fram_status summarise_conditions(const study_folder *f, const condition_rows *conditions, text_buffer *b,
+                                        fram_error *error)
+{
+    static const run_figure of[] = {ROW_load_mean, ROW_load_significant, ROW_load_largest, ROW_offset_largest,
+                                    ROW_line_tension_largest};
+    add_condition_heads(f, b);
+    text_add(f->ctx, b, ",seeds,failed");
+    text_add(f->ctx, b, ",load_mean[N],load_mean_half[N],load_significant[N],load_significant_half[N]");
+    text_add(f->ctx, b, ",load_largest[N],load_largest_half[N],offset_largest[m],offset_largest_half[m]");
+    text_add(f->ctx, b, ",line_tension_largest[N],line_tension_largest_half[N]\n");
+    ARRAY(double) value = {0};
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        int32_t failed = 0, n = conditions[c].rows.count;
+        if (!array_resize(f->ctx, &value, n))
+            return error_memory(error);
+        for (int32_t i = 0; i < n; i++)
+            failed += conditions[c].rows.data[i].failed;
+        add_condition(f, c, b);
+        text_format(f->ctx, b, ",%d,%d", (int)n, (int)failed);
+        for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+            for (int32_t i = 0; i < n; i++)
+                value.data[i] = conditions[c].rows.data[i].figure[of[k]];
+            seed_interval interval = seed_interval_of(value.data, n, f->s->seeds.confidence);
+            add_number(f->ctx, b, interval.mean);
+            add_number(f->ctx, b, interval.half);
+        }
+        text_add(f->ctx, b, "\n");
+    }
+    array_free(f->ctx, &value);
+    return FRAM_OK;
+}
+
+static fram_status write_table(const study_folder *f, const char *name, const text_buffer *b, fram_error *error)
+{
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/%s", f->path, name);
+    fram_status status = path.failed || b->failed
+                             ? error_memory(error)
+                             : atomic_file_write(f->ctx, path.data, b->data, (size_t)b->count, error);
+    text_free(f->ctx, &path);
+    return status;
+}
+
+fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
+{
+    text_buffer runs = {0}, means = {0};
+    summarise(f, conditions, &runs);
+    fram_status status = summarise_conditions(f, conditions, &means, error);
+    if (status == FRAM_OK)
+        status = write_table(f, "summary.csv", &runs, error);
+    if (status == FRAM_OK)
+        status = write_table(f, "conditions.csv", &means, error);
+    text_free(f->ctx, &runs);
+    text_free(f->ctx, &means);
+    return status;
+}

@@ -1,0 +1,120 @@
+/* Studies through the public API: misuse is refused, and a small study runs by the command. */
+#include "testing.h"
+
+#include "fram/study.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+static fram_context *context_of(void)
+{
+    fram_context *c = NULL;
+    ck_assert_int_eq(fram_context_create(NULL, &c, NULL), FRAM_OK);
+    return c;
+}
+
+/* A study of one still floe, in a folder of its own. */
+static void write_study(char folder[256], char study[300])
+{
+    char path[300];
+    const char *root = getenv("TMPDIR");
+    snprintf(folder, 256, "%.150s/fram_study_XXXXXX", root && *root ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/floe.yaml", folder);
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    fputs("run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n", file);
+    ck_assert_int_eq(fclose(file), 0);
+    snprintf(study, 300, "%s/study.yaml", folder);
+    file = fopen(study, "w");
+    ck_assert_ptr_nonnull(file);
+    fputs("scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1, 1.5]}}\n", file);
+    ck_assert_int_eq(fclose(file), 0);
+}
+
+START_TEST(misuse_is_refused)
+{
+    fram_error error = {0};
+    fram_context *c = context_of();
+    fram_study *s = NULL;
+    char folder[256], path[300];
+    write_study(folder, path);
+    ck_assert_int_eq(fram_study_load(NULL, path, &s, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_study_load(c, NULL, &s, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_study_load(c, path, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_study_load(c, "/nowhere.yaml", &s, &error), FRAM_ERROR_INPUT);
+    ck_assert_ptr_null(s);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    fram_study_extent extent;
+    ck_assert_int_eq(fram_study_measure(NULL, &extent, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_study_measure(s, NULL, &error), FRAM_ERROR_USAGE);
+    fram_study_definition d;
+    fram_study_default(NULL);
+    fram_study_default(&d);
+    ck_assert_int_eq(fram_study_run(NULL, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_study_run(s, NULL, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "folder");
+    d.folder = folder;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "program");
+    d.program = "/nowhere";
+    d.jobs = -1;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "jobs");
+    d.size = 1;
+    ck_assert_int_eq(fram_study_run(s, &d, NULL, &error), FRAM_ERROR_USAGE);
+    fram_study_destroy(s);
+    fram_study_destroy(NULL);
+    fram_context_destroy(c);
+}
+END_TEST
+
+static void count_calls(void *user, const fram_study_progress *p)
+{
+    ck_assert_int_le(p->done, p->planned);
+    (*(int *)user)++;
+}
+
+START_TEST(a_study_runs_by_the_command)
+{
+    const char *program = getenv("FRAM");
+    if (!program)
+        return; /* a build without the command */
+    fram_error error = {0};
+    fram_context *c = context_of();
+    fram_study *s = NULL;
+    char folder[256], path[300], out[300];
+    write_study(folder, path);
+    snprintf(out, sizeof out, "%s/out", folder);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    fram_study_extent extent = {0};
+    ck_assert_int_eq(fram_study_measure(s, &extent, &error), FRAM_OK);
+    ck_assert_int_eq(extent.conditions, 3);
+    ck_assert_int_eq(extent.runs_least, 6);
+    ck_assert(extent.run_seconds > 0 && extent.run_bytes > 0);
+    int calls = 0;
+    fram_study_definition d;
+    fram_study_default(&d);
+    d.folder = out;
+    d.program = program;
+    d.progress = count_calls;
+    d.progress_user = &calls;
+    fram_study_result result = {0};
+    ck_assert_msg(fram_study_run(s, &d, &result, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(result.runs, 6);
+    ck_assert_int_eq(result.failed, 0);
+    ck_assert_int_eq(result.made, 6);
+    ck_assert_int_ge(calls, 6);
+    /* A program that is none: nothing is recorded as a result. */
+    char other[300];
+    snprintf(other, sizeof other, "%s/other", folder);
+    d.folder = other;
+    d.program = "/nowhere";
+    ck_assert_int_ne(fram_study_run(s, &d, &result, &error), FRAM_OK);
+    fram_study_destroy(s);
+    fram_context_destroy(c);
+}
+END_TEST
+
+TEST_MAIN("study", misuse_is_refused, a_study_runs_by_the_command)

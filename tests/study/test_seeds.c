@@ -1,0 +1,58 @@
+/* How many seeds a condition takes, and the interval of a mean. */
+#include "testing.h"
+
+#include "base/random.h"
+#include "study/seeds.h"
+
+START_TEST(the_interval_is_students)
+{
+    const double value[] = {1, 2, 3, 4, (double)NAN};
+    seed_interval i = seed_interval_of(value, 5, 0.95);
+    assert_relative(i.mean, 2.5, 1e-15);
+    assert_relative(i.half, 3.182446305284263 * sqrt(5.0 / 3 / 4), 1e-12);
+    ck_assert(isnan(seed_interval_of(value, 1, 0.95).half));
+}
+END_TEST
+
+/* Of 2,000 samples of 6 from a normal law, 95 % of the intervals hold the mean, within three standard errors. */
+START_TEST(intervals_cover_the_mean_as_often_as_they_say)
+{
+    int held = 0;
+    for (uint32_t trial = 0; trial < 2000; trial++) {
+        random_stream r = random_begin(5, 3, trial);
+        double value[6];
+        for (int i = 0; i < 6; i++)
+            value[i] = 10 + 3 * random_normal(&r);
+        seed_interval i = seed_interval_of(value, 6, 0.95);
+        held += fabs(i.mean - 10) <= i.half;
+    }
+    ck_assert_int_ge(held, 1900 - 30);
+    ck_assert_int_le(held, 1900 + 30);
+}
+END_TEST
+
+START_TEST(seeds_go_on_until_the_interval_is_narrow)
+{
+    study_seeds rule = {.first = 1, .least = 4, .most = 40, .mean_within = 0.1, .confidence = 0.95};
+    double wide[40], calm[40];
+    for (int i = 0; i < 40; i++) {
+        wide[i] = i % 2 ? 1 : 100;
+        calm[i] = 100 + i % 2;
+    }
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 0), 4);
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 3), 4);
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 4), 5);
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 40), 40);
+    ck_assert_int_eq(seeds_wanted(&rule, calm, wide, 40), 4);
+    rule.largest_within = 0.1;
+    ck_assert_int_eq(seeds_wanted(&rule, calm, wide, 40), 40);
+    /* What later seeds say changes nothing that was decided before them. */
+    calm[20] = 1e9;
+    ck_assert_int_eq(seeds_wanted(&rule, calm, calm, 40), 4);
+    const study_seeds fixed = {.first = 1, .least = 7, .most = 7, .confidence = 0.95};
+    ck_assert_int_eq(seeds_wanted(&fixed, wide, wide, 40), 7);
+}
+END_TEST
+
+TEST_MAIN("seeds", the_interval_is_students, intervals_cover_the_mean_as_often_as_they_say,
+          seeds_go_on_until_the_interval_is_narrow)

@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Studies: the same bytes however they were run, stopped, killed and widened; mistakes told at their place."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+FRAM = os.environ["FRAM"]
+BASE = """
+run: {duration: 3, time_step: 0.02, transient: 1}
+vessel: {mode: towed, x: -30, speed: 2, ramp: 0.5, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {concentration: 0.8, mean_floe_area: 64}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+"""
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        self.at = pathlib.Path(tempfile.mkdtemp(prefix="fram-study-"))
+        self.addCleanup(shutil.rmtree, self.at)
+        (self.at / "base.yaml").write_text(BASE)
+
+    def write(self, text, name="study.yaml"):
+        path = self.at / name
+        path.write_text("scenario: base.yaml\n" + text)
+        return path
+
+    def fram(self, *words, code=0):
+        done = subprocess.run([FRAM, "study", *map(str, words), "--json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout.splitlines()[-1])
+
+    def rows(self, folder, name="summary.csv"):
+        with open(self.at / folder / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def refused(self, text, *said):
+        error = self.fram("check", self.write(text), code=2)["error"]
+        for word in said:
+            self.assertIn(word, f"{error['file']}:{error['line']}: {error['key']}: {error['message']}")
+
+    def test_a_row_for_each_run_and_its_numbers_are_those_of_the_run(self):
+        study = self.write("seeds: {least: 2, first: 5}\nkeep: series\n"
+                           "vary: {grid: {ice.thickness: [0.5, 1], vessel.speed: [1.5, 2]}}\n")
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 8)
+        rows = self.rows("out")
+        self.assertEqual([(r["condition"], r["ice.thickness"], r["vessel.speed"], r["seed"]) for r in rows],
+                         [(str(1 + i), h, v, s) for i, (h, v) in enumerate(
+                             [("0.5", "1.5"), ("0.5", "2"), ("1", "1.5"), ("1", "2")]) for s in ("5", "6")])
+        # One run by hand: the same state, and the same load.
+        subprocess.run([FRAM, "run", self.at / "base.yaml", "-o", self.at / "one", "--set", "ice.thickness=1",
+                        "--set", "vessel.speed=2", "--set", "run.seed=6", "--quiet"], check=True)
+        note = json.loads((self.at / "one" / "run.json").read_text())
+        self.assertEqual(rows[7]["state_hash"], note["state_hash"])
+        with open(self.at / "one" / "series.csv", newline="") as file:
+            loads = [(float(r["ice_force_averaged_x[N]"]) ** 2 + float(r["ice_force_averaged_y[N]"]) ** 2) ** 0.5
+                     for r in csv.DictReader(file) if float(r["time[s]"]) >= 1]
+        self.assertAlmostEqual(float(rows[7]["load_mean[N]"]), sum(loads) / len(loads), delta=1e-9 * max(loads))
+        self.assertAlmostEqual(float(rows[7]["load_largest[N]"]), max(loads), delta=1e-9 * max(loads))
+        means = self.rows("out", "conditions.csv")
+        pair = [float(r["load_mean[N]"]) for r in rows[6:]]
+        self.assertAlmostEqual(float(means[3]["load_mean[N]"]), sum(pair) / 2, delta=1e-6)
+        # Student's t of two values: 12.706 times the standard error.
+        self.assertAlmostEqual(float(means[3]["load_mean_half[N]"]) / (abs(pair[0] - pair[1]) / 2), 12.7062, delta=1e-3)
+        kept = list((self.at / "out" / "runs").glob("*/5/*"))
+        self.assertEqual({p.name for p in kept}, {"scenario.yaml", "run.json", "series.csv", "fractures.csv"})
+
+    def test_the_same_bytes_however_it_was_run(self):
+        study = self.write("seeds: 3\nvary: {grid: {vessel.speed: [1.5, 2]}}\n")
+        self.fram(study, "-o", self.at / "one", "--jobs", "1")
+        self.fram(study, "-o", self.at / "many", "--jobs", "5")
+        # Killed on the way, twice, and gone on with.
+        for moment in (0.15, 0.4):
+            process = subprocess.Popen([FRAM, "study", study, "-o", self.at / "killed", "--quiet"])
+            time.sleep(moment)
+            process.kill()
+            process.wait()
+        self.fram(study, "-o", self.at / "killed")
+        # Narrow first, then wider: what is there is not run again.
+        self.fram(self.write("seeds: 2\nvary: {grid: {vessel.speed: [2]}}\n", "small.yaml"), "-o", self.at / "wide")
+        self.assertEqual(self.fram(study, "-o", self.at / "wide")["made"], 4)
+        self.assertEqual(self.fram(study, "-o", self.at / "wide")["made"], 0)
+        for table in ("summary.csv", "conditions.csv"):
+            whole = (self.at / "one" / table).read_bytes()
+            for other in ("many", "killed", "wide"):
+                self.assertEqual((self.at / other / table).read_bytes(), whole, f"{other} {table}")
+
+    def test_a_failure_is_a_row_and_stops_nothing(self):
+        study = self.write("seeds: 2\nvary: {grid: {run.speed_limit: [0.5, 100]}}\n")
+        result = self.fram(study, "-o", self.at / "out")
+        self.assertEqual((result["runs"], result["failed"]), (4, 2))
+        rows = self.rows("out")
+        self.assertEqual([r["status"] for r in rows], ["failed", "failed", "finished", "finished"])
+        self.assertIn("run.speed_limit", rows[0]["reason"])
+        self.assertEqual(rows[0]["load_mean[N]"], "")
+        self.assertEqual(self.rows("out", "conditions.csv")[0]["failed"], "2")
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
+        self.assertEqual(self.fram(study, "-o", self.at / "out", "--retry")["made"], 2)
+
+    def test_seeds_go_on_until_the_interval_is_narrow(self):
+        study = self.write("seeds: {least: 2, most: 9, mean_within: 0.08, confidence: 0.9}\n")
+        rows = self.fram(study, "-o", self.at / "out")["runs"]
+        self.assertGreater(rows, 2)
+        mean = self.rows("out", "conditions.csv")[0]
+        narrow = float(mean["load_mean_half[N]"]) <= 0.08 * float(mean["load_mean[N]"])
+        self.assertTrue(narrow or rows == 9)
+        extent = self.fram("check", study)
+        self.assertEqual((extent["runs_least"], extent["runs_most"]), (2, 9))
+        self.assertGreater(extent["run_s"], 0)
+
+    def test_conditions_of_a_list_a_table_and_a_hypercube(self):
+        study = self.write("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
+                           "    - {vessel.speed: 2, ice.thickness: 1}\n")
+        self.assertEqual(self.fram("check", study)["conditions"], 2)
+        (self.at / "c.csv").write_text("vessel.speed[m/s],ice.thickness[m]\n1.5,0.5\n2,1\n1,1\n")
+        self.assertEqual(self.fram("check", self.write("vary: {table: c.csv}\n"))["conditions"], 3)
+        latin = self.write("set: {run.duration: 0.1, run.transient: 0}\nvary:\n  latin: {count: 8, seed: 3, keys: "
+                           "{vessel.speed: [1, 2], ice.thickness: [0.4, 1.2]}}\n")
+        self.fram(latin, "-o", self.at / "out")
+        rows = self.rows("out")
+        for key, lo, hi in (("vessel.speed", 1, 2), ("ice.thickness", 0.4, 1.2)):
+            strata = sorted(int((float(r[key]) - lo) / (hi - lo) * 8) for r in rows)
+            self.assertEqual(strata, list(range(8)))
+
+    def test_ctrl_c_keeps_what_ended(self):
+        study = self.write("set: {run.duration: 20}\nseeds: 6\n")
+        process = subprocess.Popen([FRAM, "study", study, "-o", self.at / "out", "--quiet"], stderr=subprocess.DEVNULL)
+        end = time.monotonic() + 60
+        while not list(self.at.glob("out/runs/*/*.row")) and time.monotonic() < end:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        there = len(self.rows("out"))
+        self.assertLess(there, 6)
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 6)
+
+    def test_mistakes_are_told_at_their_place(self):
+        self.refused("vary: {grid: {ice.thicknes: [1]}}\n", "study.yaml:2: ice.thicknes", "condition 1")
+        self.refused("set:\n  run.duration: -1\n", "study.yaml:3: run.duration")
+        self.refused("seeds: 0\n", "study.yaml:2: seeds")
+        self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
+        self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")
+        self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "run.seed", "`seeds`")
+        self.refused("vary: {grid: {vessel.speed: []}}\n", "vessel.speed")
+        self.refused("vary: {list: [{vessel.speed: 1}, {ice.thickness: 1}]}\n", "vessel.speed")
+        self.refused("vary: {latin: {count: 3, keys: {vessel.speed: [2, 1]}}}\n", "vessel.speed")
+        self.refused("vary: {table: none.csv}\n", "none.csv")
+        self.refused("nonsense: 1\n", "study.yaml:2: nonsense")
+        (self.at / "empty.yaml").write_text("")
+        self.assertIn("no study", self.fram("check", self.at / "empty.yaml", code=2)["error"]["message"])
+        self.fram(self.at / "none.yaml", "-o", self.at / "out", code=2)
+        # A folder that holds something else stays as it is.
+        (self.at / "full").mkdir()
+        (self.at / "full" / "letter.txt").write_text("x")
+        self.fram(self.write("seeds: 1\n"), "-o", self.at / "full", code=2)
+        self.assertEqual([p.name for p in (self.at / "full").iterdir()], ["letter.txt"])
+
+
+if __name__ == "__main__":
+    unittest.main()
