@@ -40,7 +40,8 @@ for _ in $(seq 300); do
     if ls gone/checkpoint-* >/dev/null 2>&1; then break; fi
     sleep 0.1
 done
-rm -rf gone
+# The run writes into it meanwhile.
+until rm -rf gone 2>/dev/null; do sleep 0.01; done
 code=0
 wait $run || code=$?
 same "$code" 1 "exit code of a run whose folder was taken away"
