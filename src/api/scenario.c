@@ -4,12 +4,15 @@
 
 #include "io/scenario_file.h"
 #include "sim/notes.h"
+#include "sim/scene_size.h"
 
 #include <math.h>
 
 static fram_status fill(context *ctx, fram_scenario *s, fram_error *error)
 {
-    fram_status status = scenario_print(ctx, &s->inner, NULL, &s->text, error);
+    fram_status status = scene_size_check(&s->inner, error);
+    if (status == FRAM_OK)
+        status = scenario_print(ctx, &s->inner, NULL, &s->text, error);
     if (status == FRAM_OK)
         status = scenario_hash(ctx, &s->inner, s->hash, error);
     if (status != FRAM_OK)

@@ -11,8 +11,9 @@ tile_grid tile_grid_over(box2 plan, double size)
 {
     double length = plan.hi.x - plan.lo.x, width = plan.hi.y - plan.lo.y;
     tile_grid g = {.plan = plan};
-    g.columns = (int32_t)fmax(floor(length / size + 0.5), 1);
-    g.rows = (int32_t)fmax(floor(width / size + 0.5), 1);
+    /* Cells are numbered in 32 bits, whatever is asked for. */
+    g.columns = (int32_t)fmin(fmax(floor(length / size + 0.5), 1), INT32_MAX);
+    g.rows = (int32_t)fmin(fmax(floor(width / size + 0.5), 1), floor((double)INT32_MAX / g.columns));
     return g;
 }
 

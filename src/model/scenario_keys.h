@@ -44,6 +44,8 @@
       "margin by which bounding boxes are enlarged so that pairs last for several steps; changes speed "             \
       "only")                                                                                                        \
     X(speed_limit, SCALED(100, 30, 0.5, 1e-6, 1e9), "m/s", "a body that moves faster means that the run went wrong") \
+    X(memory_limit, REAL(16, 0.01, 1e6), "GB",                                                                       \
+      "a scenario that is estimated to take more memory is refused before it is built")                              \
     X(solver, SECTION(solver), "", "the multibody solver")
 
 #define SCENARIO_SOLVER_KEYS(X)                                                                                   \

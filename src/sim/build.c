@@ -8,6 +8,7 @@
 #include "sim/build_ice.h"
 #include "sim/build_media.h"
 #include "sim/build_station.h"
+#include "sim/scene_size.h"
 #include "vessel/path.h"
 
 #include <string.h>
@@ -222,7 +223,9 @@ static fram_status build_before_ice(context *ctx, const scenario *s, const step_
                                     build_report *report, fram_error *error)
 {
     *report = (build_report){0};
-    fram_status status = world_init(ctx, w, error);
+    fram_status status = scene_size_check(s, error);
+    if (status == FRAM_OK)
+        status = world_init(ctx, w, error);
     if (status != FRAM_OK)
         return status;
     status = start_load_window(ctx, s, w, error);

@@ -115,20 +115,37 @@ static fram_status build_drawn(context *ctx, const scenario *s, world *w, field_
 /* ---- level ice ---- */
 
 /* Tiles of about four breaking radii: R_bending is about half the characteristic length under the loads that break
-   (oracles section 1, a/l near 0.1). */
+   (a/l near 0.1; docs/theory.md). */
 static const double TILE_LENGTHS = 2;
+
+static box2 sheet_plan(const scenario *s)
+{
+    const scenario_level *l = &s->ice.level;
+    return (box2){{automatic_or(l->x_min, s->domain.x_min), automatic_or(l->y_min, s->domain.y_min)},
+                  {automatic_or(l->x_max, s->domain.x_max), automatic_or(l->y_max, s->domain.y_max)}};
+}
+
+static double tile_size(const scenario *s)
+{
+    ice_material ice = material_of(s);
+    double length =
+        ice_characteristic_length(&ice, s->ice.thickness, s->environment.water_density, s->environment.gravity);
+    return automatic_or(s->ice.level.tile_size, TILE_LENGTHS * length);
+}
+
+double build_tile_number(const scenario *s)
+{
+    box2 plan = sheet_plan(s);
+    double size = tile_size(s);
+    return fmax((plan.hi.x - plan.lo.x) / size, 1) * fmax((plan.hi.y - plan.lo.y) / size, 1);
+}
 
 tile_grid build_tiles(const scenario *s)
 {
     const scenario_level *l = &s->ice.level;
     if (s->ice.source != ICE_LEVEL)
         return (tile_grid){.columns = 0};
-    box2 plan = {{automatic_or(l->x_min, s->domain.x_min), automatic_or(l->y_min, s->domain.y_min)},
-                 {automatic_or(l->x_max, s->domain.x_max), automatic_or(l->y_max, s->domain.y_max)}};
-    ice_material ice = material_of(s);
-    double length =
-        ice_characteristic_length(&ice, s->ice.thickness, s->environment.water_density, s->environment.gravity);
-    tile_grid g = tile_grid_over(plan, automatic_or(l->tile_size, TILE_LENGTHS * length));
+    tile_grid g = tile_grid_over(sheet_plan(s), tile_size(s));
     g.anchored[SHEET_X_MIN] = l->anchored_x_min;
     g.anchored[SHEET_X_MAX] = l->anchored_x_max;
     g.anchored[SHEET_Y_MIN] = l->anchored_y_min;

@@ -11,6 +11,8 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
 
 /* The grid of a level sheet; without cells for any other source. */
 tile_grid build_tiles(const scenario *s);
+/* Its tiles, also where they are more than a grid can number. */
+double build_tile_number(const scenario *s);
 
 /* Plan outlines, global [m], of what is drawn or kept clear: the convex hull of all of a solid body seen from above,
    and of its part below still water. */

@@ -4,6 +4,7 @@
 #include "ice/floe.h"
 #include "ice/fracture.h"
 #include "sim/build.h"
+#include "sim/scene_size.h"
 
 static void note_ice(context *ctx, const scenario *s, text_buffer *out)
 {
@@ -78,6 +79,9 @@ void scenario_notes(context *ctx, const scenario *s, text_buffer *out)
 {
     text_format(ctx, out, "run: %.0f steps of %g s\n", floor(s->run.duration / s->run.time_step + 0.5),
                 s->run.time_step);
+    scene_size size = scene_size_of(s);
+    text_format(ctx, out, "memory: about %.2g GB for about %.0f floes; run.memory_limit is %g GB\n", size.bytes * 1e-9,
+                size.floes, s->run.memory_limit);
     note_ice(ctx, s, out);
     note_fracture(ctx, s, out);
     note_vessel(ctx, s, out);

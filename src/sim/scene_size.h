@@ -1,0 +1,17 @@
+/* How large a scenario is before anything of it is built: floes and memory, from its keys alone. */
+#ifndef SIM_SCENE_SIZE_H
+#define SIM_SCENE_SIZE_H
+
+#include "model/scenario.h"
+
+typedef struct scene_size {
+    double floes; /* at the start, about; those of ice.file and of histograms are not counted */
+    double bytes; /* that a run takes, about: at least half of it in the fields that were measured, at most all */
+} scene_size;
+scene_size scene_size_of(const scenario *s);
+
+/* FRAM_ERROR_INPUT, naming the key that makes it so large, when the scenario takes more than run.memory_limit, or has
+   more floes than can be numbered. */
+fram_status scene_size_check(const scenario *s, fram_error *error);
+
+#endif

@@ -1,0 +1,91 @@
+/* The size of a scenario told before it is built: tiles and floes against those that are made, limits, no overflow. */
+#include "scene.h"
+#include "sim/scene_size.h"
+
+#define HOUSE "vessel: {present: false}\nrun: {duration: 1}\n"
+#define PLAN "domain: {x_min: -100, x_max: 140, y_min: -80, y_max: 60, boundary: open}\n"
+#define WIDE "domain: {x_min: -1e7, x_max: 1e7, y_min: -1e7, y_max: 1e7, boundary: open}\n"
+
+static context ctx;
+static fram_error error;
+
+static void read_scenario(const char *text, scenario *s)
+{
+    context_init(&ctx);
+    assert_ok(scenario_parse(&ctx, "scene.yaml", text, strlen(text), NULL, s, &error), error);
+}
+
+/* The estimate is within this part of what is made. */
+START_TEST(floes_that_are_made)
+{
+    static const struct {
+        const char *text;
+        double part;
+    } cases[] = {
+        {HOUSE PLAN "ice: {source: level, level: {tile_size: 7}}\n", 0.03},
+        {HOUSE PLAN "ice: {source: voronoi, concentration: 0.8, mean_floe_area: 100}\n", 0.05},
+        {HOUSE PLAN "ice: {source: packed, concentration: 0.6, populations: [{size: uniform, diameter_min: 5, "
+                    "diameter_max: 15}]}\n",
+         0.05},
+        {HOUSE PLAN "ice: {source: voronoi, concentration: 0.8, populations: [{size: lognormal, diameter: 9, "
+                    "diameter_deviation: 3}]}\n",
+         0.05},
+        {HOUSE PLAN "ice: {source: floes, floes: [{x: 0}, {x: 50}]}\n", 0},
+        {HOUSE PLAN "ice: {source: none}\n", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scene k;
+        scene_open(&k, cases[i].text);
+        scene_size size = scene_size_of(&k.s);
+        double made = k.w.floes.count;
+        ck_assert_msg(fabs(size.floes - made) <= cases[i].part * made, "case %zu: %g floes expected, %g made", i,
+                      size.floes, made);
+        ck_assert(size.bytes > 1e7 && size.bytes < 1e8);
+        assert_ok(scene_size_check(&k.s, &error), error);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+/* A field that is fed fills a tile, which is larger than the domain. */
+START_TEST(a_tile_is_larger)
+{
+    scenario s;
+    read_scenario(HOUSE PLAN "ice: {concentration: 0.8, mean_floe_area: 100}\n", &s);
+    double open = scene_size_of(&s).floes;
+    assert_relative(open, 240 * 140 / 100.0, 1e-12);
+    s.domain.boundary = DOMAIN_FEEDING;
+    assert_relative(scene_size_of(&s).floes, 1.25 * 240 * (140 + 60) / 100.0, 1e-12);
+    scenario_free(&ctx, &s);
+}
+END_TEST
+
+/* A sheet of automatic tiles in a wide domain: more cells than 32 bits number, and more memory than there is. */
+START_TEST(what_is_too_large_is_refused)
+{
+    static const struct {
+        const char *text, *key, *message;
+    } cases[] = {
+        {HOUSE WIDE "ice: {source: level, thickness: 0.001}\n", "ice.level.tile_size", "expected at most 2e+07 floes"},
+        {"vessel: {present: false}\nrun: {memory_limit: 1}\n" WIDE "ice: {source: level, level: {tile_size: 25000}}\n",
+         "ice.level.tile_size", "at most run.memory_limit, 1 GB, found about 1.295"},
+        {HOUSE WIDE "ice: {source: voronoi, mean_floe_area: 1}\n", "ice.mean_floe_area", "found about 4e+14"},
+        {HOUSE WIDE "ice: {source: packed, concentration: 0.5, populations: [{size: constant, diameter: 10000}]}\n",
+         "ice.populations", "at most run.memory_limit, 16 GB, found about 25"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scenario s;
+        read_scenario(cases[i].text, &s);
+        assert_fails(scene_size_check(&s, &error), error, FRAM_ERROR_INPUT, cases[i].message);
+        ck_assert_str_eq(error.key, cases[i].key);
+        world w;
+        build_report report;
+        ck_assert_int_eq(build_world(&ctx, &s, &w, &report, &error), FRAM_ERROR_INPUT);
+        tile_grid g = build_settings(&s).fracture.tiles;
+        ck_assert((int64_t)g.columns * g.rows <= INT32_MAX);
+        scenario_free(&ctx, &s);
+    }
+}
+END_TEST
+
+TEST_MAIN("scene_size", floes_that_are_made, a_tile_is_larger, what_is_too_large_is_refused)
