@@ -10,6 +10,11 @@
 
 #include "geometry/polyhedron_build.h"
 
+#include <string.h>
+
+/* Depths that matter, over what is small, from which on most places are found not to be that deep by a face or two. */
+#define WORTH_ASKING 4
+
 typedef struct measure {
     const convex_piece *piece;
     double small;
@@ -20,6 +25,7 @@ typedef struct measure {
     double deepest;
     vec3 place;
     int32_t face;
+    int32_t corner[3]; /* vertices of the triangle that is being measured */
 } measure;
 
 void convex_piece_free(context *ctx, convex_piece *p)
@@ -28,6 +34,8 @@ void convex_piece_free(context *ctx, convex_piece *p)
     mesh_adjacency_free(ctx, &p->adjacency);
     array_free(ctx, &p->cuts);
     polyhedron_free(ctx, &p->hull);
+    array_free(ctx, &p->start);
+    array_free(ctx, &p->hull_face);
 }
 
 void convex_piece_array_free(context *ctx, convex_piece_array *a)
@@ -70,11 +78,28 @@ static bool outside_of(const measure *m, int32_t face, vec3 point)
     return vec3_dot(f->normal, point) > f->offset + m->small;
 }
 
+/* The place a step along the outward normal from the surface. */
+static vec3 ahead_of(const measure *m, vec3 point, vec3 normal) { return vec3_mad(point, normal, 4 * m->small); }
+
+/* Whether one of the hull's faces that most likely tell says that the place is not covered. */
+static bool soon_uncovered(measure *m, vec3 point, vec3 normal)
+{
+    vec3 ahead = ahead_of(m, point, normal);
+    if (outside_of(m, m->hint, ahead))
+        return true;
+    const convex_piece *p = m->piece;
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = p->start.data[m->corner[c]]; i < p->start.data[m->corner[c] + 1]; i++)
+            if (outside_of(m, p->hull_face.data[i], ahead)) {
+                m->hint = p->hull_face.data[i];
+                return true;
+            }
+    return false;
+}
+
 static bool covered(measure *m, vec3 point, vec3 normal)
 {
-    vec3 ahead = vec3_mad(point, normal, 4 * m->small);
-    if (outside_of(m, m->hint, ahead))
-        return false;
+    vec3 ahead = ahead_of(m, point, normal);
     for (int32_t k = 0; k < m->piece->hull.face.count; k++)
         if (outside_of(m, k, ahead)) {
             m->hint = k;
@@ -118,25 +143,35 @@ static bool goes_on(const measure *m, vec3 place, vec3 normal)
     return false;
 }
 
-/* Depth of a covered place, or something at most `enough` when it is at most that.  Places that are asked about one
-   after the other are neighbours: the face that was nearest last time is asked first, and mostly it is near enough. */
-static double depth(measure *m, vec3 point, double enough)
+/* Whether hull face k is nearer to the place than *best, which then becomes its distance. */
+static void try_face(measure *m, int32_t k, vec3 point, double *best)
 {
     const polyhedron *hull = &m->piece->hull;
-    double best = 2 * hull->radius; /* a hull that is all cuts has no surface to be far from */
-    for (int32_t i = -1; i < hull->face.count && best > enough; i++) {
-        int32_t k = i < 0 ? m->nearest : i;
-        const polyhedron_face *f = &hull->face.data[k];
-        double height = fmax(0, f->offset - vec3_dot(f->normal, point));
-        if (height >= best)
-            continue;
-        vec3 nearest = nearest_on_face(hull, f, point, height);
-        double distance = vec3_length(vec3_sub(nearest, point));
-        if (distance < best && !(m->in_cut[k] && goes_on(m, nearest, f->normal))) {
-            best = distance;
-            m->nearest = k;
-        }
+    const polyhedron_face *f = &hull->face.data[k];
+    double height = fmax(0, f->offset - vec3_dot(f->normal, point));
+    if (height >= *best)
+        return;
+    vec3 nearest = nearest_on_face(hull, f, point, height);
+    double distance = vec3_length(vec3_sub(nearest, point));
+    if (distance < *best && !(m->in_cut[k] && goes_on(m, nearest, f->normal))) {
+        *best = distance;
+        m->nearest = k;
     }
+}
+
+/* Depth of a covered place, or something at most `enough` when it is at most that.  First are asked the face that was
+   nearest last time, since places that are asked about one after the other are neighbours, and those at the corners of
+   the triangle: mostly one of them is near enough. */
+static double depth(measure *m, vec3 point, double enough)
+{
+    const convex_piece *piece = m->piece;
+    double best = 2 * piece->hull.radius; /* a hull that is all cuts has no surface to be far from */
+    try_face(m, m->nearest, point, &best);
+    for (int c = 0; c < 3; c++)
+        for (int32_t i = piece->start.data[m->corner[c]]; i < piece->start.data[m->corner[c] + 1] && best > enough; i++)
+            try_face(m, piece->hull_face.data[i], point, &best);
+    for (int32_t k = 0; k < piece->hull.face.count && best > enough; k++)
+        try_face(m, k, point, &best);
     return best;
 }
 
@@ -176,19 +211,27 @@ static void climb(measure *m, const vec3 t[3], double u, double v, double best, 
 static void measure_face(measure *m, int32_t face)
 {
     static const double sample[7][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}, {1.0 / 3, 1.0 / 3}};
-    vec3 t[3], normal = vec3_unit(mesh_area_vector(&m->piece->surface, face));
+    vec3 t[3], normal;
     mesh_face_points(&m->piece->surface, face, t);
     if (surface_in_cut(m->piece, t, m->small))
         return;
+    normal = vec3_unit(mesh_area_vector(&m->piece->surface, face));
+    memcpy(m->corner, m->piece->surface.face.data[face].v, sizeof m->corner);
     double best = 0;
     int where = -1;
     /* Concave over the triangle, depth is nowhere more than three times what the best of these places has. */
     for (int k = 0; k < 7; k++) {
         vec3 p = place_on(t, sample[k][0], sample[k][1]);
-        if (!covered(m, p, normal))
+        if (soon_uncovered(m, p, normal))
             continue;
-        double enough = fmax(best, m->deepest / 3), d = depth(m, p, enough);
-        if (d > enough) {
+        /* Depth is asked first where it may be less than enough, though it counts only where the hull covers the place:
+           mostly one face tells that it is less, and only all faces tell that a place is covered. */
+        double enough = fmax(best, m->deepest / 3);
+        bool depth_first = enough > WORTH_ASKING * m->small;
+        if (!depth_first && !covered(m, p, normal))
+            continue;
+        double d = depth(m, p, enough);
+        if (d > enough && (!depth_first || covered(m, p, normal))) {
             best = d;
             where = k;
         }
@@ -214,10 +257,43 @@ bool convex_piece_measure(context *ctx, convex_piece *p, const hull_list *all, d
     return true;
 }
 
+/* Which faces of the hull meet at which vertex of the surface: those of the hull are among them, in their order. */
+static bool list_hull_faces(context *ctx, convex_piece *p)
+{
+    const polyhedron *h = &p->hull;
+    int32_t count = p->surface.vertex.count;
+    int32_t *vertex = memory_array(ctx, (size_t)h->vertex.count, sizeof *vertex); /* of the surface, of each hull's */
+    bool done = vertex && array_resize(ctx, &p->start, count + 1) && array_resize(ctx, &p->hull_face, h->loop.count);
+    if (done)
+        memset(p->start.data, 0, ((size_t)count + 1) * sizeof *p->start.data);
+    for (int32_t v = 0, at = 0; done && v < count && at < h->vertex.count; v++)
+        if (memcmp(&p->surface.vertex.data[v], &h->vertex.data[at], sizeof *h->vertex.data) == 0)
+            vertex[at++] = v;
+    for (int32_t i = 0; done && i < h->loop.count; i++)
+        p->start.data[vertex[h->loop.data[i]] + 1]++;
+    for (int32_t v = 0; done && v < count; v++)
+        p->start.data[v + 1] += p->start.data[v];
+    /* Filled from behind, so that the starts come to stand where they belong. */
+    for (int32_t k = h->face.count; done && k-- > 0;)
+        for (int32_t i = 0; i < h->face.data[k].count; i++) {
+            int32_t v = vertex[h->loop.data[h->face.data[k].first + i]];
+            p->hull_face.data[--p->start.data[v + 1]] = k;
+        }
+    if (done)
+        memmove(p->start.data, p->start.data + 1, (size_t)count * sizeof *p->start.data);
+    if (done)
+        p->start.data[count] = h->loop.count;
+    memory_free(ctx, vertex);
+    return done;
+}
+
 fram_status convex_piece_complete(context *ctx, convex_piece *p, double small, fram_error *error)
 {
     if (mesh_adjacency_build(ctx, &p->surface, &p->adjacency) != FRAM_OK)
         return error_memory(error);
     p->volume = mesh_solid_properties(&p->surface).volume;
-    return polyhedron_hull(ctx, p->surface.vertex.data, p->surface.vertex.count, small, &p->hull, error);
+    fram_status status = polyhedron_hull(ctx, p->surface.vertex.data, p->surface.vertex.count, small, &p->hull, error);
+    if (status == FRAM_OK && !list_hull_faces(ctx, p))
+        status = error_memory(error);
+    return status;
 }

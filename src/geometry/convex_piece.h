@@ -15,6 +15,8 @@ typedef struct convex_piece {
     mesh_adjacency adjacency;
     ARRAY(plane3) cuts; /* the planes that cut it out of the solid */
     polyhedron hull;
+    /* Faces of the hull at surface vertex v: hull_face[start[v] .. start[v + 1]). */
+    int32_array start, hull_face;
     double volume;    /* of the surface [m3] */
     double concavity; /* by convex_piece_measure [m] */
     vec3 deepest;     /* where */
@@ -27,8 +29,8 @@ typedef ARRAY(const polyhedron *) hull_list;
 void convex_piece_free(context *ctx, convex_piece *p);
 void convex_piece_array_free(context *ctx, convex_piece_array *a);
 
-/* Adjacency, volume and hull of a piece whose surface and cuts are set.  small [m]: what is nearer than this counts as
-   touching.  FRAM_ERROR_INPUT for a flat piece, FRAM_ERROR_MEMORY. */
+/* Adjacency, volume, hull and its faces at the vertices, of a piece whose surface and cuts are set.  small [m]: what is
+   nearer than this counts as touching.  FRAM_ERROR_INPUT for a flat piece, FRAM_ERROR_MEMORY. */
 fram_status convex_piece_complete(context *ctx, convex_piece *p, double small, fram_error *error);
 
 /* Concavity: the largest distance of the surface, where the hull covers it, to the surface of the union of all hulls

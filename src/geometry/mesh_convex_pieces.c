@@ -8,6 +8,7 @@
 #include "geometry/mesh_clip.h"
 #include "geometry/mesh_parts.h"
 #include "geometry/mesh_rings.h"
+#include "geometry/mesh_simplify.h"
 #include "geometry/polyhedron_build.h"
 
 /* What is smaller than this part of the tolerance is nothing: hulls may be that much too small.  It halves the faces of
@@ -23,6 +24,11 @@
 #define SAME_DIRECTION 0.999
 /* Excesses that differ by less than this part are equal but for rounding. */
 #define SAME_EXCESS 1e-6
+
+/* Of a surface of more triangles than this a coarser one is cut, which is this part of the tolerance off at most: time
+   grows with triangles, faces of hulls, and pieces. */
+enum { FINE_MESH = 20000 };
+#define COARSER_TO_TOLERANCE 0.1
 
 enum { MOST_PLANES = 7 };
 
@@ -303,11 +309,9 @@ static fram_status begin(carving *c, const mesh *m)
     return status;
 }
 
-fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
-                               double *concavity, fram_error *error)
+static fram_status carve_mesh(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
+                              double *concavity, fram_error *error)
 {
-    polyhedron_array_free(ctx, out);
-    *concavity = 0;
     box3 box = mesh_bounds(m);
     carving c = {.ctx = ctx, .error = error};
     c.small = fmax(SMALL_TO_TOLERANCE * tolerance, SMALL_TO_SIZE * vec3_length(vec3_sub(box.hi, box.lo)));
@@ -328,4 +332,30 @@ fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, in
     convex_piece_array_free(ctx, &c.piece);
     array_free(ctx, &c.hulls);
     return status;
+}
+
+/* Of a fine surface a coarser one is cut, and the distance between the two is added to what is found. */
+static fram_status carve_fine(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
+                              double *concavity, fram_error *error)
+{
+    mesh coarse = {0};
+    double distance = 0;
+    fram_status status = mesh_copy(ctx, &coarse, m) ? FRAM_OK : FRAM_ERROR_MEMORY;
+    if (status == FRAM_OK)
+        status = mesh_simplify(ctx, &coarse, COARSER_TO_TOLERANCE * tolerance, &distance);
+    if (status != FRAM_OK)
+        error_memory(error);
+    else
+        status = carve_mesh(ctx, &coarse, tolerance - distance, most, out, concavity, error);
+    *concavity += distance;
+    mesh_free(ctx, &coarse);
+    return status;
+}
+
+fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
+                               double *concavity, fram_error *error)
+{
+    polyhedron_array_free(ctx, out);
+    *concavity = 0;
+    return (m->face.count > FINE_MESH ? carve_fine : carve_mesh)(ctx, m, tolerance, most, out, concavity, error);
 }

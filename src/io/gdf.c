@@ -1,5 +1,6 @@
 /* WAMIT's low-order geometric data file (WAMIT User Manual, version 7, section 6.1): a line of text, ULEN GRAV, ISX
    ISY, NPAN, then four corners a panel, counter-clockwise seen from the water.  A corner given twice makes a triangle.
+   Words after the numbers of a header line are passed over, as WAMIT does.
    Coordinates are in metres: ULEN only scales WAMIT's results.  ISX = 1 (ISY = 1): the other half is the mirror image
    in x = 0 (y = 0). */
 #include "io/mesh_reader.h"
@@ -63,33 +64,83 @@ static fram_status read_integer(const mesh_reading *r, gdf_words *w, const char 
     return FRAM_OK;
 }
 
-static fram_status read_head(const mesh_reading *r, gdf_words *w, int32_t *panels)
+/* What follows on a header's line is for people: WAMIT reads the numbers that it wants and goes on in the next line. */
+static void skip_words(gdf_words *w)
+{
+    w->rest = w->rest_end;
+    word_skip_line(&w->reader);
+}
+
+static fram_status read_lengths(const mesh_reading *r, gdf_words *w)
 {
     double length = 0, gravity = 0;
-    int64_t isx = 0, isy = 0, count = 0;
-    word_skip_line(&w->reader);
     fram_status status = read_real(r, w, 0, "ULEN, the length scale", &length);
     if (status == FRAM_OK)
         status = read_real(r, w, 0, "GRAV, the acceleration of gravity", &gravity);
-    if (status == FRAM_OK && !(length > 0))
-        return mesh_refuse(r, 2, 0, "expected a positive ULEN, found %g; a control surface or force file is no hull",
+    if (status != FRAM_OK)
+        return status;
+    int32_t line = w->reader.word_line;
+    skip_words(w);
+    if (!(length > 0))
+        return mesh_refuse(r, line, 0, "expected a positive ULEN, found %g; a control surface or force file is no hull",
                            length);
-    if (status == FRAM_OK && !(gravity > 0))
-        return mesh_refuse(r, 2, 0, "expected a positive GRAV, found %g", gravity);
-    if (status == FRAM_OK && gravity > FEET_LEAST && gravity < FEET_MOST)
-        return mesh_refuse(r, 2, 0, "GRAV %g says that lengths are in feet; convert the file to metres, GRAV to 9.81",
+    if (!(gravity > 0))
+        return mesh_refuse(r, line, 0, "expected a positive GRAV, found %g", gravity);
+    if (gravity > FEET_LEAST && gravity < FEET_MOST)
+        return mesh_refuse(r, line, 0,
+                           "GRAV %g says that lengths are in feet; convert the file to metres (times 0.3048), GRAV to "
+                           "9.80665",
                            gravity);
-    if (status == FRAM_OK)
-        status = read_integer(r, w, "ISX", 0, 1, &isx);
+    return FRAM_OK;
+}
+
+static fram_status read_symmetry(const mesh_reading *r, gdf_words *w)
+{
+    int64_t isx = 0, isy = 0;
+    fram_status status = read_integer(r, w, "ISX", 0, 1, &isx);
     if (status == FRAM_OK)
         status = read_integer(r, w, "ISY", 0, 1, &isy);
     if (status == FRAM_OK)
-        status =
-            read_integer(r, w, "NPAN, the number of panels of a low-order file,", 1, MESH_FILE_TRIANGLES / 8, &count);
+        skip_words(w);
     r->out->mirror_x = isx == 1;
     r->out->mirror_y = isy == 1;
-    *panels = (int32_t)count;
     return status;
+}
+
+/* NPAN; a second integer is the IGDEF of a higher-order file (section 7), of which only flat quadrilaterals (0) are
+   panels. */
+static fram_status read_count(const mesh_reading *r, gdf_words *w, int32_t *panels)
+{
+    int64_t count = 0, kind = 0;
+    fram_status status =
+        read_integer(r, w, "NPAN, the number of panels of a low-order file,", 1, MESH_FILE_TRIANGLES / 8, &count);
+    if (status != FRAM_OK)
+        return status;
+    *panels = (int32_t)count;
+    int32_t line = w->reader.word_line;
+    word_reader after = w->reader;
+    char text[32] = "";
+    if (w->rest == w->rest_end && word_next_in_line(&after) && after.length < sizeof text)
+        memcpy(text, after.word, after.length);
+    if (text[0] && integer_from_text(text, &kind) == NUMBER_GOOD && kind != 0)
+        return mesh_refuse(r, line, 0,
+                           "IGDEF %lld says that this is a higher-order GDF file (%s), whose patches are no panels; "
+                           "export low-order panels (ILOWHI 0)",
+                           (long long)kind,
+                           kind == 1   ? "B-splines"
+                           : kind == 2 ? "a MultiSurf model"
+                                       : "a shape that WAMIT computes itself");
+    skip_words(w);
+    return FRAM_OK;
+}
+
+static fram_status read_head(const mesh_reading *r, gdf_words *w, int32_t *panels)
+{
+    word_skip_line(&w->reader);
+    fram_status status = read_lengths(r, w);
+    if (status == FRAM_OK)
+        status = read_symmetry(r, w);
+    return status == FRAM_OK ? read_count(r, w, panels) : status;
 }
 
 /* A panel, and its mirror images, which are turned the other way. */

@@ -194,20 +194,22 @@ static bool ends_with(const char *name, const char *ending)
     return length > tail && strcasecmp(name + length - tail, ending) == 0;
 }
 
-/* The second line of a GDF file is two numbers, the third two integers. */
+/* The second line of a GDF file begins with two numbers, the third with two integers; words may follow. */
 static bool looks_like_gdf(const char *data, size_t size)
 {
     word_reader w = word_reader_begin(data, size);
-    word_skip_line(&w);
-    for (int i = 0; i < 4; i++) {
-        char text[64];
-        double value;
-        if (!word_next(&w) || w.length >= sizeof text)
-            return false;
-        memcpy(text, w.word, w.length);
-        text[w.length] = '\0';
-        if (real_from_text(text, &value) != NUMBER_GOOD || w.word_line != 2 + i / 2)
-            return false;
+    for (int line = 2; line <= 3; line++) {
+        word_skip_line(&w);
+        for (int i = 0; i < 2; i++) {
+            char text[64];
+            double value;
+            if (!word_next_in_line(&w) || w.length >= sizeof text)
+                return false;
+            memcpy(text, w.word, w.length);
+            text[w.length] = '\0';
+            if (real_from_text(text, &value) != NUMBER_GOOD)
+                return false;
+        }
     }
     return true;
 }

@@ -47,6 +47,15 @@ START_TEST(tetrahedra)
          "1\n0 0 0 0 0 1 0\n1 0 0 0 0\n1 0 0 0 1 0 0 0 1 1 0 0\n",
          MESH_GDF},
         {"mesh",
+         "exported\n1.000000 9.806650   ULEN GRAV\n0  0   ISX  ISY\r\n4 NPAN, panels\n"
+         "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 0 1 0 0 0 1 0 0 1",
+         MESH_GDF},
+        /* IGDEF 0: flat patches are panels. */
+        {"t.gdf",
+         GDF_HEAD("0", "0", "4 0") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
+                                   "0 1 0 0 0 1 0 0 1",
+         MESH_GDF},
+        {"mesh",
          GDF_HEAD("0", "0", "4") "0 0 0 0 1 0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1 0 0 1 0 0 0 0 0 1 0 1 0 0 1 0 1 0 0 "
                                  "0 1 0 0 0 1 0 0 1",
          MESH_GDF},
