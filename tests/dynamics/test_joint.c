@@ -253,6 +253,27 @@ START_TEST(displaced_joint_is_drawn_together)
 }
 END_TEST
 
+/* A step takes back four fifths of a slip, of a turn about any axis as of a gap. */
+START_TEST(a_step_corrects_its_share)
+{
+    for (int axis = 0; axis < 4; axis++) {
+        rig r = rig_make(0.01);
+        r.gravity = vec3_make(0, 0, 0);
+        int32_t b = rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 1, 1), 500, vec3_make(0, 0, 0));
+        joint_create(&r.ctx, &r.joints, &r.bodies, -1, b, JOINT_FIXED, vec3_make(0, 0, 0), quat_identity());
+        const double slip = 0.02;
+        vec3 turn = vec3_make(axis == 0 ? slip : 0, axis == 1 ? slip : 0, axis == 2 ? slip : 0);
+        r.bodies.orientation[b] = quat_from_roll_pitch_yaw(turn.x, turn.y, turn.z);
+        r.bodies.position[b].y = axis == 3 ? slip : 0;
+        rig_step(&r);
+        vec3 left = quat_roll_pitch_yaw(r.bodies.orientation[b]);
+        double rest = axis == 3 ? r.bodies.position[b].y : vec3_dot(left, turn) / slip;
+        assert_absolute(rest, 0.2 * slip, 0.01 * slip);
+        rig_free(&r);
+    }
+}
+END_TEST
+
 START_TEST(joints_of_removed_bodies_rest)
 {
     rig r = rig_make(0.01);
@@ -275,4 +296,4 @@ RIG_MAIN("joint", pendulum_swings_with_its_period, fixed_joint_carries_the_weigh
          ball_joint_carries_a_conical_pendulum, hinge_carries_all_but_the_moment_about_its_axis,
          what_is_not_locked_moves_freely, prescribed_motion_is_paid_for_by_the_joint, hinge_turns_about_its_axis_only,
          prismatic_joint_leaves_heave_free, spring_swings_and_its_damper_damps, spring_at_rest_carries_the_weight,
-         displaced_joint_is_drawn_together, joints_of_removed_bodies_rest)
+         displaced_joint_is_drawn_together, a_step_corrects_its_share, joints_of_removed_bodies_rest)

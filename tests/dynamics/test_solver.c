@@ -161,7 +161,7 @@ START_TEST(driven_bodies_take_the_cap_while_approaching)
         rig_friction(&r, 0.2, 0.1);
         rig_box(&r, MOTION_STATIC, vec3_make(4, 4, 1), 900, vec3_make(-1.99, 0, 0));
         int32_t hull = rig_box(&r, MOTION_PRESCRIBED, vec3_make(4, 4, 1), 900, vec3_make(1.99, 0, 0));
-        r.bodies.velocity[hull] = vec3_make(away ? 1 : -1, 0.5, 0);
+        r.bodies.velocity[hull] = vec3_make(away ? 1 : -1, 0.4, -0.3);
         rig_detect(&r);
         ck_assert_int_eq(r.contacts.count, 4);
         for (int32_t i = 0; i < 4; i++) {
@@ -171,11 +171,11 @@ START_TEST(driven_bodies_take_the_cap_while_approaching)
         rig_solve(&r);
         for (int32_t i = 0; i < 4; i++) {
             bool loaded = !away && i > 0;
-            /* a is the static sheet: pushed towards -x, dragged along +y. */
+            /* a is the static sheet: pushed towards -x, dragged along with the hull. */
             vec3 p = contact_impulse(&r.contacts.data[i]);
-            assert_vec3_close(p, loaded ? vec3_make(-100, 10, 0) : vec3_make(0, 0, 0), 1e-12);
+            assert_vec3_close(p, loaded ? vec3_make(-100, 8, -6) : vec3_make(0, 0, 0), 1e-12);
         }
-        assert_vec3_close(r.bodies.velocity[hull], vec3_make(away ? 1 : -1, 0.5, 0), 0);
+        assert_vec3_close(r.bodies.velocity[hull], vec3_make(away ? 1 : -1, 0.4, -0.3), 0);
         rig_free(&r);
     }
 }

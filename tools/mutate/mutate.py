@@ -5,7 +5,7 @@
     --rooms A,B   faults of these rooms only
     --jobs N      so many at once, each in a copy of the tree under build/mutate
     --minutes M   begin no fault after that time; the next call goes on
-    --first N     only the N likeliest tests of the fault's own room; what they miss is left open
+    --first N     only the N likeliest tests of the fault's own room, with short scenes; what they miss is left open
     --least P     exit code 1 when less than P % (95) are caught
 
 Verdicts stand in bench/results/mutants.csv; one on equal code and by an equal test is not asked for again.
@@ -117,8 +117,8 @@ def main():
             jobs.put((mutant, path, text))
     print(f"{jobs.qsize()} of {len(wanted)} to be tried", flush=True)
     lock, end = threading.Lock(), time.monotonic() + 60 * options.minutes
-    workers = [threading.Thread(target=work, args=(Workplace(ROOT, n), jobs, verdicts, lock, options, end))
-               for n in range(min(options.jobs, jobs.qsize()))]
+    places = [Workplace(ROOT, n, options.first > 0) for n in range(min(options.jobs, jobs.qsize()))]
+    workers = [threading.Thread(target=work, args=(place, jobs, verdicts, lock, options, end)) for place in places]
     for worker in workers:
         worker.start()
     for worker in workers:

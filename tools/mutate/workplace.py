@@ -24,12 +24,13 @@ def told_seconds(path):
 class Workplace:
     """Under build/mutate/<number>; the checkout itself is never touched."""
 
-    def __init__(self, root, number):
+    def __init__(self, root, number, short=False):
         self.source = root
         self.root = root / "build/mutate" / str(number)
         self.build = self.root / "build/release"
         self.tests = []
         self.seconds = {}
+        self.short = {"FRAM_TEST_SHORT": "1"} if short else {}
         self.told = told_seconds(root / "build/release/tests.xml")
         self.broken = set()
 
@@ -50,6 +51,9 @@ class Workplace:
         listing = subprocess.run(["ctest", "--show-only=json-v1"], cwd=self.build, capture_output=True, text=True,
                                  check=True)
         self.tests = [self.test(t) for t in json.loads(listing.stdout)["tests"]]
+        for test in self.tests:
+            source = self.root / "tests" / f"{test['room']}/test_{test['name'].split('/', 1)[1]}.c"
+            test["source"] = source.read_text(encoding="utf-8") if source.exists() else ""
         self.tests = [t for t in self.tests if t["room"] not in LEFT_OUT]
 
     @staticmethod
@@ -101,9 +105,9 @@ class Workplace:
         words = [str(self.build / "tests" / target)] if target else test["words"]
         began = time.monotonic()
         # A group of its own, so that a test that hangs goes with all that it started.
-        process = subprocess.Popen(words, cwd=self.root, env={**os.environ, **test["environment"]}, text=True,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace",
-                                   start_new_session=True)
+        environment = {**os.environ, **test["environment"], **self.short}
+        process = subprocess.Popen(words, cwd=self.root, env=environment, text=True, errors="replace",
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
         try:
             out, _ = process.communicate(timeout=patience)
         except subprocess.TimeoutExpired:
@@ -132,9 +136,9 @@ class Workplace:
 
 
 def likely(test, path):
-    """How many words of a test's name are in the file's: the test to try first."""
+    """The test to try first: words of its name that are in the file's; it calls what the file is named for."""
     mine = set(re.split(r"[_/]", test["name"].split("/", 1)[1]))
-    return len(mine & set(path.stem.split("_")))
+    return len(mine & set(path.stem.split("_"))) + 2 * (path.stem in test["source"])
 
 
 def first_failure(text):

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The list of faults and its runner: faults are found wherever their text stands, stale ones are named, and verdicts
+hold for equal code alone."""
+
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools/mutate"))
+import mutants  # noqa: E402
+import verdicts  # noqa: E402
+import workplace  # noqa: E402
+
+LIST = """# A comment.
+[sign] the sum subtracts
+- a + b
++ a - b
+
+[index] a second entry
+file: two.c
+after: int second(
+- v[0]
++ v[1]
+survives: nobody looks
+"""
+
+
+class Listing(unittest.TestCase):
+    def setUp(self):
+        self.root = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="fram-mutate-")))
+        self.plant("tests/mutants/base.txt", LIST)
+        self.plant("src/base/one.c", "int sum(int a, int b) { return a\n    + b; }\n")
+        self.plant("src/base/two.c", "int first(int *v) { return v[0]; }\nint second(int *v) { return v[0] + v[0]; }\n")
+
+    def plant(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def test_texts_are_found_however_they_are_broken(self):
+        one, two = mutants.read(self.root)
+        self.assertEqual((one.kind, one.what, two.survives), ("sign", "the sum subtracts", "nobody looks"))
+        path, text = mutants.locate(self.root, one)
+        self.assertEqual((path.name, text), ("one.c", "int sum(int a, int b) { return a - b; }\n"))
+        self.assertIn("second(int *v) { return v[1] + v[0]; }", mutants.locate(self.root, two)[1])
+        self.assertEqual(mutants.check(self.root), ([], 2))
+        (self.root / "src/base/one.c").rename(self.root / "src/base/moved.c")
+        self.assertEqual(mutants.check(self.root), ([], 2))
+
+    def test_stale_entries_are_named(self):
+        self.plant("src/base/three.c", "int other(int a, int b) { return a + b; }\n")
+        self.plant("src/base/two.c", "int second(int *w) { return w[0]; }\n")
+        problems, _ = mutants.check(self.root)
+        self.assertEqual(len(problems), 2)
+        self.assertIn("base.txt:2: stands 2 times", problems[0])
+        self.assertIn("base.txt:6: stands 0 times", problems[1])
+        self.plant("tests/mutants/base.txt", "[oddity] of no kind\n- a\n+ b\n")
+        self.assertIn("begins with [kind]", mutants.check(self.root)[0][0])
+        self.plant("tests/mutants/base.txt", "[sign] nothing to put\n- a\n")
+        self.assertIn("a text to find", mutants.check(self.root)[0][0])
+
+    def test_verdicts_hold_for_equal_code(self):
+        one, _ = mutants.read(self.root)
+        path = self.root / "bench/results/mutants.csv"
+        self.plant("tests/base/test_sum.c", "a test")
+        book = verdicts.Verdicts(path)
+        row = {"verdict": verdicts.CAUGHT, "test": "base/sum", "function": "f", "seconds": "0.1", "code": "abc",
+               "test_code": verdicts.test_code(self.root, "base/sum")}
+        book.put(one, row)
+        again = verdicts.Verdicts(path)
+        self.assertTrue(again.known(self.root, one, "abc"))
+        self.assertFalse(again.known(self.root, one, "other code"))
+        self.plant("tests/base/test_sum.c", "another test")
+        self.assertFalse(again.known(self.root, one, "abc"))
+
+    def test_failures_are_named(self):
+        self.assertEqual(workplace.first_failure("tests/x.c:12:F:vec:lengths:0: no"), "lengths")
+        self.assertEqual(workplace.first_failure("FAIL: test_a (x.y)\n"), "test_a")
+        self.assertEqual(workplace.first_failure("hangs"), "hangs")
+        test = {"name": "geometry/mesh_check", "source": "mesh_weld(&m); overlay_union();"}
+        self.assertEqual(workplace.likely(test, pathlib.Path("mesh_check.c")), 2)
+        self.assertEqual(workplace.likely(test, pathlib.Path("voronoi.c")), 0)
+        self.assertEqual(workplace.likely(test, pathlib.Path("overlay.c")), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
