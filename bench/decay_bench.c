@@ -67,7 +67,7 @@ static bool run_case(const char *vessel, const water_case *c, int mode, double d
         fprintf(stderr, "decay_bench: %s: %s\n", error.key, error.message);
         return false;
     }
-    double dt = d.settings.time_step, theory = d.period[modes[mode].mode];
+    double dt = d.m.time_step, theory = d.period[modes[mode].mode];
     int steps = (int)(fmax(duration, 4.2 * theory) / dt);
     double *value = calloc((size_t)steps + 1, sizeof *value), *time = calloc((size_t)steps + 1, sizeof *time);
     bool ok = value && time;

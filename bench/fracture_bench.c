@@ -383,13 +383,14 @@ static void bench_scene(const char *path)
 {
     context ctx;
     scenario s;
+    model m;
     world w;
-    build_report report;
+    field_report report;
     fram_error e = {0};
     context_init(&ctx);
-    if (scenario_read(&ctx, path, NULL, &s, &e) != FRAM_OK || build_world(&ctx, &s, &w, &report, &e) != FRAM_OK)
+    if (scenario_read(&ctx, path, NULL, &s, &e) != FRAM_OK || build_model(&ctx, &s, &m, &e) != FRAM_OK ||
+        build_world(&ctx, &s, &m, &w, &report, &e) != FRAM_OK)
         stop(e.message);
-    step_settings settings = build_settings(&s);
     stage_clock clock = {0};
     const step_watch watch = {stage_done, &clock};
     int64_t before = 0;
@@ -399,7 +400,7 @@ static void bench_scene(const char *path)
             before = w.clock.bendings[0];
         }
         clock.last = now();
-        if (world_step_watched(&ctx, &settings, &w, &watch, &e) != FRAM_OK)
+        if (world_step_watched(&ctx, &m, &w, &watch, &e) != FRAM_OK)
             stop(e.message);
     }
     double sum = 0;
@@ -409,6 +410,7 @@ static void bench_scene(const char *path)
            1e3 * clock.part[STAGE_FRACTURE] / MEASURED_STEPS, 100 * clock.part[STAGE_FRACTURE] / sum,
            (int)(w.clock.bendings[0] - before), MEASURED_STEPS);
     world_free(&ctx, &w);
+    model_free(&ctx, &m);
     scenario_free(&ctx, &s);
 }
 

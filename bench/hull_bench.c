@@ -98,7 +98,7 @@ int main(int argc, char **argv)
     fram_status status = hull_file_read(&ctx, argv[1], &options, &surface, &made, &error);
     double step_ms = argc > 2 ? atof(argv[2]) : 0;
     printf("# compiler %s, instruction set %s, medians of %d\n", build_compiler(), isa_name(ctx.isa), (int)ROUNDS);
-    shape_store store = {0};
+    solid_array solids = {0};
     while (status == FRAM_OK) {
         mesh finer = {0};
         if (4 * surface.face.count <= MOST_TRIANGLES && !cut_in_four(&ctx, &surface, &finer))
@@ -106,12 +106,12 @@ int main(int argc, char **argv)
         polyhedron_array pieces = {0};
         int32_t index;
         if (status == FRAM_OK)
-            status = solid_add(&ctx, &store, &surface, &pieces, 0, &index, &error);
+            status = solid_add(&ctx, &solids, &surface, &pieces, 0, &index, &error);
         if (status != FRAM_OK)
             break;
-        report(&ctx, &store.solids.data[index], step_ms);
+        report(&ctx, &solids.data[index], step_ms);
         ctx.threads = pool_create(&ctx, 2);
-        report(&ctx, &store.solids.data[index], step_ms);
+        report(&ctx, &solids.data[index], step_ms);
         pool_free(&ctx, ctx.threads);
         ctx.threads = NULL;
         if (finer.face.count == 0)
@@ -120,6 +120,6 @@ int main(int argc, char **argv)
     }
     if (status != FRAM_OK)
         fprintf(stderr, "hull_bench: %s\n", error.message);
-    shape_store_free(&ctx, &store);
+    solid_array_free(&ctx, &solids);
     return status == FRAM_OK ? 0 : 1;
 }

@@ -26,9 +26,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     context ctx;
     context_init(&ctx);
     fram_error error = {0};
+    const model m = {0};
     world w;
     uint8_t *copy = malloc(size + 1);
-    if (!copy || world_init(&ctx, &w, &error)) {
+    if (!copy || world_init(&ctx, &m, &w, &error)) {
         free(copy);
         return 0;
     }
@@ -45,7 +46,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fram_status status = table_file_decode(&ctx, "fuzz.fram", copy, size, &content, &error);
     if (status == FRAM_OK) {
         world_hash(&w);
-        status = world_check(&w, 0, &error);
+        status = world_check(&m, &w, &error);
         PROMISE(status == FRAM_OK || (error.status == status && error.message[0] != '\0'));
         table_file_free_bytes(&ctx, &content);
     } else {

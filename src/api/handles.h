@@ -22,7 +22,7 @@ struct fram_scenario {
 
 struct fram_world {
     const fram_scenario *scenario;
-    step_settings settings;
+    model model;
     world inner;
 };
 

@@ -16,9 +16,13 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
     if (!w)
         return error_memory(error);
     w->scenario = s;
-    w->settings = build_settings(&s->inner);
-    build_report report;
-    status = build_world(ctx, &s->inner, &w->inner, &report, error);
+    field_report report;
+    status = build_model(ctx, &s->inner, &w->model, error);
+    if (status == FRAM_OK) {
+        status = build_world(ctx, &s->inner, &w->model, &w->inner, &report, error);
+        if (status != FRAM_OK)
+            model_free(ctx, &w->model);
+    }
     if (status != FRAM_OK) {
         memory_free(ctx, w);
         return status;
@@ -33,6 +37,7 @@ void fram_world_destroy(fram_world *w)
         return;
     context *ctx = &w->scenario->context->inner;
     world_free(ctx, &w->inner);
+    model_free(ctx, &w->model);
     memory_free(ctx, w);
 }
 
@@ -41,7 +46,7 @@ fram_status fram_world_step(fram_world *w, fram_error *error)
     fram_status status = REFUSE_NULL(error, {"world", w});
     if (status != FRAM_OK)
         return status;
-    return world_step(&w->scenario->context->inner, &w->settings, &w->inner, error);
+    return world_step(&w->scenario->context->inner, &w->model, &w->inner, error);
 }
 
 double fram_world_time(const fram_world *w) { return w ? w->inner.clock.time[0] : (double)NAN; }

@@ -22,15 +22,19 @@ void shape_store_free(context *ctx, shape_store *s)
     table_free(ctx, &s->shapes, &shape_table_info);
     table_free(ctx, &s->pieces, &piece_table_info);
     table_free(ctx, &s->vertices, &shape_vertex_table_info);
-    for (int32_t i = 0; i < s->solids.count; i++) {
-        solid *body = &s->solids.data[i];
+}
+
+void solid_array_free(context *ctx, solid_array *solids)
+{
+    for (int32_t i = 0; i < solids->count; i++) {
+        solid *body = &solids->data[i];
         mesh_free(ctx, &body->surface);
         mesh_adjacency_free(ctx, &body->adjacency);
         mesh_bvh_free(ctx, &body->tree);
         mesh_integrals_free(ctx, &body->integrals);
         polyhedron_array_free(ctx, &body->pieces);
     }
-    array_free(ctx, &s->solids);
+    array_free(ctx, solids);
 }
 
 /* ---- convex pieces ---- */
@@ -281,19 +285,20 @@ fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon ou
 fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error)
 {
     *row = -1;
-    if (solid_index < 0 || solid_index >= s->solids.count)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL, "there is no solid %d; the store holds %d",
-                         (int)solid_index, (int)s->solids.count);
+    int32_t solids = s->solids ? s->solids->count : 0;
+    if (solid_index < 0 || solid_index >= solids)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, NULL, "there is no solid %d; the store has %d",
+                         (int)solid_index, (int)solids);
     *row = shape_row(ctx, s);
     if (*row < 0)
         return error_memory(error);
     s->shapes.kind[*row] = SHAPE_SOLID;
-    s->shapes.radius[*row] = s->solids.data[solid_index].radius;
+    s->shapes.radius[*row] = s->solids->data[solid_index].radius;
     s->shapes.solid[*row] = solid_index;
     return FRAM_OK;
 }
 
-fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
+fram_status solid_add(context *ctx, solid_array *solids, mesh *surface, polyhedron_array *pieces, double concavity,
                       int32_t *index, fram_error *error)
 {
     *index = -1;
@@ -304,7 +309,7 @@ fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_ar
     for (int32_t i = 0; i < surface->vertex.count; i++)
         square = real_max(square, vec3_dot(surface->vertex.data[i], surface->vertex.data[i]));
     made.radius = sqrt(square);
-    if (!array_reserve(ctx, &s->solids, s->solids.count + 1))
+    if (!array_reserve(ctx, solids, solids->count + 1))
         return error_memory(error);
     fram_status status = mesh_adjacency_build(ctx, surface, &made.adjacency);
     if (status == FRAM_OK)
@@ -323,8 +328,8 @@ fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_ar
     made.pieces = *pieces;
     *surface = (mesh){0};
     *pieces = (polyhedron_array){0};
-    *index = s->solids.count;
-    s->solids.data[s->solids.count++] = made;
+    *index = solids->count;
+    solids->data[solids->count++] = made;
     return FRAM_OK;
 }
 
@@ -402,6 +407,8 @@ fram_status shape_compact(context *ctx, shape_store *s)
     assert(vertices.count == live_vertices && pieces.count == live_pieces);
     return FRAM_OK;
 }
+
+const solid *shape_solid(const shape_store *s, int32_t row) { return &s->solids->data[s->shapes.solid[row]]; }
 
 polygon shape_outline(const shape_store *s, int32_t row)
 {

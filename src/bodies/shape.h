@@ -1,7 +1,8 @@
 /* Shapes of bodies.  A prism (floe, wall, box ship in benchmarks) is an outline extruded over
    -half_height <= z <= half_height about the centre of mass, cut into convex pieces; a solid (hull) is a closed mesh
    with convex pieces.  The body frame's origin is the centre of mass in both. Prisms are state (fracture makes and
-   removes them) and live in tables; solids never change during a run and are made again from the scenario on resume. */
+   removes them) and live in tables; solids never change during a run: they belong to the model (model/model.h), and the
+   store of a world refers to them. */
 #ifndef BODIES_SHAPE_H
 #define BODIES_SHAPE_H
 
@@ -51,11 +52,14 @@ typedef struct solid {
     double radius;    /* bounding radius about the origin [m] */
 } solid;
 
+typedef ARRAY(solid) solid_array;
+void solid_array_free(context *ctx, solid_array *solids);
+
 typedef struct shape_store {
     shape_table shapes;
     piece_table pieces;
     shape_vertex_table vertices;
-    ARRAY(solid) solids; /* not state */
+    const solid_array *solids; /* lent, not state; NULL: none */
 } shape_store;
 
 void shape_store_free(context *ctx, shape_store *s);
@@ -69,11 +73,11 @@ enum { PIECE_MOST_VERTICES = 16 };
    store is then unchanged, as it is without memory. */
 fram_status shape_add_prism(context *ctx, shape_store *s, overlay *o, polygon outline, double half_height,
                             double piece_area_limit, int32_t *row, fram_error *error);
-/* A shape that refers to a solid already in the store; FRAM_ERROR_USAGE when it is not there. */
+/* A shape that refers to one of the store's solids; FRAM_ERROR_USAGE when it is not there. */
 fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, int32_t *row, fram_error *error);
 /* Builds tree, integrals, adjacency, radius and takes over surface and pieces (moved out of the caller's objects, which
    are then empty; left to the caller on failure).  FRAM_ERROR_INPUT for a mesh without triangles. */
-fram_status solid_add(context *ctx, shape_store *s, mesh *surface, polyhedron_array *pieces, double concavity,
+fram_status solid_add(context *ctx, solid_array *solids, mesh *surface, polyhedron_array *pieces, double concavity,
                       int32_t *index, fram_error *error);
 void shape_remove(shape_store *s, int32_t row);
 /* Squeeze the pools when the dead vertices are more than a quarter of the living; rows keep their numbers.  Depends on
@@ -81,6 +85,8 @@ void shape_remove(shape_store *s, int32_t row);
 fram_status shape_compact(context *ctx, shape_store *s);
 
 polygon shape_outline(const shape_store *s, int32_t row);
+/* The solid of a shape that is one. */
+const solid *shape_solid(const shape_store *s, int32_t row);
 polygon shape_piece(const shape_store *s, int32_t row, int32_t piece);
 
 #endif

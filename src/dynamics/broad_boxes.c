@@ -40,7 +40,7 @@ box3 body_box(const body_table *bodies, const shape_store *shapes, int32_t slot)
     mat3 r = quat_matrix(bodies->orientation[slot]);
     box3 box = shapes->shapes.kind[row] == SHAPE_PRISM
                    ? prism_box(shape_outline(shapes, row), shapes->shapes.half_height[row], r)
-                   : solid_box(&shapes->solids.data[shapes->shapes.solid[row]].surface, r);
+                   : solid_box(&shape_solid(shapes, row)->surface, r);
     return (box3){vec3_add(box.lo, bodies->position[slot]), vec3_add(box.hi, bodies->position[slot])};
 }
 

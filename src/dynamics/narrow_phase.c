@@ -39,10 +39,7 @@ static party party_of(const body_table *bodies, const shape_store *shapes, int32
                    shapes};
 }
 
-static const polyhedron_array *solid_pieces(const party *p)
-{
-    return &p->shapes->solids.data[p->shapes->shapes.solid[p->shape]].pieces;
-}
+static const polyhedron_array *solid_pieces(const party *p) { return &shape_solid(p->shapes, p->shape)->pieces; }
 
 static int32_t piece_count(const party *p)
 {

@@ -86,7 +86,7 @@ static void apply_solid(const fluid_work *w, int32_t slot, int32_t row)
     const fluid_details *d = &w->details;
     fluid_motion state = motion_of(b, slot);
     fluid_load load;
-    fluid_load_solid(w->ctx, w->media, &w->coefficients[b->material[slot]], &w->shapes->solids.data[row], &state,
+    fluid_load_solid(w->ctx, w->media, &w->coefficients[b->material[slot]], &w->shapes->solids->data[row], &state,
                      &load);
     w->loads[slot] = total_of(&load);
     w->loads[slot].force.z -= b->mass[slot] * w->media->gravity;

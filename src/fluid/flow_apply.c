@@ -41,7 +41,7 @@ void fluid_apply_flows(context *ctx, const media *m, const drag_coefficients *c,
     media own = flows_media(m, flows, state.velocity);
     int32_t row = shapes->shapes.solid[bodies->shape[slot]];
     fluid_load load;
-    fluid_load_solid(ctx, &own, c, &shapes->solids.data[row], &state, &load);
+    fluid_load_solid(ctx, &own, c, &shapes->solids->data[row], &state, &load);
     flows_add(m, flows, state.rotation, state.velocity, &load);
     wrench sum = load.hydrostatic;
     add_to(&sum, load.water_drag);

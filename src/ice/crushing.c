@@ -98,7 +98,7 @@ static fram_status set_surface(const job *j, crushing_pair *p)
 {
     int32_t row = j->bodies->shape[p->surface_body];
     if (j->shapes->shapes.kind[row] == SHAPE_SOLID) {
-        const solid *body = &j->shapes->solids.data[j->shapes->shapes.solid[row]];
+        const solid *body = shape_solid(j->shapes, row);
         p->surface.surface = &body->surface;
         p->surface.adjacency = &body->adjacency;
         p->surface.tree = &body->tree;
@@ -277,7 +277,7 @@ static bool surface_holds(const job *j, const crushing_pair *p, vec3 point)
     if (shapes->kind[row] == SHAPE_PRISM)
         return fabs(point.z) < shapes->half_height[row] &&
                polygon_contains(shape_outline(j->shapes, row), (vec2){point.x, point.y});
-    const solid *body = &j->shapes->solids.data[shapes->solid[row]];
+    const solid *body = shape_solid(j->shapes, row);
     bool near = false;
     for (int32_t i = 0; i < body->pieces.count && !near; i++)
         near = polyhedron_contains(&body->pieces.data[i], point, 0);

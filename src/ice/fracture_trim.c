@@ -22,7 +22,7 @@ static bool place_hull(const fracture_job *j, const trim_pair *p)
     const body_table *b = j->state->bodies;
     const shape_store *shapes = j->state->shapes;
     int32_t body = j->state->floes->body[p->floe];
-    const solid *hull = &shapes->solids.data[shapes->shapes.solid[b->shape[p->surface]]];
+    const solid *hull = shape_solid(shapes, b->shape[p->surface]);
     mesh *m = &j->scratch->trim.hull;
     if (!mesh_copy(j->ctx, m, &hull->surface))
         return false;

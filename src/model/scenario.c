@@ -1,4 +1,5 @@
 /* Defaults, places and paths of a scenario. */
+#include "base/transcendental.h"
 #include "model/scenario_schema.h"
 #include <stdio.h>
 #include <string.h>
@@ -111,4 +112,10 @@ bool scenario_resolve_path(const scenario *s, const char *path, char *out, size_
     int folder = path[0] == '/' || !slash ? 0 : (int)(slash - s->file) + 1;
     int length = snprintf(out, size, "%.*s%s", folder, s->file, path);
     return length >= 0 && (size_t)length < size;
+}
+
+vec3 scenario_velocity(double speed, double direction_deg)
+{
+    double angle = radians(direction_deg);
+    return vec3_make(speed * real_cos(angle), speed * real_sin(angle), 0);
 }

@@ -87,6 +87,9 @@ fram_status scenario_check(const scenario *s, fram_error *error);
 /* Fill file, line and column of an error that names a key: where the key was given, or else the innermost section
    around it that was; otherwise only the file.  For errors found while a world is made from the scenario. */
 void scenario_locate(const scenario *s, fram_error *error);
+/* Horizontal velocity [m/s] of a speed and a direction in degrees, as keys give them. */
+vec3 scenario_velocity(double speed, double direction_deg);
+
 /* Where a key, section or list was given; NULL when it was not. */
 const scenario_place *scenario_given(const scenario *s, const char *key);
 

@@ -48,9 +48,10 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
     memcpy(out, list, sizeof list);
 }
 
-fram_status world_init(context *ctx, world *w, fram_error *error)
+static fram_status init(context *ctx, const solid_array *solids, world *w, fram_error *error)
 {
     memset(w, 0, sizeof *w);
+    w->shapes.solids = solids;
     w->scratch.collision = collision_scratch_create(ctx);
     w->scratch.crushing = crushing_scratch_create(ctx);
     w->scratch.fracture = fracture_scratch_create(ctx);
@@ -64,6 +65,11 @@ fram_status world_init(context *ctx, world *w, fram_error *error)
     return error_memory(error);
 }
 
+fram_status world_init(context *ctx, const model *m, world *w, fram_error *error)
+{
+    return init(ctx, &m->solids, w, error);
+}
+
 static void scratch_free(context *ctx, world *w)
 {
     array_free(ctx, &w->scratch.loads);
@@ -74,6 +80,7 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.patch_pairs);
     array_free(ctx, &w->scratch.patches);
     array_free(ctx, &w->scratch.ice_loads);
+    array_free(ctx, &w->scratch.responses);
     array_free(ctx, &w->scratch.fractures);
     if (w->scratch.collision)
         collision_scratch_free(ctx, w->scratch.collision);
@@ -104,6 +111,7 @@ void world_poison_scratch(world *w)
     POISON(patch_pairs);
     POISON(patches);
     POISON(ice_loads);
+    POISON(responses);
     POISON(fractures);
 #undef POISON
     memset(&w->scratch.solver, 0xff, sizeof w->scratch.solver);
@@ -116,7 +124,6 @@ void world_free(context *ctx, world *w)
     for (int t = 0; t < WORLD_TABLE_COUNT; t++)
         table_free(ctx, tables[t].table, tables[t].info);
     shape_store_free(ctx, &w->shapes);
-    media_history_free(ctx, &w->media);
     scratch_free(ctx, w);
     memset(w, 0, sizeof *w);
 }
@@ -140,6 +147,33 @@ fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_er
         if (!table_copy(ctx, to[t].table, from[t].table, to[t].info))
             return error_memory(error);
     return FRAM_OK;
+}
+
+fram_status world_copy(context *ctx, const world *src, world *dst, fram_error *error)
+{
+    fram_status status = init(ctx, src->shapes.solids, dst, error);
+    if (status != FRAM_OK)
+        return status;
+    status = world_copy_state(ctx, dst, src, error);
+    int32_t told = src->scratch.outside.count;
+    if (status == FRAM_OK && !array_resize(ctx, &dst->scratch.outside, told))
+        status = error_memory(error);
+    if (status == FRAM_OK && told > 0)
+        memcpy(dst->scratch.outside.data, src->scratch.outside.data, (size_t)told * sizeof *dst->scratch.outside.data);
+    if (status != FRAM_OK)
+        world_free(ctx, dst);
+    return status;
+}
+
+int64_t load_window_length(const world *w)
+{
+    return w->vessels.count > 0 ? w->load_window.count / w->vessels.count : 0;
+}
+
+int64_t load_window_row(const world *w, int64_t step, int32_t vessel)
+{
+    int64_t length = load_window_length(w), turn = length > 0 ? step % length : 0;
+    return turn * w->vessels.count + vessel;
 }
 
 /* One number of a column as text. */

@@ -1,18 +1,17 @@
-/* The world: all mutable state of a simulation, as the rooms' tables strung together, and the scratch of one step.
-   Plain data: init, free, copy, hash.  No physics. */
+/* The world: all that changes in a simulation, as the rooms' tables strung together, and the scratch of one step; what
+   it is stepped with stands in the model (model.h).  Plain data: init, free, copy, hash.  No physics. */
 #ifndef MODEL_WORLD_H
 #define MODEL_WORLD_H
 
 #include "dynamics/collision.h"
 #include "dynamics/joint.h"
 #include "dynamics/solver.h"
-#include "fluid/flow_apply.h"
 #include "fluid/fluid.h"
-#include "fluid/response.h"
 #include "ice/crushing.h"
 #include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
+#include "model/model.h"
 #include "vessel/mooring.h"
 #include "vessel/station.h"
 
@@ -32,8 +31,8 @@
     X(work_crushed, double, FIELD_F64, 1, "J", "energy dissipated by rows at their crushing limit")
 TABLE_DECLARE(clock, CLOCK_FIELDS)
 
-/* The recorder's moving average of the ice load on the first vessel: a ring of the last steps, oldest overwritten at
-   row (step mod count).  As many rows as steps in the averaging window. */
+/* The ice loads of the last steps: for each vessel a ring of as many rows as the averaging window has steps, the oldest
+   overwritten.  Steps follow one another, the vessels of a step stand together: load_window_row(). */
 #define LOAD_WINDOW_FIELDS(X)                                                                      \
     X(force, vec3, FIELD_F64, 3, "N", "ice force on the vessel, mean over the step, global frame") \
     X(moment, vec3, FIELD_F64, 3, "N m", "ice moment about its centre of mass, global frame")
@@ -64,7 +63,7 @@ typedef struct world {
     /* State: everything that outlives a step; world_tables() lists the tables. */
     clock_table clock;
     body_table bodies;
-    shape_store shapes; /* solids inside are not state */
+    shape_store shapes; /* its solids are the model's */
     floe_table floes;
     vessel_table vessels;
     joint_table joints;
@@ -82,12 +81,6 @@ typedef struct world {
     pattern_table pattern;
     pattern_vertex_table pattern_vertices;
 
-    /* Not state, as solids are not: made from the scenario again on resume. */
-    media_history media;
-    bool has_hydrodynamics; /* of the first vessel */
-    hydrodynamics hydrodynamics;
-    hull_flows flows;
-
     /* Scratch: written anew each step. */
     struct {
         ARRAY(wrench) loads;     /* one per body slot */
@@ -97,8 +90,8 @@ typedef struct world {
         contact_array contacts;
         index_array patch_pairs;
         crushing_patch_array patches;
-        ARRAY(ice_load) ice_loads; /* one per vessel */
-        hull_response response;    /* of the first vessel */
+        ARRAY(ice_load) ice_loads;      /* one per vessel */
+        ARRAY(hull_response) responses; /* one per vessel */
         fracture_event_array fractures;
         solver_report solver;
         collision_scratch *collision;
@@ -118,7 +111,11 @@ enum { WORLD_TABLE_COUNT = 21 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 
-fram_status world_init(context *ctx, world *w, fram_error *error);
+/* An empty world of a model, which must stay where it is until the world is freed. */
+fram_status world_init(context *ctx, const model *m, world *w, fram_error *error);
+/* dst, which is not yet a world, becomes one of the same model in the same state, with what src was told from outside
+   since its last step. */
+fram_status world_copy(context *ctx, const world *src, world *dst, fram_error *error);
 void world_free(context *ctx, world *w);
 /* Debug builds call this before each step: the scratch of the step before becomes garbage (all bits set, so that reals
    are not numbers), and a stage that reads what it should have written is found.  Allocated scratch objects are left
@@ -126,9 +123,14 @@ void world_free(context *ctx, world *w);
 void world_poison_scratch(world *w);
 /* 64-bit hash of the whole state. */
 uint64_t world_hash(const world *w);
-/* dst's state becomes src's; dst must have the same solids. */
+/* dst's state becomes src's; both are of the same model. */
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error);
 /* The first differing table, field and row of two states, as text; false when they are equal. */
 bool world_difference(const world *a, const world *b, char text[200]);
+
+/* Steps of the load window; 0 without vessels. */
+int64_t load_window_length(const world *w);
+/* Row of the load window for a vessel at the end of a step. */
+int64_t load_window_row(const world *w, int64_t step, int32_t vessel);
 
 #endif

@@ -141,7 +141,7 @@ static bool shape_is_sound(const shape_store *s, int32_t row)
 {
     const shape_table *t = &s->shapes;
     if (t->kind[row] == SHAPE_SOLID)
-        return t->solid[row] >= 0 && t->solid[row] < s->solids.count;
+        return t->solid[row] >= 0 && t->solid[row] < (s->solids ? s->solids->count : 0);
     if (t->kind[row] != SHAPE_PRISM)
         return true;
     bool good = is_span(t->outline_first[row], t->outline_count[row], 3, s->vertices.count) &&
@@ -199,7 +199,7 @@ static fram_status check_floes(const world *w, int32_t tiles, fram_error *error)
     return FRAM_OK;
 }
 
-fram_status world_check(const world *w, int32_t tiles, fram_error *error)
+fram_status world_check(const model *m, const world *w, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
@@ -216,5 +216,8 @@ fram_status world_check(const world *w, int32_t tiles, fram_error *error)
         status = check_shapes(&w->shapes, error);
     if (status == FRAM_OK)
         status = check_bodies(w, error);
-    return status == FRAM_OK ? check_floes(w, tiles, error) : status;
+    if (status == FRAM_OK && w->vessels.count != m->vessels.count)
+        status = refuse("vessel", 0, NULL, w->vessels.count, error);
+    const tile_grid *tiles = &m->fracture.tiles;
+    return status == FRAM_OK ? check_floes(w, tiles->columns * tiles->rows, error) : status;
 }

@@ -5,7 +5,7 @@
 
 #include "model/world.h"
 
-/* FRAM_ERROR_INPUT with the table, row and field as key.  tiles: cells of the level sheet, 0 without one. */
-fram_status world_check(const world *w, int32_t tiles, fram_error *error);
+/* FRAM_ERROR_INPUT with the table, row and field as key.  m: the model that the world shall be stepped with. */
+fram_status world_check(const model *m, const world *w, fram_error *error);
 
 #endif

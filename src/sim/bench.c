@@ -69,14 +69,14 @@ static double load_against(const world *w, int32_t body, double time_step)
     return mat3_tmul_vec(quat_matrix(w->bodies.orientation[body]), sum).x / time_step;
 }
 
-static void add_step(const step_settings *settings, const world *w, int32_t ship, bench_result *r)
+static void add_step(const model *m, const world *w, int32_t ship, bench_result *r)
 {
     count_touching(&w->scratch.contacts, r);
     r->mean_depth += w->scratch.solver.mean_depth;
     r->max_depth = fmax(r->max_depth, w->scratch.solver.max_depth);
     r->residual += w->scratch.solver.residual;
     if (ship >= 0)
-        r->ship_force += load_against(w, ship, settings->time_step);
+        r->ship_force += load_against(w, ship, m->time_step);
 }
 
 /* ---- clocks ---- */
@@ -97,12 +97,12 @@ static void stage_done(void *user, step_stage stage)
 }
 
 /* times: TIME_COUNT columns of `steps` rows. */
-static fram_status measure_step(context *ctx, const step_settings *settings, world *w, int64_t row, int64_t steps,
-                                double *times, fram_error *error)
+static fram_status measure_step(context *ctx, const model *m, world *w, int64_t row, int64_t steps, double *times,
+                                fram_error *error)
 {
     stopwatch clock = {.last = seconds(CLOCK_PROCESS_CPUTIME_ID)};
     double wall = seconds(CLOCK_MONOTONIC), cpu = clock.last;
-    fram_status status = world_step_watched(ctx, settings, w, &(step_watch){stage_done, &clock}, error);
+    fram_status status = world_step_watched(ctx, m, w, &(step_watch){stage_done, &clock}, error);
     times[TIME_CPU * steps + row] = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
     times[TIME_WALL * steps + row] = seconds(CLOCK_MONOTONIC) - wall;
     times[TIME_FORCES * steps + row] = clock.part[STAGE_FORCES];
@@ -111,13 +111,13 @@ static fram_status measure_step(context *ctx, const step_settings *settings, wor
     return status;
 }
 
-static void summarize(const step_settings *settings, const world *w, int64_t steps, double *times, bench_result *r)
+static void summarize(const model *m, const world *w, int64_t steps, double *times, bench_result *r)
 {
     double n = (double)steps, took = 0;
     for (int64_t k = 0; k < steps; k++)
         took += times[TIME_WALL * steps + k];
     r->steps = steps;
-    r->real_time_factor = took > 0 ? n * settings->time_step / took : 0;
+    r->real_time_factor = took > 0 ? n * m->time_step / took : 0;
     r->contact_points /= n, r->pairs /= n, r->loaded_pairs /= n, r->mean_depth /= n, r->residual /= n,
         r->ship_force /= n;
     r->cpu_median = median(times + TIME_CPU * steps, steps);
@@ -129,8 +129,8 @@ static void summarize(const step_settings *settings, const world *w, int64_t ste
     r->state_hash = world_hash(w);
 }
 
-fram_status bench_measure(context *ctx, const step_settings *settings, world *w, int32_t ship, int64_t warm_steps,
-                          int64_t steps, bench_result *out, fram_error *error)
+fram_status bench_measure(context *ctx, const model *m, world *w, int32_t ship, int64_t warm_steps, int64_t steps,
+                          bench_result *out, fram_error *error)
 {
     *out = (bench_result){0};
     double *times = memory_array(ctx, TIME_COUNT * (size_t)steps, sizeof *times);
@@ -141,39 +141,49 @@ fram_status bench_measure(context *ctx, const step_settings *settings, world *w,
     for (int64_t k = 0; k < warm_steps && status == FRAM_OK; k++) {
         status = work_continue(ctx, "measuring", (double)k, all, error);
         if (status == FRAM_OK)
-            status = world_step(ctx, settings, w, error);
+            status = world_step(ctx, m, w, error);
     }
     for (int64_t k = 0; k < steps && status == FRAM_OK; k++) {
         status = work_continue(ctx, "measuring", (double)(warm_steps + k), all, error);
         if (status != FRAM_OK)
             break;
-        status = measure_step(ctx, settings, w, k, steps, times, error);
-        add_step(settings, w, ship, out);
+        status = measure_step(ctx, m, w, k, steps, times, error);
+        add_step(m, w, ship, out);
     }
     if (status == FRAM_OK)
-        summarize(settings, w, steps, times, out);
+        summarize(m, w, steps, times, out);
     memory_free(ctx, times);
     return status;
 }
 
 /* ---- scenarios ---- */
 
+static fram_status bench_model(context *ctx, const scenario *s, const model *m, double warm, double time,
+                               bench_result *out, fram_error *error)
+{
+    int64_t steps = bench_steps(time, m->time_step);
+    world w;
+    field_report report;
+    fram_status status = build_world(ctx, s, m, &w, &report, error);
+    if (status != FRAM_OK)
+        return status;
+    int32_t ship = w.vessels.count > 0 ? w.vessels.body[0] : -1;
+    status = bench_measure(ctx, m, &w, ship, bench_steps(warm, m->time_step), steps < 1 ? 1 : steps, out, error);
+    for (int32_t i = 0; i < w.floes.count; i++)
+        out->floes += w.floes.body[i] >= 0;
+    world_free(ctx, &w);
+    return status;
+}
+
 fram_status bench_scenario(context *ctx, const scenario *s, double warm, double time, bench_result *out,
                            fram_error *error)
 {
     *out = (bench_result){0};
-    step_settings settings = build_settings(s);
-    int64_t steps = bench_steps(time, settings.time_step);
-    world w;
-    build_report report;
-    fram_status status = build_world(ctx, s, &w, &report, error);
+    model m;
+    fram_status status = build_model(ctx, s, &m, error);
     if (status != FRAM_OK)
         return status;
-    int32_t ship = w.vessels.count > 0 ? w.vessels.body[0] : -1;
-    status = bench_measure(ctx, &settings, &w, ship, bench_steps(warm, settings.time_step), steps < 1 ? 1 : steps, out,
-                           error);
-    for (int32_t i = 0; i < w.floes.count; i++)
-        out->floes += w.floes.body[i] >= 0;
-    world_free(ctx, &w);
+    status = bench_model(ctx, s, &m, warm, time, out, error);
+    model_free(ctx, &m);
     return status;
 }

@@ -21,6 +21,7 @@
 
 /* A world made from a scene. */
 typedef struct bench_world {
+    model m;
     world w;
     column_water water;
     int32_array slot; /* of each floe of the scene */
@@ -127,6 +128,7 @@ static fram_status add_floes(context *ctx, const scene_text *s, bench_world *b, 
 static void world_release(context *ctx, bench_world *b)
 {
     world_free(ctx, &b->w);
+    model_free(ctx, &b->m);
     column_water_free(ctx, &b->water);
     array_free(ctx, &b->slot);
 }
@@ -134,7 +136,7 @@ static void world_release(context *ctx, bench_world *b)
 static fram_status make_world(context *ctx, const scene_text *s, bench_world *b, fram_error *error)
 {
     *b = (bench_world){.ship = -1};
-    fram_status status = world_init(ctx, &b->w, error);
+    fram_status status = world_init(ctx, &b->m, &b->w, error);
     if (status != FRAM_OK)
         return status;
     status = add_walls(ctx, s, &b->w, error);
@@ -150,12 +152,12 @@ static fram_status make_world(context *ctx, const scene_text *s, bench_world *b,
     return status;
 }
 
-static step_settings settings_of(const scene_text *s, const bench_scene_options *o, const bench_world *b)
+static model model_of(const scene_text *s, const bench_scene_options *o, const bench_world *b)
 {
     scenario usual;
     scenario_defaults(&usual, scenario_default_scale());
     const scenario_solver *keys = &usual.run.solver;
-    step_settings out = {
+    model out = {
         .time_step = o->time_step,
         .forces = o->exact_water ? FORCES_FLUID : FORCES_COLUMNS,
         .media = {.gravity = s->gravity, .water_density = s->water_density, .current = {s->current.x, s->current.y, 0}},
@@ -218,10 +220,10 @@ fram_status bench_scene(context *ctx, const scene_text *scene, const bench_scene
     fram_status status = make_world(ctx, scene, &b, error);
     if (status != FRAM_OK)
         return status;
-    step_settings settings = settings_of(scene, options, &b);
+    b.m = model_of(scene, options, &b);
     int64_t warm = bench_steps(options->warm, options->time_step);
     int64_t steps = bench_steps(options->time, options->time_step) - warm;
-    status = bench_measure(ctx, &settings, &b.w, b.ship, warm, steps < 1 ? 1 : steps, out, error);
+    status = bench_measure(ctx, &b.m, &b.w, b.ship, warm, steps < 1 ? 1 : steps, out, error);
     out->floes = scene->floes.count;
     if (status == FRAM_OK && options->dump)
         status = dump_poses(ctx, &b, options->dump, error);

@@ -49,15 +49,14 @@ static fram_status check_place(const world *w, const polygon_list *keep_out, fra
     return FRAM_OK;
 }
 
-static fram_status begin(context *ctx, const scenario *s, const step_settings *settings, vec2 tile, world *w,
-                         fram_error *error)
+static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 tile, world *w, fram_error *error)
 {
     polygon_list keep_out = {0};
     fram_status status = build_keep_out(ctx, s, w, &keep_out, error);
-    feeding_definition d = {.window = settings->domain,
+    feeding_definition d = {.window = m->domain,
                             .tile = tile,
                             .band = s->domain.band,
-                            .velocity = feed_drift(settings, w, 0),
+                            .velocity = feed_drift(m, 0),
                             .keep_out = &keep_out,
                             .smallest_area = s->ice.smallest_floe_area,
                             .piece_area_limit = s->ice.smallest_piece_area};
@@ -77,9 +76,9 @@ static vec2 tile_of(const scenario *s, box2 window)
 }
 
 /* The same ice in a larger domain; what is shared with the scenario is only read. */
-scenario feeding_scenario(const scenario *s, const step_settings *settings)
+scenario feeding_scenario(const scenario *s)
 {
-    box2 window = settings->domain;
+    box2 window = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}};
     vec2 middle = vec2_scale(vec2_add(window.lo, window.hi), 0.5), tile = tile_of(s, window);
     scenario larger = *s;
     larger.domain.x_min = middle.x - tile.x / 2;
@@ -89,12 +88,12 @@ scenario feeding_scenario(const scenario *s, const step_settings *settings)
     return larger;
 }
 
-fram_status build_field(context *ctx, const scenario *s, const step_settings *settings, world *w, field_report *report,
+fram_status build_field(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error)
 {
     if (s->domain.boundary != DOMAIN_FEEDING)
         return build_ice(ctx, s, w, report, error);
-    scenario larger = feeding_scenario(s, settings);
+    scenario larger = feeding_scenario(s);
     fram_status status = build_ice(ctx, &larger, w, report, error);
-    return status == FRAM_OK ? begin(ctx, s, settings, tile_of(s, settings->domain), w, error) : status;
+    return status == FRAM_OK ? begin(ctx, s, m, tile_of(s, m->domain), w, error) : status;
 }

@@ -8,10 +8,10 @@
 
 /* The scenario's ice (build_ice.h); with domain.boundary feeding, its field fills a tile, and the domain is a window on
    the endless field of such tiles.  The report is then that of the tile.  Errors name the key where it is not ice. */
-fram_status build_field(context *ctx, const scenario *s, const step_settings *settings, world *w, field_report *report,
+fram_status build_field(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
                         fram_error *error);
 
 /* The scenario whose domain is the tile of one that is fed. */
-scenario feeding_scenario(const scenario *s, const step_settings *settings);
+scenario feeding_scenario(const scenario *s);
 
 #endif

@@ -7,6 +7,8 @@
 
 /* As those of a table in the scenario, in a file too. */
 enum { COEFFICIENT_MOST = 100 };
+/* Of the name of a section of coefficients. */
+enum { FLOW_KEY_SIZE = 64 };
 
 /* Rows as they are given. */
 typedef struct flow_rows {
@@ -102,7 +104,7 @@ static fram_status check_rows(const scenario *s, const scenario_flow *from, cons
 
 /* height: of the part of the hull that the medium meets; middle: of that part over the design waterline [m]. */
 static fram_status build_one(context *ctx, const scenario *s, const scenario_flow *from, const char *key,
-                             const made_hull *hull, double height, double middle, flow_table *out, fram_error *error)
+                             const vessel_model *hull, double height, double middle, flow_table *out, fram_error *error)
 {
     flow_rows rows = {0};
     *out = (flow_table){0};
@@ -127,15 +129,19 @@ static fram_status build_one(context *ctx, const scenario *s, const scenario_flo
     return status;
 }
 
-fram_status build_flows(context *ctx, const scenario *s, const made_hull *hull, world *w, fram_error *error)
+fram_status build_flows(context *ctx, const scenario *s, const vessel_entry *entry, vessel_model *vessel,
+                        fram_error *error)
 {
-    const scenario_vessel *v = &s->vessel;
-    double draught = hull->particulars.draught, freeboard = v->hull.freeboard;
-    w->flows.depth = 0.5 * draught;
-    fram_status status = build_one(ctx, s, &v->current_coefficients, "vessel.current_coefficients", hull, draught,
-                                   -0.5 * draught, &w->flows.water, error);
+    const scenario_vessel *v = entry->keys;
+    double draught = vessel->particulars.draught, freeboard = v->hull.freeboard;
+    char water[FLOW_KEY_SIZE], air[FLOW_KEY_SIZE];
+    snprintf(water, sizeof water, "%s.current_coefficients", entry->path);
+    snprintf(air, sizeof air, "%s.wind_coefficients", entry->path);
+    vessel->flows.depth = 0.5 * draught;
+    fram_status status = build_one(ctx, s, &v->current_coefficients, water, vessel, draught, -0.5 * draught,
+                                   &vessel->flows.water, error);
     if (status == FRAM_OK)
-        status = build_one(ctx, s, &v->wind_coefficients, "vessel.wind_coefficients", hull, freeboard, 0.5 * freeboard,
-                           &w->flows.air, error);
+        status = build_one(ctx, s, &v->wind_coefficients, air, vessel, freeboard, 0.5 * freeboard, &vessel->flows.air,
+                           error);
     return status;
 }

@@ -2,9 +2,11 @@
 #ifndef SIM_BUILD_FLOWS_H
 #define SIM_BUILD_FLOWS_H
 
-#include "sim/build_hull.h"
+#include "model/model.h"
+#include "model/scenario_vessel.h"
 
-/* Into w->flows.  Errors name the row at fault. */
-fram_status build_flows(context *ctx, const scenario *s, const made_hull *hull, world *w, fram_error *error);
+/* Into vessel->flows, of the hull that `vessel` knows already.  Errors name the row at fault. */
+fram_status build_flows(context *ctx, const scenario *s, const vessel_entry *entry, vessel_model *vessel,
+                        fram_error *error);
 
 #endif

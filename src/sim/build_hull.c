@@ -30,7 +30,7 @@ static hull_particulars particulars_of(const scenario_hull *h)
 }
 
 /* An error of the rooms below names a member; the scenario's key is longer, and angles are in degrees there. */
-static fram_status name_key(const scenario *s, fram_status status, fram_error *error)
+static fram_status name_key(const scenario *s, const vessel_entry *entry, fram_status status, fram_error *error)
 {
     if (status != FRAM_ERROR_INPUT || !error || error->file[0])
         return status;
@@ -38,8 +38,8 @@ static fram_status name_key(const scenario *s, fram_status status, fram_error *e
     memcpy(member, error->key, sizeof member);
     size_t length = strlen(member);
     bool angle = length > 6 && strcmp(member + length - 6, "_angle") == 0;
-    snprintf(error->key, sizeof error->key, "vessel.hull%s%.90s%s", length ? "." : "", member, angle ? "_deg" : "");
-    scenario_locate(s, error);
+    snprintf(error->key, sizeof error->key, "hull%s%.90s%s", length ? "." : "", member, angle ? "_deg" : "");
+    vessel_name_error(s, entry, error);
     return status;
 }
 
@@ -61,13 +61,13 @@ static void report_file(context *ctx, const hull_file_report *r)
 }
 
 /* Main particulars of a mesh: those of its part under z = 0. */
-static fram_status measure(const scenario *s, const new_hull *h, hull_particulars *p, fram_error *error)
+static fram_status measure(const scenario_hull *keys, const new_hull *h, hull_particulars *p, fram_error *error)
 {
     box3 box = mesh_bounds(&h->surface);
     box2 line = h->floats.waterline;
     if (!(h->floats.waterplane_area > 0))
         return error_set(
-            error, FRAM_ERROR_INPUT, s->vessel.hull.file, 0, "mesh",
+            error, FRAM_ERROR_INPUT, keys->file, 0, "mesh",
             "the design waterline of a hull's file is its z = 0, but the mesh reaches from z = %g to %g m; "
             "move it up or down",
             box.lo.z, box.hi.z);
@@ -79,9 +79,8 @@ static fram_status measure(const scenario *s, const new_hull *h, hull_particular
     return FRAM_OK;
 }
 
-static fram_status read_hull(context *ctx, const scenario *s, new_hull *h, fram_error *error)
+static fram_status read_hull(context *ctx, const scenario *s, const scenario_hull *keys, new_hull *h, fram_error *error)
 {
-    const scenario_hull *keys = &s->vessel.hull;
     char path[2 * SCENARIO_TEXT_SIZE];
     if (!scenario_resolve_path(s, keys->file, path, sizeof path))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "file", "the path of the mesh is too long");
@@ -99,33 +98,36 @@ static fram_status read_hull(context *ctx, const scenario *s, new_hull *h, fram_
     return status;
 }
 
-static fram_status make(context *ctx, const scenario *s, new_hull *h, hull_particulars *p, fram_error *error)
+static fram_status make(context *ctx, const scenario *s, const scenario_hull *keys, new_hull *h, hull_particulars *p,
+                        fram_error *error)
 {
-    bool from_file = s->vessel.hull.form == HULL_MESH;
-    *p = particulars_of(&s->vessel.hull);
-    fram_status status = from_file ? read_hull(ctx, s, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
+    bool from_file = keys->form == HULL_MESH;
+    *p = particulars_of(keys);
+    fram_status status =
+        from_file ? read_hull(ctx, s, keys, h, error) : hull_make(ctx, p, &h->surface, &h->pieces, error);
     if (status == FRAM_OK)
         status = hull_hydrostatics_at(ctx, &h->surface, 0, &h->floats, error);
-    return status == FRAM_OK && from_file ? measure(s, h, p, error) : status;
+    return status == FRAM_OK && from_file ? measure(keys, h, p, error) : status;
 }
 
-fram_status build_hull(context *ctx, const scenario *s, world *w, made_hull *out, fram_error *error)
+fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entry, solid_array *solids,
+                       vessel_model *out, fram_error *error)
 {
+    const scenario_vessel *v = entry->keys;
     new_hull h = {0};
-    *out = (made_hull){0};
-    fram_status status = make(ctx, s, &h, &out->particulars, error);
+    fram_status status = make(ctx, s, &v->hull, &h, &out->particulars, error);
     if (status == FRAM_OK) {
         out->floats = h.floats;
         out->displaced_mass = h.floats.volume * s->environment.water_density;
-        out->centre = vec3_make(automatic_or(s->vessel.centre_of_gravity_x, h.floats.centre_of_buoyancy.x),
-                                automatic_or(s->vessel.centre_of_gravity_y, h.floats.centre_of_buoyancy.y),
-                                automatic_or(s->vessel.centre_of_gravity_z, 0));
+        out->centre = vec3_make(automatic_or(v->centre_of_gravity_x, h.floats.centre_of_buoyancy.x),
+                                automatic_or(v->centre_of_gravity_y, h.floats.centre_of_buoyancy.y),
+                                automatic_or(v->centre_of_gravity_z, 0));
         mesh_translate(&h.surface, vec3_neg(out->centre));
         for (int32_t i = 0; i < h.pieces.count; i++)
             polyhedron_translate(&h.pieces.data[i], vec3_neg(out->centre));
-        status = solid_add(ctx, &w->shapes, &h.surface, &h.pieces, h.concavity, &out->solid, error);
+        status = solid_add(ctx, solids, &h.surface, &h.pieces, h.concavity, &out->solid, error);
     }
     mesh_free(ctx, &h.surface);
     polyhedron_array_free(ctx, &h.pieces);
-    return name_key(s, status, error);
+    return name_key(s, entry, status, error);
 }

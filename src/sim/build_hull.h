@@ -2,19 +2,12 @@
 #ifndef SIM_BUILD_HULL_H
 #define SIM_BUILD_HULL_H
 
-#include "model/scenario.h"
-#include "model/world.h"
+#include "model/model.h"
+#include "model/scenario_vessel.h"
 
-/* The hull about its centre of mass, with what its making tells. */
-typedef struct made_hull {
-    int32_t solid;                /* in w->shapes */
-    vec3 centre;                  /* of mass, ship coordinates [m] */
-    double displaced_mass;        /* at the draught [kg] */
-    hull_particulars particulars; /* of a file: measured at z = 0 */
-    hull_hydrostatics floats;     /* at the draught, ship coordinates */
-} made_hull;
-
-/* Errors name the key at fault, or place and element of the mesh file. */
-fram_status build_hull(context *ctx, const scenario *s, world *w, made_hull *out, fram_error *error);
+/* Appends the hull to the solids, and fills what out tells of it.  Errors name the key at fault, or place and element
+   of the mesh file. */
+fram_status build_hull(context *ctx, const scenario *s, const vessel_entry *entry, solid_array *solids,
+                       vessel_model *out, fram_error *error);
 
 #endif

@@ -1,14 +1,16 @@
 #include "sim/build_hydrodynamics.h"
 
 #include "fluid/added_mass.h"
+#include "sim/build_vessel.h"
 
-#include <stdio.h>
 #include <string.h>
 
 /* ---- matrices of the scenario ---- */
 
 /* Entries m[i][j] and m[j][i] of an added mass may differ by this part of the diagonal: published ones are rounded. */
 #define ASYMMETRY 1e-3
+
+static const char MASS_KEY[] = "hydrodynamics.added_mass";
 
 static matrix6 rows_of(const scenario_matrix_row_list *rows)
 {
@@ -21,32 +23,20 @@ static matrix6 rows_of(const scenario_matrix_row_list *rows)
     return a;
 }
 
-static fram_status fault(const scenario *s, const char *key, fram_error *error)
-{
-    if (error) {
-        snprintf(error->key, sizeof error->key, "%.100s", key);
-        scenario_locate(s, error);
-    }
-    return FRAM_ERROR_INPUT;
-}
-
 /* Symmetric, nearly, and no negative diagonal; takes the mean of the two halves. */
-static fram_status check_added_mass(const scenario *s, matrix6 *a, fram_error *error)
+static fram_status check_added_mass(const scenario *s, const vessel_entry *entry, matrix6 *a, fram_error *error)
 {
     for (int i = 0; i < 6; i++) {
-        if (a->m[i][i] < 0) {
-            error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
-                      "expected a diagonal without negative numbers, found %g in row %d", a->m[i][i], i + 1);
-            return fault(s, "vessel.hydrodynamics.added_mass", error);
-        }
+        if (a->m[i][i] < 0)
+            return vessel_fault(s, entry, MASS_KEY, error,
+                                "expected a diagonal without negative numbers, found %g in row %d", a->m[i][i], i + 1);
         for (int j = 0; j < i; j++) {
             double size = sqrt(a->m[i][i] * a->m[j][j]), mean = 0.5 * (a->m[i][j] + a->m[j][i]);
-            if (fabs(a->m[i][j] - a->m[j][i]) > ASYMMETRY * size || fabs(mean) > size) {
-                error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL,
-                          "expected a symmetric positive matrix, found %g in row %d, column %d, and %g across",
-                          a->m[i][j], i + 1, j + 1, a->m[j][i]);
-                return fault(s, "vessel.hydrodynamics.added_mass", error);
-            }
+            if (fabs(a->m[i][j] - a->m[j][i]) > ASYMMETRY * size || fabs(mean) > size)
+                return vessel_fault(
+                    s, entry, MASS_KEY, error,
+                    "expected a symmetric positive matrix, found %g in row %d, column %d, and %g across", a->m[i][j],
+                    i + 1, j + 1, a->m[j][i]);
             a->m[i][j] = a->m[j][i] = mean;
         }
     }
@@ -60,11 +50,12 @@ static matrix6 moved(const scenario_hydrodynamics *h, const matrix6 *a, vec3 cen
     return matrix6_moved(&up, vec3_sub(vec3_make(h->x, h->y, h->z), centre));
 }
 
-static fram_status given(const scenario *s, vec3 centre, hydrodynamics *out, fram_error *error)
+static fram_status given(const scenario *s, const vessel_entry *entry, vec3 centre, hydrodynamics *out,
+                         fram_error *error)
 {
-    const scenario_hydrodynamics *h = &s->vessel.hydrodynamics;
+    const scenario_hydrodynamics *h = &entry->keys->hydrodynamics;
     matrix6 mass = rows_of(&h->added_mass), damping = rows_of(&h->damping);
-    fram_status status = check_added_mass(s, &mass, error);
+    fram_status status = check_added_mass(s, entry, &mass, error);
     out->added_mass = moved(h, &mass, centre);
     out->damping = moved(h, &damping, centre);
     return status;
@@ -72,48 +63,35 @@ static fram_status given(const scenario *s, vec3 centre, hydrodynamics *out, fra
 
 /* ---- estimate ---- */
 
-static hydrodynamics estimate(const scenario *s, const made_hull *hull)
+static hydrodynamics estimate(const scenario *s, const scenario_vessel *v, const vessel_model *hull)
 {
-    const scenario_vessel *v = &s->vessel;
     const hull_particulars *p = &hull->particulars;
     const hull_hydrostatics *f = &hull->floats;
     double density = s->environment.water_density, weight = density * s->environment.gravity;
-    vec3 half = {0.5 * p->length, 0.5 * p->beam, p->draught};
+    vec3 half = {0.5 * p->length, 0.5 * p->beam, p->draught}, arm = build_gyration(v, p);
     matrix6 mass = ellipsoid_added_mass(half, f->volume, density);
     hydrodynamics out = {0};
     out.added_mass = matrix6_moved(&mass, vec3_sub(vec3_make(p->midships, 0, 0), hull->centre));
     double m = automatic_or(v->mass, hull->displaced_mass), lift = f->centre_of_buoyancy.z - hull->centre.z;
-    double roll_arm = automatic_or(v->gyration_roll, 0.35 * p->beam);
-    double pitch_arm = automatic_or(v->gyration_pitch, 0.25 * p->length);
     double heave_spring = weight * f->waterplane_area;
     double roll_spring = fmax(0, weight * (f->waterplane_xx + f->volume * lift));
     double pitch_spring = fmax(0, weight * (f->waterplane_yy + f->volume * lift));
     const scenario_hydrodynamics *h = &v->hydrodynamics;
     const matrix6 *a = &out.added_mass;
     out.damping.m[2][2] = 2 * h->heave_damping * sqrt(heave_spring * (m + a->m[2][2]));
-    out.damping.m[3][3] = 2 * h->roll_damping * sqrt(roll_spring * (m * roll_arm * roll_arm + a->m[3][3]));
-    out.damping.m[4][4] = 2 * h->pitch_damping * sqrt(pitch_spring * (m * pitch_arm * pitch_arm + a->m[4][4]));
+    out.damping.m[3][3] = 2 * h->roll_damping * sqrt(roll_spring * (m * arm.x * arm.x + a->m[3][3]));
+    out.damping.m[4][4] = 2 * h->pitch_damping * sqrt(pitch_spring * (m * arm.y * arm.y + a->m[4][4]));
     return out;
 }
 
-fram_status build_hydrodynamics(const scenario *s, const made_hull *hull, world *w, fram_error *error)
+fram_status build_hydrodynamics(const scenario *s, const vessel_entry *entry, vessel_model *vessel, fram_error *error)
 {
-    const scenario_hydrodynamics *h = &s->vessel.hydrodynamics;
-    w->has_hydrodynamics = h->source != HYDRODYNAMICS_NONE;
-    w->hydrodynamics = (hydrodynamics){0};
-    if (h->source == HYDRODYNAMICS_GIVEN)
-        return given(s, hull->centre, &w->hydrodynamics, error);
-    if (h->source == HYDRODYNAMICS_ESTIMATE)
-        w->hydrodynamics = estimate(s, hull);
+    hydrodynamics_source source = entry->keys->hydrodynamics.source;
+    vessel->has_hydrodynamics = source != HYDRODYNAMICS_NONE;
+    vessel->hydrodynamics = (hydrodynamics){0};
+    if (source == HYDRODYNAMICS_GIVEN)
+        return given(s, entry, vessel->centre, &vessel->hydrodynamics, error);
+    if (source == HYDRODYNAMICS_ESTIMATE)
+        vessel->hydrodynamics = estimate(s, entry->keys, vessel);
     return FRAM_OK;
-}
-
-void build_added_mass(world *w)
-{
-    if (!w->has_hydrodynamics || w->vessels.count == 0)
-        return;
-    int32_t body = w->vessels.body[0];
-    const matrix6 *a = &w->hydrodynamics.added_mass;
-    w->bodies.added_mass[body] = vec3_make(a->m[0][0], a->m[1][1], a->m[2][2]);
-    w->bodies.added_inertia[body] = vec3_make(a->m[3][3], a->m[4][4], a->m[5][5]);
 }

@@ -2,16 +2,14 @@
 #ifndef SIM_BUILD_HYDRODYNAMICS_H
 #define SIM_BUILD_HYDRODYNAMICS_H
 
-#include "model/scenario.h"
-#include "model/world.h"
-#include "sim/build_hull.h"
+#include "model/model.h"
+#include "model/scenario_vessel.h"
 
-/* From the matrices of vessel.hydrodynamics, moved to the centre of mass and to Fram's axes, or estimated from the
-   hull: added mass of the ellipsoid with the hull's waterline length and beam and its draught, about amidships in the
-   water line (fluid/added_mass.h); damping in heave, roll and pitch as parts of the critical one of the hull's own
-   springs.  Nothing when the scenario asks for nothing.  FRAM_ERROR_INPUT names the key of a matrix that cannot be. */
-fram_status build_hydrodynamics(const scenario *s, const made_hull *hull, world *w, fram_error *error);
-/* Gives the first vessel's body the diagonal of the added mass. */
-void build_added_mass(world *w);
+/* From the matrices of the vessel's hydrodynamics, moved to the centre of mass and to Fram's axes, or estimated from
+   the hull, which `vessel` knows already: added mass of the ellipsoid with the hull's waterline length and beam and its
+   draught, about amidships in the water line (fluid/added_mass.h); damping in heave, roll and pitch as parts of the
+   critical one of the hull's own springs.  Nothing when the scenario asks for nothing.  FRAM_ERROR_INPUT names the key
+   of a matrix that cannot be. */
+fram_status build_hydrodynamics(const scenario *s, const vessel_entry *entry, vessel_model *vessel, fram_error *error);
 
 #endif

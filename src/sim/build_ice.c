@@ -46,7 +46,7 @@ static bool add_triangle(context *ctx, const vec3 corner[3], bool below_water, v
 fram_status build_footprint(context *ctx, const world *w, int32_t body, bool below_water, vec2_array *out,
                             fram_error *error)
 {
-    const mesh *m = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[body]]].surface;
+    const mesh *m = &shape_solid(&w->shapes, w->bodies.shape[body])->surface;
     vec2_array points = {0};
     bool good = true;
     for (int32_t i = 0; good && i < m->face.count; i++) {

@@ -2,8 +2,8 @@
 #ifndef SIM_BUILD_MEDIA_H
 #define SIM_BUILD_MEDIA_H
 
+#include "fluid/media.h"
 #include "model/scenario.h"
-#include "model/world.h"
 
 /* environment.current_file, wind_file: CSV with the columns time [s], x [m/s], y [m/s], at least one row, times
    ascending; the velocity is along X and Y, towards.  environment.current_profile_file: columns depth [m], x, y; 1 to

@@ -9,28 +9,30 @@
 #include <string.h>
 
 /* An error of the rooms below names a member of a list's item. */
-static fram_status name_item(const scenario *s, fram_status status, const char *list, int32_t item, fram_error *error)
+static fram_status name_item(const scenario *s, const vessel_entry *entry, fram_status status, const char *list,
+                             int32_t item, fram_error *error)
 {
     if (status != FRAM_ERROR_INPUT || !error)
         return status;
     char member[sizeof error->key];
     memcpy(member, error->key, sizeof member);
-    snprintf(error->key, sizeof error->key, "vessel.%s[%d].%.60s", list, (int)item, member);
-    scenario_locate(s, error);
+    snprintf(error->key, sizeof error->key, "%s[%d].%.60s", list, (int)item, member);
+    vessel_name_error(s, entry, error);
     return status;
 }
 
 /* ---- mooring ---- */
 
 /* As name_item; a point of a table that came from a file is a line of that file. */
-static fram_status name_line(const scenario *s, fram_status status, int32_t item, fram_error *error)
+static fram_status name_line(const scenario *s, const vessel_entry *entry, fram_status status, int32_t item,
+                             fram_error *error)
 {
-    const char *file = s->vessel.mooring.lines.data[item].table_file;
+    const char *file = entry->keys->mooring.lines.data[item].table_file;
     char path[2 * SCENARIO_TEXT_SIZE];
     int point;
     if (status != FRAM_ERROR_INPUT || !error || !file[0] || strncmp(error->key, "table", 5) != 0 ||
         !scenario_resolve_path(s, file, path, sizeof path))
-        return name_item(s, status, "mooring.lines", item, error);
+        return name_item(s, entry, status, "mooring.lines", item, error);
     char why[sizeof error->message];
     memcpy(why, error->message, sizeof why);
     const char *column = strstr(error->key, "].tension") ? "tension" : "offset";
@@ -73,34 +75,41 @@ static fram_status find_curve(context *ctx, const scenario *s, const scenario_mo
     return FRAM_OK;
 }
 
-static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_error *error)
+/* The k-th line of an item of the list. */
+static line_definition line_of(const scenario_mooring *m, const scenario_mooring_line *l, int64_t k, int32_t vessel)
 {
-    const scenario_mooring *m = &s->vessel.mooring;
+    return (line_definition){
+        .vessel = vessel,
+        .kind = l->kind,
+        .turret = m->turret,
+        .centre = {m->x, m->y, m->z},
+        .fairlead_distance = l->fairlead_distance,
+        .direction = radians(l->direction_deg + (double)k * l->spacing_deg),
+        .distance = l->distance,
+        .depth = m->depth,
+        .length = l->length,
+        .pretension = l->pretension,
+        .weight = l->weight,
+        .stiffness = l->stiffness,
+        .breaking_load = automatic_or(l->breaking_load, HUGE_VAL),
+        .release_time = automatic_or(l->release_time, HUGE_VAL),
+    };
+}
+
+static fram_status add_lines(context *ctx, const scenario *s, const vessel_entry *entry, int32_t vessel, world *w,
+                             fram_error *error)
+{
+    const scenario_mooring *m = &entry->keys->mooring;
     for (int32_t i = 0; i < m->lines.count; i++) {
         const scenario_mooring_line *l = &m->lines.data[i];
         for (int64_t k = 0; k < l->count; k++) {
-            line_definition d = {
-                .vessel = 0,
-                .kind = l->kind,
-                .turret = m->turret,
-                .centre = {m->x, m->y, m->z},
-                .fairlead_distance = l->fairlead_distance,
-                .direction = radians(l->direction_deg + (double)k * l->spacing_deg),
-                .distance = l->distance,
-                .depth = m->depth,
-                .length = l->length,
-                .pretension = l->pretension,
-                .weight = l->weight,
-                .stiffness = l->stiffness,
-                .breaking_load = automatic_or(l->breaking_load, HUGE_VAL),
-                .release_time = automatic_or(l->release_time, HUGE_VAL),
-            };
+            line_definition d = line_of(m, l, k, vessel);
             fram_status status = find_curve(ctx, s, l, &d, error);
             if (status != FRAM_OK)
                 return status;
             status = mooring_add_line(ctx, &d, &w->vessels, &w->bodies, &w->lines, error);
             if (status != FRAM_OK)
-                return name_line(s, status, i, error);
+                return name_line(s, entry, status, i, error);
         }
     }
     return FRAM_OK;
@@ -108,30 +117,39 @@ static fram_status add_lines(context *ctx, const scenario *s, world *w, fram_err
 
 /* Current and wind on the hull as it lies still. */
 typedef struct still_hull {
+    const model *m;
     const world *w;
-    const step_settings *settings;
-    int32_t body;
+    int32_t vessel;
 } still_hull;
 
 static vec3 still_load(const void *user, double heading)
 {
     const still_hull *h = user;
-    media begin = media_at(&h->settings->media, &h->w->media, 0);
-    return steady_media_load(h->settings, h->w, h->body, &begin, heading);
+    media begin = media_at(&h->m->media, &h->m->history, 0);
+    return steady_media_load(h->m, h->w, h->vessel, &begin, heading);
 }
 
-static void find_equilibrium(context *ctx, const scenario *s, const step_settings *settings, world *w)
+/* Of one vessel's lines. */
+static bool is_moored(const world *w, int32_t vessel)
 {
-    if (w->lines.count == 0 || !s->vessel.mooring.equilibrium)
+    bool moored = false;
+    for (int32_t i = 0; i < w->lines.count; i++)
+        moored = moored || w->lines.vessel[i] == vessel;
+    return moored;
+}
+
+static void find_equilibrium(context *ctx, const scenario_mooring *keys, const model *m, int32_t vessel, world *w)
+{
+    if (!is_moored(w, vessel) || !keys->equilibrium)
         return;
-    int32_t body = w->vessels.body[0];
-    const still_hull hull = {w, settings, body};
-    bool fluid = settings->forces == FORCES_FLUID;
+    int32_t body = w->vessels.body[vessel];
+    const still_hull hull = {m, w, vessel};
+    bool fluid = m->forces == FORCES_FLUID;
     vec3 position = w->bodies.position[body];
     quat orientation = w->bodies.orientation[body];
     double residual;
-    bool found = mooring_equilibrium(&w->lines, 0, w->vessels.length[0], fluid ? still_load : NULL, &hull, &position,
-                                     &orientation, &residual);
+    bool found = mooring_equilibrium(&w->lines, vessel, w->vessels.length[vessel], fluid ? still_load : NULL, &hull,
+                                     &position, &orientation, &residual);
     vec3 by = vec3_sub(position, w->bodies.position[body]);
     if (found)
         log_write(ctx, LOG_INFO, "the moored vessel begins at its equilibrium, (%.3g, %.3g) m off", by.x, by.y);
@@ -145,13 +163,14 @@ static void find_equilibrium(context *ctx, const scenario *s, const step_setting
 
 /* ---- thrusters, way points ---- */
 
-static fram_status add_thrusters(context *ctx, const scenario *s, world *w, fram_error *error)
+static fram_status add_thrusters(context *ctx, const scenario *s, const vessel_entry *entry, int32_t vessel, world *w,
+                                 fram_error *error)
 {
-    for (int32_t i = 0; i < s->vessel.thrusters.count; i++) {
-        const scenario_thruster *t = &s->vessel.thrusters.data[i];
+    for (int32_t i = 0; i < entry->keys->thrusters.count; i++) {
+        const scenario_thruster *t = &entry->keys->thrusters.data[i];
         double astern = automatic_or(t->thrust_astern, t->thrust);
         const thruster_definition d = {
-            .vessel = 0,
+            .vessel = vessel,
             .kind = t->kind,
             .place = {t->x, t->y, t->z},
             .ahead = t->thrust,
@@ -170,21 +189,22 @@ static fram_status add_thrusters(context *ctx, const scenario *s, world *w, fram
         };
         fram_status status = thruster_add(ctx, &d, &w->vessels, &w->thrusters, error);
         if (status != FRAM_OK)
-            return name_item(s, status, "thrusters", i, error);
+            return name_item(s, entry, status, "thrusters", i, error);
     }
     return FRAM_OK;
 }
 
-static fram_status add_waypoints(context *ctx, const scenario *s, world *w, fram_error *error)
+static fram_status add_waypoints(context *ctx, const scenario_positioning *p, int32_t vessel, world *w,
+                                 fram_error *error)
 {
-    const scenario_positioning *p = &s->vessel.positioning;
-    if (!table_resize(ctx, &w->waypoints, &waypoint_table_info, p->waypoints.count))
+    int32_t had = w->waypoints.count;
+    if (!table_resize(ctx, &w->waypoints, &waypoint_table_info, had + p->waypoints.count))
         return error_memory(error);
     for (int32_t i = 0; i < p->waypoints.count; i++) {
         const scenario_waypoint *from = &p->waypoints.data[i];
-        w->waypoints.vessel[i] = 0;
-        w->waypoints.time[i] = from->time;
-        w->waypoints.place[i] = vec3_make(from->x, from->y, radians(from->heading_deg));
+        w->waypoints.vessel[had + i] = vessel;
+        w->waypoints.time[had + i] = from->time;
+        w->waypoints.place[had + i] = vec3_make(from->x, from->y, radians(from->heading_deg));
     }
     return FRAM_OK;
 }
@@ -194,10 +214,9 @@ static fram_status add_waypoints(context *ctx, const scenario *s, world *w, fram
 /* Full scale, at which the model's own time constants hold. */
 #define FULL_SCALE 30.0
 
-static plane_model model_of(const scenario *s, const world *w)
+static plane_model model_of(const scenario *s, const scenario_positioning *p, int32_t vessel, const world *w)
 {
-    const scenario_positioning *p = &s->vessel.positioning;
-    int32_t body = w->vessels.body[0];
+    int32_t body = w->vessels.body[vessel];
     vec3 added = w->bodies.added_mass[body];
     double mass = w->bodies.mass[body], stretch = sqrt(s->run.scale / FULL_SCALE);
     vec3 m = {automatic_or(p->mass_surge, mass + added.x), automatic_or(p->mass_sway, mass + added.y),
@@ -220,12 +239,12 @@ static int64_t steps_of(double interval, double time_step)
     return steps < 1 ? 1 : (int64_t)steps;
 }
 
-static station_definition definition_of(const scenario *s, const world *w)
+static station_definition definition_of(const scenario *s, const scenario_vessel *v, int32_t vessel, const world *w)
 {
-    const scenario_positioning *p = &s->vessel.positioning;
-    const scenario_station *limits = &s->vessel.station;
-    const scenario_mooring *m = &s->vessel.mooring;
-    double dt = s->run.time_step, length = w->vessels.length[0];
+    const scenario_positioning *p = &v->positioning;
+    const scenario_station *limits = &v->station;
+    const scenario_mooring *m = &v->mooring;
+    double dt = s->run.time_step, length = w->vessels.length[vessel];
     int64_t control_every = steps_of(p->interval, dt), sample_every = steps_of(p->sample_interval, dt);
     /* A measurement that falls between two calls would be missed: samples are taken at calls. */
     sample_every = (sample_every + control_every - 1) / control_every * control_every;
@@ -240,7 +259,7 @@ static station_definition definition_of(const scenario *s, const world *w)
         .watched = {automatic_or(limits->watch_x, m->x), automatic_or(limits->watch_y, m->y), m->z},
         .offset_limit = automatic_or(limits->offset_limit, HUGE_VAL),
         .heading_limit = radians(automatic_or(limits->heading_limit_deg, HUGE_VAL)),
-        .model = model_of(s, w),
+        .model = model_of(s, p, vessel, w),
         .control_frequency = p->frequency,
         .control_damping = p->damping,
         .filter = {p->reference_frequency,
@@ -263,20 +282,22 @@ static station_definition definition_of(const scenario *s, const world *w)
     return d;
 }
 
-fram_status build_station(context *ctx, const scenario *s, const step_settings *settings, world *w, fram_error *error)
+fram_status build_station(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,
+                          world *w, fram_error *error)
 {
-    if (w->vessels.count == 0 || s->vessel.mode != VESSEL_FREE)
+    const scenario_vessel *v = entry->keys;
+    if (v->mode != VESSEL_FREE)
         return FRAM_OK;
-    fram_status status = add_lines(ctx, s, w, error);
+    fram_status status = add_lines(ctx, s, entry, vessel, w, error);
     if (status == FRAM_OK)
-        status = add_thrusters(ctx, s, w, error);
+        status = add_thrusters(ctx, s, entry, vessel, w, error);
     if (status == FRAM_OK)
-        status = add_waypoints(ctx, s, w, error);
+        status = add_waypoints(ctx, &v->positioning, vessel, w, error);
     if (status != FRAM_OK)
         return status;
-    station_definition d = definition_of(s, w);
-    status = station_add(ctx, &d, &w->vessels, &w->bodies, &w->stations, error);
+    station_definition d = definition_of(s, v, vessel, w);
+    status = station_add(ctx, &d, vessel, &w->vessels, &w->bodies, &w->stations, error);
     if (status == FRAM_OK)
-        find_equilibrium(ctx, s, settings, w);
+        find_equilibrium(ctx, &v->mooring, m, vessel, w);
     return status;
 }

@@ -14,22 +14,22 @@ static double direction_of(const capability *c, int32_t row) { return 2 * PI * r
 /* In the ship's frame, for one that lies along X. */
 static vec3 towards(double from, double speed) { return vec3_make(-speed * real_cos(from), speed * real_sin(from), 0); }
 
-static void find_media_loads(const step_settings *settings, const world *w, capability *c)
+/* The vessel whose capability is asked for. */
+enum { VESSEL = 0 };
+
+static void find_media_loads(const model *m, const world *w, capability *c)
 {
-    int32_t body = w->vessels.body[0];
-    world plain = *w; /* the same tables, looked at without the damping matrix */
-    plain.has_hydrodynamics = false;
     for (int32_t i = 0; i < c->loads.directions; i++) {
         double from = direction_of(c, i);
-        media still = settings->media;
+        media still = m->media;
         still.profile.count = 0;
         still.current = still.wind = vec3_make(0, 0, 0);
         media blows = still, flows = still;
         blows.wind = towards(from, c->wind_speed);
         flows.current = towards(from, 1);
-        c->loads.wind[i] = steady_media_load(settings, &plain, body, &blows, 0);
-        c->loads.drag[i] = steady_media_load(settings, &plain, body, &flows, 0);
-        c->loads.damping[i] = vec3_sub(steady_media_load(settings, w, body, &flows, 0), c->loads.drag[i]);
+        c->loads.wind[i] = steady_drag_load(m, w, VESSEL, &blows, 0);
+        c->loads.drag[i] = steady_drag_load(m, w, VESSEL, &flows, 0);
+        c->loads.damping[i] = steady_damping_load(m, w, VESSEL, &flows, 0);
     }
 }
 
@@ -238,33 +238,54 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
 }
 
 /* The vessel where it shall be: not moved to the equilibrium of today's current, and without ice. */
-static fram_status build_still_world(context *ctx, const scenario *s, world *w, fram_error *error)
+static fram_status build_still_world(context *ctx, const scenario *s, const model *m, world *w, fram_error *error)
 {
     scenario still = *s;
     still.vessel.speed = 0;
     still.vessel.mooring.equilibrium = false;
     still.ice.source = ICE_NONE;
     still.domain.boundary = DOMAIN_OPEN;
-    build_report report;
-    return build_world(ctx, &still, w, &report, error);
+    field_report report;
+    return build_world(ctx, &still, m, w, &report, error);
 }
 
 static fram_status sweep(const scenario *s, world *w, capability *c, fram_error *error)
 {
-    int32_t body = w->vessels.body[0];
+    int32_t body = w->vessels.body[VESSEL];
     const station_table *station = &w->stations;
     holding_case h = {.thrusters = &w->thrusters,
                       .lines = &w->lines,
-                      .length = w->vessels.length[0],
+                      .length = w->vessels.length[VESSEL],
                       .position = w->bodies.position[body],
                       .heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z,
-                      .watched = station->watched[0],
+                      .watched = station->watched[VESSEL],
                       .heading_given = s->vessel.mooring.turret,
                       .line_safety = c->options.line_safety,
-                      .offset_limit = station->offset_limit[0],
-                      .heading_limit = station->heading_limit[0]};
+                      .offset_limit = station->offset_limit[VESSEL],
+                      .heading_limit = station->heading_limit[VESSEL]};
     list_failures(w, c);
     return find_limits(w, &h, c, error);
+}
+
+static fram_status find_with_model(context *ctx, const scenario *s, const model *m, capability *c, fram_error *error)
+{
+    world w;
+    fram_status status = build_still_world(ctx, s, m, &w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = allocate(ctx, c, error);
+    if (status == FRAM_OK) {
+        find_media_loads(m, &w, c);
+        if (s->ice.source != ICE_NONE)
+            status = c->options.formula ? capability_ice_formula(ctx, s, &w, c, error)
+                                        : capability_ice_measured(ctx, s, c, error);
+    }
+    if (status == FRAM_OK)
+        status = sweep(s, &w, c, error);
+    world_free(ctx, &w);
+    if (status != FRAM_OK)
+        capability_free(ctx, c);
+    return status;
 }
 
 fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
@@ -277,22 +298,11 @@ fram_status capability_find(context *ctx, const scenario *s, const capability_op
     c->loads.directions = o->directions;
     c->loads.speeds = (int32_t)floor(o->speed_most / o->speed_step + 0.5);
     c->loads.speed_step = o->speed_step;
-    world w;
-    status = build_still_world(ctx, s, &w, error);
+    model m;
+    status = build_model(ctx, s, &m, error);
     if (status != FRAM_OK)
         return status;
-    status = allocate(ctx, c, error);
-    if (status == FRAM_OK) {
-        const step_settings settings = build_settings(s);
-        find_media_loads(&settings, &w, c);
-        if (s->ice.source != ICE_NONE)
-            status =
-                o->formula ? capability_ice_formula(ctx, s, &w, c, error) : capability_ice_measured(ctx, s, c, error);
-    }
-    if (status == FRAM_OK)
-        status = sweep(s, &w, c, error);
-    world_free(ctx, &w);
-    if (status != FRAM_OK)
-        capability_free(ctx, c);
+    status = find_with_model(ctx, s, &m, c, error);
+    model_free(ctx, &m);
     return status;
 }

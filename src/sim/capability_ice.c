@@ -109,7 +109,7 @@ static scenario driven(const scenario *s, double from, double speed)
 }
 
 /* What ice the load is of, as the first run has made it. */
-static void describe_ice(const world *w, const build_report *report, capability *c)
+static void describe_ice(const world *w, const field_report *report, capability *c)
 {
     double area = 0, volume = 0;
     for (int32_t i = 0; i < w->floes.count; i++) {
@@ -117,17 +117,15 @@ static void describe_ice(const world *w, const build_report *report, capability 
         volume += w->floes.area[i] * w->floes.thickness[i];
     }
     c->thickness = area > 0 ? volume / area : 0;
-    c->concentration = report->field.concentration;
+    c->concentration = report->concentration;
 }
 
-static fram_status record(context *ctx, const scenario *s, capability *c, load_history *h, fram_error *error)
+static fram_status record(context *ctx, const scenario *s, const model *m, capability *c, load_history *h,
+                          fram_error *error)
 {
     world w;
-    build_report report;
-    const step_settings settings = build_settings(s);
-    fram_status status = capability_go_on(c, error);
-    if (status == FRAM_OK)
-        status = build_world(ctx, s, &w, &report, error);
+    field_report report;
+    fram_status status = build_world(ctx, s, m, &w, &report, error);
     if (status != FRAM_OK)
         return status;
     if (!(c->thickness > 0))
@@ -138,8 +136,8 @@ static fram_status record(context *ctx, const scenario *s, capability *c, load_h
         status = capability_go_on(c, error);
         if (status != FRAM_OK)
             break;
-        status = world_step(ctx, &settings, &w, error);
-        wrench mean = load_window_average(&w);
+        status = world_step(ctx, m, &w, error);
+        wrench mean = load_window_average(&w, 0);
         vec3 load = plane_to_vessel(heading, vec3_make(mean.force.x, mean.force.y, mean.moment.z));
         bool good = array_push(ctx, &h->time, w.clock.time[0]) && array_push(ctx, &h->force[0], load.x) &&
                     array_push(ctx, &h->force[1], load.y) && array_push(ctx, &h->force[2], load.z);
@@ -181,7 +179,14 @@ static fram_status measure(context *ctx, const scenario *s, double from, double 
 {
     const scenario d = driven(s, from, speed);
     load_history h = {0};
-    fram_status status = record(ctx, &d, c, &h, error);
+    model m;
+    fram_status status = capability_go_on(c, error);
+    if (status == FRAM_OK)
+        status = build_model(ctx, &d, &m, error);
+    if (status == FRAM_OK) {
+        status = record(ctx, &d, &m, c, &h, error);
+        model_free(ctx, &m);
+    }
     if (status == FRAM_OK)
         *load = significant_load(&h, UNCOUNTED * c->options.measure);
     else if (status != FRAM_INTERRUPTED && error)

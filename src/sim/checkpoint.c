@@ -140,8 +140,8 @@ static bool same_text(const table_file_bytes *bytes, const char *text)
 }
 
 /* Read one file; `other` is true when it is sound but belongs to something else. */
-static fram_status read_one(context *ctx, const char *path, world *w, checkpoint_note *note, bool *other,
-                            fram_error *error)
+static fram_status read_one(context *ctx, const char *path, const model *m, world *w, checkpoint_note *note,
+                            bool *other, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
@@ -170,7 +170,7 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
         *other = true;
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                            "a file that the run was started with was changed since; restore it or start a new run");
-    } else if (world_check(w, note->tiles, &unsound) != FRAM_OK) {
+    } else if (world_check(m, w, &unsound) != FRAM_OK) {
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     } else if (world_hash(w) != numbers[NUMBER_HASH].value) {
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "the state is not the one that was written");
@@ -182,7 +182,8 @@ static fram_status read_one(context *ctx, const char *path, world *w, checkpoint
     return status;
 }
 
-fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, checkpoint_note *note, fram_error *error)
+fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
+                                   fram_error *error)
 {
     step_array steps = {0};
     if (!list_steps(ctx, folder, &steps)) {
@@ -197,7 +198,7 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, c
         fram_error reason = {0};
         if (!checkpoint_path(folder, steps.data[i], path))
             continue;
-        status = read_one(ctx, path, w, note, &other, &reason);
+        status = read_one(ctx, path, m, w, note, &other, &reason);
         if (error && status != FRAM_OK)
             *error = reason;
         if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || other)

@@ -12,7 +12,6 @@ typedef struct checkpoint_note {
     uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
     char scenario_hash[65];
     const char *inputs; /* text of inputs_list, compared on resume */
-    int32_t tiles;      /* cells of the level sheet that the scenario asks for, for reading */
 } checkpoint_note;
 
 /* Write FOLDER/checkpoint-STEP.fram, in two parts: the state is taken now, and brought to the disk after the streams
@@ -24,10 +23,10 @@ fram_status checkpoint_end(context *ctx, const char *folder, late_commit *commit
 /* The state of a run that went wrong, for a look at it: FOLDER/failed.fram.  Never resumed from. */
 fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                                     fram_error *error);
-/* Read the newest good checkpoint of a folder into a world made by build_empty_world.  A damaged one is passed over
+/* Read the newest good checkpoint of a folder into an empty world of the run's model.  A damaged one is passed over
    with a warning in the log.  FRAM_ERROR_INPUT when there is none, or when it belongs to another scenario or to other
    inputs. note->scenario_hash and inputs say what is expected; the lengths are filled. */
-fram_status checkpoint_read_newest(context *ctx, const char *folder, world *w, checkpoint_note *note,
+fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
                                    fram_error *error);
 /* Whether a file of this name, without its folder, is a checkpoint. */
 bool checkpoint_is_name(const char *name);

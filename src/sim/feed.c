@@ -6,29 +6,29 @@ feeding_world feed_world(world *w)
                            &w->floes,   &w->boxes,   w->clock.next_floe,   w->clock.ice_left};
 }
 
-vec2 feed_drift(const step_settings *settings, const world *w, double time)
+vec2 feed_drift(const model *m, double time)
 {
-    if (w->media.drift.count > 0) {
-        vec3 drift = velocity_series_at(&w->media.drift, time);
+    if (m->history.drift.count > 0) {
+        vec3 drift = velocity_series_at(&m->history.drift, time);
         return vec2_make(drift.x, drift.y);
     }
-    if (settings->drift_given)
-        return settings->drift;
-    media now = media_at(&settings->media, &w->media, time);
+    if (m->drift_given)
+        return m->drift;
+    media now = media_at(&m->media, &m->history, time);
     vec3 current = media_current(&now, 0);
     return vec2_make(current.x, current.y);
 }
 
-void feed_drive(const step_settings *settings, world *w, double time)
+void feed_drive(const model *m, world *w, double time)
 {
     if (w->feeding.count == 0)
         return;
     feeding_world fed = feed_world(w);
-    feeding_drive(&fed, feed_drift(settings, w, time));
+    feeding_drive(&fed, feed_drift(m, time));
 }
 
-fram_status feed_step(context *ctx, const step_settings *settings, world *w, fram_error *error)
+fram_status feed_step(context *ctx, const model *m, world *w, fram_error *error)
 {
     feeding_world fed = feed_world(w);
-    return feeding_step(ctx, w->scratch.plane, &fed, settings->time_step, error);
+    return feeding_step(ctx, w->scratch.plane, &fed, m->time_step, error);
 }

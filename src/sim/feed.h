@@ -8,10 +8,10 @@
 feeding_world feed_world(world *w);
 /* Velocity of the far field at a time: its own history, what the scenario gives, or the current at the surface [m/s].
  */
-vec2 feed_drift(const step_settings *settings, const world *w, double time);
+vec2 feed_drift(const model *m, double time);
 /* Before the solve of the step that ends at `time`. */
-void feed_drive(const step_settings *settings, world *w, double time);
+void feed_drive(const model *m, world *w, double time);
 /* At the end of the step. */
-fram_status feed_step(context *ctx, const step_settings *settings, world *w, fram_error *error);
+fram_status feed_step(context *ctx, const model *m, world *w, fram_error *error);
 
 #endif

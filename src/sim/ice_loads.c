@@ -32,7 +32,7 @@ static double crushing_work(const world *w, const contact *c)
     return approach > 0 ? c->impulse[0] * approach : 0;
 }
 
-fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w, fram_error *error)
+fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *error)
 {
     int32_t vessels = w->vessels.count;
     if (!array_resize(ctx, &w->scratch.ice_loads, vessels))
@@ -46,39 +46,38 @@ fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w,
             w->clock.work_crushed[0] += crushing_work(w, c);
         int32_t va = vessel_of(w, c->a), vb = vessel_of(w, c->b);
         if (va >= 0)
-            add_contact(w, c, va, 1, 1 / settings->time_step, &loads[va]);
+            add_contact(w, c, va, 1, 1 / m->time_step, &loads[va]);
         if (vb >= 0)
-            add_contact(w, c, vb, -1, 1 / settings->time_step, &loads[vb]);
+            add_contact(w, c, vb, -1, 1 / m->time_step, &loads[vb]);
     }
-    if (w->load_window.count > 0) {
-        int64_t row = w->clock.step[0] % w->load_window.count;
-        wrench total = vessels > 0 ? loads[0].total : (wrench){0};
-        w->load_window.force[row] = total.force;
-        w->load_window.moment[row] = total.moment;
+    for (int32_t v = 0; v < vessels && load_window_length(w) > 0; v++) {
+        int64_t row = load_window_row(w, w->clock.step[0], v);
+        w->load_window.force[row] = loads[v].total.force;
+        w->load_window.moment[row] = loads[v].total.moment;
     }
     return FRAM_OK;
 }
 
 wrench last_ice_load(const world *w, int32_t vessel)
 {
-    int32_t rows = w->load_window.count;
-    if (vessel != 0 || rows == 0 || w->clock.step[0] == 0)
+    if (vessel >= w->vessels.count || load_window_length(w) == 0 || w->clock.step[0] == 0)
         return (wrench){0};
-    int64_t row = (w->clock.step[0] - 1) % rows;
+    int64_t row = load_window_row(w, w->clock.step[0] - 1, vessel);
     return (wrench){w->load_window.force[row], w->load_window.moment[row]};
 }
 
-wrench load_window_average(const world *w)
+wrench load_window_average(const world *w, int32_t vessel)
 {
     wrench sum = {0};
-    int64_t rows = w->load_window.count;
-    if (w->clock.step[0] < rows)
-        rows = w->clock.step[0];
-    for (int64_t i = 0; i < rows; i++) {
-        sum.force = vec3_add(sum.force, w->load_window.force[i]);
-        sum.moment = vec3_add(sum.moment, w->load_window.moment[i]);
+    int64_t steps = vessel < w->vessels.count ? load_window_length(w) : 0;
+    if (w->clock.step[0] < steps)
+        steps = w->clock.step[0];
+    for (int64_t i = 0; i < steps; i++) {
+        int64_t row = load_window_row(w, i, vessel);
+        sum.force = vec3_add(sum.force, w->load_window.force[row]);
+        sum.moment = vec3_add(sum.moment, w->load_window.moment[row]);
     }
-    if (rows == 0)
+    if (steps == 0)
         return sum;
-    return (wrench){vec3_scale(sum.force, 1 / (double)rows), vec3_scale(sum.moment, 1 / (double)rows)};
+    return (wrench){vec3_scale(sum.force, 1 / (double)steps), vec3_scale(sum.moment, 1 / (double)steps)};
 }

@@ -5,14 +5,14 @@
 #include "sim/step.h"
 
 /* Fills scratch.ice_loads, one per vessel, books the energy dissipated at the crushing limit, and writes the load
-   window's row of this step. */
-fram_status sum_ice_loads(context *ctx, const step_settings *settings, world *w, fram_error *error);
+   window's rows of this step. */
+fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *error);
 
-/* Load of the contacts on a vessel in the step before, zero for others than the first: the window's row of that step.
- */
+/* Load of the contacts on a vessel in the step before: the window's row of that step. */
 wrench last_ice_load(const world *w, int32_t vessel);
 
-/* Average of the load window [N], [N m] over the steps done so far in it, at most its whole length. */
-wrench load_window_average(const world *w);
+/* Average of a vessel's load window [N], [N m] over the steps done so far in it, at most its whole length; zero for a
+   vessel that is not there. */
+wrench load_window_average(const world *w, int32_t vessel);
 
 #endif

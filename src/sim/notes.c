@@ -36,7 +36,7 @@ static void note_fracture(context *ctx, const scenario *s, text_buffer *out)
     double h = i->thickness, sigma = i->crushing_strength, areas[2] = {0.1 * h * h, h * h};
     ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
                       i->flexural_strength, i->crushing_strength, i->crushing_exponent};
-    fracture_settings f = build_settings(s).fracture;
+    fracture_settings f = build_fracture_settings(s);
     for (int k = 0; k < 2; k++) {
         edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k]);
         text_format(

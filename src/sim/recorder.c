@@ -262,7 +262,7 @@ static fram_status write_births(recorder *r, world *w, fram_error *error)
 
 static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *error)
 {
-    const mesh *m = &w->shapes.solids.data[w->shapes.shapes.solid[w->bodies.shape[slot]]].surface;
+    const mesh *m = &shape_solid(&w->shapes, w->bodies.shape[slot])->surface;
     bool good = put_i32(r, slot) && put_u32(r, w->bodies.generation[slot]) && put_i32(r, m->vertex.count) &&
                 put_i32(r, m->face.count);
     for (int32_t i = 0; i < m->vertex.count && good; i++) {
@@ -358,7 +358,7 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     if (status != FRAM_OK)
         return status;
 
-    vec3 force = load_window_average(w).force;
+    vec3 force = load_window_average(w, 0).force;
     bool good = put(r, &w->clock.step[0], sizeof(int64_t)) && put_f64(r, w->clock.time[0]) && put_f64(r, force.x) &&
                 put_f64(r, force.y) && put_f64(r, force.z);
     int32_t at = r->block.count, count = 0;

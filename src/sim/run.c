@@ -9,6 +9,7 @@
 #include "sim/pictures.h"
 #include "sim/recorder.h"
 #include "sim/run_folder.h"
+#include "sim/step.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -24,7 +25,7 @@ typedef struct run {
     context *ctx;
     const scenario *s;
     const run_options *options;
-    step_settings settings;
+    model model;
     world world;
     recorder recorder;
     late_commit checkpoint; /* under way */
@@ -174,7 +175,7 @@ static fram_status step_loop(run *r, fram_error *error)
     fram_status status = FRAM_OK;
     while (status == FRAM_OK && r->world.clock.step[0] < r->stop_step && !asked_to_stop(r)) {
         double before = wall_clock();
-        status = world_step(r->ctx, &r->settings, &r->world, error);
+        status = world_step(r->ctx, &r->model, &r->world, error);
         if (status != FRAM_OK)
             break;
         double done = wall_clock();
@@ -321,6 +322,7 @@ static void run_free(run *r)
 {
     if (r->recording)
         recorder_close(&r->recorder, NULL);
+    model_free(r->ctx, &r->model);
     run_folder_unlock(r->lock);
     text_free(r->ctx, &r->inputs);
 }
@@ -357,13 +359,12 @@ static fram_status log_warnings(const run *r, fram_error *error)
     return good ? FRAM_OK : error_memory(error);
 }
 
-static void log_start(const run *r, const build_report *report)
+static void log_start(const run *r, const field_report *report)
 {
-    if (report->field.floes > 0)
-        log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->field.floes,
-                  report->field.concentration);
-    if (report->displaced_mass > 0)
-        log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", report->displaced_mass * 1e-3);
+    if (report->floes > 0)
+        log_write(r->ctx, LOG_INFO, "%d floes, concentration %.4f", (int)report->floes, report->concentration);
+    for (int32_t i = 0; i < r->model.vessels.count; i++)
+        log_write(r->ctx, LOG_INFO, "the hull displaces %.6g t", r->model.vessels.data[i].displaced_mass * 1e-3);
 }
 
 /* The record's scenario is for programs: without comments. */
@@ -385,9 +386,8 @@ static fram_status start_streams(run *r, fram_error *error)
 fram_status run_start(context *ctx, const scenario *s, const run_options *options, run_result *result,
                       fram_error *error)
 {
-    run r = {
-        .ctx = ctx, .s = s, .options = options, .settings = build_settings(s), .started = wall_clock(), .lock = -1};
-    build_report report = {0};
+    run r = {.ctx = ctx, .s = s, .options = options, .started = wall_clock(), .lock = -1};
+    field_report report = {0};
     set_schedule(&r);
     fram_status status = run_folder_check(options->folder, options->force, error);
     if (status == FRAM_OK)
@@ -399,7 +399,9 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     if (options->stop)
         ctx->stop = options->stop;
     if (status == FRAM_OK)
-        status = build_world(ctx, s, &r.world, &report, error);
+        status = build_model(ctx, s, &r.model, error);
+    if (status == FRAM_OK)
+        status = build_world(ctx, s, &r.model, &r.world, &report, error);
     ctx->stop = stop;
     if (status != FRAM_OK) {
         run_free(&r);
@@ -424,10 +426,9 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
 
 static fram_status resume_world(run *r, run_result *result, fram_error *error)
 {
-    const tile_grid *tiles = &r->settings.fracture.tiles;
-    checkpoint_note note = {.inputs = r->inputs.data, .tiles = tiles->columns * tiles->rows};
+    checkpoint_note note = {.inputs = r->inputs.data};
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
-    fram_status status = checkpoint_read_newest(r->ctx, r->options->folder, &r->world, &note, error);
+    fram_status status = checkpoint_read_newest(r->ctx, r->options->folder, &r->model, &r->world, &note, error);
     if (status != FRAM_OK)
         return status;
     if (r->stop_step < r->world.clock.step[0])
@@ -451,14 +452,15 @@ fram_status run_resume(context *ctx, const run_options *options, run_result *res
         status = scenario_read(ctx, path, NULL, &s, error);
     if (status != FRAM_OK)
         return status;
-    run r = {
-        .ctx = ctx, .s = &s, .options = options, .settings = build_settings(&s), .started = wall_clock(), .lock = -1};
+    run r = {.ctx = ctx, .s = &s, .options = options, .started = wall_clock(), .lock = -1};
     set_schedule(&r);
     status = run_folder_lock(options->folder, &r.lock, error);
     if (status == FRAM_OK)
         status = identify(&r, error);
     if (status == FRAM_OK)
-        status = build_empty_world(ctx, &s, &r.world, error);
+        status = build_model(ctx, &s, &r.model, error);
+    if (status == FRAM_OK)
+        status = world_init(ctx, &r.model, &r.world, error);
     if (status == FRAM_OK) {
         status = resume_world(&r, result, error);
         world_free(ctx, &r.world);

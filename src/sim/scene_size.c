@@ -57,10 +57,8 @@ static double population_floes(const scenario *s)
 scene_size scene_size_of(const scenario *s)
 {
     scenario larger = *s;
-    if (s->domain.boundary == DOMAIN_FEEDING) {
-        const step_settings settings = build_settings(s);
-        larger = feeding_scenario(s, &settings);
-    }
+    if (s->domain.boundary == DOMAIN_FEEDING)
+        larger = feeding_scenario(s);
     double floes = 0, each = CELL_BYTES;
     switch (s->ice.source) {
     case ICE_NONE:

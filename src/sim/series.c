@@ -60,7 +60,7 @@ static vessel_channels vessel_channels_of(const world *w)
         c.ice = w->scratch.ice_loads.data[0];
     c.ice_force_body = mat3_tmul_vec(r, c.ice.total.force);
     c.ice_moment_body = mat3_tmul_vec(r, c.ice.total.moment);
-    c.averaged = load_window_average(w);
+    c.averaged = load_window_average(w, 0);
     if (joint >= 0) {
         c.joint_force = w->joints.reaction_force[joint];
         c.joint_moment = w->joints.reaction_moment[joint];
@@ -71,7 +71,8 @@ static vessel_channels vessel_channels_of(const world *w)
         c.fluid.force = vec3_add(vec3_add(f->hydrostatic.force, f->water_drag.force), f->wind_drag.force);
         c.fluid.moment = vec3_add(vec3_add(f->hydrostatic.moment, f->water_drag.moment), f->wind_drag.moment);
     }
-    c.response = w->scratch.response.force;
+    if (w->scratch.responses.count > 0)
+        c.response = w->scratch.responses.data[0].force;
     add_station(w, &c);
     return c;
 }

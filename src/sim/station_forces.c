@@ -13,18 +13,20 @@ static void tell(context *ctx, const world *w, int32_t from)
     }
 }
 
-fram_status station_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
+fram_status station_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     station_table *stations = &w->stations;
     if (stations->count == 0)
         return FRAM_OK;
     int32_t told = w->events.count;
-    double time = w->clock.time[0], dt = s->time_step;
+    double time = w->clock.time[0], dt = m->time_step;
     fram_status status = FRAM_OK;
     size_t size = (size_t)stations->count * sizeof(wrench);
     memset(stations->mooring_load, 0, size);
     memset(stations->thruster_load, 0, size);
     for (int32_t i = 0; i < stations->count && status == FRAM_OK; i++) {
+        if (!station_is_kept(stations, &w->vessels, i))
+            continue;
         const station_moment now = {w->clock.step[0], time, dt, last_ice_load(w, i)};
         status = station_step(ctx, stations, i, &now, &w->vessels, &w->bodies, &w->waypoints, &w->thrusters, &w->events,
                               error);

@@ -5,6 +5,6 @@
 #include "sim/step.h"
 
 /* Adds to scratch.loads.  What befell a vessel is booked in the table of events and told to the log. */
-fram_status station_forces(context *ctx, const step_settings *s, world *w, fram_error *error);
+fram_status station_forces(context *ctx, const model *m, world *w, fram_error *error);
 
 #endif

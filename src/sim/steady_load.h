@@ -5,8 +5,11 @@
 
 #include "sim/step.h"
 
-/* Force along X and Y [N] and yaw moment about the centre of mass [N m], global frame, of the media on a body of a
-   vessel that lies at its place with this heading [rad]. */
-vec3 steady_media_load(const step_settings *settings, const world *w, int32_t body, const media *m, double heading);
+/* Force along X and Y [N] and yaw moment about the centre of mass [N m], global frame, of the media on a vessel that
+   lies at its place with this heading [rad]: both together, the drag of panels and tables alone, and the linear damping
+   of the water's motion past the hull alone (none for a hull that is driven). */
+vec3 steady_media_load(const model *m, const world *w, int32_t vessel, const media *now, double heading);
+vec3 steady_drag_load(const model *m, const world *w, int32_t vessel, const media *now, double heading);
+vec3 steady_damping_load(const model *m, const world *w, int32_t vessel, const media *now, double heading);
 
 #endif

@@ -8,37 +8,39 @@
 #include <stdio.h>
 #include <string.h>
 
-static fram_status water_and_air(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status water_and_air(context *ctx, const model *m, world *w, fram_error *error)
 {
-    media now = media_at(&s->media, &w->media, w->clock.time[0]);
+    media now = media_at(&m->media, &m->history, w->clock.time[0]);
     const fluid_details details = {.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data};
     fram_status status =
-        fluid_apply(ctx, &now, s->drag, &w->bodies, &w->shapes, w->scratch.loads.data, &details, error);
-    if (status == FRAM_OK && w->vessels.count > 0 && body_is_dynamic(&w->bodies, w->vessels.body[0]))
-        fluid_apply_flows(ctx, &now, &s->drag[MATERIAL_HULL], &w->flows, &w->bodies, &w->shapes, w->vessels.body[0],
-                          w->scratch.loads.data, &details);
+        fluid_apply(ctx, &now, m->drag, &w->bodies, &w->shapes, w->scratch.loads.data, &details, error);
+    for (int32_t v = 0; v < w->vessels.count && status == FRAM_OK; v++) {
+        int32_t body = w->vessels.body[v];
+        if (body_is_dynamic(&w->bodies, body))
+            fluid_apply_flows(ctx, &now, &m->drag[MATERIAL_HULL], &m->vessels.data[v].flows, &w->bodies, &w->shapes,
+                              body, w->scratch.loads.data, &details);
+    }
     return status;
 }
 
 /* 1. External forces at the old state: gravity, buoyancy, drag, wind, and what came from outside. */
-static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status fluid_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     int32_t slots = w->bodies.count;
     wrench *loads = w->scratch.loads.data;
     array_clear(&w->scratch.fluid);
-    switch (s->forces) {
+    switch (m->forces) {
     case FORCES_NONE:
         break;
     case FORCES_FLUID:
-        if (!array_resize(ctx, &w->scratch.submerged, slots) ||
-            !array_resize(ctx, &w->scratch.fluid, w->shapes.solids.count))
+        if (!array_resize(ctx, &w->scratch.submerged, slots) || !array_resize(ctx, &w->scratch.fluid, m->solids.count))
             return error_memory(error);
-        return water_and_air(ctx, s, w, error);
+        return water_and_air(ctx, m, w, error);
     case FORCES_COLUMNS:
-        if (!s->columns || s->columns->slots != slots)
+        if (!m->columns || m->columns->slots != slots)
             return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL,
                              "the columns of water are not those of this world");
-        column_water_apply(ctx, s->columns, &w->bodies, loads);
+        column_water_apply(ctx, m->columns, &w->bodies, loads);
         return FRAM_OK;
     }
     if (slots > 0)
@@ -46,41 +48,59 @@ static fram_status fluid_forces(context *ctx, const step_settings *s, world *w, 
     return FRAM_OK;
 }
 
+/* As prisms_respond for a vessel, by its matrices. */
+static void respond_vessel(const model *m, const media *now, world *w, int32_t v)
+{
+    vessel_mode mode = (vessel_mode)w->vessels.mode[v];
+    if (!m->vessels.data[v].has_hydrodynamics || mode == VESSEL_PRESCRIBED)
+        return;
+    int32_t body = w->vessels.body[v];
+    wrench contacts = last_ice_load(w, v), *load = &w->scratch.loads.data[body];
+    vec3 before = load->force;
+    hydrodynamics_respond(&m->vessels.data[v].hydrodynamics, mode == VESSEL_FREE, now, m->time_step, &w->bodies, body,
+                          &contacts, load);
+    w->scratch.responses.data[v].force = vec3_sub(load->force, before);
+}
+
 /* What the water answers to motion: with all other loads known, since it changes what they do. */
-static void respond(context *ctx, const step_settings *s, world *w)
+static void respond(context *ctx, const model *m, world *w)
 {
-    media now = media_at(&s->media, &w->media, w->clock.time[0]);
-    wrench *loads = w->scratch.loads.data;
-    prisms_respond(ctx, &now, s->drag, &s->floe_response, s->time_step, &w->bodies, &w->shapes,
-                   w->scratch.submerged.data, loads);
-    if (!w->has_hydrodynamics || w->vessels.count == 0 || w->vessels.mode[0] == VESSEL_PRESCRIBED)
-        return;
-    int32_t body = w->vessels.body[0];
-    wrench contacts = last_ice_load(w, 0);
-    vec3 before = loads[body].force;
-    hydrodynamics_respond(&w->hydrodynamics, w->vessels.mode[0] == VESSEL_FREE, &now, s->time_step, &w->bodies, body,
-                          &contacts, &loads[body]);
-    w->scratch.response = (hull_response){vec3_sub(loads[body].force, before), w->bodies.velocity[body]};
+    media now = media_at(&m->media, &m->history, w->clock.time[0]);
+    prisms_respond(ctx, &now, m->drag, &m->floe_response, m->time_step, &w->bodies, &w->shapes,
+                   w->scratch.submerged.data, w->scratch.loads.data);
+    for (int32_t v = 0; v < w->vessels.count; v++)
+        respond_vessel(m, &now, w, v);
 }
 
-/* What the solver moved with the hull, as a force on it. */
-static void add_carried_mass(const step_settings *s, world *w)
+/* What the solver moved with the hulls, as a force on each. */
+static void add_carried_mass(const model *m, world *w)
 {
-    if (w->vessels.count == 0)
-        return;
-    int32_t body = w->vessels.body[0];
-    vec3 gain = vec3_sub(w->bodies.velocity[body], w->scratch.response.velocity), mass = w->bodies.added_mass[body];
-    mat3 r = quat_matrix(w->bodies.orientation[body]);
-    vec3 local = mat3_tmul_vec(r, vec3_scale(gain, -1 / s->time_step));
-    vec3 force = mat3_mul_vec(r, vec3_make(mass.x * local.x, mass.y * local.y, mass.z * local.z));
-    w->scratch.response.force = vec3_add(w->scratch.response.force, force);
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        hull_response *response = &w->scratch.responses.data[v];
+        int32_t body = w->vessels.body[v];
+        vec3 gain = vec3_sub(w->bodies.velocity[body], response->velocity), mass = w->bodies.added_mass[body];
+        mat3 r = quat_matrix(w->bodies.orientation[body]);
+        vec3 local = mat3_tmul_vec(r, vec3_scale(gain, -1 / m->time_step));
+        vec3 force = mat3_mul_vec(r, vec3_make(mass.x * local.x, mass.y * local.y, mass.z * local.z));
+        response->force = vec3_add(response->force, force);
+    }
 }
 
-static fram_status external_forces(context *ctx, const step_settings *s, world *w, fram_error *error)
+/* No response yet; the velocities as they are before the step. */
+static bool start_responses(context *ctx, world *w)
 {
-    if (!array_resize(ctx, &w->scratch.loads, w->bodies.count))
+    if (!array_resize(ctx, &w->scratch.responses, w->vessels.count))
+        return false;
+    for (int32_t v = 0; v < w->vessels.count; v++)
+        w->scratch.responses.data[v] = (hull_response){{0, 0, 0}, w->bodies.velocity[w->vessels.body[v]]};
+    return true;
+}
+
+static fram_status external_forces(context *ctx, const model *m, world *w, fram_error *error)
+{
+    if (!array_resize(ctx, &w->scratch.loads, w->bodies.count) || !start_responses(ctx, w))
         return error_memory(error);
-    fram_status status = fluid_forces(ctx, s, w, error);
+    fram_status status = fluid_forces(ctx, m, w, error);
     if (status != FRAM_OK)
         return status;
     wrench *loads = w->scratch.loads.data;
@@ -90,82 +110,79 @@ static fram_status external_forces(context *ctx, const step_settings *s, world *
         loads[i].moment = vec3_add(loads[i].moment, extra->moment);
     }
     array_clear(&w->scratch.outside);
-    status = station_forces(ctx, s, w, error);
+    status = station_forces(ctx, m, w, error);
     if (status != FRAM_OK)
         return status;
-    w->scratch.response = (hull_response){{0, 0, 0}, {0, 0, 0}};
-    if (w->vessels.count > 0)
-        w->scratch.response.velocity = w->bodies.velocity[w->vessels.body[0]];
-    if (s->forces == FORCES_FLUID)
-        respond(ctx, s, w);
-    vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + s->time_step);
-    vessel_follow(&w->vessels, &w->waypoints, &w->bodies, w->clock.time[0] + s->time_step, s->time_step);
-    feed_drive(s, w, w->clock.time[0] + s->time_step);
+    if (m->forces == FORCES_FLUID)
+        respond(ctx, m, w);
+    vessel_drive(&w->vessels, &w->bodies, w->clock.time[0] + m->time_step);
+    vessel_follow(&w->vessels, &w->waypoints, &w->bodies, w->clock.time[0] + m->time_step, m->time_step);
+    feed_drive(m, w, w->clock.time[0] + m->time_step);
     return FRAM_OK;
 }
 
 /* 2. Broad phase, narrow phase. */
-static fram_status detect_contacts(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_error *error)
 {
-    fram_status status = broad_phase_update(ctx, &w->bodies, &w->shapes, &s->collision, &w->boxes, &w->pairs,
+    fram_status status = broad_phase_update(ctx, &w->bodies, &w->shapes, &m->collision, &w->boxes, &w->pairs,
                                             w->scratch.collision, error);
     if (status != FRAM_OK)
         return status;
     array_clear(&w->scratch.contacts);
     array_clear(&w->scratch.patch_pairs);
-    return narrow_phase_run(ctx, &w->bodies, &w->shapes, &s->policies, &w->boxes, &w->pairs, &w->scratch.contacts,
+    return narrow_phase_run(ctx, &w->bodies, &w->shapes, &m->policies, &w->boxes, &w->pairs, &w->scratch.contacts,
                             &w->scratch.patch_pairs, w->scratch.collision, error);
 }
 
 /* 3. Crushing patches, their contacts and caps. */
-static fram_status limit_crushing(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status limit_crushing(context *ctx, const model *m, world *w, fram_error *error)
 {
     array_clear(&w->scratch.patches);
-    return crushing_contacts(ctx, w->scratch.crushing, &s->crushing, &w->bodies, &w->shapes, &w->floes, &w->pairs,
-                             &w->scratch.patch_pairs, &s->policies, &w->scratch.patches, &w->scratch.contacts, error);
+    return crushing_contacts(ctx, w->scratch.crushing, &m->crushing, &w->bodies, &w->shapes, &w->floes, &w->pairs,
+                             &w->scratch.patch_pairs, &m->policies, &w->scratch.patches, &w->scratch.contacts, error);
 }
 
 /* 4. New velocities. */
-static fram_status solve_velocities(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status solve_velocities(context *ctx, const model *m, world *w, fram_error *error)
 {
     fram_status status =
-        solver_solve(ctx, w->scratch.solve, &s->solver, s->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
+        solver_solve(ctx, w->scratch.solve, &m->solver, m->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
                      &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
     if (status == FRAM_OK)
-        add_carried_mass(s, w);
+        add_carried_mass(m, w);
     return status;
 }
 
 /* 5. Fracture of breakable floes, from the solved impulses. */
-static fram_status break_floes(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status break_floes(context *ctx, const model *m, world *w, fram_error *error)
 {
     fracture_state state = {&w->bodies, &w->shapes,         &w->floes,           &w->scratch.contacts,
                             &w->memory, w->clock.next_floe, w->clock.ice_crushed};
     array_clear(&w->scratch.fractures);
-    fram_status status = fracture_run(ctx, w->scratch.fracture, &s->fracture, w->scratch.plane, &w->scratch.patches,
+    fram_status status = fracture_run(ctx, w->scratch.fracture, &m->fracture, w->scratch.plane, &w->scratch.patches,
                                       &state, &w->scratch.fractures, error);
     for (int32_t i = 0; i < w->scratch.fractures.count; i++) {
         const fracture_event *e = &w->scratch.fractures.data[i];
         w->clock.splits[0] += e->kind == FRACTURE_SPLIT;
         w->clock.bendings[0] += e->kind == FRACTURE_BENDING;
         w->clock.ice_gained[0] += e->mass_gained;
-        *(s->brash ? w->clock.brash_mass : w->clock.ice_lost) += e->mass_lost;
-        if (s->brash)
+        *(m->brash ? w->clock.brash_mass : w->clock.ice_lost) += e->mass_lost;
+        if (m->brash)
             w->clock.brash_momentum[0] = vec3_add(w->clock.brash_momentum[0], e->momentum_lost);
     }
     return status;
 }
 
 /* 6. Time integration, then position correction. */
-static fram_status integrate(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status integrate(context *ctx, const model *m, world *w, fram_error *error)
 {
-    integrate_poses(ctx, &w->bodies, s->time_step);
-    return solver_correct_positions(ctx, w->scratch.solve, &s->solver, s->time_step, &w->bodies, &w->joints,
+    integrate_poses(ctx, &w->bodies, m->time_step);
+    return solver_correct_positions(ctx, w->scratch.solve, &m->solver, m->time_step, &w->bodies, &w->joints,
                                     &w->scratch.contacts, error);
 }
 
 /* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked. */
-static void remove_strays(const step_settings *s, world *w)
+static void remove_strays(const model *m, world *w)
 {
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
@@ -173,8 +190,8 @@ static void remove_strays(const step_settings *s, world *w)
             continue;
         vec3 r = w->bodies.position[body];
         double reach = w->shapes.shapes.radius[w->bodies.shape[body]];
-        if (r.x + reach >= s->domain.lo.x && r.x - reach <= s->domain.hi.x && r.y + reach >= s->domain.lo.y &&
-            r.y - reach <= s->domain.hi.y)
+        if (r.x + reach >= m->domain.lo.x && r.x - reach <= m->domain.hi.x && r.y + reach >= m->domain.lo.y &&
+            r.y - reach <= m->domain.hi.y)
             continue;
         w->clock.ice_left[0] += w->bodies.mass[body];
         floe_remove(&w->bodies, &w->shapes, &w->floes, i);
@@ -183,11 +200,11 @@ static void remove_strays(const step_settings *s, world *w)
 
 /* What the edge of the domain takes, and gives; then the shapes that nobody has any more go, those of floes that broke
    in a basin with walls too. */
-static fram_status cross_edge(context *ctx, const step_settings *s, world *w, fram_error *error)
+static fram_status cross_edge(context *ctx, const model *m, world *w, fram_error *error)
 {
-    if (s->boundary == DOMAIN_OPEN)
-        remove_strays(s, w);
-    fram_status status = s->boundary == DOMAIN_FEEDING ? feed_step(ctx, s, w, error) : FRAM_OK;
+    if (m->boundary == DOMAIN_OPEN)
+        remove_strays(m, w);
+    fram_status status = m->boundary == DOMAIN_FEEDING ? feed_step(ctx, m, w, error) : FRAM_OK;
     if (status != FRAM_OK)
         return status;
     return shape_compact(ctx, &w->shapes) == FRAM_OK ? FRAM_OK : error_memory(error);
@@ -235,26 +252,26 @@ static fram_status refuse_state(const world *w, int32_t body, const char *what, 
                      remedy_of(w, body));
 }
 
-static fram_status tell_state(const step_settings *s, const world *w, int32_t body, double reach, fram_error *error)
+static fram_status tell_state(const model *m, const world *w, int32_t body, double reach, fram_error *error)
 {
     char what[120];
     double speed = vec3_length(w->bodies.velocity[body]), turn = vec3_length(w->bodies.angular_velocity[body]);
     if (!(isfinite(speed) && isfinite(turn) && isfinite(vec3_length(w->bodies.position[body]))))
         return refuse_state(w, body, "has a place or velocity that is no finite number", error);
-    if (speed > s->speed_limit)
-        snprintf(what, sizeof what, "moves at %.4g m/s, and run.speed_limit is %g m/s", speed, s->speed_limit);
+    if (speed > m->speed_limit)
+        snprintf(what, sizeof what, "moves at %.4g m/s, and run.speed_limit is %g m/s", speed, m->speed_limit);
     else
         snprintf(what, sizeof what,
                  "turns at %.4g rad/s, its rim %.4g m off at %.4g m/s, and run.speed_limit is %g m/s", turn, reach,
-                 turn * reach, s->speed_limit);
+                 turn * reach, m->speed_limit);
     return refuse_state(w, body, what, error);
 }
 
 /* A run that goes wrong stops with a diagnosis, never with silent nonsense.  Comparisons are written so that a value
    that is no number fails them. */
-static fram_status check_state(const step_settings *s, const world *w, fram_error *error)
+static fram_status check_state(const model *m, const world *w, fram_error *error)
 {
-    double limit = s->speed_limit * s->speed_limit;
+    double limit = m->speed_limit * m->speed_limit;
     for (int32_t i = 0; i < w->bodies.count; i++) {
         if (w->bodies.motion[i] == MOTION_NONE)
             continue;
@@ -263,7 +280,7 @@ static fram_status check_state(const step_settings *s, const world *w, fram_erro
         bool slow = vec3_dot(v, v) <= limit && vec3_dot(o, o) * reach * reach <= limit;
         bool finite = isfinite(r.x) && isfinite(r.y) && isfinite(r.z);
         if (!slow || !finite)
-            return tell_state(s, w, i, reach, error);
+            return tell_state(m, w, i, reach, error);
     }
     return FRAM_OK;
 }
@@ -282,11 +299,9 @@ static fram_status stage_failure(const world *w, fram_status status, fram_error 
                      w->clock.time[0], why);
 }
 
-fram_status world_step_watched(context *ctx, const step_settings *s, world *w, const step_watch *watch,
-                               fram_error *error)
+fram_status world_step_watched(context *ctx, const model *m, world *w, const step_watch *watch, fram_error *error)
 {
-    typedef fram_status (*stage)(context *, const step_settings *, world *, fram_error *);
-    /* The order of SPEC 4. */
+    typedef fram_status (*stage)(context *, const model *, world *, fram_error *);
     static const stage stages[STAGE_COUNT] = {
         [STAGE_FORCES] = external_forces, [STAGE_DETECTION] = detect_contacts, [STAGE_CRUSHING] = limit_crushing,
         [STAGE_SOLVE] = solve_velocities, [STAGE_LOADS] = sum_ice_loads,       [STAGE_FRACTURE] = break_floes,
@@ -296,20 +311,20 @@ fram_status world_step_watched(context *ctx, const step_settings *s, world *w, c
     world_poison_scratch(w);
 #endif
     for (int i = 0; i < STAGE_COUNT; i++) {
-        fram_status status = stages[i](ctx, s, w, error);
+        fram_status status = stages[i](ctx, m, w, error);
         if (status != FRAM_OK)
             return stage_failure(w, status, error);
         if (watch)
             watch->done(watch->user, (step_stage)i);
     }
     w->clock.step[0]++;
-    w->clock.time[0] = (double)w->clock.step[0] * s->time_step;
-    return check_state(s, w, error);
+    w->clock.time[0] = (double)w->clock.step[0] * m->time_step;
+    return check_state(m, w, error);
 }
 
-fram_status world_step(context *ctx, const step_settings *s, world *w, fram_error *error)
+fram_status world_step(context *ctx, const model *m, world *w, fram_error *error)
 {
-    return world_step_watched(ctx, s, w, NULL, error);
+    return world_step_watched(ctx, m, w, NULL, error);
 }
 
 fram_status world_add_wrench(context *ctx, world *w, int32_t slot, wrench load, fram_error *error)

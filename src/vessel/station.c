@@ -10,6 +10,10 @@ TABLE_DEFINE(station, STATION_FIELDS)
 enum { STREAM_SENSOR = 0x5e05 };
 /* Position counts as regained below this share of the limit, so that it is not lost and regained with every wave. */
 #define REGAINED 0.9
+/* What the Kalman filter does not know at the start, as standard deviations: its speed [m/s, m/s, rad/s], and its bias
+   as what it may change in 100 s, whose root is 10. */
+static const vec3 FIRST_SPEED = {0.1, 0.1, 0.002};
+#define FIRST_BIAS 10
 
 static vec3 place_of(const body_table *bodies, int32_t body)
 {
@@ -24,10 +28,15 @@ static vec3 centre_place(vec3 centre, vec3 place)
     return vec3_make(place.x + off.x, place.y + off.y, place.z);
 }
 
-fram_status station_add(context *ctx, const station_definition *d, const vessel_table *vessels,
+bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel)
+{
+    return vessel < stations->count && vessels->mode[vessel] == VESSEL_FREE;
+}
+
+fram_status station_add(context *ctx, const station_definition *d, int32_t vessel, const vessel_table *vessels,
                         const body_table *bodies, station_table *s, fram_error *error)
 {
-    int32_t row = s->count, body = vessels->body[s->count];
+    int32_t row = vessel, body = vessels->body[vessel];
     if (!table_resize(ctx, s, &station_table_info, row + 1))
         return error_memory(error);
     vec3 centre = vessels->centre[row], place = place_of(bodies, body);
@@ -57,8 +66,7 @@ fram_status station_add(context *ctx, const station_definition *d, const vessel_
     s->reference[row].place = s->estimate[row].place = s->measured[row] = place;
     s->estimate[row].velocity = plane_to_vessel(place.z, bodies->velocity[body]);
     s->estimate[row].velocity.z = 0;
-    vec3 doubt = vec3_scale(d->kalman.bias, 10);
-    s->covariance[row] = kalman_begin(&d->kalman, vec3_make(0.1, 0.1, 0.002), doubt);
+    s->covariance[row] = kalman_begin(&d->kalman, FIRST_SPEED, vec3_scale(d->kalman.bias, FIRST_BIAS));
     s->vane_heading[row] = place.z;
     return FRAM_OK;
 }

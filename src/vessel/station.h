@@ -1,6 +1,6 @@
 /* A vessel on station: where it shall be, what it measures and believes, what its controller orders, how far it is off.
-   Row i belongs to vessel i.  The controller runs at its own rate: every
-   `control_every` steps, on measurements taken every `sample_every` steps. */
+   Row i belongs to vessel i; the row of a vessel that keeps no station is zero.  The controller runs at its own rate:
+   every `control_every` steps, on measurements taken every `sample_every` steps. */
 #ifndef VESSEL_STATION_H
 #define VESSEL_STATION_H
 
@@ -76,9 +76,12 @@ typedef struct station_definition {
     uint64_t seed;
 } station_definition;
 
-/* The station of the next vessel, which lies where it was made, with all that it believes true. */
-fram_status station_add(context *ctx, const station_definition *d, const vessel_table *vessels,
+/* The station of a vessel, later than all that have one, which lies where it was made, with all that it believes true.
+ */
+fram_status station_add(context *ctx, const station_definition *d, int32_t vessel, const vessel_table *vessels,
                         const body_table *bodies, station_table *stations, fram_error *error);
+/* Whether a vessel keeps station. */
+bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel);
 
 /* What the step looks like to a station. */
 typedef struct station_moment {

@@ -16,7 +16,7 @@ static bool is_finite_vector(vec3 v) { return is_finite(v.x) && is_finite(v.y) &
 
 static fram_status check_definition(const vessel_definition *d, const shape_store *shapes, fram_error *error)
 {
-    if (d->solid < 0 || d->solid >= shapes->solids.count)
+    if (d->solid < 0 || !shapes->solids || d->solid >= shapes->solids->count)
         return refuse(error, "solid", "a solid of the shape store", d->solid);
     if (!(d->mass > 0 && is_finite(d->mass)))
         return refuse(error, "mass", "a positive number of kilograms", d->mass);

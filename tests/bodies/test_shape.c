@@ -146,7 +146,10 @@ START_TEST(wrong_outlines_are_refused)
     assert_fails(shape_add_solid(&ctx, &s, 0, &row, &e), e, FRAM_ERROR_USAGE, "no solid 0");
     mesh none = {0};
     polyhedron_array pieces = {0};
-    assert_fails(solid_add(&ctx, &s, &none, &pieces, 0, &row, &e), e, FRAM_ERROR_INPUT, "empty");
+    solid_array solids = {0};
+    s.solids = &solids;
+    assert_fails(shape_add_solid(&ctx, &s, 0, &row, &e), e, FRAM_ERROR_USAGE, "no solid 0");
+    assert_fails(solid_add(&ctx, &solids, &none, &pieces, 0, &row, &e), e, FRAM_ERROR_INPUT, "empty");
     ck_assert_int_eq(s.shapes.count, 0);
     ck_assert_int_eq(s.vertices.count, 0);
     shape_store_free(&ctx, &s);
@@ -157,21 +160,23 @@ START_TEST(solids_take_over_their_mesh)
 {
     context ctx;
     context_init(&ctx);
-    shape_store s = {0};
+    solid_array solids = {0};
+    shape_store s = {.solids = &solids};
     mesh box = {0};
     polyhedron_array pieces = {0};
     int32_t index, row;
     fram_error e = {0};
     ck_assert(mesh_make_box(&ctx, vec3_make(-2, -3, -6), vec3_make(2, 3, 1), &box));
-    assert_ok(solid_add(&ctx, &s, &box, &pieces, 0.25, &index, &e), e);
+    assert_ok(solid_add(&ctx, &solids, &box, &pieces, 0.25, &index, &e), e);
     ck_assert_int_eq(box.face.count, 0);
     assert_ok(shape_add_solid(&ctx, &s, index, &row, &e), e);
     assert_absolute(s.shapes.radius[row], 7, 1e-15);
     ck_assert_int_eq(s.shapes.solid[row], index);
-    ck_assert_int_eq(s.solids.data[index].surface.face.count, 12);
-    ck_assert_int_eq(s.solids.data[index].tree.face.count, 12);
-    ck_assert_int_eq(s.solids.data[index].adjacency.neighbour.count, 36);
+    ck_assert_int_eq(shape_solid(&s, row)->surface.face.count, 12);
+    ck_assert_int_eq(shape_solid(&s, row)->tree.face.count, 12);
+    ck_assert_int_eq(shape_solid(&s, row)->adjacency.neighbour.count, 36);
     shape_store_free(&ctx, &s);
+    solid_array_free(&ctx, &solids);
 }
 END_TEST
 
@@ -181,7 +186,6 @@ START_TEST(the_radius_of_a_solid_is_that_of_its_farthest_corner)
     context ctx;
     context_init(&ctx);
     for (int far = 0; far < 4; far++) {
-        shape_store s = {0};
         mesh m = {0};
         polyhedron_array pieces = {0};
         int32_t index;
@@ -193,9 +197,10 @@ START_TEST(the_radius_of_a_solid_is_that_of_its_farthest_corner)
         ck_assert(mesh_add_triangle(&ctx, &m, 0, 2, 1) && mesh_add_triangle(&ctx, &m, 0, 1, 3) &&
                   mesh_add_triangle(&ctx, &m, 1, 2, 3) && mesh_add_triangle(&ctx, &m, 2, 0, 3));
         double radius = vec3_length(v[far]);
-        assert_ok(solid_add(&ctx, &s, &m, &pieces, 0, &index, &e), e);
-        assert_absolute(s.solids.data[index].radius, radius > 1 ? radius : 1, 1e-14);
-        shape_store_free(&ctx, &s);
+        solid_array solids = {0};
+        assert_ok(solid_add(&ctx, &solids, &m, &pieces, 0, &index, &e), e);
+        assert_absolute(solids.data[index].radius, radius > 1 ? radius : 1, 1e-14);
+        solid_array_free(&ctx, &solids);
     }
 }
 END_TEST
@@ -288,6 +293,7 @@ START_TEST(memory_runs_out)
         failing_memory memory;
         context ctx = failing_context(&memory, n);
         shape_store s = {0};
+        solid_array solids = {0};
         fram_error e = {0};
         int32_t row;
         overlay *o = overlay_create(&ctx);
@@ -303,10 +309,11 @@ START_TEST(memory_runs_out)
         if (status == FRAM_OK)
             status = mesh_make_box(&ctx, vec3_make(0, 0, 0), vec3_make(1, 1, 1), &box) ? FRAM_OK : FRAM_ERROR_MEMORY;
         if (status == FRAM_OK)
-            status = solid_add(&ctx, &s, &box, &pieces, 0, &row, &e);
+            status = solid_add(&ctx, &solids, &box, &pieces, 0, &row, &e);
         mesh_free(&ctx, &box);
         polyhedron_array_free(&ctx, &pieces);
         shape_store_free(&ctx, &s);
+        solid_array_free(&ctx, &solids);
         if (o)
             overlay_free(o);
         ck_assert_int_eq(memory.live, 0);

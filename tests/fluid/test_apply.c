@@ -7,6 +7,7 @@ static const drag_coefficients coefficients[MATERIAL_COUNT] = {
 
 typedef struct scene {
     body_table bodies;
+    solid_array solids;
     shape_store shapes;
 } scene;
 
@@ -14,6 +15,7 @@ static void scene_free(context *ctx, scene *s)
 {
     table_free(ctx, &s->bodies, &body_table_info);
     shape_store_free(ctx, &s->shapes);
+    solid_array_free(ctx, &s->solids);
 }
 
 static int32_t add_prism(context *ctx, scene *s, polygon outline, double half_height)
@@ -50,7 +52,8 @@ START_TEST(slots)
     mesh copy = {0};
     ck_assert(mesh_copy(&ctx, &copy, &surface));
     polyhedron_array pieces = {0};
-    assert_ok(solid_add(&ctx, &s.shapes, &copy, &pieces, 0, &solid_row, &error), error);
+    s.shapes.solids = &s.solids;
+    assert_ok(solid_add(&ctx, &s.solids, &copy, &pieces, 0, &solid_row, &error), error);
     assert_ok(shape_add_solid(&ctx, &s.shapes, solid_row, &shape, &error), error);
 
     int32_t floe = add_body(&ctx, &s, MOTION_DYNAMIC, MATERIAL_ICE, prism, &r);

@@ -35,7 +35,7 @@ static mesh spheroid(context *ctx, double length, double beam, double depth, int
 
 typedef struct hull {
     context ctx;
-    shape_store store;
+    solid_array solids;
 } hull;
 
 static const solid *hull_open(hull *h, int rings, int sectors)
@@ -47,11 +47,11 @@ static const solid *hull_open(hull *h, int rings, int sectors)
     polyhedron_array pieces = {0};
     int32_t index;
     fram_error error = {0};
-    assert_ok(solid_add(&h->ctx, &h->store, &m, &pieces, 0, &index, &error), error);
-    return &h->store.solids.data[index];
+    assert_ok(solid_add(&h->ctx, &h->solids, &m, &pieces, 0, &index, &error), error);
+    return &h->solids.data[index];
 }
 
-static void hull_close(hull *h) { shape_store_free(&h->ctx, &h->store); }
+static void hull_close(hull *h) { solid_array_free(&h->ctx, &h->solids); }
 
 static fluid_motion random_state(random_stream *r, double tilt)
 {

@@ -9,6 +9,7 @@
 typedef struct ice_rig {
     context ctx;
     body_table bodies;
+    solid_array solids;
     shape_store shapes;
     floe_table floes;
     joint_table joints;
@@ -62,6 +63,7 @@ static inline void ice_rig_free(ice_rig *r)
     context *c = &r->ctx;
     table_free(c, &r->bodies, &body_table_info);
     shape_store_free(c, &r->shapes);
+    solid_array_free(c, &r->solids);
     table_free(c, &r->floes, &floe_table_info);
     table_free(c, &r->joints, &joint_table_info);
     table_free(c, &r->memory, &contact_memory_table_info);
@@ -108,7 +110,8 @@ static inline int32_t ice_rig_hull(ice_rig *r, mesh *surface, motion kind, mater
     polyhedron_array pieces = {0};
     ck_assert(array_push(&r->ctx, &pieces, (polyhedron){.radius = 0}));
     assert_ok(polyhedron_hull(&r->ctx, surface->vertex.data, surface->vertex.count, 1e-9, &pieces.data[0], &e), e);
-    assert_ok(solid_add(&r->ctx, &r->shapes, surface, &pieces, 0, &index, &e), e);
+    r->shapes.solids = &r->solids;
+    assert_ok(solid_add(&r->ctx, &r->solids, surface, &pieces, 0, &index, &e), e);
     assert_ok(shape_add_solid(&r->ctx, &r->shapes, index, &row, &e), e);
     r->bodies.shape[slot] = row;
     r->bodies.mass[slot] = 1e6;

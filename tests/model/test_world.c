@@ -4,6 +4,7 @@
 
 static context ctx;
 static fram_error error;
+static const model no_vessels;
 
 /* Some rows in every table, every number of them another. */
 static void fill(world *w)
@@ -33,7 +34,7 @@ START_TEST(every_table_of_the_state_is_listed_once)
     ck_assert_int_eq(sizeof names / sizeof *names, WORLD_TABLE_COUNT);
     world w;
     world_table tables[WORLD_TABLE_COUNT];
-    assert_ok(world_init(&ctx, &w, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &w, &error), error);
     world_tables(&w, tables);
     for (int t = 0; t < WORLD_TABLE_COUNT; t++) {
         ck_assert_str_eq(tables[t].info->name, names[t]);
@@ -51,7 +52,7 @@ START_TEST(the_hash_sees_every_byte_of_the_state)
 {
     context_init(&ctx);
     world w;
-    assert_ok(world_init(&ctx, &w, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &w, &error), error);
     fill(&w);
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(&w, tables);
@@ -79,8 +80,8 @@ START_TEST(a_copy_is_equal_and_apart)
     context_init(&ctx);
     world a, b;
     char text[200];
-    assert_ok(world_init(&ctx, &a, &error), error);
-    assert_ok(world_init(&ctx, &b, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &a, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &b, &error), error);
     ck_assert(!world_difference(&a, &b, text));
     ck_assert_str_eq(text, "");
     fill(&a);
@@ -101,8 +102,8 @@ START_TEST(the_first_difference_is_named)
     context_init(&ctx);
     world a, b;
     char text[200];
-    assert_ok(world_init(&ctx, &a, &error), error);
-    assert_ok(world_init(&ctx, &b, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &a, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &b, &error), error);
     fill(&a);
     assert_ok(world_copy_state(&ctx, &b, &a, &error), error);
     a.bodies.velocity[2].y = 0.125;
@@ -144,19 +145,48 @@ START_TEST(the_first_difference_is_named)
 }
 END_TEST
 
+START_TEST(a_copied_world_stands_by_itself)
+{
+    context_init(&ctx);
+    world a, b;
+    char text[200];
+    assert_ok(world_init(&ctx, &no_vessels, &a, &error), error);
+    fill(&a);
+    const wrench push = {{1, 2, 3}, {4, 5, 6}};
+    ck_assert(array_push(&ctx, &a.scratch.outside, push));
+    uint64_t hash = world_hash(&a);
+    assert_ok(world_copy(&ctx, &a, &b, &error), error);
+    ck_assert(!world_difference(&a, &b, text));
+    ck_assert(world_hash(&b) == hash);
+    ck_assert_ptr_eq(b.shapes.solids, &no_vessels.solids);
+    ck_assert_int_eq(b.scratch.outside.count, 1);
+    ck_assert_mem_eq(&b.scratch.outside.data[0], &push, sizeof push);
+    ck_assert_ptr_ne(b.scratch.solve, a.scratch.solve);
+    world_free(&ctx, &a);
+    ck_assert(world_hash(&b) == hash);
+    world_free(&ctx, &b);
+}
+END_TEST
+
 START_TEST(no_memory_is_an_error)
 {
     world source;
     context_init(&ctx);
-    assert_ok(world_init(&ctx, &source, &error), error);
+    assert_ok(world_init(&ctx, &no_vessels, &source, &error), error);
     fill(&source);
+    ck_assert(array_push(&ctx, &source.scratch.outside, (wrench){{1, 2, 3}, {4, 5, 6}}));
     for (long n = 1;; n++) {
         failing_memory memory;
         context failing = failing_context(&memory, n);
-        world w;
-        fram_status status = world_init(&failing, &w, &error);
+        world w, copy;
+        fram_status status = world_init(&failing, &no_vessels, &w, &error);
         if (status == FRAM_OK)
             status = world_copy_state(&failing, &w, &source, &error);
+        if (status == FRAM_OK) {
+            status = world_copy(&failing, &source, &copy, &error);
+            if (status == FRAM_OK)
+                world_free(&failing, &copy);
+        }
         world_free(&failing, &w);
         ck_assert_int_eq(memory.live, 0);
         if (!memory.failed) {
@@ -170,4 +200,5 @@ START_TEST(no_memory_is_an_error)
 END_TEST
 
 TEST_MAIN("world", every_table_of_the_state_is_listed_once, the_hash_sees_every_byte_of_the_state,
-          a_copy_is_equal_and_apart, the_first_difference_is_named, no_memory_is_an_error)
+          a_copy_is_equal_and_apart, a_copied_world_stands_by_itself, the_first_difference_is_named,
+          no_memory_is_an_error)

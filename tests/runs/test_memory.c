@@ -29,15 +29,21 @@ static const char held[] =
 static fram_status build_and_step(context *ctx, const scenario *s)
 {
     fram_error error = {0};
+    model m;
     world w;
-    build_report report;
-    step_settings settings = build_settings(s);
-    fram_status status = build_world(ctx, s, &w, &report, &error);
+    field_report report;
+    fram_status status = build_model(ctx, s, &m, &error);
+    if (status == FRAM_OK) {
+        status = build_world(ctx, s, &m, &w, &report, &error);
+        if (status != FRAM_OK)
+            model_free(ctx, &m);
+    }
     if (status != FRAM_OK)
         return status;
     for (int i = 0; i < 5 && status == FRAM_OK; i++)
-        status = world_step(ctx, &settings, &w, &error);
+        status = world_step(ctx, &m, &w, &error);
     world_free(ctx, &w);
+    model_free(ctx, &m);
     return status;
 }
 

@@ -6,6 +6,7 @@
 #include "base/transcendental.h"
 #include "io/scenario_file.h"
 #include "sim/build.h"
+#include "sim/step.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ enum decay_mode { DECAY_HEAVE = 2, DECAY_ROLL, DECAY_PITCH };
 typedef struct decay {
     context ctx;
     scenario s;
-    step_settings settings;
+    model m;
     world w;
     matrix6 mass;        /* of body and water, about the centre of mass */
     double spring[6][6]; /* of heave, roll and pitch [N/m], [N], [N m] */
@@ -79,19 +80,19 @@ static inline fram_status decay_open_as(decay *d, const char *name, const char *
     memset(d, 0, sizeof *d);
     context_init(&d->ctx);
     fram_status status = scenario_parse(&d->ctx, name, text, strlen(text), NULL, &d->s, error);
-    build_report report;
+    field_report report;
     hull_hydrostatics floats;
-    if (status == FRAM_OK) {
-        d->settings = build_settings(&d->s);
-        status = build_world(&d->ctx, &d->s, &d->w, &report, error);
-    }
+    if (status == FRAM_OK)
+        status = build_model(&d->ctx, &d->s, &d->m, error);
+    if (status == FRAM_OK)
+        status = build_world(&d->ctx, &d->s, &d->m, &d->w, &report, error);
     if (status != FRAM_OK)
         return status;
     int32_t body = d->w.vessels.body[0];
     vec3 centre = d->w.vessels.centre[0];
-    const solid *hull = &d->w.shapes.solids.data[d->w.shapes.shapes.solid[d->w.bodies.shape[body]]];
+    const solid *hull = shape_solid(&d->w.shapes, d->w.bodies.shape[body]);
     status = hull_hydrostatics_at(&d->ctx, &hull->surface, -centre.z, &floats, error);
-    decay_springs(d, &floats, d->settings.media.water_density * d->settings.media.gravity);
+    decay_springs(d, &floats, d->m.media.water_density * d->m.media.gravity);
     double m = d->w.bodies.mass[body];
     sym3 i = d->w.bodies.inertia[body];
     d->mass = (matrix6){{{m},
@@ -100,8 +101,9 @@ static inline fram_status decay_open_as(decay *d, const char *name, const char *
                          {0, 0, 0, i.xx, i.xy, i.xz},
                          {0, 0, 0, i.xy, i.yy, i.yz},
                          {0, 0, 0, i.xz, i.yz, i.zz}}};
-    if (d->w.has_hydrodynamics)
-        d->mass = matrix6_sum(&d->mass, &d->w.hydrodynamics.added_mass, 1);
+    const vessel_model *fixed = &d->m.vessels.data[0];
+    if (fixed->has_hydrodynamics)
+        d->mass = matrix6_sum(&d->mass, &fixed->hydrodynamics.added_mass, 1);
     d->rest = d->w.bodies.position[body].z;
     decay_theory(d);
     return status;
@@ -115,6 +117,7 @@ static inline fram_status decay_open(decay *d, const char *text, fram_error *err
 static inline void decay_close(decay *d)
 {
     world_free(&d->ctx, &d->w);
+    model_free(&d->ctx, &d->m);
     scenario_free(&d->ctx, &d->s);
 }
 
@@ -135,12 +138,12 @@ static inline double decay_run(decay *d, int mode, double amplitude, int steps, 
     double pitch = mode == DECAY_ROLL ? 0 : amplitude * d->shape[mode][1];
     b->position[body].z = d->rest + heave;
     b->orientation[body] = quat_from_roll_pitch_yaw(mode == DECAY_ROLL ? amplitude : 0, pitch, 0);
-    double first = 0, last = 0, before = decay_now(d, mode), dt = d->settings.time_step;
+    double first = 0, last = 0, before = decay_now(d, mode), dt = d->m.time_step;
     int crossings = 0;
     if (value)
         value[0] = before;
     for (int i = 1; i <= steps; i++) {
-        if (world_step(&d->ctx, &d->settings, &d->w, error) != FRAM_OK)
+        if (world_step(&d->ctx, &d->m, &d->w, error) != FRAM_OK)
             return 0;
         double now = decay_now(d, mode);
         if (before < 0 && now >= 0) {

@@ -7,10 +7,23 @@
 #include "sim/step.h"
 #include "testing.h"
 
+/* Model and world of a scenario; neither is left after a failure. */
+static inline fram_status scene_build(context *ctx, const scenario *s, model *m, world *w, fram_error *error)
+{
+    field_report report;
+    fram_status status = build_model(ctx, s, m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = build_world(ctx, s, m, w, &report, error);
+    if (status != FRAM_OK)
+        model_free(ctx, m);
+    return status;
+}
+
 typedef struct scene {
     context ctx;
     scenario s;
-    step_settings settings;
+    model m;
     world w;
 } scene;
 
@@ -20,9 +33,7 @@ static inline void scene_open_with(scene *k, const char *text, const char *const
     const scenario_overrides list = {overrides, count};
     context_init(&k->ctx);
     assert_ok(scenario_parse(&k->ctx, "scene.yaml", text, strlen(text), &list, &k->s, &error), error);
-    k->settings = build_settings(&k->s);
-    build_report report;
-    assert_ok(build_world(&k->ctx, &k->s, &k->w, &report, &error), error);
+    assert_ok(scene_build(&k->ctx, &k->s, &k->m, &k->w, &error), error);
 }
 
 static inline void scene_open(scene *k, const char *text) { scene_open_with(k, text, NULL, 0); }
@@ -31,12 +42,13 @@ static inline void scene_steps(scene *k, int64_t steps)
 {
     fram_error error = {0};
     for (int64_t i = 0; i < steps; i++)
-        assert_ok(world_step(&k->ctx, &k->settings, &k->w, &error), error);
+        assert_ok(world_step(&k->ctx, &k->m, &k->w, &error), error);
 }
 
 static inline void scene_close(scene *k)
 {
     world_free(&k->ctx, &k->w);
+    model_free(&k->ctx, &k->m);
     scenario_free(&k->ctx, &k->s);
 }
 

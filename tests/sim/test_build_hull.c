@@ -45,15 +45,14 @@ static void remove_folder(const folder *f)
     ck_assert_int_eq(rmdir(f->name), 0);
 }
 
-static fram_status build(context *ctx, const folder *f, made_hull *hull, world *w, fram_error *error)
+static fram_status build(context *ctx, const folder *f, vessel_model *hull, solid_array *solids, fram_error *error)
 {
     scenario s;
     fram_status status = scenario_read(ctx, f->scene, NULL, &s, error);
     if (status != FRAM_OK)
         return status;
-    status = world_init(ctx, w, error);
-    if (status == FRAM_OK)
-        status = build_hull(ctx, &s, w, hull, error);
+    const vessel_entry entry = scenario_vessel_entry(&s, 0);
+    status = build_hull(ctx, &s, &entry, solids, hull, error);
     scenario_free(ctx, &s);
     return status;
 }
@@ -63,16 +62,16 @@ START_TEST(a_barge)
     context ctx;
     context_init(&ctx);
     folder f = make_folder("    file_scale: 0.001\n    freeboard: 2\n", half_box);
-    made_hull hull;
-    world w;
+    vessel_model hull = {0};
+    solid_array solids = {0};
     fram_error error = {0};
-    assert_ok(build(&ctx, &f, &hull, &w, &error), error);
+    assert_ok(build(&ctx, &f, &hull, &solids, &error), error);
     const hull_particulars *p = &hull.particulars;
     const double found[] = {p->length, p->beam, p->draught, p->freeboard, p->midships}, expected[] = {40, 10, 3, 2, 20};
     assert_array_absolute(found, expected, 5, 1e-12);
     assert_relative(hull.displaced_mass, 1025 * 1200, 1e-13);
     assert_vec3_close(hull.centre, vec3_make(20, 0, 0), 1e-12);
-    const solid *s = &w.shapes.solids.data[hull.solid];
+    const solid *s = &solids.data[hull.solid];
     ck_assert_int_eq(s->pieces.count, 1);
     box3 box = mesh_bounds(&s->surface);
     assert_vec3_close(box.lo, vec3_make(-20, -5, -3), 1e-12);
@@ -82,7 +81,7 @@ START_TEST(a_barge)
     ck_assert_int_eq(hull_zone_at(&zones, vec3_make(39, 0, 0)), ZONE_BOW);
     ck_assert_int_eq(hull_zone_at(&zones, vec3_make(1, 0, 0)), ZONE_STERN);
     ck_assert_int_eq(hull_zone_at(&zones, vec3_make(20, 0, 0)), ZONE_MIDBODY);
-    world_free(&ctx, &w);
+    solid_array_free(&ctx, &solids);
     remove_folder(&f);
 }
 END_TEST
@@ -103,14 +102,14 @@ START_TEST(mistakes)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         folder f = make_folder(cases[i].keys, cases[i].mesh);
-        made_hull hull;
-        world w = {0};
+        vessel_model hull = {0};
+        solid_array solids = {0};
         fram_error error = {0};
-        assert_fails(build(&ctx, &f, &hull, &w, &error), error, FRAM_ERROR_INPUT, cases[i].message);
+        assert_fails(build(&ctx, &f, &hull, &solids, &error), error, FRAM_ERROR_INPUT, cases[i].message);
         ck_assert_ptr_nonnull(strstr(error.file, cases[i].file));
         ck_assert_str_eq(error.key, cases[i].key);
         ck_assert_int_eq(error.line, cases[i].line);
-        world_free(&ctx, &w);
+        solid_array_free(&ctx, &solids);
         remove_folder(&f);
     }
 }
@@ -131,16 +130,16 @@ START_TEST(particulars)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         scenario s;
-        world w;
-        made_hull hull;
+        solid_array solids = {0};
+        vessel_model hull = {0};
         fram_error error = {0};
         assert_ok(scenario_parse(&ctx, "s.yaml", cases[i].text, strlen(cases[i].text), NULL, &s, &error), error);
-        assert_ok(world_init(&ctx, &w, &error), error);
-        ck_assert_int_eq(build_hull(&ctx, &s, &w, &hull, &error), FRAM_ERROR_INPUT);
+        const vessel_entry entry = scenario_vessel_entry(&s, 0);
+        ck_assert_int_eq(build_hull(&ctx, &s, &entry, &solids, &hull, &error), FRAM_ERROR_INPUT);
         ck_assert_str_eq(error.key, cases[i].key);
         ck_assert_str_eq(error.file, "s.yaml");
         ck_assert_int_eq(error.line, cases[i].line);
-        world_free(&ctx, &w);
+        solid_array_free(&ctx, &solids);
         scenario_free(&ctx, &s);
     }
 }

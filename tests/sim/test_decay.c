@@ -30,7 +30,7 @@ static void check_mode(const char *vessel, const char *more, int mode, double am
     decay d;
     fram_error error = {0};
     open_vessel(&d, vessel, more);
-    double theory = d.period[mode], dt = d.settings.time_step;
+    double theory = d.period[mode], dt = d.m.time_step;
     double measured = decay_run(&d, mode, amplitude, (int)(4.2 * theory / dt), NULL, &error);
     ck_assert_msg(measured > 0, "%s", error.message);
     ck_assert_msg(fabs(measured / theory - 1) < tolerance, "mode %d%s: %.5f s, by theory %.5f s", mode, more, measured,
@@ -84,7 +84,7 @@ START_TEST(given_matrices_are_moved)
 {
     decay a, b;
     open_vessel(&a, ship, estimate);
-    const matrix6 *m = &a.w.hydrodynamics.added_mass;
+    const matrix6 *m = &a.m.vessels.data[0].hydrodynamics.added_mass;
     /* Back to the point amidships in the water line. */
     vec3 centre = a.w.vessels.centre[0];
     matrix6 about = matrix6_moved(m, centre), down = matrix6_turned_over(&about);
@@ -99,7 +99,7 @@ START_TEST(given_matrices_are_moved)
     open_vessel(&b, ship, more);
     for (int i = 0; i < 6; i++)
         for (int j = 0; j < 6; j++)
-            assert_absolute(b.w.hydrodynamics.added_mass.m[i][j], m->m[i][j],
+            assert_absolute(b.m.vessels.data[0].hydrodynamics.added_mass.m[i][j], m->m[i][j],
                             1e-12 * sqrt(m->m[i][i] * m->m[j][j]) + 1e-6);
     ck_assert(b.w.bodies.added_mass[b.w.vessels.body[0]].z > 0);
     decay_close(&b);
@@ -135,7 +135,7 @@ START_TEST(supply_ship_of_the_scene)
     open_scene(&d, "scenes/supply_ship.yaml");
     vec3 arm = d.w.vessels.centre[0];
     arm.z = 0;
-    matrix6 m = matrix6_moved(&d.mass, arm), c = matrix6_moved(&d.w.hydrodynamics.damping, arm);
+    matrix6 m = matrix6_moved(&d.mass, arm), c = matrix6_moved(&d.m.vessels.data[0].hydrodynamics.damping, arm);
     m = matrix6_turned_over(&m);
     c = matrix6_turned_over(&c);
     for (int i = 0; i < 3; i++) {
@@ -180,7 +180,7 @@ START_TEST(estimated_damping)
     decay d;
     fram_error error = {0};
     open_vessel(&d, box, ", hydrodynamics: {source: estimate, heave_damping: 0.1}");
-    double undamped = d.period[DECAY_HEAVE], dt = d.settings.time_step;
+    double undamped = d.period[DECAY_HEAVE], dt = d.m.time_step;
     int steps = (int)(undamped / sqrt(1 - 0.01) / dt + 0.5);
     double *value = malloc((size_t)(steps + 1) * sizeof *value);
     decay_run(&d, DECAY_HEAVE, 0.05, steps, value, &error);

@@ -191,12 +191,12 @@ START_TEST(drift_turns_and_reverses)
     double start = floes_mass(&k.w.bodies, &k.w.floes), reached = 0;
     int32_t most = 0;
     int steps = getenv("FRAM_TEST_SHORT") ? 1500 : 8000;
-    k.settings.drift_given = true;
+    k.m.drift_given = true;
     for (int i = 0; i < steps; i++) {
         double t = (double)i / steps, angle = t < 0.6 ? 2 * PI * t / 0.6 : 0;
         double speed = t < 0.6 ? 0.6 : 0.6 * real_sin(12 * PI * t);
-        k.settings.drift = vec2_make(speed * real_cos(angle), speed * real_sin(angle));
-        k.settings.media.current = vec3_make(k.settings.drift.x, k.settings.drift.y, 0);
+        k.m.drift = vec2_make(speed * real_cos(angle), speed * real_sin(angle));
+        k.m.media.current = vec3_make(k.m.drift.x, k.m.drift.y, 0);
         int32_t next = k.w.clock.next_floe[0];
         scene_steps(&k, 1);
         check_newcomers(&k.w, next);
@@ -314,13 +314,13 @@ static void check_refusal(const char *text, const char *const *overrides, int co
     context ctx;
     scenario s = {0};
     world w;
+    model m;
     fram_error error = {0};
-    build_report report;
     const scenario_overrides list = {overrides, count};
     context_init(&ctx);
     fram_status status = scenario_parse(&ctx, "scene.yaml", text, strlen(text), &list, &s, &error);
     if (status == FRAM_OK)
-        status = build_world(&ctx, &s, &w, &report, &error);
+        status = scene_build(&ctx, &s, &m, &w, &error);
     ck_assert_int_eq(status, FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, key);
     scenario_free(&ctx, &s);

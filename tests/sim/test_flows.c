@@ -28,7 +28,7 @@ START_TEST(the_hull_meets_the_tables)
     assert_relative(f->water_drag.moment.z, q * (0.7 * 250 * 3 - 0.05 * 250 * 60), 1e-9);
     assert_relative(f->wind_drag.force.x, wind * 0.8 * 12 * 3, 1e-9);
     /* What the equilibrium and the capability plot take is the same. */
-    vec3 still = steady_media_load(&k.settings, &k.w, k.w.vessels.body[0], &k.settings.media, 0);
+    vec3 still = steady_media_load(&k.m, &k.w, 0, &k.m.media, 0);
     assert_relative(still.y, q * 0.7 * 250, 1e-9);
     assert_relative(still.x, wind * 0.8 * 12 * 3, 1e-9);
     scene_close(&k);
@@ -57,12 +57,12 @@ static void refuse(const char *rows, const char *key)
     context ctx;
     scenario s;
     world w;
-    build_report report;
+    model m;
     fram_error error = {0};
     snprintf(text, sizeof text, BOX "  wind_coefficients:\n    table:\n%s" SEA, rows);
     context_init(&ctx);
     assert_ok(scenario_parse(&ctx, "scene.yaml", text, strlen(text), NULL, &s, &error), error);
-    ck_assert_int_eq(build_world(&ctx, &s, &w, &report, &error), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(scene_build(&ctx, &s, &m, &w, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, key);
     ck_assert(error.line > 0);
     scenario_free(&ctx, &s);

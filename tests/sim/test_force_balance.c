@@ -22,7 +22,7 @@ static balance towed_balance(const char *kind, const char *water, int steps)
     scene_open_with(&k, field, keys, 3);
     int32_t hull = k.w.vessels.body[0], joint = k.w.vessels.joint[0];
     double mass = k.w.bodies.mass[hull];
-    vec3 weight = vec3_make(0, 0, -mass * k.settings.media.gravity);
+    vec3 weight = vec3_make(0, 0, -mass * k.m.media.gravity);
     balance b = {0};
     for (int i = 0; i < steps; i++) {
         vec3 before = k.w.bodies.velocity[hull];
@@ -30,8 +30,8 @@ static balance towed_balance(const char *kind, const char *water, int steps)
         const fluid_load *f = &k.w.scratch.fluid.data[hull];
         vec3 ice = k.w.scratch.ice_loads.data[0].total.force, tow = k.w.joints.reaction_force[joint];
         vec3 fluid = vec3_add(f->hydrostatic.force, vec3_add(f->water_drag.force, f->wind_drag.force));
-        fluid = vec3_add(fluid, k.w.scratch.response.force);
-        vec3 gain = vec3_scale(vec3_sub(k.w.bodies.velocity[hull], before), mass / k.settings.time_step);
+        fluid = vec3_add(fluid, k.w.scratch.responses.data[0].force);
+        vec3 gain = vec3_scale(vec3_sub(k.w.bodies.velocity[hull], before), mass / k.m.time_step);
         vec3 rest = vec3_sub(vec3_add(vec3_add(tow, ice), vec3_add(fluid, weight)), gain);
         b.worst = fmax(b.worst, vec3_length(rest));
         b.peak = fmax(b.peak, vec3_length(tow));

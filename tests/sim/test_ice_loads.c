@@ -22,7 +22,7 @@ static ice_load load_of(scene *k, contact c)
     fram_error error = {0};
     array_clear(&k->w.scratch.contacts);
     ck_assert(array_push(&k->ctx, &k->w.scratch.contacts, c));
-    assert_ok(sum_ice_loads(&k->ctx, &k->settings, &k->w, &error), error);
+    assert_ok(sum_ice_loads(&k->ctx, &k->m, &k->w, &error), error);
     return k->w.scratch.ice_loads.data[0];
 }
 
@@ -112,7 +112,7 @@ START_TEST(the_window_of_loads)
         k.w.clock.step[0] = step;
         load_of(&k, contact_of(scene_floe(&k, 0), k.w.vessels.body[0], 10 * (step + 1), HUGE_VAL));
         k.w.clock.step[0] = step + 1;
-        wrench last = last_ice_load(&k.w, 0), mean = load_window_average(&k.w);
+        wrench last = last_ice_load(&k.w, 0), mean = load_window_average(&k.w, 0);
         assert_absolute(last.force.x, 100 * (step + 1), 1e-9);
         double expected = step == 0 ? 100 : step == 1 ? 150 : 100.0 * step;
         assert_absolute(mean.force.x, expected, 1e-9);

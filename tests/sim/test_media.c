@@ -1,6 +1,7 @@
 /* Current and wind from files: drift that turns round, and files that are wrong. */
 #include "io/scenario_file.h"
 #include "sim/build.h"
+#include "sim/step.h"
 #include "testing.h"
 
 #include <stdio.h>
@@ -10,7 +11,7 @@ typedef struct sea {
     char folder[64];
     context ctx;
     scenario s;
-    step_settings settings;
+    model m;
     world w;
 } sea;
 
@@ -54,14 +55,20 @@ static fram_status open_sea(sea *k, const char *environment, const char *series,
     fram_status status = scenario_read(&k->ctx, path, NULL, &k->s, error);
     if (status != FRAM_OK)
         return status;
-    k->settings = build_settings(&k->s);
-    build_report report;
-    return build_world(&k->ctx, &k->s, &k->w, &report, error);
+    field_report report;
+    status = build_model(&k->ctx, &k->s, &k->m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = build_world(&k->ctx, &k->s, &k->m, &k->w, &report, error);
+    if (status != FRAM_OK)
+        model_free(&k->ctx, &k->m);
+    return status;
 }
 
 static void close_sea(sea *k)
 {
     world_free(&k->ctx, &k->w);
+    model_free(&k->ctx, &k->m);
     scenario_free(&k->ctx, &k->s);
     remove_folder(k);
 }
@@ -88,7 +95,7 @@ START_TEST(drift_turns_round)
     int32_t floe = k.w.floes.body[0];
     double seen[4];
     for (int i = 0; i < 3200; i++) {
-        assert_ok(world_step(&k.ctx, &k.settings, &k.w, &error), error);
+        assert_ok(world_step(&k.ctx, &k.m, &k.w, &error), error);
         if (i % 800 == 799)
             seen[i / 800] = k.w.bodies.velocity[floe].x;
     }
@@ -107,14 +114,14 @@ START_TEST(current_turns)
     assert_ok(open_sea(&k, "current_file: series.csv", "y,time,x\n0,0,0.4\n0.4,300,0\n", &error), error);
     int32_t floe = k.w.floes.body[0];
     for (int i = 0; i < 20 * 900; i++)
-        assert_ok(world_step(&k.ctx, &k.settings, &k.w, &error), error);
+        assert_ok(world_step(&k.ctx, &k.m, &k.w, &error), error);
     assert_vec3_close(k.w.bodies.velocity[floe], vec3_make(0, 0.4, 0), 0.03);
     close_sea(&k);
 
     assert_ok(open_sea(&k, "wind_file: series.csv", "time,x,y\n0,0,0\n10,0,-20\n", &error), error);
     floe = k.w.floes.body[0];
     for (int i = 0; i < 20 * 60; i++)
-        assert_ok(world_step(&k.ctx, &k.settings, &k.w, &error), error);
+        assert_ok(world_step(&k.ctx, &k.m, &k.w, &error), error);
     ck_assert(k.w.bodies.velocity[floe].y < -0.05);
     close_sea(&k);
 }
@@ -131,7 +138,7 @@ START_TEST(current_of_depth)
                            i ? "depth,x,y\n0,0.4,0\n1,0,0\n" : "time,x,y\n0,0.4,0\n", &error),
                   error);
         for (int n = 0; n < 20 * 100; n++)
-            assert_ok(world_step(&k.ctx, &k.settings, &k.w, &error), error);
+            assert_ok(world_step(&k.ctx, &k.m, &k.w, &error), error);
         speed[i] = k.w.bodies.velocity[k.w.floes.body[0]].x;
         close_sea(&k);
     }

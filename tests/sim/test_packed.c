@@ -152,11 +152,10 @@ START_TEST(what_cannot_be_packed_is_told)
                                "  concentration: 0.99\n  populations:\n    - {size: constant, diameter: 8}\n";
     scene k;
     fram_error error = {0};
-    build_report report;
     context_init(&k.ctx);
     const scenario_overrides none = {NULL, 0};
     assert_ok(scenario_parse(&k.ctx, "scene.yaml", text, strlen(text), &none, &k.s, &error), error);
-    ck_assert_int_eq(build_world(&k.ctx, &k.s, &k.w, &report, &error), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(scene_build(&k.ctx, &k.s, &k.m, &k.w, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, "ice.concentration");
     ck_assert_int_eq(error.line, 6);
     ck_assert_msg(strstr(error.message, "was reached") != NULL, "%s", error.message);

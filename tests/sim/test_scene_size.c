@@ -79,9 +79,10 @@ START_TEST(what_is_too_large_is_refused)
         assert_fails(scene_size_check(&s, &error), error, FRAM_ERROR_INPUT, cases[i].message);
         ck_assert_str_eq(error.key, cases[i].key);
         world w;
-        build_report report;
-        ck_assert_int_eq(build_world(&ctx, &s, &w, &report, &error), FRAM_ERROR_INPUT);
-        tile_grid g = build_settings(&s).fracture.tiles;
+        field_report report;
+        const model none = {0};
+        ck_assert_int_eq(build_world(&ctx, &s, &none, &w, &report, &error), FRAM_ERROR_INPUT);
+        tile_grid g = build_fracture_settings(&s).tiles;
         ck_assert((int64_t)g.columns * g.rows <= INT32_MAX);
         scenario_free(&ctx, &s);
     }

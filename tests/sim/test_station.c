@@ -56,8 +56,8 @@ static double worst_balance(const char *const *overrides, int count, int steps)
         take_row(&k, &row);
         vec3 now = channel3(&row, "velocity"), ice = channel3(&row, "ice_force");
         vec3 left = vec3_add(vec3_add(channel3(&row, "tow_force"), ice), channel3(&row, "fluid_force"));
-        left.z -= mass * k.settings.media.gravity;
-        left = vec3_mad(left, vec3_sub(now, before), -mass / k.settings.time_step);
+        left.z -= mass * k.m.media.gravity;
+        left = vec3_mad(left, vec3_sub(now, before), -mass / k.m.time_step);
         worst = fmax(worst, vec3_length(left));
         peak = fmax(peak, vec3_length(ice));
         before = now;

@@ -35,7 +35,7 @@ static double depth_moment(scene *k, int32_t slot)
 static double energy_of(scene *k, int32_t slot)
 {
     const body_table *b = &k->w.bodies;
-    const media *m = &k->settings.media;
+    const media *m = &k->m.media;
     vec3 v = b->velocity[slot], w = mat3_tmul_vec(quat_matrix(b->orientation[slot]), b->angular_velocity[slot]);
     double moving = 0.5 * (b->mass[slot] * vec3_dot(v, v) + vec3_dot(w, sym3_mul_vec(b->inertia[slot], w)));
     return moving + m->gravity * (b->mass[slot] * b->position[slot].z - m->water_density * depth_moment(k, slot));
@@ -48,7 +48,7 @@ static fluid_load split_of(scene *k, int32_t slot)
     wrench total[8];
     fram_error error = {0};
     ck_assert_int_le(k->w.bodies.count, 8);
-    assert_ok(fluid_apply(&k->ctx, &k->settings.media, k->settings.drag, &k->w.bodies, &k->w.shapes, total,
+    assert_ok(fluid_apply(&k->ctx, &k->m.media, k->m.drag, &k->w.bodies, &k->w.shapes, total,
                           &(fluid_details){.all = load}, &error),
               error);
     return load[slot];
@@ -62,7 +62,7 @@ static double drag_work(const scene *k, const fluid_load *load, int32_t slot, ve
     vec3 w = vec3_scale(vec3_add(spin, b->angular_velocity[slot]), 0.5);
     double power = vec3_dot(load->water_drag.force, v) + vec3_dot(load->water_drag.moment, w) +
                    vec3_dot(load->wind_drag.force, v) + vec3_dot(load->wind_drag.moment, w);
-    return k->settings.time_step * power;
+    return k->m.time_step * power;
 }
 
 typedef struct books {

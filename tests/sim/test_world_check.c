@@ -23,12 +23,10 @@ static const char towed_level[] = "run: {duration: 5, time_step: 0.1}\n"
                                   "ice: {source: level, level: {x_min: -20, tile_size: 10}}\n"
                                   "domain: {x_min: -60, x_max: 40, y_min: -20, y_max: 20}\n";
 
-static int32_t tiles_of(const scene *k) { return k->settings.fracture.tiles.columns * k->settings.fracture.tiles.rows; }
-
 static void assert_sound(const scene *k)
 {
     fram_error error = {0};
-    assert_ok(world_check(&k->w, tiles_of(k), &error), error);
+    assert_ok(world_check(&k->m, &k->w, &error), error);
 }
 
 START_TEST(states_of_runs_are_sound)
@@ -53,7 +51,7 @@ static void assert_found(scene *k, void *number, size_t size, int64_t value, con
     ck_assert_uint_le(size, sizeof kept);
     memcpy(kept, number, size);
     memcpy(number, &value, size); /* little-endian, as all that Fram runs on */
-    ck_assert_int_eq(world_check(&k->w, tiles_of(k), &error), FRAM_ERROR_INPUT);
+    ck_assert_int_eq(world_check(&k->m, &k->w, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, key);
     memcpy(number, kept, size);
     assert_sound(k);
@@ -110,8 +108,15 @@ START_TEST(what_names_nothing_is_found)
     FOUND(&k, shapes.vertices.corner[w->shapes.pieces.first[w->shapes.shapes.piece_first[shape]]], INT32_MAX, key);
     int32_t hull = w->bodies.shape[vessel];
     snprintf(key, sizeof key, "shape[%d].outline_first", (int)hull);
-    FOUND(&k, shapes.shapes.solid[hull], w->shapes.solids.count, key);
+    FOUND(&k, shapes.shapes.solid[hull], w->shapes.solids->count, key);
     FOUND(&k, clock.count, 0, "clock");
+    /* A vessel that the model does not know. */
+    fram_error error = {0};
+    k.m.vessels.count = 0;
+    ck_assert_int_eq(world_check(&k.m, &k.w, &error), FRAM_ERROR_INPUT);
+    ck_assert(strncmp(error.key, "vessel", 6) == 0);
+    k.m.vessels.count = 1;
+    assert_sound(&k);
     scene_close(&k);
 }
 END_TEST
@@ -134,8 +139,8 @@ START_TEST(a_checkpoint_of_such_a_state_is_refused)
         assert_ok(checkpoint_begin(&k.ctx, folder, &k.w, &note, NULL, 0, &commit, &error), error);
         assert_ok(checkpoint_end(&k.ctx, folder, &commit, &error), error);
         world w;
-        assert_ok(build_empty_world(&k.ctx, &k.s, &w, &error), error);
-        fram_status status = checkpoint_read_newest(&k.ctx, folder, &w, &note, &error);
+        assert_ok(world_init(&k.ctx, &k.m, &w, &error), error);
+        fram_status status = checkpoint_read_newest(&k.ctx, folder, &k.m, &w, &note, &error);
         ck_assert_int_eq(status, bad ? FRAM_ERROR_INPUT : FRAM_OK);
         if (bad)
             ck_assert_str_eq(error.key, "pair[0].b");

@@ -34,7 +34,7 @@ static void open_held(held *h, const station_definition *d)
     memset(h, 0, sizeof *h);
     bare_vessel_open(&h->b);
     fram_error error = {0};
-    assert_ok(station_add(&h->b.ctx, d, &h->b.vessels, &h->b.bodies, &h->stations, &error), error);
+    assert_ok(station_add(&h->b.ctx, d, 0, &h->b.vessels, &h->b.bodies, &h->stations, &error), error);
 }
 
 static void close_held(held *h)

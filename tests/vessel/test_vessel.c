@@ -5,6 +5,7 @@
 
 typedef struct scene {
     body_table bodies;
+    solid_array solids;
     shape_store shapes;
     joint_table joints;
     vessel_table vessels;
@@ -16,6 +17,7 @@ static void scene_free(context *ctx, scene *s)
     table_free(ctx, &s->joints, &joint_table_info);
     table_free(ctx, &s->vessels, &vessel_table_info);
     shape_store_free(ctx, &s->shapes);
+    solid_array_free(ctx, &s->solids);
 }
 
 /* Box 40 x 12 x 7 with its centre of mass at `centre`; false: no memory. */
@@ -24,9 +26,10 @@ static bool add_box_solid(context *ctx, scene *s, vec3 centre, int32_t *solid_ro
     mesh surface = {0};
     polyhedron_array pieces = {0};
     vec3 lo = vec3_sub(vec3_make(-20, -6, -4), centre), hi = vec3_sub(vec3_make(20, 6, 3), centre);
+    s->shapes.solids = &s->solids;
     fram_status status = mesh_make_box(ctx, lo, hi, &surface) ? FRAM_OK : FRAM_ERROR_MEMORY;
     if (status == FRAM_OK)
-        status = solid_add(ctx, &s->shapes, &surface, &pieces, 0, solid_row, NULL);
+        status = solid_add(ctx, &s->solids, &surface, &pieces, 0, solid_row, NULL);
     mesh_free(ctx, &surface);
     polyhedron_array_free(ctx, &pieces);
     return status == FRAM_OK;

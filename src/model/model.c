@@ -1,0 +1,11 @@
+#include "model/model.h"
+
+#include <string.h>
+
+void model_free(context *ctx, model *m)
+{
+    media_history_free(ctx, &m->history);
+    solid_array_free(ctx, &m->solids);
+    array_free(ctx, &m->vessels);
+    memset(m, 0, sizeof *m);
+}

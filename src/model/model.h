@@ -1,0 +1,62 @@
+/* The model: all that a world is stepped with and that stays as it was built: method, media and their histories, hulls,
+   and what is fixed of each vessel.  What changes stands in the world (world.h), so that a world can be copied,
+   compared and written, and any number of worlds can be stepped with one model.  Plain data, no physics. */
+#ifndef MODEL_MODEL_H
+#define MODEL_MODEL_H
+
+#include "dynamics/collision.h"
+#include "dynamics/solver.h"
+#include "fluid/columns.h"
+#include "fluid/flow_apply.h"
+#include "fluid/response.h"
+#include "ice/crushing.h"
+#include "ice/fracture.h"
+#include "model/scenario.h"
+#include "vessel/hull.h"
+
+/* Where external forces come from. */
+typedef enum force_source {
+    FORCES_NONE = 0, /* neither fluid nor gravity acts */
+    FORCES_FLUID,    /* water, air and gravity on every body's own surface (fluid/fluid.h) */
+    FORCES_COLUMNS   /* the water of the benchmark scenes, with weight */
+} force_source;
+
+/* What is fixed of a vessel: its hull as it was made, and what the fluids do to it. */
+typedef struct vessel_model {
+    int32_t solid;                /* of the hull, in model.solids, about the centre of mass */
+    vec3 centre;                  /* of mass, ship coordinates [m] */
+    double displaced_mass;        /* at the draught [kg] */
+    hull_particulars particulars; /* of a file: measured at z = 0 */
+    hull_hydrostatics floats;     /* at the draught, ship coordinates */
+    bool has_hydrodynamics;
+    hydrodynamics hydrodynamics;
+    hull_flows flows;
+} vessel_model;
+typedef ARRAY(vessel_model) vessel_model_array;
+
+typedef struct model {
+    double time_step; /* [s] */
+    force_source forces;
+    media media;           /* where the histories do not say otherwise */
+    media_history history; /* of current, wind and drift */
+    drag_coefficients drag[MATERIAL_COUNT];
+    prism_response floe_response;
+    const column_water *columns; /* of FORCES_COLUMNS, else NULL */
+    collision_settings collision;
+    pair_policies policies;
+    crushing_settings crushing;
+    fracture_settings fracture;
+    bool brash; /* what fracture loses goes to the brash account */
+    solver_settings solver;
+    domain_boundary boundary;
+    box2 domain;                /* [m] */
+    bool drift_given;           /* an endless field goes with `drift`, otherwise with the current at the surface */
+    vec2 drift;                 /* [m/s] */
+    double speed_limit;         /* a faster body means that the run went wrong [m/s] */
+    solid_array solids;         /* worlds refer to them: a model stays where it is in memory as long as it has worlds */
+    vessel_model_array vessels; /* row i belongs to vessel i */
+} model;
+
+void model_free(context *ctx, model *m);
+
+#endif

@@ -1,0 +1,111 @@
+#include "sim/build_model.h"
+
+#include "sim/build_flows.h"
+#include "sim/build_hull.h"
+#include "sim/build_hydrodynamics.h"
+#include "sim/build_ice.h"
+#include "sim/build_media.h"
+
+static void set_pair(pair_policies *p, material a, material b, double mu_static, double mu_kinetic, bool patch)
+{
+    p->of[a][b] = p->of[b][a] = (pair_policy){mu_static, mu_kinetic, patch};
+}
+
+/* Boxes of moving bodies reach ahead by this many steps: they are then renewed about as often as those of slow ones. */
+#define LOOKAHEAD_STEPS 25
+
+fracture_settings build_fracture_settings(const scenario *s)
+{
+    const scenario_environment *e = &s->environment;
+    return (fracture_settings){.time_step = s->run.time_step,
+                               .water_density = e->water_density,
+                               .gravity = e->gravity,
+                               .wedges = (int32_t)s->ice.fracture.wedges,
+                               .splitting = s->ice.fracture.splitting,
+                               .splitting_factor = s->ice.fracture.splitting_factor,
+                               .toughness = s->ice.fracture.toughness,
+                               .narrowness = s->ice.fracture.narrowness,
+                               .smallest_floe_area = s->ice.smallest_floe_area,
+                               .smallest_piece_area = s->ice.smallest_piece_area,
+                               .edge_threshold = s->ice.edge_threshold,
+                               .thick_plate_radius = s->ice.fracture.thick_plate_radius,
+                               .wedge_room = s->ice.fracture.wedge_room,
+                               .under_ice_contacts = s->ice.fracture.under_ice_contacts,
+                               .tiles = build_tiles(s),
+                               .crush_trims = s->ice.crush_trims};
+}
+
+static model settings_of(const scenario *s)
+{
+    const scenario_environment *e = &s->environment;
+    const scenario_solver *v = &s->run.solver;
+    const scenario_friction *f = &s->ice.friction;
+    model out = {
+        .time_step = s->run.time_step,
+        .forces = e->water ? FORCES_FLUID : FORCES_NONE,
+        .media = {.gravity = e->gravity,
+                  .water_density = e->water_density,
+                  .air_density = e->air_density,
+                  .current = scenario_velocity(e->current_speed, e->current_direction_deg),
+                  .wind = scenario_velocity(e->wind_speed, e->wind_direction_deg)},
+        .floe_response = {e->floe_added_mass, e->floe_damping},
+        .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
+        .crushing = {s->run.time_step, 0, s->ice.top_plane_area},
+        .fracture = build_fracture_settings(s),
+        .brash = s->ice.fracture.brash,
+        .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
+                   v->contact_skin, v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
+        .boundary = s->domain.boundary,
+        .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
+        .drift_given = !is_automatic(s->domain.drift_speed),
+        .speed_limit = s->run.speed_limit,
+    };
+    if (out.drift_given) {
+        vec3 drift = scenario_velocity(s->domain.drift_speed, s->domain.drift_direction_deg);
+        out.drift = vec2_make(drift.x, drift.y);
+    }
+    const scenario_ice_drag *di = &e->ice_drag;
+    const scenario_hull_drag *dh = &e->hull_drag;
+    out.drag[MATERIAL_ICE] = (drag_coefficients){di->water_form, di->water_skin, di->air_form, di->air_skin};
+    out.drag[MATERIAL_HULL] = (drag_coefficients){dh->water_form, dh->water_skin, dh->air_form, dh->air_skin};
+    set_pair(&out.policies, MATERIAL_ICE, MATERIAL_ICE, f->ice_ice_static, f->ice_ice_kinetic, s->ice.cap_ice_ice);
+    set_pair(&out.policies, MATERIAL_ICE, MATERIAL_HULL, f->ice_hull_static, f->ice_hull_kinetic, true);
+    set_pair(&out.policies, MATERIAL_ICE, MATERIAL_WALL, f->ice_wall_static, f->ice_wall_kinetic, s->ice.cap_ice_wall);
+    return out;
+}
+
+fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_entry *entry, model *m, fram_error *error)
+{
+    vessel_model v = {0};
+    fram_status status = build_hull(ctx, s, entry, &m->solids, &v, error);
+    if (status == FRAM_OK)
+        status = build_hydrodynamics(s, entry, &v, error);
+    if (status == FRAM_OK)
+        status = build_flows(ctx, s, entry, &v, error);
+    if (status == FRAM_OK && !array_push(ctx, &m->vessels, v))
+        status = error_memory(error);
+    return status;
+}
+
+fram_status build_method(context *ctx, const scenario *s, model *m, fram_error *error)
+{
+    *m = settings_of(s);
+    fram_status status = build_media(ctx, s, &m->history, error);
+    if (status != FRAM_OK)
+        model_free(ctx, m);
+    return status;
+}
+
+fram_status build_model(context *ctx, const scenario *s, model *m, fram_error *error)
+{
+    fram_status status = build_method(ctx, s, m, error);
+    if (status != FRAM_OK)
+        return status;
+    for (int32_t i = 0; i < scenario_vessel_count(s) && status == FRAM_OK; i++) {
+        vessel_entry entry = scenario_vessel_entry(s, i);
+        status = build_vessel_model(ctx, s, &entry, m, error);
+    }
+    if (status != FRAM_OK)
+        model_free(ctx, m);
+    return status;
+}

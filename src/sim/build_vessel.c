@@ -1,0 +1,110 @@
+#include "sim/build_vessel.h"
+
+#include "base/transcendental.h"
+#include "sim/build_ice.h"
+#include "sim/build_station.h"
+#include "vessel/path.h"
+
+#include <stdio.h>
+
+/* Radii of gyration where nothing is given: parts of the beam (roll) and of the length (pitch, yaw), as is usual for
+   ships. */
+static const double GYRATION_ROLL = 0.35, GYRATION_LENGTH = 0.25;
+
+vec3 build_gyration(const scenario_vessel *v, const hull_particulars *p)
+{
+    return vec3_make(automatic_or(v->gyration_roll, GYRATION_ROLL * p->beam),
+                     automatic_or(v->gyration_pitch, GYRATION_LENGTH * p->length),
+                     automatic_or(v->gyration_yaw, GYRATION_LENGTH * p->length));
+}
+
+/* Where the path begins, and the velocity of its first step. */
+static fram_status begin_path(context *ctx, const scenario *s, const scenario_vessel *v, int32_t row, world *w,
+                              vessel_definition *d, fram_error *error)
+{
+    if (v->path.count == 0)
+        return FRAM_OK;
+    int32_t had = w->waypoints.count;
+    if (!table_resize(ctx, &w->waypoints, &waypoint_table_info, had + v->path.count))
+        return error_memory(error);
+    for (int32_t i = 0; i < v->path.count; i++) {
+        const scenario_path_point *p = &v->path.data[i];
+        w->waypoints.vessel[had + i] = row;
+        w->waypoints.time[had + i] = p->time;
+        w->waypoints.place[had + i] = vec3_make(p->x, p->y, radians(p->heading_deg));
+    }
+    double dt = s->run.time_step;
+    vec3 begin = path_place(&w->waypoints, row, 0), next = path_place(&w->waypoints, row, dt);
+    d->position = vec3_make(begin.x, begin.y, 0);
+    d->heading = begin.z;
+    d->tow_velocity = vec3_make((next.x - begin.x) / dt, (next.y - begin.y) / dt, 0);
+    d->tow_ramp = 0;
+    return FRAM_OK;
+}
+
+/* The body has the diagonal of the added mass; the rest acts through the loads (fluid/response.h). */
+static void give_added_mass(const vessel_model *fixed, int32_t body, body_table *bodies)
+{
+    if (!fixed->has_hydrodynamics)
+        return;
+    const matrix6 *a = &fixed->hydrodynamics.added_mass;
+    bodies->added_mass[body] = vec3_make(a->m[0][0], a->m[1][1], a->m[2][2]);
+    bodies->added_inertia[body] = vec3_make(a->m[3][3], a->m[4][4], a->m[5][5]);
+}
+
+static fram_status add_vessel(context *ctx, const scenario *s, const scenario_vessel *v, const vessel_model *fixed,
+                              world *w, fram_error *error)
+{
+    vessel_definition d = {
+        .solid = fixed->solid,
+        .centre = fixed->centre,
+        .mass = automatic_or(v->mass, fixed->displaced_mass),
+        .gyration = build_gyration(v, &fixed->particulars),
+        .particulars = fixed->particulars,
+        .mode = v->mode,
+        .position = {v->x, v->y, 0},
+        .heading = radians(v->heading_deg),
+        .tow_velocity = scenario_velocity(v->speed, automatic_or(v->course_deg, v->heading_deg)),
+        .tow_ramp = v->ramp,
+    };
+    int32_t row = w->vessels.count;
+    fram_status status = begin_path(ctx, s, v, row, w, &d, error);
+    if (status == FRAM_OK)
+        status = vessel_create(ctx, &d, &w->bodies, &w->shapes, &w->joints, &w->vessels, &row, error);
+    if (status == FRAM_OK)
+        give_added_mass(fixed, w->vessels.body[row], &w->bodies);
+    return status;
+}
+
+/* A hull inside a wall would be thrown out of it by the first step. */
+static fram_status check_clear_of_walls(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
+                                        int32_t row, fram_error *error)
+{
+    if (s->domain.boundary != DOMAIN_WALLS)
+        return FRAM_OK;
+    const scenario_domain *d = &s->domain;
+    vec2_array plan = {0};
+    fram_status status = build_footprint(ctx, w, w->vessels.body[row], false, &plan, error);
+    if (status != FRAM_OK)
+        return status;
+    box2 hull = polygon_bounds((polygon){plan.data, plan.count});
+    array_free(ctx, &plan);
+    bool inside_x = hull.lo.x >= d->x_min && hull.hi.x <= d->x_max;
+    bool inside_y = hull.lo.y >= d->y_min && hull.hi.y <= d->y_max;
+    if (inside_x && inside_y)
+        return FRAM_OK;
+    return vessel_fault(s, entry, inside_x ? "y" : "x", error,
+                        "the hull covers x from %.5g to %.5g m, y from %.5g to %.5g m, and so reaches into the walls "
+                        "of the domain: move it or the walls, or choose domain.boundary: open",
+                        hull.lo.x, hull.hi.x, hull.lo.y, hull.hi.y);
+}
+
+fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, world *w,
+                         fram_error *error)
+{
+    int32_t row = w->vessels.count;
+    fram_status status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);
+    if (status == FRAM_OK)
+        status = build_station(ctx, s, entry, m, row, w, error);
+    return status == FRAM_OK ? check_clear_of_walls(ctx, s, entry, w, row, error) : status;
+}

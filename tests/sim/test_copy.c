@@ -1,0 +1,46 @@
+/* A world is copied with all that its next steps depend on: original and copy go the same way, each by itself, stepped
+   by one model. */
+#include "scene.h"
+
+static const char moored_in_ice[] =
+    "run: {time_step: 0.02, duration: 10}\nvessel:\n  mode: free\n"
+    "  hull: {length: 60, beam: 14, draught: 5, freeboard: 3, parallel_midbody: 0.3}\n"
+    "  hydrodynamics: {source: estimate}\n"
+    "  mooring:\n    lines:\n      - {count: 4, spacing_deg: 90, direction_deg: 45, distance: 400, pretension: 2e5}\n"
+    "  thrusters: [{x: 20, thrust: 3e5}]\n"
+    "  positioning: {active: true, feed_forward: measured, observer: kalman}\n"
+    "domain: {boundary: open, x_min: -200, x_max: 200, y_min: -200, y_max: 200}\n"
+    "environment: {current_speed: 0.3, wind_speed: 12, wind_direction_deg: 90}\n"
+    "ice:\n  source: floes\n  thickness: 0.6\n  floes:\n"
+    "    - {x: 38.2, y: 2, length: 16, width: 60, yaw_deg: 10, velocity_x: -2}\n"
+    "    - {x: 3, y: 16, length: 12, width: 12, velocity_y: -0.6}\n";
+
+static uint64_t steps(scene *k, world *w, int count)
+{
+    fram_error error = {0};
+    for (int i = 0; i < count; i++)
+        assert_ok(world_step(&k->ctx, &k->m, w, &error), error);
+    return world_hash(w);
+}
+
+START_TEST(original_and_copy_go_the_same_way)
+{
+    scene k;
+    world copy;
+    fram_error error = {0};
+    scene_open(&k, moored_in_ice);
+    scene_steps(&k, 60);
+    ck_assert(k.w.memory.count > 0); /* contacts that are remembered */
+    const wrench push = {{2e5, 0, 0}, {0, 0, 1e6}};
+    assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
+    assert_ok(world_copy(&k.ctx, &k.w, &copy, &error), error);
+    uint64_t then = world_hash(&k.w), hash = steps(&k, &copy, 60);
+    ck_assert(world_hash(&k.w) == then);
+    ck_assert(hash != then);
+    ck_assert(steps(&k, &k.w, 60) == hash);
+    world_free(&k.ctx, &copy);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("copy", original_and_copy_go_the_same_way)
