@@ -254,7 +254,7 @@ static fram_status as_failure(fram_status status, fram_error *error)
 }
 
 /* How the run stands, last of all: whatever fails before, run.json does not stay at "running".  One that cannot be
-   replaced is removed, which may make the room that it takes. */
+   replaced is removed, which may make the room that it takes; that memory ran out is told all the same. */
 static fram_status end_summary(run *r, const char *state, const char *message, fram_error *error)
 {
     fram_status status = write_summary(r, state, message, error);
@@ -263,7 +263,8 @@ static fram_status end_summary(run *r, const char *state, const char *message, f
     char path[PATH_SIZE];
     if (join_path(r->options->folder, "run.json", path, NULL) == FRAM_OK)
         (void)unlink(path);
-    return write_summary(r, state, message, NULL) == FRAM_OK ? FRAM_OK : status;
+    bool replaced = write_summary(r, state, message, NULL) == FRAM_OK;
+    return replaced && status != FRAM_ERROR_MEMORY ? FRAM_OK : status;
 }
 
 /* Steps, then all that is written at the end.  The first error is the one to report. */
