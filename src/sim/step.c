@@ -1,10 +1,12 @@
 #include "sim/step.h"
 
+#include "model/world_invariants.h"
 #include "sim/feed.h"
 #include "sim/ice_loads.h"
 #include "sim/station_forces.h"
 #include "vessel/path.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -299,6 +301,25 @@ static fram_status stage_failure(const world *w, fram_status status, fram_error 
                      w->clock.time[0], why);
 }
 
+#ifndef NDEBUG
+/* Stops the program where an invariant does not hold, and says which. */
+static void assert_invariant(context *ctx, const world *w, bool is_broken, const char *text)
+{
+    if (is_broken)
+        log_write(ctx, LOG_ERROR, "step %lld: %s", (long long)w->clock.step[0], text);
+    assert(!is_broken);
+}
+
+static void assert_stage(context *ctx, const model *m, const world *w, int stage)
+{
+    char text[INVARIANT_TEXT] = "";
+    if (stage == STAGE_SOLVE)
+        assert_invariant(ctx, w, contact_invariant_broken(w, text), text);
+    if (stage == STAGE_STRAYS)
+        assert_invariant(ctx, w, world_invariant_broken(m, w, text), text);
+}
+#endif
+
 fram_status world_step_watched(context *ctx, const model *m, world *w, const step_watch *watch, fram_error *error)
 {
     typedef fram_status (*stage)(context *, const model *, world *, fram_error *);
@@ -314,6 +335,9 @@ fram_status world_step_watched(context *ctx, const model *m, world *w, const ste
         fram_status status = stages[i](ctx, m, w, error);
         if (status != FRAM_OK)
             return stage_failure(w, status, error);
+#ifndef NDEBUG
+        assert_stage(ctx, m, w, i);
+#endif
         if (watch)
             watch->done(watch->user, (step_stage)i);
     }
