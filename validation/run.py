@@ -2,6 +2,7 @@
 """The validation book: every case of the ladder, one page each.
 
   validation/run.py [--quick] [--only NAME ...] [--out DIR] [--jobs N]
+  validation/run.py --index           the first page anew, which says what was made on other code than there is now
 
 --quick leaves out the cases of many long runs.  Pages and figures go to DIR (docs/validation), with verdicts.json, from
 which cases that are not run now keep their line on the first page.  Runs that the same program has finished are read
@@ -86,7 +87,7 @@ def page(name, case, cost, head):
 
 def index(book, names):
     """The book's first page: every case with its verdict, what did not agree, and what was not made."""
-    verdicts = book["cases"]
+    verdicts, now = book["cases"], status.of_checkout()
     agree = sum(v["good"] for v in verdicts.values())
     lines = ["# Validation", "",
              "Made by `make validate`; `VALIDATE_FLAGS=--quick` runs the cases of a few minutes, `--only NAME` one. "
@@ -94,17 +95,21 @@ def index(book, names):
              "what was found, good or bad. Nothing is tuned to a case: parameters are those of its source or the "
              "defaults. Some bounds were set after a first run: their pages say so, and such a check shows that "
              "nothing has changed since, no more. What "
-             "disagrees, and the size of each known error, stands in the [limits](../limits.md).", "",
+             "disagrees, and the size of each known error, stands in the [limits](../limits.md). The last column names "
+             "the code that has changed since a page was made: its numbers may have changed with it "
+             "(`make validate-status` compares with the code of now).", "",
              f"{agree} of {len(verdicts)} cases agree. "
              + " ".join(book["times"][key] for key in ("whole", "quick") if key in book["times"]), ""]
     for rung, title in RUNGS.items():
         of_rung = {n: v for n, v in verdicts.items() if v["rung"] == rung}
         if not of_rung:
             continue
-        lines += [f"## {rung}. {title}", "", "| case | verdict | checks | made |", "|---|---|---|---|"]
+        lines += [f"## {rung}. {title}", "", "| case | verdict | checks | made | other code since |",
+                  "|---|---|---|---|---|"]
         for name, v in sorted(of_rung.items(), key=lambda item: item[1]["title"]):
             lines.append(f"| [{v['title']}]({name}.md) | {'agrees' if v['good'] else '**does not agree**'} | "
-                         f"{v['checks'] - len(v['failed'])} of {v['checks']} | {v['made']} |")
+                         f"{v['checks'] - len(v['failed'])} of {v['checks']} | {v['made']} | "
+                         f"{', '.join(status.changed(v, now)) or 'none'} |")
         lines.append("")
     failed = [(n, what) for n, v in verdicts.items() for what in v["failed"]]
     if failed:
@@ -134,6 +139,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", nargs="+", metavar="NAME")
     parser.add_argument("--out", type=pathlib.Path, default=ladder.ROOT / "docs" / "validation")
+    parser.add_argument("--index", action="store_true")
     parser.add_argument("--jobs", type=int, default=ladder.JOBS, help="runs side by side (one a core)")
     options = parser.parse_args()
     ladder.JOBS = options.jobs
@@ -141,6 +147,9 @@ def main():
     ladder.WORK.mkdir(parents=True, exist_ok=True)
 
     modules = {p.stem.removeprefix("case_"): importlib.import_module(p.stem) for p in sorted(HERE.glob("case_*.py"))}
+    if options.index:
+        write_book(options.out, read_book(options.out / "verdicts.json", modules), modules)
+        return 0
     unknown = set(options.only or []) - set(modules)
     if unknown:
         parser.error(f"no case {', '.join(sorted(unknown))}; there are {', '.join(modules)}")

@@ -72,6 +72,12 @@ def adopt():
     BOOK.write_text(json.dumps(book, indent=1, sort_keys=True) + "\n")
 
 
+def changed(verdict, now):
+    """Parts whose code is not that which a page was made on."""
+    was = verdict.get("code", {})
+    return [part for part in PARTS if was.get(part) != now[part]]
+
+
 def main():
     if sys.argv[1:] == ["--adopt"]:
         adopt()
@@ -79,8 +85,7 @@ def main():
     now, cases = of_checkout(), json.loads(BOOK.read_text())["cases"]
     older = {}
     for name, verdict in cases.items():
-        was = verdict.get("code", {})
-        other = [part for part in PARTS if was.get(part) != now[part]]
+        other = changed(verdict, now)
         if other:
             older.setdefault((verdict["made"], ", ".join(other)), []).append(name)
     fresh = len(cases) - sum(map(len, older.values()))
