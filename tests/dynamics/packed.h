@@ -58,4 +58,12 @@ static inline int32_t packed_vessel(rig *r, int rows, double mass, double speed)
     return ship;
 }
 
+/* A plate with its underside in the tops of all floes of columns [first, end): a body with columns x rows contacts. */
+static inline int32_t packed_plate(rig *r, int first, int end, int rows, double mass)
+{
+    vec3 size = {PACKED_SPACING * (end - first), PACKED_ROW * rows, 1};
+    vec3 place = {PACKED_SPACING * (0.5 * (first + end) - 0.5), PACKED_ROW * (rows - 1) / 2, 0.999};
+    return rig_box(r, MOTION_DYNAMIC, size, mass / (size.x * size.y * size.z), place);
+}
+
 #endif
