@@ -34,7 +34,8 @@ static box3 solid_box(const mesh *surface, mat3 r)
     return box;
 }
 
-box3 body_box(const body_table *bodies, const shape_store *shapes, int32_t slot)
+/* Of a body's shape, global frame. */
+static box3 body_box(const body_table *bodies, const shape_store *shapes, int32_t slot)
 {
     int32_t row = bodies->shape[slot];
     mat3 r = quat_matrix(bodies->orientation[slot]);

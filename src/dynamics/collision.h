@@ -35,14 +35,4 @@ fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape
                              contact_array *contacts, index_array *patch_pairs, collision_scratch *scratch,
                              fram_error *error);
 
-/* Manifold of two convex polyhedra given in a common frame: up to 4 points with depth > 0; normal from b to a.  Returns
-   the number of points; axis in: remembered separating axis or zero, out: new one when separated. feature gets a small
-   integer per point that names the features met. */
-typedef struct manifold_point {
-    vec3 point; /* midway between the two surfaces */
-    double depth;
-    uint32_t feature;
-} manifold_point;
-int polyhedra_manifold(const polyhedron *a, const polyhedron *b, vec3 *normal, manifold_point out[4], vec3 *axis);
-
 #endif

@@ -45,9 +45,6 @@ struct collision_scratch {
     ARRAY(narrow_room) rooms; /* of each thread */
 };
 
-/* Box of a body's shape in the global frame. */
-box3 body_box(const body_table *bodies, const shape_store *shapes, int32_t slot);
-
 /* ---- broad_boxes.c ---- */
 
 /* Brings travels up to date and renews fat boxes: of bodies that left theirs, and then of all that have used up half of

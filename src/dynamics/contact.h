@@ -16,8 +16,8 @@ typedef struct contact {
     double depth;         /* overlap along the normal; < 0: open by that much, may close but not cross [m] */
     double impulse_limit; /* largest normal impulse of this step [N s], INFINITY without crushing */
     double friction_static, friction_kinetic;
-    bool correct;        /* false: no position correction at all (SPEC 9) */
-    bool crush_infinite; /* between two bodies of infinite mass: takes impulse_limit while approaching (SPEC 6) */
+    bool correct;        /* false: no position correction at all */
+    bool crush_infinite; /* between two bodies of infinite mass: takes impulse_limit while approaching */
     int32_t patch;       /* row of the crushing patch, -1 without */
     uint64_t key;        /* names the same geometric feature from step to step, unique within a step; warm start */
     double impulse[3];   /* result: normal, tangent 1, tangent 2 [N s] */

@@ -2,6 +2,7 @@
    names. */
 #include "dynamics/solver_rows.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -165,6 +166,7 @@ fram_status contacts_remember(solver *s, const body_table *bodies, const contact
     sort_entries(s->entries, count, sorted, s->entries + contacts->count);
     memory->count = count;
     for (int32_t i = 0; i < count; i++) {
+        assert(i == 0 || s->entries[i - 1].key <= s->entries[i].key);
         memory->key[i] = s->entries[i].key;
         memory->impulse[i] = contact_impulse(&contacts->data[s->entries[i].contact]);
     }

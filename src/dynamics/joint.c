@@ -195,7 +195,7 @@ fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, cons
         factorise(j);
         s->joints.count++;
     }
-    return guided_bodies_find(s) ? FRAM_OK : error_memory(error);
+    return FRAM_OK;
 }
 
 void joint_rows_recall(solver *s, const joint_table *joints)

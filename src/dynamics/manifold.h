@@ -4,6 +4,12 @@
 
 #include "dynamics/collision.h"
 
+typedef struct manifold_point {
+    vec3 point; /* midway between the two surfaces */
+    double depth;
+    uint32_t feature;
+} manifold_point;
+
 /* Largest polygon that is clipped; faces with more than half as many vertices are thinned. */
 enum { CLIP_MOST = 128 };
 
@@ -59,8 +65,10 @@ static inline bool clearly_less(double depth, double than, double slack)
     return depth + slack < PREFERENCE * (than + slack);
 }
 
-/* polyhedra_manifold with seams, slack and open points. */
-int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
-                              manifold_point out[4], vec3 *axis);
+/* Manifold of two convex polyhedra given in a common frame: up to 4 points; normal from b to a.  Returns the number of
+   points; axis in: remembered separating axis or zero, out: new one when separated.  The feature of a point is a small
+   integer that names the features met. */
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
+                       manifold_point out[4], vec3 *axis);
 
 #endif

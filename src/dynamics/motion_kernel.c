@@ -129,8 +129,8 @@ V8_INLINE lanes_quat turned(lanes_quat q, lanes3 spin, v8 dt)
     return (lanes_quat){next.w * share, next.x * share, next.y * share, next.z * share};
 }
 
-/* The free motion of a rigid body over dt: turned by dt m with SPEC 9's quaternion step, which is the Cayley map, and
-   with the midpoint rule for m; energy and the vector of angular momentum are kept to rounding for any dt (Simo and
+/* The free motion of a rigid body over dt: turned by dt m by the normalised quaternion step, which is the Cayley map,
+   and with the midpoint rule for m; energy and the vector of angular momentum are kept to rounding for any dt (Simo and
    Wong 1991, algorithm C; Lewis and Simo 1994). */
 void KERNEL(motion_advance)(body_table *bodies, double dt, int32_t first, int32_t end)
 {

@@ -210,7 +210,7 @@ static int touch_pieces(context *ctx, narrow_room *s, const party *a, const part
     seam_masks seams;
     if (!place_piece(ctx, a, piece_a, &s->piece_a, &seams.a) || !place_piece(ctx, b, piece_b, &s->piece_b, &seams.b))
         return -1;
-    return polyhedra_manifold_masked(&s->piece_a, &s->piece_b, seams, near, normal, out, axis);
+    return polyhedra_manifold(&s->piece_a, &s->piece_b, seams, near, normal, out, axis);
 }
 
 /* ---- pairs ---- */

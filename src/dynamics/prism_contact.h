@@ -46,7 +46,7 @@ typedef struct prism_meeting {
 int prism_meeting_points(const prism *a, const prism *b, const prism_meeting *m, nearness near, polyhedron *a_room,
                          polyhedron *b_room, vec3 *normal, manifold_point out[4], vec3 *axis);
 
-/* Like polyhedra_manifold_masked; a_room, b_room: scratch with room for a piece of PIECE_MOST_VERTICES vertices. */
+/* Like polyhedra_manifold; a_room, b_room: scratch with room for a piece of PIECE_MOST_VERTICES vertices. */
 int prism_manifold(const prism *a, const prism *b, nearness near, polyhedron *a_room, polyhedron *b_room, vec3 *normal,
                    manifold_point out[4], vec3 *axis);
 

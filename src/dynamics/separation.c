@@ -182,8 +182,8 @@ static bool parted_along(const polyhedron *a, const polyhedron *b, vec3 axis, do
     return vec3_dot(axis, axis) > 0 && project(a, axis).low - project(b, axis).high > slack;
 }
 
-int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
-                              manifold_point out[4], vec3 *axis)
+int polyhedra_manifold(const polyhedron *a, const polyhedron *b, seam_masks seams, nearness near, vec3 *normal,
+                       manifold_point out[4], vec3 *axis)
 {
     if (parted_along(a, b, *axis, near.slack))
         return 0;
@@ -213,14 +213,4 @@ int polyhedra_manifold_masked(const polyhedron *a, const polyhedron *b, seam_mas
     *normal = of_b ? n : vec3_neg(n);
     return of_b ? contact_at_face(b, best->face, a, near, true, out)
                 : contact_at_face(a, best->face, b, near, false, out);
-}
-
-/* Overlap alone. */
-int polyhedra_manifold(const polyhedron *a, const polyhedron *b, vec3 *normal, manifold_point out[4], vec3 *axis)
-{
-    int n = polyhedra_manifold_masked(a, b, (seam_masks){0, 0}, (nearness){0, 0}, normal, out, axis), kept = 0;
-    for (int i = 0; i < n; i++)
-        if (out[i].depth > 0)
-            out[kept++] = out[i];
-    return kept;
 }

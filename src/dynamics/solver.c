@@ -4,6 +4,7 @@
 #include "dynamics/motion.h"
 #include "dynamics/solver_rows.h"
 
+#include <assert.h>
 #include <string.h>
 
 solver *solver_create(context *ctx)
@@ -90,7 +91,7 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
 {
     if (!solver_bodies_begin(s, bodies))
         return error_memory(error);
-    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    fram_status status = solver_joints_make(s, dt, bodies, joints, error);
     if (status == FRAM_OK)
         status = contact_rows_make(s, settings, dt, bodies, contacts, error);
     if (status != FRAM_OK)
@@ -116,6 +117,36 @@ static fram_status solve_in_order(solver *s, const solver_settings *settings, do
     return status;
 }
 
+#ifndef NDEBUG
+/* What whoever writes contacts and joints owes the solver. */
+static void assert_input(const body_table *bodies, const joint_table *joints, const contact_array *contacts)
+{
+    enum { WORLD = -1 };
+    const double rounding = 1e-9; /* of unit vectors */
+    for (int32_t i = 0; i < bodies->count; i++) {
+        quat q = bodies->orientation[i];
+        double square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+        assert(!body_is_alive(bodies, i) || fabs(square - 1) < rounding);
+    }
+    for (int32_t i = 0; i < joints->count; i++) {
+        assert(joints->a[i] >= WORLD && joints->a[i] < bodies->count);
+        assert(joints->b[i] >= WORLD && joints->b[i] < bodies->count);
+    }
+    for (int32_t i = 0; i < contacts->count; i++) {
+        const contact *c = &contacts->data[i];
+        vec3 t1, t2;
+        contact_tangents(c->normal, &t1, &t2);
+        assert(c->a >= 0 && c->a < bodies->count && c->b >= 0 && c->b < bodies->count && c->a != c->b);
+        assert(body_is_alive(bodies, c->a) && body_is_alive(bodies, c->b));
+        assert(fabs(vec3_dot(c->normal, c->normal) - 1) < rounding);
+        assert(fabs(vec3_dot(t1, t1) - 1) < rounding && fabs(vec3_dot(t2, t2) - 1) < rounding);
+        assert(fabs(vec3_dot(t1, t2)) < rounding && fabs(vec3_dot(t1, c->normal)) < rounding &&
+               fabs(vec3_dot(t2, c->normal)) < rounding);
+        assert(c->impulse_limit >= 0 && c->friction_static >= 0 && c->friction_kinetic >= 0 && isfinite(c->depth));
+    }
+}
+#endif
+
 fram_status solver_solve(context *ctx, solver *s, const solver_settings *settings, double dt, body_table *bodies,
                          const wrench *loads, joint_table *joints, contact_array *contacts,
                          contact_memory_table *memory, solver_report *report, fram_error *error)
@@ -126,6 +157,9 @@ fram_status solver_solve(context *ctx, solver *s, const solver_settings *setting
     fram_status status = bodies_check(bodies, error);
     if (status != FRAM_OK)
         return status;
+#ifndef NDEBUG
+    assert_input(bodies, joints, contacts);
+#endif
     if (settings->kind == SOLVER_FAST)
         status = solver_solve_fast(s, settings, dt, bodies, loads, joints, contacts, memory, report, error);
     else if (settings->kind == SOLVER_SEQUENTIAL || settings->kind == SOLVER_ACCURATE)
@@ -189,7 +223,7 @@ fram_status solver_correct_positions(context *ctx, solver *s, const solver_setti
         return solver_correct_fast(s, settings, dt, bodies, joints, contacts, error);
     if (!solver_bodies_begin(s, bodies))
         return error_memory(error);
-    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    fram_status status = solver_joints_make(s, dt, bodies, joints, error);
     if (status != FRAM_OK)
         return status;
     if (!make_correction_rows(s, settings, dt, bodies, contacts))

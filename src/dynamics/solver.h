@@ -1,5 +1,6 @@
-/* The multibody solve of one step (SPEC 7): new velocities from forces, contacts and joints; and the split-impulse
-   position correction (SPEC 9).  Several solvers stand behind this interface and can run the same scene. */
+/* The multibody solve of one step: new velocities from forces, contacts and joints; and the split-impulse
+   position correction (Metrikin 2014; docs/theory.md).  Several solvers stand behind this interface and can run the
+   same scene. */
 #ifndef DYNAMICS_SOLVER_H
 #define DYNAMICS_SOLVER_H
 
@@ -17,7 +18,7 @@ typedef struct solver_settings {
     int32_t iterations;          /* velocity sweeps */
     int32_t position_iterations; /* position correction sweeps */
     bool warm_start;
-    double correction_rate;  /* beta_0 of the position correction, 0.8 (SPEC 9) */
+    double correction_rate;  /* beta_0 of the position correction, 0.8 */
     double contact_skin;     /* bodies nearer than this touch: gaps close down to it, no more [m] */
     bool baumgarte;          /* comparison switch: correct overlap through velocity instead */
     double tolerance;        /* accurate: stop when the largest residual is below this; fast: sweeps that change no

@@ -1,41 +1,45 @@
 /* Faster than sweep by sweep.  A velocity is a linear function of the impulses, v = v0 + M^-1 J^T p, and where no bound
    is active the solution makes f(p) = v.M v / 2 - wanted.p least (driven bodies have no mass and are not in v; what
-   they bring to a row counts as wanted of it).  After every other sweep p goes on by the combination of its last ways
-   that makes f least: conjugate gradients with the sweep as preconditioner, of which the three-term recurrence is
-   widened to four ways.  All scalar products are ones of velocities, hence sums over bodies, far fewer than contacts; p
-   and v go on by the same shares, and stay true to each other.
+   they bring to a row counts as wanted of it).  After every other sweep p takes a step along the combination of its
+   last search directions that makes f least: conjugate gradients with the sweep as preconditioner, of which the
+   three-term recurrence is widened to four directions.  All scalar products are ones of velocities, hence sums over
+   bodies, far fewer than contacts; p and v take the same steps, and stay true to each other.
 
    Bounds.  The next sweep draws p back into its bounds.  A step that did more harm than good - the sweeps after it take
-   more energy than those before it, and f has grown or they take much more - is put back, and the next comes later.
-   Sliding friction is no minimum of f: its impulse follows the normal one.  So the work of ways in the tangents of
-   sliding contacts is left out of the gradient; otherwise friction would come out too strong.  (After Silcowitz, Niebe
-   and Erleben 2010, who take the ratio of two sweeps' squares in place of the products.) */
+   more energy than those before it, and f has grown or they take much more - is rolled back, and the next comes later.
+   Sliding friction is no minimum of f, since its impulse follows the normal one, and a capped normal impulse stays at
+   its cap: both are left out of the gradient; otherwise friction would come out too strong, and steps go far beyond
+   caps. (After Silcowitz, Niebe and Erleben 2010, who take the ratio of two sweeps' squares in place of the products.)
+ */
 #include "base/pool.h"
 #include "dynamics/solver_fast.h"
 
 #include <string.h>
 
-/* How far a step may go, in ways: at the start, and by what factor that grows after a step that was shortened and kept
-   half its promise, and shrinks after one that failed.  Where light bodies carry a heavy one the best step is huge
-   (about the ratio of masses); taken at once, what the bounds cut off from it would be large against the light ones. */
-#define FIRST_REACH 16.0
-#define REACH_FACTOR 8.0
-#define LAST_REACH 1e6
-#define WORTH_REACHING 1e-9 /* of the bodies' energy: less is promised by rounding as well */
+/* How far a step may go, in lengths of a search direction: at the start, and by what factor that grows after a step
+   that was shortened and took half of its predicted decrease, and shrinks after one that failed.  Where light bodies
+   carry a heavy one the best step is huge (about the ratio of masses); taken at once, what the bounds cut off from it
+   would be large against the light ones. */
+#define FIRST_STEP_LIMIT 16.0
+#define STEP_LIMIT_FACTOR 8.0
+#define LARGEST_STEP_LIMIT 1e6
+#define WORTH_PREDICTING 1e-9 /* of the bodies' energy: rounding predicts as much */
 #define ROUNDING 1e-14
-/* A pull below this share of the bodies' energy is rounding: a small way of large velocities is known no better. */
-#define PULL_ROUNDING 1e-14
+/* A gradient below this share of the bodies' energy is rounding: that of a short direction of large velocities is known
+   no better. */
+#define GRADIENT_ROUNDING 1e-14
 /* Sweeps that take less than this share of the bodies' energy work on rounding errors: velocities are right to 1e-13.
  */
 #define NOTHING_LEFT 1e-26
-/* Sweeps from one step to the next: the ways of two tell nearly as much as twice the number of single ones.  Twice as
+/* Sweeps from one step to the next: the directions of two tell nearly as much as
+   twice the number of single ones.  Twice as
    many after a step that failed. */
 enum { SHORTEST_PAUSE = 2, LONGEST_PAUSE = 64 };
-/* A step after which sweeps take more than so many times what they took before is put back though f has become less: it
-   leaves friction so far from right that few bodies come to rest later than without any steps. */
+/* A step after which sweeps take more than so many times what they took before is rolled back though f has become less:
+   it leaves friction so far from right that few bodies come to rest later than without any steps. */
 #define MUCH_MORE 4.0
-/* A way that repeats others to within this share of its square adds nothing. */
-#define DEPENDENT_WAY 1e-10
+/* A direction that repeats others to within this share of its square adds nothing. */
+#define DEPENDENT_DIRECTION 1e-10
 
 void acceleration_free(context *ctx, acceleration *a)
 {
@@ -43,7 +47,7 @@ void acceleration_free(context *ctx, acceleration *a)
         sweep_vector *v = &a->vector[i];
         array_free(ctx, &v->start.memory);
         array_free(ctx, &v->kept.memory);
-        for (int w = 0; w < SWEEP_WAYS - 1; w++)
+        for (int w = 0; w < SEARCH_DIRECTIONS - 1; w++)
             array_free(ctx, &v->store[w].memory);
     }
 }
@@ -54,11 +58,11 @@ static bool vector_begin(context *ctx, sweep_vector *v, aligned_rows *x, int64_t
     v->count = rows * BATCH_LANES;
     if (!rows_reserve(ctx, &v->start, rows) || !rows_reserve(ctx, &v->kept, rows))
         return false;
-    for (int w = 1; w < SWEEP_WAYS; w++) {
+    for (int w = 1; w < SEARCH_DIRECTIONS; w++) {
         if (!rows_reserve(ctx, &v->store[w - 1], rows))
             return false;
         rows_clear(&v->store[w - 1], rows);
-        v->way[w] = v->store[w - 1].rows;
+        v->direction[w] = v->store[w - 1].rows;
     }
     memcpy(v->start.rows, x->rows, (size_t)v->count * sizeof *x->rows);
     return true;
@@ -107,7 +111,7 @@ static void products_of_block(void *arg, int32_t block, int32_t thread)
     int32_t first = BODY_BLOCK * block, end = first + BODY_BLOCK, all = padded_rows(f);
     (void)thread;
     f->blocks.data[block] = KERNEL_PICK(st->s->ctx, solver_products)(
-        f->velocity.rows, v->start.rows, v->way, f->mass.rows, f->inertia.rows, first, end < all ? end : all);
+        f->velocity.rows, v->start.rows, v->direction, f->mass.rows, f->inertia.rows, first, end < all ? end : all);
 }
 
 /* A body if nothing can move it, else one at rest. */
@@ -122,17 +126,17 @@ static solver_body fixed_part(const solver_body *body)
 }
 
 /* Products of velocities, and what joints add to them: softness, and what they and fixed bodies ask for.  value: f. */
-static way_products products_of(stage *st, double wanted, double *value)
+static direction_products products_of(stage *st, double wanted, double *value)
 {
     solver *s = st->s;
     fast_rows *f = s->fast;
     const sweep_vector *v = &f->acceleration.vector[VECTOR_JOINT];
-    way_products sum = {.square = 0};
+    direction_products sum = {.square = 0};
     pool_run(s->ctx, products_of_block, st, f->blocks.count);
     for (int32_t i = 0; i < f->blocks.count; i++) {
         sum.square += f->blocks.data[i].square;
-        for (int w = 0; w < SWEEP_WAYS; w++) {
-            sum.way[w] += f->blocks.data[i].way[w];
+        for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
+            sum.direction[w] += f->blocks.data[i].direction[w];
             sum.velocity[w] += f->blocks.data[i].velocity[w];
         }
     }
@@ -145,10 +149,10 @@ static way_products products_of(stage *st, double wanted, double *value)
             double now = j->impulse[r] - v->start.rows[at];
             double bias = j->bias[r] + row_axis_velocity(&j->axis[r], &body, &base);
             *value += (bias + 0.5 * j->softness * j->impulse[r]) * j->impulse[r];
-            for (int w = 0; w < SWEEP_WAYS; w++) {
-                double way = w == 0 ? now : v->way[w][at];
-                sum.way[w] += j->softness * now * way;
-                sum.velocity[w] += (bias + j->softness * j->impulse[r]) * way;
+            for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
+                double along = w == 0 ? now : v->direction[w][at];
+                sum.direction[w] += j->softness * now * along;
+                sum.velocity[w] += (bias + j->softness * j->impulse[r]) * along;
             }
         }
     }
@@ -168,9 +172,9 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
         return false;
     rows_clear(&f->joint_impulse, joints);
     gather_joints(s);
-    a->ways = 0;
-    a->reach = FIRST_REACH;
-    a->promised = 0;
+    a->directions = 0;
+    a->step_limit = FIRST_STEP_LIMIT;
+    a->predicted = 0;
     a->pause = SHORTEST_PAUSE;
     a->wanted_start = wanted_at_start(st);
     memset(a->product, 0, sizeof a->product);
@@ -187,28 +191,29 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
 static void slide_task(const stage *st, batch_task *task)
 {
     const sweep_vector *v = &st->s->fast->acceleration.vector[VECTOR_IMPULSE];
-    KERNEL_PICK(st->s->ctx, solver_slide)(&st->view, task->first, task->end, v->start.rows, v->way, task->slide);
+    KERNEL_PICK(st->s->ctx, solver_slide)(&st->view, task->first, task->end, v->start.rows, v->direction, task->slide);
 }
 
-/* The work of each way in the tangents of sliding contacts. */
-static void slides_of(stage *st, double slide[SWEEP_WAYS])
+/* The work of each direction in the tangents of sliding contacts and at caps. */
+static void slides_of(stage *st, double slide[SEARCH_DIRECTIONS])
 {
     const batch_plan *plan = &st->s->fast->plan;
     stage_run(st, slide_task);
     for (int32_t t = 0; t < plan->tasks.count; t++)
-        for (int w = 0; w < SWEEP_WAYS; w++)
+        for (int w = 0; w < SEARCH_DIRECTIONS; w++)
             slide[w] += plan->tasks.data[t].slide[w];
 }
 
 /* ---- the step ---- */
 
-/* Shares that make f least: product share = pull, by Cholesky's method without the ways that repeat others. */
-static void solve_shares(double product[SWEEP_WAYS][SWEEP_WAYS], const double pull[SWEEP_WAYS], int ways,
-                         double share[SWEEP_WAYS])
+/* Shares that make f least: product share = gradient, by Cholesky's method without the directions that repeat others.
+ */
+static void solve_shares(double product[SEARCH_DIRECTIONS][SEARCH_DIRECTIONS], const double gradient[SEARCH_DIRECTIONS],
+                         int count, double share[SEARCH_DIRECTIONS])
 {
-    double l[SWEEP_WAYS][SWEEP_WAYS] = {{0}}, y[SWEEP_WAYS] = {0};
-    for (int i = 0; i < ways; i++) {
-        double pivot = product[i][i], rest = pull[i];
+    double l[SEARCH_DIRECTIONS][SEARCH_DIRECTIONS] = {{0}}, y[SEARCH_DIRECTIONS] = {0};
+    for (int i = 0; i < count; i++) {
+        double pivot = product[i][i], rest = gradient[i];
         for (int k = 0; k < i; k++) {
             double sum = product[i][k];
             for (int q = 0; q < k; q++)
@@ -217,41 +222,42 @@ static void solve_shares(double product[SWEEP_WAYS][SWEEP_WAYS], const double pu
             pivot -= l[i][k] * l[i][k];
             rest -= l[i][k] * y[k];
         }
-        if (pivot > DEPENDENT_WAY * product[i][i]) {
+        if (pivot > DEPENDENT_DIRECTION * product[i][i]) {
             l[i][i] = sqrt(pivot);
             y[i] = rest / l[i][i];
         } else {
             memset(l[i], 0, sizeof l[i]);
         }
     }
-    for (int i = ways - 1; i >= 0; i--) {
+    for (int i = count - 1; i >= 0; i--) {
         double sum = y[i];
-        for (int q = i + 1; q < ways; q++)
+        for (int q = i + 1; q < count; q++)
             sum -= l[q][i] * share[q];
         share[i] = l[i][i] > 0 ? sum / l[i][i] : 0;
     }
 }
 
-/* Keeps a step within reach; true when it was longer. */
-static bool shorten(double share[SWEEP_WAYS], double reach)
+/* Keeps a step within its limit; true when it was longer. */
+static bool shorten(double share[SEARCH_DIRECTIONS], double limit)
 {
     double longest = 0;
-    for (int w = 0; w < SWEEP_WAYS; w++)
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++)
         longest = fmax(longest, fabs(share[w]));
-    if (longest <= reach)
+    if (longest <= limit)
         return false;
-    for (int w = 0; w < SWEEP_WAYS; w++)
-        share[w] *= reach / longest;
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++)
+        share[w] *= limit / longest;
     return true;
 }
 
-/* What a step takes from f if no bound is met. */
-static double decrease_of(const acceleration *a, const double pull[SWEEP_WAYS], const double share[SWEEP_WAYS])
+/* Predicted decrease: what a step takes from f if no bound is met.  gradient: minus that of f, along each direction. */
+static double decrease_of(const acceleration *a, const double gradient[SEARCH_DIRECTIONS],
+                          const double share[SEARCH_DIRECTIONS])
 {
     double sum = 0;
-    for (int w = 0; w < SWEEP_WAYS; w++) {
-        sum += share[w] * pull[w];
-        for (int k = 0; k < SWEEP_WAYS; k++)
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
+        sum += share[w] * gradient[w];
+        for (int k = 0; k < SEARCH_DIRECTIONS; k++)
             sum -= 0.5 * share[w] * share[k] * a->product[w][k];
     }
     return sum;
@@ -271,57 +277,57 @@ static void combine_block(void *arg, int32_t block, int32_t thread)
     int64_t first = (int64_t)block * COMBINE_BLOCK, end = first + COMBINE_BLOCK;
     (void)thread;
     KERNEL_PICK(c->ctx, solver_combine)
-    (c->v->x->rows, c->v->start.rows, c->v->kept.rows, c->v->way, c->share, first,
+    (c->v->x->rows, c->v->start.rows, c->v->kept.rows, c->v->direction, c->share, first,
      end < c->v->count ? end : c->v->count);
 }
 
-/* Moves all vectors on; the newest way takes the place of the oldest. */
-static void move_on(context *ctx, acceleration *a, const double share[SWEEP_WAYS])
+/* Moves all vectors on; the newest direction takes the place of the oldest. */
+static void move_on(context *ctx, acceleration *a, const double share[SEARCH_DIRECTIONS])
 {
     for (int i = 0; i < VECTORS; i++) {
         sweep_vector *v = &a->vector[i];
         combination c = {ctx, v, share};
         pool_run(ctx, combine_block, &c, (int32_t)((v->count + COMBINE_BLOCK - 1) / COMBINE_BLOCK));
-        double *newest = v->way[SWEEP_WAYS - 1];
-        for (int w = SWEEP_WAYS - 1; w > 1; w--)
-            v->way[w] = v->way[w - 1];
-        v->way[1] = newest;
+        double *newest = v->direction[SEARCH_DIRECTIONS - 1];
+        for (int w = SEARCH_DIRECTIONS - 1; w > 1; w--)
+            v->direction[w] = v->direction[w - 1];
+        v->direction[1] = newest;
     }
 }
 
-/* Products of the new way, which is made of the old ones, follow from theirs. */
-static void remember_way(acceleration *a, const double share[SWEEP_WAYS])
+/* Products of the new direction, which is made of the old ones, follow from theirs. */
+static void remember_direction(acceleration *a, const double share[SEARCH_DIRECTIONS])
 {
-    double part[SWEEP_WAYS], with[SWEEP_WAYS], square = 0, wanted = 0;
-    for (int w = 0; w < SWEEP_WAYS; w++)
+    double part[SEARCH_DIRECTIONS], with[SEARCH_DIRECTIONS], square = 0, wanted = 0;
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++)
         part[w] = share[w] + (w == 0 ? 1 : 0);
-    for (int w = 0; w < SWEEP_WAYS; w++) {
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
         with[w] = 0;
-        for (int k = 0; k < SWEEP_WAYS; k++)
+        for (int k = 0; k < SEARCH_DIRECTIONS; k++)
             with[w] += part[k] * a->product[k][w];
         square += part[w] * with[w];
-        wanted += part[w] * a->wanted_way[w];
+        wanted += part[w] * a->wanted_along[w];
     }
-    for (int w = SWEEP_WAYS - 1; w > 1; w--) {
-        for (int k = SWEEP_WAYS - 1; k > 1; k--)
+    for (int w = SEARCH_DIRECTIONS - 1; w > 1; w--) {
+        for (int k = SEARCH_DIRECTIONS - 1; k > 1; k--)
             a->product[w][k] = a->product[w - 1][k - 1];
-        a->wanted_way[w] = a->wanted_way[w - 1];
+        a->wanted_along[w] = a->wanted_along[w - 1];
     }
-    for (int w = 2; w < SWEEP_WAYS; w++)
+    for (int w = 2; w < SEARCH_DIRECTIONS; w++)
         a->product[w][1] = a->product[1][w] = with[w - 1];
     a->product[1][1] = square;
-    a->wanted_way[1] = wanted;
+    a->wanted_along[1] = wanted;
     a->wanted_start += wanted;
-    a->ways = a->ways < SWEEP_WAYS - 1 ? a->ways + 1 : SWEEP_WAYS - 1;
+    a->directions = a->directions < SEARCH_DIRECTIONS - 1 ? a->directions + 1 : SEARCH_DIRECTIONS - 1;
 }
 
-/* Without friction f tells alone, and energies go up and down on the way. */
+/* Without friction f tells alone, and energies go up and down meanwhile. */
 static bool failed(const acceleration *a, double value, double energy)
 {
-    return a->ways > 0 && energy > (value > a->kept_value ? 1 : MUCH_MORE) * a->kept_energy;
+    return a->directions > 0 && energy > (value > a->kept_value ? 1 : MUCH_MORE) * a->kept_energy;
 }
 
-static void put_back(solver *s)
+static void roll_back(solver *s)
 {
     acceleration *a = &s->fast->acceleration;
     for (int i = 0; i < VECTORS; i++) {
@@ -331,44 +337,44 @@ static void put_back(solver *s)
         memcpy(v->start.rows, v->kept.rows, size);
     }
     scatter_joints(s);
-    a->ways = 0;
+    a->directions = 0;
 }
 
 bool acceleration_go_on(stage *st, double energy, double wanted)
 {
     solver *s = st->s;
     acceleration *a = &s->fast->acceleration;
-    double value, slide[SWEEP_WAYS] = {0}, pull[SWEEP_WAYS], share[SWEEP_WAYS] = {0};
+    double value, slide[SEARCH_DIRECTIONS] = {0}, gradient[SEARCH_DIRECTIONS], share[SEARCH_DIRECTIONS] = {0};
     gather_joints(s);
-    way_products sum = products_of(st, wanted, &value);
+    direction_products sum = products_of(st, wanted, &value);
     a->scale = fmax(a->scale, sum.square);
-    if (energy <= NOTHING_LEFT * a->scale || sum.way[0] <= NOTHING_LEFT * a->scale)
+    if (energy <= NOTHING_LEFT * a->scale || sum.direction[0] <= NOTHING_LEFT * a->scale)
         return false;
     if (failed(a, value, energy)) {
-        put_back(s);
+        roll_back(s);
         a->wanted_start = a->kept_wanted;
-        a->reach = fmax(1, a->reach / REACH_FACTOR);
-        a->promised = 0;
+        a->step_limit = fmax(1, a->step_limit / STEP_LIMIT_FACTOR);
+        a->predicted = 0;
         a->pause = 2 * a->pause < LONGEST_PAUSE ? 2 * a->pause : LONGEST_PAUSE;
         return true;
     }
     if (!st->positions)
         slides_of(st, slide);
-    a->wanted_way[0] = wanted - a->wanted_start;
-    for (int w = 0; w < SWEEP_WAYS; w++) {
-        a->product[0][w] = a->product[w][0] = sum.way[w];
-        pull[w] = a->wanted_way[w] - sum.velocity[w] + slide[w];
+    a->wanted_along[0] = wanted - a->wanted_start;
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
+        a->product[0][w] = a->product[w][0] = sum.direction[w];
+        gradient[w] = a->wanted_along[w] - sum.velocity[w] + slide[w];
     }
-    for (int w = 0; w < SWEEP_WAYS; w++)
-        if (fabs(pull[w]) <= PULL_ROUNDING * sum.square)
-            pull[w] = 0;
-    solve_shares(a->product, pull, a->ways + 1, share);
-    if (a->promised > WORTH_REACHING * a->scale && a->kept_value - value >= 0.5 * a->promised)
-        a->reach = fmin(LAST_REACH, a->reach * REACH_FACTOR);
-    a->promised = shorten(share, a->reach) ? decrease_of(a, pull, share) : 0;
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++)
+        if (fabs(gradient[w]) <= GRADIENT_ROUNDING * sum.square)
+            gradient[w] = 0;
+    solve_shares(a->product, gradient, a->directions + 1, share);
+    if (a->predicted > WORTH_PREDICTING * a->scale && a->kept_value - value >= 0.5 * a->predicted)
+        a->step_limit = fmin(LARGEST_STEP_LIMIT, a->step_limit * STEP_LIMIT_FACTOR);
+    a->predicted = shorten(share, a->step_limit) ? decrease_of(a, gradient, share) : 0;
     move_on(s->ctx, a, share);
     scatter_joints(s);
-    remember_way(a, share);
+    remember_direction(a, share);
     a->kept_value = value;
     a->kept_energy = energy;
     a->kept_wanted = wanted;
@@ -383,8 +389,8 @@ bool acceleration_end(stage *st, double energy, double wanted)
     double value;
     gather_joints(s);
     products_of(st, wanted, &value);
-    if (a->ways > 0 && (value > a->free_value || failed(a, value, energy))) {
-        put_back(s);
+    if (a->directions > 0 && (value > a->free_value || failed(a, value, energy))) {
+        roll_back(s);
         value = a->kept_value;
     }
     return value <= a->free_value;

@@ -1,6 +1,7 @@
 /* Which contacts are solved together: groups, tasks and their colours, batches. */
 #include "dynamics/solver_batch.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* More groups than this make a body a hub: its contacts would need as many colours and batches. */
@@ -366,6 +367,21 @@ static bool make_batches(context *ctx, batch_plan *plan, const body_table *bodie
     return true;
 }
 
+#ifndef NDEBUG
+/* No movable body stands in two lanes of a batch, and all rows exist. */
+static void assert_lanes_share_nothing(const batch_plan *plan, const contact_batch *batch)
+{
+    for (int32_t i = 0; i < 2 * BATCH_LANES; i++) {
+        int32_t row = i < BATCH_LANES ? batch->a[i] : batch->b[i - BATCH_LANES];
+        assert(row >= 0 && row < plan->slot.count);
+        for (int32_t k = 0; k < i; k++) {
+            int32_t other = k < BATCH_LANES ? batch->a[k] : batch->b[k - BATCH_LANES];
+            assert(row != other || !is_movable(plan, row));
+        }
+    }
+}
+#endif
+
 bool batch_plan_make(context *ctx, batch_plan *plan, const body_table *bodies, const contact_array *contacts)
 {
     array_clear(&plan->batches);
@@ -378,5 +394,9 @@ bool batch_plan_make(context *ctx, batch_plan *plan, const body_table *bodies, c
     for (int32_t t = 0; t < plan->tasks.count; t++)
         if (!make_batches(ctx, plan, bodies, contacts, t))
             return false;
+#ifndef NDEBUG
+    for (int32_t i = 0; i < plan->batches.count; i++)
+        assert_lanes_share_nothing(plan, &plan->batches.data[i]);
+#endif
     return true;
 }

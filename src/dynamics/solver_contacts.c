@@ -1,4 +1,4 @@
-/* Contact rows: made, warm started, swept, judged and written back (SPEC 6, 7). */
+/* Contact rows: made, warm started, swept, judged and written back. */
 #include "dynamics/solver_rows.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
 /* The fast solver: the sweeps of the reference on batches of contacts (solver_batch.h), in another order, and sped up
-   by what their ways tell (solver_accelerate.c). */
+   by steps along their directions (solver_accelerate.c). */
 #include "dynamics/solver_fast.h"
 #include "base/pool.h"
 #include "dynamics/motion.h"
@@ -154,7 +154,7 @@ static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), align
     }
     /* Sweeps alone never give energy for long. */
     for (int32_t i = 0; !acceleration_end(st, sums.energy, sums.wanted) && i < MOST_AFTERWARDS; i++) {
-        a->ways = 0;
+        a->directions = 0;
         sums = sweep_once(st, sweep);
         ++*iterations;
     }
@@ -244,7 +244,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         return error_memory(error);
     fast_rows *f = s->fast;
     f->planned = -1;
-    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    fram_status status = solver_joints_make(s, dt, bodies, joints, error);
     if (status != FRAM_OK)
         return status;
     stage st = {.s = s,
@@ -347,7 +347,7 @@ fram_status solver_correct_fast(solver *s, const solver_settings *settings, doub
     if (!fast_rows_begin(s) || !solver_bodies_begin(s, bodies))
         return error_memory(error);
     fast_rows *f = s->fast;
-    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    fram_status status = solver_joints_make(s, dt, bodies, joints, error);
     if (status != FRAM_OK)
         return status;
     joint_rows_for_positions(s, settings->correction_rate, dt);

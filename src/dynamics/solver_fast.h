@@ -1,6 +1,6 @@
-/* The fast solver from inside: its rows in memory, stages of work on tasks, and how its files share the work.
-   solver_fast_rows.c fills rows, solver_fast_warm.c starts from the last impulses, solver_accelerate.c speeds sweeps
-   up, solver_fast.c tells the order of it all. */
+/* The fast solver from inside: one module in four files, which call each other through this header and nothing else
+   does. solver_fast_rows.c fills rows, solver_fast_warm.c starts from the last impulses, solver_accelerate.c steps
+   along the directions of sweeps, solver_fast.c tells the order of it all; what they share is struct fast_rows. */
 #ifndef DYNAMICS_SOLVER_FAST_H
 #define DYNAMICS_SOLVER_FAST_H
 
@@ -17,25 +17,26 @@ typedef struct aligned_rows {
 /* What changes in a sweep: velocities of body rows, impulses of contacts, impulses of joints. */
 enum { VECTOR_VELOCITY, VECTOR_IMPULSE, VECTOR_JOINT, VECTORS };
 
-/* One of these: where the last sweeps began, what they are put back to when they fail, and the ways they went. */
+/* One of these: where the last sweeps began, what they are rolled back to when they fail, and the search
+   directions. */
 typedef struct sweep_vector {
     aligned_rows *x;
     int64_t count; /* doubles, a multiple of eight */
-    aligned_rows start, kept, store[SWEEP_WAYS - 1];
-    double *way[SWEEP_WAYS]; /* from the newest, 1, to the oldest; 0 stands for the way since `start` */
+    aligned_rows start, kept, store[SEARCH_DIRECTIONS - 1];
+    double *direction[SEARCH_DIRECTIONS]; /* from the newest, 1, to the oldest; 0 stands for that since `start` */
 } sweep_vector;
 
 typedef struct acceleration {
     sweep_vector vector[VECTORS];
-    double product[SWEEP_WAYS][SWEEP_WAYS]; /* of ways */
-    double wanted_way[SWEEP_WAYS], wanted_start;
+    double product[SEARCH_DIRECTIONS][SEARCH_DIRECTIONS]; /* of directions */
+    double wanted_along[SEARCH_DIRECTIONS], wanted_start;
     double kept_value, kept_energy, kept_wanted;
-    double free_value; /* f without impulses */
-    double reach;      /* longest step, in ways */
-    double promised;   /* decrease of f by the last step if it was shortened, else 0 */
-    double scale;      /* largest product of the velocities with themselves */
-    int32_t ways;      /* remembered */
-    int32_t pause;     /* sweeps to the next step */
+    double free_value;  /* f without impulses */
+    double step_limit;  /* longest step, in directions */
+    double predicted;   /* decrease of f by the last step if it was shortened, else 0 */
+    double scale;       /* largest product of the velocities with themselves */
+    int32_t directions; /* remembered */
+    int32_t pause;      /* sweeps to the next step */
 } acceleration;
 
 typedef struct fast_rows {
@@ -48,11 +49,11 @@ typedef struct fast_rows {
     aligned_rows bias, correction; /* position correction: a row for each point */
     aligned_rows joint_impulse;    /* a row for each joint */
     acceleration acceleration;
-    int32_array joint_row;      /* body row of each entry of solver.bodies */
-    int32_array island;         /* of each body row, see solver_warm.c */
-    ARRAY(energy_gain) gain;    /* of each body row that leads an island */
-    ARRAY(way_products) blocks; /* sums of each block of body rows */
-    int32_t planned;            /* number of contacts that the rows were made for, -1: none */
+    int32_array joint_row;            /* body row of each entry of solver.bodies */
+    int32_array island;               /* of each body row, see solver_warm.c */
+    ARRAY(energy_gain) gain;          /* of each body row that leads an island */
+    ARRAY(direction_products) blocks; /* sums of each block of body rows */
+    int32_t planned;                  /* number of contacts that the rows were made for, -1: none */
 } fast_rows;
 
 /* What a stage of the work needs; each uses a part. */
@@ -104,8 +105,6 @@ void fast_velocities_centre(fast_rows *f);
 void fast_driven_make(stage *st);
 /* Kinetic energy of the body rows. */
 double fast_energy(const fast_rows *f);
-/* The body slot in a lane; that of the hub for its copies. */
-int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t row);
 /* Rows of bodies and contacts. */
 bool fast_rows_make(stage *st);
 /* Whether the rows are still those of these contacts: bodies, normals, arms. */
@@ -123,10 +122,10 @@ void fast_velocities_of_impulses(stage *st);
 
 /* Before the first sweep.  x: multipliers of contacts, `rows` of them.  false: no memory. */
 bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows);
-/* After sweeps that took `energy` and left `wanted`: goes on by what their ways tell, or puts back what failed.  false:
-   nothing is left to do. */
+/* After sweeps that took `energy` and left `wanted`: takes a step along their directions, or rolls back what failed.
+   false: nothing is left to do. */
 bool acceleration_go_on(stage *st, double energy, double wanted);
-/* After the last sweep: puts back what failed.  false: the impulses still give energy to the bodies. */
+/* After the last sweep: rolls back what failed.  false: the impulses still give energy to the bodies. */
 bool acceleration_end(stage *st, double energy, double wanted);
 void acceleration_free(context *ctx, acceleration *a);
 

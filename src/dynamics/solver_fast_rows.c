@@ -338,7 +338,8 @@ static bool same3(const double *rows, int at, int32_t lane, vec3 v)
            rows[BATCH_LANES * (at + 2) + lane] == v.z;
 }
 
-int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t row)
+/* The body slot in a lane; that of the hub for its copies. */
+static int32_t lane_slot(const batch_plan *plan, const contact_batch *batch, int32_t row)
 {
     bool copy = batch->hub >= 0 && row >= batch->copies && row < batch->copies + BATCH_LANES;
     return plan->slot.data[copy ? batch->hub : row];

@@ -92,7 +92,7 @@ static int32_t joints_of(const solver *s, int32_t place)
     return count;
 }
 
-bool guided_bodies_find(solver *s)
+static bool find_guided(solver *s)
 {
     array_clear(&s->guided);
     if (!array_reserve(s->ctx, &s->guided, s->joints.count))
@@ -122,6 +122,13 @@ bool guided_bodies_find(solver *s)
     }
     s->joints.count = kept;
     return true;
+}
+
+fram_status solver_joints_make(solver *s, double dt, const body_table *bodies, const joint_table *joints,
+                               fram_error *error)
+{
+    fram_status status = joint_rows_make(s, dt, bodies, joints, error);
+    return status == FRAM_OK && !find_guided(s) ? error_memory(error) : status;
 }
 
 vec3 guided_velocity(const guided_body *g, vec3 velocity)

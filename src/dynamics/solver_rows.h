@@ -22,8 +22,8 @@ typedef struct solver_body {
 /* One direction at a point: relative velocity = direction . (v_a - v_b) + arm_a . w_a - arm_b . w_b. */
 typedef struct row_axis {
     vec3 direction, arm_a, arm_b;
-    vec3 push_a, push_b; /* velocity change of a (and minus that of b) per impulse */
-    vec3 turn_a, turn_b;
+    vec3 linear_a, linear_b; /* change of a's velocity (and minus that of b's) per impulse */
+    vec3 angular_a, angular_b;
 } row_axis;
 
 typedef struct contact_row {
@@ -106,7 +106,8 @@ void solver_bodies_load(solver *s, const body_table *bodies);
 
 /* ---- solver_contacts.c ---- */
 
-/* Rows of all contacts of bodies that can be moved; impulses of the others are set here (SPEC 6: two driven bodies). */
+/* Rows of all contacts of bodies that can be moved; impulses of the others, between two driven bodies, are
+   set here. */
 fram_status contact_rows_make(solver *s, const solver_settings *settings, double dt, const body_table *bodies,
                               contact_array *contacts, fram_error *error);
 /* The impulse of a contact between two bodies that nothing can move. */
@@ -143,7 +144,7 @@ void joint_rows_finish(solver *s, double dt, joint_table *joints);
 void joint_rows_for_positions(solver *s, double rate, double dt);
 /* Returns an energy as contact sweeps do: minus the changes of impulses times the velocities that asked for them. */
 double joint_row_sweep(solver *s);
-/* Largest unmet velocity of the block [m/s]; turning is taken at the radius of gyration. */
+/* Largest unmet velocity of the block [m/s]; rotation is taken at the radius of gyration. */
 double joint_row_residual(const solver *s, const joint_block *block);
 
 /* One exact solution of the block alone; returns an energy as sweeps do. */
@@ -153,9 +154,10 @@ double joint_block_solve(joint_block *j, solver_body *body, solver_body *base);
 
 /* Whether an impulse can move it. */
 bool solver_body_is_movable(const solver_body *b);
-/* Takes the joints of guided bodies out of the joint rows, and leaves those bodies the mass that is free.  Before rows
-   of contacts are made.  false: no memory. */
-bool guided_bodies_find(solver *s);
+/* Rows of all joints.  Those of guided bodies are taken out of them, and those bodies are left the mass that is free.
+   Before rows of contacts are made. */
+fram_status solver_joints_make(solver *s, double dt, const body_table *bodies, const joint_table *joints,
+                               fram_error *error);
 /* Velocities of guided bodies in the table become those that their joints lock; the joints carry what that takes. */
 void guided_bodies_drive(solver *s, body_table *bodies);
 /* Joints of guided bodies carry what contacts press on them, besides. */
@@ -204,7 +206,7 @@ static inline double wanted_velocity(const contact *c, const solver_settings *se
     return settings->baumgarte && c->correct && c->depth > 0 ? settings->correction_rate * c->depth / dt : 0;
 }
 
-/* beta of SPEC 9: none for a contact at its cap, since that overlap is crushed ice. */
+/* beta of the position correction (Metrikin 2014): none for a contact at its cap, since that overlap is crushed ice. */
 static inline double correction_share(const contact *c, double rate)
 {
     double carried = c->impulse_limit > 0 ? c->impulse[0] / c->impulse_limit : 1;
@@ -223,10 +225,10 @@ static inline row_axis row_axis_make(const solver_body *a, const solver_body *b,
     return (row_axis){.direction = direction,
                       .arm_a = arm_a,
                       .arm_b = arm_b,
-                      .push_a = sym3_mul_vec(a->inverse_mass, direction),
-                      .push_b = sym3_mul_vec(b->inverse_mass, direction),
-                      .turn_a = sym3_mul_vec(a->inverse_inertia, arm_a),
-                      .turn_b = sym3_mul_vec(b->inverse_inertia, arm_b)};
+                      .linear_a = sym3_mul_vec(a->inverse_mass, direction),
+                      .linear_b = sym3_mul_vec(b->inverse_mass, direction),
+                      .angular_a = sym3_mul_vec(a->inverse_inertia, arm_a),
+                      .angular_b = sym3_mul_vec(b->inverse_inertia, arm_b)};
 }
 
 static inline double row_axis_velocity(const row_axis *x, const solver_body *a, const solver_body *b)
@@ -238,8 +240,8 @@ static inline double row_axis_velocity(const row_axis *x, const solver_body *a, 
 /* Change of the velocity along x per impulse along y. */
 static inline double row_axis_coupling(const row_axis *x, const row_axis *y)
 {
-    return vec3_dot(x->direction, vec3_add(y->push_a, y->push_b)) + vec3_dot(x->arm_a, y->turn_a) +
-           vec3_dot(x->arm_b, y->turn_b);
+    return vec3_dot(x->direction, vec3_add(y->linear_a, y->linear_b)) + vec3_dot(x->arm_a, y->angular_a) +
+           vec3_dot(x->arm_b, y->angular_b);
 }
 
 /* The same of two directions of a contact, as its own row sees it. */
@@ -251,10 +253,10 @@ static inline double contact_row_coupling(const contact_row *row, const solver_b
 
 static inline void row_axis_push(const row_axis *x, solver_body *a, solver_body *b, double impulse)
 {
-    a->velocity = vec3_mad(a->velocity, x->push_a, impulse);
-    a->angular_velocity = vec3_mad(a->angular_velocity, x->turn_a, impulse);
-    b->velocity = vec3_mad(b->velocity, x->push_b, -impulse);
-    b->angular_velocity = vec3_mad(b->angular_velocity, x->turn_b, -impulse);
+    a->velocity = vec3_mad(a->velocity, x->linear_a, impulse);
+    a->angular_velocity = vec3_mad(a->angular_velocity, x->angular_a, impulse);
+    b->velocity = vec3_mad(b->velocity, x->linear_b, -impulse);
+    b->angular_velocity = vec3_mad(b->angular_velocity, x->angular_b, -impulse);
 }
 
 #endif

@@ -120,12 +120,12 @@ V8_INLINE void apply(lanes_body *a, lanes_body *b, lanes3 arm_a, lanes3 arm_b, l
 }
 
 /* K times a direction. */
-V8_INLINE lanes3 answer(const lanes_body *a, const lanes_body *b, lanes3 arm_a, lanes3 arm_b, lanes3 d, bool general)
+V8_INLINE lanes3 response(const lanes_body *a, const lanes_body *b, lanes3 arm_a, lanes3 arm_b, lanes3 d, bool general)
 {
-    lanes3 turn_a = lanes_sym3_mul(a->inertia, lanes3_cross(arm_a, d)),
-           turn_b = lanes_sym3_mul(b->inertia, lanes3_cross(arm_b, d));
-    return lanes3_add(lanes3_add(pushed(a, d, general), lanes3_cross(turn_a, arm_a)),
-                      lanes3_add(pushed(b, d, general), lanes3_cross(turn_b, arm_b)));
+    lanes3 angular_a = lanes_sym3_mul(a->inertia, lanes3_cross(arm_a, d)),
+           angular_b = lanes_sym3_mul(b->inertia, lanes3_cross(arm_b, d));
+    return lanes3_add(lanes3_add(pushed(a, d, general), lanes3_cross(angular_a, arm_a)),
+                      lanes3_add(pushed(b, d, general), lanes3_cross(angular_b, arm_b)));
 }
 
 V8_INLINE lanes3 composed(const lanes_frame *f, v8 p0, v8 p1, v8 p2)
@@ -153,9 +153,9 @@ V8_INLINE void prepare_batch(const batch_view *view, int32_t number, bool genera
     for (int32_t k = 0; k < batch->points; k++) {
         double *p = point_rows(view, batch->first + k);
         lanes3 arm_a = row3(p, POINT_ARM_A), arm_b = row3(p, POINT_ARM_B);
-        lanes3 n = answer(&a, &b, arm_a, arm_b, f.normal, general);
-        lanes3 t1 = answer(&a, &b, arm_a, arm_b, f.tangent[0], general);
-        lanes3 t2 = answer(&a, &b, arm_a, arm_b, f.tangent[1], general);
+        lanes3 n = response(&a, &b, arm_a, arm_b, f.normal, general);
+        lanes3 t1 = response(&a, &b, arm_a, arm_b, f.tangent[0], general);
+        lanes3 t2 = response(&a, &b, arm_a, arm_b, f.tangent[1], general);
         v8 k00 = lanes3_dot(f.normal, n), k11 = lanes3_dot(f.tangent[0], t1), k12 = lanes3_dot(f.tangent[1], t1);
         v8 k22 = lanes3_dot(f.tangent[1], t2);
         if (general) {
@@ -191,7 +191,7 @@ void KERNEL(solver_prepare)(const batch_view *view, int32_t first, int32_t end)
 /* ---- friction ---- */
 
 typedef struct friction_lanes {
-    v8 fixed, kinetic;
+    v8 at_rest, sliding;
 } friction_lanes;
 
 V8_INLINE friction_lanes friction_load(const batch_view *view, int32_t number)
@@ -203,8 +203,8 @@ V8_INLINE friction_lanes friction_load(const batch_view *view, int32_t number)
 /* As friction_radius of solver_contacts.c. */
 V8_INLINE v8 radius_of(const friction_lanes *mu, v8 slip, v8 normal)
 {
-    v8 kinetic = mu->kinetic * normal;
-    return v8_select(v8_less(kinetic, slip), kinetic, mu->fixed * normal);
+    v8 kinetic = mu->sliding * normal;
+    return v8_select(v8_less(kinetic, slip), kinetic, mu->at_rest * normal);
 }
 
 /* Draws (p1, p2) back to the circle. */
@@ -502,7 +502,7 @@ V8_INLINE v8_mask slides_of(const batch_view *view, const friction_lanes *mu, in
 }
 
 V8_INLINE void slide_batch(const batch_view *view, int32_t number, const friction_lanes *mu, const double *start,
-                           double *const *way, v8 sum[SWEEP_WAYS])
+                           double *const *direction, v8 sum[SEARCH_DIRECTIONS])
 {
     const contact_batch *batch = &view->batch[number];
     hub_spread(view, batch);
@@ -517,18 +517,19 @@ V8_INLINE void slide_batch(const batch_view *view, int32_t number, const frictio
         v8 u0 = v8_select(capped, v8_min(lanes3_dot(f.normal, u) - row(p, POINT_BIAS), zero), zero);
         v8 u1 = v8_select(slides, lanes3_dot(f.tangent[0], u), zero),
            u2 = v8_select(slides, lanes3_dot(f.tangent[1], u), zero);
-        v8 way0 = row(impulse, 0) - row(start + at, 0);
-        v8 way1 = row(impulse, 1) - row(start + at, 1), way2 = row(impulse, 2) - row(start + at, 2);
-        sum[0] = sum[0] + (u0 * way0 + (u1 * way1 + u2 * way2));
-        for (int w = 1; w < SWEEP_WAYS; w++)
-            sum[w] = sum[w] + (u0 * row(way[w] + at, 0) + (u1 * row(way[w] + at, 1) + u2 * row(way[w] + at, 2)));
+        v8 step0 = row(impulse, 0) - row(start + at, 0);
+        v8 step1 = row(impulse, 1) - row(start + at, 1), step2 = row(impulse, 2) - row(start + at, 2);
+        sum[0] = sum[0] + (u0 * step0 + (u1 * step1 + u2 * step2));
+        for (int w = 1; w < SEARCH_DIRECTIONS; w++)
+            sum[w] = sum[w] + (u0 * row(direction[w] + at, 0) +
+                               (u1 * row(direction[w] + at, 1) + u2 * row(direction[w] + at, 2)));
     }
 }
 
-void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, const double *start, double *const *way,
-                          double sum[SWEEP_WAYS])
+void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, const double *start,
+                          double *const *direction, double sum[SEARCH_DIRECTIONS])
 {
-    v8 zero = v8_set(0), lanes[SWEEP_WAYS] = {zero, zero, zero, zero};
+    v8 zero = v8_set(0), lanes[SEARCH_DIRECTIONS] = {zero, zero, zero, zero};
     for (int32_t i = first; i < end; i++) {
         const contact_batch *batch = &view->batch[i];
         friction_lanes mu = friction_load(view, i);
@@ -536,9 +537,9 @@ void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, co
         for (int32_t k = 0; k < batch->points; k++)
             slides = slides || v8_any(slides_of(view, &mu, batch->first + k) | capped_of(view, batch->first + k));
         if (slides)
-            slide_batch(view, i, &mu, start, way, lanes);
+            slide_batch(view, i, &mu, start, direction, lanes);
     }
-    for (int w = 0; w < SWEEP_WAYS; w++)
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++)
         sum[w] = v8_sum(lanes[w]);
 }
 
@@ -569,8 +570,8 @@ V8_INLINE lanes_rows rows_subtract(lanes_rows a, lanes_rows b)
 V8_INLINE lanes_rows weighted(const lanes_rows *mass, const lanes_rows *inertia, const lanes_rows *v)
 {
     lanes3 linear = lanes_sym3_mul(mass->column, (lanes3){v->column[0], v->column[1], v->column[2]});
-    lanes3 turning = lanes_sym3_mul(inertia->column, (lanes3){v->column[3], v->column[4], v->column[5]});
-    return (lanes_rows){{linear.x, linear.y, linear.z, turning.x, turning.y, turning.z}};
+    lanes3 angular = lanes_sym3_mul(inertia->column, (lanes3){v->column[3], v->column[4], v->column[5]});
+    return (lanes_rows){{linear.x, linear.y, linear.z, angular.x, angular.y, angular.z}};
 }
 
 V8_INLINE v8 rows_dot(const lanes_rows *a, const lanes_rows *b)
@@ -581,28 +582,28 @@ V8_INLINE v8 rows_dot(const lanes_rows *a, const lanes_rows *b)
     return sum;
 }
 
-way_products KERNEL(solver_products)(const double *velocity, const double *start, double *const *way,
-                                     const double *mass, const double *inertia, int32_t first, int32_t end)
+direction_products KERNEL(solver_products)(const double *velocity, const double *start, double *const *direction,
+                                           const double *mass, const double *inertia, int32_t first, int32_t end)
 {
-    v8 with_way[SWEEP_WAYS], with_velocity[SWEEP_WAYS], square = v8_set(0);
-    for (int w = 0; w < SWEEP_WAYS; w++)
-        with_way[w] = with_velocity[w] = square;
+    v8 with_direction[SEARCH_DIRECTIONS], with_velocity[SEARCH_DIRECTIONS], square = v8_set(0);
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++)
+        with_direction[w] = with_velocity[w] = square;
     for (int32_t i = first; i < end; i += V8_LANES) {
-        lanes_rows m = rows_load(mass, i), turn = rows_load(inertia, i), v = rows_load(velocity, i);
+        lanes_rows m = rows_load(mass, i), j = rows_load(inertia, i), v = rows_load(velocity, i);
         lanes_rows now = rows_subtract(v, rows_load(start, i));
-        lanes_rows momentum = weighted(&m, &turn, &v), change = weighted(&m, &turn, &now);
+        lanes_rows momentum = weighted(&m, &j, &v), change = weighted(&m, &j, &now);
         square = square + rows_dot(&momentum, &v);
-        with_way[0] = with_way[0] + rows_dot(&change, &now);
+        with_direction[0] = with_direction[0] + rows_dot(&change, &now);
         with_velocity[0] = with_velocity[0] + rows_dot(&momentum, &now);
-        for (int w = 1; w < SWEEP_WAYS; w++) {
-            lanes_rows d = rows_load(way[w], i);
-            with_way[w] = with_way[w] + rows_dot(&change, &d);
+        for (int w = 1; w < SEARCH_DIRECTIONS; w++) {
+            lanes_rows d = rows_load(direction[w], i);
+            with_direction[w] = with_direction[w] + rows_dot(&change, &d);
             with_velocity[w] = with_velocity[w] + rows_dot(&momentum, &d);
         }
     }
-    way_products sums = {.square = v8_sum(square)};
-    for (int w = 0; w < SWEEP_WAYS; w++) {
-        sums.way[w] = v8_sum(with_way[w]);
+    direction_products sums = {.square = v8_sum(square)};
+    for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
+        sums.direction[w] = v8_sum(with_direction[w]);
         sums.velocity[w] = v8_sum(with_velocity[w]);
     }
     return sums;
@@ -610,15 +611,15 @@ way_products KERNEL(solver_products)(const double *velocity, const double *start
 
 /* ---- solver_combine ---- */
 
-void KERNEL(solver_combine)(double *x, double *start, double *kept, double *const *way, const double share[SWEEP_WAYS],
-                            int64_t first, int64_t end)
+void KERNEL(solver_combine)(double *x, double *start, double *kept, double *const *direction,
+                            const double share[SEARCH_DIRECTIONS], int64_t first, int64_t end)
 {
     for (int64_t i = first; i < end; i += V8_LANES) {
         v8 old = v8_load(x + i), began = v8_load(start + i), next = old + share[0] * (old - began);
-        for (int w = 1; w < SWEEP_WAYS; w++)
-            next = next + share[w] * v8_load(way[w] + i);
+        for (int w = 1; w < SEARCH_DIRECTIONS; w++)
+            next = next + share[w] * v8_load(direction[w] + i);
         v8_store(kept + i, old);
-        v8_store(way[SWEEP_WAYS - 1] + i, next - began);
+        v8_store(direction[SEARCH_DIRECTIONS - 1] + i, next - began);
         v8_store(start + i, next);
         v8_store(x + i, next);
     }

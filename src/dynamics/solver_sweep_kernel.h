@@ -13,13 +13,13 @@ typedef struct sweep_sums {
     double energy, wanted;
 } sweep_sums;
 
-/* Ways that an acceleration combines: that of the last sweeps and three earlier ones. */
-enum { SWEEP_WAYS = 4 };
+/* Search directions that an acceleration combines: that of the last sweeps and three earlier ones. */
+enum { SEARCH_DIRECTIONS = 4 };
 
-/* Of way 0 with each way, of the velocity with each way, and of the velocity with itself. */
-typedef struct way_products {
-    double way[SWEEP_WAYS], velocity[SWEEP_WAYS], square;
-} way_products;
+/* Of direction 0 with each, of the velocity with each, and of the velocity with itself. */
+typedef struct direction_products {
+    double direction[SEARCH_DIRECTIONS], velocity[SEARCH_DIRECTIONS], square;
+} direction_products;
 
 /* Masses and slips of the points from arms and the velocities before the step. */
 KERNEL_DECLARE(void, solver_prepare, (const batch_view *view, int32_t first, int32_t end));
@@ -42,20 +42,21 @@ KERNEL_DECLARE(sweep_sums, solver_correct,
 
 /* ---- for solver_accelerate.c ---- */
 
-/* sum[k] = velocity . way k over the tangents of sliding contacts.  Way 0 is that from `start` to the impulses, the
+/* sum[k] = velocity . direction k over the tangents of sliding contacts and the normals at their cap.
+   Direction 0 is that from `start` to the impulses, the
    others are given; all are laid out like the impulses. */
 KERNEL_DECLARE(void, solver_slide,
-               (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *way,
-                double sum[SWEEP_WAYS]));
-/* Products of bodies [first, end), eight at a time, weighted by their mass and inertia.  Ways as above, rows of
+               (const batch_view *view, int32_t first, int32_t end, const double *start, double *const *direction,
+                double sum[SEARCH_DIRECTIONS]));
+/* Products of bodies [first, end), eight at a time, weighted by their mass and inertia.  Directions as above, rows of
    velocities. */
-KERNEL_DECLARE(way_products, solver_products,
-               (const double *velocity, const double *start, double *const *way, const double *mass,
+KERNEL_DECLARE(direction_products, solver_products,
+               (const double *velocity, const double *start, double *const *direction, const double *mass,
                 const double *inertia, int32_t first, int32_t end));
-/* x, start and ways are vectors alike.  x goes on by share[k] of way k; `kept` becomes the old x, start the new one;
-   the way from the old start to the new one takes the place of the last way. */
+/* x, start and directions are vectors alike.  x goes on by share[k] of direction k; `kept` becomes the old x, start the
+   new one; the direction from the old start to the new one takes the place of the last one. */
 KERNEL_DECLARE(void, solver_combine,
-               (double *x, double *start, double *kept, double *const *way, const double share[SWEEP_WAYS],
+               (double *x, double *start, double *kept, double *const *direction, const double share[SEARCH_DIRECTIONS],
                 int64_t first, int64_t end));
 
 #endif

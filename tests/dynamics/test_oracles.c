@@ -1,4 +1,4 @@
-/* The rigid-body rows of the oracle table that need neither ice nor water: each at two time steps, with first order
+/* Rigid bodies against closed forms that need neither ice nor water: each at two time steps, with first order
  * shown. */
 #include "base/transcendental.h"
 #include "rig.h"
