@@ -56,11 +56,17 @@ static bool is_regular(sym3 a)
     return yy > SINGULAR * a.yy && zz - yz * yz / yy > SINGULAR * a.zz;
 }
 
-/* The thrusts of the free columns that serve `want` best: u = W^-1 B' y with (B W^-1 B' + softness) y = want. */
+/* The thrusts of the free columns that serve `want` best: u = W^-1 B' y with (B W^-1 B' + softness) y = want.  By
+   Cholesky's elimination: where few columns are free the matrix is nearly singular, and an inverse by cofactors would
+   lose the small pivots in rounding. */
 static vec3 multiplier_of(sym3 reach, double softness, vec3 want)
 {
-    reach.xx += softness, reach.yy += softness, reach.zz += softness;
-    return sym3_mul_vec(sym3_inverse(reach), want);
+    double xx = reach.xx + softness, yx = reach.xy / xx, zx = reach.xz / xx;
+    double yy = reach.yy - yx * reach.xy + softness, rest = reach.yz - yx * reach.xz, zy = rest / yy;
+    double zz = reach.zz - zx * reach.xz - zy * rest + softness;
+    double y = want.y - yx * want.x, z = (want.z - zx * want.x - zy * y) / zz;
+    y = y / yy - zy * z;
+    return vec3_make(want.x / xx - yx * y - zx * z, y, z);
 }
 
 /* Minimum-cost thrusts without limits; refined once, so that the residual is of rounding. */
@@ -73,7 +79,7 @@ static bool solve_free(const allocation_problem *p, double *u)
     for (int32_t i = 0; i < p->count; i++)
         u[i] = 0;
     for (int pass = 0; pass < 3; pass++) {
-        vec3 y = multiplier_of(reach, 0, missed(p, u));
+        vec3 y = sym3_mul_vec(sym3_inverse(reach), missed(p, u));
         for (int32_t i = 0; i < p->count; i++)
             u[i] += vec3_dot(effect_of(p, i), y) / p->columns[i].weight;
     }

@@ -479,10 +479,25 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-RIG_MAIN("solver", correction_leaves_a_fifth_of_the_depth, correction_yields_to_crushing, a_gap_closes_to_the_skin,
-         baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told, friction_is_bounded_by_the_capped_force,
-         driven_bodies_take_the_cap_while_approaching, static_friction_holds_more_than_kinetic,
-         heavy_body_under_a_light_one, heavy_body_pushes_light_ones, heavy_body_on_a_light_one_sinks_without_a_bang,
-         warm_start_helps, solvers_agree, pile_comes_to_rest, a_stack_stays_where_it_stands,
-         points_with_new_names_share_what_the_pair_carried, memory_is_sorted_and_matches,
+/* The share of last step's impulses that is taken: all where that costs energy, else the largest that gives none. */
+START_TEST(a_warm_start_gives_no_energy)
+{
+    ck_assert(energy_share((energy_gain){0, 0}) == 1);
+    ck_assert(energy_share((energy_gain){-3, 4}) == 1);
+    ck_assert(energy_share((energy_gain){-2, 4}) == 1); /* nothing is gained, to the last */
+    ck_assert(energy_share((energy_gain){1, 4}) == 0 && energy_share((energy_gain){0, 4}) == 0);
+    for (double linear = -0.1; linear > -2; linear -= 0.1) {
+        double share = energy_share((energy_gain){linear, 4});
+        ck_assert(share > 0 && share < 1);
+        assert_absolute(share * linear + 0.5 * share * share * 4, 0, 1e-15);
+    }
+}
+END_TEST
+
+RIG_MAIN("solver", a_warm_start_gives_no_energy, correction_leaves_a_fifth_of_the_depth, correction_yields_to_crushing,
+         a_gap_closes_to_the_skin, baumgarte_corrects_through_velocity, constant_cap_decelerates_as_told,
+         friction_is_bounded_by_the_capped_force, driven_bodies_take_the_cap_while_approaching,
+         static_friction_holds_more_than_kinetic, heavy_body_under_a_light_one, heavy_body_pushes_light_ones,
+         heavy_body_on_a_light_one_sinks_without_a_bang, warm_start_helps, solvers_agree, pile_comes_to_rest,
+         a_stack_stays_where_it_stands, points_with_new_names_share_what_the_pair_carried, memory_is_sorted_and_matches,
          added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)

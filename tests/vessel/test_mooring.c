@@ -52,6 +52,8 @@ START_TEST(spread_is_balanced_and_restores)
     /* Tension 400 kN, 100 m of height at 1 kN/m: H = 300 kN but for the stretch. */
     assert_relative(m.lines.tension[0], 4e5, 1e-6);
     assert_relative(m.lines.horizontal[0], 3e5, 1e-3);
+    /* They pull down. */
+    assert_relative(none.force.z, -8 * sqrt(4e5 * 4e5 - 3e5 * 3e5), 2e-3);
     wrench back = mooring_pull(&m.lines, 0, vec3_make(5, 0, 0), quat_identity());
     ck_assert(back.force.x < -1e4);
     assert_absolute(back.force.y, 0, 0.02 * fabs(back.force.x));
@@ -70,6 +72,30 @@ START_TEST(a_turret_does_not_hold_the_heading)
     wrench turned = mooring_pull(&m.lines, 0, m.b.bodies.position[0], quat_from_roll_pitch_yaw(0, 0, 1));
     assert_absolute(turned.moment.z, 0, 10);
     assert_absolute(turned.force.x, 0, 1);
+    /* Each line stays 10 m out in its own direction, however the ship lies. */
+    line_pull first = mooring_line_pull(&m.lines, 0, m.b.bodies.position[0], quat_from_roll_pitch_yaw(0, 0, 1));
+    assert_vec3_close(first.point, vec3_make(10 * real_cos(0.3), 10 * real_sin(0.3), -5), 1e-12);
+    unmoor(&m);
+}
+END_TEST
+
+/* What a step adds to the body's load and to the sum that is recorded: the pull of all lines, its moment about the
+   centre of mass. */
+START_TEST(a_step_adds_force_and_moment)
+{
+    moored m;
+    moor(&m, sample_line(0.3), 5);
+    m.b.bodies.position[0] = vec3_make(4, -3, 0.5);
+    m.b.bodies.orientation[0] = quat_from_roll_pitch_yaw(0.02, -0.05, 0.2);
+    wrench expected = mooring_pull(&m.lines, 0, m.b.bodies.position[0], m.b.bodies.orientation[0]);
+    wrench load = {{1, 2, 3}, {4, 5, 6}}, sum = {{0, 0, 0}, {0, 0, 0}};
+    assert_ok(mooring_step(&m.b.ctx, &m.lines, &m.b.vessels, &m.b.bodies, 1, &load, &sum, &m.b.events, &m.b.error),
+              m.b.error);
+    ck_assert(fabs(expected.moment.x) > 1e5 && fabs(expected.moment.z) > 1e5);
+    assert_vec3_close(sum.force, expected.force, 1e-6);
+    assert_vec3_close(sum.moment, expected.moment, 1e-3);
+    assert_vec3_close(vec3_sub(load.force, vec3_make(1, 2, 3)), expected.force, 1e-6);
+    assert_vec3_close(vec3_sub(load.moment, vec3_make(4, 5, 6)), expected.moment, 1e-3);
     unmoor(&m);
 }
 END_TEST
@@ -225,5 +251,6 @@ START_TEST(refusals)
 }
 END_TEST
 
-TEST_MAIN("mooring", spread_is_balanced_and_restores, a_turret_does_not_hold_the_heading, spring_offset,
-          tabulated_lines, faulty_tables, equilibrium_under_a_steady_load, lines_break_and_are_let_go, refusals)
+TEST_MAIN("mooring", spread_is_balanced_and_restores, a_turret_does_not_hold_the_heading, a_step_adds_force_and_moment,
+          spring_offset, tabulated_lines, faulty_tables, equilibrium_under_a_steady_load, lines_break_and_are_let_go,
+          refusals)

@@ -1,0 +1,128 @@
+/* Matrices of the water plane about other points and in other axes; observers against their own equations. */
+#include "testing.h"
+#include "vessel/observer.h"
+
+static const mat3 coupled = {{{6e6, 2e5, -3e6}, {2e5, 9e6, 4e7}, {-3e6, 4e7, 5e9}}};
+
+static double energy(mat3 m, vec3 v) { return 0.5 * vec3_dot(v, mat3_mul_vec(m, v)); }
+
+/* A body that turns about a point 3 m ahead and 2 m to port has there another velocity, and the same energy. */
+START_TEST(matrices_about_another_point)
+{
+    const double x = 3, y = 2;
+    mat3 moved = plane_matrix_moved(coupled, x, y);
+    const vec3 velocities[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}, {1, -2, 0.05}, {-0.5, 1, -0.2}};
+    for (int i = 0; i < 5; i++) {
+        vec3 v = velocities[i]; /* of the new point */
+        vec3 old = vec3_make(v.x + v.z * y, v.y - v.z * x, v.z);
+        assert_relative(energy(moved, v), energy(coupled, old), 1e-12);
+    }
+}
+END_TEST
+
+/* With y to starboard and yaw clockwise the same motion has sway and yaw of the other sign. */
+START_TEST(matrices_in_the_other_axes)
+{
+    mat3 flipped = plane_matrix_flipped(coupled);
+    const vec3 velocities[] = {{1, 2, 0.1}, {1, -2, 0.05}, {-0.5, 1, -0.2}};
+    for (int i = 0; i < 3; i++) {
+        vec3 v = velocities[i];
+        vec3 force = mat3_mul_vec(coupled, v), other = mat3_mul_vec(flipped, vec3_make(v.x, -v.y, -v.z));
+        assert_vec3_close(other, vec3_make(force.x, -force.y, -force.z), 1e-3);
+    }
+}
+END_TEST
+
+/* Without damping, and with a bias that does not fade, the passive observer's error has a triple pole at -w: from a
+   place that is off by E it is E (1 - 2 w t + w^2 t^2 / 2) exp(-w t). */
+START_TEST(the_passive_observers_poles)
+{
+    const double w = 0.3, dt = 1e-4, off = 2;
+    const plane_model m = {coupled, {{{0}}}};
+    const passive_tuning tuning = {w, 1e12};
+    for (int axis = 0; axis < 2; axis++) {
+        const mat3 plain = {{{6e6, 0, 0}, {0, 9e6, 0}, {0, 0, 5e9}}};
+        plane_model model = m;
+        model.mass = plain;
+        motion_estimate e = {.place = vec3_make(axis == 0 ? off : 0, axis == 1 ? off : 0, 0.7)};
+        for (int i = 1; i <= 150000; i++) {
+            passive_observer_step(&model, &tuning, &e, vec3_make(0, 0, 0), vec3_make(0, 0, 0.7), dt);
+            if (i % 10000 == 0) {
+                double t = i * dt, expected = off * (1 - 2 * w * t + 0.5 * w * w * t * t) * real_exp(-w * t);
+                assert_absolute(axis == 0 ? e.place.x : e.place.y, expected, 2e-3);
+            }
+        }
+    }
+}
+END_TEST
+
+static motion_estimate plus(motion_estimate e, const double v[9], double h)
+{
+    e.place = vec3_add(e.place, vec3_make(h * v[0], h * v[1], h * v[2]));
+    e.velocity = vec3_add(e.velocity, vec3_make(h * v[3], h * v[4], h * v[5]));
+    e.bias = vec3_add(e.bias, vec3_make(h * v[6], h * v[7], h * v[8]));
+    return e;
+}
+
+static void listed(motion_estimate e, double out[9])
+{
+    const vec3 all[3] = {e.place, e.velocity, e.bias};
+    for (int i = 0; i < 3; i++)
+        out[3 * i] = all[i].x, out[3 * i + 1] = all[i].y, out[3 * i + 2] = all[i].z;
+}
+
+/* Without noise the covariance of a single direction goes where the filter's own step takes a state displaced along it:
+   the Jacobian against differences. */
+START_TEST(the_kalman_filters_jacobian)
+{
+    const plane_model m = {coupled, {{{1e5, 0, 0}, {0, 3e5, 2e6}, {0, 1e6, 4e8}}}};
+    const kalman_tuning quiet = {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 500};
+    const motion_estimate at = {{3, -4, 0.8}, {1.2, -0.4, 0.03}, {4e5, -7e5, 3e6}};
+    const vec3 tau = {1e5, 2e5, -1e6};
+    const double dt = 0.5, scale[9] = {1, 1, 0.1, 1, 1, 0.1, 1e6, 1e6, 1e7};
+    for (int k = 0; k < 9; k++) {
+        double v[9] = {0}, ahead[9], behind[9];
+        v[k] = scale[k];
+        kalman_covariance p, none;
+        memset(&p, 0, sizeof p);
+        memset(&none, 0, sizeof none);
+        p.of[KALMAN_STATES * k + k] = v[k] * v[k];
+        motion_estimate e = at, f = plus(at, v, 1e-4), g = plus(at, v, -1e-4);
+        kalman_predict(&m, &quiet, &e, &p, tau, dt);
+        kalman_predict(&m, &quiet, &f, &none, tau, dt);
+        kalman_predict(&m, &quiet, &g, &none, tau, dt);
+        listed(f, ahead);
+        listed(g, behind);
+        for (int r = 0; r < 9; r++) {
+            for (int c = 0; c < 9; c++) {
+                double a = (ahead[r] - behind[r]) / 2e-4, b = (ahead[c] - behind[c]) / 2e-4;
+                ck_assert_msg(fabs(p.of[KALMAN_STATES * r + c] - a * b) <= 1e-6 * scale[r] * scale[c],
+                              "direction %d, entry (%d, %d): %g, by differences %g", k, r, c,
+                              p.of[KALMAN_STATES * r + c], a * b);
+            }
+        }
+    }
+}
+END_TEST
+
+/* A heading measured across half a turn is a small miss; measuring makes the covariance smaller, by the rule of two
+   variances. */
+START_TEST(a_measurement)
+{
+    const kalman_tuning tuning = {{3, 3, 0.2}, {0, 0, 0}, {0, 0, 0}, 500};
+    kalman_covariance p = kalman_begin(&tuning, vec3_make(1, 1, 1), vec3_make(1, 1, 1));
+    motion_estimate e = {.place = {0, 0, 3.1}};
+    p.of[0] = 16;                          /* of x: 4 m */
+    p.of[3] = p.of[KALMAN_STATES * 3] = 2; /* x with surge */
+    kalman_correct(&tuning, &e, &p, vec3_make(5, 0, -3.1));
+    assert_absolute(e.place.x, 5 * 16.0 / 25, 1e-12);
+    assert_absolute(e.velocity.x, 5 * 2.0 / 25, 1e-12);
+    assert_absolute(p.of[0], 16 * 9.0 / 25, 1e-12);
+    assert_absolute(p.of[3], 2 * 9.0 / 25, 1e-12);
+    /* Both are known to 0.2 rad: half way to 2 pi - 3.1. */
+    assert_absolute(e.place.z, 0.5 * (3.1 + 2 * PI - 3.1), 1e-12);
+}
+END_TEST
+
+TEST_MAIN("plane_motion", matrices_about_another_point, matrices_in_the_other_axes, the_passive_observers_poles,
+          the_kalman_filters_jacobian, a_measurement)
