@@ -254,6 +254,7 @@ START_TEST(other_contents_are_refused_by_name)
         assert_fails(table_file_decode(&ctx, "test", data, size, &b.file, &error), error, FRAM_ERROR_INPUT, part); \
     } while (0)
     EXPECT(b.numbers[1].name = "else", "the number else");
+    EXPECT(b.numbers[1].name = "record_length_and_more", "the number record_length_and_more");
     EXPECT(b.file.number_count = 1, "the count of numbers");
     EXPECT(b.bytes[0].name = "has", "the byte string has");
     EXPECT(b.file.bytes_count = 1, "the count of byte strings");

@@ -91,5 +91,27 @@ START_TEST(histogram_and_exceedance_count_every_value)
 }
 END_TEST
 
-TEST_MAIN("load statistics", a_series_is_worth_its_independent_values, the_band_holds_the_truth_as_often_as_it_says,
-          histogram_and_exceedance_count_every_value)
+/* 0, 1, ..., 299 in thirty bars: ten values each, from where the bar begins. */
+START_TEST(bars_hold_their_own_values)
+{
+    enum { COUNT = 300, ALL_BARS = 30 };
+    double value[COUNT];
+    context ctx;
+    load_distribution d;
+    context_init(&ctx);
+    for (int32_t i = 0; i < COUNT; i++)
+        value[i] = (i * 7) % COUNT;
+    ck_assert(load_distribution_of(&ctx, value, COUNT, 0.1, &d));
+    for (int32_t i = 0; i < ALL_BARS; i++) {
+        double begin = d.bar.data[i], end = i + 1 < ALL_BARS ? d.bar.data[i + 1] : HUGE_VAL;
+        int32_t own = 0;
+        for (int32_t k = 0; k < COUNT; k++)
+            own += value[k] >= begin && value[k] < end;
+        assert_absolute(d.density.data[i], (double)own / COUNT, 1e-12);
+    }
+    load_distribution_free(&ctx, &d);
+}
+END_TEST
+
+TEST_MAIN("load statistics", bars_hold_their_own_values, a_series_is_worth_its_independent_values,
+          the_band_holds_the_truth_as_often_as_it_says, histogram_and_exceedance_count_every_value)

@@ -1,0 +1,160 @@
+/* The layout of files, byte for byte, against what is written about it: base64, blocks of records, whole tables, and
+   what a feature keeps for itself. */
+#include "io/base64.h"
+#include "io/csv_read.h"
+#include "io/geojson.h"
+#include "io/record.h"
+#include "scratch.h"
+
+static context ctx;
+static fram_error error;
+
+/* RFC 4648, section 10; and bytes with all bits in all places. */
+START_TEST(base64_of_the_standard)
+{
+    static const char *const vectors[][2] = {{"", ""},
+                                             {"f", "Zg=="},
+                                             {"fo", "Zm8="},
+                                             {"foo", "Zm9v"},
+                                             {"foob", "Zm9vYg=="},
+                                             {"fooba", "Zm9vYmE="},
+                                             {"foobar", "Zm9vYmFy"},
+                                             {"\xff\xfe\xfd", "//79"},
+                                             {"\xfb\xef\xbe", "++++"}};
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        text_buffer text = {0};
+        base64_text(&ctx, &text, vectors[i][0], strlen(vectors[i][0]));
+        ck_assert_int_eq(text.count, (int)strlen(vectors[i][1]));
+        ck_assert(text.count == 0 || strncmp(text.data, vectors[i][1], (size_t)text.count) == 0);
+        text_free(&ctx, &text);
+    }
+}
+END_TEST
+
+/* CRC-32 as in zlib, bit by bit. */
+static uint32_t crc_of(const unsigned char *data, size_t size)
+{
+    uint32_t crc = 0xffffffffu;
+    for (size_t i = 0; i < size; i++) {
+        crc ^= data[i];
+        for (int bit = 0; bit < 8; bit++)
+            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    return ~crc;
+}
+
+/* A head of 24 bytes, then blocks of 24 bytes and a payload that is filled up to a multiple of 8: none where it is one.
+ */
+START_TEST(records_are_laid_out_as_told)
+{
+    scratch place = scratch_make();
+    record_writer w;
+    context_init(&ctx);
+    const char *path = scratch_path(&place, "a.fram");
+    assert_ok(record_create(&ctx, path, &w, &error), error);
+    uint64_t expected = 24;
+    ck_assert_uint_eq(record_length(&w), expected);
+    for (size_t size = 0; size <= 17; size++) {
+        const record_part part = {"0123456789abcdefg", size};
+        assert_ok(record_append(&w, 7, &part, 1, &error), error);
+        expected += 24 + (size + 7) / 8 * 8;
+        ck_assert_uint_eq(record_length(&w), expected);
+    }
+    assert_ok(record_close(&w, &error), error);
+
+    /* The head's fields: magic, version, byte order, zero, and the checksum of these. */
+    size_t size;
+    unsigned char *data = (unsigned char *)scratch_read(path, &size);
+    uint32_t version, crc;
+    memcpy(&version, data + 8, 4);
+    memcpy(&crc, data + 20, 4);
+    ck_assert_uint_eq(version, RECORD_VERSION);
+    ck_assert_uint_eq(crc, crc_of(data, 20));
+    /* Older and newer versions are refused, whatever their checksum says. */
+    for (int change = -1; change <= 1; change += 2) {
+        record_reader r;
+        uint32_t other = (uint32_t)(RECORD_VERSION + change);
+        memcpy(data + 8, &other, 4);
+        crc = crc_of(data, 20);
+        memcpy(data + 20, &crc, 4);
+        scratch_write(path, data, size);
+        assert_fails(record_open(&ctx, path, &r, &error), error, FRAM_ERROR_INPUT, "version");
+    }
+    free(data);
+    scratch_remove(&place, "a.fram");
+}
+END_TEST
+
+/* A table of all columns: as many values as names, and a last row without its end is one that is still being written.
+ */
+START_TEST(tables_of_whole_rows)
+{
+    static const struct {
+        const char *text;
+        int rows; /* -1: refused */
+    } cases[] = {{"a,b\n1,2\n3,4\n", 2}, {"a,b\n1,2\n3,4", 1},   {"a,b\n1,2\n3", 1}, {"a,b\n1,2,3\n", -1},
+                 {"a,b\n1\n", -1},       {"a,b\n1,2\n3,\n", -1}, {"a\n1\n2\n3\n", 3}};
+    context_init(&ctx);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        scratch place = scratch_make();
+        csv_table table;
+        const char *path = scratch_path(&place, "a.csv");
+        scratch_write(path, cases[i].text, strlen(cases[i].text));
+        fram_status status = csv_table_read(&ctx, path, &table, &error);
+        ck_assert_msg(status == (cases[i].rows < 0 ? FRAM_ERROR_INPUT : FRAM_OK), "table %zu: %d", i, (int)status);
+        if (status == FRAM_OK) {
+            ck_assert_int_eq(table.rows, cases[i].rows);
+            csv_table_free(&ctx, &table);
+        }
+        scratch_remove(&place, "a.csv");
+    }
+}
+END_TEST
+
+#define RING "\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[4,0],[4,3],[0,0]]]}}"
+#define FEATURE(properties) "{\"type\":\"Feature\",\"properties\":" properties "," RING
+#define TWO(a, b) "{\"type\":\"FeatureCollection\",\"features\":[" FEATURE(a) "," FEATURE(b) "]}"
+
+/* Each feature has its own thickness; without one it has none, whatever the feature before said; none is under 0. */
+START_TEST(thickness_is_the_features_own)
+{
+    import_rings rings = {0};
+    context_init(&ctx);
+    static const char two[] = TWO("{\"thickness\":0.75}", "{}");
+    assert_ok(geojson_parse(&ctx, "two", two, strlen(two), &rings, &error), error);
+    ck_assert_int_eq(rings.place.count, 2);
+    ck_assert(rings.place.data[0].thickness == 0.75 && isnan(rings.place.data[1].thickness));
+    import_rings_free(&ctx, &rings);
+    static const char *const bad[] = {TWO("{}", "{\"thickness\":0}"), TWO("{\"thickness\":-1}", "{}")};
+    for (int i = 0; i < 2; i++) {
+        rings = (import_rings){0};
+        assert_fails(geojson_parse(&ctx, "bad", bad[i], strlen(bad[i]), &rings, &error), error, FRAM_ERROR_INPUT,
+                     "thickness over 0 m");
+    }
+}
+END_TEST
+
+/* A written ring ends where it began, as the format asks. */
+START_TEST(written_rings_are_closed)
+{
+    scratch place = scratch_make();
+    polygon_list outlines = {0};
+    import_rings rings = {0};
+    const vec2 corner[3] = {{0, 0}, {4, 0}, {4, 3}};
+    context_init(&ctx);
+    ck_assert(polygon_list_push(&ctx, &outlines, (polygon){corner, 3}));
+    const char *path = scratch_path(&place, "a.geojson");
+    assert_ok(geojson_write(&ctx, path, &outlines, NULL, &error), error);
+    assert_ok(geojson_read(&ctx, path, &rings, &error), error);
+    ck_assert_int_eq(rings.place.count, 1);
+    ck_assert(!rings.place.data[0].open);
+    ck_assert_int_eq(polygon_list_get(&rings.rings, 0).count, 3);
+    import_rings_free(&ctx, &rings);
+    polygon_list_free(&ctx, &outlines);
+    scratch_remove(&place, "a.geojson");
+}
+END_TEST
+
+TEST_MAIN("layout", written_rings_are_closed, base64_of_the_standard, records_are_laid_out_as_told,
+          tables_of_whole_rows, thickness_is_the_features_own)
