@@ -161,26 +161,42 @@ static void print_surface(const hull_words *w, const fram_hull_surface *s)
         printf("  triangles turned: %d\n", s->flipped);
 }
 
+/* Decimals that keep five digits of a number as large as this one, and four at least. */
+static int decimals_for(double size)
+{
+    enum { LEAST = 4, MOST = 15 };
+    int count = LEAST;
+    for (; size > 0 && size < 1 && count < MOST; size *= 10)
+        count++;
+    return count;
+}
+
 static void print_floating(const fram_hull_floating *f)
 {
+    /* Of lengths, volumes, areas, and second moments of area. */
+    int l = decimals_for(f->length_overall), v = decimals_for(f->volume), a = decimals_for(f->waterplane_area);
+    int m = f->second_moment_transverse < 1 ? decimals_for(f->second_moment_transverse) : 1;
     printf("\nFloating at z = %.6g m, heel %.4g deg, trim %.4g deg by the bow%s\n", f->level, f->heel / DEGREE,
            f->trim / DEGREE, f->stable ? "" : " (UNSTABLE)");
-    printf("  displaced volume        %14.4f m3    displacement %.4f t\n", f->volume, f->mass / 1000);
-    printf("  enclosed volume         %14.4f m3\n", f->enclosed_volume);
-    printf("  draught                 %14.4f m     fore %.4f, aft %.4f\n", f->draught, f->draught_fore, f->draught_aft);
-    printf("  waterline               %14.4f m     breadth %.4f\n", f->length_waterline, f->breadth_waterline);
-    printf("  overall                 %14.4f m     breadth %.4f, depth %.4f\n", f->length_overall, f->breadth_overall,
-           f->depth);
-    printf("  centre of buoyancy      %14.4f m     y %.4f, z %.4f; KB %.4f\n", f->centre_of_buoyancy[0],
-           f->centre_of_buoyancy[1], f->centre_of_buoyancy[2], f->kb);
-    printf("  centre of flotation     %14.4f m     y %.4f\n", f->centre_of_flotation[0], f->centre_of_flotation[1]);
-    printf("  centre of mass          %14.4f m     y %.4f, z %.4f; KG %.4f\n", f->centre[0], f->centre[1], f->centre[2],
-           f->kg);
-    printf("  waterplane area         %14.4f m2    wetted surface %.4f m2\n", f->waterplane_area, f->wetted_area);
-    printf("  second moments          %14.1f m4    longitudinal %.1f\n", f->second_moment_transverse,
+    printf("  displaced volume        %14.*f m3    displacement %.*f t\n", v, f->volume, decimals_for(f->mass / 1000),
+           f->mass / 1000);
+    printf("  enclosed volume         %14.*f m3\n", decimals_for(f->enclosed_volume), f->enclosed_volume);
+    printf("  draught                 %14.*f m     fore %.*f, aft %.*f\n", l, f->draught, l, f->draught_fore, l,
+           f->draught_aft);
+    printf("  waterline               %14.*f m     breadth %.*f\n", l, f->length_waterline, l, f->breadth_waterline);
+    printf("  overall                 %14.*f m     breadth %.*f, depth %.*f\n", l, f->length_overall, l,
+           f->breadth_overall, l, f->depth);
+    printf("  centre of buoyancy      %14.*f m     y %.*f, z %.*f; KB %.*f\n", l, f->centre_of_buoyancy[0], l,
+           f->centre_of_buoyancy[1], l, f->centre_of_buoyancy[2], l, f->kb);
+    printf("  centre of flotation     %14.*f m     y %.*f\n", l, f->centre_of_flotation[0], l,
+           f->centre_of_flotation[1]);
+    printf("  centre of mass          %14.*f m     y %.*f, z %.*f; KG %.*f\n", l, f->centre[0], l, f->centre[1], l,
+           f->centre[2], l, f->kg);
+    printf("  waterplane area         %14.*f m2    wetted surface %.*f m2\n", a, f->waterplane_area, a, f->wetted_area);
+    printf("  second moments          %14.*f m4    longitudinal %.*f\n", m, f->second_moment_transverse, m,
            f->second_moment_longitudinal);
-    printf("  transverse BM           %14.4f m     GM %.4f\n", f->bm_transverse, f->gm_transverse);
-    printf("  longitudinal BM         %14.4f m     GM %.4f\n", f->bm_longitudinal, f->gm_longitudinal);
+    printf("  transverse BM           %14.*f m     GM %.*f\n", l, f->bm_transverse, l, f->gm_transverse);
+    printf("  longitudinal BM         %14.*f m     GM %.*f\n", l, f->bm_longitudinal, l, f->gm_longitudinal);
     printf("  stiffness heave C33     %14.6g N/m   C35 %.6g N\n", f->c33, f->c35);
     printf("  stiffness roll C44      %14.6g N m   pitch C55 %.6g N m\n", f->c44, f->c55);
     printf("  coefficients: block %.4f, waterplane %.4f, midship %.4f, prismatic %.4f\n", f->block, f->waterplane,

@@ -85,7 +85,7 @@ typedef enum mesh_defect {
     MESH_EMPTY,            /* no triangles */
     MESH_BAD_INDEX,        /* a triangle names a vertex that is not there */
     MESH_NOT_FINITE,       /* a coordinate is not a number */
-    MESH_DEGENERATE,       /* a triangle without area */
+    MESH_DEGENERATE,       /* a triangle without area, or a closed part without volume */
     MESH_OPEN,             /* an edge with one triangle */
     MESH_NOT_MANIFOLD,     /* an edge with more than two triangles */
     MESH_INCONSISTENT,     /* two neighbours turn opposite ways */

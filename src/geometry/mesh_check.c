@@ -11,6 +11,8 @@
    cracks of panel meshes are a hundred times thicker; coordinates read from 4-byte floats are a hundred times
    coarser. */
 #define LEAST_HEIGHT 1e-9
+/* A closed part whose volume is under this part of the cube of its longest side encloses nothing. */
+#define LEAST_VOLUME 1e-12
 
 static void report_text(mesh_report *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void report_text(mesh_report *r, const char *format, ...)
@@ -127,6 +129,14 @@ static void check_turn(const mesh *m, const mesh_parts *parts, bool nested, mesh
     if (i < 0)
         return;
     char what[120];
+    vec3 size = vec3_sub(parts->part.data[i].box.hi, parts->part.data[i].box.lo);
+    double longest = fmax(size.x, fmax(size.y, size.z));
+    if (fabs(parts->part.data[i].volume) <= LEAST_VOLUME * longest * longest * longest) {
+        r->defect = MESH_DEGENERATE;
+        report_face(r, m, parts->part.data[i].first_face,
+                    "belongs to a closed part that encloses no volume: a plate without thickness");
+        return;
+    }
     snprintf(what, sizeof what, "belongs to a closed part of volume %g m3 %s: it is turned the wrong way",
              parts->part.data[i].volume, nested ? "inside another part" : "in the open");
     r->defect = MESH_INSIDE_OUT;

@@ -19,10 +19,10 @@ typedef struct mesh_seal_report {
 } mesh_seal_report;
 
 /* Close cracks of at most `width` [m] between edges with one triangle, as panels of unlike division leave them: loose
-   vertices within reach of each other become one (the nearest first, never two of one triangle), and an edge that
-   passes a loose vertex within reach is led over it, its triangle cut in two.  What was at most `width` apart is then
-   common; nothing moves farther, and no triangle is without area that had one.  width 0 does nothing but count. source
-   (may be NULL) gets, for every face, the face it was cut from.  FRAM_ERROR_MEMORY. */
+   vertices within reach of each other become one (the nearest first, never two of one triangle, nor two on one side of
+   a crack), and an edge that passes a loose vertex within reach is led over it, its triangle cut in two.  What was at
+   most `width` apart is then common; nothing moves farther, and no triangle is without area that had one.  width 0 does
+   nothing but count.  source (may be NULL) gets, for every face, the face it was cut from.  FRAM_ERROR_MEMORY. */
 fram_status mesh_seal(context *ctx, mesh *m, double width, int32_array *source, mesh_seal_report *report);
 
 /* The rims of holes: rings of vertices around which a cap would run, in its sense, no vertex twice in a ring.  Ring i

@@ -9,6 +9,12 @@
 
 /* Passes after which what is left open stays open: real cracks take two or three. */
 enum { MOST_PASSES = 16 };
+/* Two vertices that the rim joins by a way of at most this many times their distance are not the two sides of a crack,
+   but neighbours on one side of it: a rim finer than the seal is wide stays as it is.  Over a square hole the ways are
+   1.41 times as long. */
+#define SAME_SIDE 1.25
+/* Steps along a rim that are looked at. */
+enum { MOST_STEPS = 16 };
 /* A place this near to the end of an edge, as a part of its length, is the end. */
 #define LEAST_PART 1e-9
 
@@ -119,6 +125,43 @@ static double distance_between(vec3 a, vec3 b) { return vec3_length(vec3_sub(a, 
 
 /* ---- joining ---- */
 
+/* The open edge among those at hand that leads on from v, other than the one that was come along; -1 where the rim ends
+   or branches. */
+static int32_t next_along(const sealing *s, int32_t v, int32_t before)
+{
+    int32_t found = -1;
+    for (int32_t i = 0; i < s->near.count; i++) {
+        int32_t a = s->rims.face.data[s->near.data[i]].v[0], b = s->rims.face.data[s->near.data[i]].v[1];
+        int32_t other = a == v ? b : b == v ? a : -1;
+        if (other < 0 || other == before)
+            continue;
+        if (found >= 0)
+            return -1;
+        found = other;
+    }
+    return found;
+}
+
+/* Whether the rim leads from v to u by hardly more than their distance, on one way or the other. */
+static bool same_side(const sealing *s, int32_t v, int32_t u, double distance)
+{
+    const vec3 *p = s->m->vertex.data;
+    for (int32_t i = 0; i < s->near.count; i++) {
+        int32_t a = s->rims.face.data[s->near.data[i]].v[0], b = s->rims.face.data[s->near.data[i]].v[1];
+        int32_t before = v, at = a == v ? b : b == v ? a : -1;
+        double way = at < 0 ? HUGE_VAL : distance_between(p[v], p[at]);
+        for (int k = 0; k < MOST_STEPS && at >= 0 && way <= SAME_SIDE * distance; k++) {
+            if (at == u)
+                return true;
+            int32_t next = next_along(s, at, before);
+            way += next < 0 ? 0 : distance_between(p[at], p[next]);
+            before = at;
+            at = next;
+        }
+    }
+    return false;
+}
+
 static bool find_nearest(context *ctx, sealing *s, int32_t v)
 {
     vec3 p = s->m->vertex.data[v];
@@ -131,7 +174,7 @@ static bool find_nearest(context *ctx, sealing *s, int32_t v)
             int32_t u = s->rims.face.data[s->near.data[i]].v[k];
             double distance = distance_between(p, s->m->vertex.data[u]);
             bool nearer = distance < least || (distance == least && (s->nearest[v] < 0 || u < s->nearest[v]));
-            if (u != v && nearer && !are_joined(s, u, v)) {
+            if (u != v && nearer && !are_joined(s, u, v) && !same_side(s, v, u, distance)) {
                 least = distance;
                 s->nearest[v] = u;
             }

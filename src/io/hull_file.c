@@ -1,324 +1,169 @@
+/* Hulls from mesh files; see hull_file.h.  As little is sealed as makes the
+   surface sound; a refusal names what was tried on this very file and makes it
+   sound, or says that nothing of that helps. */
 #include "io/hull_file.h"
+
+#include "io/hull_mend.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Default width of cracks to seal, as a part of the longest side: 10 cm on a ship of 200 m. */
+/* Default width of cracks to seal, as a part of the longest side: 10 cm on a
+ * ship of 200 m. */
 #define DEFAULT_SEAL (1.0 / 2000)
-/* Default freeboard of topsides, as a part of the depth under them. */
-#define DEFAULT_FREEBOARD (1.0 / 3)
-/* Heights this near, relative to the longest side, are one: files hold six or seven digits. */
-#define LEVEL_TOLERANCE 1e-6
+/* Seals that are tried before the default one, as parts of the longest side:
+   none, and the rounding of 4-byte floats and of six printed digits. */
+static const double narrow_seals[] = {0, 1e-6};
+enum { NARROW_SEALS = sizeof narrow_seals / sizeof *narrow_seals };
+/* Seals that are tried for a remedy, as multiples of the default one: up to a
+   hundredth of the length.  What is wider is no crack. */
+static const double wide_seals[] = {2, 5, 10, 20};
+enum { WIDE_SEALS = sizeof wide_seals / sizeof *wide_seals };
+/* Freeboard that is tried for a remedy, as a part of the longest side. */
+#define REMEDY_FREEBOARD (1.0 / 20)
 
 hull_file_options hull_file_defaults(void) { return (hull_file_options){1, (double)NAN, false, (double)NAN}; }
 
-typedef struct hull_reading {
-    context *ctx;
-    const char *name;
-    mesh_file *file;
-    const hull_file_options *options;
-    hull_file_report *report;
-    fram_error *error;
-    int32_array source; /* face of the file that each face was cut from */
-    mesh_rims rims;
-    double longest, top, tolerance; /* [m] */
-} hull_reading;
-
-static double longest_side(const mesh *m)
+static fram_status check_options(const hull_file_options *o, fram_error *error)
 {
-    box3 box = mesh_bounds(m);
-    vec3 size = vec3_sub(box.hi, box.lo);
-    return fmax(size.x, fmax(size.y, size.z));
-}
-
-/* ---- errors ---- */
-
-/* An error at a face of the surface as it is now, named as in the file. */
-static fram_status refuse_face(const hull_reading *r, int32_t face, const char *text, const char *advice)
-{
-    char key[64] = "";
-    int32_t line = 0;
-    if (face >= 0 && face < r->source.count && r->source.data[face] < r->file->element.count) {
-        int32_t in_file = r->source.data[face];
-        line = r->file->line.data[in_file];
-        snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[in_file]);
-    }
-    return error_set(r->error, FRAM_ERROR_INPUT, r->name, line, key[0] ? key : "mesh", "%s; %s", text, advice);
-}
-
-static const char *advice_for(const hull_reading *r, mesh_defect defect)
-{
-    switch (defect) {
-    case MESH_OPEN:
-        return r->options->repair ? "the hole could not be filled: close it in the program that made the file"
-                                  : "raise the seal width if it is a crack, give a freeboard if it is an open top, or "
-                                    "have holes filled (repair)";
-    case MESH_INCONSISTENT:
-    case MESH_INSIDE_OUT:
-        return r->options->repair ? "this cannot be repaired: turn it in the program that made the file"
-                                  : "have it turned (repair), or swap two corners of each triangle concerned";
-    case MESH_NOT_MANIFOLD:
-        return "remove inner walls, decks and lids: a hull is one closed skin";
-    case MESH_SELF_INTERSECTING:
-        return "unite the parts that cross (a boolean union) in the program that made the file";
-    default:
-        return "correct the file";
-    }
-}
-
-static fram_status refuse_report(const hull_reading *r, const mesh_report *report)
-{
-    char text[256];
-    if (report->open_edges > 1)
-        snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
-    else
-        snprintf(text, sizeof text, "the %s", report->text);
-    return refuse_face(r, report->face, text, advice_for(r, report->defect));
-}
-
-/* ---- steps ---- */
-
-static void scale_surface(const hull_reading *r)
-{
-    mesh *m = &r->file->surface;
-    for (int32_t i = 0; i < m->vertex.count && r->options->scale != 1; i++)
-        m->vertex.data[i] = vec3_scale(m->vertex.data[i], r->options->scale);
-}
-
-/* Panels in z = 0 suppress WAMIT's irregular frequencies; they are no part of the wetted hull. */
-static bool is_lid(const hull_reading *r, int32_t face)
-{
-    vec3 p[3];
-    mesh_face_points(&r->file->surface, face, p);
-    return r->file->format == MESH_GDF && fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= r->tolerance;
-}
-
-/* Leave out lids and, where repair is asked for, triangles without area; sealing closes the gaps, which have no width.
- */
-static fram_status drop_triangles(hull_reading *r)
-{
-    mesh *m = &r->file->surface;
-    int32_t kept = 0;
-    for (int32_t f = 0; f < m->face.count; f++) {
-        bool lid = is_lid(r, f), flat = !lid && !mesh_has_area(m, f);
-        if (flat && !r->options->repair) {
-            vec3 p = m->vertex.data[m->face.data[f].v[0]];
-            char key[64];
-            snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[f]);
-            return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->file->line.data[f], key,
-                             "a triangle at (%g, %g, %g) has no area; have it left out (repair), or move a corner", p.x,
-                             p.y, p.z);
-        }
-        r->report->lids += lid;
-        r->report->dropped += flat;
-        if (lid || flat)
-            continue;
-        m->face.data[kept] = m->face.data[f];
-        r->file->element.data[kept] = r->file->element.data[f];
-        r->file->line.data[kept++] = r->file->line.data[f];
-    }
-    m->face.count = r->file->element.count = r->file->line.count = kept;
-    return FRAM_OK;
-}
-
-static fram_status seal(hull_reading *r)
-{
-    hull_file_report *report = r->report;
-    report->seal_width = isnan(r->options->seal_width) ? DEFAULT_SEAL * r->longest : r->options->seal_width;
-    if (mesh_seal(r->ctx, &r->file->surface, report->seal_width, &r->source, &report->seal) != FRAM_OK ||
-        !mesh_drop_unused_vertices(r->ctx, &r->file->surface))
-        return error_memory(r->error);
-    return FRAM_OK;
-}
-
-static fram_status orient(hull_reading *r)
-{
-    int32_t flipped = 0, face = -1;
-    if (!r->options->repair)
-        return FRAM_OK;
-    fram_status status = mesh_orient(r->ctx, &r->file->surface, &flipped, &face);
-    r->report->flipped += flipped;
-    if (status == FRAM_ERROR_INPUT)
-        return refuse_face(r, face, "the surface has only one side (a Moebius band) where this triangle is",
-                           "rebuild it in the program that made the file");
-    return status == FRAM_ERROR_MEMORY ? error_memory(r->error) : status;
-}
-
-/* Ring i of the rims lies in the height of the top. */
-static bool is_top(const hull_reading *r, int32_t i)
-{
-    for (int32_t k = r->rims.start.data[i]; k < r->rims.start.data[i + 1]; k++)
-        if (r->file->surface.vertex.data[r->rims.vertex.data[k]].z < r->top - r->tolerance)
-            return false;
-    return true;
-}
-
-static void turn_all(hull_reading *r)
-{
-    mesh *m = &r->file->surface;
-    for (int32_t f = 0; f < m->face.count; f++) {
-        int32_t *v = m->face.data[f].v, swap = v[1];
-        v[1] = v[2];
-        v[2] = swap;
-    }
-    r->report->flipped += m->face.count;
-}
-
-/* The rims at the top's height; area gets their sum in plan, positive when the surface is right side out. */
-static fram_status pick_top(hull_reading *r, mesh_rims *top, double *area)
-{
-    *area = 0;
-    bool done = array_push(r->ctx, &top->start, 0);
-    for (int32_t i = 0; done && i < mesh_rims_count(&r->rims); i++) {
-        int32_t begin = r->rims.start.data[i], end = r->rims.start.data[i + 1];
-        if (!is_top(r, i))
-            continue;
-        *area += mesh_ring_area(&r->file->surface, r->rims.vertex.data + begin, end - begin).z;
-        for (int32_t k = begin; done && k < end; k++)
-            done = array_push(r->ctx, &top->vertex, r->rims.vertex.data[k]);
-        done = done && array_push(r->ctx, &top->start, top->vertex.count);
-    }
-    return done ? FRAM_OK : error_memory(r->error);
-}
-
-/* Turn the rims as turn_all turns the triangles. */
-static void turn_rims(mesh_rims *rims)
-{
-    for (int32_t i = 0; i < mesh_rims_count(rims); i++)
-        for (int32_t a = rims->start.data[i], b = rims->start.data[i + 1] - 1; a < b; a++, b--) {
-            int32_t swap = rims->vertex.data[a];
-            rims->vertex.data[a] = rims->vertex.data[b];
-            rims->vertex.data[b] = swap;
-        }
-}
-
-static fram_status raise_rims(hull_reading *r, mesh_rims *top, double area, double freeboard)
-{
-    if (area < 0 && !r->options->repair)
-        return refuse_face(r, 0, "the surface under the open top is turned the wrong way, inside out",
-                           "have it turned (repair); corners run counter-clockwise seen from the water");
-    if (area < 0) {
-        turn_all(r);
-        turn_rims(top);
-    }
-    fram_status status = mesh_raise_top(r->ctx, &r->file->surface, top, freeboard, r->error);
-    r->report->freeboard = freeboard;
-    if (status == FRAM_ERROR_INPUT && r->error)
-        snprintf(r->error->file, sizeof r->error->file, "%s", r->name);
-    return status;
-}
-
-static fram_status raise_top(hull_reading *r)
-{
-    double freeboard = r->options->freeboard, area = 0;
-    if (isnan(freeboard) && r->file->format == MESH_GDF)
-        freeboard = DEFAULT_FREEBOARD * (r->top - mesh_bounds(&r->file->surface).lo.z);
-    if (isnan(freeboard))
-        return FRAM_OK;
-    mesh_rims top = {0};
-    fram_status status = pick_top(r, &top, &area);
-    if (status == FRAM_OK && mesh_rims_count(&top) > 0)
-        status = raise_rims(r, &top, area, freeboard);
-    mesh_rims_free(r->ctx, &top);
-    return status;
-}
-
-static fram_status check(hull_reading *r)
-{
-    mesh_report report;
-    if (mesh_check(r->ctx, &r->file->surface, true, &report) != FRAM_OK)
-        return error_memory(r->error);
-    return report.defect == MESH_CLOSED ? FRAM_OK : refuse_report(r, &report);
-}
-
-static fram_status find_rims(hull_reading *r)
-{
-    int32_t edge = -1;
-    fram_status status = mesh_rims_find(r->ctx, &r->file->surface, &r->rims, &edge);
-    if (status == FRAM_ERROR_INPUT) /* triangles turn unlike ways, or inner walls end here: the check says where */
-        return check(r);
-    return status == FRAM_ERROR_MEMORY ? error_memory(r->error) : status;
-}
-
-static fram_status fill_holes(hull_reading *r)
-{
-    mesh *m = &r->file->surface;
-    fram_status status = r->options->repair ? find_rims(r) : FRAM_OK;
-    for (int32_t i = 0; r->options->repair && i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
-        const int32_t *ring = r->rims.vertex.data + r->rims.start.data[i];
-        int32_t count = r->rims.start.data[i + 1] - r->rims.start.data[i];
-        status = mesh_add_polygon(r->ctx, m, ring, count);
-        if (status == FRAM_OK) {
-            r->report->holes++;
-            r->report->hole_area += vec3_length(mesh_ring_area(m, ring, count));
-        } else if (status == FRAM_ERROR_MEMORY) {
-            error_memory(r->error);
-        } else {
-            vec3 p = m->vertex.data[ring[0]];
-            error_set(r->error, status, r->name, 0, "mesh",
-                      "the hole of %d edges that begins at (%g, %g, %g) is too crooked to be filled; %s", count, p.x,
-                      p.y, p.z, advice_for(r, MESH_OPEN));
-        }
-    }
-    return status;
-}
-
-static fram_status check_options(const hull_reading *r)
-{
-    const hull_file_options *o = r->options;
     if (!(o->scale > 0 && o->scale < HUGE_VAL))
-        return error_set(r->error, FRAM_ERROR_INPUT, NULL, 0, "scale", "expected a positive scale, found %g", o->scale);
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "scale", "expected a positive scale, found %g", o->scale);
     if (!isnan(o->seal_width) && !(o->seal_width >= 0 && o->seal_width < HUGE_VAL))
-        return error_set(r->error, FRAM_ERROR_INPUT, NULL, 0, "seal_width", "expected a width in metres, found %g",
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "seal_width", "expected a width in metres, found %g",
                          o->seal_width);
     if (!isnan(o->freeboard) && !(o->freeboard > 0 && o->freeboard < HUGE_VAL))
-        return error_set(r->error, FRAM_ERROR_INPUT, NULL, 0, "freeboard",
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "freeboard",
                          "expected a positive height in metres, found %g", o->freeboard);
     return FRAM_OK;
 }
 
-static fram_status finish(hull_reading *r)
+/* ---- attempts ---- */
+
+static double length_of(const hull_request *q) { return q->options.scale * hull_longest_side(&q->file->surface); }
+
+static bool may_go_on(fram_status status) { return status != FRAM_OK && status != FRAM_ERROR_MEMORY; }
+
+/* A wider seal may spoil what was sound: what is wrong with a file is told as
+ * it is without one, unless it is open. */
+static bool tells_more(const hull_outcome *narrow, const hull_outcome *wide)
 {
-    fram_status status = check_options(r);
-    if (status != FRAM_OK)
-        return status;
-    scale_surface(r);
-    r->longest = longest_side(&r->file->surface);
-    r->tolerance = LEVEL_TOLERANCE * r->longest;
-    status = drop_triangles(r);
-    if (status == FRAM_OK)
-        status = seal(r);
-    if (status == FRAM_OK)
-        status = orient(r);
-    r->top = mesh_bounds(&r->file->surface).hi.z;
-    if (status == FRAM_OK && r->report->seal.open_after > 0) {
-        status = find_rims(r);
-        if (status == FRAM_OK)
-            status = raise_top(r);
-        if (status == FRAM_OK)
-            status = fill_holes(r);
-        if (status == FRAM_OK)
-            status = orient(r);
+    bool spoilt = wide->one_sided || (wide->defect != MESH_OPEN && wide->defect != MESH_EMPTY);
+    return narrow->one_sided || narrow->defect != MESH_OPEN || spoilt;
+}
+
+/* As little sealing as makes the surface sound; a width that is given is taken
+   as it is.  Holes are filled when no seal alone helps, after the widest one.
+ */
+static fram_status attempt_all(const hull_request *q, hull_outcome *out)
+{
+    bool given = !isnan(q->options.seal_width);
+    double length = length_of(q), widest = given ? q->options.seal_width : DEFAULT_SEAL * length;
+    hull_outcome narrow = {.defect = MESH_OPEN};
+    fram_status status = FRAM_ERROR_INPUT;
+    for (int i = 0; i < NARROW_SEALS && !given && may_go_on(status); i++) {
+        status = hull_mend(q, narrow_seals[i] * length, false, out);
+        narrow = *out;
+        narrow.surface = (mesh){0};
     }
-    return status == FRAM_OK ? check(r) : status;
+    if (may_go_on(status))
+        status = hull_mend(q, widest, false, out);
+    if (may_go_on(status) && q->options.repair)
+        status = hull_mend(q, widest, true, out);
+    for (int i = NARROW_SEALS; i-- > 0 && !given && q->options.repair && may_go_on(status);)
+        status = hull_mend(q, narrow_seals[i] * length, true, out);
+    if (may_go_on(status) && !given && tells_more(&narrow, out))
+        out->error = narrow.error;
+    return status;
+}
+
+/* ---- remedies ---- */
+
+typedef struct remedy {
+    hull_file_options options;
+    char words[120];
+} remedy;
+
+enum { MOST_REMEDIES = WIDE_SEALS + 4 };
+
+/* What may help, the least first. */
+static int list_remedies(const hull_request *q, remedy list[MOST_REMEDIES])
+{
+    const hull_file_options given = q->options;
+    double length = length_of(q), freeboard = REMEDY_FREEBOARD * length;
+    int n = 0;
+    if (!isnan(given.seal_width)) {
+        list[n].options = given;
+        list[n].options.seal_width = (double)NAN;
+        snprintf(list[n++].words, sizeof list->words, "it is sound when the seal width is left to Fram");
+    }
+    if (isnan(given.freeboard)) {
+        list[n].options = given;
+        list[n].options.freeboard = freeboard;
+        snprintf(list[n++].words, sizeof list->words,
+                 "its top is open: give a freeboard, and it is raised and decked "
+                 "(it is sound with %.3g m)",
+                 freeboard);
+    }
+    for (int i = 0; i < WIDE_SEALS; i++) {
+        double width = wide_seals[i] * DEFAULT_SEAL * length;
+        list[n].options = given;
+        list[n].options.seal_width = width;
+        snprintf(list[n++].words, sizeof list->words, "it is sound with a seal width of %.3g m", width);
+    }
+    if (!given.repair) {
+        list[n].options = given;
+        list[n].options.repair = true;
+        snprintf(list[n++].words, sizeof list->words, "have it repaired (repair): it is sound then");
+    }
+    if (!given.repair && isnan(given.freeboard)) {
+        list[n].options = given;
+        list[n].options.repair = true;
+        list[n].options.freeboard = freeboard;
+        snprintf(list[n++].words, sizeof list->words, "it is sound with repair and a freeboard of %.3g m together",
+                 freeboard);
+    }
+    return n;
+}
+
+/* Put the first remedy that makes the file sound in the place of the advice
+ * what to do elsewhere. */
+static fram_status name_remedy(const hull_request *q, fram_error *error)
+{
+    remedy list[MOST_REMEDIES];
+    hull_outcome trial = {.defect = MESH_EMPTY};
+    int count = list_remedies(q, list);
+    for (int i = 0; i < count; i++) {
+        hull_request other = *q;
+        other.options = list[i].options;
+        fram_status status = attempt_all(&other, &trial);
+        mesh_free(q->ctx, &trial.surface);
+        if (status == FRAM_ERROR_MEMORY)
+            return error_memory(error);
+        if (status != FRAM_OK)
+            continue;
+        char *advice = strrchr(error->message, ';');
+        size_t length = advice ? (size_t)(advice - error->message) : strlen(error->message);
+        snprintf(error->message + length, sizeof error->message - length, "; %s", list[i].words);
+        break;
+    }
+    return FRAM_ERROR_INPUT;
 }
 
 fram_status hull_file_finish(context *ctx, const char *name, mesh_file *file, const hull_file_options *options,
                              mesh *surface, hull_file_report *report, fram_error *error)
 {
-    *report = (hull_file_report){.format = file->format,
-                                 .elements = file->elements,
-                                 .dropped = file->dropped,
-                                 .mirror_x = file->mirror_x,
-                                 .mirror_y = file->mirror_y};
-    hull_reading r = {.ctx = ctx, .name = name, .file = file, .options = options, .report = report, .error = error};
-    fram_status status = finish(&r);
+    const hull_request q = {.ctx = ctx, .name = name, .file = file, .options = *options};
+    hull_outcome out = {.defect = MESH_EMPTY};
+    fram_status status = check_options(options, &out.error);
     if (status == FRAM_OK) {
-        *surface = file->surface;
-        file->surface = (mesh){0};
+        status = attempt_all(&q, &out);
+        if (status == FRAM_ERROR_INPUT)
+            status = name_remedy(&q, &out.error);
     }
-    array_free(ctx, &r.source);
-    mesh_rims_free(ctx, &r.rims);
+    *report = out.report;
+    *surface = out.surface;
+    if (status != FRAM_OK && error)
+        *error = out.error;
     mesh_file_free(ctx, file);
     return status;
 }

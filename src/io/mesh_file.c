@@ -98,8 +98,11 @@ fram_status mesh_check_number(const mesh_reading *r, int32_t line, int32_t eleme
 {
     if (fabs(value) <= MESH_FILE_REACH)
         return FRAM_OK;
-    return mesh_refuse(r, line, element, "expected a coordinate of at most %g m, found %g; scale the mesh to metres",
-                       MESH_FILE_REACH, value);
+    return mesh_refuse(
+        r, line, element,
+        "expected a coordinate of at most %g, found %g; bring the mesh to metres about the origin in the program that "
+        "made the file",
+        MESH_FILE_REACH, value);
 }
 
 fram_status mesh_read_number(const mesh_reading *r, const word_reader *w, int32_t element, const char *what,

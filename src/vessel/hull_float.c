@@ -11,6 +11,8 @@ enum { MOST_STEPS = 200, MOST_LEVEL_STEPS = 100, MOST_HALVINGS = 30 };
 #define ARM_ROUNDING 1e-12
 /* Arms that are good enough when no step betters them. */
 #define ARM_TOLERANCE 1e-9
+/* A hull that is wet or dry over less than this part of its size only touches the water: files hold six digits. */
+#define LEAST_IMMERSION 1e-6
 /* Levels this near, relative to the depth, are one. */
 #define LEVEL_ROUNDING 1e-15
 
@@ -288,6 +290,29 @@ static void set_lengths(hull_stability *s, const mesh *surface, const hull_attit
 
 static double ratio(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
+/* Whether the water stands at the lowest or the highest point but for the digits of a file. */
+static bool only_touches(const mesh *surface, const hull_attitude *a)
+{
+    box3 box = mesh_bounds(surface);
+    mat3 rotation = hull_rotation(a);
+    double size = vec3_length(vec3_sub(box.hi, box.lo)), lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (int32_t i = 0; i < surface->vertex.count; i++) {
+        double z = mat3_mul_vec(rotation, surface->vertex.data[i]).z;
+        lo = fmin(lo, z);
+        hi = fmax(hi, z);
+    }
+    return a->level - lo <= LEAST_IMMERSION * size || hi - a->level <= LEAST_IMMERSION * size;
+}
+
+static fram_status refuse_level(const mesh *surface, const hull_attitude *a, fram_error *error)
+{
+    box3 box = mesh_bounds(surface);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
+                     "the water at z = %g m does not cut the hull, which reaches from z = %g to %g m; give a draught "
+                     "or a mass, or a file whose z = 0 is its waterline",
+                     a->level, box.lo.z, box.hi.z);
+}
+
 fram_status hull_stability_of(context *ctx, const mesh *surface, const hull_attitude *a, vec3 centre,
                               hull_stability *out, fram_error *error)
 {
@@ -296,12 +321,8 @@ fram_status hull_stability_of(context *ctx, const mesh *surface, const hull_atti
     if (status != FRAM_OK)
         return status;
     const hull_hydrostatics *h = &out->at;
-    if (!(h->volume > 0 && h->waterplane_area > 0)) {
-        box3 box = mesh_bounds(surface);
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught",
-                         "the water at z = %g m does not cut the hull, which reaches from z = %g to %g m", a->level,
-                         box.lo.z, box.hi.z);
-    }
+    if (!(h->volume > 0 && h->waterplane_area > 0) || only_touches(surface, a))
+        return refuse_level(surface, a, error);
     mat3 rotation = hull_rotation(a);
     vec2 f = h->centre_of_flotation;
     out->enclosed_volume = mesh_solid_properties(surface).volume;

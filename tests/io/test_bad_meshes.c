@@ -38,7 +38,7 @@ static const bad_mesh bad[] = {
     {"inf.stl", "solid\n" STL_FACET("0 -inf 0", STL_X, STL_Y) "endsolid\n", 4, "facet 1", "found \"-inf\""},
     {"comma.stl", "solid\n" STL_FACET("0,5 0 0", STL_X, STL_Y) "endsolid\n", 4, "facet 1", "found \"0,5\""},
     {"overflow.stl", "solid\n" STL_FACET("1e999 0 0", STL_X, STL_Y) "endsolid\n", 4, "facet 1", "too large"},
-    {"far.stl", "solid\n" STL_FACET("0 0 0", "2e6 0 0", STL_Y) "endsolid\n", 5, "facet 1", "scale the mesh to metres"},
+    {"far.stl", "solid\n" STL_FACET("0 0 0", "2e6 0 0", STL_Y) "endsolid\n", 5, "facet 1", "bring the mesh to metres"},
     {"no_normal.stl", "solid\nfacet\nouter loop\n", 3, "facet 1", "expected \"normal\", found \"outer\""},
     {"short_normal.stl", "solid\nfacet normal 0 1\nouter loop\n", 3, "facet 1", "three numbers of the normal, found 2"},
     {"no_end.stl", "solid\n" STL_FACET(STL_O, STL_X, STL_Y), 9, "", "\"endsolid\" after facet 1, found the end"},
@@ -47,7 +47,7 @@ static const bad_mesh bad[] = {
     {"open.stl",
      "solid\n" STL_FACET(STL_O, STL_Y, STL_X) STL_FACET(STL_O, STL_X, STL_Z)
          STL_FACET(STL_O, STL_Z, STL_Y) "endsolid\n",
-     2, "facet 1", "has one triangle (0) (one of 3 open edges); raise the seal width"},
+     2, "facet 1", "has one triangle (0) (one of 3 open edges); have it repaired (repair)"},
     /* OBJ */
     {"short_vertex.obj", "v 0 0\n", 1, "", "three coordinates of vertex 1, found 2"},
     {"bad_vertex.obj", "v 0 0 0\nv 1 0x1 0\n", 2, "", "expected a coordinate [m], found \"0x1\""},
@@ -145,7 +145,7 @@ START_TEST(bad_binary)
         {0, 0, SIZE - 1, "", "but this one is 183"},
         {84 + 50 + 12 + 3, 0x7f, SIZE, "facet 2", "coordinate 1 of corner 1 is not a finite number"},
         {84 + 12 + 7, 0xff, SIZE, "facet 1", "coordinate 2 of corner 1 is not a finite number"},
-        {84 + 50 + 12 + 15, 0x7e, SIZE, "facet 2", "scale the mesh"},
+        {84 + 50 + 12 + 15, 0x7e, SIZE, "facet 2", "bring the mesh"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char data[SIZE + 1] = {0};

@@ -1,0 +1,351 @@
+/* The steps from a file's triangles to a sound solid; see hull_mend.h. */
+#include "io/hull_mend.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Default freeboard of topsides, as a part of the depth under them. */
+#define DEFAULT_FREEBOARD (1.0 / 3)
+/* A surface that encloses less than this part of the cube of its longest side encloses nothing. */
+#define LEAST_VOLUME 1e-12
+/* Heights this near, relative to the longest side, are one: files hold six or
+ * seven digits. */
+#define LEVEL_TOLERANCE 1e-6
+
+/* A surface while it is worked on. */
+typedef struct hull_reading {
+    context *ctx;
+    const char *name;
+    mesh_file *file;
+    const hull_file_options *options;
+    double seal_width; /* [m] */
+    bool fill;         /* holes */
+    hull_outcome *out;
+    int32_array source; /* face of the file that each face was cut from */
+    mesh_rims rims;
+    double longest, top, tolerance; /* [m] */
+} hull_reading;
+
+double hull_longest_side(const mesh *m)
+{
+    box3 box = mesh_bounds(m);
+    vec3 size = vec3_sub(box.hi, box.lo);
+    return fmax(size.x, fmax(size.y, size.z));
+}
+
+/* ---- errors ---- */
+
+/* An error at a face of the surface as it is now, named as in the file. */
+static fram_status refuse_face(const hull_reading *r, int32_t face, const char *text, const char *advice)
+{
+    char key[64] = "";
+    int32_t line = 0;
+    if (face >= 0 && face < r->source.count && r->source.data[face] < r->file->element.count) {
+        int32_t in_file = r->source.data[face];
+        line = r->file->line.data[in_file];
+        snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[in_file]);
+    }
+    return error_set(&r->out->error, FRAM_ERROR_INPUT, r->name, line, key[0] ? key : "mesh", "%s; %s", text, advice);
+}
+
+/* What is to be done outside of Fram. */
+static const char *work_for(mesh_defect defect)
+{
+    switch (defect) {
+    case MESH_OPEN:
+        return "close the gap in the program that made the file";
+    case MESH_INCONSISTENT:
+    case MESH_INSIDE_OUT:
+        return "turn the triangles concerned in the program that made the file";
+    case MESH_NOT_MANIFOLD:
+        return "remove inner walls, decks and lids, and unite parts that share an "
+               "edge, in the program that made the "
+               "file: a hull is one closed skin";
+    case MESH_SELF_INTERSECTING:
+        return "unite the parts that cross or touch (a boolean union) in the "
+               "program that made the file";
+    default:
+        return "correct it in the program that made the file";
+    }
+}
+
+static fram_status refuse_report(hull_reading *r, const mesh_report *report)
+{
+    r->out->defect = report->defect;
+    char text[256];
+    if (report->open_edges > 1)
+        snprintf(text, sizeof text, "the %s (one of %d open edges)", report->text, report->open_edges);
+    else
+        snprintf(text, sizeof text, "the %s", report->text);
+    return refuse_face(r, report->face, text, work_for(report->defect));
+}
+
+/* ---- steps ---- */
+
+static void scale_surface(const hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    for (int32_t i = 0; i < m->vertex.count && r->options->scale != 1; i++)
+        m->vertex.data[i] = vec3_scale(m->vertex.data[i], r->options->scale);
+}
+
+/* Panels in z = 0 suppress WAMIT's irregular frequencies; they are no part of
+ * the wetted hull. */
+static bool is_lid(const hull_reading *r, int32_t face)
+{
+    vec3 p[3];
+    mesh_face_points(&r->file->surface, face, p);
+    return r->file->format == MESH_GDF && fmax(fabs(p[0].z), fmax(fabs(p[1].z), fabs(p[2].z))) <= r->tolerance;
+}
+
+/* Leave out lids and, where repair is asked for, triangles without area;
+ * sealing closes the gaps, which have no width.
+ */
+static fram_status drop_triangles(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    int32_t kept = 0;
+    for (int32_t f = 0; f < m->face.count; f++) {
+        bool lid = is_lid(r, f), flat = !lid && !mesh_has_area(m, f);
+        if (flat && !r->options->repair) {
+            vec3 p = m->vertex.data[m->face.data[f].v[0]];
+            char key[64];
+            snprintf(key, sizeof key, "%s %d", mesh_format_element(r->file->format), r->file->element.data[f]);
+            return error_set(&r->out->error, FRAM_ERROR_INPUT, r->name, r->file->line.data[f], key,
+                             "a triangle at (%g, %g, %g) has no area; move a corner "
+                             "of it, or leave it out",
+                             p.x, p.y, p.z);
+        }
+        r->out->report.lids += lid;
+        r->out->report.dropped += flat;
+        if (lid || flat)
+            continue;
+        m->face.data[kept] = m->face.data[f];
+        r->file->element.data[kept] = r->file->element.data[f];
+        r->file->line.data[kept++] = r->file->line.data[f];
+    }
+    m->face.count = r->file->element.count = r->file->line.count = kept;
+    return FRAM_OK;
+}
+
+static fram_status seal(hull_reading *r)
+{
+    r->out->report.seal_width = r->seal_width;
+    if (mesh_seal(r->ctx, &r->file->surface, r->seal_width, &r->source, &r->out->report.seal) != FRAM_OK ||
+        !mesh_drop_unused_vertices(r->ctx, &r->file->surface))
+        return error_memory(&r->out->error);
+    return FRAM_OK;
+}
+
+static fram_status orient(hull_reading *r)
+{
+    int32_t flipped = 0, face = -1;
+    if (!r->options->repair)
+        return FRAM_OK;
+    fram_status status = mesh_orient(r->ctx, &r->file->surface, &flipped, &face);
+    r->out->report.flipped += flipped;
+    r->out->one_sided = status == FRAM_ERROR_INPUT;
+    if (r->out->one_sided)
+        return refuse_face(r, face, "the surface has only one side (a Moebius band) where this triangle is",
+                           "rebuild it in the program that made the file");
+    return status == FRAM_ERROR_MEMORY ? error_memory(&r->out->error) : status;
+}
+
+/* Ring i of the rims lies in the height of the top. */
+static bool is_top(const hull_reading *r, int32_t i)
+{
+    for (int32_t k = r->rims.start.data[i]; k < r->rims.start.data[i + 1]; k++)
+        if (r->file->surface.vertex.data[r->rims.vertex.data[k]].z < r->top - r->tolerance)
+            return false;
+    return true;
+}
+
+static void turn_all(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    for (int32_t f = 0; f < m->face.count; f++) {
+        int32_t *v = m->face.data[f].v, swap = v[1];
+        v[1] = v[2];
+        v[2] = swap;
+    }
+    r->out->report.flipped += m->face.count;
+}
+
+/* The rims at the top's height; area gets their sum in plan, positive when the
+ * surface is right side out. */
+static fram_status pick_top(hull_reading *r, mesh_rims *top, double *area)
+{
+    *area = 0;
+    bool done = array_push(r->ctx, &top->start, 0);
+    for (int32_t i = 0; done && i < mesh_rims_count(&r->rims); i++) {
+        int32_t begin = r->rims.start.data[i], end = r->rims.start.data[i + 1];
+        if (!is_top(r, i))
+            continue;
+        *area += mesh_ring_area(&r->file->surface, r->rims.vertex.data + begin, end - begin).z;
+        for (int32_t k = begin; done && k < end; k++)
+            done = array_push(r->ctx, &top->vertex, r->rims.vertex.data[k]);
+        done = done && array_push(r->ctx, &top->start, top->vertex.count);
+    }
+    return done ? FRAM_OK : error_memory(&r->out->error);
+}
+
+/* Turn the rims as turn_all turns the triangles. */
+static void turn_rims(mesh_rims *rims)
+{
+    for (int32_t i = 0; i < mesh_rims_count(rims); i++)
+        for (int32_t a = rims->start.data[i], b = rims->start.data[i + 1] - 1; a < b; a++, b--) {
+            int32_t swap = rims->vertex.data[a];
+            rims->vertex.data[a] = rims->vertex.data[b];
+            rims->vertex.data[b] = swap;
+        }
+}
+
+static fram_status raise_rims(hull_reading *r, mesh_rims *top, double area, double freeboard)
+{
+    if (area < 0 && !r->options->repair)
+        return refuse_face(r, 0, "the surface under the open top is turned the wrong way, inside out",
+                           "corners run counter-clockwise seen from the water");
+    if (area < 0) {
+        turn_all(r);
+        turn_rims(top);
+    }
+    fram_status status = mesh_raise_top(r->ctx, &r->file->surface, top, freeboard, &r->out->error);
+    r->out->report.freeboard = freeboard;
+    if (status == FRAM_ERROR_INPUT) {
+        r->out->defect = MESH_OPEN;
+        snprintf(r->out->error.file, sizeof r->out->error.file, "%s", r->name);
+    }
+    return status;
+}
+
+static fram_status raise_top(hull_reading *r)
+{
+    double freeboard = r->options->freeboard, area = 0;
+    if (isnan(freeboard) && r->file->format == MESH_GDF)
+        freeboard = DEFAULT_FREEBOARD * (r->top - mesh_bounds(&r->file->surface).lo.z);
+    if (isnan(freeboard))
+        return FRAM_OK;
+    mesh_rims top = {0};
+    fram_status status = pick_top(r, &top, &area);
+    if (status == FRAM_OK && mesh_rims_count(&top) > 0)
+        status = raise_rims(r, &top, area, freeboard);
+    mesh_rims_free(r->ctx, &top);
+    return status;
+}
+
+static fram_status check(hull_reading *r)
+{
+    mesh_report report;
+    if (mesh_check(r->ctx, &r->file->surface, true, &report) != FRAM_OK)
+        return error_memory(&r->out->error);
+    if (report.defect != MESH_CLOSED)
+        return refuse_report(r, &report);
+    double box = r->longest * r->longest * r->longest, volume = mesh_solid_properties(&r->file->surface).volume;
+    if (volume > LEAST_VOLUME * box)
+        return FRAM_OK;
+    return error_set(
+        &r->out->error, FRAM_ERROR_INPUT, r->name, 0, "mesh",
+        "the surface encloses no volume (%g m3); give the plate a thickness in the program that made the file", volume);
+}
+
+static fram_status find_rims(hull_reading *r)
+{
+    int32_t edge = -1;
+    fram_status status = mesh_rims_find(r->ctx, &r->file->surface, &r->rims, &edge);
+    if (status == FRAM_ERROR_INPUT) /* triangles turn unlike ways, or inner walls
+                                       end here: the check says where */
+        return check(r);
+    return status == FRAM_ERROR_MEMORY ? error_memory(&r->out->error) : status;
+}
+
+static fram_status fill_holes(hull_reading *r)
+{
+    mesh *m = &r->file->surface;
+    fram_status status = r->fill ? find_rims(r) : FRAM_OK;
+    for (int32_t i = 0; r->fill && i < mesh_rims_count(&r->rims) && status == FRAM_OK; i++) {
+        const int32_t *ring = r->rims.vertex.data + r->rims.start.data[i];
+        int32_t count = r->rims.start.data[i + 1] - r->rims.start.data[i];
+        status = mesh_add_polygon(r->ctx, m, ring, count);
+        if (status == FRAM_OK) {
+            r->out->report.holes++;
+            r->out->report.hole_area += vec3_length(mesh_ring_area(m, ring, count));
+        } else if (status == FRAM_ERROR_MEMORY) {
+            error_memory(&r->out->error);
+        } else {
+            vec3 p = m->vertex.data[ring[0]];
+            error_set(&r->out->error, status, r->name, 0, "mesh",
+                      "the hole of %d edges that begins at (%g, %g, %g) is too "
+                      "crooked to be filled; %s",
+                      count, p.x, p.y, p.z, work_for(MESH_OPEN));
+        }
+    }
+    return status;
+}
+
+static fram_status finish(hull_reading *r)
+{
+    scale_surface(r);
+    r->longest = hull_longest_side(&r->file->surface);
+    r->tolerance = LEVEL_TOLERANCE * r->longest;
+    fram_status status = drop_triangles(r);
+    if (status == FRAM_OK)
+        status = seal(r);
+    if (status == FRAM_OK)
+        status = orient(r);
+    r->top = mesh_bounds(&r->file->surface).hi.z;
+    if (status == FRAM_OK && r->out->report.seal.open_after > 0) {
+        status = find_rims(r);
+        if (status == FRAM_OK)
+            status = raise_top(r);
+        if (status == FRAM_OK)
+            status = fill_holes(r);
+        if (status == FRAM_OK)
+            status = orient(r);
+    }
+    return status == FRAM_OK ? check(r) : status;
+}
+
+static bool copy_file(context *ctx, const mesh_file *from, mesh_file *to)
+{
+    int32_t count = from->element.count;
+    *to = *from;
+    to->surface = (mesh){0};
+    to->element = (int32_array){0};
+    to->line = (int32_array){0};
+    if (!mesh_copy(ctx, &to->surface, &from->surface) || !array_resize(ctx, &to->element, count) ||
+        !array_resize(ctx, &to->line, count))
+        return false;
+    if (count) {
+        memcpy(to->element.data, from->element.data, (size_t)count * sizeof *to->element.data);
+        memcpy(to->line.data, from->line.data, (size_t)count * sizeof *to->line.data);
+    }
+    return true;
+}
+
+fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_outcome *out)
+{
+    mesh_file file;
+    mesh_free(q->ctx, &out->surface);
+    *out = (hull_outcome){.defect = MESH_EMPTY,
+                          .report = {.format = q->file->format,
+                                     .elements = q->file->elements,
+                                     .dropped = q->file->dropped,
+                                     .mirror_x = q->file->mirror_x,
+                                     .mirror_y = q->file->mirror_y}};
+    hull_reading r = {.ctx = q->ctx,
+                      .name = q->name,
+                      .file = &file,
+                      .options = &q->options,
+                      .seal_width = seal_width,
+                      .fill = fill,
+                      .out = out};
+    fram_status status = copy_file(q->ctx, q->file, &file) ? finish(&r) : error_memory(&out->error);
+    if (status == FRAM_OK) {
+        out->surface = file.surface;
+        file.surface = (mesh){0};
+    }
+    array_free(q->ctx, &r.source);
+    mesh_rims_free(q->ctx, &r.rims);
+    mesh_file_free(q->ctx, &file);
+    return status;
+}

@@ -1,0 +1,35 @@
+/* One attempt to make a sound solid of a file's triangles, inside io: scaled,
+   sealed, given topsides, repaired, checked. Must not know which attempts are
+   made, or what is said about them. */
+#ifndef IO_HULL_MEND_H
+#define IO_HULL_MEND_H
+
+#include "io/hull_file.h"
+
+/* A file, and what is asked of it. */
+typedef struct hull_request {
+    context *ctx;
+    const char *name;
+    const mesh_file *file;
+    hull_file_options options;
+} hull_request;
+
+/* How one attempt ended. */
+typedef struct hull_outcome {
+    mesh surface; /* sound, or empty */
+    hull_file_report report;
+    fram_error error;
+    mesh_defect defect; /* for which the surface was refused; MESH_EMPTY for any
+                           other reason */
+    bool one_sided;     /* it was refused because it has one side only */
+} hull_outcome;
+
+/* Seal cracks up to seal_width [m], fill holes where that is asked for, and the
+   rest as the options say.  What the outcome held is dropped; the file stays as
+   it is.  FRAM_ERROR_INPUT without advice, FRAM_ERROR_MEMORY. */
+fram_status hull_mend(const hull_request *q, double seal_width, bool fill, hull_outcome *out);
+
+/* [m] */
+double hull_longest_side(const mesh *m);
+
+#endif
