@@ -114,7 +114,7 @@ fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breakin
                            .gravity = load->gravity,
                            .wedges = load->wedges,
                            .thick_plate_radius = load->thick_plate_radius};
-    edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area);
+    edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area, EDGE_STRAIGHT);
     *breaking = (fram_ice_breaking){.characteristic_length = e.length,
                                     .radial_radius = e.radial_radius,
                                     .wedge_radius = e.wedge_radius,

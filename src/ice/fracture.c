@@ -60,6 +60,7 @@ void fracture_scratch_free(context *ctx, fracture_scratch *s)
     polygon_list_free(ctx, &s->piece.outlines);
     polygon_list_free(ctx, &s->piece.pair);
     polygon_list_free(ctx, &s->piece.joined);
+    polygon_list_free(ctx, &s->piece.parts);
     array_free(ctx, &s->piece.clean);
     array_free(ctx, &s->broken);
     array_free(ctx, &s->forgotten);
@@ -299,13 +300,24 @@ static fram_status break_all(const fracture_job *j)
     return status;
 }
 
+/* What a floe that fracture made is refused for is no fault of the scenario. */
+static fram_status own_fault(fram_status status, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT)
+        return status;
+    fram_error found = error ? *error : (fram_error){0};
+    return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, "fracture", "%s", found.message);
+}
+
 fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture_settings *settings, overlay *plane,
                          const crushing_patch_array *patches, const fracture_state *state, fracture_event_array *events,
                          fram_error *error)
 {
     fracture_job j = {ctx, scratch, settings, plane, state, events, error};
-    if (!fracture_loads(ctx, scratch, settings, patches, state))
-        return error_memory(error);
+    scratch->sheet.index_is_made = scratch->sheet.has_changed = false;
+    fram_status status = fracture_loads(&j, patches);
+    if (status != FRAM_OK)
+        return own_fault(status, error);
     bool trims = settings->crush_trims && patches->count > 0, trimmed = false;
     if (scratch->load.all.count == 0 && !trims)
         return FRAM_OK;
@@ -313,13 +325,13 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
     if (!array_resize(ctx, &scratch->broken, slots))
         return error_memory(error);
     memset(scratch->broken.data, 0, (size_t)slots);
-    scratch->sheet.index_is_made = scratch->sheet.has_changed = false;
-    fram_status status = break_all(&j);
+    scratch->sheet.index_is_made = false; /* floes of their own may break first */
+    status = break_all(&j);
     if (status == FRAM_OK && trims)
         status = fracture_trim(&j, patches, &trimmed);
     if (status == FRAM_OK && scratch->sheet.has_changed)
         status = fracture_release(&j);
     if (status != FRAM_OK)
-        return status;
+        return own_fault(status, error);
     return (events->count == had && !trimmed) || void_contacts(&j) ? FRAM_OK : error_memory(error);
 }

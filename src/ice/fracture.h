@@ -3,7 +3,8 @@
    material.
 
    In a floe's own plane, with the velocities and impulses of this step's solve:
-     1. loads: one per crushing patch, with the stresses it makes (fracture_load.c);
+     1. loads: one per crushing patch (fracture_load.c), the ice that it stands on (fracture_edge.c), and the stresses
+        it makes there;
      2. a radial crack opens when sigma_yy >= sigma_f; where it finds the floe's other side near enough, the floe splits
         (fracture_split.c);
      3. otherwise wedges break off when sigma_wedge >= sigma_f (fracture_bend.c);
@@ -30,11 +31,18 @@ typedef enum splitting_rule {
     SPLITTING_NONE
 } splitting_rule;
 
+/* How the wedges share a load. */
+typedef enum wedge_sharing {
+    SHARING_WIDTH = 0, /* each by the width of the ice in its sector */
+    SHARING_EQUAL      /* N whole wedges, whatever ice is there: the reference */
+} wedge_sharing;
+
 typedef struct fracture_settings {
     double time_step;     /* [s] */
     double water_density; /* [kg/m3] */
     double gravity;       /* [m/s2] */
     int32_t wedges;       /* N_wedges; the stencil has twice as many */
+    wedge_sharing sharing;
     splitting_rule splitting;
     double splitting_factor;    /* S_k */
     double toughness;           /* K_IC [Pa m^0.5], for SPLITTING_TOUGHNESS */
@@ -100,6 +108,14 @@ double fracture_wedge_width(int32_t wedges);
    set, a_eff = sqrt(1.6 a^2 + h^2) - 0.675 h (Westergaard 1926) [m]. */
 double fracture_loaded_radius(double area, double share, double thickness, bool thick);
 
+/* The ice that a load stands on. */
+typedef struct edge_ice {
+    double wedges; /* ice of the wedges over that of N whole ones: 1 on a straight edge, less at a corner [1] */
+    double strip;  /* width of the ice between the wedges, for a load that is wide along the edge [m] */
+} edge_ice;
+/* A straight edge under a narrow load: Nevel's N wedges. */
+#define EDGE_STRAIGHT ((edge_ice){1, 0})
+
 /* What a load P on a horizontal area A_h does to the edge of a floe. */
 typedef struct edge_stress {
     double length;                          /* characteristic length l [m] */
@@ -108,8 +124,10 @@ typedef struct edge_stress {
     double radial_capacity, wedge_capacity; /* loads P that make them equal to the flexural strength [N] */
     double breaking_radius;                 /* R_bending [m] */
 } edge_stress;
+/* All wedges have the deflection of their tips in common, so each carries by its width and all reach the strength
+   together (Nevel 1961). */
 edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
-                                 double load, double horizontal_area);
+                                 double load, double horizontal_area, edge_ice edge);
 
 /* Largest opening force of an edge crack in a floe of this thickness [m], toughness K_IC [Pa m^0.5], length along the
    crack and width across it [m]: F h K_IC sqrt(length), F by width over length (docs/theory.md) [N]. */

@@ -55,7 +55,9 @@ static void place_child(const birth *b, int32_t body)
     bodies->angular_velocity[body] = b->from.angular_velocity;
 }
 
-static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece)
+/* *made is false when no floe can be made of the outline after all, which was tried: rounding as it is moved.  That is
+   booked as lost. */
+static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece, bool *made)
 {
     const fracture_job *j = b->job;
     const fracture_state *to = j->state;
@@ -67,6 +69,11 @@ static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece)
     d.tile = piece->motion == MOTION_DYNAMIC ? 0 : piece->tile;
     fram_status status = floe_create(j->ctx, &d, j->settings->smallest_piece_area, j->plane, to->bodies, to->shapes,
                                      to->floes, to->next_number, &row, j->error);
+    *made = status == FRAM_OK;
+    if (status == FRAM_ERROR_INPUT || status == FRAM_ERROR_INTERNAL) {
+        log_write(j->ctx, LOG_DEBUG, "a piece could not be made: %s", j->error ? j->error->message : "");
+        return FRAM_OK;
+    }
     if (status != FRAM_OK)
         return status;
     place_child(b, to->floes->body[row]);
@@ -133,52 +140,83 @@ static bool clean_within(const fracture_job *j, const cut_piece *piece, double b
     return true;
 }
 
-bool fracture_is_dust(const fracture_settings *settings, const cut_piece *piece, polygon ring)
+fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has)
 {
-    if (piece->motion == MOTION_DYNAMIC || piece->tile == 0)
-        return piece->area < settings->smallest_floe_area;
-    if (piece->area >= settings->smallest_floe_area)
-        return false;
-    return piece->area < settings->smallest_piece_area ||
-           !(tile_side_length(&settings->tiles, piece->tile - 1, ring) > settings->tiles.least_seam);
+    polygon_list *parts = &j->scratch->piece.parts;
+    *has = true;
+    if (polygon_is_convex(ring))
+        return FRAM_OK;
+    polygon_list_clear(parts);
+    fram_status status = overlay_convex_pieces(j->plane, ring, j->settings->smallest_piece_area, PIECE_MOST_VERTICES,
+                                               parts, NULL, j->error);
+    *has = status == FRAM_OK && polygon_list_count(parts) > 0;
+    return status == FRAM_ERROR_MEMORY ? status : FRAM_OK;
 }
 
-static bool is_dust(const fracture_job *j, const cut_piece *piece)
+fram_status fracture_is_dust(const fracture_job *j, const cut_piece *piece, polygon ring, bool *dust)
 {
-    return fracture_is_dust(j->settings, piece, polygon_list_get(&j->scratch->piece.outlines, piece->ring));
+    const fracture_settings *f = j->settings;
+    bool tile = piece->motion != MOTION_DYNAMIC && piece->tile != 0, has;
+    *dust = piece->area < (tile ? f->smallest_piece_area : f->smallest_floe_area) ||
+            (tile && piece->area < f->smallest_floe_area &&
+             !(tile_side_length(&f->tiles, piece->tile - 1, ring) > f->tiles.least_seam));
+    /* A ring is cut into two triangles less than it has corners: one of them is large enough. */
+    if (*dust || piece->area >= (ring.count - 2) * f->smallest_piece_area)
+        return FRAM_OK;
+    fram_status status = fracture_has_parts(j, ring, &has);
+    *dust = !has;
+    return status;
+}
+
+static fram_status row_is_dust(const fracture_job *j, int32_t i, bool *dust)
+{
+    const cut_piece *c = &j->scratch->piece.rows.data[i];
+    return fracture_is_dust(j, c, polygon_list_get(&j->scratch->piece.outlines, c->ring), dust);
 }
 
 /* Area of the pieces that no sibling took: they will be lost [m2]. */
-static double dust_of(const fracture_job *j)
+static fram_status dust_of(const fracture_job *j, double *area)
 {
-    double sum = 0;
-    for (int32_t i = 0; i < j->scratch->piece.rows.count; i++)
-        if (is_dust(j, &j->scratch->piece.rows.data[i]))
-            sum += j->scratch->piece.rows.data[i].area;
-    return sum;
+    *area = 0;
+    for (int32_t i = 0; i < j->scratch->piece.rows.count; i++) {
+        bool dust;
+        fram_status status = row_is_dust(j, i, &dust);
+        if (status != FRAM_OK)
+            return status;
+        if (dust)
+            *area += j->scratch->piece.rows.data[i].area;
+    }
+    return FRAM_OK;
 }
 
-/* All pieces cleaned, within the budget together; *sound is false when one cannot be.  Dust is left for the books. */
-static bool clean_pieces(const fracture_job *j, double budget, bool *sound)
+/* All pieces cleaned, within the budget together; *sound is false when one cannot be, or cannot be cut into convex
+   parts.  Dust is left for the books. */
+static fram_status clean_pieces(const fracture_job *j, double budget, bool *sound)
 {
     fracture_scratch *s = j->scratch;
     *sound = true;
-    for (int32_t i = 0; i < s->piece.rows.count; i++) {
+    for (int32_t i = 0; i < s->piece.rows.count && *sound; i++) {
         cut_piece *c = &s->piece.rows.data[i];
-        if (is_dust(j, c))
-            continue;
+        bool dust;
         polygon outline;
+        fram_status status = row_is_dust(j, i, &dust);
+        if (status != FRAM_OK)
+            return status;
+        if (dust)
+            continue;
         if (!clean_within(j, c, fmax(budget, 0) / (s->piece.rows.count - i), &outline))
-            return false;
+            return error_memory(j->error);
         *sound = outline.count > 0;
-        if (!*sound)
-            return true;
+        if (*sound)
+            status = fracture_has_parts(j, outline, sound);
+        if (status != FRAM_OK || !*sound)
+            return status;
         budget -= fabs(polygon_area(outline) - c->area);
         c->ring = polygon_list_count(&s->piece.outlines);
         if (!polygon_list_push(j->ctx, &s->piece.outlines, outline))
-            return false;
+            return error_memory(j->error);
     }
-    return true;
+    return FRAM_OK;
 }
 
 bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
@@ -205,10 +243,11 @@ static fram_status make_pieces(birth *b)
     for (int32_t i = 0; i < j->scratch->piece.rows.count && status == FRAM_OK; i++) {
         const cut_piece *c = &j->scratch->piece.rows.data[i];
         polygon outline = polygon_list_get(&j->scratch->piece.outlines, c->ring);
-        bool dust = is_dust(j, c);
-        book(b, c->area, dust ? 0 : polygon_area(outline));
-        if (!dust)
-            status = make_floe(b, outline, c);
+        bool dust, made = false;
+        status = row_is_dust(j, i, &dust);
+        if (status == FRAM_OK && !dust)
+            status = make_floe(b, outline, c, &made);
+        book(b, c->area, made ? polygon_area(outline) : 0);
     }
     assert(status != FRAM_OK || fabs(b->event->parent_area - b->event->piece_area - b->event->area_lost +
                                      b->event->area_gained) <= SAME_AREA * b->event->parent_area);
@@ -229,15 +268,19 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     double parent_area = 0;
     for (int32_t i = 0; i < count; i++)
         parent_area += j->state->floes->area[parents[i]];
-    fram_status status = fracture_join_dust(j->ctx, s, j->settings, j->plane, j->error);
-    double budget = MOST_BOOKED * parent_area - dust_of(j);
+    double dust = 0;
+    fram_status status = fracture_join_dust(j);
+    if (status == FRAM_OK)
+        status = dust_of(j, &dust);
+    double budget = MOST_BOOKED * parent_area - dust;
     /* What comes loose may be dust itself: nothing holds it. */
     if (status != FRAM_OK || s->piece.rows.count < least || (budget < 0 && least > 1))
         return status;
-    if (!clean_pieces(j, budget, broke))
-        return error_memory(j->error);
-    if (!*broke)
-        return FRAM_OK;
+    bool sound;
+    status = clean_pieces(j, budget, &sound);
+    if (status != FRAM_OK || !sound)
+        return status;
+    *broke = true;
     event->floe = b.from.definition.parent;
     event->first_piece = *j->state->next_number;
     event->parent_area = parent_area;

@@ -150,32 +150,32 @@ static fram_status join(context *ctx, fracture_scratch *s, overlay *plane, int32
 
 /* Too small, or what cleaning leaves is no floe: less than half of it, a sliver of three vertices, or a ring that
    crosses itself. */
-static bool judge(context *ctx, fracture_scratch *s, const fracture_settings *settings, int32_t i, bool *dust)
+static fram_status judge(const fracture_job *j, int32_t i, bool *dust)
 {
-    const cut_piece *piece = &s->piece.rows.data[i];
-    polygon ring = polygon_list_get(&s->piece.outlines, piece->ring);
-    *dust = fracture_is_dust(settings, piece, ring);
-    if (*dust || (piece->tile != 0 && piece->motion != MOTION_DYNAMIC))
-        return true;
-    if (!polygon_clean(ctx, ring, settings->edge_threshold, &s->piece.clean))
-        return false;
-    polygon left = {s->piece.clean.data, s->piece.clean.count};
-    *dust = polygon_area(left) < fmax(settings->smallest_floe_area, piece->area / 2) ||
-            !polygon_is_clean(left, settings->edge_threshold) || !fracture_outline_is_sound(ctx, left);
-    return true;
+    piece_work *w = &j->scratch->piece;
+    const fracture_settings *f = j->settings;
+    const cut_piece *piece = &w->rows.data[i];
+    polygon ring = polygon_list_get(&w->outlines, piece->ring);
+    fram_status status = fracture_is_dust(j, piece, ring, dust);
+    if (status != FRAM_OK || *dust || (piece->tile != 0 && piece->motion != MOTION_DYNAMIC))
+        return status;
+    if (!polygon_clean(j->ctx, ring, f->edge_threshold, &w->clean))
+        return error_memory(j->error);
+    polygon left = {w->clean.data, w->clean.count};
+    *dust = polygon_area(left) < fmax(f->smallest_floe_area, piece->area / 2) ||
+            !polygon_is_clean(left, f->edge_threshold) || !fracture_outline_is_sound(j->ctx, left);
+    return FRAM_OK;
 }
 
-fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
-                               fram_error *error)
+fram_status fracture_join_dust(const fracture_job *j)
 {
+    fracture_scratch *s = j->scratch;
     for (int32_t i = 0; i < s->piece.rows.count;) {
         int32_t to = -1;
         bool dust;
-        if (!judge(ctx, s, settings, i, &dust))
-            return error_memory(error);
-        fram_status status = FRAM_OK;
-        if (dust)
-            status = join(ctx, s, plane, i, &to, error);
+        fram_status status = judge(j, i, &dust);
+        if (status == FRAM_OK && dust)
+            status = join(j->ctx, s, j->plane, i, &to, j->error);
         if (status != FRAM_OK)
             return status;
         if (to < 0) {

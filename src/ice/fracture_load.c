@@ -25,19 +25,23 @@ double fracture_loaded_radius(double area, double share, double thickness, bool 
     return a;
 }
 
+/* Less ice than this part of a straight edge's is rounding. */
+static const double LEAST_ICE = 1e-6;
+
 edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
-                                 double load, double horizontal_area)
+                                 double load, double horizontal_area, edge_ice edge)
 {
-    double h = thickness, width = fracture_wedge_width(settings->wedges), count = settings->wedges;
+    double h = thickness, width = settings->wedges * fracture_wedge_width(settings->wedges);
     edge_stress s = {.length = ice_characteristic_length(ice, h, settings->water_density, settings->gravity)};
+    width *= fmax(edge.wedges, LEAST_ICE);
     s.radial_radius = fracture_loaded_radius(horizontal_area, PI / 2, h, settings->thick_plate_radius);
-    s.wedge_radius = fracture_loaded_radius(horizontal_area, count * width / 2, h, settings->thick_plate_radius);
+    s.wedge_radius = fracture_loaded_radius(horizontal_area, width / 2, h, settings->thick_plate_radius);
     double radial = sheet_stress(fmax(s.radial_radius / s.length, POINT_LOAD), ice->poisson_ratio);
     wedge w = wedge_solve(s.wedge_radius / s.length);
     s.radial_stress = radial * load / (h * h);
-    s.wedge_stress = 6 * load / (count * width * h * h) * w.curvature;
+    s.wedge_stress = 6 * load / (width * h * h) * w.curvature;
     s.radial_capacity = ice->flexural_strength * h * h / radial;
-    s.wedge_capacity = ice->flexural_strength * h * h * count * width / 6 * w.capacity;
+    s.wedge_capacity = ice->flexural_strength * h * h * width / 6 * w.capacity;
     s.breaking_radius = s.length * w.x_max;
     return s;
 }
@@ -141,30 +145,55 @@ static bool merge_seams(context *ctx, fracture_scratch *s, const tile_grid *g)
 
 /* ---- which fail ---- */
 
-/* Loads under this part of the strength fail in no way: 6/b0 eta'' and sigma_yy h^2/P are both under 12 for a/l of
-   POINT_LOAD and more, and fall from there. */
-static bool may_fail(const fracture_load *l)
+/* Loads under this part of the strength fail in no way on a straight edge: 6/b0 eta'' and sigma_yy h^2/P are both under
+   12 for a/l of POINT_LOAD and more, and fall from there.  Less ice than a spike of 8 degrees has is at no start: a
+   cleaned outline has no sharper corner. */
+static bool may_fail(const fracture_settings *settings, const fracture_load *l)
 {
-    return 12 * l->force >= l->ice.flexural_strength * l->thickness * l->thickness;
+    static const double SPIKE = 8.0 / 180;
+    double least = settings->sharing == SHARING_EQUAL ? 1 : SPIKE;
+    return 12 * l->force >= least * l->ice.flexural_strength * l->thickness * l->thickness;
+}
+
+/* Whether a load on this ice fails at all.  Nevel's C is at least 1, that of a load on a point; a sheet of tiles breaks
+   in bending alone. */
+static bool fails(const fracture_settings *settings, const fracture_load *l, edge_ice edge)
+{
+    double h = l->thickness, strength = l->ice.flexural_strength * h * h;
+    if (6 * l->force >= strength * settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges)
+        return true;
+    if (l->tile)
+        return false;
+    double length = ice_characteristic_length(&l->ice, h, settings->water_density, settings->gravity);
+    double radius = fracture_loaded_radius(l->horizontal_area, PI / 2, h, settings->thick_plate_radius);
+    return sheet_stress(fmax(radius / length, POINT_LOAD), l->ice.poisson_ratio) * l->force >= strength;
 }
 
 /* Stresses of all loads; those that fail in no way go. */
-static void keep_failing(fracture_scratch *s, const fracture_settings *settings)
+static fram_status keep_failing(const fracture_job *j)
 {
+    fracture_load_array *all = &j->scratch->load.all;
     int32_t kept = 0;
-    for (int32_t i = 0; i < s->load.all.count; i++) {
-        fracture_load l = s->load.all.data[i];
+    for (int32_t i = 0; i < all->count; i++) {
+        fracture_load l = all->data[i];
         l.force = fabs(l.vector.z);
         l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
-        if (!may_fail(&l))
+        if (!may_fail(j->settings, &l))
             continue;
-        l.stress = fracture_edge_stress(settings, &l.ice, l.thickness, l.force, l.horizontal_area);
+        edge_ice edge;
+        fram_status status = fracture_find_ice(j, &l, &edge);
+        if (status != FRAM_OK)
+            return status;
+        if (!fails(j->settings, &l, edge))
+            continue;
+        l.stress = fracture_edge_stress(j->settings, &l.ice, l.thickness, l.force, l.horizontal_area, edge);
         l.radial_ratio = l.stress.radial_stress / l.ice.flexural_strength;
         l.wedge_ratio = l.stress.wedge_stress / l.ice.flexural_strength;
         if (l.radial_ratio >= 1 || l.wedge_ratio >= 1)
-            s->load.all.data[kept++] = l;
+            all->data[kept++] = l;
     }
-    s->load.all.count = kept;
+    all->count = kept;
+    return FRAM_OK;
 }
 
 static double severity(const fracture_load *l) { return fmax(l->radial_ratio, l->wedge_ratio); }
@@ -181,24 +210,24 @@ static int compare_loads(const void *a, const void *b)
     return x->patch < y->patch ? -1 : x->patch > y->patch ? 1 : 0;
 }
 
-bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *settings,
-                    const crushing_patch_array *patches, const fracture_state *state)
+fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *patches)
 {
+    context *ctx = j->ctx;
+    fracture_scratch *s = j->scratch;
     array_clear(&s->load.all);
     for (int32_t i = 0; i < patches->count; i++) {
         const crushing_patch *p = &patches->data[i];
-        uint8_t other = state->bodies->material[p->surface_body];
-        if (other == MATERIAL_WALL || (other == MATERIAL_ICE && !settings->under_ice_contacts))
+        uint8_t other = j->state->bodies->material[p->surface_body];
+        if (other == MATERIAL_WALL || (other == MATERIAL_ICE && !j->settings->under_ice_contacts))
             continue;
-        if (!add_load(ctx, s, settings, patches, i, state, p->floe_body))
-            return false;
-        if (other == MATERIAL_ICE && !add_load(ctx, s, settings, patches, i, state, p->surface_body))
-            return false;
+        if (!add_load(ctx, s, j->settings, patches, i, j->state, p->floe_body) ||
+            (other == MATERIAL_ICE && !add_load(ctx, s, j->settings, patches, i, j->state, p->surface_body)))
+            return error_memory(j->error);
     }
-    if (!merge_seams(ctx, s, &settings->tiles))
-        return false;
-    keep_failing(s, settings);
-    if (s->load.all.count > 1)
+    if (!merge_seams(ctx, s, &j->settings->tiles))
+        return error_memory(j->error);
+    fram_status status = keep_failing(j);
+    if (status == FRAM_OK && s->load.all.count > 1)
         qsort(s->load.all.data, (size_t)s->load.all.count, sizeof *s->load.all.data, compare_loads);
-    return true;
+    return status;
 }

@@ -75,6 +75,7 @@ typedef struct piece_work {
     cut_piece_array rows;
     polygon_list outlines;     /* rings of the rows, and of what became of them */
     polygon_list pair, joined; /* two siblings, and their union */
+    polygon_list parts;        /* convex parts of a ring */
     vec2_array clean;
 } piece_work;
 
@@ -122,9 +123,13 @@ struct fracture_scratch {
 #define CRACK_GONE_REACH 1e-6
 
 /* Loads of this step on breakable floes that fail in one way at least, by ascending slot, then falling stress over
-   strength, ties by patch.  false: no memory. */
-bool fracture_loads(context *ctx, fracture_scratch *s, const fracture_settings *settings,
-                    const crushing_patch_array *patches, const fracture_state *state);
+   strength, ties by patch. */
+fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *patches);
+
+/* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
+double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);
+/* The ice that a load stands on, by the areas inside the sectors of its stencil; EDGE_STRAIGHT with SHARING_EQUAL. */
+fram_status fracture_find_ice(const fracture_job *j, const fracture_load *l, edge_ice *edge);
 
 crack_start crack_start_of(polygon p, vec2 load, double snap);
 
@@ -161,17 +166,21 @@ fram_status fracture_unite(context *ctx, fracture_scratch *s, overlay *plane, in
                            fram_error *error);
 void fracture_drop_piece(fracture_scratch *s, int32_t i);
 
-/* Pieces that are too small or too narrow to be floes are joined to the neighbour that they share the most boundary
-   with, so that no ice is lost; those without one stay.  Pieces keep their order. */
-fram_status fracture_join_dust(context *ctx, fracture_scratch *s, const fracture_settings *settings, overlay *plane,
-                               fram_error *error);
+/* Pieces that are too small or too narrow to be floes, or that no convex parts can be made of, are joined to the
+   neighbour that they share the most boundary with, so that no ice is lost; those without one stay.  Pieces keep their
+   order. */
+fram_status fracture_join_dust(const fracture_job *j);
 
 /* Outlines become the cut pieces: remnants with this motion and the wedges of a floe. */
 bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
                      int32_t wedge);
 
-/* Too small to be a floe.  A part of a sheet need not be one, as long as it has a seam to hang on. */
-bool fracture_is_dust(const fracture_settings *settings, const cut_piece *piece, polygon ring);
+/* Too small to be a floe.  A part of a sheet need not be one, as long as it has a seam to hang on, and a convex part
+   large enough for contacts. */
+fram_status fracture_is_dust(const fracture_job *j, const cut_piece *piece, polygon ring, bool *dust);
+
+/* Whether a ring has convex parts that contacts can be made with (bodies/shape.h). */
+fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has);
 
 /* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,
    and the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than
@@ -189,6 +198,17 @@ fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *pat
 /* After a change of the sheet: the index anew, and the cells of sheet.touched among those that changed. */
 fram_status fracture_sheet_changed(const fracture_job *j);
 void fracture_sheet_touch(const fracture_job *j);
+/* The start of a load's crack on the sheet as it stands, with the boundary around it in sheet.boundary.  A load farther
+   than `reach` from any boundary breaks nothing: an edge is what it would bend. */
+fram_status fracture_sheet_start(const fracture_job *j, vec2 load, double reach, double radius, crack_start *start,
+                                 bool *found);
+/* Loads farther than this from an edge do not break the sheet [m]. */
+double fracture_sheet_reach(const tile_grid *g);
+/* Length of a crack's ray to the boundary in sheet.boundary. */
+double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap);
+/* Adds the areas that the sheet has in common with each of these polygons to out. */
+fram_status fracture_sheet_areas(const fracture_job *j, const vec2 *corner, const int32_t *size, int count,
+                                 double *out);
 /* What the queries of tiles look at. */
 tile_sheet_view fracture_sheet_view(const fracture_job *j);
 /* The bodies of sheet.touched broke in this step. */

@@ -21,7 +21,7 @@ static fram_status make_index(const fracture_job *j)
     return FRAM_OK;
 }
 
-static double cell_size(const tile_grid *g)
+double fracture_sheet_reach(const tile_grid *g)
 {
     return fmin((g->plan.hi.x - g->plan.lo.x) / g->columns, (g->plan.hi.y - g->plan.lo.y) / g->rows);
 }
@@ -68,12 +68,13 @@ static bool nearest_start(const tile_segment_array *boundary, vec2 load, double 
     return true;
 }
 
-/* The start of a load's crack on the sheet as it stands.  A load farther from any boundary than a cell is wide breaks
-   nothing: an edge is what it would bend. */
-static fram_status find_start(const fracture_job *j, vec2 load, double reach, double radius, crack_start *start,
-                              bool *found)
+fram_status fracture_sheet_start(const fracture_job *j, vec2 load, double reach, double radius, crack_start *start,
+                                 bool *found)
 {
     fracture_scratch *s = j->scratch;
+    fram_status status = make_index(j);
+    if (status != FRAM_OK)
+        return status;
     tile_sheet_view v = fracture_sheet_view(j);
     tile_range range;
     *found = false;
@@ -86,9 +87,9 @@ static fram_status find_start(const fracture_job *j, vec2 load, double reach, do
     return FRAM_OK;
 }
 
-/* Length of the crack's ray to the boundary within the range at hand (option wedge_room). */
-static double sheet_crack_length(const tile_segment_array *boundary, const crack_start *start, double snap)
+double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap)
 {
+    const tile_segment_array *boundary = &j->scratch->sheet.boundary;
     double least = HUGE_VAL;
     for (int32_t i = 0; i < boundary->count; i++) {
         const tile_segment *e = &boundary->data[i];
@@ -99,6 +100,32 @@ static double sheet_crack_length(const tile_segment_array *boundary, const crack
             least = length;
     }
     return least;
+}
+
+/* ---- how much ice is where ---- */
+
+fram_status fracture_sheet_areas(const fracture_job *j, const vec2 *corner, const int32_t *size, int count, double *out)
+{
+    fracture_scratch *s = j->scratch;
+    tile_sheet_view v = fracture_sheet_view(j);
+    int32_t corners = 0;
+    for (int i = 0; i < count; i++)
+        corners += size[i];
+    tile_range range;
+    if (!tile_range_of(v.grid, polygon_bounds((polygon){corner, corners}), &range))
+        return FRAM_OK;
+    for (int32_t k = range.row_first; k <= range.row_last; k++)
+        for (int32_t i = range.column_first; i <= range.column_last; i++)
+            for (int32_t row = s->sheet.index.first.data[i + k * v.grid->columns]; row >= 0;
+                 row = s->sheet.index.next.data[row]) {
+                if (!tile_outline(j->ctx, &v, row, &s->sheet.ring))
+                    return error_memory(j->error);
+                const vec2 *at = corner;
+                for (int m = 0; m < count; at += size[m], m++)
+                    out[m] += polygon_overlap_area((polygon){s->sheet.ring.data, s->sheet.ring.count},
+                                                   (polygon){at, size[m]});
+            }
+    return FRAM_OK;
 }
 
 /* ---- cutting ---- */
@@ -265,13 +292,13 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
 static fram_status find_starts(const fracture_job *j, const fracture_load *load, int32_t count)
 {
     fracture_scratch *s = j->scratch;
-    double reach = cell_size(&j->settings->tiles);
+    double reach = fracture_sheet_reach(&j->settings->tiles);
     if (!array_resize(j->ctx, &s->sheet.starts, count))
         return error_memory(j->error);
     for (int32_t i = 0; i < count; i++) {
         bool found;
-        fram_status status =
-            find_start(j, load[i].place, reach, load[i].stress.breaking_radius, &s->sheet.starts.data[i], &found);
+        fram_status status = fracture_sheet_start(j, load[i].place, reach, load[i].stress.breaking_radius,
+                                                  &s->sheet.starts.data[i], &found);
         if (status != FRAM_OK)
             return status;
         if (!found)
@@ -285,12 +312,12 @@ static fram_status renew_start(const fracture_job *j, const fracture_load *l, cr
 {
     double radius = l->stress.breaking_radius, distance = start->distance;
     vec2 point = start->point;
-    fram_status status = find_start(j, point, radius, radius, start, is_there);
+    fram_status status = fracture_sheet_start(j, point, radius, radius, start, is_there);
     if (status != FRAM_OK || !*is_there)
         return status;
     *is_there = start->distance <= CRACK_GONE_REACH * radius;
     if (*is_there && j->settings->wedge_room)
-        *is_there = sheet_crack_length(&j->scratch->sheet.boundary, start, CRACK_CORNER_REACH * radius) > radius;
+        *is_there = fracture_sheet_crack_length(j, start, CRACK_CORNER_REACH * radius) > radius;
     start->distance = distance;
     return FRAM_OK;
 }

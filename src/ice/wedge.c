@@ -133,12 +133,18 @@ static void third_derivative(const wedge *w, double xi, double *value, double *s
     *slope = (xi < w->load_length ? pressure(w) : 0) - eta[0] - 2 * eta[3] / xi;
 }
 
-/* The root of eta''' by Newton's way, kept inside a bracket.  The start is the law for small loads, x_max = 0.97043
-   (a/l)^(1/3), with a correction that holds it to a few percent elsewhere. */
+/* The law for small loads, x_max = 0.97043 (a/l)^(1/3), with a correction that holds it elsewhere. */
+double wedge_breaking_estimate(double a_over_l)
+{
+    double a = fmin(fmax(a_over_l, WEDGE_LEAST_LOAD), WEDGE_MOST_LOAD);
+    return 0.97043 * real_cbrt(a) * (1 + 0.6 * real_pow(a, 0.55));
+}
+
+/* The root of eta''' by Newton's way, kept inside a bracket. */
 static double largest_curvature_at(const wedge *w)
 {
-    double a = w->load_length, value, slope;
-    double x = 0.97043 * real_cbrt(a) * (1 + 0.6 * real_pow(a, 0.55)), low = 0.25 * x, high = 2 * x;
+    double value, slope;
+    double x = wedge_breaking_estimate(w->load_length), low = 0.25 * x, high = 2 * x;
     for (int i = 0; i < 100; i++) {
         third_derivative(w, x, &value, &slope);
         if (value > 0)

@@ -176,6 +176,9 @@
 
 #define SCENARIO_FRACTURE_KEYS(X)                                                                               \
     X(wedges, INTEGER(3, 2, 32), "1", "N of the N wedges that share a load; the stencil has twice as many")     \
+    X(sharing, CHOICE(wedge_sharing, SHARING_WIDTH, "width equal"), "",                                         \
+      "width: each wedge carries by the width of the ice in its sector, a corner less than an edge; equal: N "  \
+      "whole wedges whatever ice is there")                                                                     \
     X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                         \
       "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than " \
       "splitting_factor R; toughness: fracture mechanics; none: floes do not split")                            \

@@ -21,6 +21,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .water_density = e->water_density,
                                .gravity = e->gravity,
                                .wedges = (int32_t)s->ice.fracture.wedges,
+                               .sharing = s->ice.fracture.sharing,
                                .splitting = s->ice.fracture.splitting,
                                .splitting_factor = s->ice.fracture.splitting_factor,
                                .toughness = s->ice.fracture.toughness,

@@ -38,7 +38,7 @@ static void note_fracture(context *ctx, const scenario *s, text_buffer *out)
                       i->flexural_strength, i->crushing_strength, i->crushing_exponent};
     fracture_settings f = build_fracture_settings(s);
     for (int k = 0; k < 2; k++) {
-        edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k]);
+        edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[k], EDGE_STRAIGHT);
         text_format(
             ctx, out,
             "fracture: on %.3g m2 the radial crack opens at %.4g kN, %d wedges break off at %.4g kN, %.4g m from "
@@ -47,7 +47,7 @@ static void note_fracture(context *ctx, const scenario *s, text_buffer *out)
             ice_crushing_pressure(&m, areas[k]) * areas[k] * 1e-3);
     }
     /* The patch of a plate at 45 degrees, as wide as the ice is thick, grows until the wedges break off. */
-    edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0]);
+    edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0], EDGE_STRAIGHT);
     double depth = s->vessel.speed * s->run.time_step, needed = e.wedge_capacity / (sigma * h);
     if (s->vessel.present && depth > 0.2 * needed)
         text_format(ctx, out,

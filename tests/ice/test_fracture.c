@@ -41,7 +41,7 @@ START_TEST(wedge_capacity)
     s.thick_plate_radius = false;
     double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81);
     double area = 0.01 * l * l * 3 * fracture_wedge_width(3) / 2;
-    edge_stress e = fracture_edge_stress(&s, &FRACTURE_RIG_ICE, 1, 1e5, area);
+    edge_stress e = fracture_edge_stress(&s, &FRACTURE_RIG_ICE, 1, 1e5, area, EDGE_STRAIGHT);
     assert_absolute(e.length, 14.6079, 5e-5);
     assert_relative(e.wedge_radius, 0.1 * l, 1e-14);
     assert_absolute(e.wedge_capacity / 0.5e6, 0.7248, 5e-5);
@@ -69,7 +69,7 @@ START_TEST(strong_enough)
     fracture_rig r;
     fracture_rig_make(&r);
     int32_t row = plate(&r, 100, 100, MOTION_DYNAMIC);
-    edge_stress e = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5);
+    edge_stress e = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT);
     ck_assert(fracture_rig_load(&r, row, (vec2){49.9, 0}, 0.9999 * e.wedge_capacity, 0.5));
     ck_assert_int_eq(fracture_rig_break(&r), 0);
     ck_assert_int_eq(fracture_rig_count(&r), 1);
@@ -104,7 +104,7 @@ START_TEST(split_in_two)
     fracture_rig r;
     fracture_rig_make(&r);
     int32_t row = plate(&r, 20, 10, MOTION_DYNAMIC);
-    double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA).breaking_radius;
+    double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).breaking_radius;
     ck_assert(radius > 10 / 3.0 && radius < 10);
     ck_assert(fracture_rig_load(&r, row, (vec2){2, -4.9}, 1e7, AREA));
     ck_assert_int_eq(fracture_rig_break(&r), 1);
@@ -132,7 +132,7 @@ START_TEST(no_split)
 {
     fracture_rig r;
     fracture_rig_make(&r);
-    double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA).breaking_radius;
+    double radius = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).breaking_radius;
     /* Too long, too short, S_k = 1, switched off. */
     const double width[4] = {3.01 * radius, 0.99 * radius, 2 * radius, 2 * radius};
     for (int i = 0; i < 4; i++) {

@@ -109,7 +109,7 @@ START_TEST(critical_state)
 {
     fracture_settings s = {.water_density = 1025, .gravity = 9.81, .wedges = 3};
     ice_material m = ICE_RIG_MATERIAL;
-    edge_stress e = fracture_edge_stress(&s, &m, 1, FORCE, AREA);
+    edge_stress e = fracture_edge_stress(&s, &m, 1, FORCE, AREA, EDGE_STRAIGHT);
     assert_relative(e.wedge_stress, m.flexural_strength, 1e-5);
     assert_relative(e.wedge_radius, LOADED, 1e-5);
     assert_relative(e.breaking_radius, RADIUS, 2e-6);

@@ -181,7 +181,7 @@ START_TEST(patch_across_a_seam)
         fracture_rig r;
         fracture_rig_make(&r);
         sheet_make(&r, PLAN, 30, NULL);
-        edge_stress whole = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 2 * AREA);
+        edge_stress whole = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 2 * AREA, EDGE_STRAIGHT);
         for (int side = -1; side <= 1; side += 2) {
             ck_assert(sheet_load(&r, (vec2){0.5 * side, 0.4}, 0.51 * whole.wedge_capacity, AREA));
             crushing_patch *p = &r.patches.data[r.patches.count - 1];
@@ -220,6 +220,7 @@ START_TEST(island)
     fracture_rig_make(&r);
     sheet_make(&r, (box2){{0, 0}, {160, 120}}, 20, NULL);
     r.settings.tiles.anchored[SHEET_Y_MIN] = false;
+    r.settings.sharing = SHARING_EQUAL; /* bites of one size, so that the block's is known */
     const vec2 corner[] = {{60, 0}, {60, 70}, {120, 70}, {120, -2}};
     int released = 0;
     double loose = 0;
@@ -345,6 +346,46 @@ START_TEST(corners_within_rounding)
 }
 END_TEST
 
+/* A remnant of a tile along its seam, which a sheet may keep under the least area of a floe, is so thin and so ragged
+   that all its convex parts are under the least area of these: it joins a sibling, is booked, or the break is put off.
+ */
+START_TEST(no_convex_part)
+{
+    static const vec2 RAGGED[7] = {{20, 0.1},    {20, 1.1},      {19.98, 1.1}, {19.998, 0.85},
+                                   {19.98, 0.6}, {19.998, 0.35}, {19.98, 0.1}};
+    static const vec2 BESIDE[9] = {{0, 0},         {19.98, 0},   {19.98, 0.1}, {19.998, 0.35}, {19.98, 0.6},
+                                   {19.998, 0.85}, {19.98, 1.1}, {19.5, 20},   {0, 20}};
+    static const vec2 FAR[4] = {{0, 0}, {15, 0}, {15, 20}, {0, 20}};
+    for (int turn = 0; turn < 3; turn++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        sheet_make(&r, (box2){{0, 0}, {40, 20}}, 20, NULL);
+        fracture_state state = {&r.bodies, &r.shapes, &r.floes, &r.contacts, &r.memory, &r.next_number, &r.crushed};
+        fram_error e = {0};
+        fracture_job j = {&r.ctx, r.scratch, &r.settings, r.plane, &state, &r.events, &e};
+        polygon ragged = {RAGGED, 7}, other = turn == 0 ? (polygon){BESIDE, 9} : (polygon){FAR, 4};
+        ck_assert(polygon_area(ragged) > r.settings.smallest_piece_area && !polygon_is_convex(ragged));
+        ck_assert(tile_side_length(&r.settings.tiles, 0, ragged) > r.settings.tiles.least_seam);
+        r.settings.edge_threshold = 1e-4; /* cleaning leaves all as it is */
+        if (turn == 2)
+            r.settings.smallest_piece_area = r.settings.smallest_floe_area = 4e-3;
+        polygon_list rings = {0};
+        ck_assert(polygon_list_push(&r.ctx, &rings, ragged) && polygon_list_push(&r.ctx, &rings, other));
+        ck_assert(fracture_gather(&r.ctx, r.scratch, &rings, MOTION_STATIC, 1, 0));
+        int32_t parent = sheet_tile_at(&r, (vec2){1, 1});
+        fracture_event event = {0};
+        bool broke;
+        assert_ok(fracture_birth(&j, &parent, 1, 1, &event, &broke), e);
+        ck_assert(broke);
+        /* Joined, lost, and kept where its largest part is large enough. */
+        ck_assert_int_eq(event.pieces, turn == 2 ? 2 : 1);
+        assert_absolute(event.piece_area, polygon_area(other) + (turn == 1 ? 0 : polygon_area(ragged)), 2e-3);
+        polygon_list_free(&r.ctx, &rings);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
 START_TEST(memory_runs_out)
 {
     for (long n = 1;; n++) {
@@ -369,4 +410,4 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("fracture_sheet", boundary, tiles_do_not_matter, other_tiles_stay, seams, patch_across_a_seam, inner_load,
-          island, anchored_sides, random_bites, corners_within_rounding, memory_runs_out)
+          island, anchored_sides, random_bites, corners_within_rounding, no_convex_part, memory_runs_out)

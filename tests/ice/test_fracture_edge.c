@@ -1,0 +1,148 @@
+/* The ice that a load stands on: corners, edges and what neighbours left, against the angles of the wedges
+   (docs/decisions/0044). */
+#include "sheet_rig.h"
+
+#include "ice/fracture_parts.h"
+
+/* Ice under a load at a place of a floe's frame, or of the global plan on a sheet. */
+static edge_ice ice_under(fracture_rig *r, int32_t row, vec2 place, double area)
+{
+    fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number, &r->crushed};
+    fram_error error = {0};
+    fracture_job j = {&r->ctx, r->scratch, &r->settings, r->plane, &state, &r->events, &error};
+    fracture_load l = {.body = r->floes.body[row],
+                       .floe = row,
+                       .tile = r->floes.tile[row],
+                       .force = 1e5,
+                       .place = place,
+                       .horizontal_area = area,
+                       .thickness = 1,
+                       .ice = FRACTURE_RIG_ICE};
+    edge_ice edge;
+    r->scratch->sheet.index_is_made = false;
+    assert_ok(fracture_find_ice(&j, &l, &edge), error);
+    return edge;
+}
+
+/* A large floe whose corner at the origin has this included angle, its bisector along +x; the frame is the floe's. */
+static int32_t corner_floe(fracture_rig *r, double angle, vec2 *corner)
+{
+    double x = 200 * real_cos(angle / 2), y = 200 * real_sin(angle / 2);
+    const vec2 ring[3] = {{0, 0}, {x, -y}, {x, y}};
+    int32_t row = fracture_rig_floe(r, (polygon){ring, 3}, 1, MOTION_DYNAMIC);
+    ck_assert_int_ge(row, 0);
+    vec3 at = r->bodies.position[r->floes.body[row]];
+    *corner = (vec2){-at.x, -at.y};
+    return row;
+}
+
+/* A corner has its angle's part of an edge: exactly where its sides lie on sectors' sides, and as N grows. */
+START_TEST(corners)
+{
+    static const double DEGREES[3] = {60, 90, 120}, PART[3] = {1.0 / 3, 1.0 / 2, 2.0 / 3};
+    fracture_rig r;
+    fracture_rig_make(&r);
+    for (int i = 0; i < 3; i++) {
+        vec2 corner;
+        int32_t row = corner_floe(&r, radians(DEGREES[i]), &corner);
+        double last = 1;
+        for (int32_t n = 2; n <= 32; n *= 2) {
+            r.settings.wedges = n;
+            double off = fabs(ice_under(&r, row, corner, 0.1).wedges / PART[i] - 1);
+            ck_assert_double_lt(off, fmax(last, 1e-12));
+            last = fmax(off, 1e-12);
+        }
+        ck_assert_double_lt(last, 1e-3);
+        r.settings.wedges = 6; /* sectors of 30 degrees: no side inside one */
+        assert_relative(ice_under(&r, row, corner, 0.1).wedges, PART[i], i == 1 ? 0.02 : 1e-9);
+        r.settings.sharing = SHARING_EQUAL;
+        ck_assert(ice_under(&r, row, corner, 0.1).wedges == 1);
+        r.settings.sharing = SHARING_WIDTH;
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* The load that breaks a corner of 90 degrees: half of an edge's, and more by the larger tip that it stands on. */
+START_TEST(corner_capacity)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    r.settings.wedges = 4;
+    r.settings.thick_plate_radius = false;
+    vec2 corner;
+    int32_t row = corner_floe(&r, radians(90), &corner);
+    double width = 4 * fracture_wedge_width(4) / 2, l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81);
+    double area = 0.01 * l * l * width / 2; /* a/l = 0.1, of which Nevel's C is 1.255469567682 */
+    double capacity = 0.5e6 * width / 6 * 1.255469567682;
+    ck_assert(fracture_rig_load(&r, row, corner, 0.999 * capacity, area));
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    ck_assert(fracture_rig_load(&r, row, corner, 1.001 * capacity, area));
+    ck_assert_int_eq(fracture_rig_break(&r), 1);
+    assert_relative(r.events.data[0].loaded_radius, 0.1 * l, 1e-9);
+    assert_relative(r.events.data[0].crack_length, 0.5114858883249 * l, 1e-9);
+    assert_relative(r.events.data[0].stress_ratio, 1.001, 1e-9);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* An edge is Nevel's N wedges, whatever N, on floes and on sheets of any tiles. */
+START_TEST(edges)
+{
+    static const double SIZES[4] = {200, 45, 17, 9};
+    for (int i = 0; i < 4; i++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        sheet_make(&r, (box2){{-60, 0}, {60, 90}}, SIZES[i], NULL);
+        int32_t row = sheet_tile_at(&r, (vec2){3.3, 0});
+        for (int32_t n = 2; n < 10; n++) {
+            r.settings.wedges = n;
+            assert_relative(ice_under(&r, row, (vec2){3.3, 0.2}, 0.3).wedges, 1, 1e-9);
+        }
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
+/* Beside a bite, the wedge that reaches into it carries what is left of it. */
+START_TEST(beside_a_bite)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    polygon_list openings = {0};
+    const vec2 bite[4] = {{1, -1}, {30, -1}, {30, 40}, {1, 40}};
+    ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){bite, 4}));
+    sheet_make(&r, (box2){{-60, 0}, {60, 90}}, 25, &openings);
+    r.settings.wedges = 3;
+    double radius = fracture_edge_reach(&r.settings, &FRACTURE_RIG_ICE, 1, 0.3);
+    double exact = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.3, EDGE_STRAIGHT).breaking_radius;
+    assert_relative(radius, exact, 0.05);
+    double part = ice_under(&r, sheet_tile_at(&r, (vec2){0, 0}), (vec2){0, 0.1}, 0.3).wedges;
+    const vec2 left[4] = {{-50, 0}, {1, 0}, {1, 50}, {-50, 50}};
+    /* Sectors of 60 degrees begin at the first crack, along +y: the lower ones lie half outside the ice. */
+    const vec2 stencil[6] = {
+        {0, radius},  {-radius * real_sin(PI / 3), radius / 2}, {-radius * real_sin(PI / 3), -radius / 2},
+        {0, -radius}, {radius * real_sin(PI / 3), -radius / 2}, {radius * real_sin(PI / 3), radius / 2}};
+    double there = polygon_overlap_area((polygon){stencil, 6}, (polygon){left, 4});
+    ck_assert_double_lt(part, 0.8);
+    assert_relative(part, 2 * there / polygon_area((polygon){stencil, 6}), 1e-9);
+    polygon_list_free(&r.ctx, &openings);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* A band narrower than the breaking radius is measured as far as it goes: it does not break more easily for that. */
+START_TEST(narrow_band)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    const vec2 ring[4] = {{-50, -1}, {50, -1}, {50, 1}, {-50, 1}};
+    int32_t row = fracture_rig_floe(&r, (polygon){ring, 4}, 1, MOTION_DYNAMIC);
+    assert_relative(ice_under(&r, row, (vec2){0, -0.9}, 0.3).wedges, 1, 1e-9);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+TEST_MAIN("fracture_edge", corners, corner_capacity, edges, beside_a_bite, narrow_band)

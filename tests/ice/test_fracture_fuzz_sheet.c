@@ -1,0 +1,104 @@
+/* Fuzzed level ice: sheets of random tiles, openings, thresholds and wedges, bitten at random and along channels, with
+   loads on corners, seams and crossings.  FRAM_FUZZ_EVENTS sets the number of events, FRAM_FUZZ_SEED the seed. */
+#include "sheet_rig.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static long number_from(const char *name, long otherwise)
+{
+    const char *text = getenv(name);
+    return text && *text ? strtol(text, NULL, 10) : otherwise;
+}
+
+static void random_openings(context *ctx, random_stream *s, box2 plan, polygon_list *out)
+{
+    int count = (int)random_uniform(s, 0, 3);
+    polygon_list_clear(out);
+    for (int i = 0; i < count; i++) {
+        double x = random_uniform(s, plan.lo.x, plan.hi.x), y = random_uniform(s, plan.lo.y, plan.hi.y);
+        double size = random_power_law(s, 0.5, 20, 0), turn = random_uniform(s, 0, PI);
+        vec2 ring[4];
+        for (int k = 0; k < 4; k++) {
+            double angle = turn + PI / 2 * k + 0.5 * random_unit(s);
+            ring[k] = (vec2){x + size * real_cos(angle), y + 0.3 * size * real_sin(angle)};
+        }
+        polygon p = {ring, 4};
+        if (polygon_area(p) > 0 && !polygon_self_intersects(ctx, p, NULL, NULL))
+            ck_assert(polygon_list_push(ctx, out, p));
+    }
+}
+
+/* Sizes of everything beside one another: tiles of half a breaking radius to ten, least areas up to a square metre. */
+static void random_sheet(fracture_rig *r, random_stream *s, box2 plan)
+{
+    polygon_list openings = {0};
+    r->settings.wedges = 2 + (int32_t)random_uniform(s, 0, 6);
+    r->settings.sharing = random_unit(s) < 0.5 ? SHARING_WIDTH : SHARING_EQUAL;
+    r->settings.edge_threshold = random_unit(s) < 0.2 ? 0 : random_power_law(s, 0.01, 0.3, 0);
+    r->settings.smallest_floe_area = random_power_law(s, 0.02, 1, 0);
+    r->settings.smallest_piece_area = r->settings.smallest_floe_area * random_power_law(s, 0.01, 1, 0);
+    random_openings(&r->ctx, s, plan, &openings);
+    sheet_make(r, plan, random_power_law(s, 2, 40, 0), &openings);
+    for (int i = 0; i < SHEET_SIDES; i++)
+        r->settings.tiles.anchored[i] = random_unit(s) < 0.6;
+    polygon_list_free(&r->ctx, &openings);
+}
+
+/* A corner or an edge of a tile, or anywhere. */
+static vec2 random_place(const fracture_rig *r, random_stream *s, box2 plan)
+{
+    vec2 any = {random_uniform(s, plan.lo.x, plan.hi.x), random_uniform(s, plan.lo.y, plan.hi.y)};
+    int32_t row = sheet_tile_at(r, any);
+    if (row < 0 || random_unit(s) < 0.3)
+        return any;
+    polygon p = fracture_rig_outline(r, row);
+    int32_t i = (int32_t)random_uniform(s, 0, p.count);
+    vec3 at = r->bodies.position[r->floes.body[row]];
+    vec2 a = p.vertex[i], b = p.vertex[(i + 1) % p.count];
+    vec2 on = random_unit(s) < 0.4 ? a : vec2_add(a, vec2_scale(vec2_sub(b, a), random_unit(s)));
+    return (vec2){at.x + on.x, at.y + on.y};
+}
+
+static void check_events(const fracture_rig *r, double before)
+{
+    double lost = 0;
+    for (int32_t i = 0; i < r->events.count; i++) {
+        const fracture_event *e = &r->events.data[i];
+        assert_absolute(e->parent_area, e->piece_area + e->area_lost - e->area_gained, 1e-9 * e->parent_area);
+        ck_assert(e->kind == FRACTURE_RELEASE || e->area_lost + e->area_gained <= 1e-3 * e->parent_area * (1 + 1e-9));
+        lost += e->area_lost - e->area_gained;
+    }
+    assert_absolute(fracture_rig_area(r), before - lost, 1e-7);
+}
+
+START_TEST(fuzzed_bites)
+{
+    const box2 plan = {{-20, -15}, {20, 15}};
+    long wanted = number_from("FRAM_FUZZ_EVENTS", 2000), seed = number_from("FRAM_FUZZ_SEED", 1), events = 0,
+         releases = 0;
+    fracture_rig r;
+    fracture_rig_make(&r);
+    for (uint32_t id = 0; events < wanted; id++) {
+        random_stream s = random_begin((uint64_t)seed, 2, id);
+        fracture_rig_remove_all(&r);
+        random_sheet(&r, &s, plan);
+        for (int turn = 0; turn < 40 && sheet_count(&r, true) > 0; turn++) {
+            double before = fracture_rig_area(&r);
+            int loads = 1 + (int)random_uniform(&s, 0, 2.5);
+            for (int i = 0; i < loads; i++)
+                ck_assert(sheet_load(&r, random_place(&r, &s, plan), 1e7, random_power_law(&s, 1e-3, 8, 0)));
+            events += fracture_rig_break(&r);
+            for (int32_t i = 0; i < r.events.count; i++)
+                releases += r.events.data[i].kind == FRACTURE_RELEASE;
+            check_events(&r, before);
+            sheet_clear_pieces(&r);
+        }
+    }
+    printf("%ld events, %ld of them releases\n", events, releases);
+    ck_assert_int_gt(releases, 5);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+TEST_MAIN("fracture_fuzz_sheet", fuzzed_bites)
