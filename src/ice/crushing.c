@@ -4,6 +4,8 @@
 #include "geometry/mesh_point.h"
 #include "ice/patch.h"
 
+#include <assert.h>
+
 /* A component whose area vectors cancel to less than this part of its area closes round inside the floe (a hull's
    corner, a pile): what is left is rounding and has no direction. */
 static const double CLOSED_PATCH = 1e-9;
@@ -15,7 +17,16 @@ static const double NARROW_PATCH = 0.01;
    no section area at all), and the patch's own area is kept. */
 static const double VERTICAL_SIDE = 0.02;
 
+/* Up to this |normal . z| the first axis of a patch is level: beyond it the level direction is lost in rounding. */
+static const double STEEP_NORMAL = 0.9;
+
+/* A winding number of a closed surface about a point is 1 inside and 0 outside, to rounding. */
+static const double INSIDE_WINDING = 0.5;
+
 enum { MOST_POINTS = 4 };
+
+/* What debug builds grant to rounding where a length should be 1. */
+#define UNIT_SLACK 1e-9
 
 struct crushing_scratch {
     patch_scratch *patch;
@@ -151,7 +162,7 @@ static double pair_pressure(const job *j, const crushing_pair *p, double area)
    points keep their places while the normal wavers about any direction but one. */
 static void patch_axes(vec3 normal, vec3 *t1, vec3 *t2)
 {
-    vec3 up = fabs(normal.z) < 0.9 ? (vec3){0, 0, 1} : (vec3){1, 0, 0};
+    vec3 up = fabs(normal.z) < STEEP_NORMAL ? (vec3){0, 0, 1} : (vec3){1, 0, 0};
     *t1 = vec3_unit(vec3_cross(up, normal));
     *t2 = vec3_cross(normal, *t1);
 }
@@ -186,7 +197,7 @@ static int patch_points(const patch_component *c, vec3 normal, vec3 out[MOST_POI
     return 4;
 }
 
-/* A hull never pushes a breakable floe out of itself (SPEC 9): the overlap is ice that is crushed or about to break. */
+/* A hull never pushes a breakable floe out of itself: the overlap is ice that is crushed or about to break. */
 static bool pair_corrects(const job *j, const crushing_pair *p)
 {
     return !(j->bodies->material[p->surface_body] == MATERIAL_HULL && j->floes->breakable[p->floe]);
@@ -223,16 +234,18 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre)),
                             .area = area,
                             .horizontal_area = fabs(c->area.z),
+                            .surface_area = c->surface,
                             .pressure = pair_pressure(j, p, area),
                             .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
     patch.contact_count = patch_points(c, normal, point);
-    for (int i = 0; i < patch.contact_count; i++) {
-        double depth = patch_way_out(&p->prism, point[i], vec3_neg(normal));
-        if (!push_contact(j, p, &patch, i, point[i], depth, 1.0 / patch.contact_count, pair_corrects(j, p)))
+    assert(patch.contact_count >= 1 && patch.contact_count <= MOST_POINTS);
+    assert(fabs(vec3_length(patch.normal) - 1) < UNIT_SLACK);
+    assert(c->way >= 0 && patch.area > 0 && patch.horizontal_area <= c->surface * (1 + UNIT_SLACK));
+    for (int i = 0; i < patch.contact_count; i++)
+        if (!push_contact(j, p, &patch, i, point[i], c->way, 1.0 / patch.contact_count, pair_corrects(j, p)))
             return false;
-    }
     return array_push(j->ctx, j->patches, patch);
 }
 
@@ -282,7 +295,7 @@ static bool surface_holds(const job *j, const crushing_pair *p, vec3 point)
     for (int32_t i = 0; i < body->pieces.count && !near; i++)
         near = polyhedron_contains(&body->pieces.data[i], point, 0);
     /* Pieces may bulge over a hollow of the surface, which decides. */
-    return near && mesh_winding(&body->surface, point) > 0.5;
+    return near && mesh_winding(&body->surface, point) > INSIDE_WINDING;
 }
 
 /* A floe without any patch lies outside the surface or wholly inside; inside, one contact at the floe's middle holds it
@@ -306,6 +319,7 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
                             .normal = mat3_mul_vec(p->rotation, normal),
                             .centre = vec3_add(p->position, mat3_mul_vec(p->rotation, inner)),
                             .area = area,
+                            .surface_area = area,
                             .pressure = pair_pressure(j, p, area),
                             .contact_first = j->contacts->count,
                             .contact_count = 1};

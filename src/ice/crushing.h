@@ -1,5 +1,6 @@
-/* Crushing patches (SPEC 6): where a surface cuts into a floe, how large the contact is, and the contacts with their
-   cap.  A patch is computed from a plain triangle mesh, a pose and a floe; whose mesh it is, this room does not know.
+/* Crushing patches (docs/decisions/0010): where a surface cuts into a floe, how large the contact is, and the contacts
+   with their cap.  A patch is computed from a plain triangle mesh, a pose and a floe; whose mesh it is, this room does
+   not know.
 
    A patch is one connected component of the surface inside the floe's prism, in the floe's own tilted frame:
    N = sum of the area vectors of the clipped triangles, A_c = |N|, A_h = |N . z_floe|, normal = N/|N| (outward of the
@@ -26,6 +27,7 @@ typedef struct crushing_patch {
     vec3 centre;            /* centroid of the patch, global [m] */
     double area;            /* A_c [m2] */
     double horizontal_area; /* A_h [m2], in the floe's plane */
+    double surface_area;    /* sum of the areas whose vectors sum to A_c: what cancels counts here [m2] */
     double pressure;        /* sigma_c(A_c) [Pa] */
     box2 plan;              /* bounds of the patch in the floe's own plane [m] */
     int32_t contact_first, contact_count; /* rows of the contact array */
@@ -47,10 +49,10 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s);
    in pair order together with their contacts, floe first: 1, 2 or 4 points a patch, in the plane through its centroid,
    of equal weight, with the centroid and the second moments of the patch, so that force and moment are those of the
    patch; each capped by weight * sigma_c A_c dt.  Between two floes the lower slot counts as the floe, and the weaker
-   one's pressure holds.  depth of a point = way along -normal out of the floe, 0 where the patch's plane has left it.
-   correct is false for breakable floes against a hull (SPEC 9).  Independent of how hull and floe are cut into convex
-   pieces, to rounding.
-   FRAM_ERROR_USAGE for a pair without ice; without memory the arrays may hold a part of the patches. */
+   one's pressure holds.  depth of the points = mean way of the overlap along the normal (ice/patch.h), continuous in
+   the pose.  correct is false for breakable floes against a hull: their overlap is ice that is crushed or about to
+   break.  Independent of how hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for a pair without
+   ice; without memory the arrays may hold a part of the patches. */
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
                               const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,

@@ -1,9 +1,9 @@
 /* The geometry of crushing patches; see patch.h. */
 #include "ice/patch.h"
 
-/* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece (16 at most,
-   bodies/shape.h), each of which adds one; and one more that facet_clip may write. */
-enum { MOST_PIECE_EDGES = 64, MOST_CORNERS = 3 + 2 + MOST_PIECE_EDGES + 1 };
+/* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece, each of which adds
+   one; and one more that facet_clip may write. */
+enum { MOST_CORNERS = 3 + 2 + PIECE_MOST_VERTICES + 1 };
 
 /* What counts as the same place, as part of the floe's size: far over rounding, far under anything of interest. */
 static const double SAME_PLACE = 1e-10;
@@ -384,6 +384,39 @@ static bool sum_components(context *ctx, patch_scratch *s)
     return true;
 }
 
+/* Volume between one part and where lines along -normal leave the floe; negative for a part that looks the other way.
+   The places lie inside the part, never on its edge, where a line along a face of the floe could end at once. */
+static double part_volume(const patch_scratch *s, const patch_floe *floe, const patch_part *part, vec3 normal)
+{
+    const vec3 *v = s->corners.data + part->first;
+    vec3 back = vec3_neg(normal);
+    double volume = 0;
+    for (int32_t i = 0; i < part->count; i++) {
+        vec3 a = v[i], b = v[i + 1 < part->count ? i + 1 : 0];
+        vec3 area = vec3_scale(vec3_cross(vec3_sub(a, part->centre), vec3_sub(b, part->centre)), 0.5);
+        vec3 middle = vec3_scale(vec3_add(part->centre, vec3_add(a, b)), 1.0 / 3);
+        double along = vec3_dot(area, normal);
+        if (along != 0)
+            volume += along * patch_way_out(floe, middle, back);
+    }
+    return volume;
+}
+
+/* The mean way of the overlap of each component. */
+static void measure_ways(patch_scratch *s, const patch_floe *floe)
+{
+    for (int32_t i = 0; i < s->parts.count; i++) {
+        const patch_part *part = &s->parts.data[i];
+        patch_component *c = &s->components.data[part->component];
+        double area = vec3_length(c->area);
+        if (area > 0)
+            c->way += part_volume(s, floe, part, vec3_scale(c->area, 1 / area)) / area;
+    }
+    double most = 2 * floe->shapes->shapes.radius[floe->shape];
+    for (int32_t i = 0; i < s->components.count; i++)
+        s->components.data[i].way = fmin(fmax(s->components.data[i].way, 0), most);
+}
+
 bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
                       const patch_component_array **out)
 {
@@ -403,7 +436,10 @@ bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surfa
         if (!clip_face(ctx, s, surface, floe, s->faces.data[i]))
             return false;
     connect_parts(s, surface, floe);
-    return sum_components(ctx, s);
+    if (!sum_components(ctx, s))
+        return false;
+    measure_ways(s, floe);
+    return true;
 }
 
 /* ---- the floe seen from a point ---- */

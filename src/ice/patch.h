@@ -1,5 +1,5 @@
-/* The geometry of crushing patches (SPEC 6): the connected components of a triangle surface inside a floe's prism, all
-   in the floe's own frame.  Knows no bodies, no materials and no forces. */
+/* The geometry of crushing patches (docs/decisions/0010): the connected components of a triangle surface inside a
+   floe's prism, all in the floe's own frame.  Knows no bodies, no materials and no forces. */
 #ifndef ICE_PATCH_H
 #define ICE_PATCH_H
 
@@ -27,6 +27,7 @@ typedef struct patch_component {
     double surface; /* sum of areas, at least |N| [m2] */
     vec3 centre;    /* area-weighted centroid [m] */
     sym3 spread;    /* mean of (r - centre)(r - centre)^T over the area [m2] */
+    double way;     /* mean way of the overlap along N, see patch_components [m] */
     box2 plan;      /* bounds in the floe's plane [m] */
 } patch_component;
 typedef ARRAY(patch_component) patch_component_array;
@@ -39,7 +40,14 @@ void patch_scratch_free(context *ctx, patch_scratch *s);
    clipped by every convex piece of the floe; a triangle that lies in a face of a piece belongs to the piece in front of
    it, so that a surface on a seam counts once and one that just touches the floe counts as touching.  Clipped parts are
    connected through a seam that one triangle crosses, and through a mesh edge inside a piece.  The result does not
-   depend on how floe or surface are cut, to rounding.  false: no memory. */
+   depend on how floe or surface are cut, to rounding.  false: no memory.
+
+   way is how far the floe has to go along N, on the mean over the patch, until the overlap is gone: the volume that the
+   component cuts off the floe over |N|.  The volume is the sum over the parts of their area along N times the way from
+   there along -N out of the floe; where the surface is met again on that way (a thin body within a large floe), its
+   back counts against its front.  Volume and N are continuous in the pose of a convex floe, and so is their quotient
+   while the area vectors do not cancel; it is never more than the floe's diameter.  The way is taken at the centroids
+   of triangles about the centroid of each part: exact where it is linear over them. */
 bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
                       const patch_component_array **out);
 

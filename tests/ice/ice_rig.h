@@ -2,6 +2,7 @@
 #ifndef ICE_RIG_H
 #define ICE_RIG_H
 
+#include "base/transcendental.h"
 #include "dynamics/solver.h"
 #include "ice/crushing.h"
 #include "testing.h"
@@ -124,6 +125,27 @@ static inline int32_t ice_rig_box(ice_rig *r, vec3 lo, vec3 hi, motion kind, mat
     mesh box = {0};
     ck_assert(mesh_make_box(&r->ctx, lo, hi, &box));
     return ice_rig_hull(r, &box, kind, m);
+}
+
+/* A wedge bow of half angle 30 degrees and stem 40 degrees: two flares in one patch. */
+static inline void ice_rig_bow(context *ctx, mesh *m)
+{
+    double height = 8, reach = height / real_tan(radians(40)), length = 30, half = length * real_tan(radians(30));
+    vec3 v[6] = {{0, 0, 0},
+                 {-reach, 0, -height},
+                 {-length, half, 0},
+                 {-length, -half, 0},
+                 {-length - reach, half, -height},
+                 {-length - reach, -half, -height}};
+    static const int32_t face[8][3] = {{0, 2, 3}, {1, 5, 4}, {0, 4, 2}, {0, 1, 4},
+                                       {0, 3, 5}, {0, 5, 1}, {2, 4, 5}, {2, 5, 3}};
+    for (int i = 0; i < 6; i++)
+        ck_assert(mesh_add_vertex(ctx, m, v[i]));
+    for (int i = 0; i < 8; i++)
+        ck_assert(mesh_add_triangle(ctx, m, face[i][0], face[i][1], face[i][2]));
+    mesh_report report;
+    ck_assert_int_eq(mesh_check(ctx, m, true, &report), FRAM_OK);
+    ck_assert_msg(report.defect == MESH_CLOSED, "%s", report.text);
 }
 
 /* Every triangle becomes four, `times` times: the same surface. */

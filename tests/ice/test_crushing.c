@@ -235,27 +235,6 @@ START_TEST(flat_bottom)
 }
 END_TEST
 
-/* A wedge bow of half angle 30 degrees and stem 40 degrees: two flares in one patch. */
-static void bow(context *ctx, mesh *m)
-{
-    double height = 8, reach = height / real_tan(radians(40)), length = 30, half = length * real_tan(radians(30));
-    vec3 v[6] = {{0, 0, 0},
-                 {-reach, 0, -height},
-                 {-length, half, 0},
-                 {-length, -half, 0},
-                 {-length - reach, half, -height},
-                 {-length - reach, -half, -height}};
-    static const int32_t face[8][3] = {{0, 2, 3}, {1, 5, 4}, {0, 4, 2}, {0, 1, 4},
-                                       {0, 3, 5}, {0, 5, 1}, {2, 4, 5}, {2, 5, 3}};
-    for (int i = 0; i < 6; i++)
-        ck_assert(mesh_add_vertex(ctx, m, v[i]));
-    for (int i = 0; i < 8; i++)
-        ck_assert(mesh_add_triangle(ctx, m, face[i][0], face[i][1], face[i][2]));
-    mesh_report report;
-    ck_assert_int_eq(mesh_check(ctx, m, true, &report), FRAM_OK);
-    ck_assert_msg(report.defect == MESH_CLOSED, "%s", report.text);
-}
-
 /* The bow in the edge of a floe 20 x 20 x 1, floe cut into n x n pieces, mesh refined. */
 static crushing_patch bow_patch(int pieces, int refined, vec3 *force_moment)
 {
@@ -263,7 +242,7 @@ static crushing_patch bow_patch(int pieces, int refined, vec3 *force_moment)
     ice_rig_make(&r, 0.01);
     int32_t row = ice_rig_plate(&r, 20, 20, 1, MOTION_DYNAMIC);
     mesh m = {0};
-    bow(&r.ctx, &m);
+    ice_rig_bow(&r.ctx, &m);
     ice_rig_refine(&r.ctx, &m, refined);
     int32_t hull = ice_rig_hull(&r, &m, MOTION_PRESCRIBED, MATERIAL_HULL);
     ice_rig_place(&r, hull, (vec3){-6.5, 2.2, 2.1}, 0.03, 0.02, 0.04);
@@ -465,11 +444,10 @@ START_TEST(several_patches)
     ice_rig_crush(&r);
     const crushing_patch *p = only_patch(&r);
     assert_relative(p->area, 10, 1e-12);
-    /* The way out of the wall leads through an arm at its end, and through the back alone in the middle. */
-    for (int i = 0; i < p->contact_count; i++) {
-        const contact *c = &r.contacts.data[i];
-        assert_absolute(c->depth, fabs(c->point.y) > 2 ? 8 : 1, 1e-9);
-    }
+    /* The way out of the wall is 8 m through the arms and 1 m through the back: on the mean 5.2 m, to the few places
+       where it is taken. */
+    for (int i = 0; i < p->contact_count; i++)
+        assert_absolute(r.contacts.data[i].depth, 5.2, 0.5);
     ice_rig_free(&r);
 }
 END_TEST
@@ -663,6 +641,50 @@ START_TEST(large_and_small)
 }
 END_TEST
 
+/* A long low patch gets two points, as far apart as its length of gyration says. */
+START_TEST(two_points)
+{
+    ice_rig r;
+    ice_rig_make(&r, 0.01);
+    int32_t row = ice_rig_plate(&r, 10, 10, 0.05, MOTION_DYNAMIC);
+    int32_t wall = ice_rig_box(&r, (vec3){0, -40, -30}, (vec3){20, 40, 30}, MOTION_STATIC, MATERIAL_HULL);
+    ice_rig_place(&r, wall, (vec3){4.8, 0, 0}, 0, 0, 0);
+    ice_rig_pair(&r, r.floes.body[row], wall);
+    place_all(&r, 0.1, 0.2);
+    ice_rig_crush(&r);
+    const crushing_patch *p = only_patch(&r);
+    ck_assert_int_eq(p->contact_count, 2);
+    vec3 along = vec3_scale(turned(0.1, 0.2, (vec3){0, 1, 0}), sqrt((100 + 0.05 * 0.05) / 12));
+    double sign = vec3_dot(vec3_sub(r.contacts.data[0].point, p->centre), along) > 0 ? 1 : -1;
+    assert_vec3_close(r.contacts.data[0].point, vec3_mad(p->centre, along, sign), 1e-9);
+    assert_vec3_close(r.contacts.data[1].point, vec3_mad(p->centre, along, -sign), 1e-9);
+    ice_rig_free(&r);
+}
+END_TEST
+
+/* The horizontal area of a bottom that lies over the seams of a floe: that of the whole bottom, once. */
+START_TEST(horizontal_area_over_a_seam)
+{
+    for (int pieces = 1; pieces <= 5; pieces++) {
+        ice_rig r;
+        ice_rig_make(&r, 0.01);
+        int32_t row = ice_rig_plate(&r, 10, 10, 1, MOTION_DYNAMIC), slot = r.floes.body[row];
+        if (pieces > 1)
+            ice_rig_cut(&r, r.bodies.shape[slot], pieces);
+        int32_t hull = ice_rig_box(&r, (vec3){-2.5, -1.5, 0}, (vec3){2.5, 1.5, 9}, MOTION_STATIC, MATERIAL_HULL);
+        ice_rig_place(&r, hull, (vec3){0.3, -0.2, 0.4}, 0, 0, 0.3);
+        ice_rig_pair(&r, slot, hull);
+        place_all(&r, 0.1, 0.2);
+        ice_rig_crush(&r);
+        const crushing_patch *p = only_patch(&r);
+        assert_relative(p->horizontal_area, 15, 1e-11);
+        assert_relative(p->area, 15, 1e-11);
+        assert_absolute(r.contacts.data[0].depth, 0.1, 1e-11);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
 static fram_status whole_scene(context ctx, bool *made)
 {
     ice_rig r;
@@ -720,4 +742,5 @@ END_TEST
 
 TEST_MAIN("crushing", vertical_wall, overlap_over_the_thickness, inclined_plate, corner, tilted_floe, flat_bottom,
           independent_of_cuts, random_poses, surface_on_a_seam, closed_patches, several_patches, slipped_inside, flags,
-          keys, pressure_area_law, top_plane_area, floe_against_floe, large_and_small, memory_runs_out)
+          keys, two_points, horizontal_area_over_a_seam, pressure_area_law, top_plane_area, floe_against_floe,
+          large_and_small, memory_runs_out)

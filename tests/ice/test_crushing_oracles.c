@@ -1,5 +1,4 @@
-/* Crushing-limited contact against the closed forms of the oracles, section 4: each at two time steps, of first order.
- */
+/* Crushing-limited contact against closed forms (docs/theory.md): each at two time steps, of first order. */
 #include "base/transcendental.h"
 #include "ice_rig.h"
 
@@ -69,7 +68,7 @@ static impact run_impact(bool corner_first, double exponent, double dt)
 }
 
 /* Errors at dt and dt/2: both small, and at least halved with the step (a tenth is left for where in a step the end
-   falls), unless they are down at the digits of the oracle. */
+   falls), unless they are down at the digits of the closed form. */
 #define ASSERT_FIRST_ORDER(coarse, fine, exact, tolerance, digits)                                                    \
     do {                                                                                                              \
         double e1_ = fabs((coarse) - (exact)), e2_ = fabs((fine) - (exact));                                          \
@@ -82,7 +81,7 @@ static impact run_impact(bool corner_first, double exponent, double dt)
 START_TEST(corner_into_wall)
 {
     impact a = run_impact(true, 0, 1e-3), b = run_impact(true, 0, 5e-4);
-    /* The closed form behind the oracle's digits: A = 2 h d makes F = K d, and the impact a quarter of an oscillation.
+    /* A = 2 h d makes F = K d, and the impact a quarter of an oscillation.
      */
     double stiffness = 2e6 * 2, frequency = sqrt(stiffness / MASS);
     assert_relative(SPEED / frequency, 75.8288e-3, 1e-5);
