@@ -26,10 +26,11 @@ fram_status broad_phase_update(context *ctx, const body_table *bodies, const sha
 
 /* Contacts of all kept pairs that touch, in pair order, at most 4 points per pair of convex pieces.  Points that are
    still open by a small share of the bodies' size are listed too, with depth < 0: the solver lets them close, not
-   cross. Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs) instead.  impulse_limit is infinite,
-   correct is true, patch -1; friction from the policies.  No contact takes its normal from an inner seam of a compound.
-   Remembers separating axes in pairs, and skips a pair while neither body has travelled far enough to have closed the
-   gap.  Parallel over blocks of pairs; call it after broad_phase_update. */
+   cross. Pairs whose policy says `patch` are listed in patch_pairs (rows of pairs, in their order) instead; with
+   `sides` only those that touch, and not as two level convex prisms side to side with an overlap that is small beside
+   their height.  impulse_limit is infinite, correct is true, patch -1; friction from the policies.  No contact takes
+   its normal from an inner seam of a compound. Remembers separating axes in pairs, and skips a pair while neither body
+   has travelled far enough to have closed the gap.  Parallel over blocks of pairs; call it after broad_phase_update. */
 fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape_store *shapes,
                              const pair_policies *policies, const broad_table *boxes, pair_table *pairs,
                              contact_array *contacts, index_array *patch_pairs, collision_scratch *scratch,

@@ -52,6 +52,8 @@ void contact_keys_part(contact *contacts, int32_t count);
 typedef struct pair_policy {
     double friction_static, friction_kinetic;
     bool patch; /* contacts come from crushing patches, not from the narrow phase */
+    bool sides; /* with patch: two convex prisms that meet side to side keep the contacts of the narrow phase, whose
+                   limits are set afterwards; all others are listed for their patch */
 } pair_policy;
 typedef struct pair_policies {
     pair_policy of[MATERIAL_COUNT][MATERIAL_COUNT]; /* symmetric */

@@ -19,6 +19,12 @@ enum { BLOCK_PAIRS = 512 };
 #define PAIR_REACH 0.002
 #define POINT_REACH 0.02
 
+/* Two prisms lie side to side while both are level up to NEARLY_LEVEL, overlap by no more than this share of the lower
+   one's height, and their normal rises from both planes by no more than this sine: farther in, the axis of least depth
+   may turn from the sides to top and bottom. */
+#define SHALLOW_SHARE 0.25
+#define LEVEL_SINE 0.2
+
 /* One body of a pair. */
 typedef struct party {
     int32_t slot, shape;
@@ -362,13 +368,43 @@ static void case_make(const narrow_work *w, int32_t row, const pair_policy *poli
     }
 }
 
+/* Whether contacts from `first` on are those of two level plain prisms side to side. */
+static bool meet_at_sides(const pair_case *c, const contact_array *contacts, int32_t first)
+{
+    if (!c->plain)
+        return false;
+    vec3 up_a = mat3_column(c->a.rotation, 2), up_b = mat3_column(c->b.rotation, 2);
+    if (up_a.z < NEARLY_LEVEL || up_b.z < NEARLY_LEVEL)
+        return false;
+    double deepest = SHALLOW_SHARE * 2 * fmin(c->p.half_height, c->q.half_height);
+    for (int32_t i = first; i < contacts->count; i++) {
+        const contact *t = &contacts->data[i];
+        if (!(t->depth <= deepest && fabs(vec3_dot(t->normal, up_a)) <= LEVEL_SINE &&
+              fabs(vec3_dot(t->normal, up_b)) <= LEVEL_SINE))
+            return false;
+    }
+    return true;
+}
+
 /* The contacts of some pairs, and what is remembered of them. */
-static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow_room *room, contact_array *contacts)
+static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow_room *room, contact_array *contacts,
+                       index_array *patch_pairs)
 {
     for (int k = 0; k < count; k++) {
         pair_case *c = &cases[k];
+        if (c->policy->patch && !c->policy->sides) {
+            if (!array_push(w->ctx, patch_pairs, c->row))
+                return false;
+            continue;
+        }
+        int32_t first = contacts->count;
         if (!(c->plain ? touch_prisms : touch_compounds)(w->ctx, room, w->bodies, c, contacts))
             return false;
+        if (c->policy->sides && contacts->count > first && !meet_at_sides(c, contacts, first)) {
+            contacts->count = first;
+            if (!array_push(w->ctx, patch_pairs, c->row))
+                return false;
+        }
         double travel = w->boxes->travel[c->a.slot] + w->boxes->travel[c->b.slot];
         w->pairs->axis[c->row] = c->axis;
         w->pairs->clear[c->row] = c->gap > c->near.slack ? travel + SURE * (c->gap - c->near.slack) : 0;
@@ -390,19 +426,14 @@ static bool test_pairs(const narrow_work *w, int32_t first, int32_t end, narrow_
         if (travel[a[i]] + travel[b[i]] < clear[i])
             continue;
         const pair_policy *policy = &w->policies->of[w->bodies->material[a[i]]][w->bodies->material[b[i]]];
-        if (policy->patch) {
-            if (!array_push(w->ctx, patch_pairs, i))
-                return false;
-            continue;
-        }
         case_make(w, i, policy, &cases[waiting++]);
         if (waiting < CASES)
             continue;
-        if (!cases_test(w, cases, waiting, room, contacts))
+        if (!cases_test(w, cases, waiting, room, contacts, patch_pairs))
             return false;
         waiting = 0;
     }
-    return cases_test(w, cases, waiting, room, contacts);
+    return cases_test(w, cases, waiting, room, contacts, patch_pairs);
 }
 
 /* ---- blocks of pairs ---- */

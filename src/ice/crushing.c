@@ -113,6 +113,7 @@ static fram_status set_surface(const job *j, crushing_pair *p)
         p->surface.surface = &body->surface;
         p->surface.adjacency = &body->adjacency;
         p->surface.tree = &body->tree;
+        p->surface.prism = -1;
     } else {
         fram_status status = prism_surface(j, row);
         if (status != FRAM_OK)
@@ -120,6 +121,7 @@ static fram_status set_surface(const job *j, crushing_pair *p)
         p->surface.surface = &j->scratch->prism;
         p->surface.adjacency = &j->scratch->prism_adjacency;
         p->surface.tree = &j->scratch->prism_tree;
+        p->surface.prism = row;
     }
     mat3 to_global = quat_matrix(j->bodies->orientation[p->surface_body]);
     p->surface.rotation = mat3_mul(mat3_transpose(p->rotation), to_global);
@@ -127,12 +129,13 @@ static fram_status set_surface(const job *j, crushing_pair *p)
     return FRAM_OK;
 }
 
-/* Which of both is the floe: the one of ice, of two floes the lower slot (their patches are equal and opposite, since
-   the parts of both surfaces inside the other body together are closed). */
+/* Which of both is the floe: the one of ice, of two floes the higher slot, so that the surface of the lower one serves
+   all its pairs (the patches are equal and opposite, since the parts of both surfaces inside the other body together
+   are closed). */
 static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_policies *policies, crushing_pair *p)
 {
     const body_table *bodies = j->bodies;
-    bool first = bodies->material[a] == MATERIAL_ICE;
+    bool first = bodies->material[b] != MATERIAL_ICE;
     p->floe_body = first ? a : b;
     p->surface_body = first ? b : a;
     p->floe = bodies->owner[p->floe_body];
@@ -197,10 +200,12 @@ static int patch_points(const patch_component *c, vec3 normal, vec3 out[MOST_POI
     return 4;
 }
 
-/* A hull never pushes a breakable floe out of itself: the overlap is ice that is crushed or about to break. */
+/* A hull never pushes a breakable floe out of itself, nor a floe another one: the overlap is ice that is crushed or
+   about to break. */
 static bool pair_corrects(const job *j, const crushing_pair *p)
 {
-    return !(j->bodies->material[p->surface_body] == MATERIAL_HULL && j->floes->breakable[p->floe]);
+    material other = j->bodies->material[p->surface_body];
+    return !(other == MATERIAL_ICE || (other == MATERIAL_HULL && j->floes->breakable[p->floe]));
 }
 
 static bool push_contact(const job *j, const crushing_pair *p, const crushing_patch *patch, int point, vec3 place,
@@ -352,6 +357,7 @@ fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const cru
 {
     job j = {ctx, scratch, settings, bodies, shapes, floes, patches, contacts, error};
     scratch->prism_row = -1; /* shapes may have changed since the last call */
+    crushing_limit_sides(settings, bodies, shapes, floes, policies, contacts);
     for (int32_t i = 0; i < patch_pairs->count; i++) {
         int32_t row = patch_pairs->data[i];
         fram_status status = crush_pair(&j, pairs->a[row], pairs->b[row], policies);

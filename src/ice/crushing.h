@@ -38,6 +38,7 @@ typedef ARRAY(crushing_patch) crushing_patch_array;
 typedef struct crushing_settings {
     double time_step;     /* [s] */
     double smallest_area; /* patches under it are dropped [m2] */
+    double skin;          /* bodies nearer than this touch: run.solver.contact_skin [m] */
     bool top_plane_area;  /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
 } crushing_settings;
 
@@ -48,7 +49,7 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s);
 /* Patches of the given pairs (a floe against a body with a solid or a prism shape, which may be another floe), appended
    in pair order together with their contacts, floe first: 1, 2 or 4 points a patch, in the plane through its centroid,
    of equal weight, with the centroid and the second moments of the patch, so that force and moment are those of the
-   patch; each capped by weight * sigma_c A_c dt.  Between two floes the lower slot counts as the floe, and the weaker
+   patch; each capped by weight * sigma_c A_c dt.  Between two floes the higher slot counts as the floe, and the weaker
    one's pressure holds.  depth of the points = mean way of the overlap along the normal (ice/patch.h), continuous in
    the pose.  correct is false for breakable floes against a hull: their overlap is ice that is crushed or about to
    break.  Independent of how hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for a pair without
@@ -57,5 +58,12 @@ fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const cru
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
                               const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,
                               crushing_patch_array *patches, contact_array *contacts, fram_error *error);
+
+/* The limits of contacts that the narrow phase made where the policy says `sides` (level floes side to side): per pair
+   the pressure of the weaker floe on A_c, the width of the reference side's section through the other floe (within the
+   skin) times the height that both have in common, shared by the points that touch; points that are still open carry
+   nothing.  None of them is position-corrected: overlap that was crushed stays. */
+void crushing_limit_sides(const crushing_settings *settings, const body_table *bodies, const shape_store *shapes,
+                          const floe_table *floes, const pair_policies *policies, contact_array *contacts);
 
 #endif

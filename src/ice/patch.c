@@ -1,35 +1,9 @@
 /* The geometry of crushing patches; see patch.h. */
-#include "ice/patch.h"
+#include "ice/patch_parts.h"
 
 /* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece, each of which adds
    one; and one more that facet_clip may write. */
 enum { MOST_CORNERS = 3 + 2 + PIECE_MOST_VERTICES + 1 };
-
-/* What counts as the same place, as part of the floe's size: far over rounding, far under anything of interest. */
-static const double SAME_PLACE = 1e-10;
-
-/* What one triangle has inside one piece. */
-typedef struct patch_part {
-    int32_t face, piece;
-    int32_t first, count; /* corners in the pool */
-    vec3 area;            /* area vector */
-    double surface;       /* its length */
-    vec3 centre;
-    sym3 moment;  /* integral of (r - centre)(r - centre)^T over the area [m4] */
-    int32_t root; /* union-find: a part of the same component, itself at the root; always the least in the end */
-    int32_t component;
-} patch_part;
-
-struct patch_scratch {
-    int32_array faces;
-    ARRAY(box2) boxes; /* of the floe's pieces */
-    ARRAY(patch_part) parts;
-    ARRAY(vec3) corners;
-    patch_component_array components;
-    mesh turned; /* the surface in the floe's frame */
-    polygon_list section;
-    vec2_array ring_a, ring_b;
-};
 
 patch_scratch *patch_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(patch_scratch)); }
 
@@ -48,37 +22,6 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
     array_free(ctx, &s->ring_b);
     memory_free(ctx, s);
 }
-
-static double half_height_of(const patch_floe *f) { return f->shapes->shapes.half_height[f->shape]; }
-
-static int32_t piece_count_of(const patch_floe *f) { return f->shapes->shapes.piece_count[f->shape]; }
-
-static double tolerance_of(const patch_floe *f) { return SAME_PLACE * f->shapes->shapes.radius[f->shape]; }
-
-static vec3 to_floe(const patch_surface *s, vec3 r) { return vec3_add(mat3_mul_vec(s->rotation, r), s->offset); }
-
-/* ---- half spaces ---- */
-
-/* n . x <= d */
-typedef struct half_space {
-    vec3 n;
-    double d;
-} half_space;
-
-/* Side k of a piece; false for an edge without length. */
-static bool piece_side(polygon piece, int32_t k, half_space *side)
-{
-    vec2 a = piece.vertex[k], b = piece.vertex[k + 1 < piece.count ? k + 1 : 0], e = vec2_sub(b, a);
-    double length = vec2_length(e);
-    if (!(length > 0))
-        return false;
-    side->n = (vec3){e.y / length, -e.x / length, 0};
-    side->d = side->n.x * a.x + side->n.y * a.y;
-    return true;
-}
-
-/* Top (k = 0) and bottom (k = 1) of a prism. */
-static half_space prism_cap(double half_height, int k) { return (half_space){{0, 0, k == 0 ? 1 : -1}, half_height}; }
 
 /* ---- clipping ---- */
 
@@ -185,14 +128,12 @@ static bool clip_face(context *ctx, patch_scratch *s, const patch_surface *surfa
         if (reach.lo.x > box.hi.x + tolerance || reach.hi.x < box.lo.x - tolerance ||
             reach.lo.y > box.hi.y + tolerance || reach.hi.y < box.lo.y - tolerance)
             continue;
-        polygon piece = shape_piece(floe->shapes, floe->shape, p);
+        piece_sides piece = sides_of(floe, p);
         facet part = {.count = slab.count, .normal = slab.normal};
         for (int i = 0; i < slab.count; i++)
             part.corner[0][i] = v[i];
-        half_space side;
         for (int32_t k = 0; k < piece.count && part.count >= 3; k++)
-            if (piece_side(piece, k, &side))
-                facet_cut(&part, side, tolerance);
+            facet_cut(&part, piece_side(&piece, k), tolerance);
         if (part.count >= 3 && !push_part(ctx, s, &part, face, p, tolerance))
             return false;
     }
@@ -240,12 +181,13 @@ static void join(patch_scratch *s, int32_t a, int32_t b)
         s->parts.data[a].root = b;
 }
 
-static bool piece_holds(polygon piece, vec3 point, double tolerance)
+static bool piece_holds(const piece_sides *piece, vec3 point, double tolerance)
 {
-    half_space side;
-    for (int32_t k = 0; k < piece.count; k++)
-        if (piece_side(piece, k, &side) && vec3_dot(side.n, point) - side.d > tolerance)
+    for (int32_t k = 0; k < piece->count; k++) {
+        half_space side = piece_side(piece, k);
+        if (vec3_dot(side.n, point) - side.d > tolerance)
             return false;
+    }
     return true;
 }
 
@@ -257,10 +199,10 @@ static bool parts_touch(const patch_scratch *s, const patch_floe *floe, const pa
     vec3 at = {0, 0, 0};
     for (int turn = 0; turn < 2; turn++) {
         const patch_part *from = turn == 0 ? a : b, *in = turn == 0 ? b : a;
-        polygon piece = shape_piece(floe->shapes, floe->shape, in->piece);
+        piece_sides piece = sides_of(floe, in->piece);
         for (int32_t i = 0; i < from->count; i++) {
             vec3 corner = s->corners.data[from->first + i];
-            if (!piece_holds(piece, corner, tolerance))
+            if (!piece_holds(&piece, corner, tolerance))
                 continue;
             if (found && vec3_length(vec3_sub(corner, at)) > 4 * tolerance)
                 return true;
@@ -288,13 +230,11 @@ static void segment_cut(vec3 a, vec3 b, half_space h, double tolerance, double *
 static bool edge_in_piece(const patch_floe *floe, int32_t piece_index, vec3 a, vec3 b, double tolerance)
 {
     double lo = 0, hi = 1, half_height = half_height_of(floe);
-    polygon piece = shape_piece(floe->shapes, floe->shape, piece_index);
+    piece_sides piece = sides_of(floe, piece_index);
     for (int k = 0; k < 2; k++)
         segment_cut(a, b, prism_cap(half_height, k), tolerance, &lo, &hi);
-    half_space side;
     for (int32_t k = 0; k < piece.count && lo < hi; k++)
-        if (piece_side(piece, k, &side))
-            segment_cut(a, b, side, tolerance, &lo, &hi);
+        segment_cut(a, b, piece_side(&piece, k), tolerance, &lo, &hi);
     return (hi - lo) * vec3_length(vec3_sub(b, a)) > 4 * tolerance;
 }
 
@@ -384,39 +324,6 @@ static bool sum_components(context *ctx, patch_scratch *s)
     return true;
 }
 
-/* Volume between one part and where lines along -normal leave the floe; negative for a part that looks the other way.
-   The places lie inside the part, never on its edge, where a line along a face of the floe could end at once. */
-static double part_volume(const patch_scratch *s, const patch_floe *floe, const patch_part *part, vec3 normal)
-{
-    const vec3 *v = s->corners.data + part->first;
-    vec3 back = vec3_neg(normal);
-    double volume = 0;
-    for (int32_t i = 0; i < part->count; i++) {
-        vec3 a = v[i], b = v[i + 1 < part->count ? i + 1 : 0];
-        vec3 area = vec3_scale(vec3_cross(vec3_sub(a, part->centre), vec3_sub(b, part->centre)), 0.5);
-        vec3 middle = vec3_scale(vec3_add(part->centre, vec3_add(a, b)), 1.0 / 3);
-        double along = vec3_dot(area, normal);
-        if (along != 0)
-            volume += along * patch_way_out(floe, middle, back);
-    }
-    return volume;
-}
-
-/* The mean way of the overlap of each component. */
-static void measure_ways(patch_scratch *s, const patch_floe *floe)
-{
-    for (int32_t i = 0; i < s->parts.count; i++) {
-        const patch_part *part = &s->parts.data[i];
-        patch_component *c = &s->components.data[part->component];
-        double area = vec3_length(c->area);
-        if (area > 0)
-            c->way += part_volume(s, floe, part, vec3_scale(c->area, 1 / area)) / area;
-    }
-    double most = 2 * floe->shapes->shapes.radius[floe->shape];
-    for (int32_t i = 0; i < s->components.count; i++)
-        s->components.data[i].way = fmin(fmax(s->components.data[i].way, 0), most);
-}
-
 bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
                       const patch_component_array **out)
 {
@@ -438,102 +345,6 @@ bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surfa
     connect_parts(s, surface, floe);
     if (!sum_components(ctx, s))
         return false;
-    measure_ways(s, floe);
+    patch_measure_ways(s, surface, floe);
     return true;
-}
-
-/* ---- the floe seen from a point ---- */
-
-/* The interval of the ray inside one piece, empty when *lo > *hi. */
-static void ray_in_piece(const patch_floe *floe, int32_t piece_index, vec3 point, vec3 direction, double *lo,
-                         double *hi)
-{
-    polygon piece = shape_piece(floe->shapes, floe->shape, piece_index);
-    *lo = -HUGE_VAL;
-    *hi = HUGE_VAL;
-    for (int32_t k = -2; k < piece.count; k++) {
-        half_space h;
-        if (k < 0)
-            h = prism_cap(half_height_of(floe), k + 2);
-        else if (!piece_side(piece, k, &h))
-            continue;
-        double room = h.d - vec3_dot(h.n, point), rate = vec3_dot(h.n, direction);
-        if (rate > 0)
-            *hi = fmin(*hi, room / rate);
-        else if (rate < 0)
-            *lo = fmax(*lo, room / rate);
-        else if (room < 0)
-            *hi = -HUGE_VAL;
-    }
-}
-
-double patch_way_out(const patch_floe *floe, vec3 point, vec3 direction)
-{
-    double tolerance = tolerance_of(floe), way = 0;
-    for (bool further = true; further;) {
-        further = false;
-        for (int32_t p = 0; p < piece_count_of(floe); p++) {
-            double lo, hi;
-            ray_in_piece(floe, p, point, direction, &lo, &hi);
-            if (lo <= way + tolerance && hi > way + tolerance) {
-                way = hi;
-                further = true;
-            }
-        }
-    }
-    return way;
-}
-
-vec3 patch_inner_point(const patch_floe *floe)
-{
-    polygon piece = shape_piece(floe->shapes, floe->shape, 0);
-    vec3 sum = {0, 0, 0};
-    for (int32_t i = 0; i < piece.count; i++)
-        sum = vec3_add(sum, (vec3){piece.vertex[i].x, piece.vertex[i].y, 0});
-    return vec3_scale(sum, 1.0 / piece.count);
-}
-
-/* ---- the reference's area ---- */
-
-/* Signed area of a simple ring inside a convex piece: clipping by half planes may leave edges that run to and fro,
-   whose areas cancel. */
-static bool ring_area_in_piece(context *ctx, patch_scratch *s, polygon ring, polygon piece, double *area)
-{
-    half_space side;
-    polygon rest = ring;
-    for (int32_t k = 0; k < piece.count && rest.count > 0; k++) {
-        if (!piece_side(piece, k, &side))
-            continue;
-        if (!polygon_clip_half_plane(ctx, rest, (vec2){side.n.x, side.n.y}, side.d, &s->ring_b))
-            return false;
-        vec2_array swap = s->ring_a;
-        s->ring_a = s->ring_b;
-        s->ring_b = swap;
-        rest = (polygon){s->ring_a.data, s->ring_a.count};
-    }
-    *area = rest.count >= 3 ? polygon_area(rest) : 0;
-    return true;
-}
-
-fram_status patch_top_area(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
-                           double *area, fram_error *error)
-{
-    *area = 0;
-    if (!mesh_copy(ctx, &s->turned, surface->surface))
-        return error_memory(error);
-    for (int32_t i = 0; i < s->turned.vertex.count; i++)
-        s->turned.vertex.data[i] = to_floe(surface, s->turned.vertex.data[i]);
-    polygon_list_clear(&s->section);
-    fram_status status = mesh_section(ctx, &s->turned, half_height_of(floe), &s->section, error);
-    if (status != FRAM_OK)
-        return status;
-    for (int32_t i = 0; i < polygon_list_count(&s->section); i++)
-        for (int32_t p = 0; p < piece_count_of(floe); p++) {
-            double inside;
-            if (!ring_area_in_piece(ctx, s, polygon_list_get(&s->section, i), shape_piece(floe->shapes, floe->shape, p),
-                                    &inside))
-                return error_memory(error);
-            *area += inside;
-        }
-    return FRAM_OK;
 }

@@ -13,6 +13,7 @@ typedef struct patch_surface {
     const mesh_bvh *tree;
     mat3 rotation;
     vec3 offset;
+    int32_t prism; /* shape whose surface it is when that is a prism, of the floe's store; -1: any other */
 } patch_surface;
 
 /* The floe: a prism shape of the store, about its centre of mass. */
@@ -44,10 +45,11 @@ void patch_scratch_free(context *ctx, patch_scratch *s);
 
    way is how far the floe has to go along N, on the mean over the patch, until the overlap is gone: the volume that the
    component cuts off the floe over |N|.  The volume is the sum over the parts of their area along N times the way from
-   there along -N out of the floe; where the surface is met again on that way (a thin body within a large floe), its
-   back counts against its front.  Volume and N are continuous in the pose of a convex floe, and so is their quotient
-   while the area vectors do not cancel; it is never more than the floe's diameter.  The way is taken at the centroids
-   of triangles about the centroid of each part: exact where it is linear over them. */
+   there along -N out of the floe.  Of a prism's surface only parts that face N count, with the way out of floe and
+   prism, whichever is shorter; of any other surface those that face away count against the others.  Volume and N are
+   continuous in the pose of convex bodies, and so is their quotient while the area vectors do not cancel; it is never
+   more than the floe's diameter.  The way is taken at the centroids of triangles about the centroid of each part: exact
+   where it is linear over them. */
 bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
                       const patch_component_array **out);
 

@@ -149,7 +149,8 @@
     X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")            \
     X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")    \
     X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                              \
-    X(cap_ice_ice, BOOLEAN(false), "", "crushing limits contacts between floes too")                                  \
+    X(cap_ice_ice, BOOLEAN(true), "",                                                                                 \
+      "crushing limits contacts between floes too; false: as if none could be crushed")                               \
     X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                    \
     X(crush_trims, BOOLEAN(true), "",                                                                                 \
       "level and fixed ice: where the hull has been there is no ice any more; what is cut away is booked as crushed") \

@@ -179,7 +179,7 @@ static model model_of(const scene_text *s, const bench_scene_options *o, const b
     };
     for (int i = 0; i < MATERIAL_COUNT; i++)
         for (int j = 0; j < MATERIAL_COUNT; j++)
-            out.policies.of[i][j] = (pair_policy){s->friction, s->friction, false};
+            out.policies.of[i][j] = (pair_policy){.friction_static = s->friction, .friction_kinetic = s->friction};
     return out;
 }
 

@@ -8,7 +8,8 @@
 
 static void set_pair(pair_policies *p, material a, material b, double mu_static, double mu_kinetic, bool patch)
 {
-    p->of[a][b] = p->of[b][a] = (pair_policy){mu_static, mu_kinetic, patch};
+    p->of[a][b] = p->of[b][a] =
+        (pair_policy){.friction_static = mu_static, .friction_kinetic = mu_kinetic, .patch = patch};
 }
 
 /* Boxes of moving bodies reach ahead by this many steps: they are then renewed about as often as those of slow ones. */
@@ -51,7 +52,9 @@ static model settings_of(const scenario *s)
                   .wind = scenario_velocity(e->wind_speed, e->wind_direction_deg)},
         .floe_response = {e->floe_added_mass, e->floe_damping},
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
-        .crushing = {s->run.time_step, 0, s->ice.top_plane_area},
+        .crushing = {.time_step = s->run.time_step,
+                     .skin = v->contact_skin,
+                     .top_plane_area = s->ice.top_plane_area},
         .fracture = build_fracture_settings(s),
         .brash = s->ice.fracture.brash,
         .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
@@ -70,6 +73,8 @@ static model settings_of(const scenario *s)
     out.drag[MATERIAL_ICE] = (drag_coefficients){di->water_form, di->water_skin, di->air_form, di->air_skin};
     out.drag[MATERIAL_HULL] = (drag_coefficients){dh->water_form, dh->water_skin, dh->air_form, dh->air_skin};
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_ICE, f->ice_ice_static, f->ice_ice_kinetic, s->ice.cap_ice_ice);
+    /* Floes that break under other floes need the patch of every contact. */
+    out.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides = s->ice.cap_ice_ice && !s->ice.fracture.under_ice_contacts;
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_HULL, f->ice_hull_static, f->ice_hull_kinetic, true);
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_WALL, f->ice_wall_static, f->ice_wall_kinetic, s->ice.cap_ice_wall);
     return out;

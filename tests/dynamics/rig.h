@@ -70,7 +70,7 @@ static inline void rig_friction(rig *r, double mu_static, double mu_kinetic)
 {
     for (int i = 0; i < MATERIAL_COUNT; i++)
         for (int j = 0; j < MATERIAL_COUNT; j++)
-            r->policies.of[i][j] = (pair_policy){mu_static, mu_kinetic, false};
+            r->policies.of[i][j] = (pair_policy){.friction_static = mu_static, .friction_kinetic = mu_kinetic};
 }
 
 static inline rig rig_make(double dt)

@@ -38,7 +38,7 @@ static inline bool ice_rig_start(ice_rig *r, context ctx, double dt)
     *r = (ice_rig){.ctx = ctx, .settings = {.time_step = dt}};
     for (int i = 0; i < MATERIAL_COUNT; i++)
         for (int k = 0; k < MATERIAL_COUNT; k++)
-            r->policies.of[i][k] = (pair_policy){0, 0, true};
+            r->policies.of[i][k] = (pair_policy){.patch = true};
     r->solver = (solver_settings){.kind = SOLVER_FAST,
                                   .iterations = 60,
                                   .position_iterations = 20,

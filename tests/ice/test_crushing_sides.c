@@ -1,0 +1,177 @@
+/* Level floes side to side: contacts of the narrow phase with the limits of crushing. */
+#include "base/transcendental.h"
+#include "ice_rig.h"
+
+/* What the narrow phase needs beside the rig. */
+typedef struct sides_rig {
+    ice_rig r;
+    broad_table boxes;
+    collision_scratch *collision;
+} sides_rig;
+
+static void sides_make(sides_rig *s, double dt, double skin)
+{
+    ice_rig_make(&s->r, dt);
+    s->r.settings.skin = s->r.solver.contact_skin = skin;
+    s->r.solver.kind = SOLVER_ACCURATE;
+    s->r.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides = true;
+    s->boxes = (broad_table){0};
+    s->collision = collision_scratch_create(&s->r.ctx);
+    ck_assert_ptr_nonnull(s->collision);
+}
+
+static void sides_free(sides_rig *s)
+{
+    table_free(&s->r.ctx, &s->boxes, &broad_table_info);
+    collision_scratch_free(&s->r.ctx, s->collision);
+    ice_rig_free(&s->r);
+}
+
+/* All contacts as a step finds them. */
+static void sides_find(sides_rig *s)
+{
+    ice_rig *r = &s->r;
+    fram_error e = {0};
+    const collision_settings settings = {.margin = 0.5};
+    array_clear(&r->patches);
+    assert_ok(broad_phase_update(&r->ctx, &r->bodies, &r->shapes, &settings, &s->boxes, &r->pairs, s->collision, &e),
+              e);
+    assert_ok(narrow_phase_run(&r->ctx, &r->bodies, &r->shapes, &r->policies, &s->boxes, &r->pairs, &r->contacts,
+                               &r->patch_pairs, s->collision, &e),
+              e);
+    assert_ok(crushing_contacts(&r->ctx, r->scratch, &r->settings, &r->bodies, &r->shapes, &r->floes, &r->pairs,
+                                &r->patch_pairs, &r->policies, &r->patches, &r->contacts, &e),
+              e);
+}
+
+static void sides_step(sides_rig *s)
+{
+    ice_rig *r = &s->r;
+    fram_error e = {0};
+    sides_find(s);
+    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
+    ck_assert(loads);
+    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, r->settings.time_step, &r->bodies, loads, &r->joints,
+                           &r->contacts, &r->memory, &r->report, &e),
+              e);
+    memory_free(&r->ctx, loads);
+    integrate_poses(&r->ctx, &r->bodies, r->settings.time_step);
+    assert_ok(solver_correct_positions(&r->ctx, r->solve, &r->solver, r->settings.time_step, &r->bodies, &r->joints,
+                                       &r->contacts, &e),
+              e);
+}
+
+static double sum_of_limits(const ice_rig *r)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < r->contacts.count; i++)
+        sum += r->contacts.data[i].impulse_limit;
+    return sum / r->settings.time_step;
+}
+
+/* Two plates, face to face, overlapping by `depth`; the second is the weaker one and lies 0.1 m lower. */
+START_TEST(face_to_face)
+{
+    static const double depth[4] = {0.05, 0, -1.5e-4, -2.5e-4};
+    for (int i = 0; i < 4; i++) {
+        sides_rig s;
+        sides_make(&s, 0.01, 1e-4);
+        ice_rig_plate(&s.r, 10, 6, 1, MOTION_DYNAMIC);
+        int32_t weak = ice_rig_plate(&s.r, 10, 4, 0.8, MOTION_DYNAMIC);
+        s.r.floes.material[weak].crushing_strength = 1.5e6;
+        ice_rig_place(&s.r, 1, (vec3){10 - depth[i], 0.5, -0.2}, 0, 0, 0);
+        sides_find(&s);
+        ck_assert_int_eq(s.r.patch_pairs.count, 0);
+        ck_assert_int_eq(s.r.contacts.count, 4);
+        /* 4 m wide, from -0.5 to 0.2 m; one skin more on either side of the narrow floe. */
+        assert_absolute(sum_of_limits(&s.r), i < 3 ? 1.5e6 * 4 * 0.7 : 0, i < 3 ? 1.5e6 * 0.7 * 4.1e-4 : 0);
+        for (int32_t k = 0; k < s.r.contacts.count; k++)
+            ck_assert(!s.r.contacts.data[k].correct);
+        sides_free(&s);
+    }
+}
+END_TEST
+
+/* A corner of 90 degrees that has entered a side by d: A = 2 d h, as a patch has it; and past a quarter of the height
+   the contacts are those of the patch, with the same cap. */
+START_TEST(corner_in_a_side)
+{
+    static const double depth[4] = {0.01, 0.1, 0.24, 0.26};
+    for (int i = 0; i < 4; i++) {
+        sides_rig s;
+        sides_make(&s, 0.01, 0);
+        ice_rig_plate(&s.r, 10, 10, 1, MOTION_DYNAMIC);
+        ice_rig_plate(&s.r, 8, 40, 1, MOTION_DYNAMIC);
+        ice_rig_place(&s.r, 0, (vec3){0, 0, 0}, 0, 0, PI / 4);
+        ice_rig_place(&s.r, 1, (vec3){sqrt(50) + 4 - depth[i], 1, 0}, 0, 0, 0);
+        sides_find(&s);
+        ck_assert_int_eq(s.r.patches.count, i < 3 ? 0 : 1);
+        assert_relative(sum_of_limits(&s.r), 2e6 * 2 * depth[i], 1e-5);
+        assert_vec3_close(s.r.contacts.data[0].normal, ((vec3){s.r.contacts.data[0].a == 0 ? -1 : 1, 0, 0}), 1e-9);
+        sides_free(&s);
+    }
+}
+END_TEST
+
+/* A floe of 92 t at 0.5 m/s, corner first, against a fixed floe: F = 2 sigma h d is a spring that does not give back.
+   It stops after v sqrt(m/K) with v sqrt(K m), K = 4 MN/m, and stays there. */
+static void corner_impact(double dt, double *force, double *penetration)
+{
+    sides_rig s;
+    sides_make(&s, dt, 0);
+    ice_rig_plate(&s.r, 10, 10, 1, MOTION_DYNAMIC);
+    ice_rig_plate(&s.r, 8, 40, 1, MOTION_STATIC);
+    ice_rig_place(&s.r, 0, (vec3){0, 0, 0}, 0, 0, PI / 4);
+    ice_rig_place(&s.r, 1, (vec3){sqrt(50) + 4, 0, 0}, 0, 0, 0);
+    s.r.bodies.velocity[0] = (vec3){0.5, 0, 0};
+    *force = *penetration = 0;
+    for (int step = 0; step * dt < 0.3; step++) {
+        sides_step(&s);
+        *force = fmax(*force, fabs(ice_rig_force(&s.r).x));
+        *penetration += s.r.bodies.velocity[0].x * dt;
+    }
+    assert_absolute(s.r.bodies.velocity[0].x, 0, 1e-9);
+    assert_absolute(s.r.bodies.position[0].x, *penetration, 1e-9); /* nothing pushes it back */
+    sides_free(&s);
+}
+
+START_TEST(corner_impact_on_ice)
+{
+    double force[2], way[2], stiffness = 4e6, mass = 92000;
+    for (int i = 0; i < 2; i++)
+        corner_impact(i == 0 ? 1e-3 : 5e-4, &force[i], &way[i]);
+    double exact = 0.5 * sqrt(mass / stiffness);
+    assert_relative(force[0], 0.5 * sqrt(mass * stiffness), 1e-3);
+    assert_relative(force[1], 0.5 * sqrt(mass * stiffness), 5e-4);
+    assert_relative(way[0], exact, 2e-3);
+    ck_assert_msg(fabs(way[1] - exact) <= 0.6 * fabs(way[0] - exact) || fabs(way[0] - exact) < 1e-6 * exact,
+                  "errors %g at dt, %g at dt/2", way[0] - exact, way[1] - exact);
+}
+END_TEST
+
+/* Floes that lie over each other, or tilt, or are concave, have patches; the order of pairs does not depend on it. */
+START_TEST(others_have_patches)
+{
+    sides_rig s;
+    sides_make(&s, 0.01, 1e-4);
+    vec2 fork[8] = {{-5, -5}, {5, -5}, {5, -2}, {-2, -2}, {-2, 2}, {5, 2}, {5, 5}, {-5, 5}};
+    ice_rig_plate(&s.r, 10, 10, 1, MOTION_DYNAMIC);
+    for (int k = 0; k < 2; k++)
+        ice_rig_plate(&s.r, 10, 10, 1, MOTION_DYNAMIC);
+    ice_rig_floe(&s.r, (polygon){fork, 8}, 1, MOTION_DYNAMIC);
+    ice_rig_place(&s.r, 1, (vec3){9.9, 0, 0}, 0.4, 0, 0);  /* tilts */
+    ice_rig_place(&s.r, 2, (vec3){0, 1, 0.95}, 0, 0, 0.1); /* lies on the first */
+    ice_rig_place(&s.r, 3, (vec3){-9.9, 0, 0}, 0, 0, PI);  /* concave */
+    sides_find(&s);
+    ck_assert_int_eq(s.r.patches.count, 3);
+    for (int32_t i = 1; i < s.r.patch_pairs.count; i++)
+        ck_assert_int_lt(s.r.patch_pairs.data[i - 1], s.r.patch_pairs.data[i]);
+    for (int32_t i = 0; i < s.r.contacts.count; i++) {
+        ck_assert_int_ge(s.r.contacts.data[i].patch, 0);
+        ck_assert(isfinite(s.r.contacts.data[i].impulse_limit) && !s.r.contacts.data[i].correct);
+    }
+    sides_free(&s);
+}
+END_TEST
+
+TEST_MAIN("crushing sides", face_to_face, corner_in_a_side, corner_impact_on_ice, others_have_patches)
