@@ -200,12 +200,14 @@ static int patch_points(const patch_component *c, vec3 normal, vec3 out[MOST_POI
     return 4;
 }
 
-/* A hull never pushes a breakable floe out of itself, nor a floe another one: the overlap is ice that is crushed or
-   about to break. */
+/* A hull never pushes a floe out of itself, nor a floe another one: the overlap is ice that is crushed or about to
+   break. */
 static bool pair_corrects(const job *j, const crushing_pair *p)
 {
     material other = j->bodies->material[p->surface_body];
-    return !(other == MATERIAL_ICE || (other == MATERIAL_HULL && j->floes->breakable[p->floe]));
+    if (other == MATERIAL_HULL)
+        return j->settings->correct_unbreakable && !j->floes->breakable[p->floe];
+    return other != MATERIAL_ICE;
 }
 
 static bool push_contact(const job *j, const crushing_pair *p, const crushing_patch *patch, int point, vec3 place,

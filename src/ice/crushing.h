@@ -36,10 +36,11 @@ typedef struct crushing_patch {
 typedef ARRAY(crushing_patch) crushing_patch_array;
 
 typedef struct crushing_settings {
-    double time_step;     /* [s] */
-    double smallest_area; /* patches under it are dropped [m2] */
-    double skin;          /* bodies nearer than this touch: run.solver.contact_skin [m] */
-    bool top_plane_area;  /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
+    double time_step;         /* [s] */
+    double smallest_area;     /* patches under it are dropped [m2] */
+    double skin;              /* bodies nearer than this touch: run.solver.contact_skin [m] */
+    bool correct_unbreakable; /* comparison switch: a hull pushes unbreakable floes out of itself */
+    bool top_plane_area;      /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
 } crushing_settings;
 
 typedef struct crushing_scratch crushing_scratch;
@@ -51,9 +52,10 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s);
    of equal weight, with the centroid and the second moments of the patch, so that force and moment are those of the
    patch; each capped by weight * sigma_c A_c dt.  Between two floes the higher slot counts as the floe, and the weaker
    one's pressure holds.  depth of the points = mean way of the overlap along the normal (ice/patch.h), continuous in
-   the pose.  correct is false for breakable floes against a hull: their overlap is ice that is crushed or about to
-   break.  Independent of how hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for a pair without
-   ice; without memory the arrays may hold a part of the patches. */
+   the pose.  correct is false between hull and floe and between floes: their overlap is ice that is crushed or about to
+   break.  The contacts that the array holds already are given their limits by crushing_limit_sides.  Independent of how
+   hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for a pair without ice; without memory the
+   arrays may hold a part of the patches. */
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
                               const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,

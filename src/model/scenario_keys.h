@@ -152,6 +152,8 @@
     X(cap_ice_ice, BOOLEAN(true), "",                                                                                 \
       "crushing limits contacts between floes too; false: as if none could be crushed")                               \
     X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                    \
+    X(correct_unbreakable, BOOLEAN(false), "",                                                                        \
+      "comparison switch: crushed overlap pushes a hull and unbreakable floes apart again")                           \
     X(crush_trims, BOOLEAN(true), "",                                                                                 \
       "level and fixed ice: where the hull has been there is no ice any more; what is cut away is booked as crushed") \
     X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")   \

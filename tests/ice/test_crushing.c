@@ -504,8 +504,11 @@ START_TEST(flags)
         (pair_policy){.friction_static = 0.2, .friction_kinetic = 0.1, .patch = true};
     r.bodies.motion[0] = MOTION_STATIC;
     ice_rig_crush(&r);
-    ck_assert(r.contacts.data[0].correct);
+    ck_assert(!r.contacts.data[0].correct); /* nor when it cannot break: the overlap is crushed */
     ck_assert(r.contacts.data[0].crush_infinite);
+    r.settings.correct_unbreakable = true;
+    ice_rig_crush(&r);
+    ck_assert(r.contacts.data[0].correct);
     assert_bits(r.contacts.data[0].friction_static, 0.2);
     assert_bits(r.contacts.data[0].friction_kinetic, 0.1);
     r.floes.breakable[0] = 1;
