@@ -85,7 +85,8 @@ static double common_height(const side_floe floe[2], vec3 p)
 /* The flat side that the other floe has entered lies before or behind the deepest point by half its depth: the one of
    both places where the level line along it that both floes have in common is longer.  Seen from the middle of the
    points, since any of several may be the deepest. */
-static double contact_area(const side_floe floe[2], vec3 middle, const contact *deepest, double rim)
+static double contact_area(const side_floe floe[2], vec3 middle, const contact *deepest, double rim,
+                           double *common_width)
 {
     vec3 n = deepest->normal, p = vec3_mad(middle, n, vec3_dot(vec3_sub(deepest->point, middle), n));
     vec3 along = vec3_unit(vec3_make(-n.y, n.x, 0)), step = vec3_scale(n, 0.5 * deepest->depth);
@@ -95,12 +96,18 @@ static double contact_area(const side_floe floe[2], vec3 middle, const contact *
         cut_by_plan(&floe[i], p, step, along, rim, line);
     for (int i = 0; i < 2; i++)
         width = line[i].hi - line[i].lo > width ? line[i].hi - line[i].lo : width;
+    *common_width = width;
     return width * common_height(floe, middle);
 }
 
-static double weaker_pressure(const floe_table *floes, int32_t a, int32_t b, double area)
+/* Largest force on a contact of two floes: the pressure of the weaker one, no more than what builds a ridge. */
+static double largest_force(const crushing_settings *s, const floe_table *floes, int32_t a, int32_t b, double area,
+                            double width)
 {
-    return fmin(ice_crushing_pressure(&floes->material[a], area), ice_crushing_pressure(&floes->material[b], area));
+    double pressure =
+        fmin(ice_crushing_pressure(&floes->material[a], area), ice_crushing_pressure(&floes->material[b], area));
+    double thickness = fmin(floes->thickness[a], floes->thickness[b]), force = pressure * area;
+    return width > 0 ? fmin(force, ice_ridging_line_load(s->ridging, thickness, width) * width) : force;
 }
 
 static void limit_group(const crushing_settings *s, const body_table *bodies, const shape_store *shapes,
@@ -121,8 +128,9 @@ static void limit_group(const crushing_settings *s, const body_table *bodies, co
     if (touching > 0) {
         middle = vec3_scale(middle, 1.0 / touching);
         const side_floe floe[2] = {floe_of(bodies, shapes, g->a), floe_of(bodies, shapes, g->b)};
-        double area = contact_area(floe, middle, &contacts->data[deepest], rim);
-        limit = weaker_pressure(floes, bodies->owner[g->a], bodies->owner[g->b], area) * area * s->time_step / touching;
+        double width, area = contact_area(floe, middle, &contacts->data[deepest], rim, &width);
+        limit =
+            largest_force(s, floes, bodies->owner[g->a], bodies->owner[g->b], area, width) * s->time_step / touching;
     }
     assert(limit >= 0 && isfinite(limit));
     for (int32_t i = g->first; i < g->end; i++) {

@@ -16,6 +16,15 @@ double ice_characteristic_length(const ice_material *m, double thickness, double
     return sqrt(sqrt(ice_plate_stiffness(m, thickness) / (water_density * gravity)));
 }
 
+double ice_ridging_line_load(double resistance, double thickness, double width)
+{
+    static const double newton_per_meganewton = 1e6, thickness_exponent = 1.25, width_exponent = -0.54;
+    if (!(resistance > 0 && width > 0))
+        return HUGE_VAL;
+    return newton_per_meganewton * resistance * real_pow(thickness, thickness_exponent) *
+           real_pow(width, width_exponent);
+}
+
 double ice_crushing_pressure(const ice_material *m, double area)
 {
     if (m->crushing_exponent == 0)

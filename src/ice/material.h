@@ -19,5 +19,9 @@ double ice_characteristic_length(const ice_material *m, double thickness, double
 /* Crushing pressure sigma(A) [Pa] on a contact area A [m2]; 0 on no area when the law has an exponent (there A^e would
    be infinite for e < 0, but the force A sigma goes to 0 for e > -1). */
 double ice_crushing_pressure(const ice_material *m, double area);
+/* Line load at which ice of thickness h [m] builds a ridge over a width D [m]: w = R h^1.25 D^-0.54 in MN/m with h and
+   D in metres and R 2 to 10 (ISO 19906; docs/decisions/0113), returned in N/m; infinite for R = 0 (no ridges) and on no
+   width. */
+double ice_ridging_line_load(double resistance, double thickness, double width);
 
 #endif

@@ -152,6 +152,8 @@
     X(cap_ice_ice, BOOLEAN(true), "",                                                                                 \
       "crushing limits contacts between floes too; false: as if none could be crushed")                               \
     X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                    \
+    X(ridging_resistance, REAL(0, 0, 1e3), "MN/m",                                                                    \
+      "R of the line load R h^1.25 D^-0.54 at which floes build a ridge; bounds contacts between them; 0: none")      \
     X(correct_unbreakable, BOOLEAN(false), "",                                                                        \
       "comparison switch: crushed overlap pushes a hull and unbreakable floes apart again")                           \
     X(crush_trims, BOOLEAN(true), "",                                                                                 \

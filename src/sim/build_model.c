@@ -54,6 +54,7 @@ static model settings_of(const scenario *s)
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {.time_step = s->run.time_step,
                      .skin = v->contact_skin,
+                     .ridging = s->ice.ridging_resistance,
                      .correct_unbreakable = s->ice.correct_unbreakable,
                      .top_plane_area = s->ice.top_plane_area},
         .fracture = build_fracture_settings(s),

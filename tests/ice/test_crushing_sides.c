@@ -149,6 +149,74 @@ START_TEST(corner_impact_on_ice)
 }
 END_TEST
 
+/* The line load that builds a ridge bounds the load of a wide face, of level floes and of a patch alike: 1 m of ice,
+   100 m wide, R = 2. */
+START_TEST(ridge_line_load)
+{
+    double line = 2e6 * real_pow(100, -0.54);
+    assert_relative(ice_ridging_line_load(2, 1, 100), 0.16635e6, 1e-4);
+    assert_relative(ice_ridging_line_load(2, 2, 100), real_pow(2, 1.25) * line, 1e-14);
+    ck_assert(isinf(ice_ridging_line_load(0, 1, 100)) && isinf(ice_ridging_line_load(2, 1, 0)));
+    static const double depth[2] = {0.2, 0.3};
+    for (int i = 0; i < 2; i++) {
+        sides_rig s;
+        sides_make(&s, 0.01, 0);
+        s.r.settings.ridging = 2;
+        for (int k = 0; k < 2; k++)
+            ice_rig_plate(&s.r, 40, 100, 1, MOTION_DYNAMIC);
+        ice_rig_place(&s.r, 1, (vec3){40 - depth[i], 0, 0}, 0, 0, 0);
+        sides_find(&s);
+        ck_assert_int_eq(s.r.patches.count, i);
+        assert_relative(sum_of_limits(&s.r), 100 * line, 1e-5);
+        sides_free(&s);
+    }
+    /* A narrow face is crushed before. */
+    sides_rig s;
+    sides_make(&s, 0.01, 0);
+    s.r.settings.ridging = 2;
+    for (int k = 0; k < 2; k++)
+        ice_rig_plate(&s.r, 4, 0.5, 1, MOTION_DYNAMIC);
+    ice_rig_place(&s.r, 1, (vec3){4 - 0.01, 0, 0}, 0, 0, 0);
+    sides_find(&s);
+    assert_relative(sum_of_limits(&s.r), 2e6 * 0.5, 1e-5);
+    sides_free(&s);
+}
+END_TEST
+
+/* Four floes of 1 m and 100 m width, pushed against a fixed one by a driven one, at two steps: what stands them on end
+   is the ridge's line load, 16.6 MN in all, where crushing alone would be 200 MN; the limit does not depend on the
+   step. */
+START_TEST(squeezed_row)
+{
+    for (int i = 0; i < 4; i++) {
+        sides_rig s;
+        double dt = i % 2 ? 0.01 : 0.02, line = 2e6 * real_pow(100, -0.54);
+        sides_make(&s, dt, 1e-4);
+        s.r.settings.ridging = i < 2 ? 2 : 0;
+        for (int k = 0; k < 6; k++) {
+            ice_rig_plate(&s.r, 40, 100, 1, k == 0 ? MOTION_PRESCRIBED : k == 5 ? MOTION_STATIC : MOTION_DYNAMIC);
+            ice_rig_place(&s.r, k, (vec3){40.0 * k, 0, 0}, 0, 0, 0);
+        }
+        s.r.bodies.velocity[0] = (vec3){0.05, 0, 0};
+        double mean = 0;
+        int steps = (int)(2 / dt), counted = 0;
+        for (int step = 0; step < steps; step++) {
+            sides_step(&s);
+            double force = 0;
+            for (int32_t k = 0; k < s.r.contacts.count; k++)
+                if (s.r.contacts.data[k].a == 5 || s.r.contacts.data[k].b == 5)
+                    force += fabs(contact_impulse(&s.r.contacts.data[k]).x) / dt;
+            if (2 * step >= steps) {
+                mean += force;
+                counted++;
+            }
+        }
+        assert_relative(mean / counted, i < 2 ? 100 * line : 2e6 * 100, 0.01);
+        sides_free(&s);
+    }
+}
+END_TEST
+
 /* Floes that lie over each other, or tilt, or are concave, have patches; the order of pairs does not depend on it. */
 START_TEST(others_have_patches)
 {
@@ -174,4 +242,5 @@ START_TEST(others_have_patches)
 }
 END_TEST
 
-TEST_MAIN("crushing sides", face_to_face, corner_in_a_side, corner_impact_on_ice, others_have_patches)
+TEST_MAIN("crushing sides", face_to_face, corner_in_a_side, corner_impact_on_ice, ridge_line_load, squeezed_row,
+          others_have_patches)
