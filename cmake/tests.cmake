@@ -68,6 +68,8 @@ if(FRAM_TESTS)
             message(STATUS "no Python: ${group}/${topic} is left out")
         endif()
     endforeach()
+    include(cmake/long_tests.cmake)
+    fram_limit_tests()
 endif()
 
 file(GLOB fuzzers CONFIGURE_DEPENDS "fuzz/fuzz_*.c")

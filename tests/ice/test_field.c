@@ -4,6 +4,7 @@
 #include "floes_apart.h"
 #include "ice/field.h"
 #include "ice/field_cells.h"
+#include "seeds.h"
 
 static field_request request_of(double concentration, uint64_t seed)
 {
@@ -73,13 +74,12 @@ START_TEST(concentrations)
 }
 END_TEST
 
-START_TEST(twenty_seeds)
+START_TEST(every_seed)
 {
     context ctx;
     context_init(&ctx);
     double first = 0;
-    const uint64_t seeds = getenv("FRAM_TEST_SHORT") ? 5 : 20;
-    for (uint64_t seed = 0; seed < seeds; seed++) {
+    for (uint64_t seed = 0; seed < seeds(); seed++) {
         field_request q = request_of(0.98, seed);
         q.size_deviation = 1;
         q.roundness = 0.05 * (double)seed;
@@ -438,5 +438,5 @@ START_TEST(periodic_fields)
 }
 END_TEST
 
-TEST_MAIN("field", concentrations, twenty_seeds, periodic_fields, deterministic, sizes, roundness, keep_out_zones,
+TEST_MAIN("field", concentrations, every_seed, periodic_fields, deterministic, sizes, roundness, keep_out_zones,
           zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out)

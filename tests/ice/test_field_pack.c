@@ -3,12 +3,12 @@
 #include "base/transcendental.h"
 #include "ice/field_measure.h"
 #include "ice/field_pack.h"
+#include "seeds.h"
 #include "testing.h"
 
 #include <stdlib.h>
 
 /* Seeds of a kind: a few where everything is slow. */
-static uint64_t seeds(void) { return getenv("FRAM_TEST_SHORT") ? 2 : 20; }
 
 /* A field and everything that came with it. */
 typedef struct made_field {
@@ -80,7 +80,7 @@ static void check_promises(made_field *f, const field_packed_request *r)
     }
 }
 
-START_TEST(wide_sizes_at_90_percent_for_twenty_seeds)
+START_TEST(wide_sizes_at_90_percent_for_every_seed)
 {
     const field_population p = {.share = 1, .size = power, .shape = convex};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
@@ -94,7 +94,7 @@ START_TEST(wide_sizes_at_90_percent_for_twenty_seeds)
 }
 END_TEST
 
-START_TEST(wide_sizes_at_85_percent_between_walls_for_twenty_seeds)
+START_TEST(wide_sizes_at_85_percent_between_walls_for_every_seed)
 {
     const field_population p = {.share = 1, .size = power, .shape = convex};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
@@ -107,7 +107,7 @@ START_TEST(wide_sizes_at_85_percent_between_walls_for_twenty_seeds)
 }
 END_TEST
 
-START_TEST(nearly_equal_sizes_at_80_percent_for_twenty_seeds)
+START_TEST(nearly_equal_sizes_at_80_percent_for_every_seed)
 {
     const field_population p = {.share = 1, .size = nearly_equal, .shape = convex};
     for (uint64_t seed = 1; seed <= seeds(); seed++) {
@@ -131,7 +131,7 @@ static bool add_templates(context *ctx, polygon_list *out)
            polygon_list_push(ctx, out, (polygon){rough, 9});
 }
 
-START_TEST(concave_templates_at_75_percent_for_twenty_seeds)
+START_TEST(concave_templates_at_75_percent_for_every_seed)
 {
     context ctx;
     context_init(&ctx);
@@ -149,7 +149,7 @@ START_TEST(concave_templates_at_75_percent_for_twenty_seeds)
 }
 END_TEST
 
-START_TEST(brash_at_80_percent_for_twenty_seeds)
+START_TEST(brash_at_80_percent_for_every_seed)
 {
     const field_population p = {.share = 1,
                                 .size = {.kind = SIZE_LOGNORMAL, .mean = 0.8, .deviation = 0.4, .lo = 0.3, .hi = 2},
@@ -165,7 +165,7 @@ START_TEST(brash_at_80_percent_for_twenty_seeds)
 }
 END_TEST
 
-START_TEST(mixed_populations_at_85_percent_for_twenty_seeds)
+START_TEST(mixed_populations_at_85_percent_for_every_seed)
 {
     const field_population p[3] = {
         {.share = 3, .size = {.kind = SIZE_LOGNORMAL, .mean = 12, .deviation = 4, .lo = 5, .hi = 40}, .shape = convex},
@@ -406,11 +406,10 @@ START_TEST(the_cover_map_is_exact)
 }
 END_TEST
 
-TEST_MAIN("field_pack", wide_sizes_at_90_percent_for_twenty_seeds,
-          wide_sizes_at_85_percent_between_walls_for_twenty_seeds, nearly_equal_sizes_at_80_percent_for_twenty_seeds,
-          concave_templates_at_75_percent_for_twenty_seeds, brash_at_80_percent_for_twenty_seeds,
-          mixed_populations_at_85_percent_for_twenty_seeds, populations_keep_their_shares_and_laws,
-          the_field_flows_around_zones_and_floes_that_are_there, a_periodic_field_continues_with_itself,
-          same_seed_same_bits_on_any_number_of_threads, an_impossible_field_says_what_was_reached,
-          wrong_requests_are_refused_by_name, a_full_present_field_is_refused, memory_may_end_anywhere,
-          the_cover_map_is_exact)
+TEST_MAIN("field_pack", wide_sizes_at_90_percent_for_every_seed, wide_sizes_at_85_percent_between_walls_for_every_seed,
+          nearly_equal_sizes_at_80_percent_for_every_seed, concave_templates_at_75_percent_for_every_seed,
+          brash_at_80_percent_for_every_seed, mixed_populations_at_85_percent_for_every_seed,
+          populations_keep_their_shares_and_laws, the_field_flows_around_zones_and_floes_that_are_there,
+          a_periodic_field_continues_with_itself, same_seed_same_bits_on_any_number_of_threads,
+          an_impossible_field_says_what_was_reached, wrong_requests_are_refused_by_name,
+          a_full_present_field_is_refused, memory_may_end_anywhere, the_cover_map_is_exact)

@@ -4,6 +4,7 @@
 #include "floes_apart.h"
 #include "ice/field_cells.h"
 #include "ice/field_pack.h"
+#include "seeds.h"
 
 static const size_law power = {.kind = SIZE_POWER, .lo = 4, .hi = 40, .exponent = 1.7};
 static const size_law lognormal = {.kind = SIZE_LOGNORMAL, .mean = 10, .deviation = 4};
@@ -43,11 +44,11 @@ static field_report make_good(context *ctx, const field_request *q, polygon_list
     return r;
 }
 
-START_TEST(twenty_seeds_of_a_power_law_at_98_percent)
+START_TEST(every_seed_of_a_power_law_at_98_percent)
 {
     context ctx;
     context_init(&ctx);
-    for (uint64_t seed = 0; seed < 20; seed++) {
+    for (uint64_t seed = 0; seed < seeds(); seed++) {
         field_request q = request_of(&power, 0.98, seed);
         q.domain = (box2){{-100, 50}, {120, 250}};
         polygon_list floes = {0};
@@ -187,5 +188,5 @@ START_TEST(memory_ends)
 }
 END_TEST
 
-TEST_MAIN("field_sized", twenty_seeds_of_a_power_law_at_98_percent, other_laws, sizes_at_lower_concentrations,
+TEST_MAIN("field_sized", every_seed_of_a_power_law_at_98_percent, other_laws, sizes_at_lower_concentrations,
           without_a_seam, same_bits_on_three_threads, wrong_laws_are_refused, memory_ends)

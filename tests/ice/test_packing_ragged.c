@@ -5,11 +5,10 @@
 #include "ice/field_measure.h"
 #include "ice/field_pack.h"
 #include "ice/packing_work.h"
+#include "seeds.h"
 #include "testing.h"
 
 #include <stdlib.h>
-
-static uint64_t seeds(void) { return getenv("FRAM_TEST_SHORT") ? 2 : 20; }
 
 /* Outlines with bays and a rough edge, each seen whole from its middle. */
 static void add_ragged(context *ctx, int count, polygon_list *out)
@@ -73,7 +72,7 @@ static void check_seams(made_field *f, double side)
     array_free(&f->ctx, &ring);
 }
 
-START_TEST(ragged_templates_at_85_percent_for_twenty_seeds)
+START_TEST(ragged_templates_at_85_percent_for_every_seed)
 {
     context ctx;
     context_init(&ctx);
@@ -234,6 +233,5 @@ START_TEST(memory_may_end_anywhere)
 }
 END_TEST
 
-TEST_MAIN("packing_ragged", ragged_templates_at_85_percent_for_twenty_seeds,
-          same_seed_same_bits_on_any_number_of_threads, an_impossible_field_says_what_was_reached,
-          a_hooked_pair_comes_apart_along_one_way, memory_may_end_anywhere)
+TEST_MAIN("packing_ragged", ragged_templates_at_85_percent_for_every_seed, same_seed_same_bits_on_any_number_of_threads,
+          an_impossible_field_says_what_was_reached, a_hooked_pair_comes_apart_along_one_way, memory_may_end_anywhere)

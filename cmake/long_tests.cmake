@@ -1,0 +1,41 @@
+# Tests that take more than about 5 s (release build, quiet machine of 2 cores), each with its reason.  They alone have
+# the long time limit: a test that is not named here and grows long is stopped.  `make test` begins with them.
+set(fram_long_tests
+    "cli/bench:            the bench's own times are long enough to be measured"
+    "cli/command:          every command and its refusals, and signals to runs that go on"
+    "cli/field:            fields of all sources drawn, written and read again"
+    "cli/packed_field:     ten thousand steps at rest, as the promise says"
+    "dynamics/packed:      packed fields must come to rest under each solver"
+    "dynamics/solver:      oracles of friction and stacking under each solver"
+    "geometry/overlay:     twenty thousand random pairs of outlines against areas"
+    "geometry/polygon_clip: random pairs of outlines, every kind of degeneracy"
+    "ice/field_pack:       six kinds of field, five seeds each (FRAM_TEST_LONG: twenty)"
+    "ice/field_sized:      power diagrams to 0.2 % of the areas, five seeds (FRAM_TEST_LONG: twenty)"
+    "ice/fracture_algorithms: random outlines against slow and plain versions of each algorithm"
+    "ice/packing_ragged:   an impossible field is tried to the end before it is refused"
+    "io/geojson:           files of ten million positions, one over the limit"
+    "sim/build_stopped:    six builds, each interrupted after a second or two"
+    "sim/feeding:          hours of drift: the field must not change by being fed"
+    "sim/level_ice:        ships through level ice, far enough to see the channel and the loads"
+    "sim/real_input:       a run through a field of another's making, 60 s (FRAM_TEST_LONG: the observed floes too)"
+    "runs/resume:           golden scenes straight and through a checkpoint")
+set(fram_short_limit 150) # [s]: thirty times 5 s, for machines that are busy or slow
+set(fram_long_limit 600)  # [s]
+
+# Sets the limit of every test that is there; a name that no test has is a mistake.
+function(fram_limit_tests)
+    get_property(tests DIRECTORY PROPERTY TESTS)
+    if(NOT FRAM_SANITIZE AND NOT FRAM_COVERAGE)
+        foreach(test ${tests})
+            set_tests_properties(${test} PROPERTIES TIMEOUT ${fram_short_limit})
+        endforeach()
+    endif()
+    foreach(line ${fram_long_tests})
+        string(REGEX REPLACE ":.*" "" name "${line}")
+        if(name IN_LIST tests)
+            set_tests_properties(${name} PROPERTIES TIMEOUT ${fram_long_limit} COST 100)
+        elseif(TARGET fram_command AND Python3_FOUND)
+            message(FATAL_ERROR "cmake/long_tests.cmake names ${name}, and there is no such test")
+        endif()
+    endforeach()
+endfunction()
