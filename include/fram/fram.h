@@ -177,6 +177,7 @@ typedef struct fram_run_definition {
     size_t size;        /* of this struct, set by fram_run_default */
     const char *folder; /* where results go; made when missing */
     bool force;         /* write into a folder that is not empty */
+    bool with_paths;    /* the record, and so pages made of it, tells where input files lie; otherwise names alone */
     double until;       /* stop at this simulated time with a checkpoint; <= 0: run to the end of the scenario */
     fram_progress_function progress; /* called a few times a second at most; may be NULL */
     void *progress_user;

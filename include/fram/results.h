@@ -34,9 +34,10 @@ FRAM_API fram_status fram_export_netcdf(fram_context *context, const char *run, 
 /* ---- For people ---- */
 
 /* One self-contained HTML page about the run (RUN/report.html): scenario, loads with exceedance and confidence, field,
-   fractures, station, books, solver quality, origin. */
-FRAM_API fram_status fram_report(fram_context *context, const char *run, const char *output, fram_result *result,
-                                 fram_error *error);
+   fractures, station, books, solver quality, origin.  with_paths: it tells where the run's folder and its input files
+   lie, not their names alone. */
+FRAM_API fram_status fram_report(fram_context *context, const char *run, const char *output, bool with_paths,
+                                 fram_result *result, fram_error *error);
 
 /* Channels of series.csv over time, those of one unit in one panel, from time `from` to `to` [s] (NaN: all), as SVG
    when output ends in .svg, else as PNG.  FRAM_ERROR_INPUT names a channel that the run does not have. */

@@ -62,13 +62,14 @@ fram_status fram_export_netcdf(fram_context *c, const char *run, const char *out
     return answer(export_netcdf(&c->inner, run, output, &report, error), &report, result);
 }
 
-fram_status fram_report(fram_context *c, const char *run, const char *output, fram_result *result, fram_error *error)
+fram_status fram_report(fram_context *c, const char *run, const char *output, bool with_paths, fram_result *result,
+                        fram_error *error)
 {
     export_report report = {.frames = 0};
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
     if (status != FRAM_OK)
         return status;
-    status = report_write(&c->inner, run, output, scenario_notes, error);
+    status = report_write(&c->inner, run, output, scenario_notes, with_paths, error);
     snprintf(report.path, sizeof report.path, output ? "%s" : "%s/report.html", output ? output : run);
     return answer(status, &report, result);
 }

@@ -45,6 +45,7 @@ static run_options options_of(const fram_run_definition *d, progress_bridge *bri
     *bridge = (progress_bridge){d->progress, d->progress_user};
     return (run_options){.folder = d->folder,
                          .force = d->force,
+                         .with_paths = d->with_paths,
                          .until = d->until,
                          .progress = d->progress ? forward_progress : NULL,
                          .progress_user = bridge,

@@ -20,8 +20,10 @@ int command_report(const command_row *self, int argc, char **argv)
 {
     common_options common;
     const char *run = NULL, *output = NULL;
+    bool with_paths = false;
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &output, "FILE", "the page (RUN/report.html)"},
+        {"--with-paths", NULL, OPTION_FLAG, &with_paths, NULL, "tell where the input files lie, not their names alone"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
@@ -36,7 +38,7 @@ int command_report(const command_row *self, int argc, char **argv)
         return code;
     fram_result result = {0};
     fram_error error = {0};
-    if (fram_report(context, run, output, &result, &error) != FRAM_OK) {
+    if (fram_report(context, run, output, with_paths, &result, &error) != FRAM_OK) {
         code = answer_error(&common, &error);
     } else {
         code = EXIT_GOOD;

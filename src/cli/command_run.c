@@ -54,6 +54,8 @@ int command_run(const command_row *self, int argc, char **argv)
         {"--output", "-o", OPTION_TEXT, &definition.folder, "DIR", "folder for the results (required)"},
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+        {"--with-paths", NULL, OPTION_FLAG, &definition.with_paths, NULL,
+         "the record tells where the input files lie, not their names alone"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code < 0)

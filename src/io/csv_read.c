@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* That some programs begin a text with. */
 #define BYTE_ORDER_MARK "\xef\xbb\xbf"
@@ -95,31 +96,61 @@ static void trim_end(char *line, size_t length)
         line[--length] = '\0';
 }
 
-static fram_status read_lines(const char *path, const line_reader *reader, fram_error *error)
+/* The next line with its end, if it has one, and a NUL after it.  *length 0: there is none. */
+static fram_status next_line(FILE *file, const char *path, int number, char *line, size_t *length, fram_error *error)
 {
-    FILE *file = fopen(path, "r");
-    if (!file)
-        return file_error(error, path, "open", errno);
-    char *line = NULL;
-    size_t room = 0;
+    size_t n = 0;
+    for (int c = '\0'; c != '\n' && n < CSV_LINE_MOST && (c = getc_unlocked(file)) != EOF;)
+        line[n++] = (char)c;
+    line[n] = '\0';
+    *length = n;
+    if (ferror(file))
+        return file_error(error, path, "read", errno);
+    if (n == CSV_LINE_MOST)
+        return error_set(error, FRAM_ERROR_INPUT, path, number, NULL,
+                         "expected at most %d characters in a line, found more", (int)CSV_LINE_MOST);
+    if (memchr(line, '\0', n))
+        return error_set(error, FRAM_ERROR_INPUT, path, number, NULL, "expected text, found a NUL byte");
+    return FRAM_OK;
+}
+
+static fram_status read_stream(FILE *file, const char *path, const line_reader *reader, char *line, fram_error *error)
+{
     int number = 0;
-    fram_status status = FRAM_OK;
-    for (ssize_t length; status == FRAM_OK && (length = getline(&line, &room, file)) > 0;) {
-        if (line[length - 1] != '\n' && !reader->open_end)
+    size_t length = 0;
+    while (true) {
+        fram_status status = next_line(file, path, number + 1, line, &length, error);
+        if (status != FRAM_OK)
+            return status;
+        if (length == 0 || (line[length - 1] != '\n' && !reader->open_end))
             break;
         number++;
-        if (strlen(line) != (size_t)length) {
-            status = error_set(error, FRAM_ERROR_INPUT, path, number, NULL, "expected text, found a NUL byte");
-            break;
-        }
-        trim_end(line, (size_t)length);
+        trim_end(line, length);
         const char *text = number == 1 && strncmp(line, BYTE_ORDER_MARK, 3) == 0 ? line + 3 : line;
         status = reader->read(reader->user, path, number, text, error);
+        if (status != FRAM_OK)
+            return status;
     }
-    if (status == FRAM_OK && number == 0)
-        status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "the file has no header row");
-    free(line);
-    fclose(file);
+    return number > 0 ? FRAM_OK : error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "the file has no header row");
+}
+
+static fram_status read_lines(context *ctx, const char *path, const line_reader *reader, fram_error *error)
+{
+    int descriptor;
+    uint64_t size;
+    fram_status status = file_open_regular(path, CSV_BYTES_MOST, &descriptor, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    char *line = memory_resize(ctx, NULL, CSV_LINE_MOST + 1);
+    FILE *file = line ? fdopen(descriptor, "r") : NULL;
+    if (!file) {
+        status = line ? file_error(error, path, "open", errno) : error_memory(error);
+        close(descriptor);
+    } else {
+        status = read_stream(file, path, reader, line, error);
+        fclose(file);
+    }
+    memory_free(ctx, line);
     return status;
 }
 
@@ -148,7 +179,7 @@ fram_status csv_read(context *ctx, const char *path, const char *const *names, i
         return error_memory(error);
     column_reader r = {.ctx = ctx, .names = names, .count = count, .at = at, .columns = columns};
     const line_reader reader = {read_columns, &r, true};
-    fram_status status = read_lines(path, &reader, error);
+    fram_status status = read_lines(ctx, path, &reader, error);
     memory_free(ctx, at);
     return status;
 }
@@ -215,7 +246,7 @@ fram_status csv_table_read(context *ctx, const char *path, csv_table *out, fram_
     *out = (csv_table){0};
     table_reader r = {ctx, out};
     const line_reader reader = {read_table_line, &r, false};
-    fram_status status = read_lines(path, &reader, error);
+    fram_status status = read_lines(ctx, path, &reader, error);
     if (status != FRAM_OK)
         csv_table_free(ctx, out);
     return status;

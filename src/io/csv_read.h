@@ -6,6 +6,10 @@
 
 typedef ARRAY(double) double_array;
 
+/* Refused: larger files, longer lines.  A series of 160 channels over 4 million steps is 8 GB. */
+#define CSV_BYTES_MOST ((uint64_t)16 << 30)
+enum { CSV_LINE_MOST = 1 << 20 };
+
 /* The columns of the given names appended to columns[0..count).  A name may have a unit ("tension[N]"): the file may
    leave it out, but not name another one.  FRAM_ERROR_INPUT for a missing column, another unit, or a value that is no
    number, with its line. */

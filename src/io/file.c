@@ -47,24 +47,56 @@ fram_status file_read_at(int descriptor, const char *path, uint64_t offset, void
     return FRAM_OK;
 }
 
-bool file_is_readable(const char *path)
+static const char *kind_of(mode_t mode)
 {
-    struct stat about;
-    return stat(path, &about) == 0 && S_ISREG(about.st_mode) && access(path, R_OK) == 0;
+    return S_ISDIR(mode) ? "a folder" : S_ISFIFO(mode) ? "a pipe" : S_ISSOCK(mode) ? "a socket" : "a device";
 }
 
-static fram_status read_regular(context *ctx, int descriptor, const char *path, uint64_t limit, char **data,
-                                size_t *size, fram_error *error)
+static fram_status check_regular(int descriptor, const char *path, uint64_t limit, uint64_t *size, fram_error *error)
 {
     struct stat about;
+    char byte;
     if (fstat(descriptor, &about) != 0)
         return file_error(error, path, "read", errno);
     if (!S_ISREG(about.st_mode))
-        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found a folder or device");
-    uint64_t length = (uint64_t)about.st_size;
-    if (length > limit)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found %s",
+                         kind_of(about.st_mode));
+    *size = (uint64_t)about.st_size;
+    if (*size == 0 && pread(descriptor, &byte, 1, 0) == 1)
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                         "expected a regular file, found one of the system that has no size");
+    if (*size > limit)
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected at most %llu bytes, found %llu",
-                         (unsigned long long)limit, (unsigned long long)length);
+                         (unsigned long long)limit, (unsigned long long)*size);
+    return FRAM_OK;
+}
+
+fram_status file_open_regular(const char *path, uint64_t limit, int *descriptor, uint64_t *size, fram_error *error)
+{
+    *descriptor = open_file(path, O_RDONLY | O_NONBLOCK); /* opening a pipe must not wait for its writer */
+    if (*descriptor < 0)
+        return file_error(error, path, "read", errno);
+    fram_status status = check_regular(*descriptor, path, limit, size, error);
+    if (status != FRAM_OK) {
+        close(*descriptor);
+        *descriptor = -1;
+    }
+    return status;
+}
+
+fram_status file_check(const char *path, fram_error *error)
+{
+    int descriptor;
+    uint64_t size;
+    fram_status status = file_open_regular(path, UINT64_MAX, &descriptor, &size, error);
+    if (status == FRAM_OK)
+        close(descriptor);
+    return status;
+}
+
+static fram_status read_regular(context *ctx, int descriptor, const char *path, uint64_t length, char **data,
+                                size_t *size, fram_error *error)
+{
     char *text = length < SIZE_MAX ? memory_resize(ctx, NULL, (size_t)length + 1) : NULL;
     if (!text)
         return error_memory(error);
@@ -81,10 +113,12 @@ static fram_status read_regular(context *ctx, int descriptor, const char *path, 
 
 fram_status file_read(context *ctx, const char *path, uint64_t limit, char **data, size_t *size, fram_error *error)
 {
-    int descriptor = open_file(path, O_RDONLY | O_NONBLOCK); /* opening a pipe must not wait for its writer */
-    if (descriptor < 0)
-        return file_error(error, path, "read", errno);
-    fram_status status = read_regular(ctx, descriptor, path, limit, data, size, error);
+    int descriptor;
+    uint64_t length;
+    fram_status status = file_open_regular(path, limit, &descriptor, &length, error);
+    if (status != FRAM_OK)
+        return status;
+    status = read_regular(ctx, descriptor, path, length, data, size, error);
     close(descriptor);
     return status;
 }

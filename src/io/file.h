@@ -9,8 +9,13 @@
    fault: nothing there, too long, no permission; otherwise FRAM_ERROR_IO. */
 fram_status file_error(fram_error *error, const char *path, const char *attempt, int number);
 
-/* Whether a regular file is there and may be read. */
-bool file_is_readable(const char *path);
+/* A regular file for reading: *descriptor for the caller to close, *size its bytes now.  Never waits for a pipe's other
+   end.  FRAM_ERROR_INPUT when it is not there or longer than `limit` bytes, and for a folder, a pipe, a socket, a
+   device or a file of /proc that has no size, each told by its kind. */
+fram_status file_open_regular(const char *path, uint64_t limit, int *descriptor, uint64_t *size, fram_error *error);
+
+/* That it can be opened so, whatever its size. */
+fram_status file_check(const char *path, fram_error *error);
 
 /* The whole of a regular file and a NUL after it, in memory of ctx.  FRAM_ERROR_INPUT when it is not there, is no
    regular file, or is longer than `limit` bytes. */

@@ -174,8 +174,6 @@ static fram_status look_at_size(record_reader *r, fram_error *error)
     struct stat about;
     if (fstat(r->descriptor, &about) != 0)
         return file_error(error, r->path, "read", errno);
-    if (!S_ISREG(about.st_mode))
-        return refuse(error, r->path, "expected a record, found a folder or device");
     r->file_size = (uint64_t)about.st_size;
     return FRAM_OK;
 }
@@ -188,12 +186,8 @@ fram_status record_open(context *ctx, const char *path, record_reader *r, fram_e
     r->path = memory_string(ctx, path);
     fram_status status = r->path ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK) {
-        r->descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-        if (r->descriptor < 0)
-            status = file_error(error, path, "read", errno);
+        status = file_open_regular(path, RECORD_BYTES_MOST, &r->descriptor, &r->file_size, error);
     }
-    if (status == FRAM_OK)
-        status = look_at_size(r, error);
     if (status == FRAM_OK)
         status = check_head(r->descriptor, path, r->file_size, error);
     if (status != FRAM_OK)

@@ -11,6 +11,8 @@
 
 #include "io/file.h"
 
+/* Refused: larger files. */
+#define RECORD_BYTES_MOST ((uint64_t)1 << 40)
 enum { RECORD_VERSION = 1, RECORD_BLOCK_HEAD = 24 };
 
 typedef struct record_writer {

@@ -421,10 +421,12 @@ static fram_status look_for_file(void *user, const scenario_key *key, const void
     if (key->kind != KEY_PATH || !*given)
         return FRAM_OK;
     char path[2 * SCENARIO_TEXT_SIZE];
+    fram_error reason = {0};
     if (!scenario_resolve_path(s, given, path, sizeof path))
         error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a shorter path");
-    else if (!file_is_readable(path))
-        error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a file that can be read, found none at %s", path);
+    else if (file_check(path, &reason) != FRAM_OK)
+        error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected a file that can be read at %.300s: %s", path,
+                  reason.message);
     else
         return FRAM_OK;
     scenario_locate(s, error);

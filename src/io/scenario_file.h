@@ -30,6 +30,7 @@ fram_status scenario_parse(context *ctx, const char *name, const char *text, siz
 typedef struct scenario_print_options {
     bool comments;       /* unit and meaning after every key */
     bool absolute_paths; /* so that the text can be used from another folder */
+    bool names_only;     /* files by their name alone, so that the text tells nothing of this machine */
 } scenario_print_options;
 /* The effective scenario, every key with its value, appended to out.  Reading it again gives the same scenario to the
    bit. options NULL: comments, paths as given. */

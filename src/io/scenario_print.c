@@ -196,7 +196,9 @@ fram_status scenario_print(context *ctx, const scenario *s, const scenario_print
                  .out = out,
                  .scenario = s,
                  .comments = !options || options->comments,
-                 .paths = options && options->absolute_paths ? PATH_ABSOLUTE : PATH_GIVEN,
+                 .paths = options && options->absolute_paths ? PATH_ABSOLUTE
+                          : options && options->names_only   ? PATH_NAME
+                                                             : PATH_GIVEN,
                  .error = error};
     return print(&p);
 }

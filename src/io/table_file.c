@@ -319,7 +319,7 @@ fram_status table_file_read(context *ctx, const char *path, table_file *content,
     char *data;
     size_t size;
     forget_bytes(content);
-    fram_status status = file_read(ctx, path, UINT64_MAX, &data, &size, error);
+    fram_status status = file_read(ctx, path, TABLE_FILE_BYTES_MOST, &data, &size, error);
     if (status != FRAM_OK)
         return status;
     status = table_file_decode(ctx, path, data, size, content, error);

@@ -15,6 +15,8 @@
 #include "model/world.h"
 
 enum { TABLE_FILE_VERSION = 1 };
+/* Refused: larger files.  A million floes take 2 GB. */
+#define TABLE_FILE_BYTES_MOST ((uint64_t)64 << 30)
 
 typedef struct table_file_number {
     const char *name;

@@ -1,5 +1,6 @@
 #include "results/export.h"
 
+#include "base/number_text.h"
 #include "io/geojson.h"
 #include "results/replay_moment.h"
 
@@ -45,8 +46,10 @@ fram_status export_geojson(context *ctx, const char *folder, const char *output,
     replay_moment m = {0};
     plan_columns c = {0};
     *report = (export_report){.frames = 1};
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(time, text); /* all its digits, so that every time has a name of its own */
     int n = output ? snprintf(report->path, sizeof report->path, "%s", output)
-                   : snprintf(report->path, sizeof report->path, "%s/field-%g.geojson", folder, time);
+                   : snprintf(report->path, sizeof report->path, "%s/field-%s.geojson", folder, text);
     if (n < 0 || n >= (int)sizeof report->path)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     fram_status status = replay_open(ctx, folder, &r, error);

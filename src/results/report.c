@@ -6,6 +6,7 @@
 #include "results/station_results.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static bool find_load(report *r)
 {
@@ -92,7 +93,8 @@ static fram_status appendix(report *r, fram_error *error)
 {
     text_buffer notes = {0}, text = {0};
     r->notes(r->ctx, &r->d.s, &notes);
-    fram_status status = notes.failed ? error_memory(error) : scenario_print(r->ctx, &r->d.s, NULL, &text, error);
+    const scenario_print_options options = {.comments = true, .names_only = !r->with_paths};
+    fram_status status = notes.failed ? error_memory(error) : scenario_print(r->ctx, &r->d.s, &options, &text, error);
     if (status == FRAM_OK) {
         html_section(&r->page, "What follows from the scenario");
         html_verbatim(&r->page, notes.data ? notes.data : "");
@@ -107,7 +109,10 @@ static fram_status appendix(report *r, fram_error *error)
 static fram_status compose(report *r, fram_error *error)
 {
     char subtitle[1400];
-    snprintf(subtitle, sizeof subtitle, "Run %s in %s, %g s simulated; Fram %s", r->d.note.status, r->d.folder,
+    const char *folder = r->d.folder, *slash = strrchr(folder, '/');
+    if (folder[0] == '/' && slash[1] && !r->with_paths)
+        folder = slash + 1;
+    snprintf(subtitle, sizeof subtitle, "Run %s in %s, %g s simulated; Fram %s", r->d.note.status, folder,
              r->d.note.time, r->d.note.version);
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
     key_figures(r);
@@ -125,10 +130,11 @@ static fram_status compose(report *r, fram_error *error)
     return status == FRAM_OK && r->page.text.failed ? error_memory(error) : status;
 }
 
-fram_status report_write(context *ctx, const char *folder, const char *output, notes_function notes, fram_error *error)
+fram_status report_write(context *ctx, const char *folder, const char *output, notes_function notes, bool with_paths,
+                         fram_error *error)
 {
     char beside[1100];
-    report r = {.ctx = ctx, .notes = notes, .page = {.ctx = ctx}};
+    report r = {.ctx = ctx, .notes = notes, .with_paths = with_paths, .page = {.ctx = ctx}};
     fram_status status = run_data_read(ctx, folder, true, &r.d, error);
     if (status != FRAM_OK)
         return status;

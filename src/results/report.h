@@ -7,8 +7,9 @@
 
 /* Tells what follows from a scenario; given by the caller, since it takes the rooms that build a world. */
 typedef void (*notes_function)(context *ctx, const scenario *s, text_buffer *out);
-/* output NULL: FOLDER/report.html. */
-fram_status report_write(context *ctx, const char *folder, const char *output, notes_function notes, fram_error *error);
+/* output NULL: FOLDER/report.html.  with_paths: the scenario in it tells where its files lie, not their names alone. */
+fram_status report_write(context *ctx, const char *folder, const char *output, notes_function notes, bool with_paths,
+                         fram_error *error);
 
 /* One quantity of two runs. */
 typedef struct compare_row {

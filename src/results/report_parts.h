@@ -9,6 +9,7 @@
 
 typedef struct report {
     context *ctx;
+    bool with_paths;
     notes_function notes;
     run_data d;
     html_page page;

@@ -130,15 +130,30 @@ static fram_status draw_plan(run *r, const char *name, fram_error *error)
     return status == FRAM_OK ? picture_plan(r->ctx, r->s, &r->world, path, error) : status;
 }
 
+/* Digits of the time in a picture's name: before the point, and behind it at least and at most. */
+enum { PICTURE_DIGITS = 6, PICTURE_DECIMALS = 2, PICTURE_MOST_DECIMALS = 12 };
+
+/* As many that pictures `interval` seconds apart have names of their own. */
+static int picture_decimals(double interval)
+{
+    int decimals = PICTURE_DECIMALS;
+    for (double step = 0.01; step > interval * (1 + 1e-9) && decimals < PICTURE_MOST_DECIMALS; step /= 10)
+        decimals++;
+    return decimals;
+}
+
 static fram_status draw_numbered_plan(run *r, fram_error *error)
 {
     char name[64], folder[PATH_SIZE];
+    double dt = r->s->run.time_step;
+    int decimals = picture_decimals((double)r->picture_every * dt);
     fram_status status = join_path(r->options->folder, "pictures", folder, error);
     if (status != FRAM_OK)
         return status;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return file_error(error, folder, "make the folder", errno);
-    snprintf(name, sizeof name, "pictures/plan-%09.2f.png", r->world.clock.time[0]);
+    snprintf(name, sizeof name, "pictures/plan-%0*.*f.png", PICTURE_DIGITS + 1 + decimals, decimals,
+             r->world.clock.time[0]);
     return draw(r, name, draw_plan, error);
 }
 
@@ -371,7 +386,8 @@ static void log_start(const run *r, const field_report *report)
 /* The record's scenario is for programs: without comments. */
 static fram_status start_streams(run *r, fram_error *error)
 {
-    const scenario_print_options options = {.absolute_paths = true};
+    const scenario_print_options options = {.absolute_paths = r->options->with_paths,
+                                            .names_only = !r->options->with_paths};
     text_buffer text = {0};
     fram_status status = scenario_print(r->ctx, r->s, &options, &text, error);
     if (status == FRAM_OK)

@@ -14,7 +14,8 @@ typedef struct run_progress {
 typedef struct run_options {
     const char *folder;
     bool force;
-    double until; /* stop there with a checkpoint; <= 0: the scenario's end [s] */
+    bool with_paths; /* the record tells where input files lie; otherwise their names alone */
+    double until;    /* stop there with a checkpoint; <= 0: the scenario's end [s] */
     void (*progress)(void *user, const run_progress *p); /* may be NULL */
     void *progress_user;
     const volatile int *stop; /* may be NULL */

@@ -275,9 +275,9 @@ START_TEST(results)
     assert_ok(fram_export_geojson(c, run, NULL, 0.25, NULL, &e), e);
     REFUSED(fram_export_netcdf(NULL, run, NULL, &result, &e));
     REFUSED(fram_export_netcdf(c, NULL, NULL, &result, &e));
-    REFUSED(fram_report(NULL, run, NULL, &result, &e));
-    REFUSED(fram_report(c, NULL, NULL, &result, &e));
-    assert_ok(fram_report(c, run, NULL, NULL, &e), e);
+    REFUSED(fram_report(NULL, run, NULL, false, &result, &e));
+    REFUSED(fram_report(c, NULL, NULL, false, &result, &e));
+    assert_ok(fram_report(c, run, NULL, true, NULL, &e), e);
 
     const char *channels[] = {"ice_force_x", NULL, "no such channel"};
     char *text;
