@@ -10,10 +10,12 @@
 extern "C" {
 #endif
 
+enum { FRAM_PATH_ROOM = 4096 }; /* bytes of a path, the NUL included */
+
 typedef struct fram_result {
-    char path[1024]; /* the file to open */
-    int64_t frames;  /* of the record that are in it */
-    double time;     /* of the first of them, simulated [s] */
+    char path[FRAM_PATH_ROOM]; /* the file to open */
+    int64_t frames;            /* of the record that are in it */
+    double time;               /* of the first of them, simulated [s] */
 } fram_result;
 
 /* ---- Formats of other programs ---- */

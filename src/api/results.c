@@ -18,6 +18,8 @@
 #define SPEED_MOST 1e9
 #define SPAN_MOST 1e7
 
+_Static_assert((int)FRAM_PATH_ROOM == (int)PATH_ROOM, "one size of paths");
+
 static fram_status answer(fram_status status, const export_report *from, fram_result *to)
 {
     if (status == FRAM_OK && to) {
@@ -70,7 +72,8 @@ fram_status fram_report(fram_context *c, const char *run, const char *output, bo
     if (status != FRAM_OK)
         return status;
     status = report_write(&c->inner, run, output, scenario_notes, with_paths, error);
-    snprintf(report.path, sizeof report.path, output ? "%s" : "%s/report.html", output ? output : run);
+    if (status == FRAM_OK)
+        status = path_given_or(output, run, "report.html", report.path, error);
     return answer(status, &report, result);
 }
 

@@ -94,6 +94,8 @@ fram_status file_check(const char *path, fram_error *error)
     return status;
 }
 
+bool file_is_readable(const char *path) { return file_check(path, NULL) == FRAM_OK; }
+
 static fram_status read_regular(context *ctx, int descriptor, const char *path, uint64_t length, char **data,
                                 size_t *size, fram_error *error)
 {

@@ -16,6 +16,8 @@ fram_status file_open_regular(const char *path, uint64_t limit, int *descriptor,
 
 /* That it can be opened so, whatever its size. */
 fram_status file_check(const char *path, fram_error *error);
+/* The same as an answer. */
+bool file_is_readable(const char *path);
 
 /* The whole of a regular file and a NUL after it, in memory of ctx.  FRAM_ERROR_INPUT when it is not there, is no
    regular file, or is longer than `limit` bytes. */

@@ -2,13 +2,13 @@
 #ifndef RESULTS_EXPORT_H
 #define RESULTS_EXPORT_H
 
-#include "base/context.h"
+#include "io/path.h"
 
 /* What was written. */
 typedef struct export_report {
-    char path[1024]; /* the file to open */
-    int64_t frames;  /* in it */
-    double time;     /* of the first, simulated [s] */
+    char path[PATH_ROOM]; /* the file to open */
+    int64_t frames;       /* in it */
+    double time;          /* of the first, simulated [s] */
 } export_report;
 
 /* For ParaView: OUTPUT/run.pvd (floes, hull and forces together) and floes.pvd, hull.pvd, forces.pvd, with a .vtp each

@@ -48,10 +48,10 @@ fram_status export_geojson(context *ctx, const char *folder, const char *output,
     *report = (export_report){.frames = 1};
     char text[NUMBER_TEXT_SIZE];
     real_to_text(time, text); /* all its digits, so that every time has a name of its own */
-    int n = output ? snprintf(report->path, sizeof report->path, "%s", output)
-                   : snprintf(report->path, sizeof report->path, "%s/field-%s.geojson", folder, text);
-    if (n < 0 || n >= (int)sizeof report->path)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    char name[NUMBER_TEXT_SIZE + 16];
+    snprintf(name, sizeof name, "field-%s.geojson", text);
+    if (path_given_or(output, folder, name, report->path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     fram_status status = replay_open(ctx, folder, &r, error);
     if (status != FRAM_OK)
         return status;

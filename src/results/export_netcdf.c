@@ -11,8 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PATH_SIZE = 1024 };
-
 /* ---- columns of CSV files ---- */
 
 /* Columns over a dimension, which is the column of the same name where there is one. */
@@ -32,10 +30,11 @@ static void put_table(netcdf_file *f, const csv_table *t, const char *dimension,
 static fram_status put_csv(context *ctx, netcdf_file *f, const char *folder, const char *file, const char *dimension,
                            const char *prefix, fram_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     csv_table t;
-    snprintf(path, sizeof path, "%s/%s", folder, file);
-    fram_status status = csv_table_read(ctx, path, &t, error);
+    fram_status status = path_join(folder, file, path, error);
+    if (status == FRAM_OK)
+        status = csv_table_read(ctx, path, &t, error);
     if (status != FRAM_OK)
         return status;
     put_table(f, &t, dimension, prefix);
@@ -193,10 +192,8 @@ fram_status export_netcdf(context *ctx, const char *folder, const char *output, 
 {
     netcdf_file f;
     *report = (export_report){0};
-    int n = output ? snprintf(report->path, sizeof report->path, "%s", output)
-                   : snprintf(report->path, sizeof report->path, "%s/run.nc", folder);
-    if (n < 0 || n >= (int)sizeof report->path || strlen(folder) + 32 > PATH_SIZE)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (path_given_or(output, folder, "run.nc", report->path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     fram_status status = netcdf_begin(ctx, report->path, &f, error);
     if (status != FRAM_OK)
         return status;

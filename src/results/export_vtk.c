@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <sys/stat.h>
 
-enum { PATH_SIZE = 1024, FIELDS_MOST = 12, PARTS = 3 };
+enum { FIELDS_MOST = 12, PARTS = 3 };
 enum { PART_FLOES, PART_HULL, PART_FORCES };
 static const char *const part_names[PARTS] = {"floes", "hull", "forces"};
 
@@ -179,11 +179,10 @@ static fram_status write_part(vtk_export *e, int part, int64_t number, fram_erro
 {
     sheet *s = &e->part[part];
     vtk_step step = {.time = e->r.frame.time};
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     snprintf(step.name, sizeof step.name, "data/%s_%06lld.vtp", part_names[part], (long long)number);
-    int n = snprintf(path, sizeof path, "%s/%s", e->folder, step.name);
-    if (n < 0 || n >= PATH_SIZE)
-        return error_set(error, FRAM_ERROR_INPUT, e->folder, 0, NULL, "the folder's name is too long");
+    if (path_join(e->folder, step.name, path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     if (s->failed)
         return error_memory(error);
     for (int32_t i = 0; i < s->fields; i++)
@@ -229,9 +228,11 @@ static fram_status write_series(vtk_export *e, fram_error *error)
 {
     fram_status status = FRAM_OK;
     for (int k = 0; k <= PARTS && status == FRAM_OK; k++) {
-        char path[PATH_SIZE];
-        snprintf(path, sizeof path, "%s/%s.pvd", e->folder, k < PARTS ? part_names[k] : "run");
-        status = vtk_series_write(e->ctx, path, e->steps[k].data, e->steps[k].count, error);
+        char name[32], path[PATH_ROOM];
+        snprintf(name, sizeof name, "%s.pvd", k < PARTS ? part_names[k] : "run");
+        status = path_join(e->folder, name, path, error);
+        if (status == FRAM_OK)
+            status = vtk_series_write(e->ctx, path, e->steps[k].data, e->steps[k].count, error);
     }
     return status;
 }
@@ -261,14 +262,12 @@ static fram_status make_folder(const char *path, fram_error *error)
 fram_status export_vtk(context *ctx, const char *folder, const char *output, int64_t every, export_report *report,
                        fram_error *error)
 {
-    char beside[PATH_SIZE], data[PATH_SIZE];
-    vtk_export e = {.ctx = ctx, .folder = output ? output : beside};
+    char to[PATH_ROOM], data[PATH_ROOM];
+    vtk_export e = {.ctx = ctx, .folder = to};
     *report = (export_report){0};
-    int n = snprintf(beside, sizeof beside, "%s/vtk", folder);
-    int m = snprintf(data, sizeof data, "%s/data", e.folder);
-    int l = snprintf(report->path, sizeof report->path, "%s/run.pvd", e.folder);
-    if (n < 0 || n >= PATH_SIZE || m < 0 || m >= PATH_SIZE || l < 0 || l >= (int)sizeof report->path)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (path_given_or(output, folder, "vtk", to, error) != FRAM_OK || path_join(to, "data", data, error) != FRAM_OK ||
+        path_join(to, "run.pvd", report->path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     fram_status status = replay_open(ctx, folder, &e.r, error);
     if (status != FRAM_OK)
         return status;

@@ -269,12 +269,11 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
 fram_status playback_write(context *ctx, const char *folder, const playback_options *options, playback_report *report,
                            fram_error *error)
 {
-    char path[PLAYBACK_PATH];
+    char path[PATH_ROOM];
     record_reader r;
     *report = (playback_report){0};
-    int n = snprintf(path, sizeof path, "%s/record.fram", folder);
-    if (n < 0 || n >= PLAYBACK_PATH)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (path_join(folder, "record.fram", path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     fram_status status = record_open(ctx, path, &r, error);
     if (status != FRAM_OK)
         return status;

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { NAME_SIZE = PLAYBACK_PATH + 64 };
+enum { NAME_SIZE = PATH_ROOM + 64 };
 enum { TRIES_MOST = 100 };
 static const char ending[] = ".html", suffix[] = "-frames";
 

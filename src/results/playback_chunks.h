@@ -5,19 +5,18 @@
 
 #include "io/atomic_file.h"
 #include "io/base64.h"
+#include "io/path.h"
 
 #include <stdio.h>
-
-enum { PLAYBACK_PATH = 1024 };
 
 /* Files FOLDER/0000.js, 0001.js, ...: framChunk(NUMBER, "base64 of blocks as they stand in a record"). */
 typedef struct chunk_writer {
     context *ctx;
-    char folder[PLAYBACK_PATH]; /* where they belong */
-    char *stage;                /* the folder in which they stand until then; NULL while there is none */
-    uint64_t limit;             /* bytes of blocks in one file, unless a single frame is larger */
-    int32_t count;              /* files begun */
-    uint64_t filled;            /* bytes of blocks in the open one */
+    char folder[PATH_ROOM]; /* where they belong */
+    char *stage;            /* the folder in which they stand until then; NULL while there is none */
+    uint64_t limit;         /* bytes of blocks in one file, unless a single frame is larger */
+    int32_t count;          /* files begun */
+    uint64_t filled;        /* bytes of blocks in the open one */
     atomic_file file;
     base64_writer text;
     bool open;

@@ -1,5 +1,7 @@
 #include "results/replay.h"
 
+#include "io/path.h"
+
 #include "io/record_pose.h"
 
 #include <math.h>
@@ -310,12 +312,11 @@ static fram_status read_ahead(replay *r, fram_error *error)
 
 fram_status replay_open(context *ctx, const char *folder, replay *r, fram_error *error)
 {
-    char path[1024];
+    char path[PATH_ROOM];
     memset(r, 0, sizeof *r);
     r->ctx = ctx;
-    int n = snprintf(path, sizeof path, "%s/record.fram", folder);
-    if (n < 0 || n >= (int)sizeof path)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (path_join(folder, "record.fram", path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     fram_status status = record_open(ctx, path, &r->reader, error);
     if (status != FRAM_OK)
         return status;

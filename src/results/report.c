@@ -112,7 +112,7 @@ static fram_status compose(report *r, fram_error *error)
     const char *folder = r->d.folder, *slash = strrchr(folder, '/');
     if (folder[0] == '/' && slash[1] && !r->with_paths)
         folder = slash + 1;
-    snprintf(subtitle, sizeof subtitle, "Run %s in %s, %g s simulated; Fram %s", r->d.note.status, folder,
+    snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %g s simulated; Fram %s", r->d.note.status, folder,
              r->d.note.time, r->d.note.version);
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
     key_figures(r);
@@ -133,15 +133,16 @@ static fram_status compose(report *r, fram_error *error)
 fram_status report_write(context *ctx, const char *folder, const char *output, notes_function notes, bool with_paths,
                          fram_error *error)
 {
-    char beside[1100];
+    char path[PATH_ROOM];
     report r = {.ctx = ctx, .notes = notes, .with_paths = with_paths, .page = {.ctx = ctx}};
-    fram_status status = run_data_read(ctx, folder, true, &r.d, error);
+    fram_status status = path_given_or(output, folder, "report.html", path, error);
+    if (status == FRAM_OK)
+        status = run_data_read(ctx, folder, true, &r.d, error);
     if (status != FRAM_OK)
         return status;
-    snprintf(beside, sizeof beside, "%s/report.html", folder);
     status = find_load(&r) ? compose(&r, error) : error_memory(error);
     if (status == FRAM_OK)
-        status = atomic_file_write(ctx, output ? output : beside, r.page.text.data, (size_t)r.page.text.count, error);
+        status = atomic_file_write(ctx, path, r.page.text.data, (size_t)r.page.text.count, error);
     for (int32_t i = 0; i < r.kept.count; i++)
         memory_free(ctx, r.kept.data[i]);
     array_free(ctx, &r.kept);

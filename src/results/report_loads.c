@@ -98,11 +98,13 @@ static void load_table(report *r, load_unit unit)
 
 static fram_status station_picture(report *r, fram_error *error)
 {
-    char path[1100], *png = NULL;
+    char path[PATH_ROOM], *png = NULL;
     size_t size = 0;
-    snprintf(path, sizeof path, "%s/station.png", r->d.folder);
     fram_error missing;
-    fram_status status = file_read(r->ctx, path, 64 << 20, &png, &size, &missing);
+    fram_status status = path_join(r->d.folder, "station.png", path, error);
+    if (status != FRAM_OK)
+        return status;
+    status = file_read(r->ctx, path, 64 << 20, &png, &size, &missing);
     if (status == FRAM_ERROR_MEMORY)
         return error_memory(error);
     if (status == FRAM_OK)

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 1100, NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };
+enum { NOTE_LIMIT = 1 << 20, JSON_DEPTH = 8 };
 
 /* ---- run.json ---- */
 
@@ -48,10 +48,11 @@ static fram_status read_member(json_walk *w, const char *key, run_note *n, fram_
 
 static fram_status read_note(context *ctx, const char *folder, run_note *n, fram_error *error)
 {
-    char path[PATH_SIZE], key[64], *text = NULL;
+    char path[PATH_ROOM], key[64], *text = NULL;
     size_t size = 0;
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    fram_status status = file_read(ctx, path, NOTE_LIMIT, &text, &size, error);
+    fram_status status = path_join(folder, "run.json", path, error);
+    if (status == FRAM_OK)
+        status = file_read(ctx, path, NOTE_LIMIT, &text, &size, error);
     if (status != FRAM_OK)
         return status;
     json_walk w = json_walk_begin(path, text, size, JSON_DEPTH);
@@ -129,20 +130,22 @@ static fram_status read_fields(context *ctx, run_data *d, fram_error *error)
 
 fram_status run_data_read(context *ctx, const char *folder, bool with_field, run_data *d, fram_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     memset(d, 0, sizeof *d);
-    int n = snprintf(d->folder, sizeof d->folder, "%s", folder);
-    if (n < 0 || n >= (int)sizeof d->folder)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    fram_status status = read_note(ctx, folder, &d->note, error);
-    snprintf(path, sizeof path, "%s/scenario.yaml", folder);
+    fram_status status = path_given_or(folder, NULL, NULL, d->folder, error);
+    if (status == FRAM_OK)
+        status = read_note(ctx, folder, &d->note, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_read(ctx, path, NULL, &d->s, error);
     if (status != FRAM_OK)
         return status;
-    snprintf(path, sizeof path, "%s/series.csv", folder);
-    status = csv_table_read(ctx, path, &d->series, error);
-    snprintf(path, sizeof path, "%s/fractures.csv", folder);
+    status = path_join(folder, "series.csv", path, error);
+    if (status == FRAM_OK)
+        status = csv_table_read(ctx, path, &d->series, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->fractures, error);
     if (status == FRAM_OK && with_field)

@@ -4,6 +4,7 @@
 #define RESULTS_RUN_DATA_H
 
 #include "io/csv_read.h"
+#include "io/path.h"
 #include "model/scenario.h"
 
 /* Texts of run.json; "" for those that are missing. */
@@ -24,7 +25,7 @@ typedef struct field_state {
 } field_state;
 
 typedef struct run_data {
-    char folder[1024];
+    char folder[PATH_ROOM];
     scenario s;
     run_note note;
     csv_table series, fractures;

@@ -2,6 +2,7 @@
 
 #include "io/chart.h"
 #include "io/csv_read.h"
+#include "io/path.h"
 #include "results/station_results.h"
 
 #include <stdio.h>
@@ -26,10 +27,9 @@ static fram_status draw_loads(context *ctx, const scenario *s, const char *folde
     static const char *const names[] = {"time", "ice_force_body_x", "ice_force_body_y", "ice_force_averaged_x",
                                         "ice_force_averaged_y"};
     enum { TIME, RAW_X, RAW_Y, MEAN_X, MEAN_Y, COUNT };
-    char from[1024], to[1024];
-    int n = snprintf(from, sizeof from, "%s/series.csv", folder), m = snprintf(to, sizeof to, "%s/loads.png", folder);
-    if (n < 0 || m < 0 || n >= (int)sizeof from || m >= (int)sizeof to)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    char from[PATH_ROOM], to[PATH_ROOM];
+    if (path_join(folder, "series.csv", from, error) != FRAM_OK || path_join(folder, "loads.png", to, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     double_array column[COUNT] = {0};
     fram_status status = csv_read(ctx, from, names, COUNT, column, error);
     if (status == FRAM_OK) {

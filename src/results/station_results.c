@@ -4,6 +4,7 @@
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/page.h"
+#include "io/path.h"
 #include "io/text_buffer.h"
 
 #include <stdio.h>
@@ -64,11 +65,11 @@ static void data_free(context *ctx, station_data *d)
 static fram_status data_read(context *ctx, const station_outcome *o, const char *folder, station_data *d,
                              fram_error *error)
 {
-    char path[1024], name[MOST_CHANNELS][32];
+    char path[PATH_ROOM], name[MOST_CHANNELS][32];
     const char *names[MOST_CHANNELS];
-    int n = snprintf(path, sizeof path, "%s/series.csv", folder), count = FIXED;
-    if (n < 0 || n >= (int)sizeof path)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    int count = FIXED;
+    if (path_join(folder, "series.csv", path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     memcpy(names, fixed_names, sizeof fixed_names);
     d->lines = o->lines->count;
     d->thrusters = o->thrusters->count;
@@ -236,11 +237,12 @@ fram_status station_results_write(context *ctx, const scenario *s, const station
 {
     station_data d = {0};
     text_buffer b = {0};
-    char path[1024];
+    char path[PATH_ROOM];
     fram_status status = data_read(ctx, o, folder, &d, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "station.json", path, error);
     if (status == FRAM_OK) {
         compose(ctx, s, o, &d, &b);
-        snprintf(path, sizeof path, "%s/station.json", folder);
         status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
     }
     text_free(ctx, &b);
@@ -359,15 +361,16 @@ fram_status station_page_write(context *ctx, const scenario *s, const station_ou
 {
     station_data d = {0};
     text_buffer b = {0};
-    char path[1024];
+    char path[PATH_ROOM];
     fram_status status = data_read(ctx, o, folder, &d, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "station.png", path, error);
     if (status == FRAM_OK) {
         describe(ctx, s, o, &d, &b);
         scale(&d.column[LOAD_X], 1e-3);
         scale(&d.column[LOAD_Y], 1e-3);
         scale(&d.column[TENSION], 1e-3);
         scale(&d.column[POWER], 1e-6);
-        snprintf(path, sizeof path, "%s/station.png", folder);
         status = b.failed ? error_memory(error) : draw(ctx, s, &d, b.data, path, error);
     }
     text_free(ctx, &b);

@@ -3,6 +3,7 @@
 #include "io/atomic_file.h"
 #include "io/csv_read.h"
 #include "io/image.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "io/video_file.h"
 
@@ -30,7 +31,7 @@ typedef struct video {
     replay r;
     replay_moment moment;
     replay_plan plan;
-    char path[1024];
+    char path[PATH_ROOM];
 } video;
 
 static int ascending(const void *a, const void *b)
@@ -202,9 +203,13 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
 static fram_status keep_picture(video *v, video_file *file, cairo_t *page, int64_t number, fram_error *error)
 {
     if (v->options->pictures) {
-        char name[1100];
-        snprintf(name, sizeof name, "%s/frame-%06lld.png", v->path, (long long)number);
-        return image_write(v->ctx, page, name, error);
+        char name[32], path[PATH_ROOM];
+        snprintf(name, sizeof name, "frame-%06lld.png", (long long)number);
+        fram_status status = path_join(v->path, name, path, error);
+        if (status == FRAM_OK)
+            return image_write(v->ctx, page, path, error);
+        cairo_destroy(page);
+        return status;
     }
     cairo_surface_t *surface = cairo_get_target(page);
     cairo_surface_flush(surface);
@@ -270,12 +275,10 @@ fram_status video_write(context *ctx, const char *folder, const video_options *o
                         fram_error *error)
 {
     video v = {.ctx = ctx, .options = options};
-    char scene[1100];
-    int n = options->output ? snprintf(v.path, sizeof v.path, "%s", options->output)
-                            : snprintf(v.path, sizeof v.path, "%s/%s", folder, options->pictures ? "video" : "run.mp4");
-    if (n < 0 || n >= (int)sizeof v.path || strlen(folder) > 1000)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    snprintf(scene, sizeof scene, "%s/scenario.yaml", folder);
+    char scene[PATH_ROOM];
+    if (path_given_or(options->output, folder, options->pictures ? "video" : "run.mp4", v.path, error) != FRAM_OK ||
+        path_join(folder, "scenario.yaml", scene, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     *frames = 0;
     fram_status status = scenario_read(ctx, scene, NULL, &v.s, error);
     if (status != FRAM_OK)

@@ -7,6 +7,7 @@
 #ifndef SIM_CAPABILITY_H
 #define SIM_CAPABILITY_H
 
+#include "io/path.h"
 #include "sim/step.h"
 #include "vessel/holding.h"
 
@@ -83,8 +84,7 @@ void capability_free(context *ctx, capability *c);
 
 /* capability.csv, capability_use.csv, capability.json and, with cairo, capability.png and capability.svg in the folder
    of the options; `path` is the file to look at first: the picture, or the JSON file. */
-enum { CAPABILITY_PATH = 1024 };
-fram_status capability_write(context *ctx, const scenario *s, const capability_options *options,
-                             char path[CAPABILITY_PATH], fram_error *error);
+fram_status capability_write(context *ctx, const scenario *s, const capability_options *options, char path[PATH_ROOM],
+                             fram_error *error);
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <stdio.h>
 
-enum { WORD = 24, PATH_SIZE = 1024 };
+enum { WORD = 24 };
 typedef char word[WORD];
 
 static double degrees_of(const capability *c, int32_t row) { return 360.0 * row / c->loads.directions; }
@@ -140,11 +140,12 @@ typedef void (*writer)(context *ctx, const capability *c, text_buffer *b);
 
 static fram_status write_one(context *ctx, const capability *c, writer write, const char *name, fram_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     text_buffer b = {0};
     write(ctx, c, &b);
-    snprintf(path, sizeof path, "%s/%s", c->options.folder, name);
-    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    fram_status status = path_join(c->options.folder, name, path, error);
+    if (status == FRAM_OK)
+        status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);
     return status;
 }
@@ -228,9 +229,10 @@ static fram_status draw(context *ctx, const scenario *s, const capability *c, co
                      .curve_count = c->failures > 0 ? 2 : 1,
                      .outer = outer,
                      .text = text.data};
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s", c->options.folder, name);
-    fram_status status = good && !text.failed ? polar_write(ctx, &p, path, error) : error_memory(error);
+    char path[PATH_ROOM];
+    fram_status status = path_join(c->options.folder, name, path, error);
+    if (status == FRAM_OK)
+        status = good && !text.failed ? polar_write(ctx, &p, path, error) : error_memory(error);
     text_free(ctx, &text);
     memory_free(ctx, intact);
     memory_free(ctx, damaged);
@@ -240,7 +242,7 @@ static fram_status draw(context *ctx, const scenario *s, const capability *c, co
     return status;
 }
 
-fram_status capability_write(context *ctx, const scenario *s, const capability_options *o, char path[CAPABILITY_PATH],
+fram_status capability_write(context *ctx, const scenario *s, const capability_options *o, char path[PATH_ROOM],
                              fram_error *error)
 {
     capability c;
@@ -260,7 +262,8 @@ fram_status capability_write(context *ctx, const scenario *s, const capability_o
         status = draw(ctx, s, &c, "capability.png", error);
     if (status == FRAM_OK && image_available())
         status = draw(ctx, s, &c, "capability.svg", error);
-    snprintf(path, CAPABILITY_PATH, "%.1000s/%s", o->folder, image_available() ? "capability.png" : "capability.json");
+    if (status == FRAM_OK)
+        status = path_join(o->folder, image_available() ? "capability.png" : "capability.json", path, error);
     capability_free(ctx, &c);
     return status;
 }

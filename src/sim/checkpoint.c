@@ -1,6 +1,7 @@
 #include "sim/checkpoint.h"
 
 #include "fram/version.h"
+#include "io/path.h"
 #include "io/table_file.h"
 #include "model/world_check.h"
 
@@ -13,7 +14,7 @@
 
 enum { NUMBER_SERIES, NUMBER_RECORD, NUMBER_FRACTURES, NUMBER_HASH, NUMBER_COUNT };
 enum { BYTES_SCENARIO, BYTES_INPUTS, BYTES_VERSION, BYTES_COUNT };
-enum { PATH_SIZE = 1024, CHECKPOINTS_KEPT = 2 };
+enum { CHECKPOINTS_KEPT = 2 };
 
 /* ---- names ---- */
 
@@ -29,10 +30,11 @@ static int64_t step_of_name(const char *name)
 
 bool checkpoint_is_name(const char *name) { return step_of_name(name) >= 0; }
 
-static bool checkpoint_path(const char *folder, int64_t step, char out[PATH_SIZE])
+static fram_status checkpoint_path(const char *folder, int64_t step, char out[PATH_ROOM], fram_error *error)
 {
-    int n = snprintf(out, PATH_SIZE, "%s/checkpoint-%012" PRId64 ".fram", folder, step);
-    return n > 0 && n < PATH_SIZE;
+    char name[48];
+    snprintf(name, sizeof name, "checkpoint-%012" PRId64 ".fram", step);
+    return path_join(folder, name, out, error);
 }
 
 typedef ARRAY(int64_t) step_array;
@@ -65,11 +67,11 @@ static bool list_steps(context *ctx, const char *folder, step_array *steps)
 static bool remove_from(context *ctx, const char *folder, int32_t keep)
 {
     step_array steps = {0};
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     bool good = list_steps(ctx, folder, &steps);
     if (good) {
         for (int32_t i = keep; i < steps.count; i++) {
-            if (checkpoint_path(folder, steps.data[i], path))
+            if (checkpoint_path(folder, steps.data[i], path, NULL) == FRAM_OK)
                 (void)unlink(path);
         }
     }
@@ -101,10 +103,10 @@ static fram_status begin_file(context *ctx, const char *path, const world *w, co
 fram_status checkpoint_begin(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                              file_writer *const *streams, int stream_count, late_commit *commit, fram_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     atomic_file file;
-    if (!checkpoint_path(folder, w->clock.step[0], path))
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    if (checkpoint_path(folder, w->clock.step[0], path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     fram_status status = begin_file(ctx, path, w, note, &file, error);
     return status == FRAM_OK ? late_commit_start(commit, &file, streams, stream_count, error) : status;
 }
@@ -122,10 +124,9 @@ fram_status checkpoint_end(context *ctx, const char *folder, late_commit *commit
 fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                                     fram_error *error)
 {
-    char path[PATH_SIZE];
-    int n = snprintf(path, PATH_SIZE, "%s/failed.fram", folder);
-    if (n < 0 || n >= PATH_SIZE)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    char path[PATH_ROOM];
+    if (path_join(folder, "failed.fram", path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     atomic_file file;
     fram_status status = begin_file(ctx, path, w, note, &file, error);
     return status == FRAM_OK ? atomic_file_commit(&file, error) : status;
@@ -193,10 +194,10 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, const model
     fram_status status =
         error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
     for (int32_t i = 0; i < steps.count; i++) {
-        char path[PATH_SIZE];
+        char path[PATH_ROOM];
         bool other = false;
         fram_error reason = {0};
-        if (!checkpoint_path(folder, steps.data[i], path))
+        if (checkpoint_path(folder, steps.data[i], path, NULL) != FRAM_OK)
             continue;
         status = read_one(ctx, path, m, w, note, &other, &reason);
         if (error && status != FRAM_OK)

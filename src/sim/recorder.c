@@ -1,6 +1,7 @@
 #include "sim/recorder.h"
 
 #include "base/transcendental.h"
+#include "io/path.h"
 #include "io/record_pose.h"
 #include "sim/ice_loads.h"
 #include "sim/series.h"
@@ -28,34 +29,26 @@ static void set_intervals(recorder *r, const scenario *s)
     r->record_limit = s->output.record_limit * 1e6;
 }
 
-static fram_status stream_path(const char *folder, const char *name, char out[1024], fram_error *error)
-{
-    int n = snprintf(out, 1024, "%s/%s", folder, name);
-    if (n < 0 || n >= 1024)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    return FRAM_OK;
-}
-
 fram_status recorder_create(context *ctx, const scenario *s, const char *folder, const char *text, recorder *r,
                             fram_error *error)
 {
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
-    char path[1024];
+    char path[PATH_ROOM];
     series_layout layout;
     series_columns(s, &layout);
-    fram_status status = stream_path(folder, "series.csv", path, error);
+    fram_status status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
         status = csv_create(ctx, path, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
         return status;
     int32_t count;
     const csv_column *columns = fracture_columns(&count);
-    status = stream_path(folder, "fractures.csv", path, error);
+    status = path_join(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
         status = csv_create(ctx, path, columns, count, &r->fractures, error);
     if (status == FRAM_OK)
-        status = stream_path(folder, "record.fram", path, error);
+        status = path_join(folder, "record.fram", path, error);
     if (status == FRAM_OK)
         status = record_create(ctx, path, &r->record, error);
     if (status == FRAM_OK) {
@@ -77,9 +70,9 @@ recorder_lengths recorder_lengths_of(const recorder *r)
    go on, and what reads the record cannot. */
 static fram_status check_layout(context *ctx, const char *folder, uint64_t length, fram_error *error)
 {
-    char path[1024];
+    char path[PATH_ROOM];
     record_reader reader;
-    fram_status status = stream_path(folder, "record.fram", path, error);
+    fram_status status = path_join(folder, "record.fram", path, error);
     if (status == FRAM_OK)
         status = record_open(ctx, path, &reader, error);
     if (status != FRAM_OK)
@@ -111,23 +104,23 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
 {
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
-    char path[1024];
+    char path[PATH_ROOM];
     series_layout layout;
     series_columns(s, &layout);
     fram_status status = check_layout(ctx, folder, lengths->record, error);
     if (status == FRAM_OK)
-        status = stream_path(folder, "series.csv", path, error);
+        status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
         status = csv_continue(ctx, path, lengths->series, layout.column, layout.count, &r->series, error);
     if (status != FRAM_OK)
         return status;
     int32_t count;
     const csv_column *columns = fracture_columns(&count);
-    status = stream_path(folder, "fractures.csv", path, error);
+    status = path_join(folder, "fractures.csv", path, error);
     if (status == FRAM_OK)
         status = csv_continue(ctx, path, lengths->fractures, columns, count, &r->fractures, error);
     if (status == FRAM_OK)
-        status = stream_path(folder, "record.fram", path, error);
+        status = path_join(folder, "record.fram", path, error);
     if (status == FRAM_OK)
         status = record_continue(ctx, path, lengths->record, &r->record, error);
     if (status == FRAM_OK)

@@ -2,6 +2,7 @@
 
 #include "base/pool.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "sim/build.h"
 #include "sim/checkpoint.h"
@@ -17,8 +18,6 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-
-enum { PATH_SIZE = 1024 };
 
 /* Everything a running simulation holds. */
 typedef struct run {
@@ -46,14 +45,6 @@ static double wall_clock(void)
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static fram_status join_path(const char *folder, const char *name, char out[PATH_SIZE], fram_error *error)
-{
-    int n = snprintf(out, PATH_SIZE, "%s/%s", folder, name);
-    if (n < 0 || n >= PATH_SIZE)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
-    return FRAM_OK;
 }
 
 /* The first step whose time is not before `time`, within rounding. */
@@ -125,8 +116,8 @@ static fram_status draw(run *r, const char *name, fram_status (*picture)(run *, 
 
 static fram_status draw_plan(run *r, const char *name, fram_error *error)
 {
-    char path[PATH_SIZE];
-    fram_status status = join_path(r->options->folder, name, path, error);
+    char path[PATH_ROOM];
+    fram_status status = path_join(r->options->folder, name, path, error);
     return status == FRAM_OK ? picture_plan(r->ctx, r->s, &r->world, path, error) : status;
 }
 
@@ -144,10 +135,10 @@ static int picture_decimals(double interval)
 
 static fram_status draw_numbered_plan(run *r, fram_error *error)
 {
-    char name[64], folder[PATH_SIZE];
+    char name[64], folder[PATH_ROOM];
     double dt = r->s->run.time_step;
     int decimals = picture_decimals((double)r->picture_every * dt);
-    fram_status status = join_path(r->options->folder, "pictures", folder, error);
+    fram_status status = path_join(r->options->folder, "pictures", folder, error);
     if (status != FRAM_OK)
         return status;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
@@ -275,8 +266,8 @@ static fram_status end_summary(run *r, const char *state, const char *message, f
     fram_status status = write_summary(r, state, message, error);
     if (status == FRAM_OK)
         return FRAM_OK;
-    char path[PATH_SIZE];
-    if (join_path(r->options->folder, "run.json", path, NULL) == FRAM_OK)
+    char path[PATH_ROOM];
+    if (path_join(r->options->folder, "run.json", path, NULL) == FRAM_OK)
         (void)unlink(path);
     bool replaced = write_summary(r, state, message, NULL) == FRAM_OK;
     return replaced && status != FRAM_ERROR_MEMORY ? FRAM_OK : status;
@@ -348,9 +339,9 @@ static void run_free(run *r)
 static fram_status write_scenario(run *r, fram_error *error)
 {
     const scenario_print_options options = {.comments = true, .absolute_paths = true};
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     text_buffer text = {0};
-    fram_status status = join_path(r->options->folder, "scenario.yaml", path, error);
+    fram_status status = path_join(r->options->folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_print(r->ctx, r->s, &options, &text, error);
     if (status == FRAM_OK)
@@ -462,9 +453,9 @@ static fram_status resume_world(run *r, run_result *result, fram_error *error)
 
 fram_status run_resume(context *ctx, const run_options *options, run_result *result, fram_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     scenario s = {0};
-    fram_status status = join_path(options->folder, "scenario.yaml", path, error);
+    fram_status status = path_join(options->folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_read(ctx, path, NULL, &s, error);
     if (status != FRAM_OK)

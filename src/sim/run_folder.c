@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
+#include "io/path.h"
 #include "io/scenario_file.h"
 #include "io/temporary.h"
 #include "model/scenario_schema.h"
@@ -19,13 +20,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PATH_SIZE = 1024, INPUT_LIMIT = 1 << 30 };
+enum { INPUT_LIMIT = 1 << 30 };
 
 /* ---- folder ---- */
 
 fram_status run_folder_make(const char *folder, fram_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     size_t length = strlen(folder);
     if (length == 0 || length >= sizeof path)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is empty or too long");
@@ -59,11 +60,22 @@ static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
     return FRAM_OK;
 }
 
+/* The run's scenario is read again, by a resume and by reports, and its path is a text of a scenario. */
+static fram_status check_length(const char *folder, fram_error *error)
+{
+    static const char name[] = "/scenario.yaml";
+    size_t most = SCENARIO_TEXT_SIZE - sizeof name;
+    if (strlen(folder) <= most)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, folder, 0, "--output", "expected a name of at most %zu bytes, found %zu",
+                     most, strlen(folder));
+}
+
 /* Whether files can be written into the folder or, when it is not there, it can be made in the nearest one that is. */
 static fram_status can_be_written(const char *folder, fram_error *error)
 {
-    char path[PATH_SIZE];
-    if (snprintf(path, sizeof path, "%s", folder) >= PATH_SIZE)
+    char path[PATH_ROOM];
+    if (snprintf(path, sizeof path, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     while (access(path, W_OK | X_OK) != 0) {
         int found = errno;
@@ -81,7 +93,9 @@ static fram_status can_be_written(const char *folder, fram_error *error)
 fram_status run_folder_check(const char *folder, bool force, fram_error *error)
 {
     bool empty = true;
-    fram_status status = is_empty(folder, &empty, error);
+    fram_status status = check_length(folder, error);
+    if (status == FRAM_OK)
+        status = is_empty(folder, &empty, error);
     if (status == FRAM_OK && (empty || force))
         status = can_be_written(folder, error);
     if (status != FRAM_OK || empty || force)
@@ -95,10 +109,9 @@ static void remove_results(const char *folder)
 {
     static const char *const names[] = {"failed.fram", "plan.png",     "loads.png",
                                         "station.png", "station.json", "playback.html"};
-    char path[PATH_SIZE];
+    char path[PATH_ROOM];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        int n = snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        if (n > 0 && n < PATH_SIZE)
+        if (path_join(folder, names[i], path, NULL) == FRAM_OK)
             (void)unlink(path);
     }
 }
@@ -236,7 +249,7 @@ static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
     const char *comma = "";
     for (const char *line = inputs; *line;) {
         const char *end = strchr(line, '\n');
-        char path[PATH_SIZE];
+        char path[PATH_ROOM];
         int length = (int)(end - line) - 66;
         snprintf(path, sizeof path, "%.*s", length, line + 66);
         text_format(ctx, b, "%s{\"sha256\": \"%.64s\", \"file\": ", comma, line);
@@ -251,10 +264,9 @@ static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
 fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
                                      const run_summary *summary, fram_error *error)
 {
-    char path[PATH_SIZE];
-    int n = snprintf(path, sizeof path, "%s/run.json", folder);
-    if (n < 0 || n >= PATH_SIZE)
-        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    char path[PATH_ROOM];
+    if (path_join(folder, "run.json", path, error) != FRAM_OK)
+        return FRAM_ERROR_INPUT;
     text_buffer b = {0};
     text_add(ctx, &b, "{\n");
     add_text_member(ctx, &b, "fram_version", FRAM_VERSION);

@@ -79,4 +79,18 @@ expect 0 "$FRAM" run scene.yaml -o told -q --with-paths
 grep -qF "$PWD/hull.stl" told/record.fram || fail "--with-paths does not tell the path in the record"
 expect 0 "$FRAM" resume told -q
 
+# Folders with long names: one whose scenario could not be read again is refused before the run, not after it.
+deep=$(printf 'd%.0s' $(seq 200))
+refuse "at most 497 bytes" run scene.yaml -o "$deep/$deep/$deep"
+[ ! -e "$deep" ] || fail "a refused run left a folder"
+long=$deep/$deep/$(printf 'e%.0s' $(seq 95))
+same "${#long}" 497 "length of the longest name"
+expect 0 "$FRAM" run scene.yaml -o "$long" -q --until 0.2
+expect 0 "$FRAM" resume "$long" -q
+expect 0 "$FRAM" report "$long" -q
+expect 0 "$FRAM" export "$long" --vtk -q
+for file in report.html vtk/run.pvd run.json record.fram; do
+    [ -s "$long/$file" ] || fail "no $file in a long path"
+done
+
 finish "input files are what they are taken for"

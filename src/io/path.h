@@ -1,0 +1,16 @@
+/* Paths of files in a folder: one size and one rule for all that makes them. */
+#ifndef IO_PATH_H
+#define IO_PATH_H
+
+#include "base/context.h"
+
+/* The NUL included: what Linux takes in one call (PATH_MAX). */
+enum { PATH_ROOM = 4096 };
+
+/* "FOLDER/NAME".  FRAM_ERROR_INPUT when that is too long. */
+fram_status path_join(const char *folder, const char *name, char out[PATH_ROOM], fram_error *error);
+/* The same, or `given` alone where it is not NULL: the output that a caller may have named. */
+fram_status path_given_or(const char *given, const char *folder, const char *name, char out[PATH_ROOM],
+                          fram_error *error);
+
+#endif

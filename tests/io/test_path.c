@@ -1,0 +1,24 @@
+/* io/path: a path is whole or refused, to the byte. */
+#include "io/path.h"
+#include "testing.h"
+
+START_TEST(a_path_is_whole_or_refused)
+{
+    static char folder[PATH_ROOM], out[PATH_ROOM];
+    fram_error error = {0};
+    assert_ok(path_join("out/run", "run.json", out, &error), error);
+    ck_assert_str_eq(out, "out/run/run.json");
+    /* folder, slash, one letter and the NUL: PATH_ROOM bytes are the most. */
+    memset(folder, 'a', PATH_ROOM - 3);
+    assert_ok(path_join(folder, "b", out, &error), error);
+    ck_assert_uint_eq(strlen(out), PATH_ROOM - 1);
+    assert_fails(path_join(folder, "bc", out, &error), error, FRAM_ERROR_INPUT, "4096");
+    assert_ok(path_given_or("there", folder, "bc", out, &error), error);
+    ck_assert_str_eq(out, "there");
+    assert_ok(path_given_or(NULL, "here", "b", out, &error), error);
+    ck_assert_str_eq(out, "here/b");
+    ck_assert_int_eq(path_join(folder, "bc", out, NULL), FRAM_ERROR_INPUT);
+}
+END_TEST
+
+TEST_MAIN("path", a_path_is_whole_or_refused)
