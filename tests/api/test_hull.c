@@ -179,4 +179,46 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("hull", a_box, pieces_and_files, memory_runs_out)
+/* An icebreaker, whose bow and stern differ: heave turns it in pitch and not in roll; its pieces fill it together; and
+   no more is copied than there is room for. */
+START_TEST(an_icebreaker)
+{
+    fram_context *shared = open_context();
+    fram_hull *hull = NULL;
+    fram_hull_particulars p;
+    fram_hull_particulars_default(&p);
+    fram_error error = {0};
+    assert_ok(fram_hull_make(shared, &p, &hull, &error), error);
+    fram_hull_floating f;
+    assert_ok(fram_hull_float(hull, NULL, &f, &error), error);
+    double couple = 1025 * 9.81 * f.waterplane_area * (f.centre_of_flotation[0] - f.centre[0]);
+    ck_assert(fabs(couple) > 1e6);
+    assert_relative(fabs(f.c35), fabs(couple), 1e-6);
+    assert_absolute(f.c34, 0, 1e-6 * fabs(couple));
+
+    fram_hull *bulb = NULL;
+    fram_hull_pieces pieces;
+    fram_hull_surface s;
+    assert_ok(fram_hull_load(shared, "examples/hulls/ship_with_bulb.obj", NULL, &bulb, &error), error);
+    fram_hull_surface_get(bulb, &s);
+    assert_ok(fram_hull_cut(bulb, (double)NAN, 16, &pieces, &error), error);
+    ck_assert_int_gt(pieces.count, 1);
+    assert_relative(pieces.volume, s.enclosed_volume, 0.1);
+    fram_hull_destroy(bulb);
+
+    double vertices[3 * 4];
+    int triangles[3 * 6];
+    for (int i = 0; i < 12; i++)
+        vertices[i] = -77;
+    for (int i = 0; i < 18; i++)
+        triangles[i] = -77;
+    fram_hull_triangles(hull, vertices, 3, triangles, 5);
+    ck_assert(vertices[8] != -77 && vertices[9] == -77);
+    ck_assert(triangles[14] >= 0 && triangles[15] == -77);
+    fram_hull_triangles(hull, NULL, 0, NULL, 0);
+    fram_hull_destroy(hull);
+    fram_context_destroy(shared);
+}
+END_TEST
+
+TEST_MAIN("hull", an_icebreaker, a_box, pieces_and_files, memory_runs_out)

@@ -128,6 +128,11 @@ START_TEST(reference_points_and_axes)
     assert_relative(moved.m[5][5], 4.452378e9 - 6 * 3.401568e7 + 9 * 1.13412e7, 1e-14);
     matrix6 none = {0};
     pair6 x;
+    /* Regular without a single number on its diagonal: each row of a permutation. */
+    matrix6 turned = {{{[3] = 2}, {[0] = 4}, {[5] = 0.5}, {[1] = 1}, {[2] = 8}, {[4] = -1}}};
+    ck_assert(matrix6_solve(&turned, (pair6){{2, 4, 3}, {4, 8, 6}}, &x));
+    assert_vec3_close(x.linear, vec3_make(1, 4, 1), 1e-15);
+    assert_vec3_close(x.angular, vec3_make(1, -6, 6), 1e-15);
     ck_assert(!matrix6_solve(&none, (pair6){{1, 2, 3}, {4, 5, 6}}, &x));
 }
 END_TEST

@@ -2,7 +2,9 @@
    steps. */
 #include "scene.h"
 
+#include "sim/contact_sums.h"
 #include "sim/ice_loads.h"
+#include "sim/steady_load.h"
 
 static const char still[] = "run: {duration: 1, time_step: 0.1}\n"
                             "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
@@ -125,4 +127,57 @@ START_TEST(the_window_of_loads)
 }
 END_TEST
 
-TEST_MAIN("ice_loads", either_side_of_a_contact, parts_of_the_load, work_at_the_cap, the_window_of_loads)
+/* What each floe does to the vessel, whichever side of the contact it is on, and what all its contacts come to. */
+START_TEST(sums_of_a_floes_contacts)
+{
+    scene k;
+    contact_sum_array sums = {0};
+    scene_open(&k, still);
+    int32_t hull = k.w.vessels.body[0], one = scene_floe(&k, 0), two = scene_floe(&k, 1);
+    array_clear(&k.w.scratch.contacts);
+    const contact all[3] = {contact_of(hull, one, 5, HUGE_VAL), contact_of(one, hull, 2, HUGE_VAL),
+                            contact_of(one, two, 4, HUGE_VAL)};
+    for (int i = 0; i < 3; i++)
+        ck_assert(array_push(&k.ctx, &k.w.scratch.contacts, all[i]));
+    ck_assert(contact_sums_of(&k.ctx, &k.w, k.m.time_step, &sums));
+    /* Normals are -x: the first contact pushes the hull back by 50 N, the second one ahead by 20 N. */
+    assert_vec3_close(sums.data[one].on_vessel, vec3_make(-50 + 20, 0, 0), 1e-12);
+    assert_vec3_close(sums.data[two].on_vessel, vec3_make(0, 0, 0), 0);
+    assert_absolute(sums.data[one].magnitude, 50 + 20 + 40, 1e-12);
+    assert_absolute(sums.data[two].magnitude, 40, 1e-12);
+    assert_absolute(sums.data[one].weight, 70, 1e-12);
+    array_free(&k.ctx, &sums);
+    scene_close(&k);
+}
+END_TEST
+
+/* The steady load of wind and current together is the sum of both alone, in force and moment. */
+START_TEST(steady_loads_add_up)
+{
+    scene k;
+    scene_open(&k, still);
+    media both = k.m.media, wind, current, none;
+    both.current = vec3_make(0.6, -0.8, 0);
+    both.wind = vec3_make(12, 9, 0);
+    wind = current = none = both;
+    wind.current = none.current = current.wind = none.wind = vec3_make(0, 0, 0);
+    const double heading = 0.4;
+    vec3 all = steady_media_load(&k.m, &k.w, 0, &both, heading);
+    vec3 of_wind = steady_media_load(&k.m, &k.w, 0, &wind, heading);
+    vec3 of_current = steady_media_load(&k.m, &k.w, 0, &current, heading);
+    assert_vec3_close(steady_media_load(&k.m, &k.w, 0, &none, heading), vec3_make(0, 0, 0), 1e-6);
+    assert_vec3_close(all, vec3_add(of_wind, of_current), 1e-6 * vec3_length(all));
+    ck_assert_msg(fabs(of_wind.z) > 1e3 && fabs(of_current.z) > 1e3, "%g N m of wind, %g N m of current", of_wind.z,
+                  of_current.z);
+    ck_assert(of_wind.x > 0 && of_wind.y > 0 && of_current.x > 0 && of_current.y < 0);
+    /* Damping of surge, by hand: the water goes past at 0.6 m/s. */
+    k.m.vessels.data[0].has_hydrodynamics = true;
+    k.m.vessels.data[0].hydrodynamics.damping = (matrix6){{{[0] = 1e6}}};
+    vec3 damped = steady_media_load(&k.m, &k.w, 0, &current, 0), plain = steady_drag_load(&k.m, &k.w, 0, &current, 0);
+    assert_vec3_close(vec3_sub(damped, plain), vec3_make(0.6e6, 0, 0), 1e-3);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("ice_loads", sums_of_a_floes_contacts, steady_loads_add_up, either_side_of_a_contact, parts_of_the_load,
+          work_at_the_cap, the_window_of_loads)

@@ -1,6 +1,8 @@
 /* Matrices of the water plane about other points and in other axes; observers against their own equations. */
-#include "testing.h"
+#include "supply_ship.h"
+
 #include "vessel/observer.h"
+#include "vessel/path.h"
 
 static const mat3 coupled = {{{6e6, 2e5, -3e6}, {2e5, 9e6, 4e7}, {-3e6, 4e7, 5e9}}};
 
@@ -124,5 +126,26 @@ START_TEST(a_measurement)
 }
 END_TEST
 
-TEST_MAIN("plane_motion", matrices_about_another_point, matrices_in_the_other_axes, the_passive_observers_poles,
-          the_kalman_filters_jacobian, a_measurement)
+/* A driven hull goes to where its path is at the end of the step, and turns as the path does. */
+START_TEST(a_hull_follows_its_path)
+{
+    bare_vessel b;
+    waypoint_table path = {0};
+    bare_vessel_open(&b);
+    b.vessels.mode[0] = VESSEL_PRESCRIBED;
+    b.vessels.centre[0] = vec3_make(2, 0, 0); /* 2 m ahead of the ship's origin */
+    b.bodies.position[0] = vec3_make(2, 0, 0);
+    ck_assert(table_resize(&b.ctx, &path, &waypoint_table_info, 2));
+    path.time[1] = 10;
+    path.place[1] = vec3_make(30, -10, 1);
+    vessel_follow(&b.vessels, &path, &b.bodies, 0.5, 0.5);
+    vec3 v = b.bodies.velocity[0];
+    assert_vec3_close(b.bodies.angular_velocity[0], vec3_make(0, 0, 0.1), 1e-12);
+    assert_vec3_close(v, vec3_make((1.5 + 2 * real_cos(0.05) - 2) / 0.5, (-0.5 + 2 * real_sin(0.05)) / 0.5, 0), 1e-12);
+    table_free(&b.ctx, &path, &waypoint_table_info);
+    bare_vessel_close(&b);
+}
+END_TEST
+
+TEST_MAIN("plane_motion", a_hull_follows_its_path, matrices_about_another_point, matrices_in_the_other_axes,
+          the_passive_observers_poles, the_kalman_filters_jacobian, a_measurement)

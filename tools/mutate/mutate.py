@@ -21,7 +21,7 @@ import time
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import mutants as listing  # noqa: E402
 import table  # noqa: E402
-from verdicts import CAUGHT, SURVIVED, Verdicts, all_tests, digest, test_code  # noqa: E402
+from verdicts import CAUGHT, OPEN, SURVIVED, Verdicts, all_tests, digest, test_code  # noqa: E402
 from workplace import LEAST_PATIENCE_S, PATIENCE, Workplace, first_failure, likely  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -65,7 +65,8 @@ def judge(place, mutant, path, text, first):
             return {**row, "verdict": CAUGHT, "test": test["name"], "function": first_failure(said),
                     "seconds": f"{seconds:.1f}", "test_code": test_code(ROOT, test["name"])}
     place.restore(path)
-    return {**row, "verdict": SURVIVED, "test": "", "function": "", "test_code": all_tests(ROOT)}
+    verdict = OPEN if first else SURVIVED
+    return {**row, "verdict": verdict, "test": "", "function": "", "test_code": all_tests(ROOT)}
 
 
 def work(place, jobs, verdicts, lock, options, end):
@@ -85,8 +86,7 @@ def work(place, jobs, verdicts, lock, options, end):
                 continue
             caught = f"[{row['test']} {row['function']}]"
             print(f"{row['verdict']:8} {mutant.room}: {mutant.what} {caught} {spent}", flush=True)
-            if row["verdict"] == CAUGHT or not options.first:
-                verdicts.put(mutant, row)
+            verdicts.put(mutant, row)
 
 
 def main():
