@@ -145,3 +145,12 @@ bool mesh_make_box(context *ctx, vec3 lo, vec3 hi, mesh *out)
     out->face.count = 12;
     return true;
 }
+
+bool mesh_indices_are_valid(const mesh *m)
+{
+    for (int32_t f = 0; f < m->face.count; f++)
+        for (int k = 0; k < 3; k++)
+            if (m->face.data[f].v[k] < 0 || m->face.data[f].v[k] >= m->vertex.count)
+                return false;
+    return true;
+}

@@ -24,6 +24,8 @@ void mesh_translate(mesh *m, vec3 by);
 bool mesh_add_vertex(context *ctx, mesh *m, vec3 v);
 bool mesh_add_triangle(context *ctx, mesh *m, int32_t a, int32_t b, int32_t c);
 vec3 mesh_area_vector(const mesh *m, int32_t face);
+/* Every triangle names three vertices that are there; what repair and sections build on. */
+bool mesh_indices_are_valid(const mesh *m);
 /* False for a triangle whose height over its longest side is nothing but rounding (MESH_DEGENERATE); mesh_check.c. */
 bool mesh_has_area(const mesh *m, int32_t face);
 

@@ -11,6 +11,8 @@
 #include "geometry/mesh_simplify.h"
 #include "geometry/polyhedron_build.h"
 
+#include <assert.h>
+
 /* What is smaller than this part of the tolerance is nothing: hulls may be that much too small.  It halves the faces of
    smooth hulls against a part of 1/1000, and moves no surface that the tolerance would not move more. */
 #define SMALL_TO_TOLERANCE 0.02
@@ -355,6 +357,7 @@ static fram_status carve_fine(context *ctx, const mesh *m, double tolerance, int
 fram_status mesh_convex_pieces(context *ctx, const mesh *m, double tolerance, int32_t most, polyhedron_array *out,
                                double *concavity, fram_error *error)
 {
+    assert(mesh_indices_are_valid(m));
     polyhedron_array_free(ctx, out);
     *concavity = 0;
     return (m->face.count > FINE_MESH ? carve_fine : carve_mesh)(ctx, m, tolerance, most, out, concavity, error);

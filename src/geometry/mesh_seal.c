@@ -5,6 +5,7 @@
 #include "geometry/mesh_edges.h"
 #include "geometry/mesh_repair.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* Passes after which what is left open stays open: real cracks take two or three. */
@@ -342,6 +343,7 @@ static bool begin_source(context *ctx, const mesh *m, int32_array *source)
 
 fram_status mesh_seal(context *ctx, mesh *m, double width, int32_array *source, mesh_seal_report *report)
 {
+    assert(mesh_indices_are_valid(m));
     *report = (mesh_seal_report){0};
     sealing s = {.m = m, .width = width, .source = source, .report = report};
     bool ready = (!source || begin_source(ctx, m, source)) && find_open(ctx, &s);
@@ -354,6 +356,7 @@ fram_status mesh_seal(context *ctx, mesh *m, double width, int32_array *source, 
     report->open_after = s.open.count;
     report->area_vector = vec3_sub(area_sum(m), area);
     report->volume = vec3_sub(mesh_volume_integrals(m), volume);
+    assert(status != FRAM_OK || mesh_indices_are_valid(m));
     sealing_free(ctx, &s);
     return status;
 }

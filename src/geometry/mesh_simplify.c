@@ -4,6 +4,7 @@
 
 #include "geometry/mesh_repair.h"
 
+#include <assert.h>
 #include <string.h>
 
 enum {
@@ -31,6 +32,9 @@ typedef struct fan {
     int32_t vertex, count;
     int32_t ring[MOST_RING], face[MOST_RING];
 } fan;
+
+/* Place i of the ring, counted on over its end once. */
+static int32_t around(const fan *f, int32_t i) { return i < f->count ? i : i - f->count; }
 
 static void index_faces(simplifying *s)
 {
@@ -105,16 +109,16 @@ static double slab_of(const simplifying *s, const fan *f, int32_t first, int32_t
     const mesh *m = s->m;
     vec3 tip = m->vertex.data[f->vertex], onto = m->vertex.data[f->ring[hub]], sum = {0, 0, 0};
     for (int32_t i = 0; i < steps; i++)
-        sum = vec3_add(sum, mesh_area_vector(m, f->face[(first + i) % f->count]));
+        sum = vec3_add(sum, mesh_area_vector(m, f->face[around(f, first + i)]));
     vec3 normal = vec3_unit(sum);
     double lo = 0, hi = 0;
     for (int32_t i = 0; i <= steps; i++) {
-        double height = vec3_dot(normal, vec3_sub(m->vertex.data[f->ring[(first + i) % f->count]], tip));
+        double height = vec3_dot(normal, vec3_sub(m->vertex.data[f->ring[around(f, first + i)]], tip));
         lo = fmin(lo, height);
         hi = fmax(hi, height);
     }
     for (int32_t i = 0; i < steps; i++) {
-        int32_t a = (first + i) % f->count, b = (a + 1) % f->count;
+        int32_t a = around(f, first + i), b = around(f, a + 1);
         if (!(vec3_dot(normal, vec3_unit(mesh_area_vector(m, f->face[a]))) > LEAST_COSINE))
             return HUGE_VAL;
         if (a == hub || b == hub)
@@ -134,7 +138,7 @@ static double cost_of(const simplifying *s, const fan *f, int32_t hub)
     const vec3 *p = s->m->vertex.data;
     int32_t over = -1;
     for (int32_t i = 2; i + 1 < f->count; i++) {
-        int32_t k = (hub + i) % f->count;
+        int32_t k = around(f, hub + i);
         vec3 q = segment_nearest3(p[f->vertex], p[f->ring[hub]], p[f->ring[k]]);
         double d = vec3_length(vec3_sub(q, p[f->vertex]));
         if (d < off) {
@@ -144,7 +148,7 @@ static double cost_of(const simplifying *s, const fan *f, int32_t hub)
     }
     if (over < 0)
         return whole;
-    double one = slab_of(s, f, hub, over, hub), other = slab_of(s, f, (hub + over) % f->count, f->count - over, hub);
+    double one = slab_of(s, f, hub, over, hub), other = slab_of(s, f, around(f, hub + over), f->count - over, hub);
     return fmin(whole, fmax(off, fmax(one, other)));
 }
 
@@ -155,7 +159,7 @@ static void draw_onto(simplifying *s, const fan *f, int32_t hub, double used)
     for (int32_t i = 0; i < f->count; i++) {
         triangle *t = &s->m->face.data[f->face[i]];
         s->used[f->face[i]] = used;
-        if (i == hub || (i + 1) % f->count == hub)
+        if (i == hub || around(f, i + 1) == hub)
             t->v[0] = t->v[1] = t->v[2] = to; /* gone */
         else
             t->v[corner_of(s->m, f->face[i], f->vertex)] = to;
@@ -220,6 +224,7 @@ static fram_status simplify(context *ctx, simplifying *s)
 
 fram_status mesh_simplify(context *ctx, mesh *m, double distance, double *largest)
 {
+    assert(mesh_indices_are_valid(m));
     size_t vertices = (size_t)m->vertex.count, faces = (size_t)m->face.count;
     simplifying s = {.m = m, .distance = distance};
     s.used = memory_array(ctx, faces + 1, sizeof *s.used);

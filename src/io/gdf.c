@@ -13,8 +13,6 @@
 #define FEET_LEAST 31.0
 #define FEET_MOST 33.0
 
-static int shown(const word_reader *w) { return w->length < 40 ? (int)w->length : 40; }
-
 /* Commas separate numbers as blanks do, so that a word may hold several. */
 static bool next_number(word_reader *w, const char **rest, const char **rest_end)
 {
@@ -60,7 +58,7 @@ static fram_status read_integer(const mesh_reading *r, gdf_words *w, const char 
         memcpy(text, d->word, d->length);
     if (strlen(text) != d->length || integer_from_text(text, value) != NUMBER_GOOD || *value < lo || *value > hi)
         return mesh_refuse(r, d->word_line, 0, "expected %s from %lld to %lld, found \"%.*s\"", what, (long long)lo,
-                           (long long)hi, shown(d), d->word);
+                           (long long)hi, word_shown(d), d->word);
     return FRAM_OK;
 }
 
@@ -188,7 +186,7 @@ fram_status mesh_read_gdf(const mesh_reading *r, const char *data, size_t size)
     if (status == FRAM_OK && next_number(&w.reader, &w.rest, &w.rest_end))
         return mesh_refuse(r, w.reader.word_line, 0,
                            "expected the end of the file after %d panels, found \"%.*s\"; NPAN may be too small",
-                           panels, shown(&w.reader), w.reader.word);
+                           panels, word_shown(&w.reader), w.reader.word);
     r->out->elements = panels;
     return status;
 }

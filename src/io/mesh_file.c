@@ -13,6 +13,9 @@
 
 /* ---- words ---- */
 
+/* Characters of a word that a message repeats. */
+enum { SHOWN = 40 };
+
 static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 word_reader word_reader_begin(const char *data, size_t size)
@@ -80,6 +83,8 @@ bool word_is(const word_reader *r, const char *text)
     return r->length == strlen(text) && strncasecmp(r->word, text, r->length) == 0;
 }
 
+int word_shown(const word_reader *r) { return r->length < SHOWN ? (int)r->length : SHOWN; }
+
 /* ---- errors and numbers ---- */
 
 fram_status mesh_refuse(const mesh_reading *r, int32_t line, int32_t element, const char *format, ...)
@@ -109,7 +114,7 @@ fram_status mesh_read_number(const mesh_reading *r, const word_reader *w, int32_
                              double *value)
 {
     char text[64];
-    int shown = w->length < 40 ? (int)w->length : 40;
+    int shown = word_shown(w);
     number_fault fault = NUMBER_NOT_A_NUMBER;
     if (w->length < sizeof text) {
         memcpy(text, w->word, w->length);

@@ -23,6 +23,8 @@ bool word_next_in_line(word_reader *r);
 void word_skip_line(word_reader *r);
 /* The last word is `text`, whatever the case. */
 bool word_is(const word_reader *r, const char *text);
+/* How many of the last word's characters a message repeats, for %.*s. */
+int word_shown(const word_reader *r);
 
 /* One reading. */
 typedef struct mesh_reading {

@@ -8,8 +8,6 @@
 /* Most corners of a face: those of a deck are hundreds. */
 enum { FACE_CORNERS = 100000 };
 
-static int shown(const word_reader *w) { return w->length < 40 ? (int)w->length : 40; }
-
 static fram_status read_vertex(const mesh_reading *r, word_reader *w)
 {
     double p[3];
@@ -48,7 +46,7 @@ static fram_status read_corner(const mesh_reading *r, const word_reader *w, int3
     }
     if (!good)
         return mesh_refuse(r, w->word_line, face, "expected a corner such as 7, 7/1, 7//3 or 7/1/3, found \"%.*s\"",
-                           shown(w), w->word);
+                           word_shown(w), w->word);
     int32_t count = r->out->surface.vertex.count;
     if (number[0] == 0 || number[0] > count || number[0] < -(int64_t)count)
         return mesh_refuse(r, w->word_line, face,
@@ -104,7 +102,7 @@ fram_status mesh_read_obj(const mesh_reading *r, const char *data, size_t size)
                 mesh_refuse(r, w.word_line, 0,
                             "expected a vertex (v) or a face (f), found \"%.*s\"; curves and surfaces must be made "
                             "into faces first",
-                            shown(&w), w.word);
+                            word_shown(&w), w.word);
         word_skip_line(&w);
     }
     array_free(r->ctx, &ring);

@@ -77,8 +77,7 @@ static fram_status expect(const mesh_reading *r, word_reader *w, int32_t facet, 
         return FRAM_OK;
     if (!w->length)
         return mesh_refuse(r, w->word_line, facet, "expected \"%s\", found the end of the file", word);
-    return mesh_refuse(r, w->word_line, facet, "expected \"%s\", found \"%.*s\"", word,
-                       w->length < 40 ? (int)w->length : 40, w->word);
+    return mesh_refuse(r, w->word_line, facet, "expected \"%s\", found \"%.*s\"", word, word_shown(w), w->word);
 }
 
 static fram_status read_vertex(const mesh_reading *r, word_reader *w, int32_t facet)
@@ -124,8 +123,7 @@ static fram_status read_text(const mesh_reading *r, const char *data, size_t siz
     int32_t facets = 0;
     while (status == FRAM_OK && word_next(&w)) {
         if (!word_is(&w, "solid"))
-            return mesh_refuse(r, w.word_line, 0, "expected \"solid\", found \"%.*s\"",
-                               w.length < 40 ? (int)w.length : 40, w.word);
+            return mesh_refuse(r, w.word_line, 0, "expected \"solid\", found \"%.*s\"", word_shown(&w), w.word);
         word_skip_line(&w);
         while (status == FRAM_OK && word_next(&w) && word_is(&w, "facet"))
             status = facets < MESH_FILE_TRIANGLES
@@ -138,7 +136,7 @@ static fram_status read_text(const mesh_reading *r, const char *data, size_t siz
                                "expected \"facet\" or \"endsolid\" after facet %d, found the end of the file", facets);
         if (!word_is(&w, "endsolid"))
             return mesh_refuse(r, w.word_line, 0, "expected \"facet\" or \"endsolid\" after facet %d, found \"%.*s\"",
-                               facets, w.length < 40 ? (int)w.length : 40, w.word);
+                               facets, word_shown(&w), w.word);
         word_skip_line(&w);
     }
     r->out->elements = facets;

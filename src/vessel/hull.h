@@ -68,7 +68,7 @@ typedef struct hull_hydrostatics {
 fram_status hull_hydrostatics_at(context *ctx, const mesh *surface, double level, hull_hydrostatics *out,
                                  fram_error *error);
 
-/* Zones for the load split (SPEC 11), by position in ship coordinates. */
+/* Zones by which results split the load, by position in ship coordinates. */
 typedef enum hull_zone { ZONE_BOW = 0, ZONE_SHOULDER, ZONE_MIDBODY, ZONE_STERN, ZONE_BOTTOM, ZONE_COUNT } hull_zone;
 const char *hull_zone_name(hull_zone z);
 

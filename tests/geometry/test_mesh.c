@@ -22,7 +22,7 @@ START_TEST(box_properties)
 {
     context ctx = plain();
     mesh m = {0};
-    /* The torque-free prism of the oracles: 10 x 4 x 1 m, 920 kg/m3. */
+    /* A prism of ice of 10 x 4 x 1 m and 920 kg/m3: tensor of a cuboid in closed form. */
     ck_assert(mesh_make_box(&ctx, (vec3){-5, -2, -0.5}, (vec3){5, 2, 0.5}, &m));
     solid_properties p = mesh_solid_properties(&m);
     assert_relative(p.volume, 40, 1e-15);
