@@ -276,9 +276,9 @@ def refused(words, remedy=None, floats=None, close=1e-6):
 def cases():
     catamaran = join(box(-20, 20, -9, -6, -3, 2), box(-20, 20, 6, 9, -3, 2))
     fine = half_box_panels(40, 10, 3, 8, 8)
-    columns = [p for x in (-30, 30) for y in (-30, 30) for p in column_panels(x, y, 5, 20, 800, 6)]
+    columns = [p for x in (-30, 30) for y in (-30, 30) for p in column_panels(x, y, 5, 20, 2000, 2)]
     cylinder = {"volume": polygon_area(96, 4) * 3, "plane": polygon_area(96, 4), "kb": 1.5}
-    cone = {"volume": 4 * polygon_area(800, 5) * 20, "plane": 4 * polygon_area(800, 5), "kb": 10}
+    cone = {"volume": 4 * polygon_area(2000, 5) * 20, "plane": 4 * polygon_area(2000, 5), "kb": 10}
     return [
         ("box_text.stl", "text STL, LF", stl_text(BOX), [], read(BOX_FLOATS)),
         ("box_crlf.stl", "text STL, CRLF, three digits after the point", stl_text(BOX, "\r\n", "%.3f"), [],
@@ -315,7 +315,7 @@ def cases():
         ("cracks.gdf", "GDF, sides and bottom divided otherwise, cracks of 15 mm", gdf(half_box_panels(40, 10,
          3, 8, 7, 0.015), 0, 1),
          [], read(BOX_FLOATS, 5e-3, crack=(0.01, 0.02))),
-        ("columns.gdf", "GDF, four columns of 800 sides: edges finer than the seal is wide", gdf(columns, 0,
+        ("columns.gdf", "GDF, four columns of 2,000 sides: edges finer than the seal is wide", gdf(columns, 0,
          0), [], read(cone, 1e-5)),
         ("slivers.stl", "binary STL, deck and bottom of 2,000 slivers", stl_binary(plated_box(2000)), [],
          read(BOX_FLOATS, 1e-5)),
