@@ -128,9 +128,9 @@ typedef struct fram_body_state {
  * frame. */
 typedef struct fram_ice_load {
     double force[3], moment[3];
-    double capped[3];   /* part of force: normal contact at the crushing limit */
-    double elastic[3];  /* part of force: normal contact below it */
-    double friction[3]; /* part of force */
+    double capped[3];    /* part of force: normal contact at the crushing limit */
+    double below_cap[3]; /* part of force: normal contact below it */
+    double friction[3];  /* part of force */
     int contacts;
 } fram_ice_load;
 

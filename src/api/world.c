@@ -168,7 +168,7 @@ fram_status fram_world_ice_load(const fram_world *w, fram_body_id id, fram_ice_l
         copy3(load->force, now.total.force);
         copy3(load->moment, now.total.moment);
         copy3(load->capped, now.capped.force);
-        copy3(load->elastic, now.elastic.force);
+        copy3(load->below_cap, now.below_cap.force);
         copy3(load->friction, now.friction.force);
         load->contacts = now.contacts;
         return FRAM_OK;

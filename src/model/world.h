@@ -46,8 +46,8 @@ TABLE_DECLARE(recorded, RECORDED_FIELDS)
    of mass. Scratch. */
 typedef struct ice_load {
     wrench total;
-    wrench capped;  /* normal forces of contacts at their crushing limit */
-    wrench elastic; /* normal forces below it */
+    wrench capped;    /* normal forces of contacts at their crushing limit */
+    wrench below_cap; /* normal forces of the others */
     wrench friction;
     wrench zone[ZONE_COUNT]; /* total, split by hull zone */
     int32_t contacts;

@@ -83,7 +83,7 @@ static void load_table(report *r, load_unit unit)
                 {"ice_force_stern_x", "stern, along X"},
                 {"ice_force_bottom_x", "bottom, along X"},
                 {"ice_force_capped_x", "crushing, along X"},
-                {"ice_force_elastic_x", "below the limit, along X"},
+                {"ice_force_below_cap_x", "below the limit, along X"},
                 {"ice_force_friction_x", "friction, along X"},
                 {"tow_force_x", "towing carriage, along X"}};
     char head[64];

@@ -19,7 +19,7 @@ static void add_contact(const world *w, const contact *c, int32_t vessel, double
         vessel_zone(&w->vessels, vessel, vessel_ship_coordinates(&w->vessels, &w->bodies, vessel, c->point));
     wrench_add(&load->total, centre, all, c->point);
     wrench_add(&load->friction, centre, vec3_sub(all, normal), c->point);
-    wrench_add(is_capped(c) ? &load->capped : &load->elastic, centre, normal, c->point);
+    wrench_add(is_capped(c) ? &load->capped : &load->below_cap, centre, normal, c->point);
     wrench_add(&load->zone[zone], centre, all, c->point);
     load->contacts++;
 }

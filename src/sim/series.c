@@ -116,7 +116,7 @@ static count_channels counts_of(const world *w)
     V3(X, "ice_force_averaged", "N", c.averaged.force)                \
     V3(X, "ice_moment_averaged", "N m", c.averaged.moment)            \
     V3(X, "ice_force_capped", "N", c.ice.capped.force)                \
-    V3(X, "ice_force_elastic", "N", c.ice.elastic.force)              \
+    V3(X, "ice_force_below_cap", "N", c.ice.below_cap.force)          \
     V3(X, "ice_force_friction", "N", c.ice.friction.force)            \
     V3(X, "ice_force_bow", "N", c.ice.zone[ZONE_BOW].force)           \
     V3(X, "ice_force_shoulder", "N", c.ice.zone[ZONE_SHOULDER].force) \

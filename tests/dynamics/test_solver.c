@@ -394,6 +394,33 @@ START_TEST(points_with_new_names_share_what_the_pair_carried)
 }
 END_TEST
 
+START_TEST(a_name_is_found_or_is_not)
+{
+    rig r = rig_make(0.01);
+    enum { NAMES = 100 };
+    ck_assert(table_resize(&r.ctx, &r.memory, &contact_memory_table_info, NAMES));
+    for (int i = 0; i < NAMES; i++)
+        r.memory.key[i] = (uint64_t)(3 * i + 1);
+    int32_t hints[] = {0, 7, 50, NAMES - 1, NAMES};
+    for (int h = 0; h < 5; h++) {
+        for (uint64_t key = 0; key < 3 * NAMES + 3; key++) {
+            int32_t place = hints[h], row = contact_memory_find(&r.memory, key, &place);
+            ck_assert_int_eq(row, key % 3 == 1 && key < 3 * NAMES ? (int32_t)(key / 3) : -1);
+        }
+    }
+    /* A name in two steps is the name in one, and its pair is named by any order of pieces. */
+    for (int i = 0; i < 3; i++)
+        body_create(&r.ctx, &r.bodies, MOTION_DYNAMIC, MATERIAL_ICE);
+    uint64_t key = contact_key_end(contact_key_begin(&r.bodies, 1, 2, 4, 5), 77);
+    ck_assert_uint_eq(key, contact_key(&r.bodies, 1, 2, 4, 5, 77));
+    ck_assert_uint_ne(key, contact_key(&r.bodies, 1, 2, 4, 5, 78));
+    ck_assert_uint_ne(key, contact_key(&r.bodies, 1, 2, 5, 4, 77));
+    ck_assert_uint_eq(contact_key_pair(key), contact_key_pair(contact_key(&r.bodies, 2, 1, 0, 0, 3)));
+    ck_assert_uint_ne(contact_key_pair(key), contact_key_pair(contact_key(&r.bodies, 0, 2, 4, 5, 77)));
+    rig_free(&r);
+}
+END_TEST
+
 START_TEST(memory_is_sorted_and_matches)
 {
     rig r = pile();
@@ -499,5 +526,5 @@ RIG_MAIN("solver", a_warm_start_gives_no_energy, correction_leaves_a_fifth_of_th
          friction_is_bounded_by_the_capped_force, driven_bodies_take_the_cap_while_approaching,
          static_friction_holds_more_than_kinetic, heavy_body_under_a_light_one, heavy_body_pushes_light_ones,
          heavy_body_on_a_light_one_sinks_without_a_bang, warm_start_helps, solvers_agree, pile_comes_to_rest,
-         a_stack_stays_where_it_stands, points_with_new_names_share_what_the_pair_carried, memory_is_sorted_and_matches,
-         added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)
+         a_stack_stays_where_it_stands, points_with_new_names_share_what_the_pair_carried, a_name_is_found_or_is_not,
+         memory_is_sorted_and_matches, added_mass_makes_heavier_along_its_axis, refusals, memory_runs_out)

@@ -7,7 +7,7 @@ import pathlib
 
 # Relative to the largest value of the run: sums of a few terms, each rounded.
 ROUNDING = 1e-9
-PARTS = (("ice_force_capped", "ice_force_elastic", "ice_force_friction"),
+PARTS = (("ice_force_capped", "ice_force_below_cap", "ice_force_friction"),
          ("ice_force_bow", "ice_force_shoulder", "ice_force_midbody", "ice_force_stern", "ice_force_bottom"))
 # May be empty of sense: no vessel, nothing estimated yet.
 MAY_BE_NOTHING = ()
