@@ -39,7 +39,7 @@ static fram_status ice_of_floe(const fracture_job *j, const fracture_load *l, do
     polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
     crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
     int32_t end;
-    double area[MOST_STENCIL];
+    double area[MOST_STENCIL] = {0};
     sectors s;
     make_sectors(j, &start, fmin(radius, crack_length(outline, &start, &end)), &s);
     for (int i = 0; i < s.count; i++)
