@@ -93,6 +93,10 @@ FRAM_API fram_status fram_scenario_load(fram_context *context, const char *path,
 FRAM_API const char *fram_scenario_text(const fram_scenario *scenario);
 /* What follows from the scenario for a reader's eye (lengths, loads, thresholds, warnings), as text; same lifetime. */
 FRAM_API const char *fram_scenario_notes(const fram_scenario *scenario);
+/* What follows for the vessel, once its hull is made: FRAM_ERROR_INPUT with the key for what cannot be (as a run would
+   find), warnings of what a run would meet (capsizing, springs too stiff for the step, a wall) to the log.  The ice is
+   not made. */
+FRAM_API fram_status fram_scenario_check(const fram_scenario *scenario, fram_error *error);
 /* 64 hexadecimal digits that name the effective scenario. */
 FRAM_API const char *fram_scenario_hash(const fram_scenario *scenario);
 FRAM_API double fram_scenario_duration(const fram_scenario *scenario);  /* [s] */

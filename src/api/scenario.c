@@ -3,6 +3,7 @@
 #include "api/handles.h"
 
 #include "io/scenario_file.h"
+#include "sim/build.h"
 #include "sim/notes.h"
 #include "sim/scene_size.h"
 
@@ -64,6 +65,13 @@ fram_status fram_scenario_load(fram_context *c, const char *path, const char *co
 const char *fram_scenario_text(const fram_scenario *s) { return s ? s->text.data : ""; }
 const char *fram_scenario_notes(const fram_scenario *s) { return s && s->notes.data ? s->notes.data : ""; }
 const char *fram_scenario_hash(const fram_scenario *s) { return s ? s->hash : ""; }
+
+fram_status fram_scenario_check(const fram_scenario *s, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"scenario", s});
+    return status == FRAM_OK ? build_check(&s->context->inner, &s->inner, error) : status;
+}
+
 double fram_scenario_duration(const fram_scenario *s) { return s ? s->inner.run.duration : (double)NAN; }
 double fram_scenario_time_step(const fram_scenario *s) { return s ? s->inner.run.time_step : (double)NAN; }
 

@@ -42,8 +42,8 @@ int command_check(const command_row *self, int argc, char **argv)
     fram_error error = {0};
     int bodies = 0, floes = 0;
     fram_status status = fram_scenario_load(context, path, overrides.value, overrides.count, &scenario, &error);
-    if (status == FRAM_OK && build)
-        status = count_world(scenario, &bodies, &floes, &error);
+    if (status == FRAM_OK)
+        status = build ? count_world(scenario, &bodies, &floes, &error) : fram_scenario_check(scenario, &error);
     if (status != FRAM_OK) {
         code = answer_error(&common, &error);
     } else {

@@ -2,6 +2,7 @@
  */
 #include "base/number_text.h"
 #include "model/scenario_schema.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -142,6 +143,33 @@ static fram_status check_path(const scenario *s, fram_error *error)
     return FRAM_OK;
 }
 
+/* A speed that is given must lie under the one at which a run is taken to have gone wrong. */
+static fram_status check_speed(const scenario *s, const char *key, double speed, fram_error *error)
+{
+    if (speed < s->run.speed_limit)
+        return FRAM_OK;
+    return fault(s, error, key, "expected less than run.speed_limit, at which a run ends, %g m/s, found %g m/s",
+                 s->run.speed_limit, speed);
+}
+
+static fram_status check_speeds(const scenario *s, fram_error *error)
+{
+    const scenario_vessel *v = &s->vessel;
+    fram_status status = check_speed(s, "environment.current_speed", s->environment.current_speed, error);
+    if (status == FRAM_OK && !is_automatic(s->domain.drift_speed))
+        status = check_speed(s, "domain.drift_speed", s->domain.drift_speed, error);
+    if (status == FRAM_OK && v->present && v->path.count == 0)
+        status = check_speed(s, "vessel.speed", v->speed, error);
+    for (int32_t i = 1; v->present && i < v->path.count && status == FRAM_OK; i++) {
+        const scenario_path_point *a = &v->path.data[i - 1], *b = &v->path.data[i];
+        double x = b->x - a->x, y = b->y - a->y;
+        char key[48];
+        snprintf(key, sizeof key, "vessel.path[%d].time", (int)i);
+        status = check_speed(s, key, sqrt(x * x + y * y) / (b->time - a->time), error);
+    }
+    return status;
+}
+
 /* Mooring lines of one vessel, those of a count each: as many as the table of results has columns for. */
 enum { MOST_LINES = 64 };
 
@@ -151,6 +179,9 @@ static fram_status check_line_count(const scenario *s, fram_error *error)
     int64_t all = 0;
     for (int32_t i = 0; i < lines->count; i++)
         all += lines->data[i].count;
+    if (lines->count > 0 && !(s->vessel.mooring.z > -s->vessel.mooring.depth))
+        return fault(s, error, "vessel.mooring.z", "expected fairleads above the bottom, which is at %g m, found %g m",
+                     -s->vessel.mooring.depth, s->vessel.mooring.z);
     if (all <= MOST_LINES)
         return FRAM_OK;
     return fault(s, error, "vessel.mooring.lines", "expected at most %d lines in all, found %d", (int)MOST_LINES,
@@ -401,6 +432,8 @@ fram_status scenario_check(const scenario *s, fram_error *error)
         status = check_vessel(s, error);
     if (status == FRAM_OK)
         status = check_hydrodynamics(s, error);
+    if (status == FRAM_OK)
+        status = check_speeds(s, error);
     if (status == FRAM_OK)
         status = check_ice(s, error);
     return status;

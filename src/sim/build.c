@@ -102,6 +102,20 @@ fram_status build_world(context *ctx, const scenario *s, const model *m, world *
     return status;
 }
 
+fram_status build_check(context *ctx, const scenario *s, fram_error *error)
+{
+    model m;
+    world w;
+    fram_status status = build_model(ctx, s, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = build_before_ice(ctx, s, &m, &w, error);
+    if (status == FRAM_OK)
+        world_free(ctx, &w);
+    model_free(ctx, &m);
+    return status;
+}
+
 static fram_status outlines_of(context *ctx, const scenario *s, const model *m, drawn_ice *out, box2 *domain,
                                fram_error *error)
 {

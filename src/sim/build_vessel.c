@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "sim/build_ice.h"
 #include "sim/build_station.h"
+#include "sim/vessel_check.h"
 #include "vessel/path.h"
 
 #include <stdio.h>
@@ -103,8 +104,14 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
                          fram_error *error)
 {
     int32_t row = w->vessels.count;
-    fram_status status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);
+    fram_status status = vessel_check(s, entry, m, row, error);
+    if (status == FRAM_OK)
+        status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);
     if (status == FRAM_OK)
         status = build_station(ctx, s, entry, m, row, w, error);
-    return status == FRAM_OK ? check_clear_of_walls(ctx, s, entry, w, row, error) : status;
+    if (status == FRAM_OK)
+        status = check_clear_of_walls(ctx, s, entry, w, row, error);
+    if (status == FRAM_OK)
+        vessel_warnings(ctx, s, entry, m, w, row);
+    return status;
 }

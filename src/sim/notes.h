@@ -5,6 +5,9 @@
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 
+/* A line each, those of warnings begin with "warning: ". */
 void scenario_notes(context *ctx, const scenario *s, text_buffer *out);
+/* The warnings alone, to the log. */
+void scenario_log_warnings(context *ctx, const scenario *s);
 
 #endif

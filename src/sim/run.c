@@ -350,22 +350,6 @@ static fram_status write_scenario(run *r, fram_error *error)
     return status;
 }
 
-/* What `fram check` warns of. */
-static fram_status log_warnings(const run *r, fram_error *error)
-{
-    static const char sign[] = "warning: ";
-    text_buffer notes = {0};
-    scenario_notes(r->ctx, r->s, &notes);
-    bool good = !notes.failed;
-    char *rest = NULL;
-    for (char *line = good ? strtok_r(notes.data, "\n", &rest) : NULL; line; line = strtok_r(NULL, "\n", &rest)) {
-        if (strncmp(line, sign, sizeof sign - 1) == 0)
-            log_write(r->ctx, LOG_WARNING, "%s", line + sizeof sign - 1);
-    }
-    text_free(r->ctx, &notes);
-    return good ? FRAM_OK : error_memory(error);
-}
-
 static void log_start(const run *r, const field_report *report)
 {
     if (report->floes > 0)
@@ -401,7 +385,7 @@ fram_status run_start(context *ctx, const scenario *s, const run_options *option
     if (status == FRAM_OK)
         status = identify(&r, error);
     if (status == FRAM_OK)
-        status = log_warnings(&r, error);
+        scenario_log_warnings(ctx, s);
     /* The world before the folder: a scenario that cannot be made leaves it as it was. */
     const volatile int *stop = ctx->stop;
     if (options->stop)

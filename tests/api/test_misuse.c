@@ -119,6 +119,8 @@ START_TEST(scenarios)
     ck_assert(isnan(fram_scenario_duration(NULL)) && isnan(fram_scenario_time_step(NULL)));
     ck_assert(strlen(fram_scenario_hash(scenario_of_test)) == 64 && *fram_scenario_text(scenario_of_test) &&
               *fram_scenario_notes(scenario_of_test));
+    REFUSED(fram_scenario_check(NULL, &e));
+    assert_ok(fram_scenario_check(scenario_of_test, &e), e);
     fram_scenario_destroy(NULL);
     char *text;
     REFUSED(fram_scenario_reference(NULL, &text, &e));

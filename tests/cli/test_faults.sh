@@ -71,10 +71,11 @@ if "$FRAM" --version | grep -q cairo; then
 fi
 
 # A simulation that goes wrong is a failed run, and what it says is about what happened.
-expect 1 "$FRAM" run scene.yaml -o fast --set run.speed_limit=0.5 --json
+expect 1 "$FRAM" run scene.yaml -o fast --set run.speed_limit=0.05 --set vessel.mode=free --set vessel.speed=0 \
+    --set vessel.mass=1e6 --json
 same "$(value 'j["error"]["status"]')" simulation "status of a run that went wrong"
-says "run.speed_limit is 0.5 m/s" err
-grep -q "m/s, (" err && fail "a vessel on a straight way is told to turn"
+says "run.speed_limit is 0.05 m/s; nothing touches it" err
+grep -q "rad/s" err && fail "a vessel that rises is told to turn"
 same "$(status_of fast)" failed "status of a run that went wrong"
 
 # Two programs that write one output: each ends well, and the file is whole.

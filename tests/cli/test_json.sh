@@ -98,7 +98,8 @@ object 2 field outline.txt --json --cover a.png --cell 1e9
 object 2 ice melt --json
 object 2 ice wedge --json
 object 2 ice wedge --a-over-l 99 --json
-object 1 run scene.yaml -o third -q --set run.speed_limit=0.01 --json
+object 1 run scene.yaml -o third -q --set run.speed_limit=0.01 --set vessel.mode=free --set vessel.speed=0 \
+    --set vessel.mass=2.5e5 --json
 [ ! -e '' ] && [ ! -e third/../=3 ] || fail "a refused word became a file"
 
 # A word after -- is no option.

@@ -92,7 +92,8 @@ class Studies(unittest.TestCase):
                 self.assertEqual((self.at / other / table).read_bytes(), whole, f"{other} {table}")
 
     def test_a_failure_is_a_row_and_stops_nothing(self):
-        study = self.write("seeds: 2\nvary: {grid: {run.speed_limit: [0.5, 100]}}\n")
+        # A hull lighter than the water it displaces rises to its waterline, faster than the lower limit allows.
+        study = self.write("seeds: 2\nvary: {grid: {run.speed_limit: [2.1, 100], vessel.mass: [1.0e6]}}\n")
         result = self.fram(study, "-o", self.at / "out")
         self.assertEqual((result["runs"], result["failed"]), (4, 2))
         rows = self.rows("out")

@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# What `fram check` refuses and tells of a vessel before a run would meet it.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+# A box of 40 x 10 x 4 m: 1 640 000 kg of water of 1025 kg/m3; B = 2 m under the water, BM = 10^2 / (12 * 4) = 2.0833 m.
+cat >box.yaml <<'YAML'
+run: {duration: 20, time_step: 0.05}
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}
+ice: {source: none}
+domain: {x_min: -100, x_max: 100, y_min: -50, y_max: 50, boundary: open}
+YAML
+# refused KEY WORDS OPTIONS..., told WORDS OPTIONS..., silent OPTIONS...
+refused() {
+    local key=$1 words=$2
+    shift 2
+    expect 2 "$FRAM" check box.yaml --json "$@"
+    same "$(value 'j["error"]["key"]')" "$key" "key of $*"
+    says "$words" err
+    expect 2 "$FRAM" run box.yaml -o refused -q "$@"
+    [ ! -e refused ] || fail "a refused run left a folder: $*"
+}
+told() {
+    local words=$1
+    shift
+    expect 0 "$FRAM" check box.yaml "$@"
+    says "$words" err
+    expect 0 "$FRAM" run box.yaml -o told --force --until 0.05 "$@"
+    says "$words" err
+}
+silent() {
+    expect 0 "$FRAM" check box.yaml "$@"
+    grep -q '^warning' err && fail "a warning without reason: $* $(grep '^warning' err)"
+    return 0
+}
+silent
+
+# Mass: from a twentieth of what it displaces (82 t) to all that it encloses (40 x 10 x 6 m3, 2460 t).
+refused vessel.mass "it sinks, found 2.47e+06 kg" --set vessel.mass=2.47e6
+refused vessel.mass "8.2e+04 to 2.46e+06 kg" --set vessel.mass=8e4
+told "vessel.mass is 0.8 of what the hull displaces" --set vessel.mass=1.312e6
+silent --set vessel.mass=1.6e6
+expect 0 "$FRAM" check box.yaml --set vessel.mass=1e9 --set vessel.mode=prescribed
+
+# The centre of gravity: in the box around the hull, or above it by its depth; 20 m of length to each side.
+refused vessel.centre_of_gravity_x "from -20 to 20 m, found 20.5 m" --set vessel.centre_of_gravity_x=20.5
+refused vessel.centre_of_gravity_y "from -5 to 5 m, found -6 m" --set vessel.centre_of_gravity_y=-6
+refused vessel.centre_of_gravity_z "found 8.1 m" --set vessel.centre_of_gravity_z=8.1
+refused vessel.centre_of_gravity_z "found -4.1 m" --set vessel.centre_of_gravity_z=-4.1
+
+# Gyration: the hull reaches sqrt(5^2 + 4^2) = 6.403 m from the roll axis; 1.5 of that is 9.605 m, 0.02 of it 0.1281 m.
+refused vessel.gyration_roll "0.1281 to 9.605 m" --set vessel.gyration_roll=9.7
+refused vessel.gyration_roll "6.403 m from the axis, found 0.12 m" --set vessel.gyration_roll=0.12
+# k_z^2 <= k_x^2 + k_y^2 of every body: 3.5 m and 10 m by default, 10.595 m.
+refused vessel.gyration_yaw "expected 10.5948 m at most" --set vessel.gyration_yaw=10.6
+silent --set vessel.gyration_yaw=10.59
+
+# GM = KB + BM - KG: the centre of mass at 0.0833 m over the water line is where it vanishes.
+told "transverse metacentric height is -0.01667 m" --set vessel.centre_of_gravity_z=0.1
+silent --set vessel.centre_of_gravity_z=0.05
+# A list: tan = 0.05 / GM with GM = 0.5833 m is 4.9 degrees, which is not told; 0.1 m are 9.7.
+silent --set vessel.centre_of_gravity_z=-0.5 --set vessel.centre_of_gravity_y=0.05
+told "heels by about 10 degrees" --set vessel.centre_of_gravity_z=-0.5 --set vessel.centre_of_gravity_y=0.1
+
+# Speeds that end the run at once.
+refused vessel.speed "expected less than run.speed_limit" --set run.speed_limit=2 --set vessel.speed=2
+refused environment.current_speed "found 3 m/s" --set run.speed_limit=3 --set environment.current_speed=3
+
+# Springs: heave at sqrt(rho g A / m) = sqrt(g / draught) = 1.566 rad/s: a step of 0.64 s is told, 0.63 s is not.
+told "the buoyancy of the hull is too stiff for the step: 1.566 rad/s with the vessel's mass; take run.time_step under \
+0.319 s" --set run.time_step=0.64 --set output.csv_interval=0.64
+silent --set run.time_step=0.63
+cat >moored.yaml <<'YAML'
+run: {duration: 2, time_step: 0.05}
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}
+  mooring:
+    depth: 60
+    lines:
+      - {kind: spring, count: 2, spacing_deg: 180, distance: 400, pretension: 1.0e5, stiffness: 4.1e8}
+ice: {source: none}
+domain: {boundary: open}
+YAML
+# Two lines of 4.1e8 N/m in line on 1.64e6 kg: sqrt(500) = 22.36 rad/s.
+expect 0 "$FRAM" check moored.yaml
+says "vessel.mooring.lines is too stiff for the step: 22.36 rad/s" err
+says "take run.time_step under 0.0224 s" err
+expect 0 "$FRAM" check moored.yaml --set run.time_step=0.0223
+grep -q 'too stiff' err && fail "the step that is said to work is told to be too long"
+# With that step the box lies in a current within a millimetre; with one beyond 2 / 22.36 s it is thrown about.
+current=(-q --set environment.current_speed=0.5 --set vessel.mooring.equilibrium=false --set run.duration=15)
+offset() { python3 -c "import json; print(json.load(open('$1/station.json'))['offset_m']['peak'])"; }
+expect 0 "$FRAM" run moored.yaml -o steady "${current[@]}" --set run.time_step=0.0223
+expect 0 "$FRAM" run moored.yaml -o wild "${current[@]}" --set run.time_step=0.1
+python3 -c "assert 10 * $(offset steady) < min(0.01, $(offset wild))" ||
+    fail "offsets of $(offset steady) and $(offset wild) m"
+
+# A fairlead under the bottom; damping that drives.
+expect 2 "$FRAM" check moored.yaml --json --set vessel.mooring.z=-61
+same "$(value 'j["error"]["key"]')" vessel.mooring.z "key of a fairlead under the bottom"
+sed 's/^  mooring:/  hydrodynamics: {source: given, added_mass: [MATRIX], damping: [MATRIX]}\n&/' moored.yaml |
+    sed 's/added_mass: \[MATRIX\]/added_mass: [{surge: 1e5}, {sway: 1e5}, {heave: 1e5}, {}, {}, {}]/' |
+    sed 's/damping: \[MATRIX\]/damping: [{surge: -1e5}, {sway: 1e5}, {heave: 1e5}, {}, {}, {}]/' >driven.yaml
+expect 0 "$FRAM" check driven.yaml
+says "damping is negative in surge, -1e+05" err
+grep -q 'negative in sway' err && fail "sway is told to be driven"
+
+# A bow that reaches the wall: 100 - 20 m at 5 m/s.
+basin=(--set domain.boundary=walls --set vessel.mode=towed --set vessel.speed=5)
+told "the hull reaches a wall of the domain at t = 16 s, after 80 m" "${basin[@]}"
+told "the hull reaches a wall of the domain at t = 18 s, after 80 m" "${basin[@]}" --set vessel.ramp=4
+silent "${basin[@]}" --set run.duration=15.9
+# Athwart, the beam counts: 50 - 5 m.
+told "at t = 9 s, after 45 m" "${basin[@]}" --set vessel.course_deg=-90
+# One that begins in the wall is refused without --build too.
+expect 2 "$FRAM" check box.yaml "${basin[@]}" --set vessel.x=85 --json
+same "$(value 'j["error"]["key"]')" vessel.x "key of a hull inside a wall"
+
+finish "what cannot be is refused, what will be is told"
