@@ -85,7 +85,7 @@ END_TEST
 /* As many columns as a vessel of 64 lines and 32 thrusters asks for, and more. */
 START_TEST(hundreds_of_columns_are_read)
 {
-    enum { MANY = 300, ROOM = 12 };
+    enum { MANY = 300, ROOM = 16 };
     static char name[MANY][ROOM], text[2 * MANY * ROOM];
     static const char *asked[MANY];
     static double_array columns[MANY];
