@@ -75,6 +75,9 @@ bool polygon_is_convex(polygon p);
    be NULL); false when there is none.  Exact.  Repeated vertices in a row do no harm.  Every pair of edges under 32
    vertices or without memory, a sweep over sorted intervals otherwise. */
 bool polygon_self_intersects(context *ctx, polygon p, int32_t *edge_a, int32_t *edge_b);
+/* No vertex lies within `reach` [m] of an edge that is not its own.  Every pair under 32 vertices or without memory, a
+   sweep otherwise, with the same answer. */
+bool polygon_has_clearance(context *ctx, polygon p, double reach);
 
 /* Algorithm 9, repaired: the smallest-area box aligned with an edge of the convex hull; sides[0] >= sides[1] [m].
    Points on a line give sides[1] = 0.  FRAM_ERROR_INPUT for no vertices, FRAM_ERROR_MEMORY. */

@@ -102,3 +102,56 @@ bool polygon_self_intersects(context *ctx, polygon p, int32_t *edge_a, int32_t *
         *edge_b = pair[1];
     return found;
 }
+
+/* ---- clearance ---- */
+
+static bool is_near(polygon p, int32_t edge, int32_t vertex, double reach)
+{
+    vec2 a = p.vertex[edge], b = edge_end(p, edge), v = p.vertex[vertex];
+    if (vertex == edge || vertex == (edge + 1 < p.count ? edge + 1 : 0) || real_min(a.x, b.x) - v.x > reach ||
+        v.x - real_max(a.x, b.x) > reach || real_min(a.y, b.y) - v.y > reach || v.y - real_max(a.y, b.y) > reach)
+        return false;
+    return vec2_length(vec2_sub(segment_nearest(a, b, v), v)) <= reach;
+}
+
+static bool near_by_pairs(polygon p, double reach)
+{
+    for (int32_t i = 0; i < p.count; i++)
+        for (int32_t k = 0; k < p.count; k++)
+            if (is_near(p, i, k, reach))
+                return true;
+    return false;
+}
+
+/* Edges in the order of their lower ends along the sweep, against the vertices from there to their upper ends. */
+static bool near_by_sweep(polygon p, double reach, interval *list)
+{
+    box2 box = polygon_bounds(p);
+    bool along_x = box.hi.x - box.lo.x >= box.hi.y - box.lo.y;
+    for (int32_t i = 0; i < p.count; i++) {
+        double at = along_x ? p.vertex[i].x : p.vertex[i].y;
+        list[i] = (interval){at, at, i};
+    }
+    qsort(list, (size_t)p.count, sizeof *list, compare_intervals);
+    for (int32_t i = 0; i < p.count; i++) {
+        /* The neighbours of vertex i in the sorted list, both ways, as far as the edge from it goes. */
+        int32_t edge = list[i].edge;
+        double from = list[i].lo, to = along_x ? edge_end(p, edge).x : edge_end(p, edge).y;
+        double lo = real_min(from, to) - 2 * reach, hi = real_max(from, to) + 2 * reach;
+        for (int32_t k = i; k >= 0 && list[k].lo >= lo; k--)
+            if (is_near(p, edge, list[k].edge, reach))
+                return true;
+        for (int32_t k = i + 1; k < p.count && list[k].lo <= hi; k++)
+            if (is_near(p, edge, list[k].edge, reach))
+                return true;
+    }
+    return false;
+}
+
+bool polygon_has_clearance(context *ctx, polygon p, double reach)
+{
+    interval *list = p.count < SWEEP_FROM ? NULL : memory_array(ctx, (size_t)p.count, sizeof *list);
+    bool near = list ? near_by_sweep(p, reach, list) : near_by_pairs(p, reach);
+    memory_free(ctx, list);
+    return !near;
+}

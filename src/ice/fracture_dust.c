@@ -21,20 +21,7 @@ bool fracture_outline_is_sound(context *ctx, polygon p)
 {
     if (p.count < 3 || !(polygon_area(p) > 0) || polygon_self_intersects(ctx, p, NULL, NULL))
         return false;
-    double reach = LEAST_CLEARANCE * polygon_perimeter(p);
-    for (int32_t i = 0; i < p.count; i++) {
-        int32_t next = i + 1 < p.count ? i + 1 : 0;
-        vec2 a = p.vertex[i], b = p.vertex[next];
-        for (int32_t k = 0; k < p.count; k++) {
-            vec2 v = p.vertex[k];
-            if (k == i || k == next || fmin(a.x, b.x) - v.x > reach || v.x - fmax(a.x, b.x) > reach ||
-                fmin(a.y, b.y) - v.y > reach || v.y - fmax(a.y, b.y) > reach)
-                continue;
-            if (vec2_length(vec2_sub(segment_nearest(a, b, v), v)) <= reach)
-                return false;
-        }
-    }
-    return true;
+    return polygon_has_clearance(ctx, p, LEAST_CLEARANCE * polygon_perimeter(p));
 }
 
 /* Length of a's edges that lie on b, by the edges' middles. */

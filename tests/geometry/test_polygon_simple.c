@@ -85,4 +85,36 @@ START_TEST(sweep_is_all_pairs)
 }
 END_TEST
 
-TEST_MAIN("polygon_simple", known_rings, repeated_vertices_do_no_harm, sweep_is_all_pairs)
+/* Rough rings whose teeth come near one another or not; memory that fails makes it look at all pairs. */
+START_TEST(clearance_is_that_of_all_pairs)
+{
+    int near = 0, clear = 0;
+    for (uint32_t seed = 0; seed < 400; seed++) {
+        random_stream r = random_begin(seed, 7, 0);
+        int32_t n = 32 + (int32_t)(random_unit(&r) * 60);
+        vec2 v[92];
+        for (int32_t i = 0; i < n; i++) {
+            double angle = 2 * PI * i / n, radius = random_uniform(&r, 2, 4);
+            v[i] = vec2_make(radius * real_cos(angle), (seed % 2 ? 3 : 0.4) * radius * real_sin(angle));
+        }
+        double reach = random_uniform(&r, 0, 0.3);
+        failing_memory memory;
+        context none = failing_context(&memory, 1);
+        context_init(&plain);
+        bool swept = polygon_has_clearance(&plain, (polygon){v, n}, reach);
+        ck_assert_int_eq(swept, polygon_has_clearance(&none, (polygon){v, n}, reach));
+        ck_assert(memory.failed);
+        clear += swept;
+        near += !swept;
+    }
+    ck_assert_int_gt(near, 50);
+    ck_assert_int_gt(clear, 50);
+    static const vec2 slot[6] = {{0, 0}, {4, 0}, {4, 3}, {2, 0.1}, {1.9, 3}, {0, 3}};
+    context_init(&plain);
+    ck_assert(polygon_has_clearance(&plain, (polygon){slot, 6}, 0.099));
+    ck_assert(!polygon_has_clearance(&plain, (polygon){slot, 6}, 0.101));
+}
+END_TEST
+
+TEST_MAIN("polygon_simple", known_rings, repeated_vertices_do_no_harm, sweep_is_all_pairs,
+          clearance_is_that_of_all_pairs)
