@@ -2,7 +2,8 @@
    Inside dynamics; solver.h is the interface.
 
    A direction of a contact or a joint between bodies a and b acts with +impulse on one and -impulse on the other.
-   Contacts push a along +normal; joints push b along +direction. */
+   Contacts push a along +normal; joints push b along +direction. One module with solver and joint: their headers are
+   its face. */
 #ifndef DYNAMICS_SOLVER_ROWS_H
 #define DYNAMICS_SOLVER_ROWS_H
 

@@ -1,4 +1,5 @@
-/* The column water of groups of eight bodies.  Inside fluid. */
+/* The column water of groups of eight bodies.  Inside fluid. One module with columns, which lays out what it works on.
+ */
 #ifndef FLUID_COLUMNS_KERNEL_H
 #define FLUID_COLUMNS_KERNEL_H
 

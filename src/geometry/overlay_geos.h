@@ -1,4 +1,5 @@
-/* The overlay's handle and its way to GEOS and back, for the overlay files alone. */
+/* The overlay's handle and its way to GEOS and back, for the overlay files alone. One module with overlay, whose inside
+   this is. */
 #ifndef GEOMETRY_OVERLAY_GEOS_H
 #define GEOMETRY_OVERLAY_GEOS_H
 

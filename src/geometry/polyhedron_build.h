@@ -1,4 +1,5 @@
-/* Making polyhedra, inside geometry: from the triangles of a hull, and what every way of making one ends with. */
+/* Making polyhedra, inside geometry: from the triangles of a hull, and what every way of making one ends with. One
+   module with polyhedron, whose inside this is. */
 #ifndef GEOMETRY_POLYHEDRON_BUILD_H
 #define GEOMETRY_POLYHEDRON_BUILD_H
 

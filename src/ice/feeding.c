@@ -17,7 +17,7 @@ TABLE_DEFINE(pattern_vertex, PATTERN_VERTEX_FIELDS)
    shake of the drift. */
 #define CLEAR_SHARE 0.05
 /* What a floe may overlap others by as it enters, as a part of its radius: what packed floes may overlap in the pattern
-   itself (SPEC 3: under 1 mm for floes of 10 m). */
+   itself (under 1 mm for floes of 10 m). */
 #define ENTRY_OVERLAP 1e-4
 
 double feeding_clearance(double band) { return CLEAR_SHARE * band; }

@@ -1,4 +1,4 @@
-/* What the files of feeding share; see feeding.h. */
+/* What the files of feeding share; see feeding.h. One module with feeding, whose inside this is. */
 #ifndef ICE_FEEDING_PARTS_H
 #define ICE_FEEDING_PARTS_H
 

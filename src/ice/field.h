@@ -1,4 +1,4 @@
-/* Generation of ice fields (SPEC 3): outlines in the plane, seeded, the same to the bit for the same seed on any number
+/* Generation of ice fields: outlines in the plane, seeded, the same to the bit for the same seed on any number
    of threads.  Knows outlines only: thickness, strength and bodies come later (ice/floe.h). */
 #ifndef ICE_FIELD_H
 #define ICE_FIELD_H

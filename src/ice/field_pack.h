@@ -1,4 +1,4 @@
-/* Packed fields (SPEC 3): floes of one or several populations, drawn by size and shape before and independently of
+/* Packed fields: floes of one or several populations, drawn by size and shape before and independently of
    where they go, then brought to places where none overlap, around what is already there.  Same request, same bits.
    Knows outlines only. */
 #ifndef ICE_FIELD_PACK_H

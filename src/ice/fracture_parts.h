@@ -1,4 +1,4 @@
-/* What the parts of fracture share.  Inside fracture. */
+/* What the parts of fracture share.  Inside fracture. One module with fracture, whose inside this is. */
 #ifndef ICE_FRACTURE_PARTS_H
 #define ICE_FRACTURE_PARTS_H
 

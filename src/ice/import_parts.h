@@ -1,4 +1,4 @@
-/* What the files of the import share, inside ice/import*.c. */
+/* What the files of the import share, inside ice/import*.c. One module with import, whose inside this is. */
 #ifndef ICE_IMPORT_PARTS_H
 #define ICE_IMPORT_PARTS_H
 

@@ -1,4 +1,4 @@
-/* Packing: outlines of given size and shape brought to places and angles where no two overlap (SPEC 3).  Shapes are
+/* Packing: outlines of given size and shape brought to places and angles where no two overlap.  Shapes are
    only moved and turned, never changed.
 
    The floes start spread over the free area, large ones first, overlapping.  Then all overlaps are removed at once,

@@ -1,4 +1,5 @@
-/* What the files of the packing share: bodies, their convex pieces, pairs, contact rows.  Not for other files. */
+/* What the files of the packing share: bodies, their convex pieces, pairs, contact rows.  Not for other files. One
+   module with packing, whose inside this is. */
 #ifndef ICE_PACKING_WORK_H
 #define ICE_PACKING_WORK_H
 

@@ -1,6 +1,6 @@
 /* One attempt to make a sound solid of a file's triangles, inside io: scaled,
    sealed, given topsides, repaired, checked. Must not know which attempts are
-   made, or what is said about them. */
+   made, or what is said about them. One module with hull_file, which asks for the mending. */
 #ifndef IO_HULL_MEND_H
 #define IO_HULL_MEND_H
 

@@ -1,4 +1,5 @@
-/* What the readers of meshes share, inside io: a cursor over text, and adding triangles with their places. */
+/* What the readers of meshes share, inside io: a cursor over text, and adding triangles with their places. One module
+   with mesh_file, whose inside this is. */
 #ifndef IO_MESH_READER_H
 #define IO_MESH_READER_H
 

@@ -1,7 +1,7 @@
 /* Files and folders that stand beside their place until they are whole.  Their names cannot be foreseen and nothing
    that is there is opened, so that two programs that write one output never write into one file, and a link that
    somebody laid is not followed.  A name begins with / or ./ : no program that it is handed to takes it for an option
-   or an address. */
+   or an address. One module with file, which writes what this names. */
 #ifndef IO_TEMPORARY_H
 #define IO_TEMPORARY_H
 

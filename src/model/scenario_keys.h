@@ -5,7 +5,7 @@
    A row is X(name, SPEC, unit, meaning), where SPEC is one of
        REAL(value, lo, hi)                      double; default value, closed range
        SCALED(value, at, power, lo, hi)         double; default value * (run.scale / at)^power: a length of the ice tank
-                                                grows with the scale, an area with its square (SPEC 1)
+                                                grows with the scale, an area with its square
        AUTOMATIC(lo, hi)                        double; default `auto`, which is a NaN here: Fram finds the value
        INTEGER(value, lo, hi)                   int64_t
        BOOLEAN(value)                           bool

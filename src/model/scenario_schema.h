@@ -1,5 +1,6 @@
 /* The schema: scenario_keys.h as a tree of descriptors, for everything that walks a scenario (reader, printer,
-   reference, checks).  A section's keys are in the order of the rows. */
+   reference, checks).  A section's keys are in the order of the rows. One module with scenario: the same keys, as data.
+ */
 #ifndef MODEL_SCENARIO_SCHEMA_H
 #define MODEL_SCENARIO_SCHEMA_H
 

@@ -1,4 +1,4 @@
-/* Inside the report: what its sections share. */
+/* Inside the report: what its sections share. One module with report, whose inside this is. */
 #ifndef RESULTS_REPORT_PARTS_H
 #define RESULTS_REPORT_PARTS_H
 

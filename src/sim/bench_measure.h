@@ -1,4 +1,4 @@
-/* Measuring the steps of a world.  Inside sim's benchmarks. */
+/* Measuring the steps of a world.  Inside sim's benchmarks. One module with bench, whose inside this is. */
 #ifndef SIM_BENCH_MEASURE_H
 #define SIM_BENCH_MEASURE_H
 

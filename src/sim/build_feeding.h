@@ -4,7 +4,7 @@
 
 #include "ice/field.h"
 #include "model/scenario.h"
-#include "sim/step.h"
+#include "model/world.h"
 
 /* The scenario's ice (build_ice.h); with domain.boundary feeding, its field fills a tile, and the domain is a window on
    the endless field of such tiles.  The report is then that of the tile.  Errors name the key where it is not ice. */

@@ -1,4 +1,5 @@
-/* The ice of a scenario as bodies. */
+/* The ice of a scenario as bodies. One module with build_keep_out, build_packed and draw_ice: ice is drawn around what
+   must stay clear. */
 #ifndef SIM_BUILD_ICE_H
 #define SIM_BUILD_ICE_H
 

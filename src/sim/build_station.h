@@ -3,7 +3,7 @@
 #define SIM_BUILD_STATION_H
 
 #include "model/scenario_vessel.h"
-#include "sim/step.h"
+#include "model/world.h"
 
 /* Lines, thrusters, way points and the station of a vessel of the world that floats freely; nothing for others.  A
    moored vessel is moved to where its lines balance current and wind.  Errors name the key at fault. */

@@ -8,7 +8,7 @@
 #define SIM_CAPABILITY_H
 
 #include "io/path.h"
-#include "sim/step.h"
+#include "model/world.h"
 #include "vessel/holding.h"
 
 enum { CAPABILITY_DIRECTIONS = 360, CAPABILITY_SPEEDS = 100 };

@@ -8,6 +8,7 @@
 #include "sim/build.h"
 #include "sim/build_ice.h"
 #include "sim/ice_loads.h"
+#include "sim/step.h"
 
 #include <stdio.h>
 #include <string.h>

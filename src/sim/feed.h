@@ -2,7 +2,7 @@
 #ifndef SIM_FEED_H
 #define SIM_FEED_H
 
-#include "sim/step.h"
+#include "model/world.h"
 
 /* The parts of a world that feeding reads and changes. */
 feeding_world feed_world(world *w);

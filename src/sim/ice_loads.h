@@ -2,7 +2,7 @@
 #ifndef SIM_ICE_LOADS_H
 #define SIM_ICE_LOADS_H
 
-#include "sim/step.h"
+#include "model/world.h"
 
 /* Fills scratch.ice_loads, one per vessel, books the energy dissipated at the crushing limit, and writes the load
    window's rows of this step. */

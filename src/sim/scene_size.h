@@ -1,4 +1,5 @@
-/* How large a scenario is before anything of it is built: floes and memory, from its keys alone. */
+/* How large a scenario is before anything of it is built: floes and memory, from its keys alone. One module with build,
+   which asks before it makes anything. */
 #ifndef SIM_SCENE_SIZE_H
 #define SIM_SCENE_SIZE_H
 

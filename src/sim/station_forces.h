@@ -2,7 +2,7 @@
 #ifndef SIM_STATION_FORCES_H
 #define SIM_STATION_FORCES_H
 
-#include "sim/step.h"
+#include "model/world.h"
 
 /* Adds to scratch.loads.  What befell a vessel is booked in the table of events and told to the log. */
 fram_status station_forces(context *ctx, const model *m, world *w, fram_error *error);

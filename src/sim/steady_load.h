@@ -3,7 +3,7 @@
 #ifndef SIM_STEADY_LOAD_H
 #define SIM_STEADY_LOAD_H
 
-#include "sim/step.h"
+#include "model/world.h"
 
 /* Force along X and Y [N] and yaw moment about the centre of mass [N m], global frame, of the media on a vessel that
    lies at its place with this heading [rad]: both together, the drag of panels and tables alone, and the linear damping

@@ -1,5 +1,5 @@
 /* What the vessel of a scenario cannot be, once its hull is known, and what a reader should be told of it before a run.
- */
+   One module with build_vessel, which asks before it makes anything. */
 #ifndef SIM_VESSEL_CHECK_H
 #define SIM_VESSEL_CHECK_H
 

@@ -11,7 +11,7 @@ typedef struct pid_gains {
     vec3 proportional, derivative, integral; /* surge, sway, yaw */
 } pid_gains;
 
-/* Kp = diag(M) w^2, Kd = 2 zeta w diag(M), Ki = Kp w / 10 (Fossen 2011, section 12.2.9; oracles section 7). */
+/* Kp = diag(M) w^2, Kd = 2 zeta w diag(M), Ki = Kp w / 10 (Fossen 2011, section 12.2.9). */
 pid_gains pid_gains_for(mat3 mass, double frequency, double damping);
 
 /* tau = -Kp R^T e - Kd (v - v_ref) - Ki R^T integral(e) + feed_forward, e = place - wanted (global, heading the short

@@ -1,5 +1,5 @@
 /* The hull of a conical drilling unit: an inverted cone of flat facets, in the manner of the Kulluk (Wright 1999).
-   Knows no ice and no files. */
+   Knows no ice and no files. One module with hull, of which it is a form. */
 #ifndef VESSEL_HULL_CONE_H
 #define VESSEL_HULL_CONE_H
 

@@ -32,7 +32,7 @@ START_TEST(sheet)
 }
 END_TEST
 
-/* The state at the break of the oracles, section 1. */
+/* The state at the break of docs/oracles.md, section 1. */
 START_TEST(load_on_an_edge)
 {
     fram_ice_edge load;

@@ -27,7 +27,7 @@ START_TEST(defaults_pass_their_own_checks)
 }
 END_TEST
 
-/* SPEC 1: the paper's thresholds are tank lengths, areas go with the square of the scale. */
+/* The paper's thresholds are tank lengths, areas go with the square of the scale. */
 START_TEST(thresholds_follow_the_scale)
 {
     scenario tank, full;

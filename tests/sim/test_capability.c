@@ -52,7 +52,7 @@ END_TEST
 
 START_TEST(broken_ice_by_formula)
 {
-    /* B 18, h 1, S .8, v 1.5, rho 910: 379.8 kN (oracles section 8). */
+    /* B 18, h 1, S .8, v 1.5, rho 910: 379.8 kN (docs/oracles.md, section 8). */
     assert_relative(broken_ice_resistance(910, 9.81, 18, 1, 0.8, 1.5), 379.8e3, 1e-3);
     scene k;
     scene_open_with(&k, box, (const char *const[]){"ice.source=voronoi", "ice.density=910", "ice.thickness=0.5"}, 3);

@@ -130,8 +130,8 @@ static void open_scene(decay *d, const char *path)
     assert_ok(decay_open_as(d, path, text, &error), error);
 }
 
-/* The shipped supply ship, about amidships with z down, has the published matrices of surge, sway and yaw (oracles
-   section 7), its own mass included. */
+/* The shipped supply ship, about amidships with z down, has the published matrices of surge, sway and yaw
+   (docs/oracles.md, section 7), its own mass included. */
 START_TEST(supply_ship_of_the_scene)
 {
     static const double mass[3][3] = {{6.7644e6, 0, 0}, {0, 1.13412e7, -3.401568e7}, {0, -3.401568e7, 4.452378e9}};

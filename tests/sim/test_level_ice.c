@@ -311,7 +311,7 @@ START_TEST(an_island_drifts)
 }
 END_TEST
 
-/* The fixed cone of oracles section 8: the horizontal load at which the sheet breaks, 0.4 to 1.2 times Croasdale's
+/* The fixed cone of docs/oracles.md, 8: the horizontal load at which the sheet breaks, 0.4 to 1.2 times Croasdale's
    breaking term; pieces of the size of R_bending. */
 START_TEST(fixed_cone)
 {

@@ -1,4 +1,4 @@
-/* Symmetries of oracles section 6: a scaled, moving, mirrored or turned scene gives the scaled, moved, mirrored or
+/* Symmetries of docs/oracles.md, 6: a scaled, moving, mirrored or turned scene gives the scaled, moved, mirrored or
    turned result.  They find every hidden dimensional constant, frame and sign. */
 #include "scene.h"
 

@@ -164,7 +164,8 @@ START_TEST(spin_decays)
                 rate = -split_of(&k, slot).water_drag.moment.z / (0.25 * k.w.bodies.inertia[slot].zz);
             scene_steps(&k, 1);
         }
-        /* Sides: 1/2 rho Cd d w^2 b^4, four halves of which move in (oracles 5); caps and sides by their skin. */
+        /* Sides: 1/2 rho Cd d w^2 b^4, four halves of which move in (docs/oracles.md, 5); caps and sides by their skin.
+         */
         double draught = 920.0 / 1025, sides = 0.5 * 1025 * draught * 625;
         ck_assert(rate * k.w.bodies.inertia[slot].zz > sides && rate * k.w.bodies.inertia[slot].zz < 1.5 * sides);
         error[n] = k.w.bodies.angular_velocity[slot].z - 0.5 / (1 + 0.5 * rate * 60);

@@ -51,6 +51,22 @@ class House(unittest.TestCase):
         self.plant("tests/ice/test_floe.c", '#include "ice/floe.h"\n#include "testing.h"\n')
         self.assertEqual(self.rooms(), "")
 
+    def test_circles_of_files_are_cut_or_named(self):
+        self.plant("src/ice/floe.h", '/* Floes. */\n#include "ice/crack.h"\n')
+        self.plant("src/ice/crack.c", '#include "ice/crack.h"\n#include "ice/floe.h"\n')
+        self.plant("src/ice/crack.h", "/* Cracks. */\n")
+        self.assertIn("a circle of files: crack, floe", self.rooms())
+        self.plant("src/ice/crack.h", "/* Cracks; one module with\n   floe: pieces are floes. */\n")
+        self.assertEqual(self.rooms(), "")
+
+    def test_long_files_of_the_source(self):
+        self.plant("src/ice/floe.c", "int x;\n" * 501)
+        self.plant("src/ice/floe_kernel.c", "int x;\n" * 501)
+        self.plant("tests/ice/test_floe.c", "int x;\n" * 501)
+        said = self.rooms()
+        self.assertIn("src/ice/floe.c:501: 501 lines; at most 500", said)
+        self.assertEqual(said.count("lines; at most"), 1)
+
     def test_upward_and_sideways_includes(self):
         self.plant("src/base/vec.h", '\n#include "ice/floe.h"\n')
         self.plant("src/ice/floe.c", '#include "vessel/hull.h"\n')

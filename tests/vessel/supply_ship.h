@@ -1,4 +1,4 @@
-/* The supply ship of oracles section 7 (MSS toolbox): matrices about midships with z down, thrusters. */
+/* The supply ship of docs/oracles.md, 7 (MSS toolbox): matrices about midships with z down, thrusters. */
 #ifndef SUPPLY_SHIP_H
 #define SUPPLY_SHIP_H
 

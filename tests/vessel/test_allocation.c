@@ -1,4 +1,4 @@
-/* Allocation and thrusters: the supply ship of the oracles, limits, sectors, rates, failure. */
+/* Allocation and thrusters: the supply ship of docs/oracles.md, limits, sectors, rates, failure. */
 #include "supply_ship.h"
 
 /* Cost of a set of thrusts as the solver counts it out of reach. */

@@ -1,4 +1,4 @@
-/* Plane motion, controller, reference filter and observers: oracles section 7 and known answers. */
+/* Plane motion, controller, reference filter and observers: docs/oracles.md, 7, and known answers. */
 #include "base/random.h"
 #include "supply_ship.h"
 #include "vessel/controller.h"

@@ -100,7 +100,7 @@ START_TEST(a_step_adds_force_and_moment)
 }
 END_TEST
 
-/* A spring of stiffness k displaced by a steady force moves by force / k (oracles section 7, spring offset). */
+/* A spring of stiffness k displaced by a steady force moves by force / k (statics). */
 START_TEST(spring_offset)
 {
     moored m;
