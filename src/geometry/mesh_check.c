@@ -57,7 +57,7 @@ static void check_triangles(const mesh *m, mesh_report *r)
 {
     if (m->face.count == 0) {
         r->defect = MESH_EMPTY;
-        report_text(r, "the surface has no triangles");
+        report_text(r, "surface has no triangles");
         return;
     }
     for (int32_t f = 0; f < m->face.count; f++)

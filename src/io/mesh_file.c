@@ -268,6 +268,26 @@ void mesh_file_free(context *ctx, mesh_file *f)
     array_free(ctx, &f->line);
 }
 
+/* Points nearer to each other than this part of the longest side are one that an exporter computed twice, as a pole by
+   the sine of pi: some rounding steps of doubles, a thousandth of those of floats. */
+#define ROUNDING 1e-12
+
+/* The distance at which points are one: 0 when it would take a triangle away. */
+static double rounding_of(const mesh *m)
+{
+    box3 box = mesh_bounds(m);
+    vec3 size = vec3_sub(box.hi, box.lo);
+    double distance = ROUNDING * fmax(size.x, fmax(size.y, size.z));
+    for (int32_t f = 0; f < m->face.count; f++) {
+        vec3 p[3];
+        mesh_face_points(m, f, p);
+        for (int k = 0; k < 3; k++)
+            if (!(vec3_length(vec3_sub(p[k], p[(k + 1) % 3])) > 2 * distance))
+                return 0;
+    }
+    return isfinite(distance) ? distance : 0;
+}
+
 /* Equal points become one.  No triangle names equal points, so none goes. */
 static fram_status finish(const mesh_reading *r)
 {
@@ -275,7 +295,7 @@ static fram_status finish(const mesh_reading *r)
     if (m->face.count == 0)
         return mesh_refuse(r, 0, 0, "the file has no triangles with an area");
     int32_t joined = 0;
-    if (!mesh_drop_unused_vertices(r->ctx, m) || mesh_weld(r->ctx, m, 0, &joined) != FRAM_OK)
+    if (!mesh_drop_unused_vertices(r->ctx, m) || mesh_weld(r->ctx, m, rounding_of(m), &joined) != FRAM_OK)
         return error_memory(r->error);
     return FRAM_OK;
 }

@@ -111,6 +111,31 @@ START_TEST(flat_facets_are_dropped)
 }
 END_TEST
 
+/* A pole that was computed anew for each triangle, as a sine of pi leaves it, is one vertex.  In a file with a triangle
+   as small as that, nothing is joined: it would go. */
+START_TEST(points_that_rounding_set_apart_are_one)
+{
+    static const char pole[] = "v 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\n"
+                               "v 1e-16 0 -1\nv 0 1e-16 -1\nv -1e-16 0 -1\nv 0 -1e-16 -1\n"
+                               "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 6 3 2\nf 7 4 3\nf 8 5 4\nf 9 2 5\n";
+    static const char tiny[] = "v 1e-16 0 -2\nv 0 1e-16 -2\nv 0 0 -2\nf 10 11 12\n";
+    context ctx;
+    context_init(&ctx);
+    mesh_file f = parse(&ctx, "pole.obj", pole);
+    ck_assert_int_eq(f.surface.vertex.count, 6);
+    ck_assert_int_eq(f.surface.face.count, 8);
+    check_volume(&f.surface, 4.0 / 3);
+    mesh_file_free(&ctx, &f);
+    char both[sizeof pole + sizeof tiny];
+    snprintf(both, sizeof both, "%s%s", pole, tiny);
+    f = parse(&ctx, "tiny.obj", both);
+    ck_assert_int_eq(f.surface.face.count, 9);
+    ck_assert_int_eq(f.element.count, 9);
+    ck_assert_int_eq(f.surface.vertex.count, 12);
+    mesh_file_free(&ctx, &f);
+}
+END_TEST
+
 START_TEST(polygons)
 {
     context ctx;
@@ -237,5 +262,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("mesh_file", tetrahedra, places, flat_facets_are_dropped, polygons, symmetry_planes, round_trips,
-          files_that_cannot_be_read, memory_runs_out)
+TEST_MAIN("mesh_file", tetrahedra, places, flat_facets_are_dropped, points_that_rounding_set_apart_are_one, polygons,
+          symmetry_planes, round_trips, files_that_cannot_be_read, memory_runs_out)
