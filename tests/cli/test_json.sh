@@ -100,7 +100,7 @@ object 2 ice wedge --json
 object 2 ice wedge --a-over-l 99 --json
 object 1 run scene.yaml -o third -q --set run.speed_limit=0.01 --set vessel.mode=free --set vessel.speed=0 \
     --set vessel.mass=2.5e5 --json
-[ ! -e '' ] && [ ! -e third/../=3 ] || fail "a refused word became a file"
+if [ -e '' ] || [ -e third/../=3 ]; then fail "a refused word became a file"; fi
 
 # A word after -- is no option.
 expect 2 "$FRAM" check -- --json
