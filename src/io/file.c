@@ -115,8 +115,8 @@ static fram_status read_regular(context *ctx, int descriptor, const char *path, 
 
 fram_status file_read(context *ctx, const char *path, uint64_t limit, char **data, size_t *size, fram_error *error)
 {
-    int descriptor;
-    uint64_t length;
+    int descriptor = -1;
+    uint64_t length = 0;
     fram_status status = file_open_regular(path, limit, &descriptor, &length, error);
     if (status != FRAM_OK)
         return status;

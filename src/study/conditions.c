@@ -236,7 +236,10 @@ static fram_status draw_latin(const study_source *r, const latin_key *keys, rand
 {
     for (int32_t c = 0; c < r->out->conditions; c++) {
         for (int32_t k = 0; k < r->out->keys.count; k++) {
-            double at = (keys[k].stratum.data[c] + random_unit(&places[k])) / r->out->conditions;
+            const int32_t *stratum = keys[k].stratum.data;
+            if (!stratum)
+                return error_memory(r->error);
+            double at = (stratum[c] + random_unit(&places[k])) / r->out->conditions;
             char text[32];
             /* Nine digits are read well, and stay within the stratum. */
             snprintf(text, sizeof text, "%.9g", keys[k].lo + at * (keys[k].hi - keys[k].lo));

@@ -42,7 +42,8 @@ static void summarise(const study_folder *f, const condition_rows *conditions, t
     for (int32_t c = 0; c < f->s->conditions; c++) {
         for (int32_t i = 0; i < conditions[c].rows.count; i++) {
             add_condition(f, c, b);
-            text_format(f->ctx, b, ",%lld", (long long)(f->s->seeds.first + i));
+            int64_t seed = f->s->seeds.first + i;
+            text_format(f->ctx, b, ",%lld", (long long)seed);
             run_row_line(f->ctx, &conditions[c].rows.data[i], b);
         }
     }

@@ -400,7 +400,7 @@ START_TEST(a_name_is_found_or_is_not)
     enum { NAMES = 100 };
     ck_assert(table_resize(&r.ctx, &r.memory, &contact_memory_table_info, NAMES));
     for (int i = 0; i < NAMES; i++)
-        r.memory.key[i] = (uint64_t)(3 * i + 1);
+        r.memory.key[i] = (uint64_t)i * 3 + 1;
     int32_t hints[] = {0, 7, 50, NAMES - 1, NAMES};
     for (int h = 0; h < 5; h++) {
         for (uint64_t key = 0; key < 3 * NAMES + 3; key++) {
