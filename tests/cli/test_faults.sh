@@ -98,7 +98,9 @@ rm -f target.html.new .target.html.new
 touch open/run.json.0123456789abcdef.new open/checkpoint-000000000050.fram.0123456789abcdef.new
 touch open/report.html.0123456789abcdef.new open/mine.new
 expect 0 "$FRAM" resume open -q
-if [ ! -e open/report.html.0123456789abcdef.new ] || [ ! -e open/mine.new ]; then fail "a run took files that are not its own"; fi
+if [ ! -e open/report.html.0123456789abcdef.new ] || [ ! -e open/mine.new ]; then
+    fail "a run took files that are not its own"
+fi
 rm open/report.html.0123456789abcdef.new open/mine.new
 [ -z "$(find . -name '*.new')" ] || fail "temporary files are left: $(find . -name '*.new')"
 
