@@ -89,11 +89,9 @@ START_TEST(a_channel_as_wide_as_the_hull)
         scene_steps(&k, 1);
         for (int32_t e = 0; e < k.w.scratch.fractures.count; e++) {
             const fracture_event *f = &k.w.scratch.fractures.data[e];
-            if (f->kind != FRACTURE_BENDING)
+            if (f->kind != FRACTURE_BENDING || f->parent_area < 100)
                 continue;
-            radius = fmax(radius, f->crack_length); /* small remnants of tiles break, too */
-            if (f->parent_area < 100)
-                continue;
+            radius = fmax(radius, f->crack_length);
             sum += f->crack_length;
             breaks++;
         }
