@@ -1,8 +1,8 @@
 #include "results/playback_chunks.h"
 
+#include "io/folder.h"
 #include "io/temporary.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,12 +42,16 @@ static fram_status refuse_foreign(const char *folder, fram_error *error)
 {
     DIR *dir = opendir(folder);
     char other[64] = "";
-    for (struct dirent *e = dir ? readdir(dir) : NULL; e && !other[0]; e = readdir(dir)) {
-        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0 && !is_chunk(e->d_name))
-            snprintf(other, sizeof other, "%.60s", e->d_name);
+    if (!dir)
+        return FRAM_OK;
+    int failure = 0;
+    for (const char *name = folder_next(dir, &failure); name && !other[0]; name = folder_next(dir, &failure)) {
+        if (!is_chunk(name))
+            snprintf(other, sizeof other, "%.60s", name);
     }
-    if (dir)
-        closedir(dir);
+    closedir(dir);
+    if (failure)
+        return file_error(error, folder, "list the folder", failure);
     if (other[0])
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
                          "the frames of the page go into this folder, where %s is: move that away, or give the page "

@@ -26,6 +26,7 @@ const double *report_scaled(report *r, const char *channel, double factor, int32
     double *to = memory_array(r->ctx, (size_t)rows, sizeof *to);
     if (!to || !array_push(r->ctx, &r->kept, to)) {
         memory_free(r->ctx, to);
+        r->page.text.failed = true; /* a page that lacks a chart without saying so is worse than none */
         return NULL;
     }
     for (int32_t i = 0; i < rows; i++)

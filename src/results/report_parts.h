@@ -26,7 +26,8 @@ load_unit load_unit_for(double newton);
 /* The unit of the run's largest load. */
 load_unit report_load_unit(const report *r);
 
-/* A channel times a factor, from row `first` on; NULL without the channel or memory. */
+/* A channel times a factor, from row `first` on; NULL without the channel, and without memory: then the page
+   fails as a whole. */
 const double *report_scaled(report *r, const char *channel, double factor, int32_t first);
 typedef struct report_line {
     const char *channel, *name;

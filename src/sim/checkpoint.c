@@ -1,11 +1,11 @@
 #include "sim/checkpoint.h"
 
 #include "fram/version.h"
+#include "io/folder.h"
 #include "io/path.h"
 #include "io/table_file.h"
 #include "model/world_check.h"
 
-#include <dirent.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,37 +46,40 @@ static int newest_first(const void *a, const void *b)
 }
 
 /* Steps of all checkpoints of a folder, newest first. */
-static bool list_steps(context *ctx, const char *folder, step_array *steps)
+static fram_status list_steps(context *ctx, const char *folder, step_array *steps, fram_error *error)
 {
     DIR *dir = opendir(folder);
     if (!dir)
-        return true;
+        return FRAM_OK;
     bool good = true;
-    for (struct dirent *e = readdir(dir); e && good; e = readdir(dir)) {
-        int64_t step = step_of_name(e->d_name);
+    int failure = 0;
+    for (const char *name = folder_next(dir, &failure); name && good; name = folder_next(dir, &failure)) {
+        int64_t step = step_of_name(name);
         if (step >= 0)
             good = array_push(ctx, steps, step);
     }
     closedir(dir);
     if (steps->count > 1)
         qsort(steps->data, (size_t)steps->count, sizeof *steps->data, newest_first);
-    return good;
+    if (!good)
+        return error_memory(error);
+    return failure ? file_error(error, folder, "list the folder", failure) : FRAM_OK;
 }
 
-/* false: no memory. */
+/* What cannot be listed or removed stays, and harms nobody.  false: no memory. */
 static bool remove_from(context *ctx, const char *folder, int32_t keep)
 {
     step_array steps = {0};
     char path[PATH_ROOM];
-    bool good = list_steps(ctx, folder, &steps);
-    if (good) {
+    fram_status listed = list_steps(ctx, folder, &steps, NULL);
+    if (listed == FRAM_OK) {
         for (int32_t i = keep; i < steps.count; i++) {
             if (checkpoint_path(folder, steps.data[i], path, NULL) == FRAM_OK)
                 (void)unlink(path);
         }
     }
     array_free(ctx, &steps);
-    return good;
+    return listed != FRAM_ERROR_MEMORY;
 }
 
 void checkpoint_remove_all(context *ctx, const char *folder) { (void)remove_from(ctx, folder, 0); }
@@ -187,11 +190,12 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, const model
                                    fram_error *error)
 {
     step_array steps = {0};
-    if (!list_steps(ctx, folder, &steps)) {
+    fram_status status = list_steps(ctx, folder, &steps, error);
+    if (status != FRAM_OK) {
         array_free(ctx, &steps);
-        return error_memory(error);
+        return status;
     }
-    fram_status status =
+    status =
         error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
     for (int32_t i = 0; i < steps.count; i++) {
         char path[PATH_ROOM];

@@ -4,13 +4,13 @@
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/path.h"
 #include "io/scenario_file.h"
 #include "io/temporary.h"
 #include "model/scenario_schema.h"
 #include "sim/checkpoint.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -52,12 +52,10 @@ static fram_status is_empty(const char *folder, bool *empty, fram_error *error)
         return FRAM_OK;
     if (!dir)
         return file_error(error, folder, "open the folder", errno);
-    for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
-        if (strcmp(e->d_name, ".") != 0 && strcmp(e->d_name, "..") != 0)
-            *empty = false;
-    }
+    int failure;
+    *empty = !folder_next(dir, &failure);
     closedir(dir);
-    return FRAM_OK;
+    return failure ? file_error(error, folder, "list the folder", failure) : FRAM_OK;
 }
 
 /* The run's scenario is read again, by a resume and by reports, and its path is a text of a scenario. */
@@ -139,9 +137,10 @@ static void remove_leftovers(const char *folder)
     DIR *dir = opendir(folder);
     if (!dir)
         return;
-    for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
-        if (is_leftover(e->d_name))
-            (void)unlinkat(dirfd(dir), e->d_name, 0);
+    int failure; /* what is not listed stays, and harms nobody */
+    for (const char *name = folder_next(dir, &failure); name; name = folder_next(dir, &failure)) {
+        if (is_leftover(name))
+            (void)unlinkat(dirfd(dir), name, 0);
     }
     closedir(dir);
 }

@@ -3,11 +3,11 @@
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
+#include "io/folder.h"
 #include "io/scenario_file.h"
 #include "sim/run_folder.h"
 #include "study/study_file.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -163,12 +163,13 @@ static void remove_but(context *ctx, const char *folder, const char *const *kept
     DIR *dir = opendir(folder);
     if (!dir)
         return;
-    for (struct dirent *e = readdir(dir); e; e = readdir(dir)) {
-        bool keep = strcmp(e->d_name, ".") == 0 || strcmp(e->d_name, "..") == 0;
+    int failure; /* what is not listed stays */
+    for (const char *name = folder_next(dir, &failure); name; name = folder_next(dir, &failure)) {
+        bool keep = false;
         for (int32_t i = 0; i < count; i++)
-            keep = keep || strcmp(e->d_name, kept[i]) == 0;
+            keep = keep || strcmp(name, kept[i]) == 0;
         text_buffer path = {0};
-        text_format(ctx, &path, "%s/%s", folder, e->d_name);
+        text_format(ctx, &path, "%s/%s", folder, name);
         struct stat state;
         if (!keep && !path.failed && lstat(path.data, &state) == 0) {
             /* Pictures and chunks of a page stand in folders of their own. */
