@@ -58,13 +58,12 @@ static fram_status choose_isa(context *inner, const char *name, fram_error *erro
         if (strcmp(name, isa_name(i)) != 0)
             continue;
         if (i > isa_best())
-            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--isa",
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "isa",
                              "%s is not available on this processor; it has up to %s", name, isa_name(isa_best()));
         inner->isa = i;
         return FRAM_OK;
     }
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--isa", "expected baseline, avx2 or avx512, found \"%s\"",
-                     name);
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "isa", "expected baseline, avx2 or avx512, found \"%s\"", name);
 }
 
 fram_status fram_context_create(const fram_context_definition *definition, fram_context **out, fram_error *error)

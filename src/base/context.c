@@ -94,7 +94,7 @@ void log_write(context *ctx, log_level level, const char *format, ...)
 
 fram_status work_continue(context *ctx, const char *what, double done, double total, fram_error *error)
 {
-    if (ctx->stop && *ctx->stop)
+    if (stop_is_asked(ctx->stop))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted while %s; nothing was written", what);
     if (ctx->work)
         ctx->work(ctx->work_user, what, done, total);

@@ -53,6 +53,13 @@ char *memory_string(context *ctx, const char *text);
 /* printf to the log sink when level <= verbosity. */
 void log_write(context *ctx, log_level level, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* Whether a caller's flag is set; NULL: no.  Read as one indivisible int, so that another thread may set it meanwhile
+   as fram_stop does. */
+static inline bool stop_is_asked(const volatile int *stop)
+{
+    return stop && __atomic_load_n(stop, __ATOMIC_RELAXED) != 0;
+}
+
 /* Asked again and again by what may take longer than a second and is no time step, from the caller's thread: tells how
    far it is; FRAM_INTERRUPTED when the stop flag is set. */
 fram_status work_continue(context *ctx, const char *what, double done, double total, fram_error *error);

@@ -21,6 +21,29 @@ int exit_code_of(fram_status status)
     }
 }
 
+/* The library names what its caller gave by the names of its headers; here they were options. */
+static const struct {
+    const char *key, *option;
+} option_names[] = {
+    {"folder", "--output"},       {"until", "--until"},           {"isa", "--isa"},
+    {"time", "--time"},           {"directions", "--directions"}, {"speed_step", "--speed-step"},
+    {"allowance", "--allowance"}, {"measure", "--measure"},
+};
+
+static fram_error in_words_of_command(const fram_error *error)
+{
+    fram_error e = *error;
+    for (size_t i = 0; i < sizeof option_names / sizeof *option_names; i++) {
+        if (strcmp(error->key, option_names[i].key) == 0)
+            snprintf(e.key, sizeof e.key, "%s", option_names[i].option);
+    }
+    if (strcmp(error->file, "(override)") == 0)
+        snprintf(e.file, sizeof e.file, "--set");
+    if (error->status == FRAM_ERROR_USAGE && strcmp(error->key, "folder") == 0 && error->file[0])
+        snprintf(e.message, sizeof e.message, "%.480s (--force)", error->message);
+    return e;
+}
+
 static void print_error_for_people(const fram_error *e)
 {
     fputs("fram: ", stderr);
@@ -39,6 +62,8 @@ static void print_error_for_people(const fram_error *e)
 
 int answer_error(const common_options *common, const fram_error *error)
 {
+    const fram_error told = in_words_of_command(error);
+    error = &told;
     print_error_for_people(error);
     if (common->json) {
         json j = json_begin();

@@ -30,8 +30,12 @@ static void print_result(const common_options *common, const char *folder, const
 static int finish(const common_options *common, fram_status status, const fram_error *error, const char *folder,
                   const fram_run_result *result)
 {
-    if (status != FRAM_OK)
-        return answer_error(common, error);
+    if (status != FRAM_OK) {
+        int code = answer_error(common, error);
+        if (status == FRAM_INTERRUPTED && result->steps > 0)
+            fprintf(stderr, "continue with: fram resume %s\n", folder);
+        return code;
+    }
     print_result(common, folder, result);
     return EXIT_GOOD;
 }

@@ -37,7 +37,8 @@ static fram_status refuse(const reader *r, const value_place *place, const char 
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    error_set(r->error, FRAM_ERROR_INPUT, place->override ? "--set" : r->file, place->line, place->key, "%s", message);
+    error_set(r->error, FRAM_ERROR_INPUT, place->override ? SCENARIO_OVERRIDE : r->file, place->line, place->key, "%s",
+              message);
     if (r->error)
         r->error->column = place->column;
     return FRAM_ERROR_INPUT;

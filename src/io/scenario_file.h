@@ -13,7 +13,7 @@
 enum { SCENARIO_FILE_LIMIT = 1 << 20, SCENARIO_DEPTH_LIMIT = 16 };
 
 /* Values given over those of the file, each "key=value" ("run.seed=7", "ice.floes[0].x=3"), the last one of a key wins.
-   In errors their file is "--set". */
+   In errors their file is SCENARIO_OVERRIDE. */
 typedef struct scenario_overrides {
     const char *const *items;
     int32_t count;

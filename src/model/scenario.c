@@ -100,7 +100,7 @@ void scenario_locate(const scenario *s, fram_error *error)
         *end = '\0';
         place = scenario_given(s, key);
     }
-    const char *file = place && place->override ? "--set" : s->file;
+    const char *file = place && place->override ? SCENARIO_OVERRIDE : s->file;
     snprintf(error->file, sizeof error->file, "%.*s", (int)sizeof error->file - 1, file);
     error->line = place ? place->line : 0;
     error->column = place ? place->column : 0;

@@ -59,6 +59,9 @@ typedef struct scenario_place {
     bool override; /* given on the command line, not in the file */
 } scenario_place;
 
+/* What stands for the file in errors of a value that was given over those of the file. */
+#define SCENARIO_OVERRIDE "(override)"
+
 typedef struct scenario {
     SCENARIO_KEYS(SCENARIO_MEMBER)
 

@@ -60,15 +60,13 @@ fram_status replay_moment_at(replay *r, double time, replay_moment *out, fram_er
     bool found = true;
     fram_status status = FRAM_OK;
     if (r->has_next && r->frame.poses.count == 0 && time < r->next.time - slack)
-        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "--time", "the record begins at %g s",
-                         r->next.time);
+        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "time", "the record begins at %g s", r->next.time);
     while (status == FRAM_OK && r->has_next && r->next.time <= time + slack)
         status = replay_next(r, &found, error);
     if (status != FRAM_OK)
         return status;
     if (!r->has_next && !(time <= r->frame.time + slack))
-        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "--time", "the record ends at %g s",
-                         r->frame.time);
+        return error_set(error, FRAM_ERROR_INPUT, r->reader.path, 0, "time", "the record ends at %g s", r->frame.time);
     double span = r->has_next ? r->next.time - r->frame.time : 0;
     return find_plan(r, span > 0 ? fmin(fmax((time - r->frame.time) / span, 0), 1) : 0, out, error);
 }

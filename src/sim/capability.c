@@ -142,7 +142,7 @@ static void list_failures(const world *w, capability *c)
 
 fram_status capability_go_on(const capability *c, fram_error *error)
 {
-    if (!c->options.stop || !*c->options.stop)
+    if (!stop_is_asked(c->options.stop))
         return FRAM_OK;
     return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted; nothing was written");
 }
@@ -212,25 +212,26 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
     }
     double speeds = o->speed_step > 0 ? o->speed_most / o->speed_step : 0;
     if (o->directions < 4 || o->directions > CAPABILITY_DIRECTIONS)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--directions", "expected 4 to %d, found %d",
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "directions", "expected 4 to %d, found %d",
                          (int)CAPABILITY_DIRECTIONS, (int)o->directions);
     if (!(o->speed_step > 0 && speeds >= 0.999 && speeds < CAPABILITY_SPEEDS + 0.5 &&
           fabs(speeds - floor(speeds + 0.5)) < 1e-6 * speeds))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--speed-step",
-                         "expected a positive step that divides --speed-most into 1 to %d speeds, found %g and %g m/s",
-                         (int)CAPABILITY_SPEEDS, o->speed_step, o->speed_most);
+        return error_set(
+            error, FRAM_ERROR_USAGE, NULL, 0, "speed_step",
+            "expected a positive step that divides the largest speed into 1 to %d speeds, found %g and %g m/s",
+            (int)CAPABILITY_SPEEDS, o->speed_step, o->speed_most);
     if (!(o->allowance >= 1 && o->line_safety >= 1 && o->line_safety_damaged >= 1 && o->allowance < 100 &&
           o->line_safety < 100 && o->line_safety_damaged < 100))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--allowance",
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "allowance",
                          "expected an allowance and safety factors from 1 to 100, found %g, %g and %g", o->allowance,
                          o->line_safety, o->line_safety_damaged);
     if (!(o->measure >= s->run.time_step && o->measure <= 1e6))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--measure", "expected a time step to 1e6 seconds, found %g",
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "measure", "expected a time step to 1e6 seconds, found %g",
                          o->measure);
     if (s->environment.wind_file[0]) {
         error_set(error, FRAM_ERROR_INPUT, NULL, 0, "environment.wind_file",
-                  "expected none, since the wind of a capability plot does not change: leave the file out (--set "
-                  "environment.wind_file=) and give environment.wind_speed");
+                  "expected none, since the wind of a capability plot does not change: leave the file out (an empty "
+                  "environment.wind_file) and give environment.wind_speed");
         scenario_locate(s, error);
         return FRAM_ERROR_INPUT;
     }

@@ -65,7 +65,7 @@ static fram_status check_length(const char *folder, fram_error *error)
     size_t most = SCENARIO_TEXT_SIZE - sizeof name;
     if (strlen(folder) <= most)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, folder, 0, "--output", "expected a name of at most %zu bytes, found %zu",
+    return error_set(error, FRAM_ERROR_INPUT, folder, 0, "folder", "expected a name of at most %zu bytes, found %zu",
                      most, strlen(folder));
 }
 
@@ -98,8 +98,8 @@ fram_status run_folder_check(const char *folder, bool force, fram_error *error)
         status = can_be_written(folder, error);
     if (status != FRAM_OK || empty || force)
         return status;
-    return error_set(error, FRAM_ERROR_USAGE, folder, 0, "--output",
-                     "the folder is not empty; name another one, or give --force to overwrite the results in it");
+    return error_set(error, FRAM_ERROR_USAGE, folder, 0, "folder",
+                     "the folder is not empty; name another one, or allow that the results in it are overwritten");
 }
 
 /* Results that a new run may not write, or only at its end: next to its other files they would be taken for its own. */

@@ -238,7 +238,7 @@ static const char *remedy_of(const world *w, int32_t body)
     if (is_touched(w, body))
         return "contacts act on it; a smaller run.time_step may help";
     return "nothing touches it, so that its own forces did it: look at its mass, radii of gyration and centre of "
-           "gravity, at lines, thrusters and coefficients, and at what fram check says of them";
+           "gravity, at lines, thrusters and coefficients, and at the warnings that the notes of the scenario give";
 }
 
 static fram_status refuse_state(const world *w, int32_t body, const char *what, fram_error *error)

@@ -151,7 +151,7 @@ static fram_status read_root(const study_source *r)
 /* An error in a value that the study gave, at its place in the study file. */
 static void place_error(const study *s, int32_t condition, fram_error *error)
 {
-    if (!error || strcmp(error->file, "--set") != 0)
+    if (!error || strcmp(error->file, SCENARIO_OVERRIDE) != 0)
         return;
     int line = s->keys_line;
     for (int32_t i = 0; i < s->set.count; i++)

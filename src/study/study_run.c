@@ -229,7 +229,7 @@ static void show_progress(const study_work *w)
         w->options->progress(w->options->progress_user, &p);
 }
 
-static bool asked_to_stop(const study_work *w) { return w->options->stop && *w->options->stop; }
+static bool asked_to_stop(const study_work *w) { return stop_is_asked(w->options->stop); }
 
 static fram_status work_loop(study_work *w, fram_error *error)
 {

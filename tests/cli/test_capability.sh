@@ -26,7 +26,7 @@ esac
 expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula
 says '--force' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --speed-step 0.3
-says 'divides --speed-most' err
+says '--speed-step: expected a positive step that divides the largest speed' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --set "environment.wind_file=$FRAM_SOURCE/scenes/drift_turning.csv"
 says 'environment.wind_file' err
 expect 2 "$FRAM" capability "$scene" -o "$scratch/b" --formula --set ice.source=level --set domain.boundary=open

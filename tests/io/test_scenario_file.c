@@ -346,7 +346,7 @@ START_TEST(bad_overrides_are_refused)
         scenario s;
         fram_status status = parse_text(example, &overrides, &s);
         ck_assert_msg(status == FRAM_ERROR_INPUT, "%s: status %d", cases[i].item, (int)status);
-        ck_assert_str_eq(error.file, "--set");
+        ck_assert_str_eq(error.file, SCENARIO_OVERRIDE);
         ck_assert_int_eq(error.line, 0);
         ck_assert_msg(strcmp(error.key, cases[i].key) == 0, "%s: key %s", cases[i].item, error.key);
         ck_assert_msg(strstr(error.message, cases[i].message) != NULL, "%s: %s", cases[i].item, error.message);

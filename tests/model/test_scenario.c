@@ -284,7 +284,7 @@ START_TEST(errors_find_their_place)
     put(&ctx, &s, "vessel.hull.beam", 0, true);
     error_set(&error, FRAM_ERROR_INPUT, NULL, 0, "vessel.hull.beam", "overridden");
     scenario_locate(&s, &error);
-    ck_assert_str_eq(error.file, "--set");
+    ck_assert_str_eq(error.file, SCENARIO_OVERRIDE);
     scenario_locate(&s, NULL);
     scenario_free(&ctx, &s);
 }

@@ -1,0 +1,338 @@
+#include "sim/recording.h"
+
+#include "base/pool.h"
+#include "io/atomic_file.h"
+#include "io/scenario_file.h"
+#include "sim/pictures.h"
+#include "sim/run_folder.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+double wall_clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int64_t step_at(double time, double time_step) { return (int64_t)floor(time / time_step + 0.5); }
+
+static fram_status end_checkpoint(recording *r, fram_error *error)
+{
+    return checkpoint_end(r->ctx, r->folder, &r->checkpoint, error);
+}
+
+/* The state of now; the one before is on the disk first. */
+static fram_status write_checkpoint(recording *r, fram_error *error)
+{
+    fram_status status = end_checkpoint(r, error);
+    if (status != FRAM_OK)
+        return status;
+    file_writer *streams[RECORDER_STREAMS];
+    recorder_streams(&r->recorder, streams);
+    recorder_lengths lengths = recorder_lengths_of(&r->recorder);
+    checkpoint_note note = {.series_length = lengths.series,
+                            .record_length = lengths.record,
+                            .fractures_length = lengths.fractures,
+                            .inputs = r->inputs.data};
+    memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
+    return checkpoint_begin(r->ctx, r->folder, r->w, &note, streams, RECORDER_STREAMS, &r->checkpoint, error);
+}
+
+static fram_status write_summary(recording *r, const char *state, const char *message, fram_error *error)
+{
+    run_summary summary = {.status = state,
+                           .message = message,
+                           .inputs = r->inputs.data,
+                           .threads = context_threads(r->ctx),
+                           .wall = wall_clock() - r->started,
+                           .recording = r->record_time,
+                           .recording_end = r->end_time,
+                           .state_hash = world_hash(r->w)};
+    memcpy(summary.scenario_hash, r->hash, sizeof summary.scenario_hash);
+    return run_folder_write_summary(r->ctx, r->folder, r->s, r->w, &summary, error);
+}
+
+/* Pictures are a service: a build without cairo says so once and goes on. */
+static fram_status draw(recording *r, const char *name, fram_status (*picture)(recording *, const char *, fram_error *),
+                        fram_error *error)
+{
+    fram_error reason = {0};
+    fram_status status = picture(r, name, &reason);
+    if (status == FRAM_ERROR_UNSUPPORTED) {
+        log_write(r->ctx, LOG_WARNING, "%s is skipped: %s", name, reason.message);
+        return FRAM_OK;
+    }
+    if (status != FRAM_OK && error)
+        *error = reason;
+    return status;
+}
+
+static fram_status draw_plan(recording *r, const char *name, fram_error *error)
+{
+    char path[PATH_ROOM];
+    fram_status status = path_join(r->folder, name, path, error);
+    return status == FRAM_OK ? picture_plan(r->ctx, r->s, r->w, path, error) : status;
+}
+
+/* Digits of the time in a picture's name: before the point, and behind it at least and at most. */
+enum { PICTURE_DIGITS = 6, PICTURE_DECIMALS = 2, PICTURE_MOST_DECIMALS = 12 };
+
+/* As many that pictures `interval` seconds apart have names of their own. */
+static int picture_decimals(double interval)
+{
+    int decimals = PICTURE_DECIMALS;
+    for (double step = 0.01; step > interval * (1 + 1e-9) && decimals < PICTURE_MOST_DECIMALS; step /= 10)
+        decimals++;
+    return decimals;
+}
+
+static fram_status draw_numbered_plan(recording *r, fram_error *error)
+{
+    char name[64], folder[PATH_ROOM];
+    double dt = r->s->run.time_step;
+    int decimals = picture_decimals((double)r->picture_every * dt);
+    fram_status status = path_join(r->folder, "pictures", folder, error);
+    if (status != FRAM_OK)
+        return status;
+    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
+        return file_error(error, folder, "make the folder", errno);
+    snprintf(name, sizeof name, "pictures/plan-%0*.*f.png", PICTURE_DIGITS + 1 + decimals, decimals,
+             r->w->clock.time[0]);
+    return draw(r, name, draw_plan, error);
+}
+
+static fram_status write_what_is_due(recording *r, double step_wall, fram_error *error)
+{
+    int64_t step = r->w->clock.step[0];
+    fram_status status = recorder_step(&r->recorder, r->w, step_wall, error);
+    if (status == FRAM_OK && r->picture_every > 0 && step % r->picture_every == 0)
+        status = draw_numbered_plan(r, error);
+    if (status == FRAM_OK && r->checkpoint_every > 0 && step % r->checkpoint_every == 0 && step < r->stop_step)
+        status = write_checkpoint(r, error);
+    return status;
+}
+
+/* The state as it went wrong; the last good checkpoint stays. */
+static void leave_state(recording *r)
+{
+    checkpoint_note note = {.inputs = r->inputs.data};
+    memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
+    (void)end_checkpoint(r, NULL);
+    (void)recorder_flush(&r->recorder, NULL);
+    (void)checkpoint_write_failed(r->ctx, r->folder, r->w, &note, NULL);
+}
+
+/* Checkpoint, pictures and figures of the end. */
+static fram_status write_end(recording *r, fram_error *error)
+{
+    double began = wall_clock();
+    fram_status status = write_checkpoint(r, error);
+    if (status == FRAM_OK)
+        status = draw(r, "plan.png", draw_plan, error);
+    const world *w = r->w;
+    const station_outcome station = {w->clock.time[0], &w->lines, &w->thrusters, &w->events};
+    if (status == FRAM_OK && r->finish)
+        status = r->finish(r->ctx, r->s, &station, r->folder, error);
+    if (status == FRAM_OK)
+        status = end_checkpoint(r, error);
+    r->end_time = wall_clock() - began;
+    r->record_time += r->end_time;
+    return status;
+}
+
+/* A folder that was taken away while the run went on: its files are written, and nobody finds them. */
+static fram_status check_streams(recording *r, fram_error *error)
+{
+    file_writer *streams[RECORDER_STREAMS];
+    recorder_streams(&r->recorder, streams);
+    for (int i = 0; i < RECORDER_STREAMS; i++) {
+        if (!file_is_in_place(streams[i]))
+            return error_set(error, FRAM_ERROR_IO, streams[i]->path, 0, NULL,
+                             "the file was removed or replaced while the run wrote it; the results are lost");
+    }
+    return FRAM_OK;
+}
+
+/* A file that cannot be written while a run goes on is no fault of what was given to it. */
+static fram_status as_failure(fram_status status, fram_error *error)
+{
+    if (status != FRAM_ERROR_INPUT && status != FRAM_ERROR_USAGE)
+        return status;
+    if (error)
+        error->status = FRAM_ERROR_IO;
+    return FRAM_ERROR_IO;
+}
+
+/* How the run stands, last of all: whatever fails before, run.json does not stay at "running".  One that cannot be
+   replaced is removed, which may make the room that it takes; that memory ran out is told all the same. */
+static fram_status end_summary(recording *r, const char *state, const char *message, fram_error *error)
+{
+    fram_status status = write_summary(r, state, message, error);
+    if (status == FRAM_OK)
+        return FRAM_OK;
+    char path[PATH_ROOM];
+    if (path_join(r->folder, "run.json", path, NULL) == FRAM_OK)
+        (void)unlink(path);
+    bool replaced = write_summary(r, state, message, NULL) == FRAM_OK;
+    return replaced && status != FRAM_ERROR_MEMORY ? FRAM_OK : status;
+}
+
+static fram_status identify(recording *r, fram_error *error)
+{
+    fram_status status = scenario_hash(r->ctx, r->s, r->hash, error);
+    return status == FRAM_OK ? run_folder_inputs(r->ctx, r->s, &r->inputs, error) : status;
+}
+
+static fram_status write_scenario(recording *r, fram_error *error)
+{
+    const scenario_print_options options = {.comments = true, .absolute_paths = true};
+    char path[PATH_ROOM];
+    text_buffer text = {0};
+    fram_status status = path_join(r->folder, "scenario.yaml", path, error);
+    if (status == FRAM_OK)
+        status = scenario_print(r->ctx, r->s, &options, &text, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(r->ctx, path, text.data, (size_t)text.count, error);
+    text_free(r->ctx, &text);
+    return status;
+}
+
+/* The record's scenario is for programs: without comments. */
+static fram_status start_streams(recording *r, fram_error *error)
+{
+    const scenario_print_options options = {.absolute_paths = r->with_paths, .names_only = !r->with_paths};
+    text_buffer text = {0};
+    fram_status status = scenario_print(r->ctx, r->s, &options, &text, error);
+    if (status == FRAM_OK)
+        status = recorder_create(r->ctx, r->s, r->folder, text.data, &r->recorder, error);
+    text_free(r->ctx, &text);
+    if (status != FRAM_OK)
+        return status;
+    r->open = true;
+    status = recorder_step(&r->recorder, r->w, 0, error);
+    return status == FRAM_OK ? write_summary(r, "running", NULL, error) : status;
+}
+
+/* ---- from outside ---- */
+
+fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error)
+{
+    double dt = s->run.time_step;
+    *r = (recording){.ctx = ctx, .s = s, .started = wall_clock(), .lock = -1};
+    if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
+        return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
+    r->end_step = r->stop_step = step_at(s->run.duration, dt);
+    r->checkpoint_every = interval_steps(s->output.checkpoint_interval, dt);
+    r->picture_every = interval_steps(s->output.picture_interval, dt);
+    return FRAM_OK;
+}
+
+fram_status recording_prepare(recording *r, fram_error *error)
+{
+    fram_status status = run_folder_check(r->folder, r->force, error);
+    return status == FRAM_OK ? identify(r, error) : status;
+}
+
+fram_status recording_prepare_again(recording *r, fram_error *error)
+{
+    fram_status status = run_folder_lock(r->folder, &r->lock, error);
+    return status == FRAM_OK ? identify(r, error) : status;
+}
+
+fram_status recording_begin(recording *r, world *w, fram_error *error)
+{
+    double began = wall_clock();
+    r->w = w;
+    fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, &r->lock, error);
+    if (status == FRAM_OK)
+        status = write_scenario(r, error);
+    if (status == FRAM_OK)
+        status = start_streams(r, error);
+    r->record_time += wall_clock() - began;
+    return status;
+}
+
+fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error)
+{
+    checkpoint_note note = {.inputs = r->inputs.data};
+    memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
+    fram_status status = checkpoint_read_newest(r->ctx, r->folder, m, w, &note, error);
+    *lengths = (recorder_lengths){note.series_length, note.record_length, note.fractures_length};
+    r->w = w;
+    return status;
+}
+
+fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error)
+{
+    fram_status status = recorder_continue(r->ctx, r->s, r->folder, lengths, &r->recorder, error);
+    r->open = status == FRAM_OK;
+    return status;
+}
+
+fram_status recording_step(recording *r, double step_wall, fram_error *error)
+{
+    double began = wall_clock();
+    fram_status status = as_failure(write_what_is_due(r, step_wall, error), error);
+    r->record_time += wall_clock() - began;
+    return status;
+}
+
+fram_status recording_checkpoint(recording *r, fram_error *error)
+{
+    double began = wall_clock();
+    fram_status status = as_failure(write_checkpoint(r, error), error);
+    r->record_time += wall_clock() - began;
+    return status;
+}
+
+/* The first error is the one to report. */
+static fram_status write_and_close(recording *r, fram_error *error)
+{
+    fram_status status = check_streams(r, error);
+    if (status == FRAM_OK)
+        status = write_end(r, error);
+    (void)end_checkpoint(r, NULL); /* after another failure: its own is not the first */
+    if (status == FRAM_OK)
+        status = check_streams(r, error);
+    fram_status closed = recorder_close(&r->recorder, status == FRAM_OK ? error : NULL);
+    r->open = false;
+    return as_failure(status == FRAM_OK ? closed : status, error);
+}
+
+fram_status recording_end(recording *r, const char *state, fram_error *error)
+{
+    fram_error local = {0};
+    fram_status status = write_and_close(r, &local);
+    if (status == FRAM_OK)
+        status = as_failure(end_summary(r, state, NULL, &local), &local);
+    else
+        (void)end_summary(r, "failed", local.message, NULL);
+    if (status != FRAM_OK && error)
+        *error = local;
+    return status;
+}
+
+void recording_fail(recording *r, const char *message)
+{
+    leave_state(r);
+    (void)recorder_close(&r->recorder, NULL);
+    r->open = false;
+    (void)end_summary(r, "failed", message, NULL);
+}
+
+void recording_free(recording *r)
+{
+    (void)end_checkpoint(r, NULL);
+    if (r->open)
+        recorder_close(&r->recorder, NULL);
+    r->open = false;
+    run_folder_unlock(r->lock);
+    r->lock = -1;
+    text_free(r->ctx, &r->inputs);
+}

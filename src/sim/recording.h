@@ -1,0 +1,72 @@
+/* A world that is recorded: the folder of its run with time series, record, checkpoints, pictures and run.json, whoever
+   steps it: the loop of sim/run.h, or a program through the public interface.  What stands in the folder after the same
+   steps is the same, but for wall times. */
+#ifndef SIM_RECORDING_H
+#define SIM_RECORDING_H
+
+#include "io/late_commit.h"
+#include "io/path.h"
+#include "io/text_buffer.h"
+#include "model/scenario.h"
+#include "model/world.h"
+#include "sim/checkpoint.h"
+#include "sim/recorder.h"
+#include "vessel/outcome.h"
+
+/* Makes what people read from the finished time series in the folder. */
+typedef fram_status (*recording_finish)(context *ctx, const scenario *s, const station_outcome *station,
+                                        const char *folder, fram_error *error);
+
+/* Stays where it is in memory between recording_prepare and recording_free. */
+typedef struct recording {
+    context *ctx;
+    const scenario *s;
+    world *w; /* from recording_begin or recording_read_state on */
+    char folder[PATH_ROOM];
+    bool force, with_paths;
+    recording_finish finish; /* may be NULL */
+    recorder recorder;
+    late_commit checkpoint; /* under way */
+    text_buffer inputs;
+    char hash[65];
+    double started;     /* wall clock [s] */
+    double record_time; /* for all that was written so far [s] */
+    double end_time;    /* of it at the end [s] */
+    int64_t end_step;   /* of the scenario */
+    int64_t stop_step;  /* of this call: a checkpoint that is due then is that of the end */
+    int64_t checkpoint_every, picture_every;
+    bool open;
+    int lock; /* on the folder, -1 */
+} recording;
+
+/* Wall clock, from no moment in particular [s]. */
+double wall_clock(void);
+/* The first step whose time is not before `time`, within rounding. */
+int64_t step_at(double time, double time_step);
+
+/* The names, and the schedule that follows from the scenario; nothing is opened or allocated.  FRAM_ERROR_INPUT for a
+   folder whose name is too long. */
+fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error);
+/* What can be told before the world is made: that the folder may be written (a USAGE error when it is not empty,
+   without `force`), and what the inputs are.  Nothing is touched. */
+fram_status recording_prepare(recording *r, fram_error *error);
+/* The folder's lock and the inputs, to continue what stands in it. */
+fram_status recording_prepare_again(recording *r, fram_error *error);
+/* Folder and streams of a world that stands where its recording begins, and the first frame where one is due. */
+fram_status recording_begin(recording *r, world *w, fram_error *error);
+/* The newest good checkpoint into an empty world; then the streams are cut to what they held then. */
+fram_status recording_read_state(recording *r, const model *m, world *w, recorder_lengths *lengths, fram_error *error);
+fram_status recording_continue(recording *r, const recorder_lengths *lengths, fram_error *error);
+/* After each step: streams, pictures and checkpoints when due.  step_wall: time that the step took [s]. */
+fram_status recording_step(recording *r, double step_wall, fram_error *error);
+/* A checkpoint of now. */
+fram_status recording_checkpoint(recording *r, fram_error *error);
+/* The end: the last checkpoint, pictures, results, run.json.  state: "finished", "stopped", "interrupted".  Whatever is
+   returned, the streams are closed; what could not be written is FRAM_ERROR_IO. */
+fram_status recording_end(recording *r, const char *state, fram_error *error);
+/* The end of a world that went wrong: its state as failed.fram, the last good checkpoint stays, run.json tells the
+   message. */
+void recording_fail(recording *r, const char *message);
+void recording_free(recording *r);
+
+#endif
