@@ -1,15 +1,11 @@
 /* What this build is made of; see build.h. */
 #include "base/build.h"
 
-#include "base/kernel.h"
-
 /* Each part is ", name version" when it is in, so that a list begins at its third character. */
 #ifdef FRAM_HAVE_CAIRO
 #define PART_CAIRO ", cairo " FRAM_HAVE_CAIRO
-#define LACK_CAIRO ""
 #else
 #define PART_CAIRO ""
-#define LACK_CAIRO ", cairo"
 #endif
 #ifdef FRAM_HAVE_GEOS
 #define PART_GEOS ", geos " FRAM_HAVE_GEOS
@@ -28,10 +24,8 @@
 #endif
 #ifdef FRAM_HAVE_NETCDF
 #define PART_NETCDF ", netcdf " FRAM_HAVE_NETCDF
-#define LACK_NETCDF ""
 #else
 #define PART_NETCDF ""
-#define LACK_NETCDF ", netcdf"
 #endif
 #ifdef FRAM_HAVE_NETTLE
 #define PART_NETTLE ", nettle " FRAM_HAVE_NETTLE
@@ -45,11 +39,8 @@
 #endif
 
 static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_LIBPNG PART_NETCDF PART_NETTLE PART_ZLIB;
-static const char lacks[] = LACK_CAIRO LACK_NETCDF;
 
 const char *build_parts(void) { return sizeof parts > 2 ? parts + 2 : "none"; }
-
-const char *build_lacks(void) { return sizeof lacks > 2 ? lacks + 2 : "none"; }
 
 const char *build_compiler(void)
 {
@@ -59,14 +50,5 @@ const char *build_compiler(void)
     return "gcc " __VERSION__;
 #else
     return "unknown compiler";
-#endif
-}
-
-const char *build_kernels(void)
-{
-#ifdef FRAM_KERNELS_X86
-    return "baseline avx2 avx512";
-#else
-    return "baseline";
 #endif
 }

@@ -6,11 +6,7 @@
 
 /* "geos 3.11.1, libfyaml 0.7.12, ...", in alphabetical order; "none" when nothing was found. */
 const char *build_parts(void);
-/* Optional parts that this build lacks, "cairo", or "none". */
-const char *build_lacks(void);
 /* The compiler, "gcc 12.2.0" or "clang 14.0.6". */
 const char *build_compiler(void);
-/* Instruction sets that kernels were compiled for, "baseline avx2 avx512" (see base/kernel.h). */
-const char *build_kernels(void);
 
 #endif

@@ -123,19 +123,3 @@ double real_cbrt(double x)
     y = scale_by_power(y, k + shift);
     return x < 0 ? -y : y;
 }
-
-double real_tanh(double x)
-{
-    double size = fabs(x);
-    if (!(size > 0x1p-28)) /* x^3/3 is below half a unit; NaN too */
-        return x;
-    if (size > 20) /* 2 exp(-40) is below half a unit */
-        return x < 0 ? -1 : 1;
-    /* tanh x = e / (e + 2), e = exp(2x) - 1 = (2^n - 1) + 2^n q */
-    int n;
-    wide q = exp_reduced(2 * size, 0, &n);
-    double power = power_of_two(n);
-    wide e = wide_add((wide){power - 1, 0}, (wide){power * q.hi, power * q.lo});
-    wide y = wide_divide(e, wide_add(e, (wide){2, 0}));
-    return x < 0 ? -(y.hi + y.lo) : y.hi + y.lo;
-}

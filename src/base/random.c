@@ -10,9 +10,6 @@
 #define PHILOX_WEYL_1 0xBB67AE85u
 enum { PHILOX_ROUNDS = 10 };
 
-/* |b| of a power law under which it is drawn as D^0: the formula for b loses eps/b, this one b log(hi/lo). */
-#define POWER_LAW_FLAT 1e-8
-
 void random_philox(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4])
 {
     uint32_t c0 = counter[0], c1 = counter[1], c2 = counter[2], c3 = counter[3];
@@ -80,14 +77,4 @@ double random_lognormal(random_stream *r, double mean, double deviation)
     double variation = deviation / mean;
     double variance = real_log(1 + variation * variation); /* of the logarithm */
     return mean * real_exp(sqrt(variance) * random_normal(r) - variance / 2);
-}
-
-double random_power_law(random_stream *r, double lo, double hi, double b)
-{
-    double u = random_unit(r), x;
-    if (fabs(b) < POWER_LAW_FLAT)
-        x = lo * real_pow(hi / lo, u);
-    else /* inverse of F(D) = (1 - (D/lo)^-b) / (1 - (hi/lo)^-b) */
-        x = lo * real_pow(1 - u * (1 - real_pow(lo / hi, b)), -1 / b);
-    return x < lo ? lo : x > hi ? hi : x; /* rounding only */
 }

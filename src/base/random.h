@@ -23,8 +23,6 @@ double random_uniform(random_stream *r, double lo, double hi); /* uniform in [lo
 double random_normal(random_stream *r);                        /* mean 0, standard deviation 1 */
 /* mean > 0 and deviation >= 0 are of the variable itself, not of its logarithm */
 double random_lognormal(random_stream *r, double mean, double deviation);
-/* N(>D) ~ D^-b truncated to 0 < lo <= D <= hi; any finite b, 0 is uniform in log D */
-double random_power_law(random_stream *r, double lo, double hi, double b);
 
 /* The generator itself: 128 bits from a 128-bit counter and a 64-bit key. */
 void random_philox(const uint32_t counter[4], const uint32_t key[2], uint32_t out[4]);

@@ -174,16 +174,6 @@ V8_INLINE v8 v8_load(const double *p)
     return x.whole;
 }
 
-/* p[0], p[2], .. p[14] and p[1], p[3], .. p[15] */
-V8_INLINE void v8_load_pairs(const double *p, v8 *even, v8 *odd)
-{
-    v8_parts x, y;
-    for (int i = 0; i < V8_PARTS; i++)
-        v8_part_load_pairs(p + 2 * V8_PART_LANES * i, &x.part[i], &y.part[i]);
-    *even = x.whole;
-    *odd = y.whole;
-}
-
 V8_INLINE void v8_store(double *p, v8 a)
 {
     v8_parts x = {.whole = a};
@@ -196,15 +186,6 @@ V8_INLINE v8 v8_gather(const double *base, const int32_t index[8])
 {
     return (v8){base[index[0]], base[index[1]], base[index[2]], base[index[3]],
                 base[index[4]], base[index[5]], base[index[6]], base[index[7]]};
-}
-
-/* base[index[i]] = lane i, in ascending order: the last of equal indices stays. */
-V8_INLINE void v8_scatter(double *base, const int32_t index[8], v8 a)
-{
-    double lane[V8_LANES];
-    v8_store(lane, a);
-    for (int i = 0; i < V8_LANES; i++)
-        base[index[i]] = lane[i];
 }
 
 /* Rows become columns: lane i of the new a[j] is lane j of the old a[i]. */
@@ -290,9 +271,6 @@ V8_INLINE v8 v8_max(v8 a, v8 b)
     return z.whole;
 }
 
-/* a confined to [lo, hi], lo <= hi; lo where a is NaN */
-V8_INLINE v8 v8_clamp(v8 a, v8 lo, v8 hi) { return v8_min(v8_max(a, lo), hi); }
-
 V8_INLINE v8 v8_abs(v8 a) { return (v8)((v8_mask)a & INT64_MAX); }
 
 V8_INLINE v8 v8_sqrt(v8 a)
@@ -305,21 +283,6 @@ V8_INLINE v8 v8_sqrt(v8 a)
 
 /* Sum of the lanes, always ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)) */
 V8_INLINE double v8_sum(v8 a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
-
-/* Least lane, by v8_min of i and i + 4, then i and i + 2, then i and i + 1. */
-V8_INLINE double v8_least(v8 a)
-{
-    v8_parts x = {.whole = a};
-#if defined(__AVX512F__)
-    return v8_part_least(x.part[0]);
-#elif defined(__AVX__)
-    return v8_part_least(v8_part_min(x.part[0], x.part[1]));
-#else
-    return v8_part_least(v8_part_min(v8_part_min(x.part[0], x.part[2]), v8_part_min(x.part[1], x.part[3])));
-#endif
-}
-
-V8_INLINE double v8_most(v8 a) { return -v8_least(-a); }
 
 /* ---- masks ---- */
 

@@ -19,12 +19,9 @@ double real_log(double x); /* NaN for x < 0 */
    is a double. */
 double real_pow(double base, double exponent);
 double real_cbrt(double x);
-double real_tanh(double x);
 
 double real_atan2(double y, double x); /* the angle of (x, y) in [-pi, pi]; 0 or +-pi for the origin, by signs */
-double real_atan(double x);
-double real_asin(double x); /* NaN for |x| > 1 */
-double real_acos(double x); /* NaN for |x| > 1 */
+double real_acos(double x);            /* NaN for |x| > 1 */
 
 static inline double radians(double degrees) { return degrees * (PI / 180); }
 static inline double degrees(double rad) { return rad * (180 / PI); }

@@ -221,8 +221,6 @@ double real_atan2(double y, double x)
     return signbit(y) ? -(a.hi + a.lo) : a.hi + a.lo;
 }
 
-double real_atan(double x) { return real_atan2(x, 1); }
-
 /* sqrt(1 - x^2), 0 <= x <= 1 */
 static wide cosine_of_sine(double x)
 {
@@ -232,17 +230,6 @@ static wide cosine_of_sine(double x)
         return (wide){0, 0};
     wide back = wide_product(root, root);
     return wide_sum_ordered(root, (((rest.hi - back.hi) - back.lo) + rest.lo) / (2 * root));
-}
-
-double real_asin(double x)
-{
-    double size = fabs(x);
-    if (size < TINY)
-        return x;
-    if (!(size <= 1))
-        return (double)NAN;
-    wide a = atan_quadrant((wide){size, 0}, cosine_of_sine(size));
-    return x < 0 ? -(a.hi + a.lo) : a.hi + a.lo;
 }
 
 double real_acos(double x)

@@ -86,11 +86,3 @@ void body_books_add(const body_table *b, int32_t slot, body_books *sum)
     sum->angular_momentum = vec3_add(sum->angular_momentum,
                                      vec3_add(vec3_cross(b->position[slot], momentum), mat3_mul_vec(r, spin_momentum)));
 }
-
-body_books body_books_of(const body_table *b)
-{
-    body_books sum = {0};
-    for (int32_t i = 0; i < b->count; i++)
-        body_books_add(b, i, &sum);
-    return sum;
-}

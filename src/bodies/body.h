@@ -61,14 +61,13 @@ static inline void wrench_add(wrench *w, vec3 centre, vec3 force, vec3 point)
     w->moment = vec3_add(w->moment, vec3_cross(vec3_sub(point, centre), force));
 }
 
-/* Books over all dynamic bodies: kinetic energy [J], momentum [N s], angular momentum about the global origin [N m s].
+/* Books over bodies: kinetic energy [J], momentum [N s], angular momentum about the global origin [N m s].
  */
 typedef struct body_books {
     double kinetic_energy;
     vec3 momentum, angular_momentum;
     double mass;
 } body_books;
-body_books body_books_of(const body_table *b);
 /* The kinetic energy of these books alone, to the same bits, in a third of the time [J]. */
 double body_kinetic_energy(const body_table *b);
 /* Adds one body's to the books, when it is dynamic. */

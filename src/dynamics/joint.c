@@ -11,14 +11,6 @@ TABLE_DEFINE(joint, JOINT_FIELDS)
 
 static quat quat_conjugate(quat q) { return (quat){q.w, -q.x, -q.y, -q.z}; }
 
-static int32_t free_row(context *ctx, joint_table *joints)
-{
-    for (int32_t i = 0; i < joints->count; i++)
-        if (joints->locked[i] == 0)
-            return i;
-    return table_resize(ctx, joints, &joint_table_info, joints->count + 1) ? joints->count - 1 : -1;
-}
-
 static void attach(const body_table *bodies, int32_t slot, vec3 point, quat axes, vec3 *anchor, quat *frame)
 {
     *anchor = slot < 0 ? point : body_to_local(bodies, slot, point);
@@ -28,23 +20,15 @@ static void attach(const body_table *bodies, int32_t slot, vec3 point, quat axes
 int32_t joint_create(context *ctx, joint_table *joints, const body_table *bodies, int32_t a, int32_t b, uint32_t locked,
                      vec3 point, quat axes)
 {
-    int32_t row = free_row(ctx, joints);
-    if (row < 0)
+    if (!table_resize(ctx, joints, &joint_table_info, joints->count + 1))
         return -1;
+    int32_t row = joints->count - 1;
     joints->a[row] = a;
     joints->b[row] = b;
     joints->locked[row] = locked;
     attach(bodies, a, point, axes, &joints->anchor_a[row], &joints->frame_a[row]);
     attach(bodies, b, point, axes, &joints->anchor_b[row], &joints->frame_b[row]);
     return row;
-}
-
-void joint_remove(joint_table *joints, int32_t row)
-{
-    for (int f = 0; f < joint_table_info.field_count; f++) {
-        const field_info *field = &joint_table_info.fields[f];
-        memset((char *)table_field(joints, field) + field->size * (size_t)row, 0, field->size);
-    }
 }
 
 /* ---- geometry of one joint ---- */
@@ -175,7 +159,7 @@ fram_status joint_rows_make(solver *s, double dt, const body_table *bodies, cons
         return error_memory(error);
     for (int32_t i = 0; i < joints->count; i++) {
         int32_t a = joints->a[i], b = joints->b[i];
-        if (joints->locked[i] == 0 || !is_live(bodies, a) || !is_live(bodies, b))
+        if (!is_live(bodies, a) || !is_live(bodies, b))
             continue;
         bool movable = (a >= 0 && body_is_dynamic(bodies, a)) || (b >= 0 && body_is_dynamic(bodies, b));
         if (!movable)

@@ -19,7 +19,7 @@ enum {
 #define JOINT_FIELDS(X)                                                                            \
     X(a, int32_t, FIELD_I32, 1, "1", "body slot that carries the frame; -1: the world")            \
     X(b, int32_t, FIELD_I32, 1, "1", "body slot")                                                  \
-    X(locked, uint32_t, FIELD_U32, 1, "1", "mask of locked motions; 0: free row")                  \
+    X(locked, uint32_t, FIELD_U32, 1, "1", "mask of locked motions")                               \
     X(anchor_a, vec3, FIELD_F64, 3, "m", "joint point in body a's frame")                          \
     X(anchor_b, vec3, FIELD_F64, 3, "m", "joint point in body b's frame")                          \
     X(frame_a, quat, FIELD_F64, 4, "1", "joint axes in body a's frame")                            \
@@ -39,7 +39,5 @@ TABLE_DECLARE(joint, JOINT_FIELDS)
    (global). Returns the row, -1 without memory. */
 int32_t joint_create(context *ctx, joint_table *joints, const body_table *bodies, int32_t a, int32_t b, uint32_t locked,
                      vec3 point, quat axes);
-/* Frees the row. */
-void joint_remove(joint_table *joints, int32_t row);
 
 #endif

@@ -30,14 +30,10 @@ typedef struct fluid_motion {
     vec3 velocity, angular_velocity;
 } fluid_motion;
 
-/* Hydrostatic wrench of a closed mesh: exact pressure integral over each triangle clipped at z = 0 (docs/oracles.md,
-   section 5): F = rho g zbar N, torque = rho g (int z r dS) x n.  Writes the whole load; drag is zero. */
-void hydrostatics_mesh(const media *m, const mesh *surface, const fluid_motion *state, fluid_load *load);
-/* Drag on the wet (dry) part of each triangle with the velocity of each of its points (docs/theory.md, Water and air):
-   form drag exactly, skin drag by quadrature (fluid/facet.h); adds to load. */
-void drag_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
-               fluid_load *load);
-/* Both in one walk; writes the whole load. */
+/* Pressure and drag on a closed mesh, triangle by triangle clipped at z = 0; writes the whole load.  Pressure is
+   integrated exactly (docs/oracles.md, section 5): F = rho g zbar N, torque = rho g (int z r dS) x n.  Drag acts on the
+   wet (dry) part with the velocity of each of its points (docs/theory.md, Water and air): form drag exactly, skin drag
+   by quadrature (fluid/facet.h). */
 void fluid_load_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                      fluid_load *load);
 

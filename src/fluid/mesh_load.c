@@ -7,7 +7,6 @@ typedef struct mesh_walk {
     const media *media;
     const mesh *surface;
     const fluid_motion *state;
-    bool pressure;
     stream water, air;
 } mesh_walk;
 
@@ -18,8 +17,7 @@ typedef struct mesh_sums {
 
 static void add_wet(const mesh_walk *w, mesh_sums *sums, const vec3 *part, int n, vec3 normal)
 {
-    if (w->pressure)
-        facet_add_pressure(&sums->pressure, part, n, w->state->position.z);
+    facet_add_pressure(&sums->pressure, part, n, w->state->position.z);
     if (!stream_acts(&w->water) || n < 3)
         return;
     stream water = w->water;
@@ -75,38 +73,12 @@ static void take_pressure(const media *m, const pressure_sum *sum, fluid_load *l
     load->submerged_volume = sum->force.z;
 }
 
-static void wrench_sum(wrench *to, const wrench *add)
-{
-    to->force = vec3_add(to->force, add->force);
-    to->moment = vec3_add(to->moment, add->moment);
-}
-
-void hydrostatics_mesh(const media *m, const mesh *surface, const fluid_motion *state, fluid_load *load)
-{
-    mesh_sums sums = walk_mesh(&(mesh_walk){.media = m, .surface = surface, .state = state, .pressure = true});
-    *load = (fluid_load){0};
-    take_pressure(m, &sums.pressure, load);
-}
-
-void drag_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
-               fluid_load *load)
-{
-    mesh_sums sums = walk_mesh(&(mesh_walk){.media = m,
-                                            .surface = surface,
-                                            .state = state,
-                                            .water = stream_of_water(m, c, state->velocity, state->angular_velocity, 0),
-                                            .air = stream_of_air(m, c, state->velocity, state->angular_velocity)});
-    wrench_sum(&load->water_drag, &sums.water);
-    wrench_sum(&load->wind_drag, &sums.air);
-}
-
 void fluid_load_mesh(const media *m, const drag_coefficients *c, const mesh *surface, const fluid_motion *state,
                      fluid_load *load)
 {
     mesh_sums sums = walk_mesh(&(mesh_walk){.media = m,
                                             .surface = surface,
                                             .state = state,
-                                            .pressure = true,
                                             .water = stream_of_water(m, c, state->velocity, state->angular_velocity, 0),
                                             .air = stream_of_air(m, c, state->velocity, state->angular_velocity)});
     take_pressure(m, &sums.pressure, load);

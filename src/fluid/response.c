@@ -327,10 +327,3 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
     load->force = mat3_mul_vec(r, changed.linear);
     load->moment = mat3_mul_vec(r, vec3_add(changed.angular, gyroscopic));
 }
-
-double hydrodynamics_energy(const hydrodynamics *h, const media *m, const body_table *bodies, int32_t slot)
-{
-    pair6 v = relative_velocity(m, bodies, slot, quat_matrix(bodies->orientation[slot]));
-    pair6 p = matrix6_mul(&h->added_mass, v);
-    return 0.5 * (vec3_dot(v.linear, p.linear) + vec3_dot(v.angular, p.angular));
-}

@@ -55,7 +55,4 @@ typedef struct hydrodynamics {
 void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m, double time_step,
                            const body_table *bodies, int32_t slot, const wrench *contacts, wrench *load);
 
-/* The energy [J] of the water that moves with a body: half of v' A v, for the books. */
-double hydrodynamics_energy(const hydrodynamics *h, const media *m, const body_table *bodies, int32_t slot);
-
 #endif

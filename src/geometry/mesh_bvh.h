@@ -27,12 +27,8 @@ void mesh_bvh_free(context *ctx, mesh_bvh *b);
 bool mesh_bvh_query(context *ctx, const mesh_bvh *b, box3 box, int32_array *faces_out);
 
 /* The same for the part of `box` between two parallel planes, lo <= dot(normal, x) <= hi: a tilted floe meets far fewer
-   triangles than the box around it.  box3_everything() leaves the slab alone. */
+   triangles than the box around it. */
 bool mesh_bvh_query_slab(context *ctx, const mesh_bvh *b, box3 box, vec3 normal, double lo, double hi,
                          int32_array *faces_out);
-static inline box3 box3_everything(void)
-{
-    return (box3){{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-}
 
 #endif

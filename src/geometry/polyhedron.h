@@ -36,12 +36,6 @@ void polyhedron_translate(polyhedron *p, vec3 by);
    plane; FRAM_ERROR_MEMORY. */
 fram_status polyhedron_hull(context *ctx, const vec3 *point, int32_t count, double tolerance, polyhedron *out,
                             fram_error *error);
-/* The prism of a convex counter-clockwise outline between two heights: vertices at the bottom, then at the top, the
-   outline's straight ones left out; faces bottom, top, then the sides in the order of the edges.  What out held is
-   dropped (it must be initialised); it is empty on failure.  FRAM_ERROR_INPUT: outline not convex, bottom >= top;
-   FRAM_ERROR_MEMORY. */
-fram_status polyhedron_prism(context *ctx, polygon outline, double bottom, double top, polyhedron *out,
-                             fram_error *error);
 double polyhedron_volume(const polyhedron *p);
 /* Not farther than `margin` [m] beyond the plane of any face. */
 bool polyhedron_contains(const polyhedron *p, vec3 point, double margin);

@@ -96,14 +96,6 @@ fram_status feeding_make_floe(context *ctx, overlay *o, const feeding_world *w, 
     return FRAM_OK;
 }
 
-double floes_mass(const body_table *bodies, const floe_table *floes)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < floes->count; i++)
-        sum += floes->body[i] >= 0 ? bodies->mass[floes->body[i]] : 0;
-    return sum;
-}
-
 /* ---- is there room? ---- */
 
 /* The outline of a body in the plane, global. */

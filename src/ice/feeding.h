@@ -97,7 +97,4 @@ void feeding_drive(const feeding_world *w, vec2 velocity);
    leave and enter.  A floe never enters where it would overlap other ice, or the box around the vessel. */
 fram_status feeding_step(context *ctx, overlay *o, const feeding_world *w, double dt, fram_error *error);
 
-/* Mass of all floes [kg]. */
-double floes_mass(const body_table *bodies, const floe_table *floes);
-
 #endif

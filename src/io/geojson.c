@@ -343,17 +343,6 @@ fram_status geojson_parse(context *ctx, const char *name, const char *data, size
     return status;
 }
 
-fram_status geojson_read(context *ctx, const char *path, import_rings *out, fram_error *error)
-{
-    char *data = NULL;
-    size_t size = 0;
-    fram_status status = file_read(ctx, path, GEOJSON_BYTES_MOST, &data, &size, error);
-    if (status == FRAM_OK)
-        status = geojson_parse(ctx, path, data, size, out, error);
-    memory_free(ctx, data);
-    return status;
-}
-
 /* ---- writing ---- */
 
 static void add_number(context *ctx, text_buffer *b, double value)

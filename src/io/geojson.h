@@ -18,10 +18,8 @@ enum {
 };
 
 /* FRAM_ERROR_INPUT with line, column and, inside a feature, "feature 17" or "feature 17, polygon 2, ring 1" as key:
-   for anything that is no JSON, no GeoJSON of these kinds, or over the limits.  out must be empty; on failure it still
-   is. */
-fram_status geojson_read(context *ctx, const char *path, import_rings *out, fram_error *error);
-/* The same for a text in memory; name stands for the file in errors. */
+   for anything that is no JSON, no GeoJSON of these kinds, or over the limits.  name stands for the file in errors; out
+   must be empty, and on failure it still is. */
 fram_status geojson_parse(context *ctx, const char *name, const char *data, size_t size, import_rings *out,
                           fram_error *error);
 

@@ -13,8 +13,8 @@
 
 #include "ice/import.h"
 
-/* FRAM_ERROR_INPUT with line, column and the ring as key, in the manner of geojson_read, and for files over its limits.
-   out must be empty; on failure it still is. */
+/* FRAM_ERROR_INPUT with line, column and the ring as key, in the manner of geojson_parse, and for files over its
+   limits. out must be empty; on failure it still is. */
 fram_status outline_file_read(context *ctx, const char *path, import_rings *out, fram_error *error);
 /* The same for a text in memory with a NUL after it; name stands for the file in errors. */
 fram_status outline_file_parse(context *ctx, const char *name, const char *data, size_t size, import_rings *out,

@@ -112,13 +112,6 @@ fram_status table_file_begin(context *ctx, const char *path, const table_file *c
     return body.status;
 }
 
-fram_status table_file_write(context *ctx, const char *path, const table_file *content, fram_error *error)
-{
-    atomic_file file;
-    fram_status status = table_file_begin(ctx, path, content, &file, error);
-    return status == FRAM_OK ? atomic_file_commit(&file, error) : status;
-}
-
 /* ---- reading ---- */
 
 /* What is left of the body.  Every take fails for good once one did. */

@@ -20,14 +20,6 @@ double scenario_default_scale(void)
     return run->keys[section_find(run, "scale")].value;
 }
 
-void scenario_floe_defaults(scenario_floe *floe, double scale)
-{
-    const scenario_key *ice = &scenario_schema.keys[section_find(&scenario_schema, "ice")];
-    const scenario_key *floes = &ice->section->keys[section_find(ice->section, "floes")];
-    memset(floe, 0, sizeof *floe);
-    section_defaults(floes->section, floe, scale);
-}
-
 static void section_free(context *ctx, const scenario_section *section, void *data)
 {
     for (int32_t k = 0; k < section->key_count; k++) {

@@ -79,8 +79,6 @@ static inline double automatic_or(double value, double otherwise) { return is_au
 double scenario_default_scale(void);
 /* Every key at its default for a scaling factor, lists empty.  Allocates nothing. */
 void scenario_defaults(scenario *s, double scale);
-/* A list element at its defaults. */
-void scenario_floe_defaults(scenario_floe *floe, double scale);
 void scenario_free(context *ctx, scenario *s);
 
 /* Range of every key, then that the keys go together (x_min < x_max, floes with a shape, ...).  FRAM_ERROR_INPUT with

@@ -343,12 +343,6 @@ fram_status hull_cut(context *ctx, const mesh *surface, double *tolerance, int32
 
 /* ---- zones ---- */
 
-const char *hull_zone_name(hull_zone z)
-{
-    static const char *const names[ZONE_COUNT] = {"bow", "shoulder", "midbody", "stern", "bottom"};
-    return (int)z >= 0 && z < ZONE_COUNT ? names[z] : "none";
-}
-
 hull_zones hull_zones_of(const hull_particulars *p)
 {
     double bow = 0, stern = 0, least = p->length / 20;

@@ -70,7 +70,6 @@ fram_status hull_hydrostatics_at(context *ctx, const mesh *surface, double level
 
 /* Zones by which results split the load, by position in ship coordinates. */
 typedef enum hull_zone { ZONE_BOW = 0, ZONE_SHOULDER, ZONE_MIDBODY, ZONE_STERN, ZONE_BOTTOM, ZONE_COUNT } hull_zone;
-const char *hull_zone_name(hull_zone z);
 
 /* Where one zone ends and the next begins [m]. */
 typedef struct hull_zones {

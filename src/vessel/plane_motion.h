@@ -12,11 +12,6 @@ typedef struct plane_model {
     mat3 damping; /* linear [kg/s, kg m/s, kg m2/s] */
 } plane_model;
 
-/* A mass or damping matrix about another point: the new reference point lies at (x, y) of the old axes [m]. */
-mat3 plane_matrix_moved(mat3 about, double x, double y);
-/* A matrix in axes with y and yaw reversed (z down to z up, or back). */
-mat3 plane_matrix_flipped(mat3 m);
-
 /* An angle brought into [-pi, pi). */
 static inline double plane_angle(double a) { return a - 2 * PI * floor((a + PI) / (2 * PI)); }
 /* Global from vessel components, and back; the third component stays. */

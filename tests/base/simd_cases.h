@@ -32,13 +32,11 @@ START_TEST(arithmetic_is_that_of_single_lanes)
 {
     random_stream r = random_begin(1, 0, 0);
     for (int n = 0; n < 1000; n++) {
-        double x[8], y[8], lo[8], hi[8];
+        double x[8], y[8], lo[8];
         lanes_draw(&r, x);
         lanes_draw(&r, y);
-        for (int i = 0; i < 8; i++) {
-            lo[i] = random_uniform(&r, -3, 0);
-            hi[i] = random_uniform(&r, 0, 3);
-        }
+        for (int i = 0; i < 8; i++)
+            lo[i] = random_uniform(&r, -3, 3);
         v8 a = v8_load(x), b = v8_load(y);
         ASSERT_LANES(a + b, x[i] + y[i]);
         ASSERT_LANES(a - b, x[i] - y[i]);
@@ -52,17 +50,8 @@ START_TEST(arithmetic_is_that_of_single_lanes)
         ASSERT_LANES(v8_abs(a), fabs(x[i]));
         ASSERT_LANES(v8_sqrt(a), sqrt(x[i]));
         ASSERT_LANES(v8_set(x[3]), x[3]);
-        v8 clamped = v8_clamp(a, v8_load(lo), v8_load(hi));
-        ASSERT_LANES(clamped, !(x[i] > lo[i]) ? lo[i] : x[i] < hi[i] ? x[i] : hi[i]);
         double sum = ((lo[0] + lo[1]) + (lo[2] + lo[3])) + ((lo[4] + lo[5]) + (lo[6] + lo[7]));
         assert_bits(v8_sum(v8_load(lo)), sum);
-        double least = HUGE_VAL, most = -HUGE_VAL;
-        for (int i = 0; i < 8; i++) {
-            least = fmin(least, lo[i]);
-            most = fmax(most, hi[i]);
-        }
-        assert_bits(v8_least(v8_load(lo)), least);
-        assert_bits(v8_most(v8_load(hi)), most);
     }
 }
 END_TEST
@@ -101,10 +90,17 @@ START_TEST(memory_needs_no_alignment)
             from[i] = i;
             to[i] = -1;
         }
-        v8 even, odd;
-        v8_load_pairs(from + shift, &even, &odd);
-        ASSERT_LANES(even, shift + 2 * i);
-        ASSERT_LANES(odd, shift + 2 * i + 1);
+        double even[8], odd[8];
+        for (int i = 0; i < V8_PARTS; i++) {
+            v8_part e, o;
+            v8_part_load_pairs(from + shift + 2 * V8_PART_LANES * i, &e, &o);
+            memcpy(even + V8_PART_LANES * i, &e, sizeof e);
+            memcpy(odd + V8_PART_LANES * i, &o, sizeof o);
+        }
+        for (int i = 0; i < 8; i++) {
+            assert_bits(even[i], shift + 2 * i);
+            assert_bits(odd[i], shift + 2 * i + 1);
+        }
         v8_store(to + shift, v8_load(from + 8 - shift));
         for (int i = 0; i < 24; i++)
             assert_bits(to[i], i >= shift && i < shift + 8 ? 8 - shift + (i - shift) : -1.0);
@@ -112,7 +108,7 @@ START_TEST(memory_needs_no_alignment)
 }
 END_TEST
 
-START_TEST(gather_and_scatter_follow_their_indices)
+START_TEST(gather_follows_its_indices)
 {
     double memory[100];
     for (int i = 0; i < 100; i++)
@@ -120,18 +116,6 @@ START_TEST(gather_and_scatter_follow_their_indices)
     int32_t index[8] = {7, 99, 0, 50, 51, 3, 98, 1};
     v8 a = v8_gather(memory, index);
     ASSERT_LANES(a, index[i]);
-    v8_scatter(memory, index, a + 1000.0);
-    int changed = 0;
-    for (int i = 0; i < 100; i++)
-        changed += memory[i] >= 1000;
-    ck_assert_int_eq(changed, 8);
-    for (int i = 0; i < 8; i++)
-        assert_bits(memory[index[i]], index[i] + 1000);
-    int32_t same[8] = {4, 4, 5, 4, 5, 5, 5, 4};
-    double lanes[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    v8_scatter(memory, same, v8_load(lanes));
-    assert_bits(memory[4], 7);
-    assert_bits(memory[5], 6);
 }
 END_TEST
 
@@ -164,6 +148,6 @@ START_TEST(rows_become_columns_and_back)
 }
 END_TEST
 
-#define SIMD_TESTS                                                                         \
-    arithmetic_is_that_of_single_lanes, masks_choose_and_count, memory_needs_no_alignment, \
-        gather_and_scatter_follow_their_indices, rows_become_columns_and_back
+#define SIMD_TESTS                                                                                                     \
+    arithmetic_is_that_of_single_lanes, masks_choose_and_count, memory_needs_no_alignment, gather_follows_its_indices, \
+        rows_become_columns_and_back

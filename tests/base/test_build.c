@@ -16,17 +16,9 @@ START_TEST(parts_name_what_the_build_cannot_do_without)
 }
 END_TEST
 
-START_TEST(a_part_is_in_or_lacking_but_not_both)
-{
-    bool in = strstr(build_parts(), "cairo") != NULL, lacking = strstr(build_lacks(), "cairo") != NULL;
-    ck_assert_int_ne(in, lacking);
-}
-END_TEST
-
-START_TEST(compiler_and_kernels_are_named)
+START_TEST(compiler_is_named)
 {
     ck_assert(strncmp(build_compiler(), "gcc ", 4) == 0 || strncmp(build_compiler(), "clang ", 6) == 0);
-    ck_assert(strncmp(build_kernels(), "baseline", 8) == 0);
 }
 END_TEST
 
@@ -38,5 +30,4 @@ START_TEST(version_is_its_three_numbers)
 }
 END_TEST
 
-TEST_MAIN("build", parts_name_what_the_build_cannot_do_without, a_part_is_in_or_lacking_but_not_both,
-          compiler_and_kernels_are_named, version_is_its_three_numbers)
+TEST_MAIN("build", parts_name_what_the_build_cannot_do_without, compiler_is_named, version_is_its_three_numbers)

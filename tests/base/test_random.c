@@ -58,9 +58,8 @@ START_TEST(every_draw_is_one_step)
     random_uniform(&r, 1, 2);
     random_normal(&r);
     random_lognormal(&r, 1, 0.5);
-    random_power_law(&r, 1, 10, 2);
     random_bits(&r);
-    ck_assert_uint_eq(r.counter, 6);
+    ck_assert_uint_eq(r.counter, 5);
 }
 END_TEST
 
@@ -139,36 +138,6 @@ START_TEST(lognormal_has_the_mean_and_deviation_asked_for)
 }
 END_TEST
 
-/* The share above D must be (D^-b - hi^-b) / (lo^-b - hi^-b). */
-static void power_law_check(double b)
-{
-    const double lo = 5, hi = 500, cut = 20;
-    random_stream r = random_begin(11, 0, 0);
-    int above = 0, outside = 0;
-    for (int i = 0; i < DRAWS; i++) {
-        double x = random_power_law(&r, lo, hi, b);
-        outside += !(x >= lo && x <= hi);
-        above += x > cut;
-    }
-    double share =
-        fabs(b) < 1e-6 ? log(hi / cut) / log(hi / lo) : (pow(cut, -b) - pow(hi, -b)) / (pow(lo, -b) - pow(hi, -b));
-    ck_assert_int_eq(outside, 0);
-    assert_absolute(above / (double)DRAWS, share, 4 * sqrt(share * (1 - share) / DRAWS));
-}
-
-START_TEST(power_law_has_its_exponent)
-{
-    power_law_check(1.87);
-    power_law_check(3);
-    power_law_check(0.5);
-    power_law_check(-1); /* uniform */
-    power_law_check(0);
-    power_law_check(1e-9);
-    random_stream r = random_begin(1, 0, 0);
-    assert_bits(random_power_law(&r, 2, 2, 1.5), 2);
-}
-END_TEST
-
 /* Ice fields stand on this: a change here is a change of every generated field. */
 START_TEST(draws_are_the_same_everywhere)
 {
@@ -176,10 +145,9 @@ START_TEST(draws_are_the_same_everywhere)
     assert_bits(random_unit(&r), 0x1.216873d29b282p-2);
     assert_bits(random_normal(&r), 0x1.d17edd585bc11p+0);
     assert_bits(random_lognormal(&r, 40, 15), 0x1.47dca68165cd1p+5);
-    assert_bits(random_power_law(&r, 5, 500, 1.87), 0x1.eb0aac9207c33p+2);
 }
 END_TEST
 
 TEST_MAIN("random", philox_known_answers, a_draw_is_a_function_of_its_key_and_counter, every_draw_is_one_step,
           unit_is_uniform, uniform_never_reaches_its_end, normal_has_its_moments,
-          lognormal_has_the_mean_and_deviation_asked_for, power_law_has_its_exponent, draws_are_the_same_everywhere)
+          lognormal_has_the_mean_and_deviation_asked_for, draws_are_the_same_everywhere)

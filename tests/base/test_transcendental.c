@@ -82,17 +82,10 @@ static const range ranges[] = {
     {"log", real_log, logl, 0, 0x1p-1070, 1e308, true},
     {"log near 1", real_log, logl, 1, 0, 0.5, false},
     {"log nearer 1", real_log, logl, 1, 1e-15, 0.1, true},
-    {"atan", real_atan, atanl, 0, 0, 4, false},
-    {"atan wide", real_atan, atanl, 0, 1e-300, 1e300, true},
-    {"asin", real_asin, asinl, 0, 0, 1, false},
-    {"asin tiny", real_asin, asinl, 0, 1e-300, 1, true},
     {"acos", real_acos, acosl, 0, 0, 1, false},
     {"acos near 1", real_acos, acosl, 1, -0x1p-10, 0, false},
     {"acos near -1", real_acos, acosl, -1, 0, 0x1p-10, false},
     {"cbrt", real_cbrt, cbrtl, 0, 0x1p-1070, 1e308, true},
-    {"tanh", real_tanh, tanhl, 0, 0, 3, false},
-    {"tanh wide", real_tanh, tanhl, 0, 0, 25, false},
-    {"tanh tiny", real_tanh, tanhl, 0, 1e-300, 1, true},
 };
 
 START_TEST(functions_are_within_their_limit)
@@ -186,8 +179,8 @@ static bool is_nan(double x) { return x != x; }
 START_TEST(edges_of_functions_of_one_number)
 {
     const double inf = HUGE_VAL, none = (double)NAN, least = 0x1p-1074, most = DBL_MAX;
-    double (*const odd[])(double) = {real_sin, real_tan, real_atan, real_asin, real_cbrt, real_tanh};
-    for (int i = 0; i < 6; i++) {
+    double (*const odd[])(double) = {real_sin, real_tan, real_cbrt};
+    for (int i = 0; i < 3; i++) {
         assert_bits(odd[i](0.0), 0.0);
         assert_bits(odd[i](-0.0), -0.0);
         for (double x = 0.01; x < 1; x += 0.01)
@@ -219,14 +212,10 @@ START_TEST(edges_of_functions_of_one_number)
     assert_bits(real_log(1), 0);
     ck_assert(is_nan(real_log(-1)) && is_nan(real_log(-least)) && is_nan(real_log(-inf)));
     assert_bits(real_log(least), -0x1.74385446d71c3p+9);
-    assert_bits(real_atan(inf), PI / 2);
-    assert_bits(real_atan(-inf), -PI / 2);
-    assert_bits(real_asin(1), PI / 2);
-    assert_bits(real_asin(-1), -PI / 2);
     assert_bits(real_acos(1), 0);
     assert_bits(real_acos(-1), PI);
     assert_bits(real_acos(0), PI / 2);
-    ck_assert(is_nan(real_asin(1.5)) && is_nan(real_asin(-inf)) && is_nan(real_acos(-1.5)) && is_nan(real_acos(inf)));
+    ck_assert(is_nan(real_acos(-1.5)) && is_nan(real_acos(inf)));
     assert_bits(real_cbrt(inf), inf);
     assert_bits(real_cbrt(-inf), -inf);
     for (int i = -200; i <= 200; i++) {
@@ -234,9 +223,6 @@ START_TEST(edges_of_functions_of_one_number)
         assert_bits(real_cbrt(cube), i);
     }
     assert_bits(real_cbrt(0x1p-1074), 0x1p-358);
-    assert_bits(real_tanh(inf), 1);
-    assert_bits(real_tanh(-inf), -1);
-    assert_bits(real_tanh(30), 1);
 }
 END_TEST
 
@@ -347,14 +333,13 @@ START_TEST(bits_are_the_same_everywhere)
     uint64_t hash = 0;
     for (int i = 0; i < 20000; i++) {
         double unit = random_uniform(&r, -1, 1), x = random_uniform(&r, -700, 700), size = fabs(x) + 0x1p-30;
-        double y[] = {real_sin(x),        real_cos(x * 1e10),        real_tan(x),         real_exp(x),
-                      real_log(size),     real_pow(size, unit * 40), real_atan2(unit, x), real_atan(x),
-                      real_asin(unit),    real_acos(unit),           real_cbrt(x),        real_tanh(unit * 3),
-                      real_sin(x * 1e250)};
+        double y[] = {real_sin(x),    real_cos(x * 1e10),        real_tan(x),         real_exp(x),
+                      real_log(size), real_pow(size, unit * 40), real_atan2(unit, x), real_acos(unit),
+                      real_cbrt(x),   real_sin(x * 1e250)};
         for (size_t k = 0; k < sizeof y / sizeof *y; k++)
             hash = (hash ^ double_bits(y[k])) * 0x9e3779b97f4a7c15u + (hash >> 29);
     }
-    ck_assert_msg(hash == 0xc2fc677e5e1bf256u, "hash is 0x%llx", (unsigned long long)hash);
+    ck_assert_msg(hash == 0x5d8ce38064faa5e6u, "hash is 0x%llx", (unsigned long long)hash);
 }
 END_TEST
 

@@ -1,4 +1,5 @@
 #include "bodies/body.h"
+#include "books.h"
 #include "testing.h"
 
 START_TEST(slots_are_used_again_lowest_first)

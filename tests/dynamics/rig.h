@@ -2,6 +2,7 @@
 #ifndef RIG_H
 #define RIG_H
 
+#include "books.h"
 #include "dynamics/collision.h"
 #include "dynamics/solver.h"
 #include "testing.h"

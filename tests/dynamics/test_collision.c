@@ -3,6 +3,7 @@
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "rig.h"
+#include "sizes.h"
 
 static int32_t regular(rig *r, motion kind, int sides, double radius, double turn, vec3 position)
 {

@@ -84,8 +84,7 @@ START_TEST(slots)
         if (slot == floe) {
             fluid_load_prism(&windy, &coefficients[MATERIAL_ICE], OUTLINE(hexagon_outline), 0.5, &state, &load);
         } else {
-            hydrostatics_mesh(&windy, &surface, &state, &load);
-            drag_mesh(&windy, &coefficients[MATERIAL_HULL], &surface, &state, &load);
+            fluid_load_mesh(&windy, &coefficients[MATERIAL_HULL], &surface, &state, &load);
         }
         const fluid_load *got = &detail[slot];
         assert_relative(got->submerged_volume, load.submerged_volume, 1e-13);

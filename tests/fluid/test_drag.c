@@ -58,8 +58,7 @@ START_TEST(square_prism_spins)
     fluid_load_prism(&still_water, &form_only, OUTLINE(square_outline), 0.5, &state, &load);
     assert_relative(load.water_drag.moment.z, expected, 1e-13);
     assert_vec3_close(load.water_drag.force, vec3_make(0, 0, 0), 1e-9);
-    load = (fluid_load){0};
-    drag_mesh(&still_water, &form_only, &surface, &state, &load);
+    fluid_load_mesh(&still_water, &form_only, &surface, &state, &load);
     assert_relative(load.water_drag.moment.z, expected, 1e-13);
     mesh_free(&ctx, &surface);
 }
@@ -101,7 +100,7 @@ START_TEST(prism_equals_mesh)
                 state.rotation = quat_matrix(quat_from_roll_pitch_yaw(0.02 + (i % 2 ? PI : 0), 0.03, 1));
             fluid_load by_prism, by_mesh = {0};
             fluid_load_prism(&moving, &c, outlines[k], 0.6, &state, &by_prism);
-            drag_mesh(&moving, &c, &surface, &state, &by_mesh);
+            fluid_load_mesh(&moving, &c, &surface, &state, &by_mesh);
             assert_same_load(&by_prism.water_drag, &by_mesh.water_drag, 1e-7, 10);
             assert_same_load(&by_prism.wind_drag, &by_mesh.wind_drag, 1e-7, 10);
         }
@@ -130,8 +129,8 @@ START_TEST(skin_quadrature)
             fluid_motion state = random_motion(&r, 0.5);
             fluid_load by_prism, by_mesh = {0}, reference = {0};
             fluid_load_prism(&still_water, &skin_only, outlines[k], 0.6, &state, &by_prism);
-            drag_mesh(&still_water, &skin_only, &surface, &state, &by_mesh);
-            drag_mesh(&still_water, &skin_only, &fine, &state, &reference);
+            fluid_load_mesh(&still_water, &skin_only, &surface, &state, &by_mesh);
+            fluid_load_mesh(&still_water, &skin_only, &fine, &state, &reference);
             double reach = 0.5 * polygon_diameter(outlines[k]);
             double speed = vec3_length(state.velocity) + reach * vec3_length(state.angular_velocity);
             double size = 0.5 * 1025 * 0.01 * polygon_area(outlines[k]) * speed * speed * reach;
@@ -230,7 +229,7 @@ START_TEST(drift_without_sides_along_the_flow)
     fluid_motion state = motion_at(vec3_make(0, 0, -draught), 0, 0, 0);
     const drag_coefficients c = {.water_form = 1, .water_skin = 0.01};
     fluid_load load = {0};
-    drag_mesh(&moving, &c, &faces, &state, &load);
+    fluid_load_mesh(&moving, &c, &faces, &state, &load);
     double length = 92000 * 0.3 * 0.3 / load.water_drag.force.x;
     assert_absolute(length, 17.9951, 1e-4);
     assert_absolute(0.3 - 0.3 / (1 + 0.3 * 60 / length), 0.15002, 1e-5);

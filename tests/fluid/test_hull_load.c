@@ -76,7 +76,7 @@ START_TEST(pressure_is_exact)
                 state.position.z = i % 20 ? 300 : -300;
             fluid_load got, expected;
             fluid_load_solid(&h.ctx, &still_water, &none, body, &state, &got);
-            hydrostatics_mesh(&still_water, &body->surface, &state, &expected);
+            fluid_load_mesh(&still_water, &(drag_coefficients){0}, &body->surface, &state, &expected);
             double size_of = 1025 * 9.81 * 5e4 * (1 + fabs(state.position.z) / 10);
             assert_vec3_close(got.hydrostatic.force, expected.hydrostatic.force, 1e-13 * size_of);
             assert_vec3_close(got.hydrostatic.moment, expected.hydrostatic.moment, 1e-13 * size_of * 100);
@@ -105,7 +105,7 @@ static void check_drag(const media *m, const drag_coefficients *c, double coarse
             fluid_motion state = random_state(&r, i % 3 ? 0.1 : 1.5);
             fluid_load got, expected = {0};
             fluid_load_solid(&h.ctx, m, c, body, &state, &got);
-            drag_mesh(m, c, &body->surface, &state, &expected);
+            fluid_load_mesh(m, c, &body->surface, &state, &expected);
             double speed =
                 vec3_length(vec3_sub(state.velocity, m->current)) + 100 * vec3_length(state.angular_velocity);
             double size_of = 0.5 * area * speed * speed * 1025 * (c->water_form + c->water_skin);

@@ -27,7 +27,7 @@ START_TEST(cube_on_its_corner)
         double immersion = cases[i][0], volume = cases[i][1];
         fluid_motion state = {{3, -2, sqrt(0.75) - immersion}, diagonal_up(), {0, 0, 0}, {0, 0, 0}};
         fluid_load by_mesh, by_prism;
-        hydrostatics_mesh(&still_water, &cube, &state, &by_mesh);
+        fluid_load_mesh(&still_water, &(drag_coefficients){0}, &cube, &state, &by_mesh);
         fluid_load_prism(&still_water, &(drag_coefficients){0}, OUTLINE(outline), 0.5, &state, &by_prism);
         assert_absolute(by_mesh.submerged_volume, volume, 1e-10);
         assert_absolute(by_prism.submerged_volume, volume, 1e-10);
@@ -51,7 +51,7 @@ START_TEST(righting_lever_of_a_box)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         fluid_motion state = motion_at(vec3_make(0, 0, 0), radians(cases[i][0]), 0, 0);
         fluid_load by_mesh, by_prism;
-        hydrostatics_mesh(&still_water, &box, &state, &by_mesh);
+        fluid_load_mesh(&still_water, &(drag_coefficients){0}, &box, &state, &by_mesh);
         fluid_load_prism(&still_water, &(drag_coefficients){0}, OUTLINE(outline), 1, &state, &by_prism);
         assert_relative(by_mesh.submerged_volume, 40, 1e-13);
         assert_absolute(-by_mesh.hydrostatic.moment.x / displacement, cases[i][1], 1e-10);
@@ -69,7 +69,7 @@ END_TEST
 static void compare(const mesh *surface, polygon outline, double half_height, const fluid_motion *state)
 {
     fluid_load by_mesh, by_prism;
-    hydrostatics_mesh(&still_water, surface, state, &by_mesh);
+    fluid_load_mesh(&still_water, &(drag_coefficients){0}, surface, state, &by_mesh);
     fluid_load_prism(&still_water, &(drag_coefficients){0}, outline, half_height, state, &by_prism);
     /* Pressures reach the deepest corner's over every face: rounding is of that size. */
     double weight = 1025 * 9.81 * 2 * half_height * polygon_area(outline), reach = polygon_diameter(outline);
@@ -153,10 +153,10 @@ START_TEST(place_does_not_matter)
     mesh surface = prism_mesh(&ctx, OUTLINE(arrow_outline), 0.8);
     fluid_motion state = motion_at(vec3_make(0, 0, -0.1), 0.3, -0.4, 1);
     fluid_load here, there;
-    hydrostatics_mesh(&still_water, &surface, &state, &here);
+    fluid_load_mesh(&still_water, &(drag_coefficients){0}, &surface, &state, &here);
     state.position.x = 1e6;
     state.position.y = -3e6;
-    hydrostatics_mesh(&still_water, &surface, &state, &there);
+    fluid_load_mesh(&still_water, &(drag_coefficients){0}, &surface, &state, &there);
     assert_array_bits(&there.hydrostatic.force.x, &here.hydrostatic.force.x, 3);
     assert_array_bits(&there.hydrostatic.moment.x, &here.hydrostatic.moment.x, 3);
     mesh_free(&ctx, &surface);

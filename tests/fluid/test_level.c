@@ -202,7 +202,7 @@ START_TEST(skin_drag)
         for (int i = k; i < 300; i += OUTLINES) {
             fluid_motion state = motion_of(&f, i);
             fluid_load expected = {0};
-            drag_mesh(&still_water, c, &fine, &state, &expected);
+            fluid_load_mesh(&still_water, c, &fine, &state, &expected);
             double reach = 0.5 * polygon_diameter(outline_of(k)),
                    speed = largest_speed(&state, vec3_make(0, 0, 0), reach);
             double area = polygon_area(outline_of(k)) * speed * speed;

@@ -1,6 +1,8 @@
 #include "geometry/mesh_bvh.h"
 #include "mesh_samples.h"
 
+static const box3 everything = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+
 static box3 random_box(random_stream *r, double size)
 {
     vec3 lo = {random_uniform(r, -1.2, 1.2), random_uniform(r, -1.2, 1.2), random_uniform(r, -1.2, 1.2)};
@@ -47,10 +49,10 @@ START_TEST(finds_what_a_walk_finds)
             compare(&m, &found, box, (vec3){0, 0, 0}, 0, 0);
             vec3 n = vec3_unit((vec3){random_normal(&r), random_normal(&r), random_normal(&r)});
             double lo = random_uniform(&r, -1, 1), hi = lo + random_uniform(&r, 0, 0.3);
-            ck_assert(mesh_bvh_query_slab(&ctx, &tree, i % 2 ? box : box3_everything(), n, lo, hi, &found));
-            compare(&m, &found, i % 2 ? box : box3_everything(), n, lo, hi);
+            ck_assert(mesh_bvh_query_slab(&ctx, &tree, i % 2 ? box : everything, n, lo, hi, &found));
+            compare(&m, &found, i % 2 ? box : everything, n, lo, hi);
         }
-        ck_assert(mesh_bvh_query(&ctx, &tree, box3_everything(), &found));
+        ck_assert(mesh_bvh_query(&ctx, &tree, everything, &found));
         ck_assert_int_eq(found.count, m.face.count);
         array_free(&ctx, &found);
         mesh_bvh_free(&ctx, &tree);
@@ -67,7 +69,7 @@ START_TEST(touching_counts_and_nothing_is_found_in_nothing)
     mesh_bvh tree = {0};
     int32_array found = {0};
     ck_assert_int_eq(mesh_bvh_build(&ctx, &m, &tree), FRAM_OK);
-    ck_assert(mesh_bvh_query(&ctx, &tree, box3_everything(), &found));
+    ck_assert(mesh_bvh_query(&ctx, &tree, everything, &found));
     ck_assert_int_eq(found.count, 0);
     ck_assert(mesh_make_box(&ctx, (vec3){0, 0, 0}, (vec3){1, 1, 1}, &m));
     ck_assert_int_eq(mesh_bvh_build(&ctx, &m, &tree), FRAM_OK);
@@ -121,7 +123,7 @@ START_TEST(memory_runs_out)
         mesh_bvh tree = {0};
         int32_array found = {0};
         fram_status status = mesh_bvh_build(&ctx, &m, &tree);
-        if (status == FRAM_OK && !mesh_bvh_query(&ctx, &tree, box3_everything(), &found))
+        if (status == FRAM_OK && !mesh_bvh_query(&ctx, &tree, everything, &found))
             status = FRAM_ERROR_MEMORY;
         array_free(&ctx, &found);
         mesh_bvh_free(&ctx, &tree);

@@ -269,49 +269,8 @@ START_TEST(inputs_that_span_nothing)
 }
 END_TEST
 
-START_TEST(prisms)
-{
-    context ctx = plain();
-    polyhedron p = {0};
-    fram_error error;
-    /* A pentagon with a straight and a repeated vertex. */
-    static const vec2 outline[] = {{0, 0}, {2, 0}, {3, 0}, {3, 0}, {4, 2}, {1, 3}, {-1, 2}};
-    assert_ok(polyhedron_prism(&ctx, (polygon){outline, 7}, -0.5, 1, &p, &error), error);
-    check_polyhedron(&p, 1e-15);
-    ck_assert_int_eq(p.vertex.count, 10);
-    ck_assert_int_eq(p.face.count, 7);
-    assert_relative(polyhedron_volume(&p), 1.5 * polygon_area((polygon){outline, 7}), 1e-15);
-    assert_vec3_close(p.face.data[0].normal, ((vec3){0, 0, -1}), 0);
-    assert_bits(p.face.data[1].offset, 1);
-    assert_absolute(p.centre.z, 0.25, 1e-15);
-    /* Moved, it is the same about its centre. */
-    polyhedron_translate(&p, (vec3){10, 20, 30});
-    check_polyhedron(&p, 1e-13);
-    assert_absolute(p.centre.z, 30.25, 1e-13);
-    polyhedron_translate(&p, (vec3){-10, -20, -30});
-    /* The hull of its vertices is the same body. */
-    polyhedron q = {0};
-    assert_hull(&ctx, p.vertex.data, p.vertex.count, 0, &q);
-    ck_assert_int_eq(q.face.count, 7);
-    assert_relative(polyhedron_volume(&q), polyhedron_volume(&p), 1e-15);
-    static const vec2 l_shape[6] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
-                      clockwise[] = {{0, 0}, {0, 1}, {1, 0}};
-    assert_fails(polyhedron_prism(&ctx, (polygon){l_shape, 6}, 0, 1, &p, &error), error, FRAM_ERROR_INPUT,
-                 "not convex");
-    assert_fails(polyhedron_prism(&ctx, (polygon){clockwise, 3}, 0, 1, &p, &error), error, FRAM_ERROR_INPUT,
-                 "not convex");
-    assert_fails(polyhedron_prism(&ctx, (polygon){outline, 2}, 0, 1, &p, &error), error, FRAM_ERROR_INPUT,
-                 "2 vertices");
-    assert_fails(polyhedron_prism(&ctx, (polygon){outline, 7}, 1, 1, &p, &error), error, FRAM_ERROR_INPUT, "no height");
-    ck_assert_int_eq(p.vertex.count, 0);
-    polyhedron_free(&ctx, &p);
-    polyhedron_free(&ctx, &q);
-}
-END_TEST
-
 START_TEST(memory_runs_out)
 {
-    static const vec2 outline[] = {{0, 0}, {2, 0}, {3, 2}, {1, 3}};
     vec3 point[40];
     random_stream r = random_begin(9, 1, 1);
     for (int i = 0; i < 40; i++)
@@ -323,8 +282,6 @@ START_TEST(memory_runs_out)
         polyhedron_array list = {0};
         fram_error error = {0};
         fram_status status = polyhedron_hull(&ctx, point, 40, 0, &p, &error);
-        if (status == FRAM_OK)
-            status = polyhedron_prism(&ctx, (polygon){outline, 4}, 0, 1, &p, &error);
         if (status == FRAM_OK && !array_push(&ctx, &list, p))
             status = error_memory(&error);
         if (list.count == 0)
@@ -343,5 +300,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("polyhedron", box_from_a_cloud, random_points, noisy_sides, order_does_not_move_the_shape,
-          faces_of_a_prism_are_merged, too_thin_to_be_merged, needles_and_plates, inputs_that_span_nothing, prisms,
+          faces_of_a_prism_are_merged, too_thin_to_be_merged, needles_and_plates, inputs_that_span_nothing,
           memory_runs_out)

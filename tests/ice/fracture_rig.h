@@ -4,7 +4,9 @@
 
 #include "base/random.h"
 #include "base/transcendental.h"
+#include "books.h"
 #include "ice/fracture.h"
+#include "sizes.h"
 #include "testing.h"
 
 typedef struct fracture_rig {

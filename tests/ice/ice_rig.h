@@ -3,6 +3,7 @@
 #define ICE_RIG_H
 
 #include "base/transcendental.h"
+#include "books.h"
 #include "dynamics/solver.h"
 #include "ice/crushing.h"
 #include "testing.h"

@@ -1,5 +1,6 @@
 /* io/geojson and ice/import: what is read, what is refused and where, what is mended, and the way out and back. */
 #include "io/geojson.h"
+#include "io/outline_file.h"
 #include "scratch.h"
 #include <math.h>
 
@@ -360,7 +361,7 @@ START_TEST(what_is_written_reads_back_to_the_bit)
     polygon_list list = {0};
     ck_assert(polygon_list_push(&r->ctx, &list, (polygon){a, 3}) && polygon_list_push(&r->ctx, &list, (polygon){b, 4}));
     assert_ok(geojson_write(&r->ctx, scratch_path(&place, "out.geojson"), &list, thickness, &r->error), r->error);
-    assert_ok(geojson_read(&r->ctx, place.path, &r->rings, &r->error), r->error);
+    assert_ok(outline_file_read(&r->ctx, place.path, &r->rings, &r->error), r->error);
     ck_assert_int_eq(r->rings.place.count, 2);
     assert_array_bits(&r->rings.rings.vertex.data->x, &list.vertex.data->x, 2 * list.vertex.count);
     assert_bits(r->rings.place.data[0].thickness, 0.7);
@@ -374,7 +375,7 @@ END_TEST
 START_TEST(limits_and_files)
 {
     rig *r = rig_make();
-    assert_fails(geojson_read(&r->ctx, "no/such.geojson", &r->rings, &r->error), r->error, FRAM_ERROR_INPUT, "");
+    assert_fails(outline_file_read(&r->ctx, "no/such.geojson", &r->rings, &r->error), r->error, FRAM_ERROR_INPUT, "");
     enum { POSITIONS = GEOJSON_RING_VERTICES_MOST + 1 };
     char *text = malloc(6 * POSITIONS + 100), *at = text;
     ck_assert_ptr_nonnull(text);
@@ -440,7 +441,7 @@ START_TEST(files_are_limited)
     ck_assert_ptr_nonnull(file);
     ck_assert_int_eq(ftruncate(fileno(file), (off_t)GEOJSON_BYTES_MOST + 1), 0);
     fclose(file);
-    assert_fails(geojson_read(&r->ctx, path, &r->rings, &r->error), r->error, FRAM_ERROR_INPUT,
+    assert_fails(outline_file_read(&r->ctx, path, &r->rings, &r->error), r->error, FRAM_ERROR_INPUT,
                  "at most 268435456 bytes");
     scratch_remove(&place, "large.geojson");
     rig_free(r);

@@ -3,6 +3,7 @@
 #include "io/base64.h"
 #include "io/csv_read.h"
 #include "io/geojson.h"
+#include "io/outline_file.h"
 #include "io/record.h"
 #include "scratch.h"
 
@@ -146,7 +147,7 @@ START_TEST(written_rings_are_closed)
     ck_assert(polygon_list_push(&ctx, &outlines, (polygon){corner, 3}));
     const char *path = scratch_path(&place, "a.geojson");
     assert_ok(geojson_write(&ctx, path, &outlines, NULL, &error), error);
-    assert_ok(geojson_read(&ctx, path, &rings, &error), error);
+    assert_ok(outline_file_read(&ctx, path, &rings, &error), error);
     ck_assert_int_eq(rings.place.count, 1);
     ck_assert(!rings.place.data[0].open);
     ck_assert_int_eq(polygon_list_get(&rings.rings, 0).count, 3);

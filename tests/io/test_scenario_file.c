@@ -47,6 +47,15 @@ static void print_to(const scenario *s, bool comments, text_buffer *out)
     assert_ok(scenario_print(&ctx, s, &options, out, &error), error);
 }
 
+/* A floe with every key at its default. */
+static scenario_floe a_floe(void)
+{
+    const scenario_section *ice = scenario_schema.keys[section_find(&scenario_schema, "ice")].section;
+    scenario_floe floe = {0};
+    section_defaults(ice->keys[section_find(ice, "floes")].section, &floe, 30);
+    return floe;
+}
+
 START_TEST(values_arrive)
 {
     scenario s;
@@ -265,8 +274,7 @@ START_TEST(the_largest_scenario_can_be_read_again)
     scenario_defaults(&s, 30);
     s.ice.source = ICE_FLOES;
     for (int i = 0; i < 1000; i++) {
-        scenario_floe floe;
-        scenario_floe_defaults(&floe, 30);
+        scenario_floe floe = a_floe();
         floe.length = floe.width = floe.radius = 1.0000000000000002e-05;
         floe.thickness = 1.0000000000000002e-05;
         floe.x = floe.y = floe.elevation = floe.yaw_deg = floe.pitch_deg = floe.roll_deg = -1.0000000000000002e-05;

@@ -86,13 +86,21 @@ static void assert_same(const content *a, const content *b)
     }
 }
 
+/* The file, whole. */
+static fram_status write_file(context *c, const char *path, const table_file *file)
+{
+    atomic_file out;
+    fram_status status = table_file_begin(c, path, file, &out, &error);
+    return status == FRAM_OK ? atomic_file_commit(&out, &error) : status;
+}
+
 START_TEST(content_comes_back)
 {
     context_init(&ctx);
     scratch s = scratch_make();
     content a, b;
     content_fill(&a);
-    assert_ok(table_file_write(&ctx, scratch_path(&s, "t"), &a.file, &error), error);
+    assert_ok(write_file(&ctx, scratch_path(&s, "t"), &a.file), error);
     content_begin(&b);
     ck_assert(table_resize(&ctx, &b.other, &other_table_info, 5)); /* rows of before are forgotten */
     assert_ok(table_file_read(&ctx, s.path, &b.file, &error), error);
@@ -103,7 +111,7 @@ START_TEST(content_comes_back)
     /* Writing again gives the same file. */
     size_t size, again;
     char *first = scratch_read(s.path, &size);
-    assert_ok(table_file_write(&ctx, s.path, &a.file, &error), error);
+    assert_ok(write_file(&ctx, s.path, &a.file), error);
     char *second = scratch_read(s.path, &again);
     ck_assert_uint_eq(size, again);
     ck_assert_int_eq(memcmp(first, second, size), 0);
@@ -121,7 +129,7 @@ static char *example_file(size_t *size)
     scratch s = scratch_make();
     content a;
     content_fill(&a);
-    assert_ok(table_file_write(&ctx, scratch_path(&s, "t"), &a.file, &error), error);
+    assert_ok(write_file(&ctx, scratch_path(&s, "t"), &a.file), error);
     char *data = scratch_read(s.path, size);
     content_free(&ctx, &a);
     scratch_remove(&s, "t");
@@ -278,9 +286,9 @@ START_TEST(files_that_are_not_there)
     content b;
     content_begin(&b);
     assert_fails(table_file_read(&ctx, "/no/such/file", &b.file, &error), error, FRAM_ERROR_INPUT, "No such file");
-    assert_fails(table_file_write(&ctx, "/no/such/file", &b.file, &error), error, FRAM_ERROR_INPUT, "No such file");
+    assert_fails(write_file(&ctx, "/no/such/file", &b.file), error, FRAM_ERROR_INPUT, "No such file");
     if (access("/dev/full", W_OK) == 0) {
-        ck_assert_int_ne(table_file_write(&ctx, "/dev/full/x", &b.file, &error), FRAM_OK);
+        ck_assert_int_ne(write_file(&ctx, "/dev/full/x", &b.file), FRAM_OK);
     }
 }
 END_TEST
@@ -312,7 +320,7 @@ START_TEST(no_memory_is_an_error)
     for (long n = 1;; n++) {
         failing_memory memory;
         context failing = failing_context(&memory, n);
-        fram_status status = table_file_write(&failing, scratch_path(&s, "t"), &a.file, &error);
+        fram_status status = write_file(&failing, scratch_path(&s, "t"), &a.file);
         ck_assert_int_eq(memory.live, 0);
         if (!memory.failed) {
             ck_assert_int_eq(status, FRAM_OK);

@@ -15,6 +15,15 @@ static scenario good(void)
     return s;
 }
 
+/* A floe with every key at its default. */
+static scenario_floe a_floe(void)
+{
+    const scenario_section *ice = scenario_schema.keys[section_find(&scenario_schema, "ice")].section;
+    scenario_floe floe = {0};
+    section_defaults(ice->keys[section_find(ice, "floes")].section, &floe, 30);
+    return floe;
+}
+
 START_TEST(defaults_pass_their_own_checks)
 {
     static const double scales[] = {1, 30, 100};
@@ -149,8 +158,7 @@ START_TEST(walking_meets_every_key_once)
     visits = 0;
     assert_ok(scenario_walk(&s, count_visit, NULL, &error), error);
     int without = visits;
-    scenario_floe floe;
-    scenario_floe_defaults(&floe, 30);
+    scenario_floe floe = a_floe();
     ck_assert(array_push(&ctx, &s.ice.floes, floe) && array_push(&ctx, &s.ice.floes, floe));
     visits = 0;
     assert_ok(scenario_walk(&s, count_visit, NULL, &error), error);
@@ -236,8 +244,7 @@ START_TEST(floes_stay_in_the_domain)
     context ctx;
     context_init(&ctx);
     scenario s = good();
-    scenario_floe floe;
-    scenario_floe_defaults(&floe, 30);
+    scenario_floe floe = a_floe();
     ck_assert(array_push(&ctx, &s.ice.floes, floe));
     assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, "expected no floes");
     s.ice.source = ICE_FLOES;

@@ -1,5 +1,6 @@
 /* Floes in the water, stepped as in a run: what drag takes is what the body loses; terminal drift and the decay of spin
    against what follows on paper. */
+#include "books.h"
 #include "geometry/mesh_clip.h"
 #include "scene.h"
 

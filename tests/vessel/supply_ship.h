@@ -8,6 +8,16 @@
 static const mat3 supply_mass = {{{6.7644e6, 0, 0}, {0, 1.13412e7, -3.401568e7}, {0, -3.401568e7, 4.452378e9}}};
 static const mat3 supply_damping = {{{7.707105e4, 0, 0}, {0, 2.546789e5, -2.034159e6}, {0, -6.725849e5, 3.850073e8}}};
 
+/* z down to z up: sway and yaw reversed. */
+static inline mat3 in_axes_of_fram(mat3 m)
+{
+    static const double sign[3] = {1, -1, -1};
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            m.m[r][c] *= sign[r] * sign[c];
+    return m;
+}
+
 /* A vessel row without any mesh: enough for what thrusters and lines ask. */
 typedef struct bare_vessel {
     context ctx;

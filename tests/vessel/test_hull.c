@@ -251,14 +251,12 @@ START_TEST(zones)
         {{48, 0, -6.64}, ZONE_BOW},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        ck_assert_str_eq(hull_zone_name(hull_zone_at(&z, cases[i].point)), hull_zone_name(cases[i].zone));
+        ck_assert_int_eq(hull_zone_at(&z, cases[i].point), cases[i].zone);
     /* The faces of a box are its bow and stern. */
     z = hull_zones_of(&box_particulars);
     ck_assert_int_eq(hull_zone_at(&z, vec3_make(20, 1, 0)), ZONE_BOW);
     ck_assert_int_eq(hull_zone_at(&z, vec3_make(-20, 1, 0)), ZONE_STERN);
     ck_assert_int_eq(hull_zone_at(&z, vec3_make(0, 6, 0)), ZONE_MIDBODY);
-    ck_assert_str_eq(hull_zone_name(ZONE_BOTTOM), "bottom");
-    ck_assert_str_eq(hull_zone_name(ZONE_COUNT), "none");
     z = hull_zones_of(&(hull_particulars){.form = HULL_MESH, .length = 100, .beam = 20, .draught = 5});
     ck_assert_int_eq(hull_zone_at(&z, vec3_make(31, 0, 0)), ZONE_BOW);
 }

@@ -1,39 +1,10 @@
-/* Matrices of the water plane about other points and in other axes; observers against their own equations. */
+/* Observers against their own equations. */
 #include "supply_ship.h"
 
 #include "vessel/observer.h"
 #include "vessel/path.h"
 
 static const mat3 coupled = {{{6e6, 2e5, -3e6}, {2e5, 9e6, 4e7}, {-3e6, 4e7, 5e9}}};
-
-static double energy(mat3 m, vec3 v) { return 0.5 * vec3_dot(v, mat3_mul_vec(m, v)); }
-
-/* A body that turns about a point 3 m ahead and 2 m to port has there another velocity, and the same energy. */
-START_TEST(matrices_about_another_point)
-{
-    const double x = 3, y = 2;
-    mat3 moved = plane_matrix_moved(coupled, x, y);
-    const vec3 velocities[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0.1}, {1, -2, 0.05}, {-0.5, 1, -0.2}};
-    for (int i = 0; i < 5; i++) {
-        vec3 v = velocities[i]; /* of the new point */
-        vec3 old = vec3_make(v.x + v.z * y, v.y - v.z * x, v.z);
-        assert_relative(energy(moved, v), energy(coupled, old), 1e-12);
-    }
-}
-END_TEST
-
-/* With y to starboard and yaw clockwise the same motion has sway and yaw of the other sign. */
-START_TEST(matrices_in_the_other_axes)
-{
-    mat3 flipped = plane_matrix_flipped(coupled);
-    const vec3 velocities[] = {{1, 2, 0.1}, {1, -2, 0.05}, {-0.5, 1, -0.2}};
-    for (int i = 0; i < 3; i++) {
-        vec3 v = velocities[i];
-        vec3 force = mat3_mul_vec(coupled, v), other = mat3_mul_vec(flipped, vec3_make(v.x, -v.y, -v.z));
-        assert_vec3_close(other, vec3_make(force.x, -force.y, -force.z), 1e-3);
-    }
-}
-END_TEST
 
 /* Without damping, and with a bias that does not fade, the passive observer's error has a triple pole at -w: from a
    place that is off by E it is E (1 - 2 w t + w^2 t^2 / 2) exp(-w t). */
@@ -147,5 +118,5 @@ START_TEST(a_hull_follows_its_path)
 }
 END_TEST
 
-TEST_MAIN("plane_motion", a_hull_follows_its_path, matrices_about_another_point, matrices_in_the_other_axes,
-          the_passive_observers_poles, the_kalman_filters_jacobian, a_measurement)
+TEST_MAIN("plane_motion", a_hull_follows_its_path, the_passive_observers_poles, the_kalman_filters_jacobian,
+          a_measurement)
