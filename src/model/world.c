@@ -80,6 +80,9 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.patch_pairs);
     array_free(ctx, &w->scratch.patches);
     array_free(ctx, &w->scratch.ice_loads);
+    array_free(ctx, &w->scratch.shares);
+    array_free(ctx, &w->scratch.web_first);
+    array_free(ctx, &w->scratch.web_next);
     array_free(ctx, &w->scratch.responses);
     array_free(ctx, &w->scratch.fractures);
     if (w->scratch.collision)
@@ -111,6 +114,9 @@ void world_poison_scratch(world *w)
     POISON(patch_pairs);
     POISON(patches);
     POISON(ice_loads);
+    POISON(shares);
+    POISON(web_first);
+    POISON(web_next);
     POISON(responses);
     POISON(fractures);
 #undef POISON

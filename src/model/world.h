@@ -11,6 +11,7 @@
 #include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
+#include "model/mechanism.h"
 #include "model/model.h"
 #include "vessel/mooring.h"
 #include "vessel/station.h"
@@ -49,7 +50,8 @@ typedef struct ice_load {
     wrench capped;    /* normal forces of contacts at their crushing limit */
     wrench below_cap; /* normal forces of the others */
     wrench friction;
-    wrench zone[ZONE_COUNT]; /* total, split by hull zone */
+    wrench zone[ZONE_COUNT];           /* total, split by hull zone */
+    wrench mechanism[MECHANISM_COUNT]; /* total, split by what makes it (sim/mechanisms.h) */
     int32_t contacts;
 } ice_load;
 
@@ -91,6 +93,9 @@ typedef struct world {
         index_array patch_pairs;
         crushing_patch_array patches;
         ARRAY(ice_load) ice_loads;      /* one per vessel */
+        ARRAY(ice_share) shares;        /* the vessels' contacts with other bodies that carry something */
+        int32_array web_first;          /* sim/force_chain.h: one per body slot */
+        int32_array web_next;           /* two per contact */
         ARRAY(hull_response) responses; /* one per vessel */
         fracture_event_array fractures;
         solver_report solver;

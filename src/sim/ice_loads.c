@@ -1,5 +1,7 @@
 #include "sim/ice_loads.h"
 
+#include "sim/mechanisms.h"
+
 #include <string.h>
 
 static int32_t vessel_of(const world *w, int32_t body)
@@ -55,7 +57,7 @@ fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *er
         w->load_window.force[row] = loads[v].total.force;
         w->load_window.moment[row] = loads[v].total.moment;
     }
-    return FRAM_OK;
+    return mechanisms_find(ctx, m, w, error);
 }
 
 wrench last_ice_load(const world *w, int32_t vessel)

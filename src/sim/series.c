@@ -101,6 +101,18 @@ static count_channels counts_of(const world *w)
 /* Every column once: name, unit, value.  Forces are on the vessel, global frame unless the name says body; moments are
    about its centre of mass. */
 #define V3(X, name, unit, v) X(name "_x", unit, (v).x) X(name "_y", unit, (v).y) X(name "_z", unit, (v).z)
+#define MECHANISM(X, name, id)                                           \
+    V3(X, "mechanism_" name, "N", c.ice.mechanism[MECHANISM_##id].force) \
+    V3(X, "mechanism_" name "_moment", "N m", c.ice.mechanism[MECHANISM_##id].moment)
+#define MECHANISMS(X)                          \
+    MECHANISM(X, "splitting", SPLITTING)       \
+    MECHANISM(X, "bending", BENDING)           \
+    MECHANISM(X, "crushing", CRUSHING)         \
+    MECHANISM(X, "chain", CHAIN)               \
+    MECHANISM(X, "accumulation", ACCUMULATION) \
+    MECHANISM(X, "submersion", SUBMERSION)     \
+    MECHANISM(X, "impact", IMPACT)             \
+    MECHANISM(X, "friction", FRICTION)
 #define SERIES(X)                                                     \
     X("time", "s", w->clock.time[0])                                  \
     V3(X, "position", "m", c.position)                                \
@@ -123,6 +135,7 @@ static count_channels counts_of(const world *w)
     V3(X, "ice_force_midbody", "N", c.ice.zone[ZONE_MIDBODY].force)   \
     V3(X, "ice_force_stern", "N", c.ice.zone[ZONE_STERN].force)       \
     V3(X, "ice_force_bottom", "N", c.ice.zone[ZONE_BOTTOM].force)     \
+    MECHANISMS(X)                                                     \
     V3(X, "tow_force", "N", c.joint_force)                            \
     V3(X, "tow_moment", "N m", c.joint_moment)                        \
     V3(X, "fluid_force", "N", c.fluid.force)                          \

@@ -3,6 +3,7 @@
 #include "model/world_invariants.h"
 #include "sim/feed.h"
 #include "sim/ice_loads.h"
+#include "sim/mechanisms.h"
 #include "sim/station_forces.h"
 #include "vessel/path.h"
 
@@ -172,6 +173,7 @@ static fram_status break_floes(context *ctx, const model *m, world *w, fram_erro
         if (m->brash)
             w->clock.brash_momentum[0] = vec3_add(w->clock.brash_momentum[0], e->momentum_lost);
     }
+    mechanisms_sum(w);
     return status;
 }
 
