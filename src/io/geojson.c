@@ -188,7 +188,6 @@ static fram_status read_properties(reading *r, json_walk w)
     char key[16];
     bool more = true;
     json_kind kind;
-    r->thickness = (double)NAN;
     if (!w.at)
         return FRAM_OK;
     fram_status status = json_walk_kind(&w, &kind, r->error);

@@ -4,6 +4,7 @@
 #include "ice/floe.h"
 #include "ice/fracture.h"
 #include "sim/build.h"
+#include "sim/sanity.h"
 #include "sim/scene_size.h"
 
 #include <stdio.h>
@@ -110,6 +111,8 @@ static void note_vessel(const note_taker *n, const scenario *s)
         note_warning(n, "the vessel leaves the domain before the end, at (%.4g, %.4g) m", x, y);
 }
 
+static void tell_warning(const void *to, const char *text) { note_warning(to, "%s", text); }
+
 static void take_notes(const note_taker *n, const scenario *s)
 {
     note_fact(n, "run: %.0f steps of %g s", floor(s->run.duration / s->run.time_step + 0.5), s->run.time_step);
@@ -119,6 +122,7 @@ static void take_notes(const note_taker *n, const scenario *s)
     note_ice(n, s);
     note_fracture(n, s);
     note_vessel(n, s);
+    sanity_tell(s, tell_warning, n);
     if (s->run.solver.baumgarte)
         note_warning(n, "run.solver.baumgarte is a comparison switch; it is known to make the ice explode");
 }

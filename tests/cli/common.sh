@@ -4,9 +4,15 @@
 # shellcheck shell=bash
 set -euo pipefail
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
 failures=0
+# A test that forgets to finish fails all the same.
+leave() {
+    local code=$?
+    rm -rf "$scratch"
+    [ "$code" != 0 ] || [ "$failures" = 0 ] || exit 1
+}
+trap leave EXIT
+cd "$scratch"
 fail() {
     echo "FAILED: $*"
     failures=$((failures + 1))

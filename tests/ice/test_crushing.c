@@ -686,6 +686,16 @@ START_TEST(horizontal_area_over_a_seam)
         assert_relative(p->horizontal_area, 15, 1e-11);
         assert_relative(p->area, 15, 1e-11);
         assert_absolute(r.contacts.data[0].depth, 0.1, 1e-11);
+        /* The points have the second moments of the turned bottom of 5 x 3 m and of 0.1 m of the sides over it, in any
+           direction. */
+        vec3 along = {real_cos(0.3), real_sin(0.3), 0}, across = {-along.y, along.x, 0};
+        vec3 between = vec3_scale(vec3_add(along, across), sqrt(0.5));
+        double ends = 0.1 * 3 * 2, sides = 0.1 * 5 * 2, all = 15 + ends + sides;
+        double longer = ((15 + sides) * 25 / 12 + ends * 2.5 * 2.5) / all;
+        double shorter = ((15 + ends) * 9 / 12 + sides * 1.5 * 1.5) / all;
+        assert_relative(points_spread(&r, p, turned(0.1, 0.2, along)), longer, 1e-11);
+        assert_relative(points_spread(&r, p, turned(0.1, 0.2, across)), shorter, 1e-11);
+        assert_relative(points_spread(&r, p, turned(0.1, 0.2, between)), (longer + shorter) / 2, 1e-11);
         ice_rig_free(&r);
     }
 }

@@ -380,6 +380,9 @@ START_TEST(no_convex_part)
         /* Joined, lost, and kept where its largest part is large enough. */
         ck_assert_int_eq(event.pieces, turn == 2 ? 2 : 1);
         assert_absolute(event.piece_area, polygon_area(other) + (turn == 1 ? 0 : polygon_area(ragged)), 2e-3);
+        if (turn == 1)
+            assert_absolute(event.area_lost, polygon_area(ragged), 2e-3);
+        ck_assert(event.area_lost >= 0 && event.area_gained >= 0 && event.area_gained < 2e-3);
         polygon_list_free(&r.ctx, &rings);
         fracture_rig_free(&r);
     }

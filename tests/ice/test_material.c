@@ -20,6 +20,9 @@ START_TEST(characteristic_length)
     /* l grows with h^(3/4). */
     assert_relative(ice_characteristic_length(&SAMPLE, 16, 1025, 9.81),
                     8 * ice_characteristic_length(&SAMPLE, 1, 1025, 9.81), 1e-15);
+    /* And falls with (rho g)^(1/4). */
+    assert_relative(ice_characteristic_length(&SAMPLE, 1, 1025, 16 * 9.81), 14.6079 / 2, 5e-6);
+    assert_relative(ice_characteristic_length(&SAMPLE, 1, 16 * 1025, 9.81), 14.6079 / 2, 5e-6);
     /* Froude scaling by 16: h and E times 16, l times 16, to the bit. */
     ice_material scaled = SAMPLE;
     scaled.elastic_modulus *= 16;

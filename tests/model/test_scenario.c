@@ -212,9 +212,52 @@ START_TEST(keys_must_go_together)
     REFUSED(s.vessel.y = 101, "vessel.x", "inside the walls");
     REFUSED(s.ice.source = ICE_FLOES, "ice.floes", "at least one");
     REFUSED(s.ice.friction.ice_wall_kinetic = 0.4, "ice.friction.ice_wall_kinetic", "ice_wall_static");
+    REFUSED(s.ice.friction.ice_ice_kinetic = 0.4, "ice.friction.ice_ice_kinetic", "ice_ice_static");
+    REFUSED(s.ice.friction.ice_hull_kinetic = 0.4, "ice.friction.ice_hull_kinetic", "ice_hull_static");
+    REFUSED(s.domain.boundary = DOMAIN_FEEDING; s.ice.source = ICE_NONE, "ice.source", "without end");
+    REFUSED(s.domain.boundary = DOMAIN_FEEDING; s.ice.source = ICE_FLOES, "ice.source", "without end");
     REFUSED(s.ice.density = 1025, "ice.density", "floats");
     REFUSED(s.ice.mean_floe_area = 1e5, "ice.mean_floe_area", "80000");
     REFUSED(s.ice.smallest_floe_area = 500, "ice.smallest_floe_area", "ice.mean_floe_area");
+}
+END_TEST
+
+/* The section of a list of the vessel, by the names on the way to it. */
+static const scenario_section *vessel_section(const char *const *names, int count)
+{
+    const scenario_section *at = scenario_schema.keys[section_find(&scenario_schema, "vessel")].section;
+    for (int i = 0; i < count; i++)
+        at = at->keys[section_find(at, names[i])].section;
+    return at;
+}
+
+/* What keeps a free vessel in place: positioning asks for thrusters, a line of a table for one table. */
+START_TEST(stations_are_whole)
+{
+    context ctx;
+    context_init(&ctx);
+    scenario s = good();
+    choice_set(&s.vessel.mode, VESSEL_FREE);
+    s.vessel.positioning.active = true;
+    assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, "expected thrusters");
+    ck_assert_str_eq(error.key, "vessel.thrusters");
+    scenario_thruster thruster;
+    static const char *const thrusters[] = {"thrusters"}, *const table[] = {"mooring", "lines", "table"};
+    section_defaults(vessel_section(thrusters, 1), &thruster, 30);
+    ck_assert(array_push(&ctx, &s.vessel.thrusters, thruster));
+    assert_ok(scenario_check(&s, &error), error);
+    scenario_mooring_line line;
+    section_defaults(vessel_section(table, 2), &line, 30);
+    line.kind = LINE_TABLE;
+    set_text(line.table_file, sizeof line.table_file, "tensions.csv");
+    ck_assert(array_push(&ctx, &s.vessel.mooring.lines, line));
+    assert_ok(scenario_check(&s, &error), error);
+    scenario_line_point point;
+    section_defaults(vessel_section(table, 3), &point, 30);
+    ck_assert(array_push(&ctx, &s.vessel.mooring.lines.data[0].table, point));
+    assert_fails(scenario_check(&s, &error), error, FRAM_ERROR_INPUT, "points or a table_file, found both");
+    ck_assert_str_eq(error.key, "vessel.mooring.lines[0].table");
+    scenario_free(&ctx, &s);
 }
 END_TEST
 
@@ -315,5 +358,5 @@ END_TEST
 
 TEST_MAIN("scenario", defaults_pass_their_own_checks, thresholds_follow_the_scale, defaults_of_the_specification,
           every_row_is_complete, choices_go_by_name, misspelt_names_find_their_neighbour, walking_meets_every_key_once,
-          ranges_are_checked, keys_must_go_together, what_is_absent_is_not_checked, floes_stay_in_the_domain,
-          errors_find_their_place, paths_are_relative_to_the_scenario)
+          ranges_are_checked, keys_must_go_together, stations_are_whole, what_is_absent_is_not_checked,
+          floes_stay_in_the_domain, errors_find_their_place, paths_are_relative_to_the_scenario)

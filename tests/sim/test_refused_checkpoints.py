@@ -79,6 +79,21 @@ def lost_index(data):
     return with_sums(bytes(data))
 
 
+def moved_body(data):
+    """The first body stands elsewhere by the last bit of its x, which no check of a state can know; every checksum
+    fits."""
+    data, name = bytearray(data), struct.pack("<I", 4) + b"body"
+    at = data.index(name) + len(name)
+    fields, at = struct.unpack_from("<I", data, at)[0], at + 4
+    for k in range(fields):
+        size = struct.unpack_from("<I", data, at)[0]
+        assert k > 0 or data[at + 4:at + 4 + size] == b"position", "the first field"
+        at += 4 + size + 8
+    assert struct.unpack_from("<i", data, at)[0] > 1, "bodies"
+    data[at + 4] ^= 1
+    return with_sums(bytes(data))
+
+
 DAMAGE = {
     "empty": (lambda data: b"", "too short|cut short|expected"),
     "cut in its head": (lambda data: data[:20], "short|expected"),
@@ -90,6 +105,7 @@ DAMAGE = {
     "another version": (other_version, "version"),
     "an index that names nothing": (lost_index, r"vessel\[0\].body: |the state cannot be: found 1048576"),
     "another byte order": (swapped, "byte order"),
+    "a body that was moved with care": (moved_body, "state is not the one"),
     "a state that was changed with care": (lambda data: with_sums(flipped(-1)(data)), "state is not the one|expected"),
 }
 

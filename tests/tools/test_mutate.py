@@ -10,6 +10,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools/mutate"))
 import mutants  # noqa: E402
+import mutate  # noqa: E402
 import verdicts  # noqa: E402
 import workplace  # noqa: E402
 
@@ -23,6 +24,7 @@ file: two.c
 after: int second(
 - v[0]
 + v[1]
+test: runs/all
 survives: nobody looks
 """
 
@@ -42,6 +44,7 @@ class Listing(unittest.TestCase):
     def test_texts_are_found_however_they_are_broken(self):
         one, two = mutants.read(self.root)
         self.assertEqual((one.kind, one.what, two.survives), ("sign", "the sum subtracts", "nobody looks"))
+        self.assertEqual((one.test, two.test), ("", "runs/all"))
         path, text = mutants.locate(self.root, one)
         self.assertEqual((path.name, text), ("one.c", "int sum(int a, int b) { return a - b; }\n"))
         self.assertIn("second(int *v) { return v[1] + v[0]; }", mutants.locate(self.root, two)[1])
@@ -74,6 +77,22 @@ class Listing(unittest.TestCase):
         self.assertFalse(again.known(self.root, one, "other code"))
         self.plant("tests/base/test_sum.c", "another test")
         self.assertFalse(again.known(self.root, one, "abc"))
+
+    def test_the_test_that_is_named_comes_first(self):
+        class Place:
+            tests = [{"name": name, "room": name.split("/")[0], "source": ""}
+                     for name in ("base/sum", "base/two", "runs/all", "sim/step")]
+
+            @staticmethod
+            def usual(test):
+                return len(test["name"])
+        one, two = mutants.read(self.root)
+        path = pathlib.Path("two.c")
+        names = [[t["name"] for t in mutate.order(Place, m, path, first)] for m in (one, two) for first in (0, 2)]
+        self.assertEqual(names[0], ["base/two", "base/sum", "runs/all", "sim/step"])
+        self.assertEqual(names[1], ["base/two", "base/sum"])
+        self.assertEqual(names[2], ["runs/all", "base/two", "base/sum", "sim/step"])
+        self.assertEqual(names[3], ["runs/all", "base/two"])
 
     def test_failures_are_named(self):
         self.assertEqual(workplace.first_failure("tests/x.c:12:F:vec:lengths:0: no"), "lengths")

@@ -7,6 +7,7 @@ An entry is a block of lines, blocks are parted by empty lines, lines of '#' are
     after: static inline vec3 vec3_cross(
     - a.y * b.z - a.z * b.y
     + a.y * b.z + a.z * b.y
+    test: base/vec (the test to try first, of any room; where it is not named, the likeliest are guessed)
     survives: why no test can tell (only where none does)
 
 The text after '-' must stand exactly once in the room, or in the file named, or, with 'after', be looked for from there
@@ -19,10 +20,10 @@ import re
 
 KINDS = ("sign", "factor", "off-by-one", "missing", "index", "comparison", "clamp", "swap", "constant", "logic")
 # Calls go down the floors: a fault is looked for by tests of its own room first, then by those of rooms above.
-ROOMS = ("base", "geometry", "bodies", "dynamics", "fluid", "ice", "vessel", "model", "io", "results", "sim", "api",
-         "cli")
+ROOMS = ("base", "geometry", "bodies", "dynamics", "fluid", "ice", "vessel", "model", "io", "results", "sim", "study",
+         "api", "cli")
 
-Mutant = collections.namedtuple("Mutant", "room kind what file after old new survives place")
+Mutant = collections.namedtuple("Mutant", "room kind what file after old new test survives place")
 
 
 class Stale(Exception):
@@ -34,7 +35,7 @@ def _block(room, lines, place):
     head = re.match(r"^\[([\w-]+)\] (.+)$", lines[0])
     if not head or head[1] not in KINDS:
         raise Stale(f"{place}: begins with [kind] and what it breaks; kinds are {', '.join(KINDS)}")
-    fields = {"file": "", "after": "", "survives": ""}
+    fields = {"file": "", "after": "", "test": "", "survives": ""}
     old, new = [], []
     for line in lines[1:]:
         word, _, rest = line.partition(" ")
@@ -45,11 +46,11 @@ def _block(room, lines, place):
         elif word.rstrip(":") in fields and word.endswith(":"):
             fields[word[:-1]] = rest.strip()
         else:
-            raise Stale(f"{place}: a line begins with file:, after:, survives:, - or +: {line}")
+            raise Stale(f"{place}: a line begins with file:, after:, test:, survives:, - or +: {line}")
     if not old or not new:
         raise Stale(f"{place}: a text to find and one to put in its place")
     return Mutant(room, head[1], head[2], fields["file"], fields["after"], "\n".join(old), "\n".join(new),
-                  fields["survives"], place)
+                  fields["test"], fields["survives"], place)
 
 
 def read(root):

@@ -3,6 +3,7 @@
 
     --check       only look whether each fault of tests/mutants still fits the code (seconds; part of lint)
     --rooms A,B   faults of these rooms only
+    --only TEXT   faults that have this text in what they break, or in the lines they change, only
     --jobs N      so many at once, each in a copy of the tree under build/mutate
     --minutes M   begin no fault after that time; the next call goes on
     --first N     only the N likeliest tests of the fault's own room, with short scenes; what they miss is left open
@@ -30,14 +31,17 @@ OTHERS = {"runs"}
 
 
 def order(place, mutant, path, first):
-    """Tests of the own room first, the likeliest ahead, then quick ones of the others; none of rooms below."""
+    """The test named first, then tests of the own room, the likeliest ahead, then quick ones of the others; none of
+    rooms below."""
     def sort_key(test):
         return (-likely(test, path), place.usual(test))
-    own = sorted((t for t in place.tests if t["room"] == mutant.room), key=sort_key)
+    named = [t for t in place.tests if t["name"] == mutant.test]
+    rest = [t for t in place.tests if t["name"] != mutant.test]
+    own = named + sorted((t for t in rest if t["room"] == mutant.room), key=sort_key)
     if first:
         return own[:first]
     above = set(listing.ROOMS[listing.ROOMS.index(mutant.room) + 1:]) | OTHERS
-    return own + sorted((t for t in place.tests if t["room"] in above), key=place.usual)
+    return own + sorted((t for t in rest if t["room"] in above), key=place.usual)
 
 
 def judge(place, mutant, path, text, first):
@@ -93,6 +97,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true")
     parser.add_argument("--rooms", default="")
+    parser.add_argument("--only", default="")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=1e6)
     parser.add_argument("--first", type=int, default=0)
@@ -107,6 +112,8 @@ def main():
     every = listing.read(ROOT)
     for mutant in every:
         if options.rooms and mutant.room not in options.rooms.split(","):
+            continue
+        if options.only not in mutant.what + mutant.old + mutant.new:
             continue
         try:
             path, text = listing.locate(ROOT, mutant)

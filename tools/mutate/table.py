@@ -2,6 +2,8 @@
 
 import collections
 import datetime
+import pathlib
+import re
 import subprocess
 
 from verdicts import CAUGHT, OPEN
@@ -18,6 +20,18 @@ def code(root):
     done = subprocess.run(["git", "-C", str(root), "rev-parse", "--short", "HEAD"], capture_output=True, text=True,
                           check=False)
     return done.stdout.strip()
+
+
+def first_line(words):
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    return done.stdout.partition("\n")[0].strip()
+
+
+def machine():
+    """Processor and compiler: what the times of the tests, and so what hangs, depend on."""
+    told = re.search(r"model name\s*: (.+)", pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8"))
+    cores = first_line(["nproc"])
+    return f"{told[1] if told else 'unknown processor'}, {cores} cores, {first_line(['cc', '--version'])}"
 
 
 def write(path, root, mutants, verdicts):
@@ -47,8 +61,8 @@ def write(path, root, mutants, verdicts):
         rows.append(f"| {name} | {c['tried']} | {c['own']} | {c['other']} | {left} | {c['open']} |")
     share = 100 * (total["own"] + total["other"]) / max(1, total["tried"])
     all_of_them = total["tried"] + missing
-    text = (f"{HEAD}\n{datetime.date.today().isoformat()}, code {code(root)}: {total['tried']} of {all_of_them} "
-            f"faults tried, {share:.1f} % caught.\n\n" + "\n".join(rows) + "\n\n## Survivors\n\n" +
+    text = (f"{HEAD}\n{datetime.date.today().isoformat()}, code {code(root)}, {machine()}: {total['tried']} of "
+            f"{all_of_them} faults tried, {share:.1f} % caught.\n\n" + "\n".join(rows) + "\n\n## Survivors\n\n" +
             ("\n".join(survivors) or "None.") + "\n")
     if open_ones:
         text += ("\n## Open\n\nMissed by the likeliest tests of their room; the others were not run yet.\n\n"

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """A campaign of faults against the command: random scenarios, mutated inputs, failing system calls, signals, damage.
 
-    tools/torture/torture.py [--minutes M] [--seed S] [--jobs J] [--only PART[:CASE]] [--page FILE] [--out DIR]
+    tools/torture/torture.py [--minutes M] [--cases N] [--seed S] [--jobs J]
+                             [--only PART[:CASE]] [--soak-hours H] [--page FILE] [--out DIR]
 
 Every case is drawn from seed, part and number alone: --seed S --only PART:CASE shows a finding again.  Exit code 1 when
 something was found; each finding stands in DIR with its files (a scenario shrunk to what shows it).
@@ -45,6 +46,7 @@ class Rig:
         self.sections = schema.read(options.fram)
         self.shrink_tries = options.shrink
         self.minutes, self.out = options.minutes, options.out
+        self.soak_hours = options.soak_hours
         self.work = pathlib.Path(tempfile.mkdtemp(prefix="fram-torture-"))
         self.lock = threading.RLock()
         self.kept = {}
@@ -114,7 +116,7 @@ def campaign(rig, options, parts):
         """The part that lags most behind its share."""
         with lock:
             open_parts = [p for p in parts if tallies[p].seconds < budget[p]
-                          and (not getattr(p, "MOST", None) or started[p] < p.MOST)]
+                          and started[p] < min(getattr(p, "MOST", None) or options.cases, options.cases)]
             if not open_parts or time.monotonic() >= end:
                 return None, 0
             part = min(open_parts, key=lambda p: (tallies[p].seconds + 1e-3 * started[p]) / budget[p])
@@ -149,6 +151,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fram", default=str(ROOT / "build/release/fram"))
     parser.add_argument("--minutes", type=float, default=60)
+    parser.add_argument("--cases", type=int, default=sys.maxsize, help="most cases of a part, however fast the machine")
+    parser.add_argument("--soak-hours", type=float, default=0, help="soak for so many simulated hours (--only soak)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="PART or PART:CASE")

@@ -1,0 +1,293 @@
+#include "sim/sanity.h"
+
+#include "base/transcendental.h"
+#include "model/scenario_schema.h"
+#include "model/scenario_vessel.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct teller {
+    sanity_teller tell;
+    const void *to;
+    const scenario *s;
+} teller;
+
+enum { SENTENCE_SIZE = 360, PATTERN_SIZE = 96 };
+static void say(const teller *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void say(const teller *t, const char *format, ...)
+{
+    char text[SENTENCE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    t->tell(t->to, text);
+}
+
+/* ---- one number at a time ---- */
+
+/* What a number of full size usually is.  At another scale one of its bounds goes with that power of scale / 30
+   (Froude's and Cauchy's law), the default scale being that at which lengths are those of the sea; the other stays,
+   since a tank may also keep full-size strengths. */
+typedef struct usual {
+    const char *key; /* without indices */
+    double least, most, power;
+    const char *why, *remedy;
+} usual;
+
+/* Sea ice: Timco and Weeks (2010), Cold Regions Science and Technology 60: flexural strength 0.1 to 1.8 MPa, fresh ice
+   up to 3, modulus 1 to 10 GPa; Timco and Frederking (1996): density 720 to 940 kg/m3; Dempsey, Adamson and Mulmule
+   (1999): toughness 0.05 to 0.3 MPa m^0.5; friction: Sukhorukov and Loset (2013), 0.02 to 1. */
+static const usual usual_values[] = {
+    {"ice.thickness", 0.02, 6, 1, "what floes and sheets measure", "give metres"},
+    {"ice.populations[].thickness", 0.02, 6, 1, "what floes measure", "give metres"},
+    {"ice.floes[].thickness", 0.02, 6, 1, "what floes measure", "give metres"},
+    {"ice.flexural_strength", 3e4, 4e6, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
+    {"ice.populations[].flexural_strength", 3e4, 4e6, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
+    {"ice.elastic_modulus", 1e8, 1.5e10, 1, "what was measured on ice", "give pascal, not GPa"},
+    {"ice.crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not MPa"},
+    {"ice.populations[].crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not MPa"},
+    {"ice.fracture.toughness", 1e4, 1e6, 1.5, "what was measured on ice", "give Pa m^0.5, not kPa m^0.5"},
+    {"ice.density", 650, 960, 0, "what was measured on ice", "give kg/m3"},
+    {"ice.friction.ice_ice_static", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"ice.friction.ice_hull_static", 0, 1, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"environment.water_density", 980, 1100, 0, "fresh water to brine", "give kg/m3"},
+    {"environment.air_density", 1, 1.7, 0, "air at sea level", "give kg/m3"},
+    {"environment.gravity", 9.7, 9.9, 0, "that of the Earth", "give m/s2"},
+    {"environment.wind_speed", 0, 50, 0.5, "a hurricane", "give m/s, a knot is 0.514 of it"},
+    {"environment.current_speed", 0, 4, 0.5, "a strong tidal stream", "give m/s, not cm/s"},
+    {"domain.drift_speed", 0, 3, 0.5, "fast drift", "give m/s, not km/h or cm/s"},
+    {"vessel.speed", 0, 12, 0.5, "what ships do in ice", "give m/s, a knot is 0.514 of it"},
+    {"vessel.hull.length", 4, 500, 1, "what ships and structures measure", "give metres"},
+    {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
+    {"vessel.mooring.lines[].pretension", 2e3, 3e7, 3, "what lines are set to", "give newtons, not kN or tonnes"},
+    {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
+    {"vessel.thrusters[].thrust", 2e3, 1e7, 3, "what a propeller gives", "give newtons, not kN or tonnes"},
+};
+
+/* The keys whose value is an angle [deg], by their end. */
+static bool is_angle(const char *pattern)
+{
+    size_t n = strlen(pattern);
+    return n > 4 && strcmp(pattern + n - 4, "_deg") == 0;
+}
+
+/* Radians where degrees belong are multiples of pi / 12 to the digits that a person types. */
+static void tell_radians(const teller *t, const char *path, double value)
+{
+    double part = fabs(value) / (PI / 12), off = fabs(part - floor(part + 0.5)) * (PI / 12);
+    bool whole = fabs(value - floor(value + 0.5)) < 1e-9;
+    if (fabs(value) < 6.3 && part > 0.9 && off < 1e-3 && !whole)
+        say(t, "%s: %.6g degrees is %.4g of pi: give degrees, not radians", path, value, value / PI);
+}
+
+/* A path without its indices, and with vessels in a list read as the one vessel. */
+static void pattern_of(const char *path, char out[PATTERN_SIZE])
+{
+    size_t n = 0;
+    if (strncmp(path, "vessels[", 8) == 0) {
+        path = strchr(path, ']') ? strchr(path, ']') + 1 : path;
+        n = (size_t)snprintf(out, PATTERN_SIZE, "vessel");
+    }
+    for (; *path && n + 1 < PATTERN_SIZE; path++) {
+        out[n++] = *path;
+        if (*path == '[' && strchr(path, ']'))
+            path = strchr(path, ']') - 1;
+    }
+    out[n] = '\0';
+}
+
+static fram_status look_at_number(void *user, const scenario_key *key, const void *member, const char *path,
+                                  fram_error *error)
+{
+    (void)error;
+    const teller *t = user;
+    double value = key->kind == KEY_REAL ? *(const double *)member : (double)NAN;
+    if (is_automatic(value))
+        return FRAM_OK;
+    char pattern[PATTERN_SIZE];
+    pattern_of(path, pattern);
+    if (is_angle(pattern))
+        tell_radians(t, path, value);
+    for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
+        const usual *u = &usual_values[i];
+        double factor = real_pow(t->s->run.scale / scenario_default_scale(), u->power);
+        double least = u->least * fmin(1, factor), most = u->most * fmax(1, factor);
+        if (strcmp(u->key, pattern) != 0 || (value >= least && value <= most) || (u->least > 0 && value == 0))
+            continue;
+        say(t, "%s: %.6g%s%s is outside of %.3g to %.3g, %s: %s", path, value, *key->unit ? " " : "", key->unit, least,
+            most, u->why, u->remedy);
+    }
+    return FRAM_OK;
+}
+
+/* ---- numbers that belong together ---- */
+
+static double thinnest(const scenario_ice *i)
+{
+    double h = i->source == ICE_FLOES && i->floes.count > 0 ? HUGE_VAL : i->thickness;
+    for (int32_t k = 0; k < i->populations.count; k++)
+        h = fmin(h, automatic_or(i->populations.data[k].thickness, i->thickness));
+    for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count; k++)
+        h = fmin(h, automatic_or(i->floes.data[k].thickness, i->thickness));
+    return h;
+}
+
+/* A floe heaves at the root of rho_w g / (rho_i h); see the stiffness of hulls in vessel_check.c for the bounds. */
+static void tell_heave(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    const scenario_environment *e = &t->s->environment;
+    if (i->source == ICE_NONE || !e->water)
+        return;
+    double h = thinnest(i), frequency = sqrt(e->water_density * e->gravity / (i->density * h));
+    if (frequency * t->s->run.time_step > 1)
+        say(t, "run.time_step: %.4g s is too long for ice of %.3g m, which heaves at %.3g rad/s; take less than %.2g s",
+            t->s->run.time_step, h, frequency, 0.5 / frequency);
+}
+
+static void tell_ice_shape(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    if (i->source == ICE_VORONOI && i->populations.count == 0 && sqrt(i->mean_floe_area) < 2 * i->thickness)
+        say(t, "ice.mean_floe_area: floes of %.3g m2 are hardly wider than the ice is thick, %.3g m: is it the area?",
+            i->mean_floe_area, i->thickness);
+    if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
+        if (i->concentration < 0.05)
+            say(t, "ice.concentration: %.3g is next to open water: it is a part of 1, not of 10 or 100",
+                i->concentration);
+}
+
+/* Directions are where wind and ice go to; most drift goes within a right angle of the wind. */
+static void tell_directions(const teller *t)
+{
+    const scenario_environment *e = &t->s->environment;
+    const scenario_domain *d = &t->s->domain;
+    bool own = d->boundary == DOMAIN_FEEDING && !is_automatic(d->drift_speed);
+    double drift = own ? d->drift_direction_deg : e->current_direction_deg;
+    double speed = own ? d->drift_speed : e->current_speed;
+    bool histories = e->wind_file[0] || e->current_file[0] || d->drift_file[0];
+    if (histories || !(speed > 0) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
+        return;
+    double apart = fabs(fmod(fabs(drift - e->wind_direction_deg), 360));
+    if (fmin(apart, 360 - apart) > 90)
+        say(t,
+            "environment.wind_direction_deg: the wind blows towards %g degrees and %s goes towards %g, against it; "
+            "directions are where it goes to, not where it comes from",
+            e->wind_direction_deg, own ? "the ice (domain.drift_direction_deg)" : "the current", drift);
+}
+
+static void tell_times(const teller *t)
+{
+    const scenario_run *r = &t->s->run;
+    const scenario_output *o = &t->s->output;
+    if (r->transient > 0.9 * r->duration)
+        say(t, "run.transient: statistics leave out %g s of %g s, so that next to nothing is left for them",
+            r->transient, r->duration);
+    if (o->frame_interval > r->duration)
+        say(t, "output.frame_interval: %g s is longer than the run, so that pages show nothing that moves",
+            o->frame_interval);
+    if (o->averaging_window > 0.5 * r->duration)
+        say(t, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
+    if (o->picture_interval > 0 && r->duration / o->picture_interval > 1e4)
+        say(t, "output.picture_interval: %.0f pictures will be written", r->duration / o->picture_interval);
+}
+
+/* ---- vessels, from their keys ---- */
+
+static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
+
+static void tell_hull(const teller *t, const vessel_entry *e)
+{
+    const scenario_hull *h = &e->keys->hull;
+    if (!is_own_hull(e->keys))
+        return;
+    if (h->beam > h->length)
+        say(t, "%s.hull.beam: the hull is wider, %.4g m, than it is long, %.4g m", e->path, h->beam, h->length);
+    if (h->draught > h->beam)
+        say(t, "%s.hull.draught: %.4g m is more than the beam, %.4g m", e->path, h->draught, h->beam);
+    if (t->s->ice.source != ICE_NONE && t->s->ice.thickness > h->draught)
+        say(t, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m", t->s->ice.thickness, h->draught);
+    if (e->keys->mooring.lines.count > 0 && e->keys->mooring.depth < h->draught)
+        say(t, "%s.mooring.depth: the hull of draught %.4g m lies on the bottom at %.4g m", e->path, h->draught,
+            e->keys->mooring.depth);
+}
+
+/* Nearest edge of a fed domain within the reach of the vessel, turned any way: the band moves floes through the hull.
+ */
+static void tell_domain(const teller *t, const vessel_entry *e)
+{
+    const scenario_domain *d = &t->s->domain;
+    const scenario_vessel *v = e->keys;
+    if (t->s->ice.source == ICE_NONE || !is_own_hull(v) || v->path.count > 0)
+        return;
+    double reach = 0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
+    double band = d->boundary == DOMAIN_FEEDING ? automatic_or(d->band, 0) : 0;
+    double edge = fmin(fmin(v->x - d->x_min, d->x_max - v->x), fmin(v->y - d->y_min, d->y_max - v->y));
+    if (d->boundary == DOMAIN_FEEDING && edge - band < reach)
+        say(t,
+            "domain: its edge%s is %.4g m from %s, which reaches %.4g m as it turns; enlarge the domain by %.3g m or "
+            "more on that side",
+            band > 0 ? " with the band" : "", edge - band, e->path, reach, reach - edge + band);
+    double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
+    if (d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
+        say(t, "domain: %.4g m is less than two beams of %s, so that its edges carry the load", width, e->path);
+}
+
+static void tell_rest(const teller *t, const vessel_entry *e)
+{
+    const scenario_vessel *v = e->keys;
+    const scenario_environment *n = &t->s->environment;
+    const scenario_domain *d = &t->s->domain;
+    bool moves = v->speed > 0 || v->path.count > 0 || n->current_speed > 0 || n->wind_speed > 0 || n->current_file[0] ||
+                 n->wind_file[0] || d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
+    bool driven = v->mode == VESSEL_FREE && v->thrusters.count > 0;
+    if (!moves && !driven && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
+        say(t, "%s.speed: neither %s nor ice, water or wind moves: no load will come", e->path, e->path);
+}
+
+static void tell_station(const teller *t, const vessel_entry *e)
+{
+    const scenario_vessel *v = e->keys;
+    for (int32_t i = 0; i < v->mooring.lines.count; i++) {
+        const scenario_mooring_line *l = &v->mooring.lines.data[i];
+        double most = automatic_or(l->breaking_load, HUGE_VAL);
+        if (is_automatic(l->length) && l->kind == LINE_CATENARY && l->pretension > 0.5 * most)
+            say(t, "%s.mooring.lines[%d].pretension: %.4g N is %s the breaking load of %.4g N", e->path, (int)i,
+                l->pretension, l->pretension >= most ? "over" : "more than half of", most);
+        double down = v->mooring.depth + v->mooring.z, straight = sqrt(l->distance * l->distance + down * down);
+        if (!is_automatic(l->length) && l->length > l->distance + v->mooring.depth)
+            say(t,
+                "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it never pulls",
+                e->path, (int)i, l->length);
+        else if (!is_automatic(l->length) && l->kind == LINE_CATENARY &&
+                 (straight / l->length - 1) * l->stiffness > 0.5 * most)
+            say(t,
+                "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m strains it to about %.3g N from the "
+                "start, %s its breaking load",
+                e->path, (int)i, l->length, straight, (straight / l->length - 1) * l->stiffness,
+                (straight / l->length - 1) * l->stiffness >= most ? "over" : "more than half of");
+    }
+    if (v->positioning.active && v->thrusters.count == 0)
+        say(t, "%s.positioning: there are no thrusters to position with", e->path);
+}
+
+void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
+{
+    teller t = {tell, to, s};
+    (void)scenario_walk(s, look_at_number, &t, NULL);
+    tell_heave(&t);
+    tell_ice_shape(&t);
+    tell_directions(&t);
+    tell_times(&t);
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
+        vessel_entry e = scenario_vessel_entry(s, i);
+        tell_hull(&t, &e);
+        tell_domain(&t, &e);
+        tell_rest(&t, &e);
+        tell_station(&t, &e);
+    }
+}

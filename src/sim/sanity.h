@@ -1,0 +1,13 @@
+/* What of a scenario is likely a slip: a number in another unit, two keys that do not belong together.  All of it can
+   be simulated, so it is told, not refused.  One module with notes, which tells it. */
+#ifndef SIM_SANITY_H
+#define SIM_SANITY_H
+
+#include "model/scenario.h"
+
+/* Takes one sentence that names the key, what was found and what is usual. */
+typedef void (*sanity_teller)(const void *to, const char *text);
+/* From the keys alone, nothing is built. */
+void sanity_tell(const scenario *s, sanity_teller tell, const void *to);
+
+#endif

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""Numbers of the report and of compare that can be counted by hand: four floes of known size, a box that is driven into
+ice that does not bend, and what series.csv has."""
+import csv
+import json
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+
+FRAM = os.environ["FRAM"]
+DENSITY, THICKNESS = 920, 0.5
+FLOES = f"""
+run: {{duration: 0.5, time_step: 0.1}}
+vessel: {{present: false}}
+ice:
+  source: floes
+  thickness: {THICKNESS}
+  density: {DENSITY}
+  floes: [{{length: 10, width: 10}}, {{length: 20, width: 10, x: 30}}, {{length: 20, width: 20, x: 60}},
+          {{length: 20, width: 30, x: 90}}]
+domain: {{x_min: -100, x_max: 200, y_min: -40, y_max: 40, boundary: open}}
+"""
+BEAM, SPEED, WAY = 10, 1, 6
+# The bow stands 2 m before the edge of the sheet.
+BOX = f"""
+run: {{duration: {WAY + 2}, time_step: 0.02, transient: 1}}
+vessel:
+  mode: prescribed
+  x: -22
+  speed: {SPEED}
+  hull: {{form: box, length: 40, beam: {BEAM}, draught: 4, freeboard: 3}}
+ice: {{source: level, thickness: {THICKNESS}, density: {DENSITY}, breakable: true, flexural_strength: 1e9,
+  crush_trims: true, level: {{x_min: 0}}}}
+domain: {{x_min: -60, x_max: 60, y_min: -30, y_max: 30, boundary: open}}
+"""
+
+
+def run(folder, name, text, *keys):
+    (folder / f"{name}.yaml").write_text(text)
+    words = [word for key in keys for word in ("--set", key)]
+    subprocess.run([FRAM, "run", folder / f"{name}.yaml", "-o", folder / name, "-q", *words], check=True)
+    return folder / name
+
+
+def report(folder):
+    """First cell of each row of the report, and the numbers of the others."""
+    subprocess.run([FRAM, "report", folder, "-q"], check=True)
+    rows = re.findall(r"<tr>(.*?)</tr>", (folder / "report.html").read_text(), re.S)
+    cells = [[re.sub(r"<[^>]+>", "", c) for c in re.findall(r"<t[dh].*?</t[dh]>", row, re.S)] for row in rows]
+    numbers = re.compile(r"[-+]?\d+\.?\d*(e[-+]?\d+)?(?![.\d])")
+    return {c[0]: [float(n[0]) if (n := numbers.match(v.replace("\u2212", "-"))) else None for v in c[1:]]
+            for c in cells if c}
+
+
+def compare(a, b):
+    done = subprocess.run([FRAM, "compare", a, b, "--json"], capture_output=True, text=True, check=True)
+    told = json.loads(done.stdout)
+    return told, {row["name"]: (row["a"], row["b"]) for row in told["rows"]}
+
+
+def column(folder, name, transient):
+    with open(folder / "series.csv", newline="") as file:
+        return [float(row[name]) for row in csv.DictReader(file) if float(row["time[s]"]) >= transient]
+
+
+def close(found, expected, part):
+    assert abs(found - expected) <= part * abs(expected), (found, expected)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        floes = run(folder, "floes", FLOES)
+        rows = report(floes)
+        assert rows["floes"] == [4, 4], rows["floes"]
+        areas = (100, 200, 400, 600)
+        close(rows["mean floe area [m2]"][0], sum(areas) / 4, 1e-3)
+        close(rows["median floe area [m2]"][0], (200 + 400) / 2, 1e-3)
+        close(rows["largest floe [m2]"][0], 600, 1e-3)
+        close(rows["ice mass [t]"][0], sum(areas) * THICKNESS * DENSITY * 1e-3, 1e-3)
+
+        # Three of them: the middle one is the median.
+        close(report(run(folder, "three", FLOES.replace(", {length: 20, width: 10, x: 30}", "")))[
+            "median floe area [m2]"][0], 400, 1e-3)
+
+        # What the box has taken the place of is crushed, but for a rim in front of it, and the books close on it.
+        box = run(folder, "box", BOX)
+        rows = report(box)
+        crushed = rows["ice mass crushed"][0]
+        close(crushed, WAY * BEAM * THICKNESS * DENSITY * 1e-3, 0.1)
+        assert abs(rows["not accounted for at the last frame"][0]) < 0.01 * crushed, rows
+
+        # Of the same scenario, the same state; of another, another; the numbers are those of the series.
+        told, _ = compare(floes, run(folder, "again", FLOES))
+        assert told["same_scenario"] and told["same_state"], told
+        told, _ = compare(floes, run(folder, "thin", FLOES, "ice.thickness=0.4"))
+        assert not told["same_scenario"] and not told["same_state"], told
+        soft = run(folder, "soft", BOX, "ice.crushing_strength=1e6")
+        told, rows = compare(box, soft)
+        for k, each in enumerate((box, soft)):
+            load = [1e-3 * v for v in column(each, "ice_force_averaged_x[N]", 1)]
+            assert min(load) < -1000 and max(load) <= 0, (min(load), max(load))
+            close(rows["ice load along X, least"][k], min(load), 1e-9)
+            assert abs(rows["ice load along X, greatest"][k] - max(load)) < 1e-9 * -min(load), (rows, max(load))
+            close(rows["ice load along X, mean"][k], sum(load) / len(load), 1e-3)
+        # A vertical face is pushed through ice that crushes: strength x beam x thickness.
+        close(rows["ice load along X, least"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
+        close(rows["ice load along X, least"][1], -1e6 * BEAM * THICKNESS * 1e-3, 0.02)
+    print("floes, crushed ice and loads as counted by hand")
+
+
+main()
