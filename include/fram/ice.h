@@ -72,6 +72,27 @@ typedef struct fram_ice_breaking {
 /* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
 FRAM_API fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error);
 
+/* --- A floe that splits --- */
+
+/* A rectangular floe whose radial crack starts at a point of one side and runs straight across. */
+typedef struct fram_ice_floe {
+    size_t size;      /* of this struct, set by fram_ice_floe_default */
+    double thickness; /* [m]; default 1 */
+    double toughness; /* K_IC [Pa m^0.5]; default 150e3 */
+    double length;    /* along the crack [m]; default 50 */
+    double width;     /* across it [m]; default 50 */
+    double place;     /* of the load along the side, from its middle: -width/2 to width/2 [m]; default 0 */
+} fram_ice_floe;
+FRAM_API void fram_ice_floe_default(fram_ice_floe *floe);
+
+typedef struct fram_ice_splitting {
+    double smaller_side, larger_side; /* of the floe, to both sides of the crack [m] */
+    double factor;                    /* F */
+    double splitting_load;            /* largest opening force of the crack, F h K_IC sqrt(length) [N] */
+} fram_ice_splitting;
+/* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
+FRAM_API fram_status fram_ice_split(const fram_ice_floe *floe, fram_ice_splitting *splitting, fram_error *error);
+
 #ifdef __cplusplus
 }
 #endif

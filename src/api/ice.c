@@ -126,3 +126,45 @@ fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breakin
                                     .crushing_force = load->contact_area * load->crushing_strength};
     return FRAM_OK;
 }
+
+void fram_ice_floe_default(fram_ice_floe *floe)
+{
+    if (!floe)
+        return;
+    *floe = (fram_ice_floe){.size = sizeof *floe, .thickness = 1, .toughness = 150e3, .length = 50, .width = 50};
+}
+
+static fram_status check_floe(const fram_ice_floe *f, fram_error *error)
+{
+    const struct {
+        const char *key;
+        double value;
+    } row[] = {{"thickness", f->thickness}, {"toughness", f->toughness}, {"length", f->length}, {"width", f->width}};
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        bool good = row[i].value > 0 && isfinite(row[i].value);
+        fram_status status = need(good, row[i].key, "a positive number", row[i].value, error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return need(fabs(f->place) < f->width / 2, "place", "less than half the width to either side of the middle",
+                f->place, error);
+}
+
+fram_status fram_ice_split(const fram_ice_floe *floe, fram_ice_splitting *splitting, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"splitting", splitting});
+    if (status == FRAM_OK)
+        status = definition_check(floe, sizeof *floe, "fram_ice_floe", error);
+    if (status == FRAM_OK)
+        status = check_floe(floe, error);
+    if (status != FRAM_OK)
+        return status;
+    double far = floe->width / 2 + fabs(floe->place), near = floe->width - far;
+    *splitting = (fram_ice_splitting){
+        .smaller_side = near,
+        .larger_side = far,
+        .factor = fracture_splitting_factor(floe->length, near, far),
+        .splitting_load = fracture_splitting_force(floe->thickness, floe->toughness, floe->length, near, far),
+    };
+    return FRAM_OK;
+}

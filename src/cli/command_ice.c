@@ -7,10 +7,11 @@
 #include <string.h>
 
 typedef struct ice_words {
-    const char *what; /* wedge, sheet or break */
+    const char *what; /* wedge, sheet, break or split */
     double a_over_l;
     bool thin;
     fram_ice_edge load;
+    fram_ice_floe floe;
 } ice_words;
 
 static int read_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
@@ -21,7 +22,7 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
         {"--nu", NULL, OPTION_REAL, &w->load.poisson_ratio, "V", "sheet, break: Poisson's ratio, 0.3"},
         {"--force", NULL, OPTION_REAL, &w->load.force, "P", "break: load across the ice [N], 0"},
         {"--contact-area", NULL, OPTION_REAL, &w->load.contact_area, "A", "break: horizontal contact area [m2], 0"},
-        {"--thickness", NULL, OPTION_REAL, &w->load.thickness, "H", "break: of the ice [m], 1"},
+        {"--thickness", NULL, OPTION_REAL, &w->load.thickness, "H", "break, split: of the ice [m], 1"},
         {"--elastic-modulus", NULL, OPTION_REAL, &w->load.elastic_modulus, "E", "break: [Pa], 5e9"},
         {"--flexural-strength", NULL, OPTION_REAL, &w->load.flexural_strength, "S", "break: [Pa], 5e5"},
         {"--crushing-strength", NULL, OPTION_REAL, &w->load.crushing_strength, "S", "break: [Pa], 2e6"},
@@ -29,8 +30,15 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
         {"--gravity", NULL, OPTION_REAL, &w->load.gravity, "G", "break: [m/s2], 9.81"},
         {"--wedges", NULL, OPTION_INTEGER, &w->load.wedges, "N", "break: wedges that share the load, 3"},
         {"--thin-plate", NULL, OPTION_FLAG, &w->thin, NULL, "break: small loads keep their own radius"},
+        {"--toughness", NULL, OPTION_REAL, &w->floe.toughness, "K", "split: K_IC [Pa m^0.5], 150e3"},
+        {"--length", NULL, OPTION_REAL, &w->floe.length, "L", "split: of the floe along the crack [m], 50"},
+        {"--width", NULL, OPTION_REAL, &w->floe.width, "W", "split: of the floe across the crack [m], 50"},
+        {"--place", NULL, OPTION_REAL, &w->floe.place, "Y",
+         "split: of the load along the side, from its middle [m], 0"},
     };
-    return options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
+    w->floe.thickness = w->load.thickness;
+    return code;
 }
 
 /* One line for people, or one member for programs. */
@@ -112,20 +120,39 @@ static int answer_break(const ice_words *w, const common_options *common)
     return EXIT_GOOD;
 }
 
+static int answer_split(const ice_words *w, const common_options *common)
+{
+    fram_error error;
+    fram_ice_splitting s;
+    if (fram_ice_split(&w->floe, &s, &error) != FRAM_OK)
+        return answer_error(common, &error);
+    const answer_row rows[] = {
+        {"smaller_side", s.smaller_side, "m", "the floe to the nearer side of the crack"},
+        {"larger_side", s.larger_side, "m", "to the other side"},
+        {"factor", s.factor, "", "F of the largest opening force F h K_IC sqrt(length)"},
+        {"splitting_load", s.splitting_load, "N", "opening force at which the floe splits"},
+    };
+    PRINT(common, rows);
+    return EXIT_GOOD;
+}
+
 int command_ice(const command_row *self, int argc, char **argv)
 {
     common_options common;
     ice_words w = {.a_over_l = NAN};
     fram_ice_edge_default(&w.load);
+    fram_ice_floe_default(&w.floe);
     int code = read_words(self, &w, &common, argc, argv);
     if (code >= 0)
         return code;
-    bool breaks = strcmp(w.what, "break") == 0, plain = strcmp(w.what, "wedge") == 0 || strcmp(w.what, "sheet") == 0;
-    if (!breaks && !plain)
-        return answer_usage(&common, w.what, "is no calculation; take wedge, sheet or break");
-    if (plain && isnan(w.a_over_l))
-        return answer_usage(&common, "--a-over-l", "is needed");
-    if (breaks)
+    bool wedge = strcmp(w.what, "wedge") == 0, sheet = strcmp(w.what, "sheet") == 0;
+    if (strcmp(w.what, "break") == 0)
         return answer_break(&w, &common);
-    return strcmp(w.what, "wedge") == 0 ? answer_wedge(&w, &common) : answer_sheet(&w, &common);
+    if (strcmp(w.what, "split") == 0)
+        return answer_split(&w, &common);
+    if (!wedge && !sheet)
+        return answer_usage(&common, w.what, "is no calculation; take wedge, sheet, break or split");
+    if (isnan(w.a_over_l))
+        return answer_usage(&common, "--a-over-l", "is needed");
+    return wedge ? answer_wedge(&w, &common) : answer_sheet(&w, &common);
 }

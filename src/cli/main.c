@@ -86,11 +86,12 @@ static const command_row commands[] = {
      "  fram field floes.geojson --scale 0.01 --crop -300,-200,300,200 --smallest 20 --draw field.png\n"
      "  fram field outlines.geojson --bad repair --simplify 0.5 -o clean.geojson --json\n",
      command_field},
-    {"ice", "wedge | sheet | break",
-     "calculate how floating ice breaks at its edge: a wedge, a sheet, or a load on ice of given properties",
+    {"ice", "wedge | sheet | break | split",
+     "calculate how floating ice breaks: a wedge, a sheet, a load on an edge of given properties, a floe that splits",
      "  fram ice wedge --a-over-l 0.1\n"
      "  fram ice sheet --a-over-l 0.1 --nu 0.3 --json\n"
-     "  fram ice break --force 3e5 --contact-area 0.2 --thickness 0.8 --flexural-strength 6e5\n",
+     "  fram ice break --force 3e5 --contact-area 0.2 --thickness 0.8 --flexural-strength 6e5\n"
+     "  fram ice split --length 80 --width 50 --place 10 --thickness 0.8\n",
      command_ice},
     {"keys", "", "list every scenario key with unit, default, range and meaning (Markdown)", "  fram keys | less\n",
      command_keys},

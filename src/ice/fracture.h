@@ -129,8 +129,10 @@ typedef struct edge_stress {
 edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
                                  double load, double horizontal_area, edge_ice edge);
 
-/* Largest opening force of an edge crack in a floe of this thickness [m], toughness K_IC [Pa m^0.5], length along the
-   crack and width across it [m]: F h K_IC sqrt(length), F by width over length (docs/theory.md) [N]. */
-double fracture_splitting_force(double thickness, double toughness, double length, double width);
+/* Factor F of the largest opening force of an edge crack in a floe, F h K_IC sqrt(length): by the crack's length
+   through the floe and how far the floe reaches to both sides of it [m] (docs/theory.md); 0 without a side. */
+double fracture_splitting_factor(double length, double side, double other_side);
+/* That force, for this thickness [m] and toughness K_IC [Pa m^0.5] [N]. */
+double fracture_splitting_force(double thickness, double toughness, double length, double side, double other_side);
 
 #endif

@@ -77,4 +77,34 @@ START_TEST(wrong_loads)
 }
 END_TEST
 
-TEST_MAIN("api_ice", wedge, sheet, load_on_an_edge, wrong_loads)
+START_TEST(splitting)
+{
+    fram_ice_floe floe;
+    fram_ice_splitting s;
+    fram_error e = {0};
+    fram_ice_floe_default(&floe);
+    assert_ok(fram_ice_split(&floe, &s, &e), e);
+    assert_absolute(s.splitting_load, 198e3, 500);
+    double middle = s.splitting_load;
+    floe.place = 12.5;
+    assert_ok(fram_ice_split(&floe, &s, &e), e);
+    assert_relative(s.smaller_side, 12.5, 1e-15);
+    assert_relative(s.larger_side, 37.5, 1e-15);
+    ck_assert(s.splitting_load < 0.85 * middle && s.splitting_load > 0.75 * middle);
+    double beside = s.splitting_load;
+    floe.place = -12.5;
+    assert_ok(fram_ice_split(&floe, &s, &e), e);
+    assert_bits(s.splitting_load, beside);
+    floe.place = 25;
+    assert_fails(fram_ice_split(&floe, &s, &e), e, FRAM_ERROR_INPUT, "half the width");
+    ck_assert_str_eq(e.key, "place");
+    fram_ice_floe_default(&floe);
+    floe.toughness = (double)NAN;
+    assert_fails(fram_ice_split(&floe, &s, &e), e, FRAM_ERROR_INPUT, "positive");
+    ck_assert_str_eq(e.key, "toughness");
+    floe.size = 0;
+    assert_fails(fram_ice_split(&floe, &s, &e), e, FRAM_ERROR_USAGE, "default");
+}
+END_TEST
+
+TEST_MAIN("api_ice", splitting, wedge, sheet, load_on_an_edge, wrong_loads)

@@ -610,6 +610,21 @@ START_TEST(ice)
     fram_ice_edge_default(&load);
     load.wedges = INT_MAX;
     REFUSED(fram_ice_break(&load, &breaking, &e));
+    fram_ice_floe floe = {0};
+    fram_ice_splitting splitting;
+    fram_ice_floe_default(NULL);
+    REFUSED(fram_ice_split(NULL, &splitting, &e));
+    REFUSED(fram_ice_split(&floe, &splitting, &e));
+    fram_ice_floe_default(&floe);
+    REFUSED(fram_ice_split(&floe, NULL, &e));
+    for (int i = 0; i < 4; i++) {
+        for (int member = 0; member < (i < 3 ? 5 : 4); member++) {
+            fram_ice_floe_default(&floe);
+            double *const members[] = {&floe.thickness, &floe.toughness, &floe.length, &floe.width, &floe.place};
+            *members[member] = wild[i];
+            REFUSED(fram_ice_split(&floe, &splitting, &e));
+        }
+    }
 }
 END_TEST
 

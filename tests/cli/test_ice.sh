@@ -20,6 +20,21 @@ near 'j["breaking_radius"]' 4.14196 1e-5 "radius"
 expect 0 "$FRAM" ice break --thickness 0.8
 says breaking_radius out
 
+expect 0 "$FRAM" ice split --length 75 --width 50 --json
+near 'j["factor"]' 0.1540 2e-3 "splitting, width over length 2/3"
+near 'j["splitting_load"]' 'j["factor"] * 150e3 * 75 ** 0.5' 1e-12 "splitting load"
+expect 0 "$FRAM" ice split --length 40 --width 60 --thickness 0.5 --toughness 100e3 --json
+near 'j["splitting_load"]' '0.2077 * 0.5 * 100e3 * 40 ** 0.5' 2e-3 "splitting, width over length 1.5"
+expect 0 "$FRAM" ice split --length 50 --width 50 --place -18.75 --json
+near 'j["smaller_side"]' 6.25 1e-12 "side"
+near 'j["factor"]' 0.106 6e-3 "splitting near a corner"
+expect 0 "$FRAM" ice split
+says splitting_load out
+expect 2 "$FRAM" ice split --place 25
+says place err
+expect 2 "$FRAM" ice split --width 0 --json
+says '"status":"input"' out
+
 expect 2 "$FRAM" ice wedge
 says '--a-over-l' err
 expect 2 "$FRAM" ice wedge --a-over-l 7 --json

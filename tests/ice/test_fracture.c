@@ -52,13 +52,50 @@ START_TEST(wedge_capacity)
 }
 END_TEST
 
+/* Published factors by width over length, middle of a side (docs/oracles.md, section 3). */
 START_TEST(splitting_force)
 {
-    assert_relative(fracture_splitting_force(1, 150e3, 50, 50), 0.1869 * 150e3 * sqrt(50), 1e-14);
-    assert_absolute(fracture_splitting_force(1, 150e3, 50, 50), 198e3, 500);
-    assert_relative(fracture_splitting_force(2, 150e3, 50, 10), 2 * 0.1334 * 150e3 * sqrt(50), 1e-14);
-    assert_relative(fracture_splitting_force(1, 150e3, 50, 75), 0.1987 * 150e3 * sqrt(50), 1e-14);
-    assert_relative(fracture_splitting_force(1, 150e3, 50, 500), 0.2107 * 150e3 * sqrt(50), 1e-14);
+    static const double PUBLISHED[6][2] = {{0.5, 0.1334}, {2.0 / 3, 0.1540}, {1, 0.1869},
+                                           {1.5, 0.2077}, {2, 0.2105},       {3, 0.2107}};
+    for (int i = 0; i < 6; i++) {
+        double side = PUBLISHED[i][0] / 2;
+        assert_relative(fracture_splitting_factor(1, side, side), PUBLISHED[i][1], 2e-3);
+    }
+    assert_absolute(fracture_splitting_force(1, 150e3, 50, 25, 25), 198e3, 500);
+    assert_relative(fracture_splitting_force(2, 150e3, 50, 25, 25), 2 * fracture_splitting_force(1, 150e3, 50, 25, 25),
+                    1e-15);
+}
+END_TEST
+
+/* Off the middle, off the nodes of the table, and in the limits: finite elements on meshes of their own
+   (validation/splitting_factors.py). */
+START_TEST(splitting_beside_the_middle)
+{
+    static const double ELEMENTS[][3] = {
+        {0.0070, 0.1000, 0.0249}, {0.0217, 0.3100, 0.0439}, {0.0233, 0.3333, 0.0456}, {0.0308, 0.4400, 0.0524},
+        {0.0440, 0.1000, 0.0621}, {0.0476, 0.6800, 0.0652}, {0.0600, 0.1000, 0.0711}, {0.0609, 0.8700, 0.0737},
+        {0.0651, 0.9300, 0.0762}, {0.0690, 0.1000, 0.0751}, {0.0784, 1.1200, 0.0837}, {0.0820, 0.1000, 0.0797},
+        {0.0840, 1.2000, 0.0866}, {0.0940, 0.1000, 0.0830}, {0.1000, 0.1000, 0.0844}, {0.1364, 0.3100, 0.1094},
+        {0.1400, 2.0000, 0.1118}, {0.1467, 0.3333, 0.1134}, {0.1936, 0.4400, 0.1303}, {0.2000, 0.3333, 0.1299},
+        {0.2139, 0.3100, 0.1323}, {0.2300, 0.3333, 0.1372}, {0.2640, 0.4400, 0.1493}, {0.2733, 0.3333, 0.1456},
+        {0.2914, 0.3100, 0.1462}, {0.2992, 0.6800, 0.1616}, {0.3036, 0.4400, 0.1576}, {0.3100, 0.3100, 0.1486},
+        {0.3133, 0.3333, 0.1516}, {0.3333, 0.3333, 0.1540}, {0.3608, 0.4400, 0.1672}, {0.3828, 0.8700, 0.1804},
+        {0.4080, 0.6800, 0.1833}, {0.4092, 0.9300, 0.1851}, {0.4136, 0.4400, 0.1738}, {0.4400, 0.4400, 0.1765},
+        {0.4692, 0.6800, 0.1916}, {0.4928, 1.1200, 0.1964}, {0.5280, 1.2000, 0.1997}, {0.5576, 0.6800, 0.1995},
+        {0.5580, 0.9300, 0.2018}, {0.6003, 0.8700, 0.2042}, {0.6392, 0.6800, 0.2036}, {0.6720, 1.1200, 0.2074},
+        {0.6800, 0.6800, 0.2048}, {0.7626, 0.9300, 0.2091}, {0.8178, 0.8700, 0.2094}, {0.8280, 1.2000, 0.2099},
+        {0.8700, 0.8700, 0.2097}, {0.8800, 2.0000, 0.2101}, {0.9184, 1.1200, 0.2103}, {0.9300, 0.9300, 0.2102},
+        {1.1200, 1.1200, 0.2105}, {1.1280, 1.2000, 0.2105}, {1.2000, 1.2000, 0.2105}, {1.2000, 2.0000, 0.2105},
+        {1.3800, 2.0000, 0.2105}, {1.6400, 2.0000, 0.2105}, {1.8800, 2.0000, 0.2105}, {2.0000, 2.0000, 0.2104}};
+    for (size_t i = 0; i < sizeof ELEMENTS / sizeof *ELEMENTS; i++) {
+        assert_relative(fracture_splitting_factor(1, ELEMENTS[i][0], ELEMENTS[i][1]), ELEMENTS[i][2], 6e-3);
+        assert_bits(fracture_splitting_factor(1, ELEMENTS[i][0], ELEMENTS[i][1]),
+                    fracture_splitting_factor(1, ELEMENTS[i][1], ELEMENTS[i][0]));
+    }
+    /* A strip's load goes with the square root of its width, however long it is; a floe's width has an end. */
+    assert_relative(fracture_splitting_factor(16, 0.5, 0.5), fracture_splitting_factor(4, 0.5, 0.5) / 2, 1e-12);
+    assert_bits(fracture_splitting_factor(1, 5, 5), fracture_splitting_factor(1, 90, 7));
+    ck_assert(fracture_splitting_factor(1, 0, 1) == 0);
 }
 END_TEST
 
@@ -208,7 +245,7 @@ START_TEST(split_by_toughness)
     fracture_rig r;
     fracture_rig_make(&r);
     r.settings.splitting = SPLITTING_TOUGHNESS;
-    double needed = fracture_splitting_force(1, 150e3, 50, 50);
+    double needed = fracture_splitting_force(1, 150e3, 50, 25, 25);
     for (int turn = 0; turn < 2; turn++) {
         int32_t row = plate(&r, 50, 50, MOTION_DYNAMIC);
         ck_assert(fracture_rig_load(&r, row, (vec2){0, -25}, 1e6, AREA));
@@ -607,8 +644,8 @@ START_TEST(nothing_to_do)
 }
 END_TEST
 
-TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, strong_enough, unbreakable, split_in_two,
-          no_split, narrow_child, concave_shortest_crack, crack_from_a_corner, split_by_toughness, split_while_spinning,
-          wedge_angles, floe_smaller_than_the_stencil, huge_floe, level_ice_stays, several_patches, overlapping_patches,
-          order_of_patches, several_floes, void_contacts, under_ice_contacts, six_hundred_bites, memory_runs_out,
-          nothing_to_do)
+TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, splitting_beside_the_middle, strong_enough,
+          unbreakable, split_in_two, no_split, narrow_child, concave_shortest_crack, crack_from_a_corner,
+          split_by_toughness, split_while_spinning, wedge_angles, floe_smaller_than_the_stencil, huge_floe,
+          level_ice_stays, several_patches, overlapping_patches, order_of_patches, several_floes, void_contacts,
+          under_ice_contacts, six_hundred_bites, memory_runs_out, nothing_to_do)
