@@ -290,52 +290,77 @@ static fram_status read_section(const reader *r, const scenario_section *section
 
 /* ---- overrides ---- */
 
-/* The element "[index]" of a list that the file has; moves *at behind it. */
+/* Items of a list may be called by their name, where they have one; -1 when none is called so. */
+static int32_t find_named(const scenario_key *key, const void *member, const char *name)
+{
+    int32_t k = section_find(key->section, "name");
+    for (int32_t i = 0; k >= 0 && *name && i < list_count(member); i++) {
+        const scenario_key *text = &key->section->keys[k];
+        if (text->kind == KEY_TEXT && strcmp(key_member(text, list_element(key, member, i)), name) == 0)
+            return i;
+    }
+    return -1;
+}
+
+/* The item of a list that the file has: "[3]" or ".3", where items have names "[NAME]" or ".NAME"; moves *at behind
+   it. */
 static fram_status step_into_list(const reader *r, const scenario_key *key, void *member, const char **at,
-                                  const value_place *place, void **element)
+                                  const value_place *place, int32_t *item)
 {
     const char *text = *at;
-    int64_t index = 0;
+    bool named = section_find(key->section, "name") >= 0, bracket = *text == '[', point = *text == '.';
+    size_t length = bracket ? strcspn(text, "]") : point ? 1 + strcspn(text + 1, ".[") : 0;
+    char word[KEY_SIZE] = "";
+    if (length > 1)
+        memcpy(word, text + 1, length - 1);
+    int64_t index = find_named(key, member, word);
+    *at = text + length + bracket;
+    *item = (int32_t)index;
+    if (index >= 0)
+        return FRAM_OK;
+    bool number = strlen(word) < 12 && *word != '+' && integer_from_text(word, &index) == NUMBER_GOOD;
+    if (!number || (bracket && text[length] != ']'))
+        return refuse(r, place, "expected the number%s of an item, %s[0], %s[1], ...%s%s", named ? " or the name" : "",
+                      key->name, key->name, *word ? "; found " : "", *word ? shown(word).text : "");
     int32_t count = list_count(member);
-    char digits[12] = "";
-    size_t length = *text == '[' ? strcspn(text, "]") : 0;
-    if (length > 1 && length < sizeof digits)
-        memcpy(digits, text + 1, length - 1);
-    if (text[length] != ']' || *digits == '+' || integer_from_text(digits, &index) != NUMBER_GOOD)
-        return refuse(r, place, "expected the number of an item, %s[0], %s[1], ...", key->name, key->name);
     if (index < 0 || index >= count)
         return refuse(r, place, "expected an item below %s[%d], since the file lists %d, found [%s]", key->name,
-                      (int)count, (int)count, digits);
-    *element = list_element(key, member, (int32_t)index);
-    *at = text + length + 1;
+                      (int)count, (int)count, word);
+    *item = (int32_t)index;
     return FRAM_OK;
 }
 
-/* Follow the dotted name of place along the schema, then set the value. */
-static fram_status set_path(const reader *r, const value_place *place, const char *text)
+/* Follow the dotted name of place along the schema, then set the value.  place gets the name as the file would give it:
+   items of lists by number. */
+static fram_status set_path(const reader *r, value_place *place, const char *text)
 {
     const scenario_section *section = &scenario_schema;
     void *data = r->scenario;
     const char *at = place->key;
+    char path[KEY_SIZE] = "";
     for (;;) {
-        char name[KEY_SIZE] = "", path[KEY_SIZE] = "";
+        char name[KEY_SIZE] = "", full[KEY_SIZE];
         size_t size = strcspn(at, ".[");
         memcpy(name, at, size);
-        if (at > place->key)
-            memcpy(path, place->key, (size_t)(at - place->key) - 1);
         int32_t k = section_find(section, name);
         if (k < 0)
             return unknown_key(r, section, path, name, place);
         const scenario_key *key = &section->keys[k];
         void *member = key_member(key, data);
         at += size;
+        join(full, path, name);
+        memcpy(path, full, sizeof path);
         if (key->kind == KEY_LIST) {
-            fram_status status = step_into_list(r, key, member, &at, place, &data);
+            int32_t item;
+            fram_status status = step_into_list(r, key, member, &at, place, &item);
             if (status != FRAM_OK)
                 return status;
+            data = list_element(key, member, item);
+            snprintf(path, sizeof path, "%.80s[%d]", full, (int)item);
         } else if (key->kind == KEY_SECTION) {
             data = member;
         } else if (*at == '\0') {
+            memcpy(place->key, path, sizeof path);
             return set_value(r, key, member, text, place);
         } else {
             return refuse(r, place, "expected nothing after %s, found %s", key->name, shown(at).text);

@@ -157,15 +157,18 @@ static void print_list(printer *p, const scenario_key *key, const void *member, 
     p->comments = comments;
 }
 
-/* first, when it is not NULL, takes the place of the first key's last two blanks. */
+/* first, when it is not NULL, takes the place of the last two blanks before the first key that is written. */
 static void print_section(printer *p, const scenario_section *section, const void *data, int depth, const char *first)
 {
     for (int32_t k = 0; k < section->key_count; k++) {
         const scenario_key *key = &section->keys[k];
         const void *member = key_member_const(key, data);
-        print_indent(p, first && k == 0 ? depth - 1 : depth);
-        if (first && k == 0)
+        if (key_is_silent(section, key, data))
+            continue;
+        print_indent(p, first ? depth - 1 : depth);
+        if (first)
             text_add(p->ctx, p->out, first);
+        first = NULL;
         text_format(p->ctx, p->out, "%s:", key->name);
         if (key->kind == KEY_SECTION) {
             print_comment(p, key);

@@ -110,6 +110,15 @@ static void add_row(const reference *r, const scenario_key *key)
     text_format(r->ctx, r->out, " | %s |\n", key->meaning);
 }
 
+/* The key before this one whose section has the same keys; NULL when there is none. */
+static const scenario_key *shown_before(const scenario_section *section, int32_t key)
+{
+    for (int32_t k = 0; k < key; k++)
+        if (section->keys[k].section == section->keys[key].section)
+            return &section->keys[k];
+    return NULL;
+}
+
 /* The keys of a section as one table, then the sections inside it. */
 static void add_section(const reference *r, const scenario_section *section, const char *path)
 {
@@ -128,7 +137,11 @@ static void add_section(const reference *r, const scenario_section *section, con
         if (key->kind == KEY_LIST)
             text_format(r->ctx, r->out, "; a list of at most %d mappings", (int)key->hi);
         add(r, ".\n\n");
-        add_section(r, key->section, name);
+        const scenario_key *same = *path ? NULL : shown_before(section, k);
+        if (same)
+            text_format(r->ctx, r->out, "Each has the keys of [%s](#%s).\n", same->name, same->name);
+        else
+            add_section(r, key->section, name);
     }
 }
 
@@ -141,7 +154,8 @@ fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error
         "A scenario is YAML in block style, one value a line. Units are SI; only keys that end in `_deg` hold\n"
         "degrees. Directions are towards, counter-clockwise from X. A key that is left out takes its default. Paths\n"
         "are relative to the folder of the scenario. Where a default holds `scale`, that is `run.scale`.\n"
-        "`--set run.seed=7` or `--set ice.floes[0].x=3` on the command line overrides a value.\n\n"
+        "`--set run.seed=7` or `--set ice.floes[0].x=3` on the command line overrides a value,\n"
+        "`--set vessels.NAME.x=3` one of the vessel of that name.\n\n"
         "Anchors, aliases, tags, merge keys and duplicate keys are refused, and so is every key that is not listed\n"
         "here.\n\n"
         "## Top level\n\n");

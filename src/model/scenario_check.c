@@ -1,6 +1,7 @@
 /* What a scenario must satisfy: the range of every key, and that keys go together.  All rules between keys stand here.
  */
 #include "base/number_text.h"
+#include "model/scenario_check_vessels.h"
 #include "model/scenario_schema.h"
 #include <math.h>
 #include <stdio.h>
@@ -125,24 +126,6 @@ static bool inside_domain(const scenario *s, double x, double y)
     return x >= s->domain.x_min && x <= s->domain.x_max && y >= s->domain.y_min && y <= s->domain.y_max;
 }
 
-/* A path is for what is driven, and its times go on. */
-static fram_status check_path(const scenario *s, fram_error *error)
-{
-    const scenario_vessel *v = &s->vessel;
-    if (v->mode == VESSEL_FREE && v->path.count > 0)
-        return fault(s, error, "vessel.path", "expected none, since vessel.mode is free, found %d points",
-                     (int)v->path.count);
-    if (v->path.count == 1)
-        return fault(s, error, "vessel.path", "expected two points at least, found 1");
-    for (int32_t i = 1; i < v->path.count; i++) {
-        char key[48];
-        snprintf(key, sizeof key, "vessel.path[%d].time", (int)i);
-        if (!(v->path.data[i].time > v->path.data[i - 1].time))
-            return fault(s, error, key, "expected a later time than that of the point before");
-    }
-    return FRAM_OK;
-}
-
 /* A speed that is given must lie under the one at which a run is taken to have gone wrong. */
 static fram_status check_speed(const scenario *s, const char *key, double speed, fram_error *error)
 {
@@ -154,103 +137,10 @@ static fram_status check_speed(const scenario *s, const char *key, double speed,
 
 static fram_status check_speeds(const scenario *s, fram_error *error)
 {
-    const scenario_vessel *v = &s->vessel;
     fram_status status = check_speed(s, "environment.current_speed", s->environment.current_speed, error);
     if (status == FRAM_OK && !is_automatic(s->domain.drift_speed))
         status = check_speed(s, "domain.drift_speed", s->domain.drift_speed, error);
-    if (status == FRAM_OK && v->present && v->path.count == 0)
-        status = check_speed(s, "vessel.speed", v->speed, error);
-    for (int32_t i = 1; v->present && i < v->path.count && status == FRAM_OK; i++) {
-        const scenario_path_point *a = &v->path.data[i - 1], *b = &v->path.data[i];
-        double x = b->x - a->x, y = b->y - a->y;
-        char key[48];
-        snprintf(key, sizeof key, "vessel.path[%d].time", (int)i);
-        status = check_speed(s, key, sqrt(x * x + y * y) / (b->time - a->time), error);
-    }
     return status;
-}
-
-/* Mooring lines of one vessel, those of a count each: as many as the table of results has columns for. */
-enum { MOST_LINES = 64 };
-
-static fram_status check_line_count(const scenario *s, fram_error *error)
-{
-    const scenario_mooring_line_list *lines = &s->vessel.mooring.lines;
-    int64_t all = 0;
-    for (int32_t i = 0; i < lines->count; i++)
-        all += lines->data[i].count;
-    if (lines->count > 0 && !(s->vessel.mooring.z > -s->vessel.mooring.depth))
-        return fault(s, error, "vessel.mooring.z", "expected fairleads above the bottom, which is at %g m, found %g m",
-                     -s->vessel.mooring.depth, s->vessel.mooring.z);
-    if (all <= MOST_LINES)
-        return FRAM_OK;
-    return fault(s, error, "vessel.mooring.lines", "expected at most %d lines in all, found %d", (int)MOST_LINES,
-                 (int)all);
-}
-
-/* A line of kind table has one table, others have none. */
-static fram_status check_line_tables(const scenario *s, fram_error *error)
-{
-    for (int32_t i = 0; i < s->vessel.mooring.lines.count; i++) {
-        const scenario_mooring_line *l = &s->vessel.mooring.lines.data[i];
-        char key[64];
-        snprintf(key, sizeof key, "vessel.mooring.lines[%d].table", (int)i);
-        bool given = l->table.count > 0 || l->table_file[0];
-        if (l->kind == LINE_TABLE && !given)
-            return fault(s, error, key, "expected points or a table_file, since kind is table, found neither");
-        if (l->kind != LINE_TABLE && given)
-            return fault(s, error, key, "expected neither points nor a table_file, since kind is not table");
-        if (l->table.count > 0 && l->table_file[0])
-            return fault(s, error, key, "expected points or a table_file, found both");
-    }
-    return FRAM_OK;
-}
-
-/* Lines, thrusters and positioning act on a vessel that is free, and positioning needs thrusters. */
-static fram_status check_station(const scenario *s, fram_error *error)
-{
-    const scenario_vessel *v = &s->vessel;
-    bool held = v->mode != VESSEL_FREE;
-    if (held && v->mooring.lines.count > 0)
-        return fault(s, error, "vessel.mooring.lines", "expected none, since vessel.mode is not free, found %d",
-                     (int)v->mooring.lines.count);
-    if (held && v->thrusters.count > 0)
-        return fault(s, error, "vessel.thrusters", "expected none, since vessel.mode is not free, found %d",
-                     (int)v->thrusters.count);
-    if (v->positioning.active && v->thrusters.count == 0)
-        return fault(s, error, "vessel.thrusters",
-                     "expected thrusters, since vessel.positioning.active is true, found none");
-    for (int32_t i = 1; i < v->positioning.waypoints.count; i++) {
-        if (v->positioning.waypoints.data[i].time > v->positioning.waypoints.data[i - 1].time)
-            continue;
-        char key[64];
-        snprintf(key, sizeof key, "vessel.positioning.waypoints[%d].time", (int)i);
-        return fault(s, error, key, "expected a later time than that of the way point before");
-    }
-    fram_status status = check_line_count(s, error);
-    if (status == FRAM_OK)
-        status = check_line_tables(s, error);
-    return status == FRAM_OK ? check_path(s, error) : status;
-}
-
-static fram_status check_vessel(const scenario *s, fram_error *error)
-{
-    const scenario_vessel *v = &s->vessel;
-    if (!v->present)
-        return FRAM_OK;
-    if (v->hull.form == HULL_MESH && !v->hull.file[0])
-        return fault(s, error, "vessel.hull.file",
-                     "expected the path of a mesh, since vessel.hull.form is file, found nothing");
-    if (v->hull.form != HULL_MESH && v->hull.file[0])
-        return fault(s, error, "vessel.hull.file", "expected nothing, since vessel.hull.form is not file, found \"%s\"",
-                     v->hull.file);
-    fram_status status = check_station(s, error);
-    if (status != FRAM_OK)
-        return status;
-    if (s->domain.boundary == DOMAIN_WALLS && !inside_domain(s, v->x, v->y))
-        return fault(s, error, "vessel.x",
-                     "expected vessel.x and vessel.y inside the walls of the domain, found a place outside");
-    return FRAM_OK;
 }
 
 static fram_status check_friction(const scenario *s, fram_error *error)
@@ -407,20 +297,6 @@ static fram_status check_ice(const scenario *s, fram_error *error)
                  found);
 }
 
-static fram_status check_rows(const scenario *s, const char *key, int32_t count, fram_error *error)
-{
-    if (count == 0 || count == 6)
-        return FRAM_OK;
-    return fault(s, error, key, "expected 6 rows (surge, sway, heave, roll, pitch, yaw) or none, found %d", (int)count);
-}
-
-static fram_status check_hydrodynamics(const scenario *s, fram_error *error)
-{
-    const scenario_hydrodynamics *h = &s->vessel.hydrodynamics;
-    fram_status status = check_rows(s, "vessel.hydrodynamics.added_mass", h->added_mass.count, error);
-    return status == FRAM_OK ? check_rows(s, "vessel.hydrodynamics.damping", h->damping.count, error) : status;
-}
-
 fram_status scenario_check(const scenario *s, fram_error *error)
 {
     fram_status status = scenario_walk(s, check_range, (void *)s, error);
@@ -429,9 +305,7 @@ fram_status scenario_check(const scenario *s, fram_error *error)
     if (status == FRAM_OK)
         status = check_domain(s, error);
     if (status == FRAM_OK)
-        status = check_vessel(s, error);
-    if (status == FRAM_OK)
-        status = check_hydrodynamics(s, error);
+        status = scenario_check_vessels(s, error);
     if (status == FRAM_OK)
         status = check_speeds(s, error);
     if (status == FRAM_OK)

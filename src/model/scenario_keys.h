@@ -24,13 +24,14 @@
 
 #include "model/scenario_water_keys.h"
 
-#define SCENARIO_KEYS(X)                                                      \
-    X(title, TEXT(""), "", "what the scenario shows; goes into reports")      \
-    X(run, SECTION(run), "", "time, randomness and numerical method")         \
-    X(vessel, SECTION(vessel), "", "the vessel, and how it is held or moved") \
-    X(ice, SECTION(ice), "", "the ice field and its material")                \
-    X(domain, SECTION(domain), "", "the part of the sea that is simulated")   \
-    X(environment, SECTION(environment), "", "water, air and gravity")        \
+#define SCENARIO_KEYS(X)                                                                             \
+    X(title, TEXT(""), "", "what the scenario shows; goes into reports")                             \
+    X(run, SECTION(run), "", "time, randomness and numerical method")                                \
+    X(vessel, SECTION(vessel), "", "the vessel, and how it is held or moved")                        \
+    X(vessels, LIST(vessel, 32), "", "several vessels, in place of vessel, each with name and hull") \
+    X(ice, SECTION(ice), "", "the ice field and its material")                                       \
+    X(domain, SECTION(domain), "", "the part of the sea that is simulated")                          \
+    X(environment, SECTION(environment), "", "water, air and gravity")                               \
     X(output, SECTION(output), "", "what a run writes and how often, in simulated time")
 
 #define SCENARIO_RUN_KEYS(X)                                                                                         \
@@ -64,33 +65,34 @@
       "fast: sweeps that change no velocity by more are the last")                                                \
     X(most_iterations, INTEGER(10000, 1, 100000000), "1", "accurate: upper bound of the sweeps of a step")
 
-#define SCENARIO_VESSEL_KEYS(X)                                                                                  \
-    X(present, BOOLEAN(true), "", "false: ice alone")                                                            \
-    X(mode, CHOICE(vessel_mode, VESSEL_TOWED, "prescribed towed free"), "",                                      \
-      "prescribed: all motions given; towed: by a carriage, free to heave; free: six degrees of freedom")        \
-    X(x, REAL(0, -1e7, 1e7), "m", "place of the ship's origin, amidships on the centre line")                    \
-    X(y, REAL(0, -1e7, 1e7), "m", "place of the ship's origin")                                                  \
-    X(heading_deg, REAL(0, -360, 360), "deg", "direction of the bow")                                            \
-    X(speed, REAL(0, 0, 100), "m/s", "speed of towing, of prescribed motion, or at the start of free motion")    \
-    X(course_deg, AUTOMATIC(-360, 360), "deg", "direction of the speed; auto: the heading")                      \
-    X(ramp, REAL(0, 0, 1e6), "s", "time over which the speed of towing grows from zero")                         \
-    X(path, LIST(path_point, 1000), "",                                                                          \
-      "modes prescribed and towed: where the hull or its carriage goes, linear in time; in place of x, y, "      \
-      "heading_deg, speed, course_deg and ramp")                                                                 \
-    X(mass, AUTOMATIC(1e-9, 1e12), "kg", "auto: the mass displaced at the draught")                              \
-    X(centre_of_gravity_x, AUTOMATIC(-1e4, 1e4), "m", "forward of amidships; auto: over the centre of buoyancy") \
-    X(centre_of_gravity_y, AUTOMATIC(-1e4, 1e4), "m", "to port; auto: over the centre of buoyancy")              \
-    X(centre_of_gravity_z, AUTOMATIC(-1e4, 1e4), "m", "above the design waterline; auto: in it")                 \
-    X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                   \
-    X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                \
-    X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                  \
-    X(hull, SECTION(hull), "", "the form of the hull")                                                           \
-    X(mooring, SECTION(mooring), "", "mode free: lines to the bottom")                                           \
-    X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                 \
-    X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                   \
-    X(station, SECTION(station), "", "what counts as being on station")                                          \
-    X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")                                \
-    X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")           \
+#define SCENARIO_VESSEL_KEYS(X)                                                                                      \
+    X(name, TEXT(""), "", "letters, digits, - and _; in a list columns and results begin with it, NAME.ice_force_x") \
+    X(present, BOOLEAN(true), "", "false: ice alone")                                                                \
+    X(mode, CHOICE(vessel_mode, VESSEL_TOWED, "prescribed towed free"), "",                                          \
+      "prescribed: all motions given; towed: by a carriage, free to heave; free: six degrees of freedom")            \
+    X(x, REAL(0, -1e7, 1e7), "m", "place of the ship's origin, amidships on the centre line")                        \
+    X(y, REAL(0, -1e7, 1e7), "m", "place of the ship's origin")                                                      \
+    X(heading_deg, REAL(0, -360, 360), "deg", "direction of the bow")                                                \
+    X(speed, REAL(0, 0, 100), "m/s", "speed of towing, of prescribed motion, or at the start of free motion")        \
+    X(course_deg, AUTOMATIC(-360, 360), "deg", "direction of the speed; auto: the heading")                          \
+    X(ramp, REAL(0, 0, 1e6), "s", "time over which the speed of towing grows from zero")                             \
+    X(path, LIST(path_point, 1000), "",                                                                              \
+      "modes prescribed and towed: where the hull or its carriage goes, linear in time; in place of x, y, "          \
+      "heading_deg, speed, course_deg and ramp")                                                                     \
+    X(mass, AUTOMATIC(1e-9, 1e12), "kg", "auto: the mass displaced at the draught")                                  \
+    X(centre_of_gravity_x, AUTOMATIC(-1e4, 1e4), "m", "forward of amidships; auto: over the centre of buoyancy")     \
+    X(centre_of_gravity_y, AUTOMATIC(-1e4, 1e4), "m", "to port; auto: over the centre of buoyancy")                  \
+    X(centre_of_gravity_z, AUTOMATIC(-1e4, 1e4), "m", "above the design waterline; auto: in it")                     \
+    X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                       \
+    X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                    \
+    X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                      \
+    X(hull, SECTION(hull), "", "the form of the hull")                                                               \
+    X(mooring, SECTION(mooring), "", "mode free: lines to the bottom")                                               \
+    X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                     \
+    X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                       \
+    X(station, SECTION(station), "", "what counts as being on station")                                              \
+    X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")                                    \
+    X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")               \
     X(wind_coefficients, SECTION(flow), "", "force coefficients of the wind over its direction")
 
 #define SCENARIO_HULL_KEYS(X)                                                                                      \

@@ -293,6 +293,16 @@ int32_t choice_find(const scenario_key *key, const char *name)
     return -1;
 }
 
+bool key_is_silent(const scenario_section *section, const scenario_key *key, const void *data)
+{
+    if (section == &scenario_schema) {
+        bool listed = ((const scenario *)data)->vessels.count > 0;
+        return listed ? key->offset == offsetof(scenario, vessel) : key->offset == offsetof(scenario, vessels);
+    }
+    return section == &vessel_section && key->offset == offsetof(scenario_vessel, name) &&
+           ((const scenario_vessel *)data)->name[0] == '\0';
+}
+
 double key_number(const scenario_key *key, const void *member)
 {
     switch (key->kind) {

@@ -73,6 +73,10 @@ const char *choice_name(const scenario_key *key, int32_t value, size_t *size);
 /* The value of a name, -1 when there is none. */
 int32_t choice_find(const scenario_key *key, const char *name);
 
+/* Whether a key is left out where a section is written, because it says nothing: the form of vessel or vessels that is
+   not used, and no name. */
+bool key_is_silent(const scenario_section *section, const scenario_key *key, const void *data);
+
 /* Value of a real, integer or boolean member, as a double (exact: integers are below 2^53); 0 for the others. */
 double key_number(const scenario_key *key, const void *member);
 

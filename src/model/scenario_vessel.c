@@ -4,12 +4,59 @@
 #include <stdio.h>
 #include <string.h>
 
-int32_t scenario_vessel_count(const scenario *s) { return s->vessel.present ? 1 : 0; }
+bool scenario_names_vessels(const scenario *s) { return s->vessels.count > 0; }
+
+int32_t scenario_vessel_count(const scenario *s)
+{
+    if (!scenario_names_vessels(s))
+        return s->vessel.present ? 1 : 0;
+    int32_t count = 0;
+    for (int32_t i = 0; i < s->vessels.count; i++)
+        count += s->vessels.data[i].present;
+    return count;
+}
+
+vessel_entry scenario_vessel_item(const scenario *s, int32_t item)
+{
+    vessel_entry e = {&s->vessels.data[item], ""};
+    snprintf(e.path, sizeof e.path, "vessels[%d]", (int)item);
+    return e;
+}
 
 vessel_entry scenario_vessel_entry(const scenario *s, int32_t index)
 {
-    (void)index;
+    for (int32_t i = 0; i < s->vessels.count; i++) {
+        if (s->vessels.data[i].present && index-- == 0)
+            return scenario_vessel_item(s, i);
+    }
     return (vessel_entry){&s->vessel, "vessel"};
+}
+
+vessel_title vessel_title_of(const vessel_entry *entry)
+{
+    vessel_title title;
+    const char *name = entry->keys->name;
+    snprintf(title.text, sizeof title.text, "%s%.*s", *name ? "vessel " : "the vessel", (int)VESSEL_NAME_MOST, name);
+    return title;
+}
+
+vessel_channel vessel_channel_name(const scenario *s, int32_t index, const char *channel)
+{
+    vessel_channel out;
+    bool named = scenario_names_vessels(s);
+    const char *name = named ? scenario_vessel_entry(s, index).keys->name : "";
+    snprintf(out.text, sizeof out.text, "%.*s%s%.46s", (int)VESSEL_NAME_MOST, name, named ? "." : "", channel);
+    return out;
+}
+
+vessel_file vessel_file_name(const scenario *s, int32_t index, const char *stem, const char *ending)
+{
+    vessel_file out;
+    bool named = scenario_names_vessels(s);
+    const char *name = named ? scenario_vessel_entry(s, index).keys->name : "";
+    snprintf(out.text, sizeof out.text, "%.20s%s%.*s%.10s", stem, named ? "-" : "", (int)VESSEL_NAME_MOST, name,
+             ending);
+    return out;
 }
 
 void vessel_name_error(const scenario *s, const vessel_entry *entry, fram_error *error)

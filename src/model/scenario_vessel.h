@@ -4,15 +4,38 @@
 
 #include "model/scenario.h"
 
+/* Characters of a vessel's name. */
+enum { VESSEL_NAME_MOST = 24 };
+
 /* One of them: what is said of it, and where. */
 typedef struct vessel_entry {
     const scenario_vessel *keys;
-    char path[24]; /* of its section: "vessel" */
+    char path[24]; /* of its section: "vessel", or "vessels[3]" */
 } vessel_entry;
 
+/* Of those that are present. */
 int32_t scenario_vessel_count(const scenario *s);
 /* index: 0 to the count - 1, also the vessel's row in a world. */
 vessel_entry scenario_vessel_entry(const scenario *s, int32_t index);
+/* An item of the list, present or not. */
+vessel_entry scenario_vessel_item(const scenario *s, int32_t item);
+/* Whether channels and results are called by vessels' names: those of a list are, a single `vessel` is not. */
+bool scenario_names_vessels(const scenario *s);
+/* How a text speaks of a vessel: "the vessel", or "vessel NAME". */
+typedef struct vessel_title {
+    char text[VESSEL_NAME_MOST + 12];
+} vessel_title;
+vessel_title vessel_title_of(const vessel_entry *entry);
+/* Name of a channel of a vessel: "ice_force_x", in a list "NAME.ice_force_x". */
+typedef struct vessel_channel {
+    char text[VESSEL_NAME_MOST + 48];
+} vessel_channel;
+vessel_channel vessel_channel_name(const scenario *s, int32_t index, const char *channel);
+/* Name of a file of a vessel in a run's folder: "loads.png", in a list "loads-NAME.png". */
+typedef struct vessel_file {
+    char text[VESSEL_NAME_MOST + 40];
+} vessel_file;
+vessel_file vessel_file_name(const scenario *s, int32_t index, const char *stem, const char *ending);
 
 /* FRAM_ERROR_INPUT for a key of a vessel ("mode", "hull.file"; "" for the vessel itself), with its place. */
 fram_status vessel_fault(const scenario *s, const vessel_entry *entry, const char *member, fram_error *error,

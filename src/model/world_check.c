@@ -35,8 +35,6 @@ static const column_rule column_rules[] = {
     {"station", "observer", OBSERVER_PASSIVE, OBSERVER_KALMAN, NULL},
     {"station", "feed", FEED_NONE, FEED_OBSERVED, NULL},
     {"station", "heading_rule", HEADING_FIXED, HEADING_VANING, NULL},
-    {"station", "control_every", 1, INT64_MAX, NULL},
-    {"station", "sample_every", 1, INT64_MAX, NULL},
     {"event", "kind", 0, EVENT_COUNT - 1, NULL},
     {"event", "vessel", 0, 0, "vessel"},
     {"pattern", "state", PATTERN_OUTSIDE, PATTERN_HELD_BACK, NULL},
@@ -47,9 +45,8 @@ static const column_rule column_rules[] = {
 
 /* Rows of a table: from least to most, or to as many as another has. */
 static const column_rule count_rules[] = {
-    {"clock", NULL, 1, 1, NULL},       {"feeding", NULL, 0, 1, NULL},
-    {"broad", NULL, 0, 0, "body"},     {"recorded", NULL, 0, 0, "body"},
-    {"station", NULL, 0, 0, "vessel"}, {"thruster", NULL, 0, ALLOCATION_MOST / 2, NULL},
+    {"clock", NULL, 1, 1, NULL},      {"feeding", NULL, 0, 1, NULL},     {"broad", NULL, 0, 0, "body"},
+    {"recorded", NULL, 0, 0, "body"}, {"station", NULL, 0, 0, "vessel"},
 };
 
 static fram_status refuse(const char *table, int64_t row, const char *column, int64_t found, fram_error *error)
@@ -199,6 +196,24 @@ static fram_status check_floes(const world *w, int32_t tiles, fram_error *error)
     return FRAM_OK;
 }
 
+/* Stations that are kept have their intervals, and no vessel has more thrusters than can be allocated. */
+static fram_status check_stations(const world *w, fram_error *error)
+{
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        bool kept = station_is_kept(&w->stations, &w->vessels, v);
+        if (kept && w->stations.control_every[v] < 1)
+            return refuse("station", v, "control_every", w->stations.control_every[v], error);
+        if (kept && w->stations.sample_every[v] < 1)
+            return refuse("station", v, "sample_every", w->stations.sample_every[v], error);
+        int32_t thrusters = 0;
+        for (int32_t i = 0; i < w->thrusters.count; i++)
+            thrusters += w->thrusters.vessel[i] == v;
+        if (thrusters > ALLOCATION_MOST / 2)
+            return refuse("thruster", 0, NULL, thrusters, error);
+    }
+    return FRAM_OK;
+}
+
 fram_status world_check(const model *m, const world *w, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
@@ -218,6 +233,8 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = check_bodies(w, error);
     if (status == FRAM_OK && w->vessels.count != m->vessels.count)
         status = refuse("vessel", 0, NULL, w->vessels.count, error);
+    if (status == FRAM_OK)
+        status = check_stations(w, error);
     const tile_grid *tiles = &m->fracture.tiles;
     return status == FRAM_OK ? check_floes(w, tiles->columns * tiles->rows, error) : status;
 }

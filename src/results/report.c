@@ -8,16 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool find_load(report *r)
-{
-    const double *x = run_channel(&r->d, "ice_force_averaged_x"), *y = run_channel(&r->d, "ice_force_averaged_y");
-    for (int32_t i = 0; x && y && i < r->d.series.rows; i++) {
-        if (!array_push(r->ctx, &r->load, sqrt(x[i] * x[i] + y[i] * y[i])))
-            return false;
-    }
-    return true;
-}
-
 static void figure(report *r, const char *name, double value, const char *unit)
 {
     char text[32];
@@ -25,29 +15,58 @@ static void figure(report *r, const char *name, double value, const char *unit)
     html_figure(&r->page, name, text, unit);
 }
 
-static void key_figures(report *r)
+/* Of a vessel, with its name where there are names. */
+static void vessel_figure(report *r, const char *name, double value, const char *unit)
+{
+    char full[96];
+    const scenario *s = &r->d.s;
+    bool named = scenario_names_vessels(s);
+    snprintf(full, sizeof full, "%.*s%s%s", (int)VESSEL_NAME_MOST,
+             named ? scenario_vessel_entry(s, r->vessel).keys->name : "", named ? ": " : "", name);
+    figure(r, full, value, unit);
+}
+
+static fram_status vessel_figures(report *r, int32_t vessel, const double *time, fram_error *error)
+{
+    fram_status status = report_choose_vessel(r, vessel, error);
+    if (status != FRAM_OK)
+        return status;
+    load_unit unit = report_load_unit(r);
+    channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
+    vessel_figure(r, "mean ice load", s.mean * unit.factor, unit.name);
+    vessel_figure(r, "significant peak", s.significant * unit.factor, unit.name);
+    vessel_figure(r, "largest ice load, averaged", s.greatest * unit.factor, unit.name);
+    return FRAM_OK;
+}
+
+static void station_figure(report *r, int32_t vessel)
+{
+    if (!station_has_results(&r->d.s, vessel))
+        return;
+    r->vessel = vessel;
+    const double *x = run_vessel_channel(&r->d, vessel, "offset_x"), *y = run_vessel_channel(&r->d, vessel, "offset_y");
+    double most = 0;
+    for (int32_t i = run_first_row(&r->d); x && y && i < r->d.series.rows; i++)
+        most = fmax(most, sqrt(x[i] * x[i] + y[i] * y[i]));
+    vessel_figure(r, "largest offset", most, "m");
+}
+
+static fram_status key_figures(report *r, fram_error *error)
 {
     const double *time = run_channel(&r->d, "time");
+    int32_t vessels = time ? scenario_vessel_count(&r->d.s) : 0;
+    fram_status status = FRAM_OK;
     html_figures_begin(&r->page);
-    if (r->d.s.vessel.present && time) {
-        load_unit unit = report_load_unit(r);
-        channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
-        figure(r, "mean ice load", s.mean * unit.factor, unit.name);
-        figure(r, "significant peak", s.significant * unit.factor, unit.name);
-        figure(r, "largest ice load, averaged", s.greatest * unit.factor, unit.name);
-    }
+    for (int32_t v = 0; v < vessels && status == FRAM_OK; v++)
+        status = vessel_figures(r, v, time, error);
     figure(r, "simulated", r->d.note.time, "s");
     if (r->d.frames > 0)
         figure(r, "floes at the start", r->d.before.areas.count, "");
     figure(r, "floes that broke", r->d.fractures.rows, "");
-    if (station_has_results(&r->d.s) && time) {
-        const double *x = run_channel(&r->d, "offset_x"), *y = run_channel(&r->d, "offset_y");
-        double most = 0;
-        for (int32_t i = run_first_row(&r->d); x && y && i < r->d.series.rows; i++)
-            most = fmax(most, sqrt(x[i] * x[i] + y[i] * y[i]));
-        figure(r, "largest offset", most, "m");
-    }
+    for (int32_t v = 0; v < vessels; v++)
+        station_figure(r, v);
     html_figures_end(&r->page);
+    return status;
 }
 
 static const char *const modes[] = {"prescribed motion", "towed", "free"};
@@ -55,22 +74,30 @@ static const char *const forms[] = {"box", "icebreaking hull", "hull from a file
 
 static const char *const boundaries[] = {"walls", "open", "in an endless field that drifts through"};
 
+static void vessel_facts(report *r, const vessel_entry *entry)
+{
+    const scenario_vessel *v = entry->keys;
+    const scenario_hull *h = &v->hull;
+    char name[64];
+    snprintf(name, sizeof name, "vessel%s%.*s", v->name[0] ? " " : "", (int)VESSEL_NAME_MOST, v->name);
+    html_fact(&r->page, name, "%s, %s; %g m long, %g m wide, %g m draught", forms[h->form], modes[v->mode], h->length,
+              h->beam, h->draught);
+    html_fact(&r->page, "speed and heading", "%g m/s, %g deg", v->speed, v->heading_deg);
+    if (v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->thrusters.count > 0))
+        html_fact(&r->page, "kept by", "mooring lines in groups: %d, thrusters: %d%s", (int)v->mooring.lines.count,
+                  (int)v->thrusters.count, v->positioning.active ? ", dynamic positioning" : "");
+}
+
 static void scenario_table(report *r)
 {
     const scenario *s = &r->d.s;
-    const scenario_vessel *v = &s->vessel;
-    const scenario_hull *h = &v->hull;
     const scenario_ice *i = &s->ice;
     html_section(&r->page, "Scenario");
     html_table_begin(&r->page, NULL, 0);
-    if (v->present) {
-        html_fact(&r->page, "vessel", "%s, %s; %g m long, %g m wide, %g m draught", forms[h->form], modes[v->mode],
-                  h->length, h->beam, h->draught);
-        html_fact(&r->page, "speed and heading", "%g m/s, %g deg", v->speed, v->heading_deg);
+    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
+        vessel_entry entry = scenario_vessel_entry(s, v);
+        vessel_facts(r, &entry);
     }
-    if (v->present && v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->thrusters.count > 0))
-        html_fact(&r->page, "kept by", "mooring lines in groups: %d, thrusters: %d%s", (int)v->mooring.lines.count,
-                  (int)v->thrusters.count, v->positioning.active ? ", dynamic positioning" : "");
     if (i->source != ICE_NONE) {
         html_fact(&r->page, "ice", "%g m thick, %g kg/m3; crushing %g kPa, flexural strength %g kPa; %s", i->thickness,
                   i->density, i->crushing_strength * 1e-3, i->flexural_strength * 1e-3,
@@ -115,9 +142,13 @@ static fram_status compose(report *r, fram_error *error)
     snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %g s simulated; Fram %s", r->d.note.status, folder,
              r->d.note.time, r->d.note.version);
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
-    key_figures(r);
+    fram_status status = key_figures(r, error);
     scenario_table(r);
-    fram_status status = report_loads(r, error);
+    for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && status == FRAM_OK; v++) {
+        status = report_choose_vessel(r, v, error);
+        if (status == FRAM_OK)
+            status = report_loads(r, error);
+    }
     if (status == FRAM_OK)
         status = report_field(r, error);
     if (status == FRAM_OK)
@@ -140,7 +171,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
         status = run_data_read(ctx, folder, true, &r.d, error);
     if (status != FRAM_OK)
         return status;
-    status = find_load(&r) ? compose(&r, error) : error_memory(error);
+    status = compose(&r, error);
     if (status == FRAM_OK)
         status = atomic_file_write(ctx, path, r.page.text.data, (size_t)r.page.text.count, error);
     for (int32_t i = 0; i < r.kept.count; i++)

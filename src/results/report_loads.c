@@ -87,7 +87,7 @@ static void load_table(report *r, load_unit unit)
                 {"ice_force_friction_x", "friction, along X"},
                 {"tow_force_x", "towing carriage, along X"}};
     char head[64];
-    snprintf(head, sizeof head, "load on the vessel [%s]", unit.name);
+    snprintf(head, sizeof head, "load on %s [%s]", report_vessel(r).text, unit.name);
     report_statistics_heads(r, head);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         report_statistics(r, rows[i].channel, rows[i].name, unit.factor);
@@ -101,7 +101,8 @@ static fram_status station_picture(report *r, fram_error *error)
     char path[PATH_ROOM], *png = NULL;
     size_t size = 0;
     fram_error missing;
-    fram_status status = path_join(r->d.folder, "station.png", path, error);
+    vessel_file name = vessel_file_name(&r->d.s, r->vessel, "station", ".png");
+    fram_status status = path_join(r->d.folder, name.text, path, error);
     if (status != FRAM_OK)
         return status;
     status = file_read(r->ctx, path, 64 << 20, &png, &size, &missing);
@@ -113,12 +114,28 @@ static fram_status station_picture(report *r, fram_error *error)
     return FRAM_OK;
 }
 
+/* Lines and thrusters, by their numbers, as far as the run has channels of them. */
+static void equipment(report *r, load_unit unit)
+{
+    static const char *const kinds[2][2] = {{"line_%d_tension", "tension of line %d"},
+                                            {"thruster_%d_thrust", "thrust of thruster %d"}};
+    for (int k = 0; k < 2; k++) {
+        char channel[40], name[40];
+        for (int number = 1; snprintf(channel, sizeof channel, kinds[k][0], number) > 0 &&
+                             run_vessel_channel(&r->d, r->vessel, channel);
+             number++) {
+            snprintf(name, sizeof name, kinds[k][1], number);
+            report_statistics(r, channel, name, unit.factor);
+        }
+    }
+}
+
 static fram_status station(report *r, load_unit unit, fram_error *error)
 {
     char head[64];
-    if (!station_has_results(&r->d.s))
+    if (!station_has_results(&r->d.s, r->vessel))
         return FRAM_OK;
-    html_section(&r->page, "Keeping station");
+    report_vessel_section(r, "Keeping station");
     report_statistics_heads(r, "deviation from the station");
     report_statistics(r, "offset_x", "along X [m]", 1);
     report_statistics(r, "offset_y", "along Y [m]", 1);
@@ -129,25 +146,13 @@ static fram_status station(report *r, load_unit unit, fram_error *error)
     report_statistics(r, "mooring_force_x", "mooring, along X", unit.factor);
     report_statistics(r, "mooring_force_y", "mooring, along Y", unit.factor);
     report_statistics(r, "line_tension_max", "largest line tension", unit.factor);
-    for (int32_t i = 0; i < r->d.series.columns.count; i++) {
-        int line = 0, end = 0;
-        const char *name = r->d.series.columns.data[i].name;
-        if (sscanf(name, "line_%d_tension%n", &line, &end) == 1 && end > 0) {
-            snprintf(head, sizeof head, "tension of line %d", line);
-            report_statistics(r, name, head, unit.factor);
-        } else if (sscanf(name, "thruster_%d_thrust%n", &line, &end) == 1 && end > 0) {
-            snprintf(head, sizeof head, "thrust of thruster %d", line);
-            report_statistics(r, name, head, unit.factor);
-        }
-    }
+    equipment(r, unit);
     html_table_end(&r->page);
     return station_picture(r, error);
 }
 
 fram_status report_loads(report *r, fram_error *error)
 {
-    if (!r->d.s.vessel.present)
-        return FRAM_OK;
     load_unit unit = report_load_unit(r);
     char label[32];
     snprintf(label, sizeof label, "force [%s]", unit.name);
@@ -156,7 +161,7 @@ fram_status report_loads(report *r, fram_error *error)
                                  {"ice_force_averaged_y", "along Y, averaged"}};
     const report_line tilt[] = {{"roll", "roll"}, {"pitch", "pitch"}};
     const report_line place[] = {{"position_x", "x"}, {"position_y", "y"}};
-    html_section(&r->page, "Ice load");
+    report_vessel_section(r, "Ice load");
     html_paragraph(
         &r->page,
         "Loads are forces of the ice on the vessel, in the global frame unless it says body. Averages are over "
@@ -171,7 +176,7 @@ fram_status report_loads(report *r, fram_error *error)
     load_table(r, unit);
     if (status == FRAM_OK)
         status = station(r, unit, error);
-    html_section(&r->page, "Motion of the vessel");
+    report_vessel_section(r, "Motion of the vessel");
     html_grid_begin(&r->page);
     if (status == FRAM_OK)
         status = report_series(r, "Position", "position [m]", 1, place, 2, false, error);

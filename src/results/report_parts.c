@@ -1,12 +1,44 @@
 #include "results/report_parts.h"
 
-#include "results/station_results.h"
+#include "base/channel_statistics.h"
+
+#include <stdio.h>
 
 load_unit load_unit_for(double newton)
 {
     if (newton >= 1e7)
         return (load_unit){"MN", 1e-6};
     return newton >= 1e4 ? (load_unit){"kN", 1e-3} : (load_unit){"N", 1};
+}
+
+fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error)
+{
+    r->vessel = vessel;
+    array_clear(&r->load);
+    const double *x = run_vessel_channel(&r->d, vessel, "ice_force_averaged_x");
+    const double *y = run_vessel_channel(&r->d, vessel, "ice_force_averaged_y");
+    for (int32_t i = 0; x && y && i < r->d.series.rows; i++) {
+        if (!array_push(r->ctx, &r->load, sqrt(x[i] * x[i] + y[i] * y[i])))
+            return error_memory(error);
+    }
+    return FRAM_OK;
+}
+
+vessel_title report_vessel(const report *r)
+{
+    vessel_entry entry = scenario_vessel_entry(&r->d.s, r->vessel);
+    return vessel_title_of(&entry);
+}
+
+void report_vessel_section(report *r, const char *title)
+{
+    char text[128];
+    if (!scenario_names_vessels(&r->d.s)) {
+        html_section(&r->page, title);
+        return;
+    }
+    snprintf(text, sizeof text, "%s, %s", title, report_vessel(r).text);
+    html_section(&r->page, text);
 }
 
 load_unit report_load_unit(const report *r)
@@ -19,7 +51,7 @@ load_unit report_load_unit(const report *r)
 
 const double *report_scaled(report *r, const char *channel, double factor, int32_t first)
 {
-    const double *from = run_channel(&r->d, channel);
+    const double *from = run_vessel_channel(&r->d, r->vessel, channel);
     int32_t rows = r->d.series.rows - first;
     if (!from || rows < 1)
         return NULL;

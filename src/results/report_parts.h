@@ -3,6 +3,7 @@
 #define RESULTS_REPORT_PARTS_H
 
 #include "io/html_page.h"
+#include "model/scenario_vessel.h"
 #include "results/load_statistics.h"
 #include "results/report.h"
 #include "results/run_data.h"
@@ -13,8 +14,9 @@ typedef struct report {
     notes_function notes;
     run_data d;
     html_page page;
+    int32_t vessel;       /* row of the one that is reported now */
     ARRAY(double *) kept; /* scaled columns that charts point to, freed at the end */
-    double_array load;    /* horizontal magnitude of the averaged ice load, every row [N] */
+    double_array load;    /* horizontal magnitude of its averaged ice load, every row [N] */
 } report;
 
 /* A unit in which a load of this size is told: N, kN or MN. */
@@ -23,11 +25,17 @@ typedef struct load_unit {
     double factor;
 } load_unit;
 load_unit load_unit_for(double newton);
-/* The unit of the run's largest load. */
+/* The vessel that is reported from now on, its load. */
+fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error);
+/* How the report calls it: "the vessel" or "vessel NAME". */
+vessel_title report_vessel(const report *r);
+/* A heading, with the vessel's name where there are names. */
+void report_vessel_section(report *r, const char *title);
+/* The unit of its largest load. */
 load_unit report_load_unit(const report *r);
 
-/* A channel times a factor, from row `first` on; NULL without the channel, and without memory: then the page
-   fails as a whole. */
+/* A channel of the vessel or of the world times a factor, from row `first` on; NULL without the channel, and without
+   memory: then the page fails as a whole. */
 const double *report_scaled(report *r, const char *channel, double factor, int32_t first);
 typedef struct report_line {
     const char *channel, *name;

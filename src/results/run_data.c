@@ -3,6 +3,7 @@
 #include "io/file.h"
 #include "io/json_walk.h"
 #include "io/scenario_file.h"
+#include "model/scenario_vessel.h"
 #include "results/replay.h"
 
 #include <stdio.h>
@@ -168,6 +169,14 @@ const double *run_channel(const run_data *d, const char *name)
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
     return c ? c->value.data : NULL;
+}
+
+const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name)
+{
+    const double *own = NULL;
+    if (vessel < scenario_vessel_count(&d->s))
+        own = run_channel(d, vessel_channel_name(&d->s, vessel, name).text);
+    return own ? own : run_channel(d, name);
 }
 
 int32_t run_first_row(const run_data *d)

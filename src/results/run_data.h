@@ -40,6 +40,8 @@ void run_data_free(context *ctx, run_data *d);
 
 /* Values of a channel, NULL when the run does not have it. */
 const double *run_channel(const run_data *d, const char *name);
+/* Of a vessel by its row, whether the run's vessels have names or not; a channel of the world is that for all. */
+const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name);
 /* First row after the transient. */
 int32_t run_first_row(const run_data *d);
 

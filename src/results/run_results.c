@@ -3,6 +3,7 @@
 #include "io/chart.h"
 #include "io/csv_read.h"
 #include "io/path.h"
+#include "model/scenario_vessel.h"
 #include "results/station_results.h"
 
 #include <stdio.h>
@@ -22,19 +23,39 @@ static double mean_after(const double_array *time, const double_array *value, do
     return n > 0 ? sum / n : 0;
 }
 
-static fram_status draw_loads(context *ctx, const scenario *s, const char *folder, fram_error *error)
+enum { TIME, RAW_X, RAW_Y, MEAN_X, MEAN_Y, CHANNELS };
+
+static fram_status read_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder,
+                              double_array column[CHANNELS], fram_error *error)
 {
-    static const char *const names[] = {"time", "ice_force_body_x", "ice_force_body_y", "ice_force_averaged_x",
-                                        "ice_force_averaged_y"};
-    enum { TIME, RAW_X, RAW_Y, MEAN_X, MEAN_Y, COUNT };
-    char from[PATH_ROOM], to[PATH_ROOM];
-    if (path_join(folder, "series.csv", from, error) != FRAM_OK || path_join(folder, "loads.png", to, error) != FRAM_OK)
+    static const char *const of_vessel[CHANNELS] = {
+        [RAW_X] = "ice_force_body_x",
+        [RAW_Y] = "ice_force_body_y",
+        [MEAN_X] = "ice_force_averaged_x",
+        [MEAN_Y] = "ice_force_averaged_y",
+    };
+    char path[PATH_ROOM];
+    vessel_channel full[CHANNELS];
+    const char *names[CHANNELS] = {[TIME] = "time"};
+    for (int k = RAW_X; k < CHANNELS; k++) {
+        full[k] = vessel_channel_name(s, vessel, of_vessel[k]);
+        names[k] = full[k].text;
+    }
+    fram_status status = path_join(folder, "series.csv", path, error);
+    return status == FRAM_OK ? csv_read(ctx, path, names, CHANNELS, column, error) : status;
+}
+
+static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, const char *folder, fram_error *error)
+{
+    char to[PATH_ROOM];
+    vessel_entry entry = scenario_vessel_entry(s, vessel);
+    if (path_join(folder, vessel_file_name(s, vessel, "loads", ".png").text, to, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
-    double_array column[COUNT] = {0};
-    fram_status status = csv_read(ctx, from, names, COUNT, column, error);
+    double_array column[CHANNELS] = {0};
+    fram_status status = read_loads(ctx, s, vessel, folder, column, error);
     if (status == FRAM_OK) {
         double mean = mean_after(&column[TIME], &column[RAW_X], s->run.transient);
-        for (int k = RAW_X; k < COUNT; k++) {
+        for (int k = RAW_X; k < CHANNELS; k++) {
             for (int32_t i = 0; i < column[k].count; i++)
                 column[k].data[i] *= 1e-3;
         }
@@ -44,15 +65,16 @@ static fram_status draw_loads(context *ctx, const scenario *s, const char *folde
             chart_line_make("along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true),
             chart_line_make("along Y, averaged", column[TIME].data, column[MEAN_Y].data, rows, true),
         };
-        char subtitle[256];
+        char title[80], subtitle[256];
+        snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);
         snprintf(
             subtitle, sizeof subtitle,
             "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s; a resisting load is negative",
             s->output.averaging_window, mean * 1e-3, s->run.transient);
-        chart c = chart_make("Ice load on the vessel", subtitle, "time [s]", "force [kN]", lines, 3);
+        chart c = chart_make(title, subtitle, "time [s]", "force [kN]", lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }
-    for (int k = 0; k < COUNT; k++)
+    for (int k = 0; k < CHANNELS; k++)
         array_free(ctx, &column[k]);
     return status;
 }
@@ -70,17 +92,29 @@ static fram_status drawn(context *ctx, const char *name, fram_status status, con
     return status;
 }
 
+static fram_status write_station(context *ctx, const scenario *s, int32_t vessel, const station_outcome *station,
+                                 const char *folder, fram_error *error)
+{
+    fram_error reason = {0};
+    if (!station_has_results(s, vessel))
+        return FRAM_OK;
+    fram_status status = station_results_write(ctx, s, vessel, station, folder, error);
+    if (status != FRAM_OK)
+        return status;
+    vessel_file name = vessel_file_name(s, vessel, "station", ".png");
+    return drawn(ctx, name.text, station_page_write(ctx, s, vessel, station, folder, &reason), &reason, error);
+}
+
 fram_status run_results_write(context *ctx, const scenario *s, const station_outcome *station, const char *folder,
                               fram_error *error)
 {
-    fram_error reason = {0};
     fram_status status = FRAM_OK;
-    if (s->vessel.present)
-        status = drawn(ctx, "loads.png", draw_loads(ctx, s, folder, &reason), &reason, error);
-    if (status != FRAM_OK || !station_has_results(s))
-        return status;
-    status = station_results_write(ctx, s, station, folder, error);
-    if (status != FRAM_OK)
-        return status;
-    return drawn(ctx, "station.png", station_page_write(ctx, s, station, folder, &reason), &reason, error);
+    for (int32_t v = 0; v < scenario_vessel_count(s) && status == FRAM_OK; v++) {
+        fram_error reason = {0};
+        vessel_file name = vessel_file_name(s, v, "loads", ".png");
+        status = drawn(ctx, name.text, draw_loads(ctx, s, v, folder, &reason), &reason, error);
+        if (status == FRAM_OK)
+            status = write_station(ctx, s, v, station, folder, error);
+    }
+    return status;
 }

@@ -6,16 +6,18 @@
 #include "io/page.h"
 #include "io/path.h"
 #include "io/text_buffer.h"
+#include "model/scenario_vessel.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool station_has_results(const scenario *s)
+bool station_has_results(const scenario *s, int32_t vessel)
 {
-    const scenario_vessel *v = &s->vessel;
-    return v->present && v->mode == VESSEL_FREE &&
-           (v->mooring.lines.count > 0 || v->thrusters.count > 0 || v->positioning.active);
+    if (vessel >= scenario_vessel_count(s))
+        return false;
+    const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
+    return v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->thrusters.count > 0 || v->positioning.active);
 }
 
 /* ---- statistics ---- */
@@ -37,7 +39,8 @@ void offset_envelope(const double *time, const double *x, const double *y, int32
 /* ---- what is read ---- */
 
 enum { TIME, OFFSET_X, OFFSET_Y, HEADING, LOAD_X, LOAD_Y, POWER, SATURATED, TENSION, FIXED };
-enum { MOST_CHANNELS = FIXED + 128 };
+/* Lines, and thrusters, of a vessel. */
+enum { MOST_EACH = 64, MOST_CHANNELS = FIXED + 2 * MOST_EACH };
 static const char *const fixed_names[FIXED] = {"time",
                                                "offset_x",
                                                "offset_y",
@@ -49,10 +52,19 @@ static const char *const fixed_names[FIXED] = {"time",
                                                "line_tension_max"};
 
 typedef struct station_data {
+    const scenario *s;
+    int32_t vessel;
+    const station_outcome *outcome;
     double_array column[MOST_CHANNELS];
-    double_array offset, load; /* magnitudes */
+    double_array offset, load;                    /* magnitudes */
+    int32_t line[MOST_EACH], thruster[MOST_EACH]; /* their rows in the outcome's tables */
     int32_t lines, thrusters, rows;
 } station_data;
+
+static const scenario_station *limits_of(const station_data *d)
+{
+    return &scenario_vessel_entry(d->s, d->vessel).keys->station;
+}
 
 static void data_free(context *ctx, station_data *d)
 {
@@ -62,23 +74,36 @@ static void data_free(context *ctx, station_data *d)
     array_free(ctx, &d->load);
 }
 
-static fram_status data_read(context *ctx, const station_outcome *o, const char *folder, station_data *d,
-                             fram_error *error)
+/* The lines and thrusters of the vessel. */
+static void find_equipment(station_data *d)
 {
-    char path[PATH_ROOM], name[MOST_CHANNELS][32];
+    const line_table *lines = d->outcome->lines;
+    const thruster_table *thrusters = d->outcome->thrusters;
+    for (int32_t i = 0; i < lines->count && d->lines < MOST_EACH; i++)
+        if (lines->vessel[i] == d->vessel)
+            d->line[d->lines++] = i;
+    for (int32_t i = 0; i < thrusters->count && d->thrusters < MOST_EACH; i++)
+        if (thrusters->vessel[i] == d->vessel)
+            d->thruster[d->thrusters++] = i;
+}
+
+static fram_status data_read(context *ctx, station_data *d, const char *folder, fram_error *error)
+{
+    char path[PATH_ROOM];
+    vessel_channel name[MOST_CHANNELS];
     const char *names[MOST_CHANNELS];
-    int count = FIXED;
     if (path_join(folder, "series.csv", path, error) != FRAM_OK)
         return FRAM_ERROR_INPUT;
-    memcpy(names, fixed_names, sizeof fixed_names);
-    d->lines = o->lines->count;
-    d->thrusters = o->thrusters->count;
-    for (int32_t i = 0; i < d->lines + d->thrusters; i++) {
-        bool line = i < d->lines;
-        snprintf(name[count], sizeof name[count], line ? "line_%d_tension" : "thruster_%d_thrust",
-                 (int)(line ? i + 1 : i - d->lines + 1));
-        names[count] = name[count];
-        count++;
+    find_equipment(d);
+    int count = FIXED + d->lines + d->thrusters;
+    for (int i = 0; i < count; i++) {
+        char own[40];
+        int32_t line = i - FIXED, thruster = line - d->lines;
+        bool of_line = thruster < 0;
+        snprintf(own, sizeof own, of_line ? "line_%d_tension" : "thruster_%d_thrust",
+                 (int)(of_line ? line + 1 : thruster + 1));
+        name[i] = vessel_channel_name(d->s, d->vessel, i < FIXED ? fixed_names[i] : own);
+        names[i] = i == TIME ? "time" : name[i].text;
     }
     fram_status status = csv_read(ctx, path, names, count, d->column, error);
     d->rows = d->column[TIME].count;
@@ -158,41 +183,48 @@ static void add_envelope(context *ctx, text_buffer *b, const station_data *d, do
     text_add(ctx, b, "],\n");
 }
 
-static void add_lines(context *ctx, text_buffer *b, const station_outcome *o, const station_data *d, double transient)
+static void add_lines(context *ctx, text_buffer *b, const station_data *d, double transient)
 {
+    const station_outcome *o = d->outcome;
     text_add(ctx, b, "  \"lines\": [");
     for (int32_t i = 0; i < d->lines; i++) {
         channel_statistics s = statistics(d, &d->column[FIXED + i], transient);
         text_format(ctx, b, "%s\n    {\"number\": %d, \"parted\": %s, ", i ? "," : "", (int)i + 1,
-                    o->lines->broken[i] ? "true" : "false");
-        add_number(ctx, b, "utilisation", s.greatest / o->lines->breaking_load[i], ", ");
+                    o->lines->broken[d->line[i]] ? "true" : "false");
+        add_number(ctx, b, "utilisation", s.greatest / o->lines->breaking_load[d->line[i]], ", ");
         add_statistics(ctx, b, &s, "}");
     }
     text_add(ctx, b, "],\n  \"thrusters\": [");
     for (int32_t i = 0; i < d->thrusters; i++) {
         channel_statistics s = statistics(d, &d->column[FIXED + d->lines + i], transient);
         text_format(ctx, b, "%s\n    {\"number\": %d, \"failed\": %s, ", i ? "," : "", (int)i + 1,
-                    o->thrusters->failed[i] ? "true" : "false");
+                    o->thrusters->failed[d->thruster[i]] ? "true" : "false");
         add_number(ctx, b, "largest_use",
-                   fmax(s.greatest / o->thrusters->ahead[i],
-                        o->thrusters->astern[i] > 0 ? -s.least / o->thrusters->astern[i] : 0),
+                   fmax(s.greatest / o->thrusters->ahead[d->thruster[i]],
+                        o->thrusters->astern[d->thruster[i]] > 0 ? -s.least / o->thrusters->astern[d->thruster[i]] : 0),
                    ", ");
         add_statistics(ctx, b, &s, "}");
     }
     text_add(ctx, b, "],\n");
 }
 
-static void add_events(context *ctx, text_buffer *b, const station_outcome *o)
+static void add_events(context *ctx, text_buffer *b, const station_data *d)
 {
+    const event_table *events = d->outcome->events;
+    bool first = true;
     text_add(ctx, b, "  \"events\": [");
-    for (int32_t i = 0; i < o->events->count; i++) {
+    for (int32_t i = 0; i < events->count; i++) {
+        if (events->vessel[i] != d->vessel)
+            continue;
         char text[160];
-        event_text(o->events, i, text, sizeof text);
-        text_format(ctx, b, "%s\n    {\"kind\": \"%s\", ", i ? "," : "", event_name((station_event)o->events->kind[i]));
-        add_number(ctx, b, "time_s", o->events->time[i], ", ");
-        add_number(ctx, b, "value", o->events->value[i], ", ");
-        text_format(ctx, b, "\"number\": %d, ", (int)o->events->number[i] + 1);
+        event_text(events, i, text, sizeof text);
+        text_format(ctx, b, "%s\n    {\"kind\": \"%s\", ", first ? "" : ",",
+                    event_name((station_event)events->kind[i]));
+        add_number(ctx, b, "time_s", events->time[i], ", ");
+        add_number(ctx, b, "value", events->value[i], ", ");
+        text_format(ctx, b, "\"number\": %d, ", (int)events->number[i] + 1);
         text_format(ctx, b, "\"text\": \"%s\"}", text);
+        first = false;
     }
     text_add(ctx, b, "]\n}\n");
 }
@@ -206,21 +238,24 @@ static double energy_of(const station_data *d)
     return sum;
 }
 
-static void compose(context *ctx, const scenario *s, const station_outcome *o, const station_data *d, text_buffer *b)
+static void compose(context *ctx, const station_data *d, text_buffer *b)
 {
+    const scenario *s = d->s;
     double transient = s->run.transient;
     const double_array *c = d->column;
     text_add(ctx, b, "{\n  ");
-    add_number(ctx, b, "time_s", o->time, ",\n  ");
+    if (scenario_names_vessels(s))
+        text_format(ctx, b, "\"vessel\": \"%s\",\n  ", scenario_vessel_entry(s, d->vessel).keys->name);
+    add_number(ctx, b, "time_s", d->outcome->time, ",\n  ");
     add_number(ctx, b, "transient_s", transient, ",\n  ");
     add_number(ctx, b, "averaging_window_s", s->output.averaging_window, ",\n");
     add_channel(ctx, b, d, "offset_m", &d->offset, transient, ", ");
-    add_limit(ctx, b, d, &d->offset, s->vessel.station.offset_limit, transient);
+    add_limit(ctx, b, d, &d->offset, limits_of(d)->offset_limit, transient);
     add_envelope(ctx, b, d, transient);
     add_channel(ctx, b, d, "offset_x_m", &c[OFFSET_X], transient, "},\n");
     add_channel(ctx, b, d, "offset_y_m", &c[OFFSET_Y], transient, "},\n");
     add_channel(ctx, b, d, "heading_deviation_deg", &c[HEADING], transient, ", ");
-    add_limit(ctx, b, d, &c[HEADING], s->vessel.station.heading_limit_deg, transient);
+    add_limit(ctx, b, d, &c[HEADING], limits_of(d)->heading_limit_deg, transient);
     add_channel(ctx, b, d, "ice_load_N", &d->load, transient, "},\n");
     add_channel(ctx, b, d, "ice_load_x_N", &c[LOAD_X], transient, "},\n");
     add_channel(ctx, b, d, "ice_load_y_N", &c[LOAD_Y], transient, "},\n");
@@ -228,21 +263,21 @@ static void compose(context *ctx, const scenario *s, const station_outcome *o, c
     add_channel(ctx, b, d, "thruster_power_W", &c[POWER], transient, ", ");
     add_number(ctx, b, "energy_J", energy_of(d), "},\n  ");
     add_number(ctx, b, "thrusters_saturated", statistics(d, &c[SATURATED], transient).mean, ",\n");
-    add_lines(ctx, b, o, d, transient);
-    add_events(ctx, b, o);
+    add_lines(ctx, b, d, transient);
+    add_events(ctx, b, d);
 }
 
-fram_status station_results_write(context *ctx, const scenario *s, const station_outcome *o, const char *folder,
-                                  fram_error *error)
+fram_status station_results_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                                  const char *folder, fram_error *error)
 {
-    station_data d = {0};
+    station_data d = {.s = s, .vessel = vessel, .outcome = o};
     text_buffer b = {0};
     char path[PATH_ROOM];
-    fram_status status = data_read(ctx, o, folder, &d, error);
+    fram_status status = data_read(ctx, &d, folder, error);
     if (status == FRAM_OK)
-        status = path_join(folder, "station.json", path, error);
+        status = path_join(folder, vessel_file_name(s, vessel, "station", ".json").text, path, error);
     if (status == FRAM_OK) {
-        compose(ctx, s, o, &d, &b);
+        compose(ctx, &d, &b);
         status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
     }
     text_free(ctx, &b);
@@ -257,15 +292,33 @@ fram_status station_results_write(context *ctx, const scenario *s, const station
 
 enum { PAGE_WIDTH = 1600, PAGE_HEIGHT = 1130, CIRCLE = 73 };
 
-static void describe(context *ctx, const scenario *s, const station_outcome *o, const station_data *d, text_buffer *b)
+/* The first events of the vessel. */
+static void describe_events(context *ctx, const station_data *d, text_buffer *b)
 {
+    enum { TOLD = 8 };
+    const event_table *events = d->outcome->events;
+    int32_t count = 0;
+    for (int32_t i = 0; i < events->count; i++) {
+        if (events->vessel[i] != d->vessel || count++ >= TOLD)
+            continue;
+        char text[160];
+        event_text(events, i, text, sizeof text);
+        text_format(ctx, b, "t = %.1f s: %s.\n", events->time[i], text);
+    }
+    if (count > TOLD)
+        text_format(ctx, b, "and %d more events.\n", (int)(count - TOLD));
+}
+
+static void describe(context *ctx, const station_data *d, text_buffer *b)
+{
+    const scenario *s = d->s;
     double transient = s->run.transient;
     channel_statistics offset = statistics(d, &d->offset, transient), load = statistics(d, &d->load, transient);
     channel_statistics tension = statistics(d, &d->column[TENSION], transient);
     channel_statistics power = statistics(d, &d->column[POWER], transient);
     text_format(ctx, b, "Statistics after %g s; loads averaged over %.3g s.\n", transient, s->output.averaging_window);
     text_format(ctx, b, "Offset: mean %.3g m, largest %.3g m", offset.mean, offset.greatest);
-    double limit = automatic_or(s->vessel.station.offset_limit, HUGE_VAL);
+    double limit = automatic_or(limits_of(d)->offset_limit, HUGE_VAL);
     if (limit < HUGE_VAL)
         text_format(ctx, b, "; beyond the limit of %.3g m %.3g %% of the time.\n", limit,
                     100 * exceedance(d, &d->offset, limit, transient));
@@ -281,13 +334,7 @@ static void describe(context *ctx, const scenario *s, const station_outcome *o, 
                     "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ.\nThrusters saturated %.3g %% of the time.\n",
                     power.mean * 1e-6, power.greatest * 1e-6, energy_of(d) * 1e-9,
                     100 * statistics(d, &d->column[SATURATED], transient).mean);
-    for (int32_t i = 0; i < o->events->count && i < 8; i++) {
-        char text[160];
-        event_text(o->events, i, text, sizeof text);
-        text_format(ctx, b, "t = %.1f s: %s.\n", o->events->time[i], text);
-    }
-    if (o->events->count > 8)
-        text_format(ctx, b, "and %d more events.\n", (int)o->events->count - 8);
+    describe_events(ctx, d, b);
 }
 
 static void scale(double_array *values, double by)
@@ -311,10 +358,10 @@ static double envelope_edge(const double envelope[ENVELOPE_DIRECTIONS], double x
     return largest;
 }
 
-static fram_status draw(context *ctx, const scenario *s, const station_data *d, const char *text, const char *path,
-                        fram_error *error)
+static fram_status draw(context *ctx, const station_data *d, const char *text, const char *path, fram_error *error)
 {
-    double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(s->vessel.station.offset_limit, 0);
+    const scenario *s = d->s;
+    double round_x[CIRCLE], round_y[CIRCLE], limit = automatic_or(limits_of(d)->offset_limit, 0);
     for (int i = 0; i < CIRCLE; i++) {
         double a = 2 * PI * i / (CIRCLE - 1);
         round_x[i] = limit * real_cos(a), round_y[i] = limit * real_sin(a);
@@ -352,26 +399,30 @@ static fram_status draw(context *ctx, const scenario *s, const station_data *d, 
                            false}
             : (page_panel){chart_make("Power", "", "time [s]", "power [MW]", &power, 1), 660, 840, 920, 270, false},
     };
-    const page p = {s->title[0] ? s->title : "Fram", panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
+    char title[SCENARIO_TEXT_SIZE + 40];
+    bool named = scenario_names_vessels(s);
+    snprintf(title, sizeof title, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
+             (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, d->vessel).keys->name : "");
+    const page p = {title, panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
     return page_write(ctx, &p, path, error);
 }
 
-fram_status station_page_write(context *ctx, const scenario *s, const station_outcome *o, const char *folder,
-                               fram_error *error)
+fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                               const char *folder, fram_error *error)
 {
-    station_data d = {0};
+    station_data d = {.s = s, .vessel = vessel, .outcome = o};
     text_buffer b = {0};
     char path[PATH_ROOM];
-    fram_status status = data_read(ctx, o, folder, &d, error);
+    fram_status status = data_read(ctx, &d, folder, error);
     if (status == FRAM_OK)
-        status = path_join(folder, "station.png", path, error);
+        status = path_join(folder, vessel_file_name(s, vessel, "station", ".png").text, path, error);
     if (status == FRAM_OK) {
-        describe(ctx, s, o, &d, &b);
+        describe(ctx, &d, &b);
         scale(&d.column[LOAD_X], 1e-3);
         scale(&d.column[LOAD_Y], 1e-3);
         scale(&d.column[TENSION], 1e-3);
         scale(&d.column[POWER], 1e-6);
-        status = b.failed ? error_memory(error) : draw(ctx, s, &d, b.data, path, error);
+        status = b.failed ? error_memory(error) : draw(ctx, &d, b.data, path, error);
     }
     text_free(ctx, &b);
     data_free(ctx, &d);

@@ -1,5 +1,6 @@
 /* What a run says about keeping station, on one page: offsets, loads, line tensions, thruster use and power, events; as
-   FOLDER/station.json and FOLDER/station.png, from FOLDER/series.csv after the transient. */
+   FOLDER/station.json and FOLDER/station.png, from FOLDER/series.csv after the transient; with a list of vessels as
+   station-NAME.json and station-NAME.png for each that keeps station.  vessel: its row. */
 #ifndef RESULTS_STATION_RESULTS_H
 #define RESULTS_STATION_RESULTS_H
 
@@ -14,12 +15,12 @@ enum { ENVELOPE_DIRECTIONS = 36 };
 void offset_envelope(const double *time, const double *x, const double *y, int32_t count, double transient,
                      double out[ENVELOPE_DIRECTIONS]);
 
-/* True when the scenario has something that keeps its vessel on station. */
-bool station_has_results(const scenario *s);
-fram_status station_results_write(context *ctx, const scenario *s, const station_outcome *o, const char *folder,
-                                  fram_error *error);
+/* True when the scenario has something that keeps the vessel on station. */
+bool station_has_results(const scenario *s, int32_t vessel);
+fram_status station_results_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                                  const char *folder, fram_error *error);
 /* The picture alone; FRAM_ERROR_UNSUPPORTED without cairo. */
-fram_status station_page_write(context *ctx, const scenario *s, const station_outcome *o, const char *folder,
-                               fram_error *error);
+fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,
+                               const char *folder, fram_error *error);
 
 #endif

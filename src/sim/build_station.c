@@ -1,5 +1,6 @@
 #include "sim/build_station.h"
 
+#include "base/hash.h"
 #include "base/transcendental.h"
 #include "sim/steady_load.h"
 
@@ -239,6 +240,14 @@ static int64_t steps_of(double interval, double time_step)
     return steps < 1 ? 1 : (int64_t)steps;
 }
 
+/* A vessel's measurements are noisy in a way of its own, which goes by its name, not by its place in a list: in company
+   it is what it is alone.  A vessel without a name has the run's seed itself. */
+static uint64_t noise_seed(const scenario *s, const scenario_vessel *v)
+{
+    uint64_t seed = (uint64_t)s->run.seed;
+    return v->name[0] ? hash_bytes(v->name, strlen(v->name), seed) : seed;
+}
+
 static station_definition definition_of(const scenario *s, const scenario_vessel *v, int32_t vessel, const world *w)
 {
     const scenario_positioning *p = &v->positioning;
@@ -270,7 +279,7 @@ static station_definition definition_of(const scenario *s, const scenario_vessel
         .feed_gain = p->feed_forward_gain,
         .feed_time = p->feed_forward_time,
         .noise = {p->noise_position, p->noise_position, turn},
-        .seed = (uint64_t)s->run.seed,
+        .seed = noise_seed(s, v),
     };
     /* A filter that trusts its measurements wholly has no gain to compute: a hundredth of a metre at least, scaled. */
     double least = 0.01 * s->run.scale / FULL_SCALE;

@@ -100,6 +100,39 @@ static fram_status check_clear_of_walls(context *ctx, const scenario *s, const v
                         hull.lo.x, hull.hi.x, hull.lo.y, hull.hi.y);
 }
 
+static vessel_title title_of_row(const scenario *s, int32_t row)
+{
+    vessel_entry entry = scenario_vessel_entry(s, row);
+    return vessel_title_of(&entry);
+}
+
+/* Part of the smaller footprint that rounding may take for an overlap. */
+#define TOUCHING 1e-9
+
+/* Two hulls that are in each other would be thrown apart by the first step.  Seen from above, decks and overhangs
+   included. */
+static fram_status check_clear_of_vessels(context *ctx, const scenario *s, const vessel_entry *entry, const world *w,
+                                          int32_t row, fram_error *error)
+{
+    vec2_array own = {0}, other = {0};
+    fram_status status = FRAM_OK;
+    if (row > 0)
+        status = build_footprint(ctx, w, w->vessels.body[row], false, &own, error);
+    for (int32_t v = 0; v < row && status == FRAM_OK; v++) {
+        status = build_footprint(ctx, w, w->vessels.body[v], false, &other, error);
+        polygon a = {own.data, own.count}, b = {other.data, other.count};
+        double common = status == FRAM_OK ? polygon_overlap_area(a, b) : 0;
+        if (common > TOUCHING * fmin(polygon_area(a), polygon_area(b)))
+            status = vessel_fault(s, entry, "x", error,
+                                  "the hull lies in that of %s at the start, by %.4g m2 as seen from above: move one "
+                                  "of them",
+                                  title_of_row(s, v).text, common);
+    }
+    array_free(ctx, &own);
+    array_free(ctx, &other);
+    return status;
+}
+
 fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, world *w,
                          fram_error *error)
 {
@@ -111,6 +144,8 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
         status = build_station(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)
         status = check_clear_of_walls(ctx, s, entry, w, row, error);
+    if (status == FRAM_OK)
+        status = check_clear_of_vessels(ctx, s, entry, w, row, error);
     if (status == FRAM_OK)
         vessel_warnings(ctx, s, entry, m, w, row);
     return status;

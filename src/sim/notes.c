@@ -3,6 +3,7 @@
 #include "base/transcendental.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
+#include "model/scenario_vessel.h"
 #include "sim/build.h"
 #include "sim/sanity.h"
 #include "sim/scene_size.h"
@@ -84,31 +85,35 @@ static void note_fracture(const note_taker *n, const scenario *s)
     }
     /* The patch of a plate at 45 degrees, as wide as the ice is thick, grows until the wedges break off. */
     edge_stress e = fracture_edge_stress(&f, &m, h, 1, areas[0], EDGE_STRAIGHT);
-    double depth = s->vessel.speed * s->run.time_step, needed = e.wedge_capacity / (sigma * h);
-    if (s->vessel.present && depth > 0.2 * needed)
-        note_warning(n,
-                     "the vessel moves %.3g m in a step, and ice as wide as it is thick breaks after about "
-                     "%.3g m of crushing; take run.time_step under %.3g s",
-                     depth, needed, 0.2 * needed / s->vessel.speed);
+    double needed = e.wedge_capacity / (sigma * h);
+    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
+        vessel_entry entry = scenario_vessel_entry(s, v);
+        double speed = entry.keys->speed, depth = speed * s->run.time_step;
+        if (depth > 0.2 * needed)
+            note_warning(n,
+                         "%s moves %.3g m in a step, and ice as wide as it is thick breaks after about "
+                         "%.3g m of crushing; take run.time_step under %.3g s",
+                         vessel_title_of(&entry).text, depth, needed, 0.2 * needed / speed);
+    }
 }
 
-static void note_vessel(const note_taker *n, const scenario *s)
+static void note_vessel(const note_taker *n, const scenario *s, const vessel_entry *entry)
 {
-    const scenario_vessel *v = &s->vessel;
-    if (!v->present)
-        return;
+    const scenario_vessel *v = entry->keys;
+    vessel_title title = vessel_title_of(entry);
     double way = v->speed * s->run.time_step;
-    note_fact(n, "vessel: moves %.4g m in a step, %.4g m in the run", way, v->speed * s->run.duration);
+    note_fact(n, "vessel%s%.*s: moves %.4g m in a step, %.4g m in the run", v->name[0] ? " " : "",
+              (int)VESSEL_NAME_MOST, v->name, way, v->speed * s->run.duration);
     if (s->ice.source != ICE_NONE && way > 0.1 * s->ice.thickness)
         note_warning(n,
-                     "the vessel moves %.2g of the ice thickness in a step; crushing patches grow in jumps. "
+                     "%s moves %.2g of the ice thickness in a step; crushing patches grow in jumps. "
                      "Take run.time_step under %.3g s",
-                     way / s->ice.thickness, 0.1 * s->ice.thickness / v->speed);
+                     title.text, way / s->ice.thickness, 0.1 * s->ice.thickness / v->speed);
     double x = v->x + v->speed * s->run.duration * real_cos(radians(automatic_or(v->course_deg, v->heading_deg)));
     double y = v->y + v->speed * s->run.duration * real_sin(radians(automatic_or(v->course_deg, v->heading_deg)));
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
     if (v->mode != VESSEL_FREE && s->domain.boundary != DOMAIN_WALLS && !inside)
-        note_warning(n, "the vessel leaves the domain before the end, at (%.4g, %.4g) m", x, y);
+        note_warning(n, "%s leaves the domain before the end, at (%.4g, %.4g) m", title.text, x, y);
 }
 
 static void tell_warning(const void *to, const char *text) { note_warning(to, "%s", text); }
@@ -121,7 +126,10 @@ static void take_notes(const note_taker *n, const scenario *s)
               s->run.memory_limit);
     note_ice(n, s);
     note_fracture(n, s);
-    note_vessel(n, s);
+    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
+        vessel_entry entry = scenario_vessel_entry(s, v);
+        note_vessel(n, s, &entry);
+    }
     sanity_tell(s, tell_warning, n);
     if (s->run.solver.baumgarte)
         note_warning(n, "run.solver.baumgarte is a comparison switch; it is known to make the ice explode");

@@ -4,7 +4,6 @@
 #include "io/path.h"
 #include "io/record_pose.h"
 #include "sim/ice_loads.h"
-#include "sim/series.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -29,19 +28,38 @@ static void set_intervals(recorder *r, const scenario *s)
     r->record_limit = s->output.record_limit * 1e6;
 }
 
+static void free_scratch(recorder *r)
+{
+    array_free(r->ctx, &r->block);
+    array_free(r->ctx, &r->sums);
+    array_free(r->ctx, &r->row);
+    series_layout_free(r->ctx, &r->layout);
+}
+
+/* Columns, and room for a row. */
+static fram_status begin_series(recorder *r, const scenario *s, fram_error *error)
+{
+    fram_status status = series_columns(r->ctx, s, &r->layout, error);
+    if (status == FRAM_OK && !array_resize(r->ctx, &r->row, r->layout.columns.count))
+        status = error_memory(error);
+    return status;
+}
+
 fram_status recorder_create(context *ctx, const scenario *s, const char *folder, const char *text, recorder *r,
                             fram_error *error)
 {
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
     char path[PATH_ROOM];
-    series_layout layout;
-    series_columns(s, &layout);
-    fram_status status = path_join(folder, "series.csv", path, error);
+    fram_status status = begin_series(r, s, error);
     if (status == FRAM_OK)
-        status = csv_create(ctx, path, layout.column, layout.count, &r->series, error);
-    if (status != FRAM_OK)
+        status = path_join(folder, "series.csv", path, error);
+    if (status == FRAM_OK)
+        status = csv_create(ctx, path, r->layout.columns.data, r->layout.columns.count, &r->series, error);
+    if (status != FRAM_OK) {
+        free_scratch(r);
         return status;
+    }
     int32_t count;
     const csv_column *columns = fracture_columns(&count);
     status = path_join(folder, "fractures.csv", path, error);
@@ -105,15 +123,18 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
     *r = (recorder){.ctx = ctx};
     set_intervals(r, s);
     char path[PATH_ROOM];
-    series_layout layout;
-    series_columns(s, &layout);
     fram_status status = check_layout(ctx, folder, lengths->record, error);
+    if (status == FRAM_OK)
+        status = begin_series(r, s, error);
     if (status == FRAM_OK)
         status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
-        status = csv_continue(ctx, path, lengths->series, layout.column, layout.count, &r->series, error);
-    if (status != FRAM_OK)
+        status = csv_continue(ctx, path, lengths->series, r->layout.columns.data, r->layout.columns.count, &r->series,
+                              error);
+    if (status != FRAM_OK) {
+        free_scratch(r);
         return status;
+    }
     int32_t count;
     const csv_column *columns = fracture_columns(&count);
     status = path_join(folder, "fractures.csv", path, error);
@@ -395,7 +416,7 @@ static fram_status write_fractures(recorder *r, const world *w, fram_error *erro
     bool good = put_i32(r, events->count) && put_i32(r, 0);
     for (int32_t i = 0; i < events->count; i++) {
         const fracture_event *e = &events->data[i];
-        double row[SERIES_ROOM];
+        double row[FRACTURE_ROOM];
         fracture_row(time, e, row);
         fram_status status = csv_append(&r->fractures, row, error);
         if (status != FRAM_OK)
@@ -412,9 +433,8 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
     int64_t step = w->clock.step[0];
     fram_status status = FRAM_OK;
     if (step > 0 && step % r->series_every == 0) {
-        double row[SERIES_ROOM];
-        series_row(w, wall, row);
-        status = csv_append(&r->series, row, error);
+        series_row(&r->layout, w, wall, r->row.data);
+        status = csv_append(&r->series, r->row.data, error);
     }
     if (status == FRAM_OK && step > 0)
         status = write_fractures(r, w, error);
@@ -440,8 +460,7 @@ fram_status recorder_flush(recorder *r, fram_error *error)
 
 fram_status recorder_close(recorder *r, fram_error *error)
 {
-    array_free(r->ctx, &r->block);
-    array_free(r->ctx, &r->sums);
+    free_scratch(r);
     fram_status series = csv_close(&r->series, error);
     fram_status fractures = csv_close(&r->fractures, series == FRAM_OK ? error : NULL);
     series = series == FRAM_OK ? fractures : series;

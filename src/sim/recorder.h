@@ -9,9 +9,11 @@
 #include "model/scenario.h"
 #include "model/world.h"
 #include "sim/contact_sums.h"
+#include "sim/series.h"
 
 typedef struct recorder {
     context *ctx;
+    series_layout layout;
     csv_writer series, fractures;
     record_writer record;
     int64_t series_every, frame_every; /* steps; 0: no frames */
@@ -20,6 +22,7 @@ typedef struct recorder {
     double record_limit;               /* [bytes]; 0: none */
     ARRAY(unsigned char) block;        /* scratch */
     contact_sum_array sums;            /* scratch, per body slot */
+    ARRAY(double) row;                 /* scratch, per column */
 } recorder;
 
 /* New files in folder. */

@@ -102,6 +102,33 @@ fram_status run_folder_check(const char *folder, bool force, fram_error *error)
                      "the folder is not empty; name another one, or allow that the results in it are overwritten");
 }
 
+/* A file of results that there is for each of several vessels: "loads-NAME.png". */
+static bool is_of_vessel(const char *name)
+{
+    static const char *const kinds[][2] = {{"loads-", ".png"}, {"station-", ".png"}, {"station-", ".json"}};
+    size_t size = strlen(name);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        size_t begin = strlen(kinds[i][0]), end = strlen(kinds[i][1]);
+        if (size > begin + end && strncmp(name, kinds[i][0], begin) == 0 && strcmp(name + size - end, kinds[i][1]) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Removes the files of a folder that are such. */
+static void remove_files(const char *folder, bool (*is_such)(const char *name))
+{
+    DIR *dir = opendir(folder);
+    if (!dir)
+        return;
+    int failure; /* what is not listed stays, and harms nobody */
+    for (const char *name = folder_next(dir, &failure); name; name = folder_next(dir, &failure)) {
+        if (is_such(name))
+            (void)unlinkat(dirfd(dir), name, 0);
+    }
+    closedir(dir);
+}
+
 /* Results that a new run may not write, or only at its end: next to its other files they would be taken for its own. */
 static void remove_results(const char *folder)
 {
@@ -112,6 +139,7 @@ static void remove_results(const char *folder)
         if (path_join(folder, names[i], path, NULL) == FRAM_OK)
             (void)unlink(path);
     }
+    remove_files(folder, is_of_vessel);
 }
 
 /* A file that a run writes in one go: where a run was killed, its temporary file stays. */
@@ -123,26 +151,18 @@ static bool is_leftover(const char *name)
         if (temporary_is_of(name, names[i]))
             return true;
     }
-    char base[64];
-    const char *dot = strstr(name, ".fram.");
-    int length = dot ? (int)(dot - name) + 5 : 0;
-    if (length <= 0 || length >= (int)sizeof base)
-        return false;
-    snprintf(base, sizeof base, "%.*s", length, name);
-    return checkpoint_is_name(base) && temporary_is_of(name, base);
-}
-
-static void remove_leftovers(const char *folder)
-{
-    DIR *dir = opendir(folder);
-    if (!dir)
-        return;
-    int failure; /* what is not listed stays, and harms nobody */
-    for (const char *name = folder_next(dir, &failure); name; name = folder_next(dir, &failure)) {
-        if (is_leftover(name))
-            (void)unlinkat(dirfd(dir), name, 0);
+    static const char *const kinds[] = {".fram.", ".png.", ".json."};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        char base[64];
+        const char *dot = strstr(name, kinds[i]);
+        int length = dot ? (int)(dot - name + (ptrdiff_t)strlen(kinds[i])) - 1 : 0;
+        if (length <= 0 || length >= (int)sizeof base)
+            continue;
+        snprintf(base, sizeof base, "%.*s", length, name);
+        if ((checkpoint_is_name(base) || is_of_vessel(base)) && temporary_is_of(name, base))
+            return true;
     }
-    closedir(dir);
+    return false;
 }
 
 fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
@@ -151,7 +171,7 @@ fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
     if (*lock < 0)
         return file_error(error, folder, "open the folder", errno);
     if (flock(*lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        remove_leftovers(folder);
+        remove_files(folder, is_leftover);
         return FRAM_OK;
     }
     run_folder_unlock(*lock);

@@ -1,12 +1,13 @@
 #include "sim/series.h"
 
 #include "base/transcendental.h"
+#include "model/scenario_vessel.h"
 #include "sim/ice_loads.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* The vessel's part of a row: zero without a vessel. */
+/* A vessel's part of a row: zero without one. */
 typedef struct vessel_channels {
     vec3 position, velocity, angular_velocity, attitude_deg;
     ice_load ice;
@@ -20,47 +21,51 @@ typedef struct vessel_channels {
     int32_t lines_parted, thrusters_failed, saturated;
 } vessel_channels;
 
-/* What keeps the first vessel on station. */
-static void add_station(const world *w, vessel_channels *c)
+/* What keeps a vessel on station. */
+static void add_station(const world *w, int32_t v, vessel_channels *c)
 {
-    if (w->stations.count == 0)
-        return;
     const station_table *s = &w->stations;
-    c->mooring = s->mooring_load[0];
-    c->thrust = s->thruster_load[0];
-    c->offset = vec3_make(s->offset[0].x, s->offset[0].y, degrees(s->offset[0].z));
-    c->estimate = s->estimate[0].place;
-    c->estimate.z = degrees(plane_angle(c->estimate.z));
-    c->bias = s->estimate[0].bias;
-    c->demand = s->demand[0];
-    c->saturated = s->saturated[0];
+    if (v < s->count) {
+        c->mooring = s->mooring_load[v];
+        c->thrust = s->thruster_load[v];
+        c->offset = vec3_make(s->offset[v].x, s->offset[v].y, degrees(s->offset[v].z));
+        c->estimate = s->estimate[v].place;
+        c->estimate.z = degrees(plane_angle(c->estimate.z));
+        c->bias = s->estimate[v].bias;
+        c->demand = s->demand[v];
+        c->saturated = s->saturated[v];
+    }
     for (int32_t i = 0; i < w->thrusters.count; i++) {
+        if (w->thrusters.vessel[i] != v)
+            continue;
         c->thruster_power += w->thrusters.failed[i] ? 0 : thruster_power(&w->thrusters, i);
         c->thrusters_failed += w->thrusters.failed[i];
     }
     for (int32_t i = 0; i < w->lines.count; i++) {
+        if (w->lines.vessel[i] != v)
+            continue;
         c->line_tension_max = fmax(c->line_tension_max, w->lines.tension[i]);
         c->lines_parted += w->lines.broken[i];
     }
 }
 
-static vessel_channels vessel_channels_of(const world *w)
+static vessel_channels vessel_channels_of(const world *w, int32_t v)
 {
     vessel_channels c = {0};
-    if (w->vessels.count == 0)
+    if (v >= w->vessels.count)
         return c;
-    int32_t body = w->vessels.body[0], joint = w->vessels.joint[0];
+    int32_t body = w->vessels.body[v], joint = w->vessels.joint[v];
     vec3 rpy = quat_roll_pitch_yaw(w->bodies.orientation[body]);
     mat3 r = quat_matrix(w->bodies.orientation[body]);
     c.position = w->bodies.position[body];
     c.velocity = w->bodies.velocity[body];
     c.angular_velocity = w->bodies.angular_velocity[body];
     c.attitude_deg = vec3_make(degrees(rpy.x), degrees(rpy.y), degrees(rpy.z));
-    if (w->scratch.ice_loads.count > 0)
-        c.ice = w->scratch.ice_loads.data[0];
+    if (w->scratch.ice_loads.count > v)
+        c.ice = w->scratch.ice_loads.data[v];
     c.ice_force_body = mat3_tmul_vec(r, c.ice.total.force);
     c.ice_moment_body = mat3_tmul_vec(r, c.ice.total.moment);
-    c.averaged = load_window_average(w, 0);
+    c.averaged = load_window_average(w, v);
     if (joint >= 0) {
         c.joint_force = w->joints.reaction_force[joint];
         c.joint_moment = w->joints.reaction_moment[joint];
@@ -71,9 +76,9 @@ static vessel_channels vessel_channels_of(const world *w)
         c.fluid.force = vec3_add(vec3_add(f->hydrostatic.force, f->water_drag.force), f->wind_drag.force);
         c.fluid.moment = vec3_add(vec3_add(f->hydrostatic.moment, f->water_drag.moment), f->wind_drag.moment);
     }
-    if (w->scratch.responses.count > 0)
-        c.response = w->scratch.responses.data[0].force;
-    add_station(w, &c);
+    if (w->scratch.responses.count > v)
+        c.response = w->scratch.responses.data[v].force;
+    add_station(w, v, &c);
     return c;
 }
 
@@ -98,8 +103,8 @@ static count_channels counts_of(const world *w)
     return n;
 }
 
-/* Every column once: name, unit, value.  Forces are on the vessel, global frame unless the name says body; moments are
-   about its centre of mass. */
+/* Every column once, W of the world, V of a vessel: name, unit, value.  Forces are on the vessel, global frame unless
+   the name says body; moments are about its centre of mass. */
 #define V3(X, name, unit, v) X(name "_x", unit, (v).x) X(name "_y", unit, (v).y) X(name "_z", unit, (v).z)
 #define MECHANISM(X, name, id)                                           \
     V3(X, "mechanism_" name, "N", c.ice.mechanism[MECHANISM_##id].force) \
@@ -113,118 +118,205 @@ static count_channels counts_of(const world *w)
     MECHANISM(X, "submersion", SUBMERSION)     \
     MECHANISM(X, "impact", IMPACT)             \
     MECHANISM(X, "friction", FRICTION)
-#define SERIES(X)                                                     \
-    X("time", "s", w->clock.time[0])                                  \
-    V3(X, "position", "m", c.position)                                \
-    X("roll", "deg", c.attitude_deg.x)                                \
-    X("pitch", "deg", c.attitude_deg.y)                               \
-    X("yaw", "deg", c.attitude_deg.z)                                 \
-    V3(X, "velocity", "m/s", c.velocity)                              \
-    V3(X, "angular_velocity", "rad/s", c.angular_velocity)            \
-    V3(X, "ice_force", "N", c.ice.total.force)                        \
-    V3(X, "ice_moment", "N m", c.ice.total.moment)                    \
-    V3(X, "ice_force_body", "N", c.ice_force_body)                    \
-    V3(X, "ice_moment_body", "N m", c.ice_moment_body)                \
-    V3(X, "ice_force_averaged", "N", c.averaged.force)                \
-    V3(X, "ice_moment_averaged", "N m", c.averaged.moment)            \
-    V3(X, "ice_force_capped", "N", c.ice.capped.force)                \
-    V3(X, "ice_force_below_cap", "N", c.ice.below_cap.force)          \
-    V3(X, "ice_force_friction", "N", c.ice.friction.force)            \
-    V3(X, "ice_force_bow", "N", c.ice.zone[ZONE_BOW].force)           \
-    V3(X, "ice_force_shoulder", "N", c.ice.zone[ZONE_SHOULDER].force) \
-    V3(X, "ice_force_midbody", "N", c.ice.zone[ZONE_MIDBODY].force)   \
-    V3(X, "ice_force_stern", "N", c.ice.zone[ZONE_STERN].force)       \
-    V3(X, "ice_force_bottom", "N", c.ice.zone[ZONE_BOTTOM].force)     \
-    MECHANISMS(X)                                                     \
-    V3(X, "tow_force", "N", c.joint_force)                            \
-    V3(X, "tow_moment", "N m", c.joint_moment)                        \
-    V3(X, "fluid_force", "N", c.fluid.force)                          \
-    V3(X, "fluid_moment", "N m", c.fluid.moment)                      \
-    V3(X, "hydrodynamic_force", "N", c.response)                      \
-    V3(X, "mooring_force", "N", c.mooring.force)                      \
-    V3(X, "mooring_moment", "N m", c.mooring.moment)                  \
-    V3(X, "thruster_force", "N", c.thrust.force)                      \
-    V3(X, "thruster_moment", "N m", c.thrust.moment)                  \
-    X("thruster_power", "W", c.thruster_power)                        \
-    X("thrusters_failed", "1", c.thrusters_failed)                    \
-    X("thrusters_saturated", "1", c.saturated)                        \
-    X("line_tension_max", "N", c.line_tension_max)                    \
-    X("lines_parted", "1", c.lines_parted)                            \
-    X("offset_x", "m", c.offset.x)                                    \
-    X("offset_y", "m", c.offset.y)                                    \
-    X("heading_deviation", "deg", c.offset.z)                         \
-    X("estimated_x", "m", c.estimate.x)                               \
-    X("estimated_y", "m", c.estimate.y)                               \
-    X("estimated_heading", "deg", c.estimate.z)                       \
-    V3(X, "estimated_load", "N", c.bias)                              \
-    V3(X, "demanded_force", "N", c.demand)                            \
-    X("bodies", "1", n.bodies)                                        \
-    X("floes", "1", n.floes)                                          \
-    X("contacts", "1", w->scratch.contacts.count)                     \
-    X("vessel_contacts", "1", c.ice.contacts)                         \
-    X("crushing_patches", "1", w->scratch.patches.count)              \
-    X("ice_mass_left", "kg", w->clock.ice_left[0])                    \
-    X("ice_mass_entered", "kg", n.entered)                            \
-    X("ice_mass_held_back", "kg", n.held_back)                        \
-    X("ice_mass_lost", "kg", w->clock.ice_lost[0])                    \
-    X("drift_x", "m/s", n.drift.x)                                    \
-    X("drift_y", "m/s", n.drift.y)                                    \
-    X("ice_mass_gained", "kg", w->clock.ice_gained[0])                \
-    X("ice_mass_crushed", "kg", w->clock.ice_crushed[0])              \
-    X("brash_mass", "kg", w->clock.brash_mass[0])                     \
-    V3(X, "brash_momentum", "N s", w->clock.brash_momentum[0])        \
-    X("splits", "1", (double)w->clock.splits[0])                      \
-    X("bendings", "1", (double)w->clock.bendings[0])                  \
-    X("crushing_work", "J", w->clock.work_crushed[0])                 \
-    X("kinetic_energy", "J", body_kinetic_energy(&w->bodies))         \
-    X("solver_residual", "m/s", w->scratch.solver.residual)           \
-    X("overlap_mean", "m", w->scratch.solver.mean_depth)              \
-    X("overlap_max", "m", w->scratch.solver.max_depth)                \
-    X("step_wall_time", "s", wall)
+#define SERIES(W, V)                                                  \
+    W("time", "s", w->clock.time[0])                                  \
+    V3(V, "position", "m", c.position)                                \
+    V("roll", "deg", c.attitude_deg.x)                                \
+    V("pitch", "deg", c.attitude_deg.y)                               \
+    V("yaw", "deg", c.attitude_deg.z)                                 \
+    V3(V, "velocity", "m/s", c.velocity)                              \
+    V3(V, "angular_velocity", "rad/s", c.angular_velocity)            \
+    V3(V, "ice_force", "N", c.ice.total.force)                        \
+    V3(V, "ice_moment", "N m", c.ice.total.moment)                    \
+    V3(V, "ice_force_body", "N", c.ice_force_body)                    \
+    V3(V, "ice_moment_body", "N m", c.ice_moment_body)                \
+    V3(V, "ice_force_averaged", "N", c.averaged.force)                \
+    V3(V, "ice_moment_averaged", "N m", c.averaged.moment)            \
+    V3(V, "ice_force_capped", "N", c.ice.capped.force)                \
+    V3(V, "ice_force_below_cap", "N", c.ice.below_cap.force)          \
+    V3(V, "ice_force_friction", "N", c.ice.friction.force)            \
+    V3(V, "ice_force_bow", "N", c.ice.zone[ZONE_BOW].force)           \
+    V3(V, "ice_force_shoulder", "N", c.ice.zone[ZONE_SHOULDER].force) \
+    V3(V, "ice_force_midbody", "N", c.ice.zone[ZONE_MIDBODY].force)   \
+    V3(V, "ice_force_stern", "N", c.ice.zone[ZONE_STERN].force)       \
+    V3(V, "ice_force_bottom", "N", c.ice.zone[ZONE_BOTTOM].force)     \
+    MECHANISMS(V)                                                     \
+    V3(V, "tow_force", "N", c.joint_force)                            \
+    V3(V, "tow_moment", "N m", c.joint_moment)                        \
+    V3(V, "fluid_force", "N", c.fluid.force)                          \
+    V3(V, "fluid_moment", "N m", c.fluid.moment)                      \
+    V3(V, "hydrodynamic_force", "N", c.response)                      \
+    V3(V, "mooring_force", "N", c.mooring.force)                      \
+    V3(V, "mooring_moment", "N m", c.mooring.moment)                  \
+    V3(V, "thruster_force", "N", c.thrust.force)                      \
+    V3(V, "thruster_moment", "N m", c.thrust.moment)                  \
+    V("thruster_power", "W", c.thruster_power)                        \
+    V("thrusters_failed", "1", c.thrusters_failed)                    \
+    V("thrusters_saturated", "1", c.saturated)                        \
+    V("line_tension_max", "N", c.line_tension_max)                    \
+    V("lines_parted", "1", c.lines_parted)                            \
+    V("offset_x", "m", c.offset.x)                                    \
+    V("offset_y", "m", c.offset.y)                                    \
+    V("heading_deviation", "deg", c.offset.z)                         \
+    V("estimated_x", "m", c.estimate.x)                               \
+    V("estimated_y", "m", c.estimate.y)                               \
+    V("estimated_heading", "deg", c.estimate.z)                       \
+    V3(V, "estimated_load", "N", c.bias)                              \
+    V3(V, "demanded_force", "N", c.demand)                            \
+    W("bodies", "1", n.bodies)                                        \
+    W("floes", "1", n.floes)                                          \
+    W("contacts", "1", w->scratch.contacts.count)                     \
+    V("vessel_contacts", "1", c.ice.contacts)                         \
+    W("crushing_patches", "1", w->scratch.patches.count)              \
+    W("ice_mass_left", "kg", w->clock.ice_left[0])                    \
+    W("ice_mass_entered", "kg", n.entered)                            \
+    W("ice_mass_held_back", "kg", n.held_back)                        \
+    W("ice_mass_lost", "kg", w->clock.ice_lost[0])                    \
+    W("drift_x", "m/s", n.drift.x)                                    \
+    W("drift_y", "m/s", n.drift.y)                                    \
+    W("ice_mass_gained", "kg", w->clock.ice_gained[0])                \
+    W("ice_mass_crushed", "kg", w->clock.ice_crushed[0])              \
+    W("brash_mass", "kg", w->clock.brash_mass[0])                     \
+    V3(W, "brash_momentum", "N s", w->clock.brash_momentum[0])        \
+    W("splits", "1", (double)w->clock.splits[0])                      \
+    W("bendings", "1", (double)w->clock.bendings[0])                  \
+    W("crushing_work", "J", w->clock.work_crushed[0])                 \
+    W("kinetic_energy", "J", body_kinetic_energy(&w->bodies))         \
+    W("solver_residual", "m/s", w->scratch.solver.residual)           \
+    W("overlap_mean", "m", w->scratch.solver.mean_depth)              \
+    W("overlap_max", "m", w->scratch.solver.max_depth)                \
+    W("step_wall_time", "s", wall)
 
-#define COLUMN(name, unit, value) {name, unit},
-static const csv_column columns[] = {SERIES(COLUMN)};
+/* In the order of one vessel's run; several vessels come one after the other behind what is the world's. */
+typedef struct series_column {
+    const char *name, *unit;
+    bool of_vessel;
+} series_column;
+#define OF_WORLD(name, unit, value) {name, unit, false},
+#define OF_VESSEL(name, unit, value) {name, unit, true},
+static const series_column columns[] = {SERIES(OF_WORLD, OF_VESSEL)};
 enum { COLUMN_COUNT = sizeof columns / sizeof *columns };
-_Static_assert((int)COLUMN_COUNT <= (int)SERIES_ROOM, "a row has room for every column");
 
-static void add_numbered(series_layout *out, const char *format, int32_t number, const char *unit)
+/* ---- layout ---- */
+
+static bool add_name(context *ctx, series_layout *out, const char *name, const char *unit)
 {
-    if (out->count == SERIES_ROOM)
-        return;
-    snprintf(out->name[out->count], sizeof *out->name, format, (int)number);
-    out->column[out->count] = (csv_column){out->name[out->count], unit};
-    out->count++;
+    series_name column = {.unit = unit};
+    snprintf(column.text, sizeof column.text, "%s", name);
+    return array_push(ctx, &out->names, column);
 }
 
-void series_columns(const scenario *s, series_layout *out)
+/* The columns of the world, of a vessel, or of both. */
+static bool add_columns(context *ctx, const scenario *s, bool of_world, int32_t vessel, series_layout *out)
 {
-    out->count = COLUMN_COUNT;
-    memcpy(out->column, columns, sizeof columns);
-    if (!s->vessel.present || s->vessel.mode != VESSEL_FREE)
-        return;
-    int32_t line = 0;
-    for (int32_t i = 0; i < s->vessel.mooring.lines.count; i++)
-        for (int64_t k = 0; k < s->vessel.mooring.lines.data[i].count; k++)
-            add_numbered(out, "line_%d_tension", ++line, "N");
-    for (int32_t i = 1; i <= s->vessel.thrusters.count; i++) {
-        add_numbered(out, "thruster_%d_thrust", i, "N");
-        add_numbered(out, "thruster_%d_angle", i, "deg");
+    bool good = true;
+    for (int32_t i = 0; i < COLUMN_COUNT && good; i++) {
+        const series_column *c = &columns[i];
+        if (c->of_vessel && vessel >= 0)
+            good = add_name(ctx, out, vessel_channel_name(s, vessel, c->name).text, c->unit);
+        else if (!c->of_vessel && of_world)
+            good = add_name(ctx, out, c->name, c->unit);
     }
+    return good;
 }
 
-void series_row(const world *w, double wall, double out[SERIES_ROOM])
+static bool add_numbered(context *ctx, const scenario *s, int32_t vessel, const char *what, int32_t number,
+                         const char *quantity, const char *unit, series_layout *out)
 {
-    vessel_channels c = vessel_channels_of(w);
-    count_channels n = counts_of(w);
-    int k = 0;
+    char name[40];
+    snprintf(name, sizeof name, "%s_%d_%s", what, (int)number, quantity);
+    return add_name(ctx, out, vessel_channel_name(s, vessel, name).text, unit);
+}
+
+/* Those of each line and thruster. */
+static bool add_equipment(context *ctx, const scenario *s, int32_t vessel, series_layout *out)
+{
+    const scenario_vessel *v = scenario_vessel_entry(s, vessel).keys;
+    int32_t line = 0;
+    bool good = true;
+    if (v->mode != VESSEL_FREE)
+        return true;
+    for (int32_t i = 0; i < v->mooring.lines.count; i++)
+        for (int64_t k = 0; k < v->mooring.lines.data[i].count && good; k++)
+            good = add_numbered(ctx, s, vessel, "line", ++line, "tension", "N", out);
+    for (int32_t i = 1; i <= v->thrusters.count && good; i++)
+        good = add_numbered(ctx, s, vessel, "thruster", i, "thrust", "N", out) &&
+               add_numbered(ctx, s, vessel, "thruster", i, "angle", "deg", out);
+    return good;
+}
+
+fram_status series_columns(context *ctx, const scenario *s, series_layout *out, fram_error *error)
+{
+    int32_t vessels = scenario_vessel_count(s);
+    bool named = scenario_names_vessels(s);
+    *out = (series_layout){.named = named};
+    bool good = add_columns(ctx, s, true, named ? -1 : 0, out);
+    for (int32_t v = 0; v < vessels && good; v++)
+        good = (!named || add_columns(ctx, s, false, v, out)) && add_equipment(ctx, s, v, out);
+    good = good && array_resize(ctx, &out->columns, out->names.count);
+    for (int32_t i = 0; i < out->names.count && good; i++)
+        out->columns.data[i] = (csv_column){out->names.data[i].text, out->names.data[i].unit};
+    if (good)
+        return FRAM_OK;
+    series_layout_free(ctx, out);
+    return error_memory(error);
+}
+
+void series_layout_free(context *ctx, series_layout *l)
+{
+    array_free(ctx, &l->names);
+    array_free(ctx, &l->columns);
+}
+
+/* ---- values ---- */
+
 #define VALUE(name, unit, value) out[k++] = (value);
-    SERIES(VALUE)
-#undef VALUE
-    for (int32_t i = 0; i < w->lines.count && k < SERIES_ROOM; i++)
-        out[k++] = w->lines.tension[i];
-    for (int32_t i = 0; i < w->thrusters.count && k + 1 < SERIES_ROOM; i++) {
+#define NO_VALUE(name, unit, value)
+
+/* Of the world, and with it of the first vessel where vessels have no names. */
+static int32_t put_world(const world *w, double wall, bool with_vessel, double *out)
+{
+    count_channels n = counts_of(w);
+    int32_t k = 0;
+    if (with_vessel) {
+        vessel_channels c = vessel_channels_of(w, 0);
+        SERIES(VALUE, VALUE)
+        return k;
+    }
+    SERIES(VALUE, NO_VALUE)
+    return k;
+}
+
+static int32_t put_vessel(const world *w, int32_t vessel, double *out)
+{
+    vessel_channels c = vessel_channels_of(w, vessel);
+    int32_t k = 0;
+    SERIES(NO_VALUE, VALUE)
+    return k;
+}
+
+static int32_t put_equipment(const world *w, int32_t vessel, double *out)
+{
+    int32_t k = 0;
+    for (int32_t i = 0; i < w->lines.count; i++)
+        if (w->lines.vessel[i] == vessel)
+            out[k++] = w->lines.tension[i];
+    for (int32_t i = 0; i < w->thrusters.count; i++) {
+        if (w->thrusters.vessel[i] != vessel)
+            continue;
         out[k++] = w->thrusters.thrust[i];
         out[k++] = degrees(w->thrusters.angle[i]);
+    }
+    return k;
+}
+
+void series_row(const series_layout *l, const world *w, double wall, double *out)
+{
+    int32_t k = put_world(w, wall, !l->named, out);
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        if (l->named)
+            k += put_vessel(w, v, out + k);
+        k += put_equipment(w, v, out + k);
     }
 }
 
@@ -252,9 +344,10 @@ void series_row(const world *w, double wall, double out[SERIES_ROOM])
     V3(X, "momentum_lost", "N s", e->momentum_lost) \
     V3(X, "angular_momentum_lost", "N m s", e->angular_momentum_lost)
 
+#define COLUMN(name, unit, value) {name, unit},
 static const csv_column broken_columns[] = {FRACTURE(COLUMN)};
 enum { BROKEN_COUNT = sizeof broken_columns / sizeof *broken_columns };
-_Static_assert((int)BROKEN_COUNT <= (int)SERIES_ROOM, "a row has room for every column");
+_Static_assert((int)BROKEN_COUNT <= (int)FRACTURE_ROOM, "a row has room for every column");
 
 const csv_column *fracture_columns(int32_t *count)
 {
@@ -262,10 +355,8 @@ const csv_column *fracture_columns(int32_t *count)
     return broken_columns;
 }
 
-void fracture_row(double time, const fracture_event *e, double out[SERIES_ROOM])
+void fracture_row(double time, const fracture_event *e, double out[FRACTURE_ROOM])
 {
     int k = 0;
-#define VALUE(name, unit, value) out[k++] = (value);
     FRACTURE(VALUE)
-#undef VALUE
 }

@@ -6,21 +6,30 @@
 #include "model/scenario.h"
 #include "model/world.h"
 
-enum { SERIES_ROOM = 384 };
-/* The columns of a run: the same for all but for those of each mooring line and thruster at the end. */
+/* Name of a column. */
+typedef struct series_name {
+    char text[80];
+    const char *unit;
+} series_name;
+
+/* The columns of a run, the same for all scenarios with one vessel but for those of each mooring line and thruster at
+   the end.  With a list of vessels: what is the world's, then each vessel's, its name and a point before theirs. */
 typedef struct series_layout {
-    int32_t count;
-    csv_column column[SERIES_ROOM];
-    char name[SERIES_ROOM][32]; /* of the numbered ones; a layout must not be moved */
+    ARRAY(series_name) names;
+    ARRAY(csv_column) columns; /* refer to the names */
+    bool named;                /* vessels have names */
 } series_layout;
 
-/* The columns; channels of a vessel are 0 without one. */
-void series_columns(const scenario *s, series_layout *out);
-/* One row.  wall: time that the step took [s]. */
-void series_row(const world *w, double wall, double out[SERIES_ROOM]);
+/* Columns of a vessel that is not there are 0. */
+fram_status series_columns(context *ctx, const scenario *s, series_layout *out, fram_error *error);
+void series_layout_free(context *ctx, series_layout *l);
+/* One row, of as many values as there are columns.  wall: time that the step took [s]. */
+void series_row(const series_layout *l, const world *w, double wall, double *out);
 
+/* Columns of the table of broken floes, at most. */
+enum { FRACTURE_ROOM = 64 };
 /* The same for the table of broken floes; time: the end of the step in which it broke [s]. */
 const csv_column *fracture_columns(int32_t *count);
-void fracture_row(double time, const fracture_event *e, double out[SERIES_ROOM]);
+void fracture_row(double time, const fracture_event *e, double out[FRACTURE_ROOM]);
 
 #endif

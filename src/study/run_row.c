@@ -3,6 +3,7 @@
 #include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
+#include "model/scenario_vessel.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
 
@@ -75,7 +76,7 @@ static fram_status fill(context *ctx, const run_data *d, run_row *out, fram_erro
 {
     channel_statistics load;
     fram_status status = statistics(ctx, d, "ice_force_averaged_x", "ice_force_averaged_y", &load, error);
-    if (status == FRAM_OK && station_has_results(&d->s))
+    if (status == FRAM_OK && !scenario_names_vessels(&d->s) && station_has_results(&d->s, 0))
         status = add_station(ctx, d, out, error);
     out->figure[ROW_time] = d->note.time;
     out->figure[ROW_load_mean] = load.mean;

@@ -109,10 +109,10 @@ static bool watch(context *ctx, station_table *s, int32_t row, const station_mom
 
 /* ---- control ---- */
 
-/* Noise is a pure function of seed, vessel and step. */
+/* Noise is a pure function of the station's seed and the step. */
 static void measure(station_table *s, int32_t row, const station_moment *now, vec3 place)
 {
-    random_stream r = random_begin(s->seed[row], STREAM_SENSOR, (uint32_t)row);
+    random_stream r = random_begin(s->seed[row], STREAM_SENSOR, 0);
     r.counter = 3 * (uint64_t)now->step;
     vec3 noise = s->noise[row];
     double x = random_normal(&r), y = random_normal(&r), z = random_normal(&r);

@@ -40,7 +40,7 @@ typedef enum heading_rule { HEADING_FIXED = 0, HEADING_VANING } heading_rule;
     X(feed_gain, double, FIELD_F64, 1, "1", "share of the load that is fed forward")                           \
     X(feed_time, double, FIELD_F64, 1, "s", "time constant of the smoothed load")                              \
     X(noise, vec3, FIELD_F64, 3, "m, m, rad", "standard deviations of the measurements")                       \
-    X(seed, uint64_t, FIELD_U64, 1, "1", "of the noise")                                                       \
+    X(seed, uint64_t, FIELD_U64, 1, "1", "of the noise, the run's and the vessel's own")                       \
     X(reference, reference_state, FIELD_F64, 9, "", "smoothed place that is wanted")                           \
     X(estimate, motion_estimate, FIELD_F64, 9, "", "what the observer believes")                               \
     X(covariance, kalman_covariance, FIELD_F64, 81, "", "of the Kalman filter")                                \

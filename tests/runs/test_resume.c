@@ -62,6 +62,18 @@ static const char *const scenes[] = {
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
     "environment:\n  current_speed: 3\n  current_direction_deg: 180\n"
     "output:\n  frame_interval: 0.3\n",
+    /* several vessels of different kinds, two with stations, in ice that breaks */
+    "run:\n  duration: 3\n  time_step: 0.02\n  seed: 6\n"
+    "vessels:\n"
+    "  - {name: breaker, mode: towed, x: -90, speed: 3, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}\n"
+    "  - {name: ship, mode: free, x: 40, y: 20, hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2},\n"
+    "     thrusters: [{x: 15}, {x: -15}], positioning: {active: true, feed_forward: measured, interval: 0.1}}\n"
+    "  - {name: barge, mode: free, x: 40, y: -20, hull: {form: box, length: 40, beam: 14, draught: 3, freeboard: 2},\n"
+    "     mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}}\n"
+    "ice:\n  concentration: 0.8\n  mean_floe_area: 64\n  thickness: 0.3\n  breakable: true\n"
+    "domain:\n  x_min: -120\n  x_max: 80\n  y_min: -40\n  y_max: 40\n  boundary: open\n"
+    "environment:\n  current_speed: 2\n  current_direction_deg: 180\n"
+    "output:\n  frame_interval: 0.3\n",
     /* floes without a vessel, crushing each other and the walls */
     "run:\n  duration: 2\n  time_step: 0.01\nvessel:\n  present: false\n"
     "ice:\n  concentration: 0.9\n  mean_floe_area: 30\n  cap_ice_ice: true\n  cap_ice_wall: true\n"
@@ -136,6 +148,8 @@ static void check_scene(const char *text, int threads, uint64_t *hash)
     ck_assert(same_files(straight, halves, "record.fram"));
     ck_assert(same_files(straight, halves, "fractures.csv"));
     ck_assert(s.vessel.thrusters.count == 0 || access_in(straight, "station.json"));
+    ck_assert(s.vessels.count == 0 ||
+              (access_in(straight, "station-ship.json") && !access_in(straight, "station.json")));
 
     scenario_free(&ctx, &s);
     if (ctx.threads)

@@ -16,19 +16,21 @@ static const char moored[] =
 
 typedef struct row {
     series_layout layout;
-    double value[SERIES_ROOM];
+    double value[400];
 } row;
 
 static void take(const scene *k, row *r)
 {
-    series_columns(&k->s, &r->layout);
-    series_row(&k->w, 0, r->value);
+    fram_error error = {0};
+    assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
+    ck_assert_int_le(r->layout.columns.count, 400);
+    series_row(&r->layout, &k->w, 0, r->value);
 }
 
 static double channel(const row *r, const char *name)
 {
-    for (int32_t i = 0; i < r->layout.count; i++)
-        if (strcmp(r->layout.column[i].name, name) == 0)
+    for (int32_t i = 0; i < r->layout.columns.count; i++)
+        if (strcmp(r->layout.columns.data[i].name, name) == 0)
             return r->value[i];
     ck_abort_msg("no channel %s", name);
 }

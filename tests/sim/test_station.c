@@ -8,19 +8,21 @@
 /* Recorded channels by name. */
 typedef struct record_row {
     series_layout layout;
-    double value[SERIES_ROOM];
+    double value[400];
 } record_row;
 
 static void take_row(const scene *k, record_row *r)
 {
-    series_columns(&k->s, &r->layout);
-    series_row(&k->w, 0, r->value);
+    fram_error error = {0};
+    assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
+    ck_assert_int_le(r->layout.columns.count, 400);
+    series_row(&r->layout, &k->w, 0, r->value);
 }
 
 static double channel(const record_row *r, const char *name)
 {
-    for (int32_t i = 0; i < r->layout.count; i++)
-        if (strcmp(r->layout.column[i].name, name) == 0)
+    for (int32_t i = 0; i < r->layout.columns.count; i++)
+        if (strcmp(r->layout.columns.data[i].name, name) == 0)
             return r->value[i];
     ck_abort_msg("no channel %s", name);
 }
