@@ -19,26 +19,21 @@ void fram_field_default(fram_field_definition *d)
 
 /* ---- making ---- */
 
-static fram_status refuse(fram_error *error, const char *key, const char *expected, double found)
-{
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", expected, found);
-}
-
 static fram_status check(const fram_field_definition *d, fram_error *error)
 {
     if (!(d->scale > 0 && d->scale < HUGE_VAL))
-        return refuse(error, "scale", "a number over 0", d->scale);
+        return error_value(error, "scale", "a number over 0", d->scale);
     if (!(d->simplify >= 0 && d->simplify < HUGE_VAL))
-        return refuse(error, "simplify", "a distance of 0 m or more", d->simplify);
+        return error_value(error, "simplify", "a distance of 0 m or more", d->simplify);
     if (!(d->smallest_area >= 0 && d->smallest_area < HUGE_VAL))
-        return refuse(error, "smallest_area", "an area of 0 m2 or more", d->smallest_area);
+        return error_value(error, "smallest_area", "an area of 0 m2 or more", d->smallest_area);
     if ((int)d->bad < FRAM_FIELD_REFUSE || d->bad > FRAM_FIELD_REPAIR)
-        return refuse(error, "bad", "one of fram_field_bad", (double)(int)d->bad);
+        return error_value(error, "bad", "one of fram_field_bad", (double)(int)d->bad);
     for (int k = 0; k < 2; k++) {
         if (!isfinite(d->offset[k]))
-            return refuse(error, "offset", "finite lengths", d->offset[k]);
+            return error_value(error, "offset", "finite lengths", d->offset[k]);
         if (d->crop && !(isfinite(d->crop_lo[k]) && isfinite(d->crop_hi[k]) && d->crop_lo[k] < d->crop_hi[k]))
-            return refuse(error, "crop", "a window whose lower corner is below its upper one", d->crop_lo[k]);
+            return error_value(error, "crop", "a window whose lower corner is below its upper one", d->crop_lo[k]);
     }
     return FRAM_OK;
 }

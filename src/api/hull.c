@@ -200,20 +200,16 @@ static fram_status check_condition(const fram_hull_condition *c, fram_error *err
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "mass",
                          "a draught and a mass together say too much; give one of them");
     if (!(c->water_density > 0 && c->water_density < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "water_density", "expected a positive density, found %g",
-                         c->water_density);
+        return error_value(error, "water_density", "a positive density", c->water_density);
     if (!(c->gravity > 0 && c->gravity < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "gravity", "expected a positive acceleration, found %g",
-                         c->gravity);
+        return error_value(error, "gravity", "a positive acceleration", c->gravity);
     if (!isnan(c->draught) && !(c->draught > 0 && c->draught < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "draught", "expected a positive draught, found %g",
-                         c->draught);
+        return error_value(error, "draught", "a positive draught", c->draught);
     if (!isnan(c->mass) && !(c->mass > 0 && c->mass < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "mass", "expected a positive mass, found %g", c->mass);
+        return error_value(error, "mass", "a positive mass", c->mass);
     for (int i = 0; i < 3; i++) {
         if (isinf(c->centre[i]))
-            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "centre", "expected finite coordinates, found %g",
-                             c->centre[i]);
+            return error_value(error, "centre", "finite coordinates", c->centre[i]);
     }
     return FRAM_OK;
 }

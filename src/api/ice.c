@@ -11,9 +11,7 @@
 
 static fram_status need(bool good, const char *key, const char *range, double found, fram_error *error)
 {
-    if (good)
-        return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", range, found);
+    return good ? FRAM_OK : error_value(error, key, range, found);
 }
 
 static fram_status need_load_length(double a_over_l, fram_error *error)

@@ -132,4 +132,9 @@ fram_status error_set(fram_error *e, fram_status status, const char *file, int l
     return status;
 }
 
+fram_status error_value(fram_error *e, const char *key, const char *expected, double found)
+{
+    return error_set(e, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", expected, found);
+}
+
 void error_memory_text(fram_error *e) { (void)error_set(e, FRAM_ERROR_MEMORY, NULL, 0, NULL, "not enough memory"); }

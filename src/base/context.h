@@ -67,6 +67,8 @@ fram_status work_continue(context *ctx, const char *what, double done, double to
 /* Fill e (which may be NULL) and return status.  file, key may be NULL. */
 fram_status error_set(fram_error *e, fram_status status, const char *file, int line, const char *key,
                       const char *format, ...) __attribute__((format(printf, 6, 7)));
+/* A number that a definition cannot hold: FRAM_ERROR_INPUT, "expected a positive number of metres, found -3". */
+fram_status error_value(fram_error *e, const char *key, const char *expected, double found);
 /* The one message for a failed allocation.  Inline, so that a reader and an analyser see that it is never FRAM_OK. */
 void error_memory_text(fram_error *e);
 static inline fram_status error_memory(fram_error *e)

@@ -4,9 +4,9 @@
 #include "base/lanes.h"
 
 /* Eight doubles of eight bodies into their rows, zero where the mask is not set.  Changes column. */
-V8_INLINE void put_rows(double *rows, v8_mask mask, double factor, v8 column[8])
+V8_INLINE void put_rows(double *rows, v8_mask mask, double factor, v8 column[BODY_ROW])
 {
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < BODY_ROW; i++)
         column[i] = v8_select(mask, factor * column[i], v8_set(0));
     v8_transpose(column);
     for (int i = 0; i < V8_LANES; i++)
@@ -14,7 +14,7 @@ V8_INLINE void put_rows(double *rows, v8_mask mask, double factor, v8 column[8])
 }
 
 /* Component `at` of the given rows of `stride` doubles. */
-V8_INLINE v8 pick(const double *p, int stride, int at, const int32_t slot[8])
+V8_INLINE v8 pick(const double *p, int stride, int at, const int32_t slot[V8_LANES])
 {
     int32_t place[V8_LANES];
     for (int i = 0; i < V8_LANES; i++)
@@ -22,13 +22,13 @@ V8_INLINE v8 pick(const double *p, int stride, int at, const int32_t slot[8])
     return v8_gather(p, place);
 }
 
-V8_INLINE lanes3 pick3(const vec3 *v, const int32_t slot[8])
+V8_INLINE lanes3 pick3(const vec3 *v, const int32_t slot[V8_LANES])
 {
     return (lanes3){pick(&v->x, 3, 0, slot), pick(&v->x, 3, 1, slot), pick(&v->x, 3, 2, slot)};
 }
 
 /* Inverse mass, global frame; `general`: lanes where it depends on the direction. */
-V8_INLINE void inverse_mass(const body_table *bodies, const int32_t slot[8], const lanes33 *r, v8 out[6],
+V8_INLINE void inverse_mass(const body_table *bodies, const int32_t slot[V8_LANES], const lanes33 *r, v8 out[6],
                             v8_mask *general)
 {
     v8 mass = pick(bodies->mass, 1, 0, slot), zero = v8_set(0);
@@ -44,7 +44,7 @@ V8_INLINE void inverse_mass(const body_table *bodies, const int32_t slot[8], con
         out[i] = v8_select(*general, turned[i], out[i]);
 }
 
-void KERNEL(solver_masses)(const body_table *bodies, const int32_t slot[8], double factor, const body_rows *rows)
+void KERNEL(solver_masses)(const body_table *bodies, const int32_t slot[V8_LANES], double factor, const body_rows *rows)
 {
     int32_t place[V8_LANES];
     double movable[V8_LANES];
@@ -57,7 +57,7 @@ void KERNEL(solver_masses)(const body_table *bodies, const int32_t slot[8], doub
     const double *q = &bodies->orientation->w;
     lanes33 r = lanes_quat_matrix(
         (lanes_quat){pick(q, 4, 0, place), pick(q, 4, 1, place), pick(q, 4, 2, place), pick(q, 4, 3, place)});
-    v8 inertia[6], inverse[8], mass[8];
+    v8 inertia[6], inverse[INVERSE_ROW], mass[TENSOR_ROW];
     for (int i = 0; i < 6; i++)
         inertia[i] = pick(&bodies->inertia->xx, 6, i, place);
     lanes3 added = pick3(bodies->added_inertia, place);
@@ -67,7 +67,7 @@ void KERNEL(solver_masses)(const body_table *bodies, const int32_t slot[8], doub
     lanes_sym3_inverse(inertia, mass);
     lanes_sym3_rotate(mass, &r, inverse);
     inverse_mass(bodies, place, &r, mass, &general);
-    v8 out[8] = {zero, zero, zero, zero, zero, zero, zero, zero};
+    v8 out[BODY_ROW] = {zero, zero, zero, zero, zero, zero, zero, zero};
     lanes_sym3_inverse(mass, out);
     put_rows(rows->mass, factor == 1 ? moves : none, 1, out);
     out[6] = out[7] = zero;

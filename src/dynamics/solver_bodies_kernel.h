@@ -13,6 +13,6 @@ typedef struct body_rows {
 /* Rows of the bodies in `slot` (-1: none), zero for what nothing can move.  factor: of their inverse masses; other than
    1 for copies of a hub, whose `mass` and `inertia` are zero since the hub's own count. */
 KERNEL_DECLARE(void, solver_masses,
-               (const body_table *bodies, const int32_t slot[8], double factor, const body_rows *rows));
+               (const body_table *bodies, const int32_t slot[BATCH_LANES], double factor, const body_rows *rows));
 
 #endif

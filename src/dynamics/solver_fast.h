@@ -91,7 +91,10 @@ bool rows_reserve(context *ctx, aligned_rows *r, int64_t rows);
 void rows_clear(aligned_rows *r, int64_t rows);
 static inline double *row_of(const aligned_rows *r, int32_t row) { return r->rows + (ptrdiff_t)BATCH_LANES * row; }
 /* Body rows are worked in groups of eight; rows beyond the last body are zero. */
-static inline int32_t padded_rows(const fast_rows *f) { return (f->plan.slot.count + 7) / 8 * 8; }
+static inline int32_t padded_rows(const fast_rows *f)
+{
+    return (f->plan.slot.count + BATCH_LANES - 1) / BATCH_LANES * BATCH_LANES;
+}
 batch_view fast_view(const fast_rows *f);
 
 /* Rows of the bodies in the plan, and of joints' bodies; velocities as in the table. */

@@ -74,10 +74,10 @@ static void fill_body_rows(void *arg, int32_t block, int32_t thread)
     const stage *st = arg;
     fast_rows *f = st->s->fast;
     (void)thread;
-    for (int32_t row = ROW_BLOCK * block; row < padded_rows(f) && row < ROW_BLOCK * (block + 1); row += 8) {
-        int32_t slot[8];
+    for (int32_t row = ROW_BLOCK * block; row < padded_rows(f) && row < ROW_BLOCK * (block + 1); row += BATCH_LANES) {
+        int32_t slot[BATCH_LANES];
         body_rows rows = rows_at(f, row);
-        for (int32_t i = 0; i < 8; i++) {
+        for (int32_t i = 0; i < BATCH_LANES; i++) {
             slot[i] = row + i < f->plan.slot.count ? f->plan.slot.data[row + i] : -1;
             put_velocity(f, row + i, st->bodies, slot[i]);
         }

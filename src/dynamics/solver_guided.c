@@ -1,7 +1,7 @@
-/* Bodies that a joint guides along a driven body or the world: no turn is free, and at most some ways, as of a hull on
-   a towing carriage that may heave.  Such a body is driven in all that its joint locks, whatever contacts do, so the
-   joint is solved once before the sweeps, and contacts see only the mass that is free, W = M^-1 - M^-1 J^T (J M^-1
-   J^T)^-1 J M^-1.  The joint's share of what contacts pressed follows when they are known.
+/* Bodies that a joint guides along a driven body or the world: no rotation is free, and of the translations
+   at most some, as of a hull on a towing carriage that may heave.  Such a body is driven in all that its joint locks,
+   whatever contacts do, so the joint is solved once before the sweeps, and contacts see only the mass that is free, W =
+   M^-1 - M^-1 J^T (J M^-1 J^T)^-1 J M^-1.  The joint's share of what contacts pressed follows when they are known.
 
    Were joint and contacts swept in turn, friction would stand against what the joint has not yet undone, and keep it:
    joint and friction both hold the body, and any division between them satisfies all rows. */
@@ -10,8 +10,8 @@
 
 /* What contacts see of the mass that a guide takes away, as a share of 1 / m: a row between a guided body and one that
    nothing can move has no answer of its own, but a normal impulse must grow to its cap while they approach, and
-   friction to its cone while they slide.  Small enough to be nothing beside a free way; what is left of it is that
-   slips of rounding, 1e-16 of the speed, bring forces of 1e-9 N per tonne and step. */
+   friction to its cone while they slide.  Small enough to be nothing beside a free direction; what is left of it is
+   that slips of rounding, 1e-16 of the speed, bring forces of 1e-9 N per tonne and step. */
 #define GUIDED_GIVE 0.1
 
 /* ---- which bodies, and their free mass ---- */
@@ -56,31 +56,31 @@ static sym3 free_inverse(sym3 s, const vec3 *axis, int count)
     return sym3_across(s, axis, count);
 }
 
-/* Directions of the locked ways; -1 when some turn is free. */
+/* Directions of the locked translations, and how many; -1 when some rotation is free. */
 static int locked_axes(const joint_block *j, vec3 axis[3])
 {
-    int ways = 0, turns = 0;
+    int locked = 0, rotations = 0;
     for (int r = 0; r < j->count; r++) {
         if (j->motion[r] >= 3)
-            turns++;
+            rotations++;
         else
-            axis[ways++] = j->axis[r].direction;
+            axis[locked++] = j->axis[r].direction;
     }
-    return j->softness == 0 && turns == 3 ? ways : -1;
+    return j->softness == 0 && rotations == 3 ? locked : -1;
 }
 
-static void guide(solver *s, guided_body *g, const vec3 *axis, int ways)
+static void guide(solver *s, guided_body *g, const vec3 *axis, int locked)
 {
     solver_body *b = &s->bodies.data[g->place];
     g->inverse_mass = b->inverse_mass;
     g->inverse_inertia = b->inverse_inertia;
-    g->mass = ways == 3 ? (sym3){0} : sym3_across(sym3_inverse(b->inverse_mass), axis, ways);
+    g->mass = locked == 3 ? (sym3){0} : sym3_across(sym3_inverse(b->inverse_mass), axis, locked);
     b->give = GUIDED_GIVE * trace(b->inverse_mass) / 3;
     b->guided = true;
-    b->inverse_mass = ways == 3 ? (sym3){0} : free_inverse(b->inverse_mass, axis, ways);
+    b->inverse_mass = locked == 3 ? (sym3){0} : free_inverse(b->inverse_mass, axis, locked);
     b->inverse_inertia = (sym3){0};
-    g->ways = ways;
-    for (int k = 0; k < ways; k++)
+    g->locked = locked;
+    for (int k = 0; k < locked; k++)
         g->axis[k] = axis[k];
 }
 
@@ -103,9 +103,9 @@ static bool find_guided(solver *s)
         bool body = solver_body_is_movable(&s->bodies.data[j->body]);
         bool base = solver_body_is_movable(&s->bodies.data[j->base]);
         vec3 axis[3];
-        int ways = locked_axes(j, axis);
+        int locked = locked_axes(j, axis);
         int32_t place = body ? j->body : j->base;
-        if (body != base && ways >= 0 && joints_of(s, place) == 1) {
+        if (body != base && locked >= 0 && joints_of(s, place) == 1) {
             guided_body g = {.block = *j, .place = place};
             s->guided.data[s->guided.count++] = g;
         }
@@ -114,8 +114,8 @@ static bool find_guided(solver *s)
     for (int32_t i = 0, next = 0; i < all; i++) {
         if (next < s->guided.count && s->guided.data[next].block.joint == s->joints.data[i].joint) {
             vec3 axis[3];
-            int ways = locked_axes(&s->joints.data[i], axis);
-            guide(s, &s->guided.data[next++], axis, ways);
+            int locked = locked_axes(&s->joints.data[i], axis);
+            guide(s, &s->guided.data[next++], axis, locked);
         } else {
             s->joints.data[kept++] = s->joints.data[i];
         }
@@ -133,10 +133,10 @@ fram_status solver_joints_make(solver *s, double dt, const body_table *bodies, c
 
 vec3 guided_velocity(const guided_body *g, vec3 velocity)
 {
-    vec3 locked = {0, 0, 0};
-    for (int k = 0; k < g->ways; k++)
-        locked = vec3_mad(locked, g->axis[k], vec3_dot(g->axis[k], velocity));
-    return locked;
+    vec3 driven = {0, 0, 0};
+    for (int k = 0; k < g->locked; k++)
+        driven = vec3_mad(driven, g->axis[k], vec3_dot(g->axis[k], velocity));
+    return driven;
 }
 
 /* ---- the joint ---- */

@@ -57,14 +57,14 @@ typedef struct joint_block {
     double impulse[JOINT_MOST_ROWS];
 } joint_block;
 
-/* A body whose turns and some ways are driven by the one joint it has. */
+/* A body whose rotations, and some of its translations, are driven by the one joint it has. */
 typedef struct guided_body {
     joint_block block;                  /* made with the whole mass */
     int32_t place;                      /* in the body array */
     sym3 inverse_mass, inverse_inertia; /* whole, global frame */
-    sym3 mass;                          /* in the free ways, zero in the others */
-    vec3 axis[3];                       /* of the locked ways */
-    int ways;                           /* their number */
+    sym3 mass;                          /* in the free directions, zero in the others */
+    vec3 axis[3];                       /* of the locked translations */
+    int locked;                         /* their number */
 } guided_body;
 
 /* What the impulses of the last step would do to the energy of an island. */

@@ -27,7 +27,7 @@ V8_INLINE void put(double *rows, int i, v8 x) { v8_store(rows + (ptrdiff_t)BATCH
 V8_INLINE lanes_body body_load(const batch_view *view, const int32_t *rows, bool general)
 {
     lanes_body body;
-    v8 c[8];
+    v8 c[BODY_ROW];
     v8_gather_rows(view->velocity, rows, c);
     body.velocity = (lanes3){c[BODY_VELOCITY], c[BODY_VELOCITY + 1], c[BODY_VELOCITY + 2]};
     body.spin = (lanes3){c[BODY_SPIN], c[BODY_SPIN + 1], c[BODY_SPIN + 2]};
@@ -47,7 +47,7 @@ V8_INLINE lanes_body body_load(const batch_view *view, const int32_t *rows, bool
 V8_INLINE void body_store(const batch_view *view, const int32_t *rows, const lanes_body *body)
 {
     v8 zero = v8_set(0);
-    v8 c[8] = {
+    v8 c[BODY_ROW] = {
         body->velocity.x, body->velocity.y, body->velocity.z, body->spin.x, body->spin.y, body->spin.z, zero, zero};
     v8_scatter_rows(view->velocity, rows, c);
 }
@@ -341,7 +341,7 @@ typedef struct lanes_sums {
 V8_INLINE lanes_body driven_load(const batch_view *view, const int32_t *rows)
 {
     lanes_body body;
-    v8 c[8];
+    v8 c[BODY_ROW];
     v8_gather_rows(view->driven, rows, c);
     body.velocity = (lanes3){c[BODY_VELOCITY], c[BODY_VELOCITY + 1], c[BODY_VELOCITY + 2]};
     body.spin = (lanes3){c[BODY_SPIN], c[BODY_SPIN + 1], c[BODY_SPIN + 2]};
@@ -547,13 +547,13 @@ void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, co
 
 /* Eight bodies' rows, one column per number. */
 typedef struct lanes_rows {
-    v8 column[8];
+    v8 column[BODY_ROW];
 } lanes_rows;
 
 V8_INLINE lanes_rows rows_load(const double *rows, int32_t first)
 {
     lanes_rows r;
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < BATCH_LANES; i++)
         r.column[i] = v8_load(rows + (ptrdiff_t)BODY_ROW * (first + i));
     v8_transpose(r.column);
     return r;

@@ -18,33 +18,20 @@ static const double SMALLEST_PIECE = 0.02;
 
 static fram_status request_check(const field_request *r, fram_error *error)
 {
+    fram_status status = field_area_check(r->domain, r->concentration, r->keep_out, r->keep_out_margin, error);
+    if (status != FRAM_OK)
+        return status;
     vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
-    const char *key = NULL, *rule = NULL;
-    double value = 0;
-    if (!(size.x > 0 && size.y > 0 && size.x * size.y < HUGE_VAL))
-        key = "domain", rule = "must have an area, in m2", value = size.x * size.y;
-    else if (!(r->concentration > 0 && r->concentration < 1))
-        key = "concentration", rule = "must be over 0 and under 1", value = r->concentration;
-    else if (!r->size && !(r->mean_area > 0 && size.x * size.y / r->mean_area <= MOST_CELLS))
-        key = "mean_area", rule = "must be positive and make at most 20 million cells, in m2", value = r->mean_area;
-    else if (!(r->size_deviation >= 0 && r->size_deviation <= 1))
-        key = "size_deviation", rule = "must be 0 to 1", value = r->size_deviation;
-    else if (!(r->roundness >= 0 && r->roundness <= 1))
-        key = "roundness", rule = "must be 0 to 1", value = r->roundness;
-    else if (!(r->smallest_area >= 0 && r->smallest_area < HUGE_VAL))
-        key = "smallest_area", rule = "must not be negative, in m2", value = r->smallest_area;
-    else if (!(r->keep_out_margin >= 0 && r->keep_out_margin < HUGE_VAL))
-        key = "keep_out_margin", rule = "must not be negative, in m", value = r->keep_out_margin;
-    if (key)
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s %s; it is %g", key, rule, value);
+    if (!r->size && !(r->mean_area > 0 && size.x * size.y / r->mean_area <= MOST_CELLS))
+        return error_value(error, "mean_area", "an area over 0 m2 that makes at most 20 million cells", r->mean_area);
+    if (!(r->size_deviation >= 0 && r->size_deviation <= 1))
+        return error_value(error, "size_deviation", "a number from 0 to 1", r->size_deviation);
+    if (!(r->roundness >= 0 && r->roundness <= 1))
+        return error_value(error, "roundness", "a number from 0 to 1", r->roundness);
+    if (!(r->smallest_area >= 0 && r->smallest_area < HUGE_VAL))
+        return error_value(error, "smallest_area", "an area of 0 m2 or more", r->smallest_area);
     if (r->size && size_law_fault(r->size))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "populations", "%s", size_law_fault(r->size));
-    for (int32_t i = 0; r->keep_out && i < polygon_list_count(r->keep_out); i++) {
-        polygon zone = polygon_list_get(r->keep_out, i);
-        if (!(polygon_area(zone) > 0) || !polygon_is_convex(zone))
-            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
-                             "zone %d must be convex, counter-clockwise and have an area; cut it into convex zones", i);
-    }
     return FRAM_OK;
 }
 

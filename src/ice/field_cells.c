@@ -33,6 +33,25 @@ static vec2 edge_normal(vec2 a, vec2 b)
     return length > 0 ? (vec2){e.y / length, -e.x / length} : (vec2){0, 0};
 }
 
+fram_status field_area_check(box2 domain, double concentration, const polygon_list *zones, double margin,
+                             fram_error *error)
+{
+    vec2 size = vec2_sub(domain.hi, domain.lo);
+    if (!(size.x > 0 && size.y > 0 && size.x * size.y < HUGE_VAL))
+        return error_value(error, "domain", "an area over 0 m2", size.x * size.y);
+    if (!(concentration > 0 && concentration < 1))
+        return error_value(error, "concentration", "a number over 0 and under 1", concentration);
+    if (!(margin >= 0 && margin < HUGE_VAL))
+        return error_value(error, "keep_out_margin", "a distance of 0 m or more", margin);
+    for (int32_t i = 0; zones && i < polygon_list_count(zones); i++) {
+        polygon zone = polygon_list_get(zones, i);
+        if (!(polygon_area(zone) > 0) || !polygon_is_convex(zone))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
+                             "zone %d must be convex, counter-clockwise and have an area; cut it into convex zones", i);
+    }
+    return FRAM_OK;
+}
+
 /* ---- zones ---- */
 
 /* Corners of tangents to the circle of `margin` about v, whose normals turn from n1 to n2 counter-clockwise. */

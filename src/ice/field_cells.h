@@ -10,6 +10,11 @@ typedef struct cells_scratch {
 } cells_scratch;
 void cells_scratch_free(context *ctx, cells_scratch *s);
 
+/* What every field asks of its area: a domain with an area, a concentration over 0 and under 1, convex zones and a
+   margin that is none or more.  FRAM_ERROR_INPUT with the key at fault. */
+fram_status field_area_check(box2 domain, double concentration, const polygon_list *zones, double margin,
+                             fram_error *error);
+
 /* Convex zones, grown by a margin all around: edges move outwards, corners become arcs of short tangents, so that
    nothing within the margin is left outside.  Appends one ring per zone. */
 bool zones_grow(context *ctx, const polygon_list *zones, double margin, polygon_list *out);

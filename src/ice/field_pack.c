@@ -21,11 +21,6 @@ static const double LARGE_FLOE = 0.1;
    which hold little of the ice, have coarser covers, and all within limits. */
 static const double COVER = 0.04, FINEST_COVER = 0.02, COARSEST_COVER = 0.06;
 
-static fram_status refuse(fram_error *error, const char *key, const char *rule, double value)
-{
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s %s; it is %g", key, rule, value);
-}
-
 static fram_status check_population(const field_population *p, int32_t number, fram_error *error)
 {
     const char *fault = size_law_fault(&p->size);
@@ -47,23 +42,13 @@ static fram_status check_population(const field_population *p, int32_t number, f
 
 static fram_status check_request(const field_packed_request *r, fram_error *error)
 {
-    vec2 size = vec2_sub(r->domain.hi, r->domain.lo);
-    if (!(size.x > 0 && size.y > 0 && size.x * size.y < HUGE_VAL))
-        return refuse(error, "domain", "must have an area, in m2", size.x * size.y);
-    if (!(r->concentration > 0 && r->concentration < 1))
-        return refuse(error, "concentration", "must be over 0 and under 1", r->concentration);
-    if (!(r->keep_out_margin >= 0 && r->keep_out_margin < HUGE_VAL))
-        return refuse(error, "keep_out_margin", "must not be negative, in m", r->keep_out_margin);
+    fram_status status = field_area_check(r->domain, r->concentration, r->keep_out, r->keep_out_margin, error);
+    if (status != FRAM_OK)
+        return status;
     if (r->population_count < 1 || r->population_count > MOST_POPULATIONS)
-        return refuse(error, "populations", "must be 1 to 1000", r->population_count);
-    for (int32_t i = 0; r->keep_out && i < polygon_list_count(r->keep_out); i++) {
-        polygon zone = polygon_list_get(r->keep_out, i);
-        if (!(polygon_area(zone) > 0) || !polygon_is_convex(zone))
-            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "keep_out",
-                             "zone %d must be convex, counter-clockwise and have an area; cut it into convex zones", i);
-    }
+        return error_value(error, "populations", "1 to 1000 of them", r->population_count);
     for (int32_t i = 0; i < r->population_count; i++) {
-        fram_status status = check_population(&r->populations[i], i, error);
+        status = check_population(&r->populations[i], i, error);
         if (status != FRAM_OK)
             return status;
     }

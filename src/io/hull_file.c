@@ -27,13 +27,11 @@ hull_file_options hull_file_defaults(void) { return (hull_file_options){1, (doub
 static fram_status check_options(const hull_file_options *o, fram_error *error)
 {
     if (!(o->scale > 0 && o->scale < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "scale", "expected a positive scale, found %g", o->scale);
+        return error_value(error, "scale", "a positive scale", o->scale);
     if (!isnan(o->seal_width) && !(o->seal_width >= 0 && o->seal_width < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "seal_width", "expected a width in metres, found %g",
-                         o->seal_width);
+        return error_value(error, "seal_width", "a width in metres", o->seal_width);
     if (!isnan(o->freeboard) && !(o->freeboard > 0 && o->freeboard < HUGE_VAL))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "freeboard",
-                         "expected a positive height in metres, found %g", o->freeboard);
+        return error_value(error, "freeboard", "a positive height in metres", o->freeboard);
     return FRAM_OK;
 }
 

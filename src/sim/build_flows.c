@@ -53,7 +53,7 @@ static fram_status fault(const scenario *s, const scenario_flow *from, const cha
     snprintf(name, sizeof name, in_file ? "%s.table_file" : row < 0 ? "%s.table" : "%s.table[%d]", key, (int)row);
     if (in_file && row >= 0)
         return error_set(error, FRAM_ERROR_INPUT, path, row + 2, name, "expected %s, found %g", rule, found);
-    error_set(error, FRAM_ERROR_INPUT, NULL, 0, name, "expected %s, found %g", rule, found);
+    error_value(error, name, rule, found);
     scenario_locate(s, error);
     return FRAM_ERROR_INPUT;
 }

@@ -136,11 +136,6 @@ static double bilge_of(const hull_particulars *p, const hull_lines *l)
 
 /* ---- particulars ---- */
 
-static fram_status refuse(fram_error *error, const char *key, const char *rule, double found)
-{
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s must be %s, found %g", key, rule, found);
-}
-
 static fram_status check_lengths(const hull_particulars *p, fram_error *error)
 {
     const struct {
@@ -150,7 +145,7 @@ static fram_status check_lengths(const hull_particulars *p, fram_error *error)
     int count = p->form == HULL_MESH ? 3 : 4;
     for (int i = 0; i < count; i++)
         if (!(lengths[i].value > 0 && lengths[i].value < HUGE_VAL))
-            return refuse(error, lengths[i].key, "a positive number of metres", lengths[i].value);
+            return error_value(error, lengths[i].key, "a positive number of metres", lengths[i].value);
     return FRAM_OK;
 }
 
@@ -163,14 +158,13 @@ static fram_status check_angles(const hull_particulars *p, fram_error *error)
         {"stem_angle", p->stem_angle}, {"entrance_angle", p->entrance_angle}, {"stern_angle", p->stern_angle}};
     for (int i = 0; i < 3; i++)
         if (!(angles[i].value > 0 && angles[i].value <= 0.5 * PI))
-            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, angles[i].key,
-                             "%s must be over 0 and at most 90 degrees, found %g", angles[i].key,
-                             degrees(angles[i].value));
+            return error_value(error, angles[i].key, "an angle over 0 and at most 90 degrees",
+                               degrees(angles[i].value));
     if (!(fabs(p->flare_angle) < 0.5 * PI))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "flare_angle",
-                         "flare_angle must be between -90 and 90 degrees, found %g", degrees(p->flare_angle));
+        return error_value(error, "flare_angle", "an angle between -90 and 90 degrees", degrees(p->flare_angle));
     if (!(p->parallel_midbody > 0 && p->parallel_midbody <= 1))
-        return refuse(error, "parallel_midbody", "a share of the length over 0 and at most 1", p->parallel_midbody);
+        return error_value(error, "parallel_midbody", "a share of the length over 0 and at most 1",
+                           p->parallel_midbody);
     return FRAM_OK;
 }
 

@@ -13,8 +13,7 @@ fram_status hull_cone_check(const hull_particulars *p, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "beam",
                          "the beam of a cone must be its length, %g m, found %g m", p->length, p->beam);
     if (!(p->flare_angle >= 0 && p->flare_angle < radians(89)))
-        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "flare_angle",
-                         "must be from 0 to less than 89 degrees, found %g", degrees(p->flare_angle));
+        return error_value(error, "flare_angle", "an angle from 0 to less than 89 degrees", degrees(p->flare_angle));
     double bottom = radius_at(p, -p->draught);
     if (bottom >= 0.5 * LEAST_BOTTOM * p->length)
         return FRAM_OK;

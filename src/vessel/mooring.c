@@ -8,17 +8,12 @@
 TABLE_DEFINE(line, LINE_FIELDS)
 #undef TABLE_SELF
 
-static fram_status refuse(fram_error *error, const char *key, const char *rule, double found)
-{
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s must be %s, found %g", key, rule, found);
-}
-
 /* The member names a point: "table[2].offset". */
 static fram_status refuse_point(fram_error *error, int32_t point, const char *member, const char *rule, double found)
 {
     char key[48];
     snprintf(key, sizeof key, "table[%d].%s", (int)point, member);
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected %s, found %g", rule, found);
+    return error_value(error, key, rule, found);
 }
 
 static fram_status check_curve(const line_definition *d, fram_error *error)
@@ -37,28 +32,28 @@ static fram_status check_curve(const line_definition *d, fram_error *error)
         return refuse_point(error, 0, "offset", "points on both sides of the offset 0, which is that at the start",
                             c->offset[0]);
     if (!(d->breaking_load > 0))
-        return refuse(error, "breaking_load", "a positive number of newtons", d->breaking_load);
+        return error_value(error, "breaking_load", "a positive number of newtons", d->breaking_load);
     return FRAM_OK;
 }
 
 static fram_status check_definition(const line_definition *d, double height, fram_error *error)
 {
     if (!(height > 0))
-        return refuse(error, "depth", "more than the depth of the upper end", d->depth);
+        return error_value(error, "depth", "more than the depth of the upper end", d->depth);
     if (!(d->distance > 0))
-        return refuse(error, "distance", "a positive number of metres", d->distance);
+        return error_value(error, "distance", "a positive number of metres", d->distance);
     if (d->kind == LINE_TABLE)
         return check_curve(d, error);
     if (!(d->stiffness > 0))
-        return refuse(error, "stiffness", "positive", d->stiffness);
+        return error_value(error, "stiffness", "a positive number of newtons", d->stiffness);
     if (d->kind == LINE_CATENARY && !(d->weight > 0))
-        return refuse(error, "weight", "a positive number of newtons per metre", d->weight);
+        return error_value(error, "weight", "a positive number of newtons per metre", d->weight);
     if (!(d->breaking_load > 0))
-        return refuse(error, "breaking_load", "a positive number of newtons", d->breaking_load);
+        return error_value(error, "breaking_load", "a positive number of newtons", d->breaking_load);
     if (isnan(d->length) && !(d->pretension > 0))
-        return refuse(error, "pretension", "a positive number of newtons where no length is given", d->pretension);
+        return error_value(error, "pretension", "a positive number of newtons where no length is given", d->pretension);
     if (!isnan(d->length) && !(d->length > 0))
-        return refuse(error, "length", "a positive number of metres", d->length);
+        return error_value(error, "length", "a positive number of metres", d->length);
     return FRAM_OK;
 }
 
@@ -76,7 +71,8 @@ static fram_status find_length(const line_definition *d, double height, double *
         *length = sqrt(height * height + d->distance * d->distance) - d->pretension / d->stiffness;
         if (*length > 0)
             return FRAM_OK;
-        return refuse(error, "pretension", "less than the stiffness times the distance of the ends", d->pretension);
+        return error_value(error, "pretension", "less than the stiffness times the distance of the ends",
+                           d->pretension);
     }
     const catenary_line line = {0, d->weight, d->stiffness};
     if (catenary_length_for(line, height, d->distance, d->pretension, length))

@@ -8,27 +8,23 @@ TABLE_DEFINE(thruster, THRUSTER_FIELDS)
    unducted azimuth and tunnel thrusters. */
 #define POWER_PER_THRUST (1000.0 / 160)
 
-static fram_status refuse(fram_error *error, const char *key, const char *rule, double found)
-{
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s must be %s, found %g", key, rule, found);
-}
-
 static fram_status check_definition(const thruster_definition *d, fram_error *error)
 {
     if (!(d->ahead > 0))
-        return refuse(error, "thrust", "a positive number of newtons", d->ahead);
+        return error_value(error, "thrust", "a positive number of newtons", d->ahead);
     if (!(d->astern >= 0))
-        return refuse(error, "thrust_astern", "a number of newtons, 0 or more", d->astern);
+        return error_value(error, "thrust_astern", "a number of newtons, 0 or more", d->astern);
     if (!(d->time_constant >= 0))
-        return refuse(error, "time_constant", "a number of seconds, 0 or more", d->time_constant);
+        return error_value(error, "time_constant", "a number of seconds, 0 or more", d->time_constant);
     if (!(d->speed_rate > 0))
-        return refuse(error, "speed_rate", "positive", d->speed_rate);
+        return error_value(error, "speed_rate", "a positive rate", d->speed_rate);
     if (!(d->turn_rate > 0))
-        return refuse(error, "turn_rate_deg", "positive", degrees(d->turn_rate));
+        return error_value(error, "turn_rate_deg", "a positive rate", degrees(d->turn_rate));
     if (!(d->cost > 0))
-        return refuse(error, "cost", "positive", d->cost);
+        return error_value(error, "cost", "a positive number", d->cost);
     if (!(d->forbidden_half >= 0 && d->forbidden_half < 0.5 * PI))
-        return refuse(error, "forbidden_width_deg", "from 0 to less than 180", degrees(2 * d->forbidden_half));
+        return error_value(error, "forbidden_width_deg", "an angle from 0 to less than 180",
+                           degrees(2 * d->forbidden_half));
     return FRAM_OK;
 }
 

@@ -6,35 +6,30 @@
 TABLE_DEFINE(vessel, VESSEL_FIELDS)
 #undef TABLE_SELF
 
-static fram_status refuse(fram_error *error, const char *key, const char *rule, double found)
-{
-    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s must be %s, found %g", key, rule, found);
-}
-
 static bool is_finite(double x) { return fabs(x) < HUGE_VAL; }
 static bool is_finite_vector(vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
 
 static fram_status check_definition(const vessel_definition *d, const shape_store *shapes, fram_error *error)
 {
     if (d->solid < 0 || !shapes->solids || d->solid >= shapes->solids->count)
-        return refuse(error, "solid", "a solid of the shape store", d->solid);
+        return error_value(error, "solid", "a solid of the shape store", d->solid);
     if (!(d->mass > 0 && is_finite(d->mass)))
-        return refuse(error, "mass", "a positive number of kilograms", d->mass);
+        return error_value(error, "mass", "a positive number of kilograms", d->mass);
     double least = fmin(d->gyration.x, fmin(d->gyration.y, d->gyration.z));
     if (!(least > 0) || !is_finite_vector(d->gyration))
-        return refuse(error, "gyration", "three positive numbers of metres", least);
+        return error_value(error, "gyration", "three positive numbers of metres", least);
     if (!is_finite_vector(d->centre))
-        return refuse(error, "centre", "three numbers of metres", d->centre.x);
+        return error_value(error, "centre", "three numbers of metres", d->centre.x);
     if (!is_finite_vector(d->position))
-        return refuse(error, "position", "three numbers of metres", d->position.x);
+        return error_value(error, "position", "three numbers of metres", d->position.x);
     if (!is_finite(d->heading))
-        return refuse(error, "heading", "an angle", d->heading);
+        return error_value(error, "heading", "an angle", d->heading);
     if (!is_finite_vector(d->tow_velocity))
-        return refuse(error, "tow_velocity", "three numbers of metres per second", d->tow_velocity.x);
+        return error_value(error, "tow_velocity", "three numbers of metres per second", d->tow_velocity.x);
     if (!(d->tow_ramp >= 0 && is_finite(d->tow_ramp)))
-        return refuse(error, "tow_ramp", "a number of seconds, 0 or more", d->tow_ramp);
+        return error_value(error, "tow_ramp", "a number of seconds, 0 or more", d->tow_ramp);
     if ((int)d->mode < VESSEL_PRESCRIBED || d->mode > VESSEL_FREE)
-        return refuse(error, "mode", "prescribed, towed or free", (int)d->mode);
+        return error_value(error, "mode", "prescribed, towed or free", (int)d->mode);
     return hull_particulars_check(&d->particulars, error);
 }
 

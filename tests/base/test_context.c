@@ -116,6 +116,10 @@ START_TEST(errors_hold_place_and_message)
     ck_assert_str_eq(e.file, "a.yaml");
     ck_assert_str_eq(e.key, "ice.thickness");
     ck_assert_str_eq(e.message, "is -1.5, must be > 0");
+    ck_assert_int_eq(error_value(&e, "length", "a positive number", -2), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(e.key, "length");
+    ck_assert_str_eq(e.file, "");
+    ck_assert_str_eq(e.message, "expected a positive number, found -2");
     ck_assert_int_eq(error_memory(&e), FRAM_ERROR_MEMORY);
     ck_assert_int_eq(e.status, FRAM_ERROR_MEMORY);
     ck_assert_str_eq(e.file, "");

@@ -344,7 +344,7 @@ START_TEST(wrong_requests)
         fram_error e = {0};
         ck_assert_int_eq(field_voronoi(&ctx, &q, &floes, &r, &e), FRAM_ERROR_INPUT);
         ck_assert_str_eq(e.key, key);
-        ck_assert_ptr_nonnull(strstr(e.message, key));
+        ck_assert_ptr_nonnull(strstr(e.message, "expected "));
     }
     ck_assert_ptr_null(floes.vertex.data);
 }

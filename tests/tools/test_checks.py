@@ -41,6 +41,28 @@ class House(unittest.TestCase):
         self.assertEqual(done.returncode, 1 if done.stdout else 0)
         return done.stdout
 
+    def unused(self):
+        done = subprocess.run([sys.executable, self.root / "tools/check_unused.py"], capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.returncode, 1 if done.stdout else 0)
+        return [line for line in done.stdout.splitlines() if "is listed as used by tests only" not in line]
+
+    def test_functions_that_nothing_uses(self):
+        self.plant("src/ice/floe.h", "double floe_area(int x);\nstatic inline int floe_twin(int x) { return x; }\n")
+        self.plant("src/ice/floe.c", "double floe_area(int x)\n{\n    return x; /* floe_area, floe_twin */\n}\n"
+                                     "static int own(void) { return 0; }\n")
+        self.plant("tests/ice/test_floe.c", "double a = floe_area(1);\n")
+        said = self.unused()
+        self.assertEqual(len(said), 2)
+        self.assertIn("nothing in src/ uses floe_area", said[0])
+        self.assertIn("nothing in src/ uses floe_twin", said[1])
+        self.plant("src/sim/step.c", "double b = floe_area(2) + floe_twin(3);\n")
+        self.assertEqual(self.unused(), [])
+        self.plant("include/fram/ice.h", "FRAM_API int fram_ice_area(void);\n")
+        self.assertIn("fram_ice_area is public and no C test calls it", self.unused()[0])
+        self.plant("tests/api/test_ice.c", "int c = fram_ice_area();\n")
+        self.assertEqual(self.unused(), [])
+
     def test_a_good_house_is_silent(self):
         self.plant("src/base/vec.h", "#include <math.h>\nstatic inline double f(double x) { return sqrt(x); }\n")
         self.plant("src/ice/floe.c", '#include "ice/floe.h"\n#include "base/vec.h"\n#include "fram/error.h"\n')

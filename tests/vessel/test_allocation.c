@@ -170,13 +170,18 @@ START_TEST(refusals)
     bare_vessel_open(&b);
     thruster_definition d = supply_tunnel(30);
     d.ahead = 0;
-    assert_fails(thruster_add(&b.ctx, &d, &b.vessels, &b.thrusters, &b.error), b.error, FRAM_ERROR_INPUT, "thrust");
+    assert_fails(thruster_add(&b.ctx, &d, &b.vessels, &b.thrusters, &b.error), b.error, FRAM_ERROR_INPUT,
+                 "expected a positive number of newtons, found 0");
+    ck_assert_str_eq(b.error.key, "thrust");
     d = supply_tunnel(30);
     d.cost = 0;
-    assert_fails(thruster_add(&b.ctx, &d, &b.vessels, &b.thrusters, &b.error), b.error, FRAM_ERROR_INPUT, "cost");
+    assert_fails(thruster_add(&b.ctx, &d, &b.vessels, &b.thrusters, &b.error), b.error, FRAM_ERROR_INPUT,
+                 "expected a positive number, found 0");
+    ck_assert_str_eq(b.error.key, "cost");
     d = supply_tunnel(30);
     d.forbidden_half = 2;
-    assert_fails(thruster_add(&b.ctx, &d, &b.vessels, &b.thrusters, &b.error), b.error, FRAM_ERROR_INPUT, "forbidden");
+    assert_fails(thruster_add(&b.ctx, &d, &b.vessels, &b.thrusters, &b.error), b.error, FRAM_ERROR_INPUT,
+                 "an angle from 0");
     ck_assert_int_eq(b.thrusters.count, 0);
     failing_memory memory;
     context ctx = failing_context(&memory, 1);

@@ -241,11 +241,13 @@ START_TEST(refusals)
     d = sample_line(0);
     d.depth = 3;
     assert_fails(mooring_add_line(&m.b.ctx, &d, &m.b.vessels, &m.b.bodies, &m.lines, &m.b.error), m.b.error,
-                 FRAM_ERROR_INPUT, "depth");
+                 FRAM_ERROR_INPUT, "expected more than the depth");
+    ck_assert_str_eq(m.b.error.key, "depth");
     d = sample_line(0);
     d.weight = 0;
     assert_fails(mooring_add_line(&m.b.ctx, &d, &m.b.vessels, &m.b.bodies, &m.lines, &m.b.error), m.b.error,
-                 FRAM_ERROR_INPUT, "weight");
+                 FRAM_ERROR_INPUT, "expected a positive number");
+    ck_assert_str_eq(m.b.error.key, "weight");
     ck_assert_int_eq(m.lines.count, 0);
     unmoor(&m);
 }
