@@ -13,9 +13,14 @@
 #include "base/vec.h"
 #include <check.h>
 #include <math.h>
+#include <signal.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 /* Seconds after which a test counts as hung (check's own 4 are too few for a sanitizer on a busy machine). */
 #define TEST_TIMEOUT 300
@@ -41,6 +46,46 @@ static inline int testing_run(const char *name, const TTest *const *tests, int c
     srunner_free(runner);
     return failed ? EXIT_FAILURE : EXIT_SUCCESS;
 }
+
+/* ---- assertions of the library, in builds that have them: debug, sanitizers, fuzzing ---- */
+
+#ifdef NDEBUG
+enum { TESTING_ASSERTIONS = 0 };
+#else
+enum { TESTING_ASSERTIONS = 1 };
+#endif
+
+/* Whether a call ends by a failed assertion; made in a process of its own. */
+static inline bool testing_aborts(void (*call)(void *), void *user)
+{
+    pid_t child = fork();
+    ck_assert_int_ge(child, 0);
+    if (child == 0) {
+        struct rlimit no_core = {0, 0};
+        (void)setrlimit(RLIMIT_CORE, &no_core);
+        (void)!freopen("/dev/null", "w", stderr);
+        signal(SIGABRT, SIG_DFL);
+        call(user);
+        _exit(0);
+    }
+    int state = 0;
+    ck_assert_int_eq(waitpid(child, &state, 0), child);
+    return WIFSIGNALED(state) && WTERMSIG(state) == SIGABRT;
+}
+
+#define assert_aborts(call, user) \
+    ck_assert_msg(testing_aborts((call), (user)), "%s(%s) fails no assertion", #call, #user)
+
+/* As TEST_MAIN, skipped in builds without assertions. */
+#define TEST_MAIN_OF_ASSERTIONS(name, ...)                                       \
+    int main(void)                                                               \
+    {                                                                            \
+        const TTest *const list[] = {__VA_ARGS__};                               \
+        if (TESTING_ASSERTIONS)                                                  \
+            return testing_run((name), list, (int)(sizeof list / sizeof *list)); \
+        puts("skipped: a build without assertions");                             \
+        return 77;                                                               \
+    }
 
 /* ---- doubles.  A NaN on either side fails every closeness assertion; equal infinities are close. ---- */
 

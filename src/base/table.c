@@ -1,6 +1,8 @@
 /* Memory of state tables and what walks their fields.  Knows descriptors, never a particular table. */
 #include "base/table.h"
 #include "base/hash.h"
+
+#include <assert.h>
 #include <string.h>
 
 /* All fields of a table lie in one block, each from a cache line on, one line apart so that equal rows of different
@@ -21,6 +23,20 @@ static void field_point(void *table, const field_info *field, void *data)
 {
     memcpy((char *)table + field->offset, &data, sizeof data);
 }
+
+#ifndef NDEBUG
+/* Rows fit the room that there is, and each field has its own place for them, on a cache line. */
+static bool table_is_sound(const void *table, const table_info *info)
+{
+    const table_head *head = table;
+    bool good = head->count >= 0 && head->count <= head->capacity && head->capacity % ROW_MULTIPLE == 0;
+    for (int f = 0; f < info->field_count && good && head->capacity > 0; f++) {
+        const void *data = table_field(table, &info->fields[f]);
+        good = data && (uintptr_t)data % FIELD_ALIGNMENT == 0;
+    }
+    return good;
+}
+#endif
 
 /* Bytes of one field of `capacity` rows, with what separates it from the next. */
 static uint64_t field_span(const field_info *field, int32_t capacity)
@@ -53,6 +69,7 @@ static int32_t capacity_for(int32_t rows, int32_t capacity)
 bool table_reserve(context *ctx, void *table, const table_info *info, int32_t rows)
 {
     table_head *head = table;
+    assert(table_is_sound(table, info));
     if (rows <= head->capacity)
         return true;
     int32_t capacity = capacity_for(rows, head->capacity);
@@ -77,12 +94,14 @@ bool table_reserve(context *ctx, void *table, const table_info *info, int32_t ro
     }
     memory_free(ctx, old);
     head->capacity = capacity;
+    assert(table_is_sound(table, info));
     return true;
 }
 
 bool table_resize(context *ctx, void *table, const table_info *info, int32_t rows)
 {
     table_head *head = table;
+    assert(rows >= 0);
     if (!table_reserve(ctx, table, info, rows))
         return false;
     for (int f = 0; f < info->field_count && rows > head->count; f++) {
@@ -106,6 +125,7 @@ void table_free(context *ctx, void *table, const table_info *info)
 uint64_t table_hash(const void *table, const table_info *info, uint64_t seed)
 {
     const table_head *head = table;
+    assert(table_is_sound(table, info));
     uint64_t hash = hash_bytes(&head->count, sizeof head->count, seed);
     for (int f = 0; f < info->field_count; f++) {
         const field_info *field = &info->fields[f];
@@ -118,6 +138,7 @@ bool table_copy(context *ctx, void *dst, const void *src, const table_info *info
 {
     const table_head *from = src;
     table_head *to = dst;
+    assert(table_is_sound(src, info));
     if (dst == src)
         return true;
     if (!table_reserve(ctx, dst, info, from->count))
@@ -132,6 +153,8 @@ bool table_copy(context *ctx, void *dst, const void *src, const table_info *info
 
 void table_move_row(void *table, const table_info *info, int32_t to, int32_t from)
 {
+    assert(to >= 0 && from >= 0 && to < ((const table_head *)table)->capacity);
+    assert(from < ((const table_head *)table)->capacity);
     for (int f = 0; f < info->field_count && to != from; f++) {
         const field_info *field = &info->fields[f];
         char *data = table_field(table, field);

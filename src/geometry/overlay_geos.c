@@ -2,6 +2,7 @@
    everything of Fram's comes from the context. */
 #include "geometry/overlay_geos.h"
 #include "geometry/polygon_pieces.h"
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -130,8 +131,22 @@ fram_status read_shape(overlay *o, const GEOSGeometry *shape, bool fill_holes, f
     return FRAM_OK;
 }
 
+#ifndef NDEBUG
+/* What every overlay promises of its rings. */
+static void assert_rings(const polygon_list *rings)
+{
+    for (int32_t i = 0; i < polygon_list_count(rings); i++) {
+        polygon p = polygon_list_get(rings, i);
+        assert(p.count >= 3 && polygon_area(p) > 0);
+    }
+}
+#endif
+
 fram_status append_found(overlay *o, polygon_list *out, fram_error *error)
 {
+#ifndef NDEBUG
+    assert_rings(&o->found);
+#endif
     return polygon_list_append_sorted(o->ctx, out, &o->found) ? FRAM_OK : error_memory(error);
 }
 

@@ -1,16 +1,21 @@
 /* Pools of polygons. */
 #include "geometry/polygon.h"
+
+#include <assert.h>
 #include <string.h>
 
 polygon polygon_list_get(const polygon_list *l, int32_t i)
 {
+    assert(i >= 0 && i + 1 < l->start.count);
     int32_t first = l->start.data[i];
+    assert(first >= 0 && first <= l->start.data[i + 1] && l->start.data[i + 1] <= l->vertex.count);
     return (polygon){l->vertex.data ? l->vertex.data + first : NULL, l->start.data[i + 1] - first};
 }
 
 bool polygon_list_push(context *ctx, polygon_list *l, polygon p)
 {
     bool fresh = l->start.count == 0;
+    assert(p.count >= 0 && (fresh ? l->vertex.count : l->vertex.count - l->start.data[l->start.count - 1]) == 0);
     if (p.count > INT32_MAX - l->vertex.count || !array_reserve(ctx, &l->vertex, l->vertex.count + p.count) ||
         !array_reserve(ctx, &l->start, l->start.count + 1 + fresh))
         return false;

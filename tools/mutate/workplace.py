@@ -44,8 +44,7 @@ class Workplace:
             for path in (self.root / folder).rglob("*"):
                 if path.is_file() and str(path.relative_to(self.root)) not in names:
                     path.unlink()
-        # A fault may leave something unused: that is no finding of a test.
-        words = ["cmake", "--preset", "release", "-DFRAM_WERROR=OFF", "--log-level=WARNING"]
+        words = ["cmake", "--preset", "release", "--log-level=WARNING"]
         done = subprocess.run(words, cwd=self.root, capture_output=True, text=True, check=False)
         if done.returncode:
             raise RuntimeError(done.stdout + done.stderr)
