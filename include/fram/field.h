@@ -43,6 +43,8 @@ typedef struct fram_field_definition {
     double simplify;      /* largest distance by which an outline may change [m]; default 0: not at all */
     fram_field_bad bad;   /* default FRAM_FIELD_REFUSE */
     double smallest_area; /* smaller floes and cut pieces are left out [m2]; default 0 */
+    bool degrees;         /* the file holds longitudes and latitudes (WGS 84), which are laid flat about the centre of
+                             all rings; that goes to `offset`, with y to the north; scale must be 1; default false */
 } fram_field_definition;
 FRAM_API void fram_field_default(fram_field_definition *definition);
 /* From GeoJSON, WKT (POLYGON and MULTIPOLYGON) or plain lines of x and y with a blank line after each outline, told
@@ -80,6 +82,7 @@ typedef struct fram_field_summary {
     /* Floes by the diameter of the circle of equal area: bin[i] holds those over bin_edge[i] up to bin_edge[i+1]. */
     double bin_edge[FRAM_FIELD_BINS + 1]; /* [m] */
     int bin[FRAM_FIELD_BINS];
+    int passed_over; /* features of a file that say they are no ice: kind "vessel" or "wall", as exports write them */
 } fram_field_summary;
 FRAM_API void fram_field_summary_get(const fram_field *field, fram_field_summary *summary);
 

@@ -76,6 +76,7 @@ fram_status field_describe(fram_field *f, overlay *plane, const char *name, fram
         .overlaps = m->overlaps,
         .overlap_area = m->overlap_area,
         .overlap_width = m->overlap_width,
+        .passed_over = f->source.passed_over,
         .overlap_features = {feature_of(f, m->overlap_pair[0]), feature_of(f, m->overlap_pair[1])},
     };
     for (int32_t i = 0; i < f->floes.notes.count; i++)
@@ -92,6 +93,7 @@ static fram_status make(fram_field *f, overlay *plane, const char *path, fram_er
     context *ctx = &f->context->inner;
     const fram_field_definition *d = &f->made;
     const import_options options = {.name = path,
+                                    .degrees = d->degrees,
                                     .scale = d->scale,
                                     .centre = d->centre,
                                     .offset = {d->offset[0], d->offset[1]},

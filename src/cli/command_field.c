@@ -9,6 +9,8 @@ static int read_words(const command_row *self, field_words *w, common_options *c
 {
     const option_row rows[] = {
         {"--scale", NULL, OPTION_REAL, &w->field.scale, "S", "lengths of the file times this are metres, 1"},
+        {"--degrees", NULL, OPTION_FLAG, &w->field.degrees, NULL,
+         "the file holds longitude and latitude; lay them flat about the centre of the field"},
         {"--centre", NULL, OPTION_FLAG, &w->field.centre, NULL, "put the centre of the field at (x, y) = (0, 0)"},
         {"--x", NULL, OPTION_REAL, &w->field.offset[0], "X", "move the field by this [m], 0"},
         {"--y", NULL, OPTION_REAL, &w->field.offset[1], "Y", "move the field by this [m], 0"},
@@ -83,6 +85,8 @@ static const char *misplaced_option(const field_words *w)
         return w->overrides.count > 0 ? "--set" : NULL;
     if (f->scale != 1)
         return "--scale";
+    if (f->degrees)
+        return "--degrees";
     if (f->centre)
         return "--centre";
     if (f->offset[0] != 0 || f->offset[1] != 0)

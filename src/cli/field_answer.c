@@ -38,6 +38,8 @@ static void print_summary(const field_words *w, const fram_field_summary *s)
         printf("  no overlaps\n");
     if (!w->scenario)
         printf("  left out: %d, repaired: %d\n", s->dropped, s->repaired);
+    if (s->passed_over > 0)
+        printf("  passed over: %d features of kind vessel or wall, which are no ice\n", s->passed_over);
 }
 
 static void print_windows(const field_words *w, const fram_field *field)
@@ -166,6 +168,7 @@ static void print_json(const field_words *w, const fram_field *field, const fram
     json j = json_begin();
     json_text(&j, "field", w->path);
     json_integer(&j, "rings", s->rings);
+    json_integer(&j, "passed_over", s->passed_over);
     json_integer(&j, "floes", s->floes);
     json_real(&j, "area_m2", s->area);
     json_real(&j, "concentration", s->concentration);

@@ -1,3 +1,4 @@
+#include "ice/import_frame.h"
 #include "ice/import_parts.h"
 
 #include <math.h>
@@ -48,7 +49,7 @@ typedef struct importing {
     overlay *plane;
     const import_rings *rings;
     const import_options *options;
-    vec2 shift; /* added after scaling [m] */
+    import_frame frame;
     import_field *out;
     fram_error *error;
     int32_t ring;      /* at work */
@@ -96,7 +97,7 @@ static fram_status place_ring(importing *m, polygon p)
 {
     array_clear(&m->vertex);
     for (int32_t k = 0; k < p.count; k++) {
-        vec2 v = vec2_add(vec2_scale(p.vertex[k], m->options->scale), m->shift);
+        vec2 v = import_frame_place(&m->frame, p.vertex[k]);
         if (!(fabs(v.x) <= COORDINATE_MOST && fabs(v.y) <= COORDINATE_MOST))
             return refuse(m, "reaches farther than 1e9 m from the origin", v);
         vec2 *last = m->vertex.count > 0 ? &m->vertex.data[m->vertex.count - 1] : NULL;
@@ -259,14 +260,6 @@ static fram_status import_ring(importing *m)
 
 /* ---- all rings ---- */
 
-static vec2 shift_of(const import_rings *rings, const import_options *o)
-{
-    if (!o->centre || rings->rings.vertex.count == 0)
-        return o->offset;
-    box2 box = polygon_bounds((polygon){rings->rings.vertex.data, rings->rings.vertex.count});
-    return vec2_sub(o->offset, vec2_scale(vec2_add(box.lo, box.hi), 0.5 * o->scale));
-}
-
 static fram_status refuse_empty(const importing *m)
 {
     return error_set(m->error, FRAM_ERROR_INPUT, m->options->name, 0, NULL,
@@ -278,14 +271,8 @@ static fram_status refuse_empty(const importing *m)
 fram_status import_field_make(context *ctx, overlay *o, const import_rings *rings, const import_options *options,
                               import_field *out, fram_error *error)
 {
-    importing m = {.ctx = ctx,
-                   .plane = o,
-                   .rings = rings,
-                   .options = options,
-                   .shift = shift_of(rings, options),
-                   .out = out,
-                   .error = error};
-    fram_status status = FRAM_OK;
+    importing m = {.ctx = ctx, .plane = o, .rings = rings, .options = options, .out = out, .error = error};
+    fram_status status = import_frame_make(rings, options, &m.frame, error);
     for (; status == FRAM_OK && m.ring < rings->place.count; m.ring++) {
         status = work_continue(ctx, "looking at the outlines", m.ring, rings->place.count, error);
         if (status == FRAM_OK)

@@ -1,6 +1,7 @@
 /* Ice fields that were observed: rings as somebody else outlined them become sound floe outlines, moved, cut to a
    domain, simplified, and kept clear of a vessel, with a record of everything that was refused, left out or mended.
-   Knows outlines and where they were written; must not know files, bodies or materials. */
+   Knows outlines and where they were written; must not know files, bodies or materials. One module with import_frame
+   and import_parts. */
 #ifndef ICE_IMPORT_H
 #define ICE_IMPORT_H
 
@@ -22,6 +23,7 @@ void import_place_name(const import_place *p, char out[IMPORT_NAME_SIZE]);
 typedef struct import_rings {
     polygon_list rings;
     ARRAY(import_place) place;
+    int32_t passed_over; /* features that say they are no ice */
 } import_rings;
 void import_rings_free(context *ctx, import_rings *r);
 
@@ -30,12 +32,14 @@ typedef enum import_bad { IMPORT_REFUSE = 0, IMPORT_DROP, IMPORT_REPAIR } import
 
 typedef struct import_options {
     const char *name; /* of the file, for errors */
-    double scale;     /* lengths of the rings times this are metres; > 0 */
-    bool centre;      /* the centre of the bounds of all rings goes to `offset`, instead of their origin */
-    vec2 offset;      /* [m], added after scaling */
-    bool crop;        /* floes are cut at the edge of `domain` */
-    box2 domain;      /* [m] */
-    double simplify;  /* largest distance by which an outline may change [m]; 0: not at all */
+    bool degrees; /* the rings are longitudes and latitudes on WGS 84 [deg], to be projected about their centre, which
+                     goes to `offset`, with y to the north; scale must be 1 */
+    double scale; /* lengths of the rings times this are metres; > 0 */
+    bool centre;  /* the centre of the bounds of all rings goes to `offset`, instead of their origin */
+    vec2 offset;  /* [m], added after scaling */
+    bool crop;    /* floes are cut at the edge of `domain` */
+    box2 domain;  /* [m] */
+    double simplify; /* largest distance by which an outline may change [m]; 0: not at all */
     import_bad bad;
     double smallest_area; /* floes and cut pieces under it are left out [m2] */
     const polygon_list

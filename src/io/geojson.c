@@ -18,6 +18,7 @@ typedef struct reading {
     int32_t feature, polygon; /* of the ring that is read, from 1; feature 0: not in one yet */
     int32_t features;
     double thickness;
+    bool is_ice;                /* the feature */
     char key[IMPORT_NAME_SIZE]; /* for errors */
 } reading;
 
@@ -182,7 +183,23 @@ static fram_status read_polygons(reading *r, json_walk *w)
 
 /* ---- features ---- */
 
-/* The thickness of a feature; its other properties are its own business. */
+/* What an export of Fram writes beside floes. */
+static bool is_no_ice(const char *kind) { return strcmp(kind, "vessel") == 0 || strcmp(kind, "wall") == 0; }
+
+static fram_status read_kind(reading *r, json_walk *w)
+{
+    char text[16];
+    json_kind kind;
+    fram_status status = json_walk_kind(w, &kind, r->error);
+    if (status != FRAM_OK || kind != JSON_STRING)
+        return status == FRAM_OK ? json_walk_skip(w, r->error) : status;
+    status = json_walk_text(w, text, sizeof text, r->error);
+    if (status == FRAM_OK)
+        r->is_ice = !is_no_ice(text);
+    return status;
+}
+
+/* The kind and thickness of a feature; its other properties are its own business. */
 static fram_status read_properties(reading *r, json_walk w)
 {
     char key[16];
@@ -198,6 +215,10 @@ static fram_status read_properties(reading *r, json_walk w)
         status = json_walk_member(&w, first, key, sizeof key, &more, r->error);
         if (status != FRAM_OK || !more)
             break;
+        if (strcmp(key, "kind") == 0) {
+            status = read_kind(r, &w);
+            continue;
+        }
         bool wanted = strcmp(key, "thickness") == 0;
         if (wanted)
             status = json_walk_kind(&w, &kind, r->error);
@@ -263,6 +284,7 @@ static fram_status begin_feature(reading *r, const json_walk *w)
     r->feature = ++r->features;
     r->polygon = 0;
     r->thickness = (double)NAN;
+    r->is_ice = true;
     snprintf(r->key, sizeof r->key, "feature %d", (int)r->feature);
     return FRAM_OK;
 }
@@ -278,6 +300,10 @@ static fram_status read_feature(reading *r, json_walk begin, const object *o)
     if (!geometry.at)
         return json_walk_refuse(&begin, r->key, r->error, "the Feature has no member \"geometry\"");
     fram_status status = read_properties(r, o->properties);
+    if (status == FRAM_OK && !r->is_ice) {
+        r->out->passed_over++;
+        return FRAM_OK;
+    }
     if (status == FRAM_OK)
         status = json_walk_kind(&geometry, &kind, r->error);
     if (status == FRAM_OK && kind != JSON_NULL)

@@ -1,6 +1,7 @@
 /* GeoJSON (RFC 7946) as rings with their places, and floes as GeoJSON.  Coordinates are planar lengths, not degrees.
    Read are FeatureCollection, Feature, GeometryCollection, Polygon and MultiPolygon; of the properties only `thickness`
-   [m], which may be null; heights (third coordinates) and all other members are passed over.  Knows the format; whether
+   [m], which may be null, and `kind`: features of kind "vessel" or "wall", as an export writes them, are no ice and
+   passed over; heights (third coordinates) and all other members are passed over.  Knows the format; whether
    a ring is sound is asked of ice/import.h. */
 #ifndef IO_GEOJSON_H
 #define IO_GEOJSON_H

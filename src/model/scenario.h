@@ -25,6 +25,7 @@ typedef enum hydrodynamics_source {
 } hydrodynamics_source;
 typedef enum matrix_axes { MATRIX_AXES_UP = 0, MATRIX_AXES_DOWN } matrix_axes;
 /* What closes the domain. */
+typedef enum file_coordinates { FILE_PLANAR = 0, FILE_DEGREES } file_coordinates;
 typedef enum domain_boundary { DOMAIN_WALLS = 0, DOMAIN_OPEN, DOMAIN_FEEDING } domain_boundary;
 
 /* Text is held in place, so that a scenario is plain data; longer text is refused. */

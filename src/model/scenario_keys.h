@@ -130,6 +130,9 @@
     X(file, PATH(""), "",                                                                                             \
       "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "     \
       "before ice.thickness")                                                                                         \
+    X(file_coordinates, CHOICE(file_coordinates, FILE_PLANAR, "planar degrees"), "",                                  \
+      "file: planar: lengths; degrees: longitude and latitude (WGS 84), laid flat about the centre of all "           \
+      "floes, which goes to file_x, file_y, with y to the north")                                                     \
     X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                         \
     X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
     X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \

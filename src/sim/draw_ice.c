@@ -59,6 +59,9 @@ static fram_status draw_voronoi(context *ctx, const scenario *s, world *w, const
 
 static void log_notes(context *ctx, const import_rings *rings, const import_field *field)
 {
+    if (rings->passed_over > 0)
+        log_write(ctx, LOG_INFO, "%d features of kind vessel or wall are no ice and were passed over",
+                  (int)rings->passed_over);
     for (int32_t i = 0; i < field->notes.count; i++) {
         const import_note *n = &field->notes.data[i];
         char name[IMPORT_NAME_SIZE];
@@ -109,6 +112,7 @@ static fram_status draw_file(context *ctx, const scenario *s, world *w, const po
     import_rings rings = {0};
     import_field field = {0};
     const import_options options = {.name = path,
+                                    .degrees = s->ice.file_coordinates == FILE_DEGREES,
                                     .scale = s->ice.file_scale,
                                     .centre = s->ice.file_centre,
                                     .offset = {s->ice.file_x, s->ice.file_y},

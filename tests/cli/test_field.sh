@@ -225,4 +225,67 @@ printf 'diameter_min[m],diameter_max[m],floes\n4,6,10\n7,12,5\n' >sizes.csv
 expect 2 "$FRAM" field packed.yaml
 says "sizes.csv:3: diameter_min: each bin must begin where the one before ends" err
 
+# Degrees: a floe of a hundredth of a degree each way at 75 N, and one across the date line, both of 1116.93 m (a
+# degree of the meridian there is 111,661 m) by 289.66 m (28,902 m a degree of longitude, Bowring's series): told apart
+# from lengths, laid flat on request, to a part in ten thousand of the area on the ellipsoid.
+for at in 20 179.995; do
+    python3 - "$at" <<'END' >degrees.geojson
+import json, sys
+x, y, d = float(sys.argv[1]), 75.0, 0.01
+wrap = lambda v: v - 360 if v > 180 else v
+ring = [[wrap(a), b] for a, b in ((x, y), (x + d, y), (x + d, y + d), (x, y + d), (x, y))]
+print(json.dumps({"type": "Polygon", "coordinates": [ring]}))
+END
+    if [ "$at" = 20 ]; then
+        expect 2 "$FRAM" field degrees.geojson
+        says "look like degrees" err
+    fi
+    expect 0 "$FRAM" field degrees.geojson --degrees --json
+    python3 - "$(value 'j["area_m2"]')" <<'END' || fail "area in degrees at $at"
+import math, sys
+a, f = 6378137.0, 1 / 298.257223563
+e2, step = f * (2 - f), math.radians(0.01)
+# Area of a strip of the ellipsoid between two parallels, by its closed form.
+def q(p):
+    e, s = math.sqrt(e2), math.sin(p)
+    return (1 - e2) * a * a / 2 * (s / (1 - e2 * s * s) + math.atanh(e * s) / e)
+area = step * (q(math.radians(75.01)) - q(math.radians(75)))
+sys.exit(abs(float(sys.argv[1]) / area - 1) > 1e-6)
+END
+done
+expect 2 "$FRAM" field floes.geojson --bad drop --degrees --scale 2
+says "have no scale" err
+sed 's/40.1/400.1/g' floes.geojson >far.geojson
+expect 2 "$FRAM" field far.geojson --bad drop --degrees
+says "feature 3, polygon 1, ring 1: expected longitudes from -360 to 360" err
+expect 2 "$FRAM" field floes.geojson --bad drop --degrees
+says "farther than 1000 km from its centre" err
+cat >degrees.yaml <<'END'
+run: {duration: 1}
+vessel: {present: false}
+ice: {source: file, file: degrees.geojson, file_coordinates: degrees, file_x: 100, file_y: -20, thickness: 0.5}
+domain: {x_min: -2000, x_max: 2000, y_min: -2000, y_max: 2000, boundary: open}
+END
+expect 0 "$FRAM" field degrees.yaml --json
+same "$(value '[round(0.5 * (j["bounds_m"][k] + j["bounds_m"][k + 2])) for k in (0, 1)]')" "[100, -20]" \
+    "centre of a field in degrees"
+expect 2 "$FRAM" field degrees.yaml --set ice.file_coordinates=planar
+expect 2 "$FRAM" field degrees.yaml --set ice.file_coordinates=polar
+says "ice.file_coordinates" err
+
+# What an export says is no ice, is none.
+cat >kinds.geojson <<'JSON'
+{"type":"FeatureCollection","features":[
+{"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]]]},
+ "properties":{"kind":"floe"}},
+{"type":"Feature","properties":{"kind":"vessel"},
+ "geometry":{"type":"Polygon","coordinates":[[[20,0],[30,10],[30,0],[20,10],[20,0]]]}},
+{"type":"Feature","properties":{"kind":"wall"},"geometry":{"type":"Polygon","coordinates":[]}},
+{"type":"Feature","properties":{"kind":null},
+ "geometry":{"type":"Polygon","coordinates":[[[40,0],[50,0],[45,9],[40,0]]]}}
+]}
+JSON
+expect 0 "$FRAM" field kinds.geojson --json
+same "$(value 'j["rings"], j["floes"], j["passed_over"]')" "2 2 2" "floes among other kinds"
+
 finish "fram field: as it should be"

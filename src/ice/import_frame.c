@@ -1,0 +1,110 @@
+#include "ice/import_frame.h"
+
+#include <math.h>
+
+/* Lengths are too long by (r / 2R)^2, 0.6 % so far from the centre [m]. */
+#define REACH_MOST 1e6
+/* Ice is at high latitudes, and a floe of 50 km covers less than a square degree: no tank or planar field is so far
+   from its origin with floes so small [deg]. */
+#define LATITUDE_LEAST 40
+#define FLOE_MOST 0.5
+
+static polygon all_vertices(const import_rings *r) { return (polygon){r->rings.vertex.data, r->rings.vertex.count}; }
+
+static fram_status fault(const import_rings *r, const import_options *o, int32_t ring, fram_error *error,
+                         const char *what)
+{
+    char key[IMPORT_NAME_SIZE] = "";
+    const import_place *place = &r->place.data[ring];
+    import_place_name(place, key);
+    error_set(error, FRAM_ERROR_INPUT, o->name, (int)place->line, key, "%s", what);
+    if (error)
+        error->column = (int)place->column;
+    return FRAM_ERROR_INPUT;
+}
+
+/* Longitudes of one field differ by half a turn at most: those behind the date line are taken a turn on. */
+static double near(double longitude, double to) { return longitude - 360 * floor((longitude - to) / 360 + 0.5); }
+
+/* Around vertices in degrees. */
+static box2 box_of(polygon p)
+{
+    double first = p.vertex[0].x;
+    box2 box = {p.vertex[0], p.vertex[0]};
+    for (int32_t i = 1; i < p.count; i++) {
+        double x = near(p.vertex[i].x, first), y = p.vertex[i].y;
+        box.lo = vec2_make(fmin(box.lo.x, x), fmin(box.lo.y, y));
+        box.hi = vec2_make(fmax(box.hi.x, x), fmax(box.hi.y, y));
+    }
+    return box;
+}
+
+static bool on_earth(polygon p)
+{
+    for (int32_t i = 0; i < p.count; i++)
+        if (!(fabs(p.vertex[i].x) <= 360 && fabs(p.vertex[i].y) <= 90))
+            return false;
+    return true;
+}
+
+static bool look_like_degrees(const import_rings *r)
+{
+    for (int32_t i = 0; i < r->place.count; i++) {
+        polygon p = polygon_list_get(&r->rings, i);
+        if (p.count == 0)
+            continue;
+        box2 box = box_of(p);
+        bool icy = box.lo.y >= LATITUDE_LEAST || box.hi.y <= -LATITUDE_LEAST;
+        if (!on_earth(p) || !icy || (box.hi.x - box.lo.x) * (box.hi.y - box.lo.y) > FLOE_MOST * FLOE_MOST)
+            return false;
+    }
+    return r->rings.vertex.count > 0;
+}
+
+static fram_status project(const import_rings *r, const import_options *o, import_frame *out, fram_error *error)
+{
+    if (o->scale != 1)
+        return error_set(error, FRAM_ERROR_INPUT, o->name, 0, NULL,
+                         "coordinates in degrees have no scale: expected a scale of 1, found %g", o->scale);
+    for (int32_t i = 0; i < r->place.count; i++) {
+        if (!on_earth(polygon_list_get(&r->rings, i)))
+            return fault(r, o, i, error,
+                         "expected longitudes from -360 to 360 and latitudes from -90 to 90 degrees, for the "
+                         "coordinates are to be degrees");
+    }
+    if (r->rings.vertex.count == 0)
+        return FRAM_OK;
+    box2 box = box_of(all_vertices(r));
+    out->projection = stereographic_make(ELLIPSOID_WGS84, vec2_scale(vec2_add(box.lo, box.hi), 0.5), 1);
+    for (int32_t i = 0; i < r->place.count; i++) {
+        polygon p = polygon_list_get(&r->rings, i);
+        for (int32_t k = 0; k < p.count; k++)
+            if (!(vec2_length(stereographic_project(&out->projection, p.vertex[k])) <= REACH_MOST))
+                return fault(r, o, i, error,
+                             "the field reaches farther than 1000 km from its centre, where it cannot be laid flat; "
+                             "cut it, or project it before");
+    }
+    return FRAM_OK;
+}
+
+fram_status import_frame_make(const import_rings *r, const import_options *o, import_frame *out, fram_error *error)
+{
+    *out = (import_frame){.degrees = o->degrees, .scale = o->scale, .shift = o->offset};
+    if (o->degrees)
+        return project(r, o, out, error);
+    if (o->scale == 1 && look_like_degrees(r))
+        return fault(r, o, 0, error,
+                     "the coordinates look like degrees of longitude and latitude, and lengths are expected: have them "
+                     "projected as degrees, or give the scale that makes metres of them");
+    if (o->centre && r->rings.vertex.count > 0) {
+        box2 box = polygon_bounds(all_vertices(r));
+        out->shift = vec2_sub(o->offset, vec2_scale(vec2_add(box.lo, box.hi), 0.5 * o->scale));
+    }
+    return FRAM_OK;
+}
+
+vec2 import_frame_place(const import_frame *f, vec2 position)
+{
+    vec2 metres = f->degrees ? stereographic_project(&f->projection, position) : vec2_scale(position, f->scale);
+    return vec2_add(metres, f->shift);
+}
