@@ -55,6 +55,9 @@ typedef struct fram_ice_edge {
     double gravity;           /* [m/s2]; default 9.81 */
     int wedges;               /* N; default 3 */
     bool thick_plate_radius;  /* small loads act as on a radius that grows with the thickness; default true */
+    double included_angle; /* of the ice at the contact, up to 2 pi: a corner carries less [rad]; default pi, an edge */
+    double contact_width;  /* along the edge: a strip breaks off between the end wedges [m]; default 0: wedges alone */
+    double ice_length;     /* of the ice behind a wide contact [m]; default 0: so long that its end does not matter */
 } fram_ice_edge;
 FRAM_API void fram_ice_edge_default(fram_ice_edge *load);
 
@@ -65,9 +68,11 @@ typedef struct fram_ice_breaking {
     double radial_stress;         /* sigma_yy: the first, radial crack opens when it meets sigma_f [Pa] */
     double wedge_stress;          /* sigma_wedge_max: the wedges break off when it meets sigma_f [Pa] */
     double radial_capacity;       /* P at which the radial crack opens [N] */
-    double wedge_capacity;        /* P at which the wedges break off [N] */
+    double wedge_capacity;        /* P at which the wedges break off, with the strip between them [N] */
     double breaking_radius;       /* R_bending [m] */
     double crushing_force;        /* the contact area at the crushing strength [N] */
+    double strip_capacity;        /* what of wedge_capacity the strip carries [N] */
+    double strip_length;          /* from the edge to where the strip breaks [m]; 0 without contact_width */
 } fram_ice_breaking;
 /* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
 FRAM_API fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error);

@@ -2,6 +2,7 @@
 #include "fram/ice.h"
 
 #include "api/arguments.h"
+#include "base/transcendental.h"
 #include "ice/fracture.h"
 #include "ice/sheet.h"
 #include "ice/wedge.h"
@@ -66,7 +67,8 @@ void fram_ice_edge_default(fram_ice_edge *load)
                             .water_density = 1025,
                             .gravity = 9.81,
                             .wedges = 3,
-                            .thick_plate_radius = true};
+                            .thick_plate_radius = true,
+                            .included_angle = PI};
 }
 
 static fram_status check_load(const fram_ice_edge *l, fram_error *error)
@@ -82,7 +84,10 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
                {"flexural_strength", l->flexural_strength, true},
                {"crushing_strength", l->crushing_strength, true},
                {"water_density", l->water_density, true},
-               {"gravity", l->gravity, true}};
+               {"gravity", l->gravity, true},
+               {"included_angle", l->included_angle, true},
+               {"contact_width", l->contact_width, false},
+               {"ice_length", l->ice_length, false}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         bool good = (row[i].positive ? row[i].value > 0 : row[i].value >= 0) && isfinite(row[i].value);
         fram_status status =
@@ -91,6 +96,9 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
             return status;
     }
     fram_status status = need_ratio(l->poisson_ratio, error);
+    if (status == FRAM_OK)
+        status = need(l->included_angle <= radians(360), "included_angle", "at most 2 pi radians (360 degrees)",
+                      l->included_angle, error);
     return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
 }
 
@@ -112,7 +120,9 @@ fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breakin
                            .gravity = load->gravity,
                            .wedges = load->wedges,
                            .thick_plate_radius = load->thick_plate_radius};
-    edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area, EDGE_STRAIGHT);
+    edge_ice edge = {load->included_angle / PI, load->contact_width,
+                     load->ice_length > 0 ? load->ice_length : HUGE_VAL};
+    edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area, edge);
     *breaking = (fram_ice_breaking){.characteristic_length = e.length,
                                     .radial_radius = e.radial_radius,
                                     .wedge_radius = e.wedge_radius,
@@ -121,7 +131,9 @@ fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breakin
                                     .radial_capacity = e.radial_capacity,
                                     .wedge_capacity = e.wedge_capacity,
                                     .breaking_radius = e.breaking_radius,
-                                    .crushing_force = load->contact_area * load->crushing_strength};
+                                    .crushing_force = load->contact_area * load->crushing_strength,
+                                    .strip_capacity = e.strip_capacity,
+                                    .strip_length = e.strip_length};
     return FRAM_OK;
 }
 

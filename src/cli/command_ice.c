@@ -16,6 +16,7 @@ typedef struct ice_words {
 
 static int read_words(const command_row *self, ice_words *w, common_options *common, int argc, char **argv)
 {
+    double angle = 180;
     const option_row rows[] = {
         {"--a-over-l", NULL, OPTION_REAL, &w->a_over_l, "X",
          "wedge, sheet: radius of the load over the characteristic length"},
@@ -29,6 +30,12 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
         {"--water-density", NULL, OPTION_REAL, &w->load.water_density, "RHO", "break: [kg/m3], 1025"},
         {"--gravity", NULL, OPTION_REAL, &w->load.gravity, "G", "break: [m/s2], 9.81"},
         {"--wedges", NULL, OPTION_INTEGER, &w->load.wedges, "N", "break: wedges that share the load, 3"},
+        {"--included-angle", NULL, OPTION_REAL, &angle, "DEG",
+         "break: of the ice at the contact [deg], 180: a straight edge"},
+        {"--contact-width", NULL, OPTION_REAL, &w->load.contact_width, "W",
+         "break: of the contact along the edge [m], 0: narrow"},
+        {"--ice-length", NULL, OPTION_REAL, &w->load.ice_length, "L",
+         "break: of the ice behind a wide contact [m], 0: without end"},
         {"--thin-plate", NULL, OPTION_FLAG, &w->thin, NULL, "break: small loads keep their own radius"},
         {"--toughness", NULL, OPTION_REAL, &w->floe.toughness, "K", "split: K_IC [Pa m^0.5], 150e3"},
         {"--length", NULL, OPTION_REAL, &w->floe.length, "L", "split: of the floe along the crack [m], 50"},
@@ -38,6 +45,7 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
     w->floe.thickness = w->load.thickness;
+    w->load.included_angle = angle * (3.14159265358979323846 / 180);
     return code;
 }
 
@@ -112,7 +120,9 @@ static int answer_break(const ice_words *w, const common_options *common)
         {"radial_stress", b.radial_stress, "Pa", "along the edge; the radial crack opens at the flexural strength"},
         {"wedge_stress", b.wedge_stress, "Pa", "in the wedges; they break off at the flexural strength"},
         {"radial_capacity", b.radial_capacity, "N", "load at which the radial crack opens"},
-        {"wedge_capacity", b.wedge_capacity, "N", "load at which the wedges break off"},
+        {"wedge_capacity", b.wedge_capacity, "N", "load at which the wedges break off, with the strip between them"},
+        {"strip_capacity", b.strip_capacity, "N", "what of it the strip under a wide contact carries"},
+        {"strip_length", b.strip_length, "m", "from the edge to where that strip breaks"},
         {"breaking_radius", b.breaking_radius, "m", "from the edge to the circumferential crack"},
         {"crushing_force", b.crushing_force, "N", "contact area at the crushing strength"},
     };

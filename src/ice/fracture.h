@@ -112,9 +112,10 @@ double fracture_loaded_radius(double area, double share, double thickness, bool 
 typedef struct edge_ice {
     double wedges; /* ice of the wedges over that of N whole ones: 1 on a straight edge, less at a corner [1] */
     double strip;  /* width of the ice between the wedges, for a load that is wide along the edge [m] */
+    double length; /* of that ice across the edge, which may be infinite [m] */
 } edge_ice;
 /* A straight edge under a narrow load: Nevel's N wedges. */
-#define EDGE_STRAIGHT ((edge_ice){1, 0})
+#define EDGE_STRAIGHT ((edge_ice){1, 0, HUGE_VAL})
 
 /* What a load P on a horizontal area A_h does to the edge of a floe. */
 typedef struct edge_stress {
@@ -123,9 +124,13 @@ typedef struct edge_stress {
     double radial_stress, wedge_stress;     /* sigma_yy, sigma_wedge_max [Pa] */
     double radial_capacity, wedge_capacity; /* loads P that make them equal to the flexural strength [N] */
     double breaking_radius;                 /* R_bending [m] */
+    double strip_capacity;                  /* what of wedge_capacity the strip carries [N] */
+    double strip_length;                    /* from the edge to where the strip breaks [m]; 0 without a strip */
 } edge_stress;
 /* All wedges have the deflection of their tips in common, so each carries by its width and all reach the strength
-   together (Nevel 1961). */
+   together (Nevel 1961).  Under a wide load a strip (ice/strip.h) breaks off between the end wedges: each part carries
+   what its ice bears, and stands on the contact area that crushes at that share of the load
+   (docs/decisions/0128). */
 edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
                                  double load, double horizontal_area, edge_ice edge);
 

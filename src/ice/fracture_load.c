@@ -3,6 +3,7 @@
 
 #include "base/transcendental.h"
 #include "ice/sheet.h"
+#include "ice/strip.h"
 #include "ice/wedge.h"
 
 #include <stdlib.h>
@@ -27,6 +28,8 @@ double fracture_loaded_radius(double area, double share, double thickness, bool 
 
 /* Less ice than this part of a straight edge's is rounding. */
 static const double LEAST_ICE = 1e-6;
+/* Turns in which the area under wedges and strip is shared by what each carries: C changes little with the area. */
+enum { SHARING_TURNS = 4 };
 
 edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_material *ice, double thickness,
                                  double load, double horizontal_area, edge_ice edge)
@@ -35,14 +38,27 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
     edge_stress s = {.length = ice_characteristic_length(ice, h, settings->water_density, settings->gravity)};
     width *= fmax(edge.wedges, LEAST_ICE);
     s.radial_radius = fracture_loaded_radius(horizontal_area, PI / 2, h, settings->thick_plate_radius);
-    s.wedge_radius = fracture_loaded_radius(horizontal_area, width / 2, h, settings->thick_plate_radius);
     double radial = sheet_stress(fmax(s.radial_radius / s.length, POINT_LOAD), ice->poisson_ratio);
-    wedge w = wedge_solve(s.wedge_radius / s.length);
     s.radial_stress = radial * load / (h * h);
-    s.wedge_stress = 6 * load / (width * h * h) * w.curvature;
     s.radial_capacity = ice->flexural_strength * h * h / radial;
-    s.wedge_capacity = ice->flexural_strength * h * h * width / 6 * w.capacity;
-    s.breaking_radius = s.length * w.x_max;
+    double moment = ice->flexural_strength * h * h / 6, part = 1;
+    if (edge.strip > 0) {
+        strip b = strip_solve(edge.length / s.length);
+        s.strip_length = s.length * b.x_max;
+        s.strip_capacity = moment * edge.strip / (b.moment * s.length);
+        /* Nevel's C is at least 1, and grows slowly with the area that the wedges stand on. */
+        part = moment * width / (moment * width + s.strip_capacity);
+    }
+    for (int turn = 0; turn < (edge.strip > 0 ? SHARING_TURNS : 1); turn++) {
+        s.wedge_radius = fracture_loaded_radius(part * horizontal_area, width / 2, h, settings->thick_plate_radius);
+        wedge w = wedge_solve(s.wedge_radius / s.length);
+        s.wedge_capacity = moment * width * w.capacity + s.strip_capacity;
+        s.wedge_stress = 6 * load / (width * h * h) * w.curvature;
+        if (edge.strip > 0)
+            s.wedge_stress = ice->flexural_strength * load / s.wedge_capacity;
+        s.breaking_radius = s.length * w.x_max;
+        part = moment * width * w.capacity / s.wedge_capacity;
+    }
     return s;
 }
 

@@ -77,6 +77,59 @@ START_TEST(wrong_loads)
 }
 END_TEST
 
+/* A corner carries in proportion to its angle, when the load stands on the same tip. */
+START_TEST(corners)
+{
+    fram_ice_edge load;
+    fram_ice_breaking b;
+    fram_error e = {0};
+    fram_ice_edge_default(&load);
+    assert_ok(fram_ice_break(&load, &b, &e), e);
+    double edge = b.wedge_capacity, pi = load.included_angle;
+    for (int i = 1; i < 9; i++) {
+        load.included_angle = i * pi / 6;
+        assert_ok(fram_ice_break(&load, &b, &e), e);
+        assert_relative(b.wedge_capacity, edge * i / 6, 1e-12);
+    }
+    load.included_angle = 7;
+    assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_INPUT, "2 pi");
+    ck_assert_str_eq(e.key, "included_angle");
+    load.included_angle = 0;
+    assert_fails(fram_ice_break(&load, &b, &e), e, FRAM_ERROR_INPUT, "positive");
+}
+END_TEST
+
+/* Plates of 0, 2, 10, 20 and 50 m at 45 degrees, frictionless: the load at which the area that it crushes breaks off
+   (docs/oracles.md, section 1). */
+START_TEST(wide_contacts)
+{
+    static const double WIDTHS[] = {0, 2, 10, 20, 50}, LOADS[] = {311.743e3, 337e3, 437e3, 562e3, 937e3};
+    for (int i = 0; i < 5; i++) {
+        fram_ice_edge load;
+        fram_ice_breaking b = {0};
+        fram_error e = {0};
+        fram_ice_edge_default(&load);
+        load.thick_plate_radius = false;
+        load.contact_width = WIDTHS[i];
+        b.wedge_capacity = 300e3;
+        for (int turn = 0; turn < 30; turn++) {
+            load.contact_area = b.wedge_capacity / load.crushing_strength;
+            assert_ok(fram_ice_break(&load, &b, &e), e);
+        }
+        assert_relative(b.wedge_capacity, LOADS[i], i ? 1.2e-3 : 1e-5);
+        assert_relative(b.wedge_radius, 0.299987, 1e-5); /* the end wedges stand on what they would crush alone */
+        assert_relative(b.strip_capacity, 0.5e6 / 6 * WIDTHS[i] / (0.455938127766 * b.characteristic_length), 1e-9);
+        assert_absolute(b.strip_length, i ? 1.110720734540 * b.characteristic_length : 0, 1e-8);
+        load.ice_length = 1;
+        assert_ok(fram_ice_break(&load, &b, &e), e);
+        assert_relative(b.strip_capacity, 0.5e6 / 6 * WIDTHS[i] * 27 / 4, 1e-5);
+        load.force = b.wedge_capacity;
+        assert_ok(fram_ice_break(&load, &b, &e), e);
+        assert_relative(b.wedge_stress, load.flexural_strength, 1e-12);
+    }
+}
+END_TEST
+
 START_TEST(splitting)
 {
     fram_ice_floe floe;
@@ -107,4 +160,4 @@ START_TEST(splitting)
 }
 END_TEST
 
-TEST_MAIN("api_ice", splitting, wedge, sheet, load_on_an_edge, wrong_loads)
+TEST_MAIN("api_ice", corners, wide_contacts, splitting, wedge, sheet, load_on_an_edge, wrong_loads)

@@ -20,6 +20,22 @@ near 'j["breaking_radius"]' 4.14196 1e-5 "radius"
 expect 0 "$FRAM" ice break --thickness 0.8
 says breaking_radius out
 
+expect 0 "$FRAM" ice break --thin-plate --json
+near 'j["wedge_capacity"]' '0.5e6 / 6 * 2 * 3**0.5' 1.1e-2 "an edge, a point"
+edge=$(tail -n 1 out | python3 -c 'import json, sys; print(json.load(sys.stdin)["wedge_capacity"])')
+expect 0 "$FRAM" ice break --thin-plate --included-angle 60 --json
+near 'j["wedge_capacity"]' "$edge / 3" 1e-12 "a corner of 60 degrees"
+expect 0 "$FRAM" ice break --thin-plate --contact-area 0.2185 --contact-width 10 --json
+near 'j["wedge_capacity"]' 437e3 2e-3 "a contact of 10 m"
+near 'j["strip_length"]' '1.11072 * j["characteristic_length"]' 1e-5 "its strip"
+expect 0 "$FRAM" ice break --contact-width 10 --ice-length 1.5 --json
+near 'j["strip_capacity"]' '0.5e6 / 6 * 10 * 27 / 4 / 1.5' 1e-4 "a rigid strip"
+near 'j["strip_length"]' 0.5 1e-4 "where it breaks"
+expect 2 "$FRAM" ice break --included-angle 361
+says included_angle err
+expect 2 "$FRAM" ice break --contact-width -1
+says contact_width err
+
 expect 0 "$FRAM" ice split --length 75 --width 50 --json
 near 'j["factor"]' 0.1540 2e-3 "splitting, width over length 2/3"
 near 'j["splitting_load"]' 'j["factor"] * 150e3 * 75 ** 0.5' 1e-12 "splitting load"
