@@ -106,6 +106,9 @@ bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)
 
+extremes-coverage: build ## how often intervals of extremes hold the truth: 1,000 trials of each sample (an hour)
+	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_extremes_coverage
+
 bench-views: viewer build ## speed of the playback page with 10,000 floes, against its bounds
 	@$(PYTHON) bench/run_playback.py $(BENCH_FLAGS)
 

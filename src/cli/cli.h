@@ -136,6 +136,8 @@ void progress_end(progress_view *view);
 /* --- the commands, one file each --- */
 int command_run(const command_row *self, int argc, char **argv);
 int command_study(const command_row *self, int argc, char **argv);
+int command_extremes(const command_row *self, int argc, char **argv);
+int command_fatigue(const command_row *self, int argc, char **argv);
 int command_check(const command_row *self, int argc, char **argv);
 int command_resume(const command_row *self, int argc, char **argv);
 int command_bench(const command_row *self, int argc, char **argv);

@@ -39,6 +39,17 @@ static const command_row commands[] = {
      "    grid: {ice.thickness: [0.6, 1.1], vessel.speed: [1, 2]}\n"
      "  keep: summary\n",
      command_study},
+    {"extremes", "RUN | FILE.csv...",
+     "the greatest load, tension or offset in three hours or in any time, with its interval",
+     "  fram extremes out/demo --duration 3h                     the load, by all methods\n"
+     "  fram extremes out/a out/b --channel line_tension_max     several runs of one condition\n"
+     "  fram extremes tension.csv --channel T --from 60 --method acer --level 0.9,0.99 --json\n"
+     "  fram extremes out/study/summary.csv --channel load_largest --maxima --block 45s\n",
+     command_extremes},
+    {"fatigue", "RUN | FILE.csv...", "cycles of a load or tension by rainflow counting, and damage-equivalent ranges",
+     "  fram fatigue out/turret --channel line_tension_max --slope 3,5\n"
+     "  fram fatigue tension.csv --channel T --frequency 0.1 -o cycles.csv\n",
+     command_fatigue},
     {"view", "RUN", "make a page that plays a run in a browser, from disk",
      "  fram view out/demo                      writes out/demo/playback.html\n"
      "  fram view out/demo -o demo.html\n",

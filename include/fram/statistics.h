@@ -1,0 +1,119 @@
+/* Statistics of series: the greatest value in a wanted time by the methods of the field, and fatigue.  Series are
+   channels of runs or columns of anybody's CSV files.  What is told has a method, assumptions and an interval, or it is
+   not told, with a sentence that says why. */
+#ifndef FRAM_STATISTICS_H
+#define FRAM_STATISTICS_H
+
+#include "fram/fram.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Where a series is read.  Several files are realizations of one process, as seeds of one condition are. */
+typedef struct fram_series_source {
+    const char *const *files; /* folders of runs, or CSV files with a row of heads, "name" or "name[unit]" */
+    int file_count;           /* 1 to 4096 */
+    const char *channel;      /* NULL: "load" of runs, the magnitude of the horizontal averaged ice force */
+    double from;              /* leave out what is before [s]; NaN: the transient of a run, nothing of a CSV file */
+    double step;              /* between rows of a file without a column `time` [s]; 0: there is one */
+    bool minima;              /* the least value is asked: all is told of the negative values */
+} fram_series_source;
+
+/* What a series is. */
+typedef struct fram_series_facts {
+    int64_t values;
+    double time, step; /* [s] */
+    double mean, deviation, least, greatest;
+    double time_scale; /* integral of the autocorrelation up to its first zero [s] (Bartlett 1946) */
+    char unit[16];
+} fram_series_facts;
+
+/* ---- Extremes ---- */
+
+enum { FRAM_EXTREME_LEVELS = 12, FRAM_EXTREME_METHODS = 6, FRAM_EXTREME_STABILITY = 20 };
+
+typedef struct fram_extremes_definition {
+    size_t size; /* of this struct, set by fram_extremes_default */
+    fram_series_source source;
+    const char *method; /* "acer", "upcrossing", "gumbel", "gev", "pot", "weibull", or "all" (NULL) */
+    bool maxima;        /* the values are maxima of blocks of `block` seconds each, not a series: gumbel, gev */
+    double duration;    /* of which the greatest value is asked, 10800 [s] */
+    double confidence;  /* of the intervals, 0.95 */
+    double block;       /* of block maxima [s]; 0: a fiftieth of the data, at least 20 time scales */
+    double threshold;   /* of peaks and of the first level of rates; NaN: from the 0.95 quantile of the values on,
+                           until clusters keep apart; and the 0.9 quantile */
+    double separation;  /* of independent peaks [s]; 0: 4 time scales */
+    int order;          /* of acer, in values; 0: as many as the separation takes */
+    bool moments;       /* fit by L-moments (Hosking 1990) with a bootstrap, not by likelihood with its profile */
+    double probability[FRAM_EXTREME_LEVELS]; /* that the greatest value stays below a level; 0.5, 0.9, 0.99 */
+    int levels;
+} fram_extremes_definition;
+FRAM_API void fram_extremes_default(fram_extremes_definition *definition);
+
+typedef struct fram_level {
+    double level, low, high; /* low and high: its interval; high may be infinite */
+} fram_level;
+
+typedef struct fram_threshold_fit {
+    double threshold, shape, shape_half, scale_star; /* scale_star: scale - shape x threshold */
+    int peaks;
+} fram_threshold_fit;
+
+typedef struct fram_extreme {
+    const char *method, *interval; /* how the intervals were found */
+    bool answered;                 /* otherwise all levels are NaN, and the note says why */
+    int sample;                    /* maxima, peaks, or exceedances of the first level */
+    int order;
+    double block, threshold, separation;            /* as used; 0 where the method has none */
+    double location, scale, shape;                  /* of the law; the shape is positive for a heavy tail */
+    double tail_q, tail_a, tail_b, tail_c;          /* rate a value = q exp(-a (x - b)^c), of acer and upcrossing */
+    fram_level most_probable;                       /* exceeded once on the average: probability exp(-1) */
+    fram_level level[FRAM_EXTREME_LEVELS];          /* of the probabilities that were asked */
+    fram_threshold_fit fit[FRAM_EXTREME_STABILITY]; /* of pot: what other thresholds say */
+    int fits;
+    char note[600]; /* what speaks against the answer, in sentences; may be "" */
+} fram_extreme;
+
+typedef struct fram_extremes {
+    fram_series_facts series; /* of maxima: of them; time is their number times the block */
+    fram_extreme method[FRAM_EXTREME_METHODS];
+    int methods;
+} fram_extremes;
+/* FRAM_ERROR_INPUT with file, line and channel for what cannot be read.  Data that carry no answer are no error. */
+FRAM_API fram_status fram_extremes_find(fram_context *context, const fram_extremes_definition *definition,
+                                        fram_extremes *result, fram_error *error);
+
+/* ---- Fatigue ---- */
+
+enum { FRAM_SLOPES = 8 };
+
+typedef struct fram_fatigue_definition {
+    size_t size; /* of this struct, set by fram_fatigue_default */
+    fram_series_source source;
+    double slope[FRAM_SLOPES]; /* m of S-N lines; 3, 5 */
+    int slopes;
+    double frequency; /* of the equivalent cycles, 1 [Hz] */
+} fram_fatigue_definition;
+FRAM_API void fram_fatigue_default(fram_fatigue_definition *definition);
+
+typedef struct fram_cycle {
+    double range, mean, count; /* count: 1, or 0.5 of a half cycle */
+} fram_cycle;
+typedef struct fram_fatigue {
+    fram_series_facts series;
+    double cycles;                  /* sum of their counts */
+    double greatest;                /* range */
+    double equivalent[FRAM_SLOPES]; /* range that does the same damage in cycles of the given frequency (Miner 1945) */
+    fram_cycle *list;               /* by rainflow counting, ASTM E1049-85; freed by fram_fatigue_free */
+    int64_t count;
+} fram_fatigue;
+FRAM_API fram_status fram_fatigue_find(fram_context *context, const fram_fatigue_definition *definition,
+                                       fram_fatigue *result, fram_error *error);
+FRAM_API void fram_fatigue_free(fram_context *context, fram_fatigue *result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

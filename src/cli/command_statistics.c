@@ -1,0 +1,395 @@
+/* fram extremes, fram fatigue: what series say of rare and of many loads. */
+#include "cli/cli.h"
+
+#include "fram/statistics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- words ---- */
+
+/* A time with or without a unit: "10800", "3h", "90min", "20d", "1a" (a year of 365.25 days). */
+static bool read_time(const char *text, double *out)
+{
+    static const struct {
+        const char *unit;
+        double seconds;
+    } units[] = {{"", 1}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}, {"a", 31557600}, {"y", 31557600}};
+    char *end = NULL;
+    double value = strtod(text, &end);
+    if (end == text || !isfinite(value))
+        return false;
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+        if (strcmp(end, units[i].unit) == 0) {
+            *out = value * units[i].seconds;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* An option that is a time; NULL stays what it was.  -1 to go on. */
+static int take_time(const common_options *common, const char *option, const char *text, double *out)
+{
+    if (!text || read_time(text, out))
+        return -1;
+    return answer_usage(common, option, "expected a time, as 3h, 90min or 10800 (seconds)");
+}
+
+/* Numbers divided by commas, from any number of options.  -1 to go on. */
+static int take_numbers(const common_options *common, const char *option, const option_list *list, double *out,
+                        int room, int *count)
+{
+    for (int i = 0; i < list->count; i++) {
+        if (i == 0)
+            *count = 0;
+        for (const char *c = list->value[i];; c++) {
+            char *end = NULL;
+            double value = strtod(c, &end);
+            if (end == c || !isfinite(value) || (*end && *end != ','))
+                return answer_usage(common, option, "expected numbers, divided by commas");
+            if (*count == room)
+                return answer_usage(common, option, "has too many numbers");
+            out[(*count)++] = value;
+            c = end;
+            if (!*c)
+                break;
+        }
+    }
+    return -1;
+}
+
+/* Options that both commands share. */
+typedef struct series_words {
+    const char *channel, *from, *step;
+    bool minima;
+} series_words;
+
+enum { SERIES_ROWS = 4, STATISTICS_FILES = 256 };
+static void series_rows(series_words *w, option_row rows[SERIES_ROWS])
+{
+    rows[0] = (option_row){"--channel", NULL,   OPTION_TEXT,
+                           &w->channel, "NAME", "channel of a run, column of a CSV file (load of a run)"};
+    rows[1] = (option_row){"--from", NULL, OPTION_TEXT, &w->from, "T", "leave out what is before (transient of a run)"};
+    rows[2] = (option_row){"--step", NULL, OPTION_TEXT, &w->step, "T", "between rows of a file without a column time"};
+    rows[3] = (option_row){"--minima", NULL, OPTION_FLAG,
+                           &w->minima, NULL, "the least values: all is told of the negative ones"};
+}
+
+static int take_source(const common_options *common, const series_words *w, const char *const *files,
+                       fram_series_source *out)
+{
+    out->files = files;
+    while (out->file_count < STATISTICS_FILES && files[out->file_count])
+        out->file_count++;
+    out->channel = w->channel;
+    out->minima = w->minima;
+    int code = take_time(common, "--from", w->from, &out->from);
+    return code >= 0 ? code : take_time(common, "--step", w->step, &out->step);
+}
+
+/* ---- facts ---- */
+
+static void print_facts(const fram_series_source *source, const fram_series_facts *f, bool maxima)
+{
+    printf("%s of %d %s: %lld %s", source->channel ? source->channel : "load", source->file_count,
+           source->file_count == 1 ? "file" : "files", (long long)f->values, maxima ? "maxima" : "values");
+    if (!maxima)
+        printf(", %.6g s, a value every %.4g s, time scale %.4g s", f->time, f->step, f->time_scale);
+    printf("\nmean %.5g, deviation %.5g, least %.5g, greatest %.5g %s\n", f->mean, f->deviation, f->least, f->greatest,
+           f->unit);
+}
+
+static void json_facts(json *j, const fram_series_facts *f)
+{
+    json_open(j, "series");
+    json_integer(j, "values", f->values);
+    json_text(j, "unit", f->unit);
+    json_real(j, "time_s", f->time);
+    json_real(j, "step_s", f->step);
+    json_real(j, "mean", f->mean);
+    json_real(j, "deviation", f->deviation);
+    json_real(j, "least", f->least);
+    json_real(j, "greatest", f->greatest);
+    json_real(j, "time_scale_s", f->time_scale);
+    json_close(j);
+}
+
+/* ---- fram extremes ---- */
+
+/* 1/e: of no exceedance where one is expected. */
+#define ONCE 0.36787944117144233
+
+static void print_level(const char *name, const fram_level *l, const char *unit)
+{
+    printf("  %-16s %11.5g  (%.5g to %.5g) %s\n", name, l->level, l->low, l->high, unit);
+}
+
+static void print_law(const fram_extreme *e)
+{
+    if (e->tail_c > 0)
+        printf(", order %d, rate a value %.3g exp(-%.3g (x - %.4g)^%.3g)", e->order, e->tail_q, e->tail_a, e->tail_b,
+               e->tail_c);
+    else
+        printf(", location %.5g, scale %.5g, shape %.3g", e->location, e->scale, e->shape);
+}
+
+static void print_method(const fram_extreme *e, const fram_extremes_definition *d, const char *unit)
+{
+    printf("\n%s: ", e->method);
+    if (e->answered) {
+        bool rates = e->tail_c > 0;
+        printf("%d %s", e->sample, rates ? "exceedances" : e->block > 0 ? "maxima" : "peaks");
+        if (e->block > 0)
+            printf(" of %.4g s", e->block);
+        else
+            printf(" over %.5g", e->threshold);
+        print_law(e);
+        printf("\n  intervals by %s\n", e->interval);
+        print_level("most probable", &e->most_probable, unit);
+        for (int i = 0; i < d->levels; i++) {
+            char name[32];
+            snprintf(name, sizeof name, "below by %.6g", d->probability[i]);
+            print_level(name, &e->level[i], unit);
+        }
+    }
+    if (e->note[0])
+        printf("%s%s\n", e->answered ? "  " : "", e->note);
+}
+
+static void json_level(json *j, const char *key, double probability, const fram_level *l)
+{
+    json_open(j, key);
+    json_real(j, "probability", probability);
+    json_real(j, "level", l->level);
+    json_real(j, "low", l->low);
+    json_real(j, "high", l->high);
+    json_close(j);
+}
+
+static void json_method(json *j, const fram_extreme *e, const fram_extremes_definition *d)
+{
+    json_open(j, NULL);
+    json_text(j, "method", e->method);
+    json_boolean(j, "answered", e->answered);
+    json_text(j, "interval", e->interval);
+    json_integer(j, "sample", e->sample);
+    json_real(j, "block_s", e->block);
+    json_real(j, "threshold", e->threshold);
+    json_real(j, "separation_s", e->separation);
+    if (e->tail_c > 0) {
+        json_integer(j, "order", e->order);
+        json_real(j, "q", e->tail_q);
+        json_real(j, "a", e->tail_a);
+        json_real(j, "b", e->tail_b);
+        json_real(j, "c", e->tail_c);
+    } else if (e->answered) {
+        json_real(j, "location", e->location);
+        json_real(j, "scale", e->scale);
+        json_real(j, "shape", e->shape);
+    }
+    json_level(j, "most_probable", ONCE, &e->most_probable);
+    json_open_list(j, "levels");
+    for (int i = 0; i < d->levels; i++)
+        json_level(j, NULL, d->probability[i], &e->level[i]);
+    json_close_list(j);
+    json_open_list(j, "thresholds");
+    for (int i = 0; i < e->fits; i++) {
+        json_open(j, NULL);
+        json_real(j, "threshold", e->fit[i].threshold);
+        json_integer(j, "peaks", e->fit[i].peaks);
+        json_real(j, "shape", e->fit[i].shape);
+        json_real(j, "shape_half", e->fit[i].shape_half);
+        json_real(j, "scale_star", e->fit[i].scale_star);
+        json_close(j);
+    }
+    json_close_list(j);
+    json_text(j, "note", e->note);
+    json_close(j);
+}
+
+static int answer_extremes(const common_options *common, const fram_extremes_definition *d)
+{
+    fram_context *context = NULL;
+    fram_error error = {0};
+    int code = session_open(common, &context);
+    if (code >= 0)
+        return code;
+    fram_extremes *e = calloc(1, sizeof *e);
+    if (!e || fram_extremes_find(context, d, e, &error) != FRAM_OK) {
+        code = e ? answer_error(common, &error) : EXIT_RUN_FAILED;
+    } else if (common->json) {
+        json j = json_begin();
+        json_facts(&j, &e->series);
+        json_real(&j, "duration_s", d->duration);
+        json_real(&j, "confidence", d->confidence);
+        json_open_list(&j, "methods");
+        for (int i = 0; i < e->methods; i++)
+            json_method(&j, &e->method[i], d);
+        json_close_list(&j);
+        json_end(&j);
+        code = EXIT_GOOD;
+    } else {
+        print_facts(&d->source, &e->series, d->maxima);
+        printf("the greatest value in %.6g s, with intervals of %g %%\n", d->duration, 100 * d->confidence);
+        for (int i = 0; i < e->methods; i++)
+            print_method(&e->method[i], d, e->series.unit);
+        code = EXIT_GOOD;
+    }
+    free(e);
+    fram_context_destroy(context);
+    return code;
+}
+
+int command_extremes(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    fram_extremes_definition d;
+    series_words words = {0};
+    option_list levels = {0};
+    const char *duration = NULL, *block = NULL, *separation = NULL, *fit = NULL;
+    const char *files[STATISTICS_FILES] = {0};
+    fram_extremes_default(&d);
+    option_row rows[] = {
+        {0},
+        {0},
+        {0},
+        {0},
+        {"--duration", NULL, OPTION_TEXT, &duration, "T", "of which the greatest value is asked (3h)"},
+        {"--method", NULL, OPTION_TEXT, &d.method, "NAME", "acer, upcrossing, gumbel, gev, pot, weibull or all (all)"},
+        {"--level", NULL, OPTION_LIST, &levels, "P,P...", "probabilities of staying below (0.5,0.9,0.99)"},
+        {"--confidence", NULL, OPTION_REAL, &d.confidence, "P", "of the intervals (0.95)"},
+        {"--block", NULL, OPTION_TEXT, &block, "T", "of block maxima (a fiftieth of the data)"},
+        {"--threshold", NULL, OPTION_REAL, &d.threshold, "X", "of peaks and rates (by the quantiles)"},
+        {"--separation", NULL, OPTION_TEXT, &separation, "T", "of independent peaks (4 time scales)"},
+        {"--order", NULL, OPTION_INTEGER, &d.order, "K", "of acer, in values (as many as the separation takes)"},
+        {"--fit", NULL, OPTION_TEXT, &fit, "NAME", "likelihood, or moments: L-moments with a bootstrap (likelihood)"},
+        {"--maxima", NULL, OPTION_FLAG, &d.maxima, NULL, "the values are maxima of blocks of --block each, no series"},
+    };
+    series_rows(&words, rows);
+    int code =
+        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, files, 1, STATISTICS_FILES);
+    if (code < 0)
+        code = take_source(&common, &words, files, &d.source);
+    if (code < 0)
+        code = take_time(&common, "--duration", duration, &d.duration);
+    if (code < 0)
+        code = take_time(&common, "--block", block, &d.block);
+    if (code < 0)
+        code = take_time(&common, "--separation", separation, &d.separation);
+    if (code < 0)
+        code = take_numbers(&common, "--level", &levels, d.probability, FRAM_EXTREME_LEVELS, &d.levels);
+    if (code < 0 && fit && strcmp(fit, "likelihood") != 0 && strcmp(fit, "moments") != 0)
+        code = answer_usage(&common, "--fit", "expected likelihood or moments");
+    if (code < 0 && d.maxima && !block)
+        code = answer_usage(&common, "--block", "is missing: of how long a time is each of the maxima?");
+    d.moments = fit && strcmp(fit, "moments") == 0;
+    return code >= 0 ? code : answer_extremes(&common, &d);
+}
+
+/* ---- fram fatigue ---- */
+
+/* Counts by classes of the range, an equal width each. */
+enum { CLASSES = 10 };
+static void print_classes(const fram_fatigue *f)
+{
+    double count[CLASSES] = {0};
+    for (int64_t i = 0; i < f->count; i++) {
+        int at = (int)(f->list[i].range / f->greatest * CLASSES);
+        count[at < CLASSES ? at : CLASSES - 1] += f->list[i].count;
+    }
+    printf("ranges            cycles\n");
+    for (int i = 0; i < CLASSES; i++)
+        printf("  up to %10.4g  %.1f\n", f->greatest * (i + 1) / CLASSES, count[i]);
+}
+
+static void print_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f)
+{
+    print_facts(&d->source, &f->series, false);
+    printf("%.1f cycles (rainflow, ASTM E1049-85), greatest range %.5g %s\n", f->cycles, f->greatest, f->series.unit);
+    if (f->greatest > 0)
+        print_classes(f);
+    for (int i = 0; i < d->slopes; i++)
+        printf("equivalent range at %g Hz, slope %g: %.6g %s\n", d->frequency, d->slope[i], f->equivalent[i],
+               f->series.unit);
+}
+
+static void json_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f)
+{
+    json j = json_begin();
+    json_facts(&j, &f->series);
+    json_real(&j, "cycles", f->cycles);
+    json_real(&j, "greatest_range", f->greatest);
+    json_real(&j, "frequency_Hz", d->frequency);
+    json_open_list(&j, "equivalent");
+    for (int i = 0; i < d->slopes; i++) {
+        json_open(&j, NULL);
+        json_real(&j, "slope", d->slope[i]);
+        json_real(&j, "range", f->equivalent[i]);
+        json_close(&j);
+    }
+    json_close_list(&j);
+    json_end(&j);
+}
+
+/* A row a cycle. */
+static int write_cycles(const common_options *common, const char *path, const fram_fatigue *f)
+{
+    FILE *file = fopen(path, "w");
+    bool good = file && fprintf(file, "range[%s],mean[%s],count[1]\n", f->series.unit, f->series.unit) > 0;
+    for (int64_t i = 0; good && i < f->count; i++)
+        good = fprintf(file, "%.9g,%.9g,%.1f\n", f->list[i].range, f->list[i].mean, f->list[i].count) > 0;
+    if (file && fclose(file) != 0)
+        good = false;
+    return good ? EXIT_GOOD : answer_usage(common, path, "the cycles cannot be written");
+}
+
+int command_fatigue(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    fram_fatigue_definition d;
+    series_words words = {0};
+    option_list slopes = {0};
+    const char *files[STATISTICS_FILES] = {0}, *output = NULL;
+    fram_fatigue_default(&d);
+    option_row rows[] = {
+        {0},
+        {0},
+        {0},
+        {0},
+        {"--slope", NULL, OPTION_LIST, &slopes, "M,M...", "m of S-N lines (3,5)"},
+        {"--frequency", NULL, OPTION_REAL, &d.frequency, "F", "of the equivalent cycles [Hz] (1)"},
+        {"--output", "-o", OPTION_TEXT, &output, "FILE", "all cycles as CSV"},
+    };
+    series_rows(&words, rows);
+    int code =
+        options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, files, 1, STATISTICS_FILES);
+    if (code < 0)
+        code = take_source(&common, &words, files, &d.source);
+    if (code < 0)
+        code = take_numbers(&common, "--slope", &slopes, d.slope, FRAM_SLOPES, &d.slopes);
+    if (code < 0) {
+        const command_files used = {.inputs = {files[0]}, .outputs = {{"--output", output, "csv"}}};
+        code = refuse_outputs(&common, &used);
+    }
+    fram_context *context = NULL;
+    if (code < 0)
+        code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    fram_fatigue f;
+    fram_error error = {0};
+    if (fram_fatigue_find(context, &d, &f, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = output ? write_cycles(&common, output, &f) : EXIT_GOOD;
+        if (code == EXIT_GOOD && common.json)
+            json_fatigue(&d, &f);
+        else if (code == EXIT_GOOD)
+            print_fatigue(&d, &f);
+        fram_fatigue_free(context, &f);
+    }
+    fram_context_destroy(context);
+    return code;
+}

@@ -1,0 +1,264 @@
+#include "study/acer.h"
+
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "study/minimise.h"
+#include "study/special.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Stream of random numbers of this file: draws of batches. */
+enum { STREAM_BATCHES = 903 };
+/* Levels that a fit takes at least. */
+enum { LEVELS_LEAST = 5 };
+/* Powers that the law may have: below the tail is heavier, above it is lighter than of anything that was seen. */
+#define POWER_LEAST 0.5
+#define POWER_MOST 5.0
+/* The law's origin lies below the first level by the exponential of this, in widths of the levels. */
+#define PLACE_LEAST (-5.0)
+#define PLACE_MOST 2.5
+
+/* ---- counting ---- */
+
+/* Greatest of the k - 1 values before each, by a queue of candidates that fall. */
+typedef struct window {
+    int32_t *index; /* ring of k places */
+    int32_t room, first, count;
+} window;
+
+static void window_drop(window *w, int32_t oldest)
+{
+    while (w->count > 0 && w->index[w->first] < oldest) {
+        w->first = (w->first + 1) % w->room;
+        w->count--;
+    }
+}
+
+static void window_add(window *w, const double *value, int32_t i)
+{
+    while (w->count > 0 && value[w->index[(w->first + w->count - 1) % w->room]] <= value[i])
+        w->count--;
+    w->index[(w->first + w->count) % w->room] = i;
+    w->count++;
+}
+
+/* Number of levels that are below x. */
+static int32_t levels_below(const acer_rates *r, double x)
+{
+    int32_t lo = 0, hi = r->levels;
+    while (lo < hi) {
+        int32_t mid = (lo + hi) / 2;
+        if (r->level[mid] < x)
+            lo = mid + 1;
+        else
+            hi = mid;
+    }
+    return lo;
+}
+
+/* The value is over levels [from, to) and the greatest before it is not. */
+static void count_part(acer_rates *r, const series_part *part, int32_t k, int32_t batch, window *w, int32_t *next)
+{
+    w->first = w->count = 0;
+    int32_t whole = part->count / batch * batch;
+    for (int32_t i = 0; i < whole; i++) {
+        int32_t *count = r->count.data + (int64_t)(*next + i / batch) * ACER_LEVELS;
+        int32_t to = levels_below(r, part->value[i]), from = 0;
+        window_drop(w, i - (k - 1));
+        if (w->count > 0)
+            from = levels_below(r, part->value[w->index[w->first]]);
+        /* A level at the very greatest of those before is not below it. */
+        for (int32_t l = from; l < to && i >= k - 1; l++)
+            count[l]++;
+        if (k > 1)
+            window_add(w, part->value, i);
+    }
+    *next += whole / batch;
+}
+
+bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out)
+{
+    *out = (acer_rates){.step = s->step, .levels = ACER_LEVELS};
+    double greatest = -(double)INFINITY;
+    int64_t batches = 0;
+    for (int32_t p = 0; p < s->count; p++) {
+        for (int32_t i = 0; i < s->parts[p].count; i++)
+            greatest = fmax(greatest, s->parts[p].value[i]);
+        batches += s->parts[p].count / batch;
+    }
+    if (!(greatest > tail))
+        out->levels = 0;
+    for (int32_t l = 0; l < out->levels; l++)
+        out->level[l] = tail + (greatest - tail) * l / ACER_LEVELS;
+    window w = {memory_array(ctx, (size_t)k, sizeof *w.index), k, 0, 0};
+    out->batches = (int32_t)batches;
+    bool good =
+        w.index && batches < INT32_MAX / ACER_LEVELS && array_resize(ctx, &out->count, (int32_t)batches * ACER_LEVELS);
+    if (good && out->count.count > 0)
+        memset(out->count.data, 0, (size_t)out->count.count * sizeof *out->count.data);
+    out->per_batch = batch;
+    int32_t next = 0;
+    for (int32_t p = 0; good && p < s->count; p++)
+        count_part(out, &s->parts[p], k, batch, &w, &next);
+    memory_free(ctx, w.index);
+    if (!good)
+        acer_free(ctx, out);
+    return good;
+}
+
+void acer_free(context *ctx, acer_rates *r) { array_free(ctx, &r->count); }
+
+static int64_t exceedances_of(const acer_rates *r, int32_t level)
+{
+    int64_t sum = 0;
+    for (int32_t b = 0; b < r->batches; b++)
+        sum += r->count.data[(int64_t)b * ACER_LEVELS + level];
+    return sum;
+}
+
+double acer_rate(const acer_rates *r, int32_t level, int64_t *exceedances)
+{
+    int64_t n = exceedances_of(r, level);
+    if (exceedances)
+        *exceedances = n;
+    return (double)n / ((double)r->batches * r->per_batch);
+}
+
+/* ---- the law of the tail ---- */
+
+/* Logarithms of rates and their weights. */
+typedef struct tail_points {
+    double level[ACER_LEVELS], log_rate[ACER_LEVELS], weight[ACER_LEVELS];
+    int32_t count;
+} tail_points;
+
+static void add_point(tail_points *t, double level, int64_t exceedances, double values)
+{
+    /* Of a Poisson number: relative half width of the 95 % interval of the rate. */
+    double half = 1.959963984540054 / sqrt((double)exceedances);
+    if (!(half < 1))
+        return;
+    double width = real_log((1 + half) / (1 - half));
+    t->level[t->count] = level;
+    t->log_rate[t->count] = real_log((double)exceedances / values);
+    t->weight[t->count++] = 1 / (width * width);
+}
+
+/* For b and c that are given the best log q and a are those of a straight line (Naess and Gaidai 2009); its cost. */
+static double line_of(const tail_points *t, double b, double c, acer_tail *out)
+{
+    double w = 0, x = 0, y = 0, xx = 0, xy = 0, u[ACER_LEVELS];
+    for (int32_t i = 0; i < t->count; i++) {
+        u[i] = real_pow(t->level[i] - b, c);
+        w += t->weight[i];
+        x += t->weight[i] * u[i];
+        y += t->weight[i] * t->log_rate[i];
+    }
+    x /= w;
+    y /= w;
+    for (int32_t i = 0; i < t->count; i++) {
+        xx += t->weight[i] * (u[i] - x) * (u[i] - x);
+        xy += t->weight[i] * (u[i] - x) * (t->log_rate[i] - y);
+    }
+    double a = -xy / xx, log_q = y + a * x, cost = 0;
+    if (!(a > 0) || !isfinite(a))
+        return (double)INFINITY;
+    for (int32_t i = 0; i < t->count; i++) {
+        double miss = t->log_rate[i] - (log_q - a * u[i]);
+        cost += t->weight[i] * miss * miss;
+    }
+    if (out)
+        *out = (acer_tail){real_exp(log_q), a, b, c};
+    return cost / w;
+}
+
+/* b lies below the first level by exp(x[0]) widths of the levels. */
+static double place_of(const tail_points *t, double x)
+{
+    return t->level[0] - real_exp(x) * (t->level[t->count - 1] - t->level[0]);
+}
+
+static double tail_cost(const void *of, const double *x)
+{
+    const tail_points *t = of;
+    if (!(x[0] > PLACE_LEAST && x[0] < PLACE_MOST && x[1] > POWER_LEAST && x[1] < POWER_MOST))
+        return (double)INFINITY;
+    return line_of(t, place_of(t, x[0]), x[1], NULL);
+}
+
+static bool fit_points(const tail_points *t, const double start[2], double width, double tolerance, int descents,
+                       acer_tail *out)
+{
+    if (t->count < LEVELS_LEAST)
+        return false;
+    const double step[2] = {width, 0.6 * width};
+    double x[2] = {start[0], start[1]};
+    double cost = minimise(tail_cost, t, 2, x, step, tolerance, descents);
+    return isfinite(cost) && isfinite(line_of(t, place_of(t, x[0]), x[1], out));
+}
+
+bool acer_fit(const acer_rates *r, acer_tail *out)
+{
+    tail_points t = {.count = 0};
+    for (int32_t l = 0; l < r->levels; l++)
+        add_point(&t, r->level[l], exceedances_of(r, l), (double)r->batches * r->per_batch);
+    const double start[2] = {0, 1.5};
+    return fit_points(&t, start, 0.5, 1e-9, MINIMISE_TO_THE_END, out);
+}
+
+double acer_level(const acer_tail *tail, double step, double time, double exponent)
+{
+    double fall = real_log(tail->q * time / (step * exponent)) / tail->a;
+    return fall > 0 ? tail->b + real_pow(fall, 1 / tail->c) : tail->b;
+}
+
+/* ---- bootstrap over batches ---- */
+
+/* Of a draw of batches, the fit going on from the whole's; percentiles need no more digits than the data have. */
+static bool draw_tail(const acer_rates *r, const acer_tail *whole, uint32_t replicate, acer_tail *out)
+{
+    random_stream random = random_begin(1, STREAM_BATCHES, replicate);
+    int64_t sum[ACER_LEVELS] = {0};
+    for (int32_t i = 0; i < r->batches; i++) {
+        int32_t b = (int32_t)(random_unit(&random) * r->batches);
+        for (int32_t l = 0; l < r->levels; l++)
+            sum[l] += r->count.data[(int64_t)b * ACER_LEVELS + l];
+    }
+    tail_points t = {.count = 0};
+    for (int32_t l = 0; l < r->levels; l++)
+        add_point(&t, r->level[l], sum[l], (double)r->batches * r->per_batch);
+    if (t.count < LEVELS_LEAST)
+        return false;
+    double width = t.level[t.count - 1] - t.level[0];
+    const double start[2] = {fmin(fmax(real_log((t.level[0] - whole->b) / width), PLACE_LEAST + 0.3), PLACE_MOST - 0.3),
+                             fmin(fmax(whole->c, POWER_LEAST + 0.1), POWER_MOST - 0.1)};
+    return fit_points(&t, start, 0.2, 1e-6, 1, out);
+}
+
+bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
+                    int32_t count, double confidence, level_interval *out)
+{
+    ARRAY(acer_tail) tail = {0};
+    double_array level = {0};
+    bool good = true;
+    for (uint32_t i = 0; good && i < ACER_REPLICATES; i++) {
+        acer_tail one;
+        if (draw_tail(r, fit, i, &one))
+            good = array_push(ctx, &tail, one);
+    }
+    good = good && array_resize(ctx, &level, tail.count);
+    for (int32_t k = 0; good && k < count; k++) {
+        out[k] = (level_interval){acer_level(fit, r->step, time, exponent[k]), (double)NAN, (double)NAN};
+        for (int32_t i = 0; i < tail.count; i++)
+            level.data[i] = acer_level(&tail.data[i], r->step, time, exponent[k]);
+        values_sort(&level);
+        if (tail.count <= ACER_REPLICATES / 2)
+            continue;
+        out[k].low = sorted_quantile(level.data, level.count, 0.5 - 0.5 * confidence);
+        out[k].high = sorted_quantile(level.data, level.count, 0.5 + 0.5 * confidence);
+    }
+    array_free(ctx, &tail);
+    array_free(ctx, &level);
+    return good;
+}

@@ -1,0 +1,44 @@
+/* Average conditional exceedance rates (Naess and Gaidai 2009, Structural Safety 31): how often a level is exceeded by
+   a value after k - 1 values that are below it, and the law that these rates follow in the tail.  k = 2 counts
+   crossings upwards, so that rates of up-crossing (Naess and Gaidai 2008) are a case of it.  Knows numbers only. */
+#ifndef STUDY_ACER_H
+#define STUDY_ACER_H
+
+#include "study/peaks.h"
+#include "study/profile.h"
+
+enum { ACER_LEVELS = 40, ACER_BATCHES_LEAST = 20, ACER_REPLICATES = 499 };
+
+/* Rates at levels, counted by batches of the series, which stand for independent realizations. */
+typedef struct acer_rates {
+    double level[ACER_LEVELS];
+    int32_t levels; /* 0: there are too few exceedances */
+    int32_t batches;
+    ARRAY(int32_t) count; /* batches x ACER_LEVELS: conditional exceedances */
+    int32_t per_batch;    /* values of a batch */
+    double step;          /* between values [s] */
+} acer_rates;
+
+/* rate(x) = q exp(-a (x - b)^c) a value, from the first level on */
+typedef struct acer_tail {
+    double q, a, b, c;
+} acer_tail;
+
+/* Counts at levels from `tail` to the greatest value.  k: order, from 1.  batch: values of a batch.  Free with
+   acer_free. */
+bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out);
+void acer_free(context *ctx, acer_rates *r);
+/* The rate at a level and its number of exceedances, over all batches. */
+double acer_rate(const acer_rates *r, int32_t level, int64_t *exceedances);
+
+/* Fit by the weights of Naess and Gaidai, of logarithms of rates whose 95 % interval is bounded from below.  false:
+   there are fewer than five such levels, or no law fits. */
+bool acer_fit(const acer_rates *r, acer_tail *out);
+/* Where the greatest value in a time [s] stays below with the probability exp(-exponent). */
+double acer_level(const acer_tail *tail, double step, double time, double exponent);
+/* The same for several exponents, with the intervals of a bootstrap over batches (percentiles of ACER_REPLICATES draws
+   of as many batches).  false: no memory. */
+bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
+                    int32_t count, double confidence, level_interval *out);
+
+#endif

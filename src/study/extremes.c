@@ -1,0 +1,319 @@
+#include "study/extremes.h"
+
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "study/extremes_notes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Stream of random numbers of this file: draws of a sample from itself. */
+enum { STREAM_SAMPLES = 905 };
+/* Defaults: blocks of the data; time scales of a block, between clusters and of a batch. */
+enum { BLOCKS = 50, SCALES_OF_BLOCK = 20, SCALES_APART = 4, SCALES_OF_BATCH = 20, BATCHES = 200 };
+/* Thresholds of peaks that are tried, and the part of clusters that may merge with the one before by chance: separation
+   over the mean distance of clusters.  Greatest values of merged clusters follow no Pareto law at the threshold. */
+static const double peaks_quantile[] = {0.95, 0.97, 0.98, 0.99, 0.995, 0.998};
+enum { PEAKS_QUANTILES = sizeof peaks_quantile / sizeof *peaks_quantile };
+#define MERGED_MOST 0.1
+#define TAIL_QUANTILE 0.90
+
+static const char *const names[EXTREME_METHODS] = {"acer", "upcrossing", "gumbel", "gev", "pot", "weibull"};
+
+const char *extreme_method_name(extreme_method m) { return names[m]; }
+
+extreme_method extreme_method_find(const char *name)
+{
+    int m = 0;
+    while (m < EXTREME_METHODS && strcmp(names[m], name) != 0)
+        m++;
+    return (extreme_method)m;
+}
+
+void extreme_request_default(extreme_request *r)
+{
+    *r = (extreme_request){.duration = 10800, .confidence = 0.95, .threshold = (double)NAN, .levels = 3};
+    const double usual[3] = {0.5, 0.9, 0.99};
+    memcpy(r->probability, usual, sizeof usual);
+}
+
+/* ---- one sample, one law ---- */
+
+/* A sample of maxima or peaks, ascending, and what it stands for. */
+typedef struct extreme_sample {
+    law_kind kind;
+    double_array value;
+    double location; /* threshold of peaks */
+    double exposure; /* blocks in the duration; of peaks: the duration over the time of the sample */
+} extreme_sample;
+
+static double law_level(const extreme_law *law, const extreme_sample *s, double exponent)
+{
+    if (law->kind == LAW_GUMBEL || law->kind == LAW_GEV)
+        return extreme_law_level(law, exponent / s->exposure);
+    return extreme_law_level(law, real_log(fmax(s->exposure * s->value.count / exponent, 1)));
+}
+
+/* Percentiles of the level over samples drawn from the sample. */
+static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_request *ask, double exponent,
+                      const extreme_law *law, level_interval *out)
+{
+    double_array drawn = {0}, level = {0};
+    bool good = array_resize(ctx, &drawn, s->value.count);
+    for (uint32_t i = 0; good && i < BOOTSTRAP_REPLICATES; i++) {
+        random_stream random = random_begin(1, STREAM_SAMPLES, i);
+        for (int32_t k = 0; k < drawn.count; k++)
+            drawn.data[k] = s->value.data[(int32_t)(random_unit(&random) * s->value.count)];
+        values_sort(&drawn);
+        extreme_law again;
+        if (extreme_law_fit(s->kind, ask->fit, drawn.data, drawn.count, s->location, &again))
+            good = array_push(ctx, &level, law_level(&again, s, exponent));
+    }
+    *out = (level_interval){law_level(law, s, exponent), (double)NAN, (double)NAN};
+    if (good && level.count > BOOTSTRAP_REPLICATES / 2) {
+        values_sort(&level);
+        out->low = sorted_quantile(level.data, level.count, 0.5 - 0.5 * ask->confidence);
+        out->high = sorted_quantile(level.data, level.count, 0.5 + 0.5 * ask->confidence);
+    }
+    array_free(ctx, &drawn);
+    array_free(ctx, &level);
+    return good;
+}
+
+static bool sample_level(context *ctx, const extreme_sample *s, const extreme_request *ask, const extreme_law *law,
+                         double probability, level_interval *out)
+{
+    double exponent = -real_log(probability);
+    if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
+        return bootstrap(ctx, s, ask, exponent, law, out);
+    const profile_question q = {law, s->value.data, s->value.count, s->exposure, exponent, ask->confidence};
+    *out = profile_interval(&q);
+    return true;
+}
+
+/* Fit and levels of a sorted sample. */
+static fram_status answer_sample(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out,
+                                 fram_error *error)
+{
+    out->sample = s->value.count;
+    if (s->value.count < LAW_VALUES_LEAST)
+        return extremes_refuse_few(out);
+    if (!extreme_law_fit(s->kind, ask->fit, s->value.data, s->value.count, s->location, &out->law))
+        return extremes_refuse(out, "no law fits: the values are equal, or their likelihood has no maximum");
+    bool peaks = s->kind == LAW_PARETO || s->kind == LAW_WEIBULL;
+    if (peaks && !(s->exposure * s->value.count > 1 / real_exp(1)))
+        return extremes_refuse(out, "fewer than one peak is expected in the duration: ask for a longer one");
+    bool good = sample_level(ctx, s, ask, &out->law, real_exp(-1), &out->most_probable);
+    for (int i = 0; good && i < ask->levels; i++)
+        good = sample_level(ctx, s, ask, &out->law, ask->probability[i], &out->level[i]);
+    out->interval = ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL ? "bootstrap of the sample, percentiles"
+                                                                      : "profile likelihood";
+    out->answered = good;
+    return good ? FRAM_OK : error_memory(error);
+}
+
+fram_status extremes_of_maxima(context *ctx, const double *maxima, int32_t count, double block, extreme_method method,
+                               const extreme_request *ask, extreme_result *out, fram_error *error)
+{
+    extreme_sample s = {.kind = method == EXTREME_GEV ? LAW_GEV : LAW_GUMBEL, .exposure = ask->duration / block};
+    extremes_begin(out, method, ask);
+    out->block = block;
+    if (method != EXTREME_GEV && method != EXTREME_GUMBEL)
+        return extremes_refuse(out, "maxima are answered by gumbel and gev alone: this method takes the series");
+    if (!array_resize(ctx, &s.value, count))
+        return error_memory(error);
+    if (count > 0)
+        memcpy(s.value.data, maxima, (size_t)count * sizeof *maxima);
+    values_sort(&s.value);
+    fram_status status = answer_sample(ctx, &s, ask, out, error);
+    if (status == FRAM_OK && out->answered)
+        extremes_doubt(out, ask, block * count);
+    array_free(ctx, &s.value);
+    return status;
+}
+
+/* ---- methods of series ---- */
+
+typedef struct series_work {
+    context *ctx;
+    const series_set *s;
+    const extreme_request *ask;
+    series_nature nature;
+    double time; /* of all values [s] */
+    extreme_result *out;
+    fram_error *error;
+} series_work;
+
+static int32_t steps_of(const series_work *w, double time)
+{
+    double steps = floor(time / w->s->step + 0.5);
+    return steps < 1 ? 1 : steps > INT32_MAX / 2 ? INT32_MAX / 2 : (int32_t)steps;
+}
+
+static fram_status answer_blocks(const series_work *w)
+{
+    extreme_result *out = w->out;
+    extreme_sample s = {.kind = out->method == EXTREME_GEV ? LAW_GEV : LAW_GUMBEL};
+    double usual = fmax(w->time / BLOCKS, SCALES_OF_BLOCK * w->nature.time_scale);
+    int32_t length = steps_of(w, w->ask->block > 0 ? w->ask->block : usual);
+    out->block = length * w->s->step;
+    s.exposure = w->ask->duration / out->block;
+    fram_status status = block_maxima(w->ctx, w->s, length, &s.value) ? FRAM_OK : error_memory(w->error);
+    values_sort(&s.value);
+    if (status == FRAM_OK)
+        status = answer_sample(w->ctx, &s, w->ask, out, w->error);
+    array_free(w->ctx, &s.value);
+    return status;
+}
+
+/* The value that a part p of all values lies below. */
+static bool series_quantile(const series_work *w, double p, double *out)
+{
+    double_array all = {0};
+    bool good = true;
+    for (int32_t part = 0; part < w->s->count && good; part++)
+        for (int32_t i = 0; i < w->s->parts[part].count && good; i++)
+            good = array_push(w->ctx, &all, w->s->parts[part].value[i]);
+    values_sort(&all);
+    *out = all.count > 0 ? sorted_quantile(all.data, all.count, p) : (double)NAN;
+    array_free(w->ctx, &all);
+    return good;
+}
+
+static bool peaks_over(const series_work *w, double threshold, extreme_sample *s)
+{
+    s->location = threshold;
+    bool good = cluster_peaks(w->ctx, w->s, threshold, steps_of(w, w->out->separation), &s->value);
+    values_sort(&s->value);
+    return good;
+}
+
+/* Fits over rising thresholds, from half the threshold's way to the greatest value on. */
+static bool add_stability(const series_work *w, double threshold, extreme_sample *s)
+{
+    double from = w->nature.mean + 0.5 * (threshold - w->nature.mean), z = 1.959963984540054;
+    for (int i = 0; i < STABILITY_MOST; i++) {
+        extreme_law law;
+        double u = from + (w->nature.greatest - from) * i / STABILITY_MOST;
+        if (!peaks_over(w, u, s))
+            return false;
+        if (!extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, s->value.data, s->value.count, u, &law))
+            continue;
+        /* Asymptotic deviation of the shape (Smith 1984). */
+        double half = z * (1 + law.shape) / sqrt(s->value.count);
+        w->out->stability[w->out->stability_rows++] =
+            (threshold_row){u, law.shape, half, law.scale - law.shape * u, s->value.count};
+    }
+    return true;
+}
+
+/* The lowest threshold whose clusters keep apart. */
+static bool choose_threshold(const series_work *w, extreme_sample *s, double *out)
+{
+    for (int i = 0; i < PEAKS_QUANTILES; i++) {
+        if (!series_quantile(w, peaks_quantile[i], out) || !peaks_over(w, *out, s))
+            return false;
+        if (s->value.count * w->out->separation < MERGED_MOST * w->time)
+            break;
+    }
+    return true;
+}
+
+static fram_status answer_peaks(const series_work *w)
+{
+    extreme_sample s = {.kind = LAW_PARETO, .exposure = w->ask->duration / w->time};
+    double threshold = w->ask->threshold;
+    bool good = !isnan(threshold) || choose_threshold(w, &s, &threshold);
+    good = good && add_stability(w, threshold, &s) && peaks_over(w, threshold, &s);
+    w->out->threshold = threshold;
+    fram_status status = good ? answer_sample(w->ctx, &s, w->ask, w->out, w->error) : error_memory(w->error);
+    array_free(w->ctx, &s.value);
+    return status;
+}
+
+/* Peaks between crossings of the mean, from there: of a narrow band of Gaussian waves they are Rayleigh's. */
+static fram_status answer_weibull(const series_work *w)
+{
+    extreme_sample s = {.kind = LAW_WEIBULL, .exposure = w->ask->duration / w->time};
+    fram_status status = FRAM_OK;
+    s.location = w->nature.mean;
+    if (!cluster_peaks(w->ctx, w->s, w->nature.mean, 1, &s.value))
+        status = error_memory(w->error);
+    values_sort(&s.value);
+    w->out->threshold = w->nature.mean;
+    if (status == FRAM_OK)
+        status = answer_sample(w->ctx, &s, w->ask, w->out, w->error);
+    array_free(w->ctx, &s.value);
+    return status;
+}
+
+static fram_status answer_tail(const series_work *w, const acer_rates *rates)
+{
+    extreme_result *out = w->out;
+    int64_t exceedances = 0;
+    if (rates->levels > 0)
+        (void)acer_rate(rates, 0, &exceedances);
+    out->sample = (int32_t)(exceedances < INT32_MAX ? exceedances : INT32_MAX);
+    if (rates->batches < ACER_BATCHES_LEAST)
+        return extremes_refuse(out, "the data are too short for a bootstrap: fewer than 20 batches of 20 time scales");
+    if (out->sample < LAW_VALUES_LEAST)
+        return extremes_refuse_few(out);
+    if (!acer_fit(rates, &out->tail))
+        return extremes_refuse(out, "no law of the tail fits: fewer than five levels are exceeded often enough");
+    double exponent[EXTREME_LEVELS_MOST + 1] = {1};
+    level_interval level[EXTREME_LEVELS_MOST + 1];
+    for (int i = 0; i < w->ask->levels; i++)
+        exponent[i + 1] = -real_log(w->ask->probability[i]);
+    bool good = acer_intervals(w->ctx, rates, &out->tail, w->ask->duration, exponent, w->ask->levels + 1,
+                               w->ask->confidence, level);
+    if (good) {
+        out->most_probable = level[0];
+        memcpy(out->level, level + 1, (size_t)w->ask->levels * sizeof *level);
+    }
+    out->interval = "bootstrap over batches, percentiles";
+    out->answered = good;
+    return good ? FRAM_OK : error_memory(w->error);
+}
+
+static fram_status answer_rates(const series_work *w)
+{
+    acer_rates rates = {0};
+    double tail = w->ask->threshold;
+    if (isnan(tail) && !series_quantile(w, TAIL_QUANTILE, &tail))
+        return error_memory(w->error);
+    int32_t usual = steps_of(w, w->out->separation) + 1;
+    w->out->order = w->out->method == EXTREME_UPCROSSING ? 2 : w->ask->order > 0 ? w->ask->order : usual;
+    w->out->threshold = tail;
+    double batch = fmax(w->time / BATCHES, SCALES_OF_BATCH * w->nature.time_scale);
+    if (!acer_count(w->ctx, w->s, w->out->order, tail, steps_of(w, batch), &rates))
+        return error_memory(w->error);
+    fram_status status = answer_tail(w, &rates);
+    acer_free(w->ctx, &rates);
+    return status;
+}
+
+fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method method, const extreme_request *ask,
+                               extreme_result *out, fram_error *error)
+{
+    series_work w = {ctx, s, ask, series_nature_of(s), 0, out, error};
+    w.time = (double)w.nature.values * s->step;
+    extremes_begin(out, method, ask);
+    out->separation = ask->separation > 0 ? ask->separation : SCALES_APART * w.nature.time_scale;
+    if (w.nature.values < LAW_VALUES_LEAST || !(w.nature.greatest > w.nature.least))
+        return extremes_refuse(out, "the series is empty or constant");
+    fram_status status = FRAM_OK;
+    if (method == EXTREME_ACER || method == EXTREME_UPCROSSING)
+        status = answer_rates(&w);
+    else if (method == EXTREME_POT)
+        status = answer_peaks(&w);
+    else if (method == EXTREME_WEIBULL)
+        status = answer_weibull(&w);
+    else
+        status = answer_blocks(&w);
+    if (status == FRAM_OK && out->answered) {
+        extremes_doubt(out, ask, w.time);
+        extremes_doubt_series(out, s);
+    }
+    return status;
+}

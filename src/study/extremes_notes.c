@@ -1,0 +1,118 @@
+#include "study/extremes_notes.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* From here on a doubt is told: duration over data, half an interval over the level, difference of the halves' means in
+   standard deviations of it, by Student's t of 14 degrees of freedom once in 700 times by chance. */
+#define FAR 20.0
+#define WIDE 0.25
+#define UNSTEADY 4.0
+
+void extremes_begin(extreme_result *out, extreme_method method, const extreme_request *ask)
+{
+    const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
+    memset(out, 0, sizeof *out);
+    out->method = method;
+    out->interval = "";
+    out->most_probable = none;
+    out->threshold = ask->threshold;
+    for (int i = 0; i < EXTREME_LEVELS_MOST; i++)
+        out->level[i] = none;
+}
+
+static void say(extreme_result *out, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void say(extreme_result *out, const char *format, ...)
+{
+    size_t used = strlen(out->note);
+    va_list arguments;
+    if (used > 0 && used + 1 < sizeof out->note)
+        out->note[used++] = ' ';
+    va_start(arguments, format);
+    vsnprintf(out->note + used, sizeof out->note - used, format, arguments);
+    va_end(arguments);
+}
+
+fram_status extremes_refuse(extreme_result *out, const char *why)
+{
+    out->answered = false;
+    say(out, "No answer: %s.", why);
+    return FRAM_OK;
+}
+
+fram_status extremes_refuse_few(extreme_result *out)
+{
+    static const char *const what[EXTREME_METHODS] = {
+        "exceedances of the first level",       "crossings of the first level",       "block maxima", "block maxima",
+        "independent peaks over the threshold", "peaks between crossings of the mean"};
+    out->answered = false;
+    say(out, "No answer: %d %s are too few, at least %d are needed: run longer, or more seeds%s.", (int)out->sample,
+        what[out->method], (int)LAW_VALUES_LEAST, out->method == EXTREME_POT ? ", or take a lower threshold" : "");
+    return FRAM_OK;
+}
+
+static void doubt_interval(extreme_result *out, const level_interval *i)
+{
+    if (!isfinite(i->low) || !isfinite(i->high))
+        say(out, "The interval is open: the data do not bound the answer.");
+    else if (i->high - i->low > 2 * WIDE * fabs(i->level))
+        say(out, "The interval is %.0f %% of the level wide: the data do not carry the answer well.",
+            100 * (i->high - i->low) / fabs(i->level));
+}
+
+void extremes_doubt(extreme_result *out, const extreme_request *ask, double time)
+{
+    if (ask->duration > FAR * time)
+        say(out, "The duration is %.3g times as long as the data: the answer rests on the law, not on what was seen.",
+            ask->duration / time);
+    doubt_interval(out, &out->most_probable);
+    bool rates = out->method == EXTREME_ACER || out->method == EXTREME_UPCROSSING;
+    if (rates && (out->tail.c < 0.55 || out->tail.c > 4.9))
+        say(out, "The power of the tail, %.2g, is at the bound of what was tried: its form is not determined.",
+            out->tail.c);
+    if (!rates && (out->law.kind == LAW_GEV || out->law.kind == LAW_PARETO) && out->law.shape > 0.5)
+        say(out, "The tail is so heavy (shape %.2g) that its variance is infinite.", out->law.shape);
+    if (out->sample < 2 * LAW_VALUES_LEAST)
+        say(out, "The sample is small (%d): its interval is a guess of the right size.", (int)out->sample);
+}
+
+/* Mean and sum of squares about it of the means of the batches of one half of every part. */
+enum { HALF_BATCHES = 8 };
+typedef struct half_means {
+    double mean, square;
+    int32_t count;
+} half_means;
+
+static half_means means_of_half(const series_set *s, int half)
+{
+    half_means h = {0, 0, 0};
+    for (int32_t p = 0; p < s->count; p++) {
+        int32_t length = s->parts[p].count / (2 * HALF_BATCHES);
+        for (int32_t b = half * HALF_BATCHES; length > 0 && b < (half + 1) * HALF_BATCHES; b++) {
+            double mean = 0;
+            for (int64_t i = (int64_t)b * length; i < (int64_t)(b + 1) * length; i++)
+                mean += s->parts[p].value[i] / length;
+            /* Welford (1962). */
+            double before = mean - h.mean;
+            h.mean += before / ++h.count;
+            h.square += before * (mean - h.mean);
+        }
+    }
+    return h;
+}
+
+void extremes_doubt_series(extreme_result *out, const series_set *s)
+{
+    half_means a = means_of_half(s, 0), b = means_of_half(s, 1);
+    if (a.count < 2 || b.count < 2)
+        return;
+    double variance = (a.square + b.square) / (a.count + b.count - 2);
+    double deviation = sqrt(variance * (1.0 / a.count + 1.0 / b.count));
+    if (fabs(b.mean - a.mean) > UNSTEADY * deviation)
+        say(out,
+            "The means of the two halves differ by %.2g times what their batches scatter: the series is not "
+            "stationary (leave its start out?).",
+            fabs(b.mean - a.mean) / deviation);
+}

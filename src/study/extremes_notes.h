@@ -1,0 +1,17 @@
+/* Sentences of what the data do not carry.  One module with extremes, whose inside this is. */
+#ifndef STUDY_EXTREMES_NOTES_H
+#define STUDY_EXTREMES_NOTES_H
+
+#include "study/extremes.h"
+
+/* A result without an answer. */
+void extremes_begin(extreme_result *out, extreme_method method, const extreme_request *ask);
+/* No answer, and why; returns FRAM_OK: that the data do not carry an answer is one. */
+fram_status extremes_refuse(extreme_result *out, const char *why);
+fram_status extremes_refuse_few(extreme_result *out);
+/* What speaks against an answer that was found, of data that are `time` long [s]. */
+void extremes_doubt(extreme_result *out, const extreme_request *ask, double time);
+/* The same of the series: halves that differ. */
+void extremes_doubt_series(extreme_result *out, const series_set *s);
+
+#endif

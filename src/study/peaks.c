@@ -1,0 +1,122 @@
+#include "study/peaks.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- nature ---- */
+
+/* Values that the time scale is told from, at most; and the longest lag, as a part of the values. */
+enum { THINNED_MOST = 20000, LAG_PART = 4 };
+
+static double covariance(const series_set *s, double mean, int32_t lag, int32_t stride)
+{
+    double sum = 0;
+    int64_t n = 0;
+    for (int32_t p = 0; p < s->count; p++) {
+        const series_part *part = &s->parts[p];
+        for (int64_t i = 0; i + (int64_t)lag * stride < part->count; i += stride, n++)
+            sum += (part->value[i] - mean) * (part->value[i + (int64_t)lag * stride] - mean);
+    }
+    return n > 0 ? sum / (double)n : 0;
+}
+
+static double time_scale(const series_set *s, const series_nature *n)
+{
+    int32_t stride = (int32_t)(n->values / THINNED_MOST) + 1;
+    int32_t lags = (int32_t)(n->values / stride / s->count / LAG_PART);
+    double variance = covariance(s, n->mean, 0, stride), sum = 0.5;
+    for (int32_t lag = 1; variance > 0 && lag < lags; lag++) {
+        double c = covariance(s, n->mean, lag, stride) / variance;
+        if (!(c > 0))
+            break;
+        sum += c;
+    }
+    return fmax(sum * stride, 1) * s->step;
+}
+
+series_nature series_nature_of(const series_set *s)
+{
+    series_nature n = {.least = (double)INFINITY, .greatest = -(double)INFINITY};
+    double sum = 0, square = 0;
+    for (int32_t p = 0; p < s->count; p++) {
+        for (int32_t i = 0; i < s->parts[p].count; i++) {
+            double x = s->parts[p].value[i];
+            sum += x;
+            n.least = fmin(n.least, x);
+            n.greatest = fmax(n.greatest, x);
+        }
+        n.values += s->parts[p].count;
+    }
+    if (n.values == 0)
+        return n;
+    n.mean = sum / (double)n.values;
+    for (int32_t p = 0; p < s->count; p++)
+        for (int32_t i = 0; i < s->parts[p].count; i++)
+            square += (s->parts[p].value[i] - n.mean) * (s->parts[p].value[i] - n.mean);
+    n.deviation = sqrt(square / (double)n.values);
+    n.time_scale = time_scale(s, &n);
+    return n;
+}
+
+/* ---- maxima ---- */
+
+bool block_maxima(context *ctx, const series_set *s, int32_t length, double_array *out)
+{
+    array_clear(out);
+    for (int32_t p = 0; p < s->count; p++) {
+        const series_part *part = &s->parts[p];
+        for (int64_t from = 0; from + length <= part->count; from += length) {
+            double greatest = part->value[from];
+            for (int64_t i = from + 1; i < from + length; i++)
+                greatest = fmax(greatest, part->value[i]);
+            if (!array_push(ctx, out, greatest))
+                return false;
+        }
+    }
+    return true;
+}
+
+bool cluster_peaks(context *ctx, const series_set *s, double threshold, int32_t apart, double_array *out)
+{
+    array_clear(out);
+    for (int32_t p = 0; p < s->count; p++) {
+        const series_part *part = &s->parts[p];
+        bool inside = false;
+        int32_t below = 0;
+        for (int32_t i = 0; i < part->count; i++) {
+            double x = part->value[i];
+            if (!(x > threshold)) {
+                inside = inside && ++below < apart;
+                continue;
+            }
+            below = 0;
+            if (inside)
+                out->data[out->count - 1] = fmax(out->data[out->count - 1], x);
+            else if (!array_push(ctx, out, x))
+                return false;
+            inside = true;
+        }
+    }
+    return true;
+}
+
+static int rising(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void values_sort(double_array *a)
+{
+    if (a->count > 1)
+        qsort(a->data, (size_t)a->count, sizeof *a->data, rising);
+}
+
+double sorted_quantile(const double *sorted, int32_t count, double p)
+{
+    double at = p * (count - 1);
+    int32_t i = (int32_t)floor(at);
+    if (i + 1 >= count)
+        return sorted[count - 1];
+    return sorted[i] + (at - i) * (sorted[i + 1] - sorted[i]);
+}

@@ -1,0 +1,129 @@
+#include "study/profile.h"
+
+#include "base/transcendental.h"
+#include "study/minimise.h"
+#include "study/special.h"
+
+#include <math.h>
+
+/* A level that is looked at, with the other parameters free. */
+typedef struct profile_look {
+    const profile_question *q;
+    double level;
+} profile_look;
+
+/* Free parameters: the scale as log(scale/fitted), then the shape. */
+static int free_count(law_kind kind) { return kind == LAW_GUMBEL || kind == LAW_WEIBULL ? 1 : 2; }
+
+static bool is_peaks(law_kind kind) { return kind == LAW_PARETO || kind == LAW_WEIBULL; }
+
+/* exponent = exposure x (expected exceedances a block): the law of maxima that has the level there. */
+static double maxima_cost(const profile_look *at, double scale, double shape)
+{
+    const profile_question *q = at->q;
+    extreme_law law = {q->law->kind, 0, scale, shape};
+    law.location = at->level - extreme_law_level(&law, q->exponent / q->exposure);
+    return extreme_law_cost(&law, q->sorted, q->count);
+}
+
+/* The rate of peaks, in peaks a sample, that makes the level the quantile; Poisson's likelihood of the number found. */
+static double pareto_cost(const profile_look *at, double scale, double shape)
+{
+    const profile_question *q = at->q;
+    const extreme_law law = {LAW_PARETO, q->law->location, scale, shape};
+    double rare = extreme_law_exponent(&law, at->level), rate = q->exponent / q->exposure * real_exp(rare);
+    if (!isfinite(rate))
+        return (double)INFINITY;
+    return extreme_law_cost(&law, q->sorted, q->count) + rate - q->count * real_log(rate);
+}
+
+static double weibull_cost(const profile_look *at, double shape)
+{
+    const profile_question *q = at->q;
+    double peaks = q->exposure * q->count;
+    const extreme_law unit = {LAW_WEIBULL, 0, 1, shape};
+    const extreme_law law = {LAW_WEIBULL, q->law->location,
+                             (at->level - q->law->location) / extreme_law_level(&unit, real_log(peaks / q->exponent)),
+                             shape};
+    return extreme_law_cost(&law, q->sorted, q->count);
+}
+
+static double profile_cost(const void *of, const double *x)
+{
+    const profile_look *at = of;
+    const extreme_law *law = at->q->law;
+    if (!(fabs(x[0]) < 50))
+        return (double)INFINITY;
+    if (law->kind == LAW_WEIBULL)
+        return weibull_cost(at, law->shape * real_exp(x[0]));
+    double scale = law->scale * real_exp(x[0]), shape = free_count(law->kind) > 1 ? x[1] : 0;
+    if (!(fabs(shape) < 5))
+        return (double)INFINITY;
+    return law->kind == LAW_PARETO ? pareto_cost(at, scale, shape) : maxima_cost(at, scale, shape);
+}
+
+static double level_of(const profile_question *q)
+{
+    const extreme_law *law = q->law;
+    if (law->kind == LAW_GUMBEL || law->kind == LAW_GEV)
+        return extreme_law_level(law, q->exponent / q->exposure);
+    return extreme_law_level(law, real_log(q->exposure * q->count / q->exponent));
+}
+
+/* Cost at a level, the free parameters going on from x. */
+static double cost_at(const profile_question *q, double level, double *x)
+{
+    const profile_look at = {q, level};
+    const double step[2] = {0.05, 0.05};
+    return minimise(profile_cost, &at, free_count(q->law->kind), x, step, 1e-8, 1);
+}
+
+/* Looks for an end, and how near in the root of the deviance. */
+enum { LOOKS_MOST = 80 };
+#define ROOT_NEAR 1e-5
+
+/* From the fitted level outwards to where the root of the deviance, which is nearly straight in the level, is z. */
+static double end_of(const profile_question *q, double level, double first, double least, double z)
+{
+    double inside = level, root_inside = 0, outside = level + first, root_outside = (double)NAN, next = outside;
+    double from[2] = {0, q->law->shape};
+    for (int i = 0; i < LOOKS_MOST; i++) {
+        /* Peaks tell nothing of levels under their threshold. */
+        if (is_peaks(q->law->kind) && next <= q->law->location)
+            return q->law->location;
+        double x[2] = {from[0], from[1]}, root = sqrt(2 * fmax(cost_at(q, next, x) - least, 0));
+        if (fabs(root - z) < ROOT_NEAR * z)
+            return next;
+        if (root < z) {
+            inside = next;
+            root_inside = root;
+            from[0] = x[0];
+            from[1] = x[1];
+        } else {
+            outside = next;
+            root_outside = root;
+        }
+        if (isnan(root_outside)) {
+            first *= 1.5;
+            next = inside + first;
+        } else {
+            double part = (z - root_inside) / (root_outside - root_inside);
+            /* Every third look halves, so that no end is crept to. */
+            next = inside + (isfinite(part) && i % 3 != 2 ? part : 0.5) * (outside - inside);
+        }
+        if (!isnan(root_outside) && fabs(outside - inside) < 1e-9 * fabs(first))
+            return next;
+    }
+    return isnan(root_outside) ? first * (double)INFINITY : next;
+}
+
+level_interval profile_interval(const profile_question *q)
+{
+    level_interval out = {.level = level_of(q)};
+    double x[2] = {0, q->law->shape}, z = normal_quantile(0.5 + 0.5 * q->confidence);
+    double least = cost_at(q, out.level, x);
+    double first = q->law->kind == LAW_WEIBULL ? 0.02 * (out.level - q->law->location) : 0.2 * q->law->scale;
+    out.low = end_of(q, out.level, -first, least, z);
+    out.high = end_of(q, out.level, first, least, z);
+    return out;
+}

@@ -1,0 +1,319 @@
+#include "study/series_file.h"
+
+#include "base/number_text.h"
+#include "io/file.h"
+#include "results/run_data.h"
+#include "study/words.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* Times may miss their places by this part of a step: files have few digits. */
+#define STEP_TOLERANCE 0.05
+
+/* ---- cells of a CSV file, some of them texts ---- */
+
+/* The next cell of a line, without quotation marks, into text; returns where the cell after it begins, NULL at the end
+   of the line. */
+static const char *next_cell(const char *c, char *text, size_t room)
+{
+    size_t n = 0;
+    bool quoted = *c == '"';
+    if (quoted)
+        c++;
+    while (*c && *c != '\n' && (quoted || *c != ',')) {
+        if (quoted && *c == '"') {
+            quoted = c[1] == '"';
+            c += quoted ? 1 : 0;
+            if (!quoted) {
+                c++;
+                continue;
+            }
+        }
+        if (n + 1 < room && *c != '\r')
+            text[n++] = *c;
+        c++;
+    }
+    text[n] = '\0';
+    return *c == ',' ? c + 1 : NULL;
+}
+
+enum { CELL_ROOM = 128, HEADS_MOST = 512 };
+
+/* Name and unit of "name[unit]" or "name [unit]". */
+static void split_head(char *head, char unit[16])
+{
+    char *open = strchr(head, '['), *close = open ? strchr(open, ']') : NULL;
+    unit[0] = '\0';
+    if (open && close) {
+        snprintf(unit, 16, "%.*s", (int)(close - open - 1), open + 1);
+        *open = '\0';
+    }
+    for (size_t n = strlen(head); n > 0 && head[n - 1] == ' '; n--)
+        head[n - 1] = '\0';
+}
+
+/* Number of the column, or -1 with the error set. */
+static int find_head(const char *path, const char *line, const char *name, bool must, char unit[16], fram_error *error)
+{
+    char head[CELL_ROOM], near[CELL_ROOM] = "";
+    int least = WORD_ROOM, at = 0;
+    for (const char *c = line; c && at < HEADS_MOST; at++) {
+        c = next_cell(c, head, sizeof head);
+        split_head(head, unit);
+        if (strcmp(head, name) == 0)
+            return at;
+        int distance = word_distance(head, name);
+        if (distance < least) {
+            least = distance;
+            memcpy(near, head, sizeof near);
+        }
+    }
+    unit[0] = '\0';
+    if (must)
+        error_set(error, FRAM_ERROR_INPUT, path, 1, name, "the file has no column of this name%s%s%s",
+                  *near ? "; did you mean " : "", near, *near ? "?" : "");
+    return -1;
+}
+
+typedef struct csv_want {
+    const char *path;
+    int time, value; /* columns; time -1: not read */
+    bool maxima;
+} csv_want;
+
+/* Numbers of a line; *found false for an empty cell of maxima. */
+static fram_status read_line(const csv_want *want, const char *line, int number, double *time, double *value,
+                             bool *found, fram_error *error)
+{
+    char cell[CELL_ROOM];
+    int column = 0, seen = 0;
+    *found = true;
+    for (const char *c = line; c; column++) {
+        c = next_cell(c, cell, sizeof cell);
+        if (column != want->time && column != want->value)
+            continue;
+        if (!*cell && want->maxima) {
+            *found = false;
+            return FRAM_OK;
+        }
+        double x = 0;
+        char *end = cell + strlen(cell);
+        while (end > cell && end[-1] == ' ')
+            *--end = '\0';
+        const char *begin = cell + strspn(cell, " ");
+        if (real_from_text(begin, &x) != NUMBER_GOOD)
+            return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL,
+                             "column %d: expected a number, found \"%.40s\"", column + 1, cell);
+        seen++;
+        if (column == want->time)
+            *time = x;
+        if (column == want->value)
+            *value = x;
+    }
+    if (seen < 1 + (want->time >= 0))
+        return error_set(error, FRAM_ERROR_INPUT, want->path, number, NULL, "the row has %d cells, too few", column);
+    return FRAM_OK;
+}
+
+static fram_status read_lines(context *ctx, const csv_want *want, const char *text, double_array *time,
+                              double_array *value, fram_error *error)
+{
+    int number = 1;
+    for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n')) {
+        double t = 0, x = 0;
+        bool found = true;
+        number++;
+        if (line[1] == '\n' || line[1] == '\r' || line[1] == '#')
+            continue;
+        fram_status status = read_line(want, line + 1, number, &t, &x, &found, error);
+        if (status != FRAM_OK)
+            return status;
+        if (found && (!array_push(ctx, value, x) || (want->time >= 0 && !array_push(ctx, time, t))))
+            return error_memory(error);
+    }
+    return FRAM_OK;
+}
+
+static fram_status read_csv(context *ctx, const char *path, const series_source *source, double_array *time,
+                            double_array *value, char unit[16], fram_error *error)
+{
+    char *text = NULL, ignored[16];
+    size_t size = 0;
+    csv_want want = {.path = path, .time = -1, .maxima = source->maxima};
+    if (!source->channel)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "channel", "is missing: name the column of %s", path);
+    fram_status status = file_read(ctx, path, SERIES_BYTES_MOST, &text, &size, error);
+    if (status == FRAM_OK && strlen(text) != size)
+        status = error_set(error, FRAM_ERROR_INPUT, path, 1, NULL, "expected text, found a NUL byte");
+    if (status == FRAM_OK) {
+        want.value = find_head(path, text, source->channel, true, unit, error);
+        status = want.value >= 0 ? FRAM_OK : FRAM_ERROR_INPUT;
+    }
+    if (status == FRAM_OK && !source->maxima && !(source->step > 0)) {
+        want.time = find_head(path, text, "time", false, ignored, error);
+        if (want.time < 0)
+            status = error_set(error, FRAM_ERROR_INPUT, path, 1, "time",
+                               "the file has no column `time`: give the step between rows");
+    }
+    if (status == FRAM_OK)
+        status = read_lines(ctx, &want, text, time, value, error);
+    memory_free(ctx, text);
+    return status;
+}
+
+/* ---- runs ---- */
+
+static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
+{
+    const char *near = "load";
+    int least = word_distance(near, name);
+    for (int32_t i = 0; i < d->series.columns.count; i++) {
+        int distance = word_distance(d->series.columns.data[i].name, name);
+        if (distance < least) {
+            least = distance;
+            near = d->series.columns.data[i].name;
+        }
+    }
+    return error_set(error, FRAM_ERROR_INPUT, d->folder, 0, name,
+                     "the run has no channel of this name; did you mean %s? `fram plot %.200s` lists them all", near,
+                     d->folder);
+}
+
+static fram_status take_channel(context *ctx, const run_data *d, const char *name, double_array *value, char unit[16],
+                                fram_error *error)
+{
+    const csv_table_column *c = csv_table_find(&d->series, name);
+    const double *x = run_channel(d, "ice_force_averaged_x"), *y = run_channel(d, "ice_force_averaged_y");
+    bool load = !c && strcmp(name, "load") == 0 && x && y;
+    if (!c && !load)
+        return no_channel(d, name, error);
+    snprintf(unit, 16, "%s", load ? "N" : c->unit);
+    if (!array_resize(ctx, value, d->series.rows))
+        return error_memory(error);
+    for (int32_t i = 0; i < value->count; i++)
+        value->data[i] = load ? sqrt(x[i] * x[i] + y[i] * y[i]) : c->value.data[i];
+    return FRAM_OK;
+}
+
+static fram_status read_run(context *ctx, const char *folder, const series_source *source, double_array *time,
+                            double_array *value, char unit[16], double *from, fram_error *error)
+{
+    run_data d;
+    fram_status status = run_data_read(ctx, folder, false, &d, error);
+    if (status != FRAM_OK)
+        return status;
+    const double *t = run_channel(&d, "time");
+    status = take_channel(ctx, &d, source->channel ? source->channel : "load", value, unit, error);
+    if (status == FRAM_OK && (!t || !array_resize(ctx, time, d.series.rows)))
+        status = error_memory(error);
+    for (int32_t i = 0; status == FRAM_OK && i < time->count; i++)
+        time->data[i] = t[i];
+    *from = d.s.run.transient;
+    run_data_free(ctx, &d);
+    return status;
+}
+
+/* ---- all files ---- */
+
+/* The step between rows, the same within a file and in all of them. */
+static fram_status check_times(const char *path, const double_array *time, double *step, fram_error *error)
+{
+    int32_t n = time->count;
+    if (n < 2)
+        return FRAM_OK;
+    double own = (time->data[n - 1] - time->data[0]) / (n - 1);
+    if (!(own > 0))
+        return error_set(error, FRAM_ERROR_INPUT, path, 2, "time", "expected rising times, in seconds");
+    for (int32_t i = 0; i < n; i++) {
+        if (fabs(time->data[i] - time->data[0] - i * own) <= STEP_TOLERANCE * own + 1e-9 * fabs(time->data[i]))
+            continue;
+        return error_set(error, FRAM_ERROR_INPUT, path, i + 2, "time",
+                         "expected times at equal distances, %.6g s on the average; found %.9g where %.9g was due: "
+                         "interpolate the series first",
+                         own, time->data[i], time->data[0] + i * own);
+    }
+    if (*step > 0 && fabs(own - *step) > 1e-3 * own)
+        return error_set(error, FRAM_ERROR_INPUT, path, 2, "time",
+                         "expected the step of the other files, %.6g s, found %.6g s", *step, own);
+    *step = *step > 0 ? *step : own;
+    return FRAM_OK;
+}
+
+static bool is_folder(const char *path)
+{
+    struct stat state;
+    return stat(path, &state) == 0 && S_ISDIR(state.st_mode);
+}
+
+/* Leaves out what is before `from`, and turns the sign for minima. */
+static void trim(double_array *value, const double_array *time, double step, double from, bool minima)
+{
+    int32_t first = 0;
+    while (first < value->count && (time->count > 0 ? time->data[first] : first * step) < from)
+        first++;
+    for (int32_t i = first; i < value->count; i++)
+        value->data[i - first] = minima ? -value->data[i] : value->data[i];
+    value->count -= first;
+}
+
+static fram_status read_file(context *ctx, const series_source *source, int32_t i, series_data *out, fram_error *error)
+{
+    const char *path = source->files[i];
+    double_array time = {0}, *value = &out->values[i];
+    double from = 0;
+    fram_status status = FRAM_OK;
+    char unit[16];
+    if (is_folder(path) && !source->maxima)
+        status = read_run(ctx, path, source, &time, value, unit, &from, error);
+    else
+        status = read_csv(ctx, path, source, &time, value, unit, error);
+    if (status == FRAM_OK && i > 0 && strcmp(unit, out->unit) != 0)
+        status = error_set(error, FRAM_ERROR_INPUT, path, 1, source->channel,
+                           "expected the unit of the other files, [%s], found [%s]", out->unit, unit);
+    if (status == FRAM_OK && !source->maxima)
+        status = check_times(path, &time, &out->set.step, error);
+    if (status == FRAM_OK) {
+        memcpy(out->unit, unit, sizeof out->unit);
+        if (!source->maxima)
+            trim(value, &time, out->set.step, isnan(source->from) ? from : source->from, source->minima);
+        else
+            trim(value, &time, 1, -1, source->minima);
+        out->parts[i] = (series_part){value->data, value->count};
+    }
+    array_free(ctx, &time);
+    return status;
+}
+
+fram_status series_read(context *ctx, const series_source *source, series_data *out, fram_error *error)
+{
+    *out = (series_data){.count = source->count};
+    out->parts = memory_array(ctx, (size_t)source->count, sizeof *out->parts);
+    out->values = memory_array(ctx, (size_t)source->count, sizeof *out->values);
+    fram_status status = out->parts && out->values ? FRAM_OK : error_memory(error);
+    out->set.step = source->step > 0 ? source->step : 0;
+    for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)
+        status = read_file(ctx, source, i, out, error);
+    int64_t values = 0;
+    for (int32_t i = 0; i < source->count && status == FRAM_OK; i++)
+        values += out->values[i].count;
+    if (status == FRAM_OK && (values == 0 || (!source->maxima && !(out->set.step > 0))))
+        status = error_set(error, FRAM_ERROR_INPUT, source->files[0], 0, source->channel,
+                           "no values are left, after what is left out at the start");
+    out->set.parts = out->parts;
+    out->set.count = source->count;
+    if (status != FRAM_OK)
+        series_free(ctx, out);
+    return status;
+}
+
+void series_free(context *ctx, series_data *s)
+{
+    for (int32_t i = 0; s->values && i < s->count; i++)
+        array_free(ctx, &s->values[i]);
+    memory_free(ctx, s->values);
+    memory_free(ctx, s->parts);
+    *s = (series_data){0};
+}

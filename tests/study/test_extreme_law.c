@@ -1,0 +1,126 @@
+/* Laws of extremes against scipy 1.10.1 (committed numbers), closed forms, and each other. */
+#include "testing.h"
+
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "study/peaks.h"
+#include "study/profile.h"
+#include "study/special.h"
+
+/* Plotting positions of a Gumbel law, perturbed; ascending. */
+static const double sample[] = {6.015,  6.918,  7.339,  7.489,  7.53,   7.619,  7.865,  8.281,  8.789,  9.254,
+                                9.553,  9.559,  9.598,  9.62,   9.664,  9.835,  10.247, 10.734, 11.159, 11.412,
+                                11.416, 11.439, 11.485, 11.531, 11.856, 12.349, 12.897, 13.365, 13.666, 13.805,
+                                13.879, 14.031, 14.385, 14.99,  15.805, 16.734, 17.703, 18.757, 20.24,  24.048};
+enum { SAMPLE = sizeof sample / sizeof *sample };
+
+START_TEST(quantiles_and_gamma_are_scipys)
+{
+    assert_relative(normal_quantile(0.975), 1.959963984540054, 1e-14);
+    assert_relative(normal_quantile(0.6), 0.2533471031357997, 1e-14);
+    assert_relative(normal_quantile(0.05), -1.6448536269514729, 1e-14);
+    assert_relative(normal_quantile(1e-12), -7.034483825301131, 1e-14);
+    assert_relative(gamma_function(0.1), 9.513507698668732, 1e-13);
+    assert_relative(gamma_function(0.5), 1.7724538509055159, 1e-13);
+    assert_relative(gamma_function(1.3), 0.8974706963062772, 1e-13);
+    assert_relative(gamma_function(7.7), 2769.830362327315, 1e-13);
+}
+END_TEST
+
+/* scipy's own search for the greatest likelihood, continued to 1e-13 by its Nelder-Mead. */
+START_TEST(likelihood_fits_are_scipys)
+{
+    extreme_law law;
+    ck_assert(extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, sample, SAMPLE, 0, &law));
+    assert_relative(law.location, 10.096589224401924, 1e-9);
+    assert_relative(law.scale, 2.91100388275995, 1e-9);
+    assert_relative(extreme_law_cost(&law, sample, SAMPLE), 106.44220060082847, 1e-12);
+    ck_assert(extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, sample, SAMPLE, 0, &law));
+    assert_relative(law.location, 10.010653399459219, 1e-6);
+    assert_relative(law.scale, 2.8486892912327493, 1e-6);
+    assert_absolute(law.shape, 0.055004657867806485, 1e-6);
+    assert_relative(extreme_law_cost(&law, sample, SAMPLE), 106.35263566380961, 1e-11);
+    ck_assert(extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, sample + 25, SAMPLE - 25, 12, &law));
+    assert_relative(law.scale, 4.751700484552113, 1e-6);
+    assert_absolute(law.shape, -0.25317007824056137, 1e-6);
+    assert_relative(extreme_law_cost(&law, sample + 25, SAMPLE - 25), 34.5799869196278, 1e-11);
+    ck_assert(extreme_law_fit(LAW_WEIBULL, FIT_LIKELIHOOD, sample, SAMPLE, 0, &law));
+    assert_relative(law.shape, 3.1657855681232854, 1e-7);
+    assert_relative(law.scale, 13.18255994083532, 1e-7);
+    assert_relative(extreme_law_cost(&law, sample, SAMPLE), 110.71452283762807, 1e-12);
+}
+END_TEST
+
+/* The 0.9 quantile of the greatest of ten, by scipy's likelihoods, minimisers and chi2. */
+START_TEST(profile_intervals_are_scipys)
+{
+    static const struct {
+        law_kind kind;
+        double level, low, high;
+    } expected[] = {{LAW_GUMBEL, 23.350251327184008, 20.198037418191976, 27.756455128379482},
+                    {LAW_GEV, 24.74915948761145, 19.765169101970997, 45.165721781164486}};
+    for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+        extreme_law law;
+        ck_assert(extreme_law_fit(expected[i].kind, FIT_LIKELIHOOD, sample, SAMPLE, 0, &law));
+        const profile_question q = {&law, sample, SAMPLE, 10, -real_log(0.9), 0.95};
+        level_interval got = profile_interval(&q);
+        assert_relative(got.level, expected[i].level, 2e-5);
+        assert_relative(got.low, expected[i].low, 2e-5);
+        assert_relative(got.high, expected[i].high, 2e-5);
+    }
+}
+END_TEST
+
+/* L-moments of an exact law are its own: a sample of its quantiles gives its parameters back, in the limit. */
+START_TEST(moments_give_the_law_back)
+{
+    enum { N = 1000 };
+    static const extreme_law laws[] = {{LAW_GUMBEL, 5, 2, 0},   {LAW_GEV, 5, 2, 0.2},     {LAW_GEV, -3, 1, -0.3},
+                                       {LAW_GEV, 5, 2, 0},      {LAW_PARETO, 7, 3, 0.15}, {LAW_PARETO, 7, 3, -0.4},
+                                       {LAW_WEIBULL, 0, 4, 1.7}};
+    double *x = calloc(N, sizeof *x);
+    for (size_t k = 0; k < sizeof laws / sizeof *laws; k++) {
+        bool peaks = laws[k].kind == LAW_PARETO || laws[k].kind == LAW_WEIBULL;
+        for (int i = 0; i < N; i++) {
+            double p = (i + 0.5) / N;
+            x[i] = extreme_law_level(&laws[k], -real_log(peaks ? 1 - p : p));
+        }
+        for (int how = 0; how < 2; how++) {
+            extreme_law law;
+            if (laws[k].kind == LAW_WEIBULL && how == FIT_MOMENTS) {
+                ck_assert(!extreme_law_fit(laws[k].kind, FIT_MOMENTS, x, N, laws[k].location, &law));
+                continue;
+            }
+            ck_assert(extreme_law_fit(laws[k].kind, (law_fit)how, x, N, laws[k].location, &law));
+            assert_absolute(law.location, laws[k].location, 0.04);
+            assert_absolute(law.scale, laws[k].scale, 0.04);
+            assert_absolute(law.shape, laws[k].shape, 0.04);
+        }
+    }
+    free(x);
+}
+END_TEST
+
+START_TEST(levels_invert_exponents)
+{
+    static const extreme_law laws[] = {{LAW_GUMBEL, 5, 2, 0},    {LAW_GEV, 5, 2, 0.2},     {LAW_GEV, 5, 2, -0.3},
+                                       {LAW_PARETO, 7, 3, 0.15}, {LAW_PARETO, 7, 3, -0.4}, {LAW_PARETO, 7, 3, 0},
+                                       {LAW_WEIBULL, 0, 4, 1.7}};
+    for (size_t k = 0; k < sizeof laws / sizeof *laws; k++)
+        for (double e = 1e-6; e < 10; e *= 3)
+            assert_relative(extreme_law_exponent(&laws[k], extreme_law_level(&laws[k], e)), e, 1e-9);
+}
+END_TEST
+
+START_TEST(what_cannot_be_fitted_is_refused)
+{
+    extreme_law law;
+    const double same[12] = {3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3, 3};
+    ck_assert(!extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, same, 12, 0, &law));
+    ck_assert(!extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, sample, LAW_VALUES_LEAST - 1, 0, &law));
+    ck_assert(!extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, sample, SAMPLE, 7, &law));
+}
+END_TEST
+
+TEST_MAIN("extreme_law", quantiles_and_gamma_are_scipys, likelihood_fits_are_scipys, profile_intervals_are_scipys,
+          moments_give_the_law_back, levels_invert_exponents, what_cannot_be_fitted_is_refused)

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""fram extremes and fram fatigue: fits beside those of scipy and R's evd where they are installed, and bad input."""
+import json
+import math
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+FRAM = os.environ["FRAM"]
+# Debian's packages belong to Debian's interpreter, which need not be the one that runs this.
+SCIPY = """
+import json, sys
+import numpy as np
+from scipy import stats
+from scipy.optimize import minimize
+y = np.array(json.loads(sys.stdin.read()))
+def best(law, start):
+    options = dict(xatol=1e-11, fatol=1e-12, maxiter=20000, maxfev=20000)
+    return minimize(lambda p: law(p), start, method="Nelder-Mead", options=options).x
+loc, scale = stats.gumbel_r.fit(y)
+g = best(lambda p: stats.genextreme.nnlf((-p[2], p[0], np.exp(p[1])), y), [loc, np.log(scale), 0.01])
+print(json.dumps({"gumbel": [loc, scale, 0], "gev": [g[0], np.exp(g[1]), g[2]]}))
+"""
+EVD = """
+suppressMessages(library(evd)); y <- scan("stdin", quiet = TRUE)
+g <- fgev(y, control = list(reltol = 1e-14)); cat(g$estimate, "\\n")
+"""
+
+
+def sample():
+    numbers = random.Random(5)
+    return [round(10 - 2 * math.log(numbers.expovariate(1)), 6) for _ in range(80)]
+
+
+class Statistics(unittest.TestCase):
+    def setUp(self):
+        self.at = pathlib.Path(tempfile.mkdtemp(prefix="fram-statistics-"))
+        self.addCleanup(shutil.rmtree, self.at)
+
+    def fram(self, *words, code=0):
+        done = subprocess.run([FRAM, *map(str, words), "--json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout.splitlines()[-1])
+
+    def write(self, text, name="series.csv"):
+        (self.at / name).write_text(text)
+        return self.at / name
+
+    def maxima(self):
+        file = self.write("status,load[kN]\n" + "".join(f"\"a, b\",{x}\n" for x in sample()) + "failed,\n")
+        got = self.fram("extremes", file, "--channel", "load", "--maxima", "--block", "10min")
+        self.assertEqual((got["series"]["values"], got["series"]["unit"]), (80, "kN"))
+        return {m["method"]: [m["location"], m["scale"], m["shape"]] for m in got["methods"]}
+
+    def close(self, got, wanted, tolerance):
+        for a, b in zip(got, wanted):
+            self.assertAlmostEqual(a, b, delta=tolerance)
+
+    def test_fits_are_those_of_scipy(self):
+        try:
+            done = subprocess.run(["/usr/bin/python3", "-c", SCIPY], input=json.dumps(sample()), capture_output=True,
+                                  text=True)
+        except FileNotFoundError:
+            self.skipTest("no /usr/bin/python3")
+        if done.returncode:
+            self.skipTest("python3-scipy is not installed")
+        ours = self.maxima()
+        for method, wanted in json.loads(done.stdout).items():
+            self.close(ours[method], wanted, 1e-4)
+
+    def test_fits_are_those_of_evd(self):
+        if not shutil.which("Rscript"):
+            self.skipTest("r-base-core is not installed")
+        done = subprocess.run(["Rscript", "-e", EVD], input="\n".join(map(str, sample())), capture_output=True,
+                              text=True)
+        if done.returncode:
+            self.skipTest("r-cran-evd is not installed")
+        self.close(self.maxima()["gev"], [float(x) for x in done.stdout.split()], 2e-3)
+
+    def test_levels_of_gumbel_follow_from_its_law(self):
+        location, scale, _ = self.maxima()["gumbel"]
+        got = self.fram("extremes", self.at / "series.csv", "--channel", "load", "--maxima", "--block", "10min",
+                        "--method", "gumbel", "--duration", "3h", "--level", "0.9")["methods"][0]
+        self.assertAlmostEqual(got["most_probable"]["level"], location + scale * math.log(18), delta=1e-9)
+        level = got["levels"][0]
+        self.assertAlmostEqual(level["level"], location + scale * math.log(18 / -math.log(0.9)), delta=1e-9)
+        self.assertTrue(level["low"] < level["level"] < level["high"])
+
+    def test_waves_and_minima(self):
+        # A sine has one range, and its least values are the greatest of the negative one.
+        rows = "".join(f"{i * 0.1:.1f},{5 + 2 * math.sin(2 * math.pi * i / 40)}\n" for i in range(4001))
+        file = self.write("time[s],x[m]\n" + rows)
+        got = self.fram("fatigue", file, "--channel", "x", "--slope", "3,7", "--frequency", "0.25", "-o",
+                        self.at / "cycles.csv")
+        self.assertAlmostEqual(got["greatest_range"], 4, delta=1e-9)
+        self.assertAlmostEqual(got["cycles"], 100, delta=0.51)
+        for equivalent in got["equivalent"]:
+            self.assertAlmostEqual(equivalent["range"], 4, delta=0.02)
+        self.assertEqual((self.at / "cycles.csv").read_text().splitlines()[0], "range[m],mean[m],count[1]")
+        self.assertAlmostEqual(self.fram("extremes", file, "--channel", "x", "--minima", "--method", "gumbel")
+                               ["series"]["greatest"], -3, delta=1e-9)
+
+    def test_too_little_is_told_and_no_error(self):
+        file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))
+        for method in self.fram("extremes", file, "--channel", "x", "--block", "10")["methods"]:
+            if method["method"] in ("acer", "upcrossing", "gumbel", "gev"):
+                self.assertFalse(method["answered"])
+                self.assertIn("No answer", method["note"])
+                self.assertIsNone(method["most_probable"]["level"])
+        still = self.write("time,x\n" + "".join(f"{i},3\n" for i in range(300)), "still.csv")
+        for method in self.fram("extremes", still, "--channel", "x")["methods"]:
+            self.assertIn("constant", method["note"])
+        drift = self.write("time,x\n" + "".join(f"{i},{(i * 7919 % 100) / 50 + (i > 1000)}\n" for i in range(2000)),
+                           "drift.csv")
+        note = self.fram("extremes", drift, "--channel", "x", "--method", "gumbel", "--block",
+                         "20")["methods"][0]["note"]
+        self.assertIn("not stationary", note)
+        maxima = self.write("x\n" + "\n".join(map(str, sample())) + "\n", "m.csv")
+        note = self.fram("extremes", maxima, "--channel", "x", "--maxima", "--block", "60", "--duration", "1a",
+                         "--method", "gumbel")["methods"][0]["note"]
+        self.assertIn("times as long as the data", note)
+
+    def refused(self, words, *said):
+        error = self.fram(*words, code=2)["error"]
+        for word in said:
+            self.assertIn(word, f"{error['file']}:{error['line']}: {error['key']}: {error['message']}")
+
+    def test_mistakes_are_told_at_their_place(self):
+        file = self.write("time[s],tension[N]\n0,1\n1,2\n2,x\n")
+        self.refused(("extremes", file, "--channel", "tension"), "series.csv:4:", "expected a number", "x")
+        self.refused(("extremes", file, "--channel", "tensoin"), "tensoin", "did you mean tension?")
+        self.refused(("extremes", file), "channel")
+        self.refused(("extremes", file, "--channel", "tension", "--method", "gumble"), "method", "gumble")
+        self.refused(("extremes", file, "--channel", "tension", "--duration", "3 hours"), "--duration")
+        self.refused(("extremes", file, "--channel", "tension", "--duration", "-3h"), "duration")
+        self.refused(("extremes", file, "--channel", "tension", "--level", "1"), "probability")
+        self.refused(("extremes", file, "--channel", "tension", "--level", "0.5;0.9"), "--level")
+        self.refused(("extremes", file, "--channel", "tension", "--maxima"), "--block")
+        self.refused(("fatigue", file, "--channel", "tension", "--slope", "0"), "slope")
+        uneven = self.write("time,x\n0,1\n1,2\n5,3\n6,1\n", "uneven.csv")
+        self.refused(("fatigue", uneven, "--channel", "x"), "uneven.csv:3:", "equal distances")
+        self.refused(("extremes", self.write("x\n1\n2\n", "timeless.csv"), "--channel", "x"), "time", "step")
+        self.refused(("extremes", self.write("time,x\n0,1\n1\n", "short.csv"), "--channel", "x"), "short.csv:3:")
+        self.refused(("extremes", self.write("", "empty.csv"), "--channel", "x"), "empty.csv:1:")
+        self.refused(("extremes", self.at / "none.csv", "--channel", "x"), "none.csv")
+        self.refused(("extremes", self.at, "--channel", "x"), str(self.at))
+
+
+if __name__ == "__main__":
+    unittest.main()
