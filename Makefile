@@ -49,6 +49,11 @@ test-views: viewer build | $(STAMPS)/views ## the playback page in headless Chro
 test-kill: build ## kill -9 a run at FRAM_KILLS (50) random moments and resume it
 	@FRAM=$(CURDIR)/build/release/fram FRAM_KILLS=$${FRAM_KILLS:-50} $(PYTHON) tests/sim/test_kill.py
 
+CYCLES ?= 10000
+test-cycles: build/release/build.ninja ## CYCLES (10,000) random saves, loads, copies and steps of two worlds (minutes)
+	@cmake --build --preset release -j$(JOBS) --target test_api_live
+	@FRAM_CYCLES=$(CYCLES) CK_RUN_CASE=live CK_DEFAULT_TIMEOUT=7200 CK_FORK=no build/release/tests/test_api_live
+
 bench-recording: build ## what recording costs in time and bytes, against its bounds
 	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)
 

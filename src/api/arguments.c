@@ -23,6 +23,31 @@ fram_status definition_check(const void *definition, size_t wanted, const char *
                      definition ? "another size" : "NULL");
 }
 
+fram_status definition_take(void *filled, const void *given, size_t known, size_t least, const char *type,
+                            fram_error *error)
+{
+    size_t size = 0;
+    if (given)
+        memcpy(&size, given, sizeof size);
+    if (!given || size < least || size > known)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, type,
+                         "expected a definition that %s_default of this version or an older one has filled, found %s",
+                         type, given ? "another size" : "NULL");
+    memcpy(filled, given, size);
+    return FRAM_OK;
+}
+
+fram_status room_check(const void *given, size_t known, size_t *size, const char *type, fram_error *error)
+{
+    *size = 0;
+    if (given)
+        memcpy(size, given, sizeof *size);
+    if (*size > sizeof *size && *size <= known)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, type, "expected a struct with its own size in it, found %s",
+                     given ? "another size" : "NULL");
+}
+
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error)
 {
     if (value >= least && value <= most)

@@ -19,6 +19,14 @@ fram_status arguments_check(const argument *arguments, size_t count, fram_error 
    `size`, is not `wanted`. */
 fram_status definition_check(const void *definition, size_t wanted, const char *type, fram_error *error);
 
+/* A definition of an older program may be shorter: `filled`, which holds the defaults, becomes the given one as far as
+   it goes.  FRAM_ERROR_USAGE for NULL, for a size beyond `known` or under `least`, that of the first version with it.
+ */
+fram_status definition_take(void *filled, const void *given, size_t known, size_t least, const char *type,
+                            fram_error *error);
+/* The same for a struct that is to be filled: *size is what may be written of it. */
+fram_status room_check(const void *given, size_t known, size_t *size, const char *type, fram_error *error);
+
 /* FRAM_ERROR_INPUT, with the name as key, unless the number lies between the bounds, which are in. */
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error);
 

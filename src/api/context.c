@@ -72,11 +72,10 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
     fram_context_default(&d);
     fram_status status = REFUSE_NULL(error, {"context", out});
     if (status == FRAM_OK && definition)
-        status = definition_check(definition, sizeof d, "fram_context", error);
+        status =
+            definition_take(&d, definition, sizeof d, offsetof(fram_context_definition, isa), "fram_context", error);
     if (status != FRAM_OK)
         return status;
-    if (definition)
-        d = *definition;
     if (d.threads < 1 || d.threads > 256)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "threads", "expected 1 to 256, found %d", d.threads);
     context inner;

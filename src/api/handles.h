@@ -5,7 +5,12 @@
 #include "fram/fram.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
+#include "sim/controls.h"
+#include "sim/recording.h"
+#include "sim/series.h"
 #include "sim/step.h"
+
+#include <stdatomic.h>
 
 struct fram_context {
     context inner;
@@ -17,13 +22,48 @@ struct fram_scenario {
     fram_context *context;
     scenario inner;
     text_buffer text, notes;
+    text_buffer files; /* of the scenario: key, path, each ended by a NUL, one after the other */
+    int32_t file_count;
     char hash[65];
 };
 
+/* What the worlds of one scenario that were copied from one another have in common; it never changes while they live,
+   but for `users`, which is counted atomically, since they may be on different threads. */
+typedef struct world_base {
+    atomic_int users;
+    model model;
+    control_array controls;
+    series_layout columns;
+    char inputs[65]; /* of the contents of all files that the scenario names: SHA-256 */
+} world_base;
+
 struct fram_world {
     const fram_scenario *scenario;
-    model model;
+    world_base *base;
     world inner;
+    recording *recording; /* NULL: not recorded */
+    double step_wall;     /* time that the last step took [s] */
+    bool failed;          /* the last step did; nothing is stepped from such a state */
+    double *row;          /* values of all channels ... */
+    bool *row_is_new;     /* ... as they are now: what const functions may change */
 };
+
+/* A handle without a state, of a base that gets a user more; NULL without memory. */
+fram_world *world_handle(const fram_scenario *s, world_base *base);
+/* The handle, and the base with its last user; not the state. */
+void world_handle_free(fram_world *w);
+/* Room for the values of all channels; false: no memory. */
+bool world_make_row(fram_world *w);
+/* Fills base->inputs. */
+fram_status world_find_inputs(fram_world *w, fram_error *error);
+/* FRAM_ERROR_USAGE after a step that failed. */
+fram_status world_refuse_failed(const fram_world *w, fram_error *error);
+/* The recording of a world that went wrong, if it has one, is closed as a failed run. */
+void recording_abandon(fram_world *w, const char *message);
+/* The row of all channels now. */
+const double *world_row(const fram_world *w);
+/* What follows from the state is to be found again. */
+void world_changed(fram_world *w);
+fram_body_kind world_body_kind(const body_table *b, int32_t slot);
 
 #endif

@@ -28,9 +28,10 @@ static void forward_progress(void *user, const run_progress *p)
     bridge->function(bridge->user, &out);
 }
 
-static fram_status check_definition(const fram_run_definition *d, fram_error *error)
+static fram_status take_definition(const fram_run_definition *given, fram_run_definition *d, fram_error *error)
 {
-    fram_status status = definition_check(d, sizeof *d, "fram_run", error);
+    fram_run_default(d);
+    fram_status status = definition_take(d, given, sizeof *d, offsetof(fram_run_definition, force), "fram_run", error);
     if (status != FRAM_OK)
         return status;
     if (!d->folder || !*d->folder)
@@ -70,13 +71,14 @@ static void copy_result(const run_result *from, fram_run_result *to)
 fram_status fram_run(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
                      fram_error *error)
 {
+    fram_run_definition d;
     fram_status status = REFUSE_NULL(error, {"scenario", s});
     if (status == FRAM_OK)
-        status = check_definition(definition, error);
+        status = take_definition(definition, &d, error);
     if (status != FRAM_OK)
         return status;
     progress_bridge bridge;
-    run_options options = options_of(definition, &bridge);
+    run_options options = options_of(&d, &bridge);
     run_result inner = {0};
     status = run_start(&s->context->inner, &s->inner, &options, &inner, error);
     copy_result(&inner, result);
@@ -86,13 +88,14 @@ fram_status fram_run(const fram_scenario *s, const fram_run_definition *definiti
 fram_status fram_resume(fram_context *c, const fram_run_definition *definition, fram_run_result *result,
                         fram_error *error)
 {
+    fram_run_definition d;
     fram_status status = REFUSE_NULL(error, {"context", c});
     if (status == FRAM_OK)
-        status = check_definition(definition, error);
+        status = take_definition(definition, &d, error);
     if (status != FRAM_OK)
         return status;
     progress_bridge bridge;
-    run_options options = options_of(definition, &bridge);
+    run_options options = options_of(&d, &bridge);
     run_result inner = {0};
     status = run_resume(&c->inner, &options, &inner, error);
     copy_result(&inner, result);

@@ -2,12 +2,16 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
+#include "fram/live.h"
 #include "io/scenario_file.h"
+#include "model/scenario_schema.h"
 #include "sim/build.h"
 #include "sim/notes.h"
 #include "sim/scene_size.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static fram_status fill(context *ctx, fram_scenario *s, fram_error *error)
 {
@@ -34,6 +38,89 @@ static fram_status check_overrides(const char *const *overrides, int count, fram
     return FRAM_OK;
 }
 
+/* The scenario's files, for who packs them. */
+typedef struct file_list {
+    context *ctx;
+    fram_scenario *s;
+} file_list;
+
+static fram_status add_file(void *user, const scenario_key *key, const void *member, const char *name,
+                            fram_error *error)
+{
+    file_list *list = user;
+    const char *given = member;
+    if (key->kind != KEY_PATH || !*given)
+        return FRAM_OK;
+    char path[SCENARIO_TEXT_SIZE];
+    fram_status status = scenario_absolute_path(&list->s->inner, name, given, path, error);
+    if (status != FRAM_OK)
+        return status;
+    text_add_bytes(list->ctx, &list->s->files, name, strlen(name) + 1);
+    text_add_bytes(list->ctx, &list->s->files, path, strlen(path) + 1);
+    list->s->file_count++;
+    return FRAM_OK;
+}
+
+/* Text `which` (0 key, 1 path) of a file. */
+static const char *file_text(const fram_scenario *s, int number, int which)
+{
+    if (!s || number < 0 || number >= s->file_count)
+        return NULL;
+    const char *at = s->files.data;
+    for (int i = 0; i < 2 * number + which; i++)
+        at += strlen(at) + 1;
+    return at;
+}
+
+const char *fram_scenario_file(const fram_scenario *s, int number) { return file_text(s, number, 1); }
+const char *fram_scenario_file_key(const fram_scenario *s, int number) { return file_text(s, number, 0); }
+
+/* A scenario that was read becomes a handle, or is freed. */
+static fram_status finish(fram_scenario *s, fram_scenario **out, fram_error *error)
+{
+    context *ctx = &s->context->inner;
+    fram_status status = fill(ctx, s, error);
+    file_list list = {ctx, s};
+    if (status == FRAM_OK)
+        status = scenario_walk(&s->inner, add_file, &list, error);
+    if (status == FRAM_OK && s->files.failed)
+        status = error_memory(error);
+    if (status != FRAM_OK) {
+        fram_scenario_destroy(s);
+        return status;
+    }
+    *out = s;
+    return FRAM_OK;
+}
+
+fram_status fram_scenario_parse(fram_context *c, const char *text, const char *base, const char *const *overrides,
+                                int override_count, fram_scenario **out, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"text", text}, {"scenario", out});
+    if (status == FRAM_OK)
+        status = check_overrides(overrides, override_count, error);
+    if (status != FRAM_OK)
+        return status;
+    char name[SCENARIO_TEXT_SIZE];
+    int length = snprintf(name, sizeof name, "%s%s(text)", base ? base : "", base && *base ? "/" : "");
+    if (length < 0 || (size_t)length >= sizeof name)
+        return error_set(error, FRAM_ERROR_INPUT, base, 0, "base", "the folder's name is too long");
+    context *ctx = &c->inner;
+    fram_scenario *s = memory_array(ctx, 1, sizeof *s);
+    if (!s)
+        return error_memory(error);
+    s->context = c;
+    const scenario_overrides list = {overrides, override_count};
+    status = scenario_parse(ctx, name, text, strlen(text), &list, &s->inner, error);
+    if (status == FRAM_OK)
+        status = scenario_find_files(ctx, &s->inner, error);
+    if (status != FRAM_OK) {
+        memory_free(ctx, s);
+        return status;
+    }
+    return finish(s, out, error);
+}
+
 fram_status fram_scenario_load(fram_context *c, const char *path, const char *const *overrides, int override_count,
                                fram_scenario **out, fram_error *error)
 {
@@ -53,13 +140,7 @@ fram_status fram_scenario_load(fram_context *c, const char *path, const char *co
         memory_free(ctx, s);
         return status;
     }
-    status = fill(ctx, s, error);
-    if (status != FRAM_OK) {
-        fram_scenario_destroy(s);
-        return status;
-    }
-    *out = s;
-    return FRAM_OK;
+    return finish(s, out, error);
 }
 
 const char *fram_scenario_text(const fram_scenario *s) { return s ? s->text.data : ""; }
@@ -83,6 +164,7 @@ void fram_scenario_destroy(fram_scenario *s)
     scenario_free(ctx, &s->inner);
     text_free(ctx, &s->text);
     text_free(ctx, &s->notes);
+    text_free(ctx, &s->files);
     memory_free(ctx, s);
 }
 

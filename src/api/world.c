@@ -2,9 +2,81 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
+#include "fram/live.h"
 #include "sim/build.h"
 
 #include <math.h>
+
+/* Beyond all that can be meant [N, N m]. */
+#define WRENCH_MOST 1e200
+
+/* ---- life ---- */
+
+static void base_leave(context *ctx, world_base *base)
+{
+    if (!base || atomic_fetch_sub(&base->users, 1) > 1)
+        return;
+    model_free(ctx, &base->model);
+    array_free(ctx, &base->controls);
+    series_layout_free(ctx, &base->columns);
+    memory_free(ctx, base);
+}
+
+fram_world *world_handle(const fram_scenario *s, world_base *base)
+{
+    context *ctx = &s->context->inner;
+    fram_world *w = memory_array(ctx, 1, sizeof *w);
+    if (!w)
+        return NULL;
+    w->scenario = s;
+    w->row_is_new = memory_array(ctx, 1, sizeof *w->row_is_new);
+    if (!w->row_is_new) {
+        world_handle_free(w);
+        return NULL;
+    }
+    w->base = base;
+    atomic_fetch_add(&base->users, 1);
+    return w;
+}
+
+void world_handle_free(fram_world *w)
+{
+    context *ctx = &w->scenario->context->inner;
+    base_leave(ctx, w->base);
+    memory_free(ctx, w->row);
+    memory_free(ctx, w->row_is_new);
+    memory_free(ctx, w);
+}
+
+bool world_make_row(fram_world *w)
+{
+    w->row = memory_array(&w->scenario->context->inner, (size_t)w->base->columns.columns.count, sizeof *w->row);
+    return w->row;
+}
+
+/* Model and world; then the lists that follow from them. */
+static fram_status build(fram_world *w, fram_error *error)
+{
+    const fram_scenario *s = w->scenario;
+    context *ctx = &s->context->inner;
+    field_report report;
+    fram_status status = world_find_inputs(w, error);
+    if (status == FRAM_OK)
+        status = build_model(ctx, &s->inner, &w->base->model, error);
+    if (status != FRAM_OK)
+        return status;
+    status = build_world(ctx, &s->inner, &w->base->model, &w->inner, &report, error);
+    if (status != FRAM_OK)
+        return status;
+    status = series_columns(ctx, &s->inner, &w->base->columns, error);
+    if (status == FRAM_OK && !controls_list(ctx, &s->inner, &w->base->model, &w->inner, &w->base->controls))
+        status = error_memory(error);
+    if (status == FRAM_OK && !world_make_row(w))
+        status = error_memory(error);
+    if (status != FRAM_OK)
+        world_free(ctx, &w->inner);
+    return status;
+}
 
 fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_error *error)
 {
@@ -12,19 +84,18 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
     if (status != FRAM_OK)
         return status;
     context *ctx = &s->context->inner;
-    fram_world *w = memory_array(ctx, 1, sizeof *w);
-    if (!w)
+    world_base *base = memory_array(ctx, 1, sizeof *base);
+    if (!base)
         return error_memory(error);
-    w->scenario = s;
-    field_report report;
-    status = build_model(ctx, &s->inner, &w->model, error);
-    if (status == FRAM_OK) {
-        status = build_world(ctx, &s->inner, &w->model, &w->inner, &report, error);
-        if (status != FRAM_OK)
-            model_free(ctx, &w->model);
+    atomic_init(&base->users, 0);
+    fram_world *w = world_handle(s, base);
+    if (!w) {
+        memory_free(ctx, base);
+        return error_memory(error);
     }
+    status = build(w, error);
     if (status != FRAM_OK) {
-        memory_free(ctx, w);
+        world_handle_free(w);
         return status;
     }
     *out = w;
@@ -35,18 +106,45 @@ void fram_world_destroy(fram_world *w)
 {
     if (!w)
         return;
-    context *ctx = &w->scenario->context->inner;
-    world_free(ctx, &w->inner);
-    model_free(ctx, &w->model);
-    memory_free(ctx, w);
+    if (w->recording)
+        (void)fram_world_record_end(w, NULL, NULL);
+    world_free(&w->scenario->context->inner, &w->inner);
+    world_handle_free(w);
+}
+
+/* ---- stepping ---- */
+
+void world_changed(fram_world *w) { *w->row_is_new = false; }
+
+fram_status world_refuse_failed(const fram_world *w, fram_error *error)
+{
+    if (!w->failed)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world",
+                     "its last step failed; load a good state before it goes on, or destroy it");
 }
 
 fram_status fram_world_step(fram_world *w, fram_error *error)
 {
+    fram_error local = {0};
     fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK)
+        status = world_refuse_failed(w, error);
     if (status != FRAM_OK)
         return status;
-    return world_step(&w->scenario->context->inner, &w->model, &w->inner, error);
+    double before = wall_seconds();
+    world_changed(w);
+    status = world_step(&w->scenario->context->inner, &w->base->model, &w->inner, &local);
+    w->step_wall = wall_seconds() - before;
+    w->failed = status != FRAM_OK;
+    if (status == FRAM_OK && w->recording)
+        status = recording_step(w->recording, w->step_wall, &local);
+    if (status != FRAM_OK) {
+        recording_abandon(w, local.message);
+        if (error)
+            *error = local;
+    }
+    return status;
 }
 
 double fram_world_time(const fram_world *w) { return w ? w->inner.clock.time[0] : (double)NAN; }
@@ -70,7 +168,7 @@ bool fram_world_vessel(const fram_world *w, fram_body_id *id)
     return w && w->inner.vessels.count > 0 && fram_world_body(w, w->inner.vessels.body[0], id);
 }
 
-static bool lives(const body_table *b, fram_body_id id)
+static bool is_living(const body_table *b, fram_body_id id)
 {
     return id.slot >= 0 && id.slot < b->count && body_is_alive(b, id.slot) && b->generation[id.slot] == id.generation;
 }
@@ -81,7 +179,7 @@ static fram_status no_such_body(fram_body_id id, fram_error *error)
                      (int)id.slot, (unsigned)id.generation);
 }
 
-static fram_body_kind kind_of(const body_table *b, int32_t slot)
+fram_body_kind world_body_kind(const body_table *b, int32_t slot)
 {
     if (b->shape[slot] < 0)
         return FRAM_BODY_OTHER;
@@ -106,10 +204,10 @@ fram_status fram_body_state_get(const fram_world *w, fram_body_id id, fram_body_
     if (status != FRAM_OK)
         return status;
     const body_table *b = &w->inner.bodies;
-    if (!lives(b, id))
+    if (!is_living(b, id))
         return no_such_body(id, error);
     quat q = b->orientation[id.slot];
-    state->kind = kind_of(b, id.slot);
+    state->kind = world_body_kind(b, id.slot);
     state->dynamic = body_is_dynamic(b, id.slot);
     state->mass = b->mass[id.slot];
     copy3(state->position, b->position[id.slot]);
@@ -125,7 +223,7 @@ int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room
         return 0;
     const body_table *b = &w->inner.bodies;
     const shape_store *s = &w->inner.shapes;
-    if (!lives(b, id) || b->shape[id.slot] < 0 || s->shapes.kind[b->shape[id.slot]] != SHAPE_PRISM)
+    if (!is_living(b, id) || b->shape[id.slot] < 0 || s->shapes.kind[b->shape[id.slot]] != SHAPE_PRISM)
         return 0;
     polygon outline = shape_outline(s, b->shape[id.slot]);
     for (int32_t i = 0; xy && i < outline.count && i < room; i++) {
@@ -141,15 +239,16 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
     fram_status status = REFUSE_NULL(error, {"world", w}, {"force", force}, {"moment", moment});
     if (status != FRAM_OK)
         return status;
-    if (!lives(&w->inner.bodies, id))
+    if (!is_living(&w->inner.bodies, id))
         return no_such_body(id, error);
     if (!body_is_dynamic(&w->inner.bodies, id.slot))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "body %d is static or driven: forces do not move it",
                          (int)id.slot);
     wrench load = {{force[0], force[1], force[2]}, {moment[0], moment[1], moment[2]}};
     double sum = load.force.x + load.force.y + load.force.z + load.moment.x + load.moment.y + load.moment.z;
-    if (!isfinite(sum))
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "force", "a force or moment is not finite");
+    if (!isfinite(sum) || fabs(sum) > WRENCH_MOST)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "force",
+                         "a force or moment is not finite, or beyond all use");
     return world_add_wrench(&w->scenario->context->inner, &w->inner, id.slot, load, error);
 }
 
@@ -159,7 +258,7 @@ fram_status fram_world_ice_load(const fram_world *w, fram_body_id id, fram_ice_l
     if (status != FRAM_OK)
         return status;
     const world *in = &w->inner;
-    if (!lives(&in->bodies, id))
+    if (!is_living(&in->bodies, id))
         return no_such_body(id, error);
     for (int32_t v = 0; v < in->vessels.count; v++) {
         if (in->vessels.body[v] != id.slot)

@@ -459,6 +459,14 @@ static fram_status look_for_file(void *user, const scenario_key *key, const void
     return FRAM_ERROR_INPUT;
 }
 
+fram_status scenario_find_files(context *ctx, scenario *s, fram_error *error)
+{
+    fram_status status = scenario_walk(s, look_for_file, s, error);
+    if (status != FRAM_OK)
+        scenario_free(ctx, s);
+    return status;
+}
+
 fram_status scenario_read(context *ctx, const char *path, const scenario_overrides *overrides, scenario *s,
                           fram_error *error)
 {
@@ -469,10 +477,5 @@ fram_status scenario_read(context *ctx, const char *path, const scenario_overrid
         return status;
     status = scenario_parse(ctx, path, text, size, overrides, s, error);
     memory_free(ctx, text);
-    if (status != FRAM_OK)
-        return status;
-    status = scenario_walk(s, look_for_file, s, error);
-    if (status != FRAM_OK)
-        scenario_free(ctx, s);
-    return status;
+    return status == FRAM_OK ? scenario_find_files(ctx, s, error) : status;
 }

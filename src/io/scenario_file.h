@@ -27,6 +27,9 @@ fram_status scenario_read(context *ctx, const char *path, const scenario_overrid
 fram_status scenario_parse(context *ctx, const char *name, const char *text, size_t size,
                            const scenario_overrides *overrides, scenario *s, fram_error *error);
 
+/* That the files which a scenario names are there; on failure the scenario is freed. */
+fram_status scenario_find_files(context *ctx, scenario *s, fram_error *error);
+
 typedef struct scenario_print_options {
     bool comments;       /* unit and meaning after every key */
     bool absolute_paths; /* so that the text can be used from another folder */

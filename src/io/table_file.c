@@ -28,9 +28,10 @@ static uint32_t head_crc(const table_file_head *h) { return crc_of(0, h, offseto
 
 /* ---- writing ---- */
 
-/* Where the body goes: into a file, or (NULL) only into size and checksum. */
+/* Where the body goes: into a file, into memory, or (both NULL) only into size and checksum. */
 typedef struct body_sink {
     file_writer *file;
+    char *memory; /* where the next bytes go */
     uint64_t size;
     uint32_t crc;
     fram_status status;
@@ -40,7 +41,11 @@ typedef struct body_sink {
 static void put(body_sink *s, const void *data, size_t size)
 {
     s->size += size;
-    if (!s->file)
+    if (s->memory) {
+        if (size > 0)
+            memcpy(s->memory, data, size);
+        s->memory += size;
+    } else if (!s->file)
         s->crc = crc_of(s->crc, data, size);
     else if (s->status == FRAM_OK)
         s->status = file_write(s->file, data, size, s->error);
@@ -90,8 +95,7 @@ static void put_body(body_sink *s, const table_file *content)
         put_table(s, &content->tables[i]);
 }
 
-fram_status table_file_begin(context *ctx, const char *path, const table_file *content, atomic_file *file,
-                             fram_error *error)
+static table_file_head head_of(const table_file *content)
 {
     body_sink measure = {.status = FRAM_OK};
     put_body(&measure, content);
@@ -100,7 +104,27 @@ fram_status table_file_begin(context *ctx, const char *path, const table_file *c
     head.size = sizeof head + measure.size;
     head.body_crc = measure.crc;
     head.crc = head_crc(&head);
+    return head;
+}
 
+fram_status table_file_encode(context *ctx, const table_file *content, char **data, size_t *size, fram_error *error)
+{
+    table_file_head head = head_of(content);
+    char *bytes = memory_resize(ctx, NULL, (size_t)head.size);
+    if (!bytes)
+        return error_memory(error);
+    body_sink body = {.memory = bytes, .status = FRAM_OK};
+    put(&body, &head, sizeof head);
+    put_body(&body, content);
+    *data = bytes;
+    *size = (size_t)head.size;
+    return FRAM_OK;
+}
+
+fram_status table_file_begin(context *ctx, const char *path, const table_file *content, atomic_file *file,
+                             fram_error *error)
+{
+    table_file_head head = head_of(content);
     fram_status status = atomic_file_begin(ctx, path, file, error);
     if (status != FRAM_OK)
         return status;

@@ -43,6 +43,8 @@ typedef struct table_file {
 /* Into a new atomic file (io/atomic_file.h), to be committed. */
 fram_status table_file_begin(context *ctx, const char *path, const table_file *content, atomic_file *file,
                              fram_error *error);
+/* The same bytes in memory of ctx. */
+fram_status table_file_encode(context *ctx, const table_file *content, char **data, size_t *size, fram_error *error);
 /* FRAM_ERROR_INPUT with the reason when the file is damaged, of another version or byte order, or holds other names or
    fields: nothing is then changed.  Without memory the tables' rows are undefined, but they can be freed. */
 fram_status table_file_read(context *ctx, const char *path, table_file *content, fram_error *error);

@@ -44,6 +44,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(feeding, feeding),
         STATE(pattern, pattern),
         STATE(pattern_vertex, pattern_vertices),
+        STATE(input, inputs),
     };
     memcpy(out, list, sizeof list);
 }
@@ -73,7 +74,6 @@ fram_status world_init(context *ctx, const model *m, world *w, fram_error *error
 static void scratch_free(context *ctx, world *w)
 {
     array_free(ctx, &w->scratch.loads);
-    array_free(ctx, &w->scratch.outside);
     array_free(ctx, &w->scratch.submerged);
     array_free(ctx, &w->scratch.fluid);
     array_free(ctx, &w->scratch.contacts);
@@ -103,7 +103,6 @@ static void poison(void *data, int32_t capacity, size_t size)
         memset(data, 0xff, (size_t)capacity * size);
 }
 
-/* What came from outside since the last step (scratch.outside) is input, not scratch. */
 void world_poison_scratch(world *w)
 {
 #define POISON(a) poison(w->scratch.a.data, w->scratch.a.capacity, sizeof *w->scratch.a.data)
@@ -134,13 +133,21 @@ void world_free(context *ctx, world *w)
     memset(w, 0, sizeof *w);
 }
 
+/* The number of tables as it was when hashes of runs were first published. */
+enum { HASH_SEED = 21 };
+
 uint64_t world_hash(const world *w)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
-    uint64_t hash = WORLD_TABLE_COUNT;
-    for (int t = 0; t < WORLD_TABLE_COUNT; t++)
-        hash = table_hash(tables[t].table, tables[t].info, hash);
+    static const recorded_table nothing_recorded = {0};
+    uint64_t hash = HASH_SEED;
+    for (int t = 0; t < WORLD_TABLE_COUNT; t++) {
+        if (tables[t].info == &recorded_table_info)
+            hash = table_hash(&nothing_recorded, tables[t].info, hash);
+        else if (tables[t].info != &input_table_info || w->inputs.count > 0)
+            hash = table_hash(tables[t].table, tables[t].info, hash);
+    }
     return hash;
 }
 
@@ -155,17 +162,34 @@ fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_er
     return FRAM_OK;
 }
 
+#define COPY_ARRAY(member)                                                                     \
+    (array_resize(ctx, &dst->scratch.member, src->scratch.member.count) &&                     \
+     copy_bytes(dst->scratch.member.data, src->scratch.member.data, src->scratch.member.count, \
+                sizeof *dst->scratch.member.data))
+
+static bool copy_bytes(void *to, const void *from, int32_t count, size_t size)
+{
+    if (count > 0)
+        memcpy(to, from, (size_t)count * size);
+    return true;
+}
+
+/* What the last step left for readers. */
+static bool copy_reports(context *ctx, const world *src, world *dst)
+{
+    dst->scratch.solver = src->scratch.solver;
+    return COPY_ARRAY(fluid) && COPY_ARRAY(contacts) && COPY_ARRAY(patches) && COPY_ARRAY(ice_loads) &&
+           COPY_ARRAY(responses) && COPY_ARRAY(fractures);
+}
+
 fram_status world_copy(context *ctx, const world *src, world *dst, fram_error *error)
 {
     fram_status status = init(ctx, src->shapes.solids, dst, error);
     if (status != FRAM_OK)
         return status;
     status = world_copy_state(ctx, dst, src, error);
-    int32_t told = src->scratch.outside.count;
-    if (status == FRAM_OK && !array_resize(ctx, &dst->scratch.outside, told))
+    if (status == FRAM_OK && !copy_reports(ctx, src, dst))
         status = error_memory(error);
-    if (status == FRAM_OK && told > 0)
-        memcpy(dst->scratch.outside.data, src->scratch.outside.data, (size_t)told * sizeof *dst->scratch.outside.data);
     if (status != FRAM_OK)
         world_free(ctx, dst);
     return status;

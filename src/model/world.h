@@ -11,6 +11,7 @@
 #include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
+#include "model/inputs.h"
 #include "model/mechanism.h"
 #include "model/model.h"
 #include "vessel/mooring.h"
@@ -82,11 +83,11 @@ typedef struct world {
     feeding_table feeding; /* one row, or none */
     pattern_table pattern;
     pattern_vertex_table pattern_vertices;
+    input_table inputs;
 
     /* Scratch: written anew each step. */
     struct {
         ARRAY(wrench) loads;     /* one per body slot */
-        ARRAY(wrench) outside;   /* wrenches given from outside through the API, used once */
         ARRAY(double) submerged; /* volume, one per body slot [m3] */
         ARRAY(fluid_load) fluid; /* one per solid of the shape store; rows of static bodies mean nothing */
         contact_array contacts;
@@ -112,21 +113,22 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 21 };
+enum { WORLD_TABLE_COUNT = 22 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 
 /* An empty world of a model, which must stay where it is until the world is freed. */
 fram_status world_init(context *ctx, const model *m, world *w, fram_error *error);
-/* dst, which is not yet a world, becomes one of the same model in the same state, with what src was told from outside
-   since its last step. */
+/* dst, which is not yet a world, becomes one of the same model in the same state; what the last step left for readers
+   (contacts, patches, loads, fractures, the solver's report) comes along. */
 fram_status world_copy(context *ctx, const world *src, world *dst, fram_error *error);
 void world_free(context *ctx, world *w);
 /* Debug builds call this before each step: the scratch of the step before becomes garbage (all bits set, so that reals
    are not numbers), and a stage that reads what it should have written is found.  Allocated scratch objects are left
    alone. */
 void world_poison_scratch(world *w);
-/* 64-bit hash of the whole state. */
+/* 64-bit hash of the whole state, but for `recorded`, which is no part of what is simulated: a world has the same hash
+   whether it is recorded or not.  Inputs count from the first that is told on. */
 uint64_t world_hash(const world *w);
 /* dst's state becomes src's; both are of the same model. */
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error);

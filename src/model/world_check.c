@@ -39,6 +39,7 @@ static const column_rule column_rules[] = {
     {"event", "vessel", 0, 0, "vessel"},
     {"pattern", "state", PATTERN_OUTSIDE, PATTERN_HELD_BACK, NULL},
     {"pattern", "body", -1, 0, "body"},
+    {"input", "kind", 0, INPUT_KIND_COUNT - 1, NULL},
     {"clock", "step", 0, INT64_MAX, NULL},
     {"clock", "next_floe", 0, INT32_MAX, NULL},
 };
@@ -214,6 +215,17 @@ static fram_status check_stations(const world *w, fram_error *error)
     return FRAM_OK;
 }
 
+static fram_status check_inputs(const world *w, fram_error *error)
+{
+    for (int32_t i = 0; i < w->inputs.count; i++) {
+        int32_t kind = w->inputs.kind[i], which = w->inputs.which[i];
+        int32_t rows = kind == INPUT_FORCE ? w->vessels.count : kind == INPUT_WRENCH ? w->bodies.count : 1;
+        if (which < 0 || which >= rows)
+            return refuse("input", i, "which", which, error);
+    }
+    return FRAM_OK;
+}
+
 fram_status world_check(const model *m, const world *w, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
@@ -231,6 +243,8 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = check_shapes(&w->shapes, error);
     if (status == FRAM_OK)
         status = check_bodies(w, error);
+    if (status == FRAM_OK)
+        status = check_inputs(w, error);
     if (status == FRAM_OK && w->vessels.count != m->vessels.count)
         status = refuse("vessel", 0, NULL, w->vessels.count, error);
     if (status == FRAM_OK)

@@ -56,7 +56,7 @@ static fram_status begin(context *ctx, const scenario *s, const model *m, vec2 t
     feeding_definition d = {.window = m->domain,
                             .tile = tile,
                             .band = s->domain.band,
-                            .velocity = feed_drift(m, 0),
+                            .velocity = feed_drift(m, &w->inputs, 0),
                             .keep_out = &keep_out,
                             .smallest_area = s->ice.smallest_floe_area,
                             .piece_area_limit = s->ice.smallest_piece_area};

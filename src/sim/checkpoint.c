@@ -86,21 +86,45 @@ void checkpoint_remove_all(context *ctx, const char *folder) { (void)remove_from
 
 /* ---- writing ---- */
 
+/* What a file of a state holds. */
+typedef struct state_content {
+    world_table tables[WORLD_TABLE_COUNT];
+    table_file_number numbers[NUMBER_COUNT];
+    table_file_bytes bytes[BYTES_COUNT];
+    table_file file;
+} state_content;
+
+static void content_of(const world *w, const checkpoint_note *note, state_content *c)
+{
+    world_tables(w, c->tables);
+    const table_file_number numbers[NUMBER_COUNT] = {{"series_length", note->series_length},
+                                                     {"record_length", note->record_length},
+                                                     {"fractures_length", note->fractures_length},
+                                                     {"state_hash", world_hash(w)}};
+    /* Writing only reads; the container's one struct for both ways has no const. */
+    const table_file_bytes bytes[BYTES_COUNT] = {
+        {"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
+        {"inputs", (void *)note->inputs, strlen(note->inputs)},
+        {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
+    memcpy(c->numbers, numbers, sizeof numbers);
+    memcpy(c->bytes, bytes, sizeof bytes);
+    c->file = (table_file){c->tables, WORLD_TABLE_COUNT, c->numbers, NUMBER_COUNT, c->bytes, BYTES_COUNT};
+}
+
 static fram_status begin_file(context *ctx, const char *path, const world *w, const checkpoint_note *note,
                               atomic_file *file, fram_error *error)
 {
-    world_table tables[WORLD_TABLE_COUNT];
-    world_tables(w, tables);
-    /* Writing only reads; the container's one struct for both ways has no const. */
-    table_file_number numbers[NUMBER_COUNT] = {{"series_length", note->series_length},
-                                               {"record_length", note->record_length},
-                                               {"fractures_length", note->fractures_length},
-                                               {"state_hash", world_hash(w)}};
-    table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", (void *)note->scenario_hash, strlen(note->scenario_hash)},
-                                           {"inputs", (void *)note->inputs, strlen(note->inputs)},
-                                           {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
-    table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
-    return table_file_begin(ctx, path, &content, file, error);
+    state_content content;
+    content_of(w, note, &content);
+    return table_file_begin(ctx, path, &content.file, file, error);
+}
+
+fram_status state_encode(context *ctx, const world *w, const checkpoint_note *note, char **data, size_t *size,
+                         fram_error *error)
+{
+    state_content content;
+    content_of(w, note, &content);
+    return table_file_encode(ctx, &content.file, data, size, error);
 }
 
 fram_status checkpoint_begin(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
@@ -143,9 +167,9 @@ static bool same_text(const table_file_bytes *bytes, const char *text)
     return bytes->size == strlen(text) && (bytes->size == 0 || memcmp(bytes->data, text, bytes->size) == 0);
 }
 
-/* Read one file; `other` is true when it is sound but belongs to something else. */
-static fram_status read_one(context *ctx, const char *path, const model *m, world *w, checkpoint_note *note,
-                            bool *other, fram_error *error)
+/* Read one file, or `data` in its place; `other` is true when it is sound but belongs to something else. */
+static fram_status read_one(context *ctx, const char *path, const void *data, size_t size, const model *m, world *w,
+                            checkpoint_note *note, bool *other, fram_error *error)
 {
     world_table tables[WORLD_TABLE_COUNT];
     world_tables(w, tables);
@@ -155,7 +179,8 @@ static fram_status read_one(context *ctx, const char *path, const model *m, worl
     table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
     fram_error unsound = {0};
     *other = false;
-    fram_status status = table_file_read(ctx, path, &content, error);
+    fram_status status =
+        data ? table_file_decode(ctx, path, data, size, &content, error) : table_file_read(ctx, path, &content, error);
     if (status != FRAM_OK)
         return status;
     if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
@@ -186,6 +211,14 @@ static fram_status read_one(context *ctx, const char *path, const model *m, worl
     return status;
 }
 
+fram_status state_decode(context *ctx, const char *name, const void *data, size_t size, const model *m, world *w,
+                         const checkpoint_note *note, fram_error *error)
+{
+    checkpoint_note found = *note;
+    bool other;
+    return read_one(ctx, name, data, size, m, w, &found, &other, error);
+}
+
 fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
                                    fram_error *error)
 {
@@ -203,7 +236,7 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, const model
         fram_error reason = {0};
         if (checkpoint_path(folder, steps.data[i], path, NULL) != FRAM_OK)
             continue;
-        status = read_one(ctx, path, m, w, note, &other, &reason);
+        status = read_one(ctx, path, NULL, 0, m, w, note, &other, &reason);
         if (error && status != FRAM_OK)
             *error = reason;
         if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || other)

@@ -23,6 +23,12 @@ fram_status checkpoint_end(context *ctx, const char *folder, late_commit *commit
 /* The state of a run that went wrong, for a look at it: FOLDER/failed.fram.  Never resumed from. */
 fram_status checkpoint_write_failed(context *ctx, const char *folder, const world *w, const checkpoint_note *note,
                                     fram_error *error);
+/* The state alone as bytes of ctx's memory, and back into an empty world of the model; `name` stands for a file in
+   errors.  note says what it belongs to; its lengths are not looked at. */
+fram_status state_encode(context *ctx, const world *w, const checkpoint_note *note, char **data, size_t *size,
+                         fram_error *error);
+fram_status state_decode(context *ctx, const char *name, const void *data, size_t size, const model *m, world *w,
+                         const checkpoint_note *note, fram_error *error);
 /* Read the newest good checkpoint of a folder into an empty world of the run's model.  A damaged one is passed over
    with a warning in the log.  FRAM_ERROR_INPUT when there is none, or when it belongs to another scenario or to other
    inputs. note->scenario_hash and inputs say what is expected; the lengths are filled. */

@@ -6,9 +6,9 @@
 
 /* The parts of a world that feeding reads and changes. */
 feeding_world feed_world(world *w);
-/* Velocity of the far field at a time: its own history, what the scenario gives, or the current at the surface [m/s].
- */
-vec2 feed_drift(const model *m, double time);
+/* Velocity of the far field at a time: what was told from outside, its own history, what the scenario gives, or the
+   current at the surface [m/s]. */
+vec2 feed_drift(const model *m, const input_table *inputs, double time);
 /* Before the solve of the step that ends at `time`. */
 void feed_drive(const model *m, world *w, double time);
 /* At the end of the step. */

@@ -13,7 +13,7 @@
 #include <time.h>
 #include <unistd.h>
 
-double wall_clock(void)
+double wall_seconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -50,7 +50,7 @@ static fram_status write_summary(recording *r, const char *state, const char *me
                            .message = message,
                            .inputs = r->inputs.data,
                            .threads = context_threads(r->ctx),
-                           .wall = wall_clock() - r->started,
+                           .wall = wall_seconds() - r->started,
                            .recording = r->record_time,
                            .recording_end = r->end_time,
                            .state_hash = world_hash(r->w)};
@@ -131,7 +131,7 @@ static void leave_state(recording *r)
 /* Checkpoint, pictures and figures of the end. */
 static fram_status write_end(recording *r, fram_error *error)
 {
-    double began = wall_clock();
+    double began = wall_seconds();
     fram_status status = write_checkpoint(r, error);
     if (status == FRAM_OK)
         status = draw(r, "plan.png", draw_plan, error);
@@ -141,7 +141,7 @@ static fram_status write_end(recording *r, fram_error *error)
         status = r->finish(r->ctx, r->s, &station, r->folder, error);
     if (status == FRAM_OK)
         status = end_checkpoint(r, error);
-    r->end_time = wall_clock() - began;
+    r->end_time = wall_seconds() - began;
     r->record_time += r->end_time;
     return status;
 }
@@ -224,7 +224,7 @@ static fram_status start_streams(recording *r, fram_error *error)
 fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error)
 {
     double dt = s->run.time_step;
-    *r = (recording){.ctx = ctx, .s = s, .started = wall_clock(), .lock = -1};
+    *r = (recording){.ctx = ctx, .s = s, .started = wall_seconds(), .lock = -1};
     if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     r->end_step = r->stop_step = step_at(s->run.duration, dt);
@@ -247,14 +247,15 @@ fram_status recording_prepare_again(recording *r, fram_error *error)
 
 fram_status recording_begin(recording *r, world *w, fram_error *error)
 {
-    double began = wall_clock();
+    double began = wall_seconds();
     r->w = w;
+    r->began_at = w->clock.time[0];
     fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, &r->lock, error);
     if (status == FRAM_OK)
         status = write_scenario(r, error);
     if (status == FRAM_OK)
         status = start_streams(r, error);
-    r->record_time += wall_clock() - began;
+    r->record_time += wall_seconds() - began;
     return status;
 }
 
@@ -265,6 +266,7 @@ fram_status recording_read_state(recording *r, const model *m, world *w, recorde
     fram_status status = checkpoint_read_newest(r->ctx, r->folder, m, w, &note, error);
     *lengths = (recorder_lengths){note.series_length, note.record_length, note.fractures_length};
     r->w = w;
+    r->began_at = w->clock.time[0];
     return status;
 }
 
@@ -277,17 +279,17 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
 
 fram_status recording_step(recording *r, double step_wall, fram_error *error)
 {
-    double began = wall_clock();
+    double began = wall_seconds();
     fram_status status = as_failure(write_what_is_due(r, step_wall, error), error);
-    r->record_time += wall_clock() - began;
+    r->record_time += wall_seconds() - began;
     return status;
 }
 
 fram_status recording_checkpoint(recording *r, fram_error *error)
 {
-    double began = wall_clock();
+    double began = wall_seconds();
     fram_status status = as_failure(write_checkpoint(r, error), error);
-    r->record_time += wall_clock() - began;
+    r->record_time += wall_seconds() - began;
     return status;
 }
 

@@ -30,6 +30,7 @@ typedef struct recording {
     text_buffer inputs;
     char hash[65];
     double started;     /* wall clock [s] */
+    double began_at;    /* simulated time at which this call began [s] */
     double record_time; /* for all that was written so far [s] */
     double end_time;    /* of it at the end [s] */
     int64_t end_step;   /* of the scenario */
@@ -40,7 +41,7 @@ typedef struct recording {
 } recording;
 
 /* Wall clock, from no moment in particular [s]. */
-double wall_clock(void);
+double wall_seconds(void);
 /* The first step whose time is not before `time`, within rounding. */
 int64_t step_at(double time, double time_step);
 

@@ -15,8 +15,7 @@ typedef struct run {
     recording record;
     model model;
     world world;
-    double drawn;      /* wall clock [s] */
-    double start_time; /* simulated time at which this call began [s] */
+    double drawn; /* wall clock [s] */
 } run;
 
 static fram_status run_init(context *ctx, const scenario *s, const run_options *options, run *r, fram_error *error)
@@ -34,11 +33,11 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
 
 static void show_progress(run *r, bool last)
 {
-    double now = wall_clock();
+    double now = wall_seconds();
     if (!r->options->progress || (!last && now - r->drawn < 0.2))
         return;
     r->drawn = now;
-    double time = r->world.clock.time[0], done = time - r->start_time, wall = now - r->record.started;
+    double time = r->world.clock.time[0], done = time - r->record.began_at, wall = now - r->record.started;
     run_progress p = {.time = time, .end = (double)r->record.end_step * r->record.s->run.time_step, .wall = wall};
     double stop = (double)r->record.stop_step * r->record.s->run.time_step;
     p.real_time_factor = wall > 0 ? done / wall : 0;
@@ -52,10 +51,10 @@ static fram_status step_loop(run *r, fram_error *error)
 {
     fram_status status = FRAM_OK;
     while (status == FRAM_OK && r->world.clock.step[0] < r->record.stop_step && !asked_to_stop(r)) {
-        double before = wall_clock();
+        double before = wall_seconds();
         status = world_step(r->ctx, &r->model, &r->world, error);
         if (status == FRAM_OK)
-            status = recording_step(&r->record, wall_clock() - before, error);
+            status = recording_step(&r->record, wall_seconds() - before, error);
         show_progress(r, false);
     }
     show_progress(r, true);
@@ -68,8 +67,8 @@ static void fill_result(run *r, run_result *result)
     result->state_hash = world_hash(w);
     result->steps = w->clock.step[0];
     result->time = w->clock.time[0];
-    result->wall = wall_clock() - r->record.started;
-    result->real_time_factor = result->wall > 0 ? (result->time - r->start_time) / result->wall : 0;
+    result->wall = wall_seconds() - r->record.started;
+    result->real_time_factor = result->wall > 0 ? (result->time - r->record.began_at) / result->wall : 0;
     result->bodies = result->floes = 0;
     for (int32_t i = 0; i < w->bodies.count; i++)
         result->bodies += body_is_alive(&w->bodies, i);
@@ -80,7 +79,6 @@ static void fill_result(run *r, run_result *result)
 
 static fram_status drive(run *r, run_result *result, fram_error *error)
 {
-    r->start_time = r->world.clock.time[0];
     r->drawn = 0;
     fram_error local = {0};
     fram_status status = step_loop(r, &local);

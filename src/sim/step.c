@@ -4,6 +4,7 @@
 #include "sim/feed.h"
 #include "sim/ice_loads.h"
 #include "sim/mechanisms.h"
+#include "sim/media_now.h"
 #include "sim/station_forces.h"
 #include "vessel/path.h"
 
@@ -13,7 +14,7 @@
 
 static fram_status water_and_air(context *ctx, const model *m, world *w, fram_error *error)
 {
-    media now = media_at(&m->media, &m->history, w->clock.time[0]);
+    media now = media_now(m, &w->inputs, w->clock.time[0]);
     const fluid_details details = {.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data};
     fram_status status =
         fluid_apply(ctx, &now, m->drag, &w->bodies, &w->shapes, w->scratch.loads.data, &details, error);
@@ -68,7 +69,7 @@ static void respond_vessel(const model *m, const media *now, world *w, int32_t v
 /* What the water answers to motion: with all other loads known, since it changes what they do. */
 static void respond(context *ctx, const model *m, world *w)
 {
-    media now = media_at(&m->media, &m->history, w->clock.time[0]);
+    media now = media_now(m, &w->inputs, w->clock.time[0]);
     prisms_respond(ctx, &now, m->drag, &m->floe_response, m->time_step, &w->bodies, &w->shapes,
                    w->scratch.submerged.data, w->scratch.loads.data);
     for (int32_t v = 0; v < w->vessels.count; v++)
@@ -99,6 +100,21 @@ static bool start_responses(context *ctx, world *w)
     return true;
 }
 
+/* Forces that were given from outside; those for one step are used up. */
+static void add_outside(world *w)
+{
+    const input_table *in = &w->inputs;
+    for (int32_t i = 0; i < in->count; i++) {
+        int32_t slot = in->kind[i] == INPUT_FORCE ? w->vessels.body[in->which[i]] : in->which[i];
+        if (in->kind[i] != INPUT_FORCE && in->kind[i] != INPUT_WRENCH)
+            continue;
+        wrench *load = &w->scratch.loads.data[slot];
+        load->force = vec3_add(load->force, in->first[i]);
+        load->moment = vec3_add(load->moment, in->second[i]);
+    }
+    input_drop(&w->inputs, INPUT_WRENCH);
+}
+
 static fram_status external_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     if (!array_resize(ctx, &w->scratch.loads, w->bodies.count) || !start_responses(ctx, w))
@@ -106,13 +122,7 @@ static fram_status external_forces(context *ctx, const model *m, world *w, fram_
     fram_status status = fluid_forces(ctx, m, w, error);
     if (status != FRAM_OK)
         return status;
-    wrench *loads = w->scratch.loads.data;
-    for (int32_t i = 0; i < w->scratch.outside.count; i++) {
-        const wrench *extra = &w->scratch.outside.data[i];
-        loads[i].force = vec3_add(loads[i].force, extra->force);
-        loads[i].moment = vec3_add(loads[i].moment, extra->moment);
-    }
-    array_clear(&w->scratch.outside);
+    add_outside(w);
     status = station_forces(ctx, m, w, error);
     if (status != FRAM_OK)
         return status;
@@ -355,14 +365,10 @@ fram_status world_step(context *ctx, const model *m, world *w, fram_error *error
 
 fram_status world_add_wrench(context *ctx, world *w, int32_t slot, wrench load, fram_error *error)
 {
-    int32_t had = w->scratch.outside.count;
-    if (had <= slot) {
-        if (!array_resize(ctx, &w->scratch.outside, w->bodies.count))
-            return error_memory(error);
-        memset(w->scratch.outside.data + had, 0, (size_t)(w->bodies.count - had) * sizeof *w->scratch.outside.data);
-    }
-    wrench *sum = &w->scratch.outside.data[slot];
-    sum->force = vec3_add(sum->force, load.force);
-    sum->moment = vec3_add(sum->moment, load.moment);
+    int32_t row = input_row(ctx, &w->inputs, INPUT_WRENCH, slot);
+    if (row < 0)
+        return error_memory(error);
+    w->inputs.first[row] = vec3_add(w->inputs.first[row], load.force);
+    w->inputs.second[row] = vec3_add(w->inputs.second[row], load.moment);
     return FRAM_OK;
 }

@@ -1,0 +1,188 @@
+/* Whole arrays of a world for callers: bodies, outlines, contacts, fractures. */
+#include "api/arguments.h"
+#include "api/handles.h"
+
+#include "fram/live.h"
+
+#include <string.h>
+
+/* Dense copies leave the world as it is; only fram_world_view hands out its own memory. */
+_Static_assert(sizeof(vec3) == 3 * sizeof(double) && sizeof(quat) == 4 * sizeof(double), "rows of a view");
+
+static bool is_selected(const body_table *b, int32_t slot, unsigned selection)
+{
+    return body_is_alive(b, slot) && (selection == 0 || (selection >> world_body_kind(b, slot) & 1) != 0);
+}
+
+static void put3(double *array, int row, vec3 v)
+{
+    if (array)
+        array[3 * row] = v.x, array[3 * row + 1] = v.y, array[3 * row + 2] = v.z;
+}
+
+static double thickness_of(const world *w, int32_t slot)
+{
+    int32_t shape = w->bodies.shape[slot];
+    return shape >= 0 && w->shapes.shapes.kind[shape] == SHAPE_PRISM ? 2 * w->shapes.shapes.half_height[shape] : 0;
+}
+
+/* Row of the floe table, -1. */
+static int32_t floe_of(const world *w, int32_t slot)
+{
+    return world_body_kind(&w->bodies, slot) == FRAM_BODY_FLOE ? w->bodies.owner[slot] : -1;
+}
+
+static void put_body(const world *w, int32_t slot, int row, const fram_body_arrays *a)
+{
+    const body_table *b = &w->bodies;
+    int32_t floe = floe_of(w, slot);
+    quat q = b->orientation[slot];
+    if (a->id)
+        a->id[row] = (fram_body_id){slot, b->generation[slot]};
+    if (a->kind)
+        a->kind[row] = (int32_t)world_body_kind(b, slot);
+    if (a->number)
+        a->number[row] = floe >= 0 ? w->floes.number[floe] : -1;
+    if (a->parent)
+        a->parent[row] = floe >= 0 ? w->floes.parent[floe] : -1;
+    if (a->mass)
+        a->mass[row] = b->mass[slot];
+    if (a->thickness)
+        a->thickness[row] = thickness_of(w, slot);
+    put3(a->position, row, b->position[slot]);
+    put3(a->velocity, row, b->velocity[slot]);
+    put3(a->angular_velocity, row, b->angular_velocity[slot]);
+    if (a->orientation) {
+        double *out = &a->orientation[4 * row];
+        out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+    }
+}
+
+int fram_world_bodies(const fram_world *w, unsigned selection, const fram_body_arrays *arrays)
+{
+    if (!w)
+        return 0;
+    fram_body_arrays a = {0};
+    size_t size;
+    if (arrays && room_check(arrays, sizeof a, &size, "fram_body_arrays", NULL) == FRAM_OK)
+        memcpy(&a, arrays, size);
+    int count = 0;
+    for (int32_t i = 0; i < w->inner.bodies.count; i++) {
+        if (!is_selected(&w->inner.bodies, i, selection))
+            continue;
+        if (count < a.room)
+            put_body(&w->inner, i, count, &a);
+        count++;
+    }
+    return count;
+}
+
+int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset, int offset_room, double *xy,
+                        int point_room, int *bodies)
+{
+    int row = 0, points = 0;
+    for (int32_t i = 0; w && i < w->inner.bodies.count; i++) {
+        const body_table *b = &w->inner.bodies;
+        if (!is_selected(b, i, selection))
+            continue;
+        if (offset && row < offset_room)
+            offset[row] = points;
+        row++;
+        if (b->shape[i] < 0 || w->inner.shapes.shapes.kind[b->shape[i]] != SHAPE_PRISM)
+            continue;
+        polygon outline = shape_outline(&w->inner.shapes, b->shape[i]);
+        mat3 turn = quat_matrix(b->orientation[i]);
+        vec3 centre = b->position[i];
+        for (int32_t k = 0; xy && k < outline.count && points + k < point_room; k++) {
+            vec3 p = vec3_add(centre, mat3_mul_vec(turn, vec3_make(outline.vertex[k].x, outline.vertex[k].y, 0)));
+            xy[2 * (points + k)] = p.x, xy[2 * (points + k) + 1] = p.y;
+        }
+        points += outline.count;
+    }
+    if (offset && row < offset_room)
+        offset[row] = points;
+    if (bodies)
+        *bodies = row;
+    return points;
+}
+
+fram_status fram_world_view(const fram_world *w, fram_body_view *view, fram_error *error)
+{
+    size_t size = 0;
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"view", view});
+    if (status == FRAM_OK)
+        status = room_check(view, sizeof *view, &size, "fram_body_view", error);
+    if (status != FRAM_OK)
+        return status;
+    const body_table *b = &w->inner.bodies;
+    const fram_body_view full = {.size = size,
+                                 .slots = b->count,
+                                 .position = (const double *)b->position,
+                                 .orientation = (const double *)b->orientation,
+                                 .velocity = (const double *)b->velocity,
+                                 .angular_velocity = (const double *)b->angular_velocity,
+                                 .mass = b->mass,
+                                 .generation = b->generation,
+                                 .lives = b->motion};
+    _Static_assert(MOTION_NONE == 0, "a row of motion says whether somebody lives");
+    memcpy(view, &full, size);
+    return FRAM_OK;
+}
+
+static void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+static fram_body_id id_of(const body_table *b, int32_t slot)
+{
+    return slot >= 0 && slot < b->count ? (fram_body_id){slot, b->generation[slot]} : (fram_body_id){-1, 0};
+}
+
+int fram_world_contacts(const fram_world *w, fram_contact *contacts, int room)
+{
+    if (!w)
+        return 0;
+    int32_t count = w->inner.scratch.contacts.count;
+    for (int32_t i = 0; contacts && i < count && i < room; i++) {
+        const contact *c = &w->inner.scratch.contacts.data[i];
+        fram_contact *out = &contacts[i];
+        *out = (fram_contact){.a = id_of(&w->inner.bodies, c->a), .b = id_of(&w->inner.bodies, c->b)};
+        copy3(out->point, c->point);
+        copy3(out->normal, c->normal);
+        copy3(out->impulse, contact_impulse(c));
+        out->normal_impulse = c->impulse[0];
+        out->limit = c->impulse_limit;
+        out->depth = c->depth;
+        out->capped = c->impulse[0] >= c->impulse_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
+    }
+    return count;
+}
+
+int fram_world_fractures(const fram_world *w, fram_fracture *fractures, int room)
+{
+    if (!w)
+        return 0;
+    int32_t count = w->inner.scratch.fractures.count;
+    for (int32_t i = 0; fractures && i < count && i < room; i++) {
+        const fracture_event *e = &w->inner.scratch.fractures.data[i];
+        fram_fracture *out = &fractures[i];
+        *out = (fram_fracture){.floe = e->floe, .first_piece = e->first_piece, .pieces = e->pieces};
+        switch ((fracture_kind)e->kind) {
+        case FRACTURE_SPLIT:
+            out->kind = FRAM_FRACTURE_SPLIT;
+            break;
+        case FRACTURE_BENDING:
+            out->kind = FRAM_FRACTURE_BENDING;
+            break;
+        default:
+            out->kind = FRAM_FRACTURE_RELEASE;
+        }
+        copy3(out->place, e->place);
+        out->load = e->load;
+        out->crack_length = e->crack_length;
+        out->stress_ratio = e->stress_ratio;
+        out->floe_area = e->parent_area;
+        out->pieces_area = e->piece_area;
+        out->area_lost = e->area_lost;
+        out->area_gained = e->area_gained;
+    }
+    return count;
+}

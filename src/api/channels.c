@@ -1,0 +1,202 @@
+/* Channels and inputs of a world, by number and by name. */
+#include "api/arguments.h"
+#include "api/handles.h"
+
+#include "fram/live.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- what channels mean ---- */
+
+/* Names that begin so, the longer ones first (docs/channels.md tells more). */
+static const struct {
+    const char *stem, *meaning;
+} meanings[] = {
+    {"time", "end of the last step"},
+    {"position", "the vessel's centre of mass, global frame"},
+    {"roll", "attitude: turned by yaw, then pitch, then roll"},
+    {"pitch", "attitude: turned by yaw, then pitch, then roll"},
+    {"yaw", "attitude: turned by yaw, then pitch, then roll"},
+    {"velocity", "of the vessel's centre of mass, global frame"},
+    {"angular_velocity", "of the vessel, about global axes"},
+    {"ice_force_body", "load of the ice, mean over the step, axes of the vessel"},
+    {"ice_moment_body", "load of the ice about the centre of mass, axes of the vessel"},
+    {"ice_force_averaged", "load of the ice, mean over the averaging window, global frame"},
+    {"ice_moment_averaged", "load of the ice, mean over the averaging window, global frame"},
+    {"ice_force_capped", "normal part of contacts at their crushing limit"},
+    {"ice_force_below_cap", "normal part of contacts under their crushing limit"},
+    {"ice_force_friction", "friction part of the load of the ice"},
+    {"ice_force_bow", "load of the ice on the bow"},
+    {"ice_force_shoulder", "load of the ice on the shoulders"},
+    {"ice_force_midbody", "load of the ice on the midbody"},
+    {"ice_force_stern", "load of the ice on the stern"},
+    {"ice_force_bottom", "load of the ice on the bottom"},
+    {"ice_force", "load of the ice on the vessel, mean over the step, global frame"},
+    {"ice_moment", "load of the ice about the centre of mass, mean over the step, global frame"},
+    {"tow_force", "what the towing carriage does to the vessel"},
+    {"tow_moment", "what the towing carriage does to the vessel, about the centre of mass"},
+    {"fluid_force", "pressure of the water, drag of water and wind"},
+    {"fluid_moment", "pressure of the water, drag of water and wind, about the centre of mass"},
+    {"hydrodynamic_force", "added mass and damping"},
+    {"mooring_force", "all mooring lines on the vessel"},
+    {"mooring_moment", "all mooring lines on the vessel, about the centre of mass"},
+    {"thruster_force", "all thrusters on the vessel"},
+    {"thruster_moment", "all thrusters on the vessel, about the centre of mass"},
+    {"thruster_power", "power drawn by all thrusters"},
+    {"offset", "of the watched point from where it shall be"},
+    {"heading_deviation", "of the heading from the one that is wanted"},
+    {"estimated", "what the observer believes"},
+    {"demanded_force", "demand of the controller on the thrusters, axes of the vessel"},
+    {"kinetic_energy", "of all bodies"},
+    {"step_wall_time", "wall-clock time that the step took"},
+};
+
+static const char *meaning_of(const char *channel)
+{
+    const char *point = strchr(channel, '.'), *name = point ? point + 1 : channel; /* of a named vessel */
+    for (size_t i = 0; i < sizeof meanings / sizeof *meanings; i++) {
+        size_t length = strlen(meanings[i].stem);
+        if (strncmp(name, meanings[i].stem, length) == 0 && (name[length] == '\0' || name[length] == '_'))
+            return meanings[i].meaning;
+    }
+    return "";
+}
+
+/* ---- channels ---- */
+
+const double *world_row(const fram_world *w)
+{
+    if (!*w->row_is_new)
+        series_row(&w->base->columns, &w->inner, w->step_wall, w->row);
+    *w->row_is_new = true;
+    return w->row;
+}
+
+static fram_status refuse_index(int index, int count, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "index", "expected 0 to %d, found %d", count - 1, index);
+}
+
+static fram_status fill_channel(const fram_channel *from, fram_channel *to, fram_error *error)
+{
+    size_t size;
+    fram_status status = room_check(to, sizeof *to, &size, "fram_channel", error);
+    if (status != FRAM_OK)
+        return status;
+    fram_channel full = *from;
+    full.size = size;
+    memcpy(to, &full, size);
+    return FRAM_OK;
+}
+
+int fram_world_channels(const fram_world *w) { return w ? w->base->columns.columns.count : 0; }
+
+fram_status fram_world_channel(const fram_world *w, int index, fram_channel *channel, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"channel", channel});
+    if (status != FRAM_OK)
+        return status;
+    if (index < 0 || index >= w->base->columns.columns.count)
+        return refuse_index(index, w->base->columns.columns.count, error);
+    const csv_column *column = &w->base->columns.columns.data[index];
+    const fram_channel found = {0, index, column->name, column->unit, meaning_of(column->name)};
+    return fill_channel(&found, channel, error);
+}
+
+int fram_world_find_channel(const fram_world *w, const char *name)
+{
+    for (int i = 0; w && name && i < w->base->columns.columns.count; i++) {
+        if (strcmp(w->base->columns.columns.data[i].name, name) == 0)
+            return i;
+    }
+    return -1;
+}
+
+double fram_world_value(const fram_world *w, int index)
+{
+    return w && index >= 0 && index < w->base->columns.columns.count ? world_row(w)[index] : (double)NAN;
+}
+
+int fram_world_values(const fram_world *w, double *values, int room)
+{
+    if (!w)
+        return 0;
+    int count = w->base->columns.columns.count, copied = room < count ? room : count;
+    if (values && copied > 0)
+        memcpy(values, world_row(w), (size_t)copied * sizeof *values);
+    return count;
+}
+
+/* ---- inputs ---- */
+
+int fram_world_inputs(const fram_world *w) { return w ? w->base->controls.count : 0; }
+
+fram_status fram_world_input(const fram_world *w, int index, fram_channel *input, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"input", input});
+    if (status != FRAM_OK)
+        return status;
+    if (index < 0 || index >= w->base->controls.count)
+        return refuse_index(index, w->base->controls.count, error);
+    const control *c = &w->base->controls.data[index];
+    const fram_channel found = {0, index, c->name, c->unit, c->meaning};
+    return fill_channel(&found, input, error);
+}
+
+int fram_world_find_input(const fram_world *w, const char *name)
+{
+    for (int i = 0; w && name && i < w->base->controls.count; i++) {
+        if (strcmp(w->base->controls.data[i].name, name) == 0)
+            return i;
+    }
+    return -1;
+}
+
+double fram_world_input_value(const fram_world *w, int index)
+{
+    if (!w || index < 0 || index >= w->base->controls.count)
+        return (double)NAN;
+    return control_get(&w->base->model, &w->inner, &w->base->controls.data[index]);
+}
+
+fram_status fram_world_set_input(fram_world *w, int index, double value, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status != FRAM_OK)
+        return status;
+    if (index < 0 || index >= w->base->controls.count)
+        return refuse_index(index, w->base->controls.count, error);
+    world_changed(w);
+    return control_set(&w->scenario->context->inner, &w->base->model, &w->inner, &w->base->controls.data[index], value,
+                       error);
+}
+
+/* Rows of a path that are taken at a time in one call, and beyond which nobody has one. */
+enum { PATH_MOST = 1000000 };
+
+fram_status fram_world_set_path(fram_world *w, int vessel, const double *times, const double *places, int count,
+                                fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK && count != 0)
+        status = REFUSE_NULL(error, {"times", times}, {"places", places});
+    if (status != FRAM_OK)
+        return status;
+    if (vessel < 0 || vessel >= w->inner.vessels.count)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
+                         "expected one of %d vessels, counted from 0; found %d", (int)w->inner.vessels.count, vessel);
+    if (count < 0 || count > PATH_MOST)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "count", "expected 0 to %d, found %d", (int)PATH_MOST,
+                         count);
+    context *ctx = &w->scenario->context->inner;
+    vec3 *list = memory_array(ctx, (size_t)count + 1, sizeof *list);
+    if (!list)
+        return error_memory(error);
+    for (int i = 0; i < count; i++)
+        list[i] = vec3_make(places[3 * i], places[3 * i + 1], places[3 * i + 2]);
+    world_changed(w);
+    status = control_path(ctx, &w->inner, vessel, times, list, count, error);
+    memory_free(ctx, list);
+    return status;
+}

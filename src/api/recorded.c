@@ -1,0 +1,115 @@
+/* Worlds of the public API that are recorded while they are stepped. */
+#include "api/arguments.h"
+#include "api/handles.h"
+
+#include "fram/live.h"
+#include "results/run_results.h"
+
+void fram_record_default(fram_record_definition *definition)
+{
+    if (definition)
+        *definition = (fram_record_definition){.size = sizeof *definition};
+}
+
+static void forget(fram_world *w)
+{
+    recording *r = w->recording;
+    w->recording = NULL;
+    recording_free(r);
+    memory_free(r->ctx, r);
+}
+
+/* A record begins with all bodies, whatever was recorded of them before. */
+static fram_status begin(fram_world *w, recording *r, fram_error *error)
+{
+    fram_status status = recording_prepare(r, error);
+    if (status != FRAM_OK)
+        return status;
+    table_free(r->ctx, &w->inner.recorded, &recorded_table_info);
+    w->inner.recorded = (recorded_table){0};
+    return recording_begin(r, &w->inner, error);
+}
+
+fram_status fram_world_record(fram_world *w, const fram_record_definition *definition, fram_error *error)
+{
+    fram_record_definition d;
+    fram_record_default(&d);
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK)
+        status =
+            definition_take(&d, definition, sizeof d, offsetof(fram_record_definition, force), "fram_record", error);
+    if (status == FRAM_OK)
+        status = world_refuse_failed(w, error);
+    if (status != FRAM_OK)
+        return status;
+    if (!d.folder || !*d.folder)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
+    if (w->recording)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world", "it is recorded already, into %s",
+                         w->recording->folder);
+    context *ctx = &w->scenario->context->inner;
+    recording *r = memory_array(ctx, 1, sizeof *r);
+    if (!r)
+        return error_memory(error);
+    w->recording = r;
+    status = recording_init(ctx, &w->scenario->inner, d.folder, r, error);
+    r->force = d.force;
+    r->with_paths = d.with_paths;
+    r->finish = run_results_write;
+    if (status == FRAM_OK)
+        status = begin(w, r, error);
+    if (status != FRAM_OK)
+        forget(w);
+    return status;
+}
+
+bool fram_world_is_recorded(const fram_world *w) { return w && w->recording; }
+
+static fram_status refuse_unrecorded(const fram_world *w, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK && !w->recording)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world", "it is not recorded");
+    return status;
+}
+
+fram_status fram_world_checkpoint(fram_world *w, fram_error *error)
+{
+    fram_status status = refuse_unrecorded(w, error);
+    return status == FRAM_OK ? recording_checkpoint(w->recording, error) : status;
+}
+
+static void fill_result(const fram_world *w, fram_run_result *result)
+{
+    const world *in = &w->inner;
+    *result = (fram_run_result){.state_hash = world_hash(in), .steps = in->clock.step[0], .time = in->clock.time[0]};
+    result->wall = wall_seconds() - w->recording->started;
+    result->real_time_factor = result->wall > 0 ? (result->time - w->recording->began_at) / result->wall : 0;
+    for (int32_t i = 0; i < in->bodies.count; i++)
+        result->bodies += body_is_alive(&in->bodies, i);
+    for (int32_t i = 0; i < in->floes.count; i++)
+        result->floes += in->floes.body[i] >= 0;
+    result->finished = result->steps >= w->recording->end_step;
+}
+
+fram_status fram_world_record_end(fram_world *w, fram_run_result *result, fram_error *error)
+{
+    fram_run_result local;
+    fram_status status = refuse_unrecorded(w, error);
+    if (status != FRAM_OK)
+        return status;
+    fill_result(w, &local);
+    if (result)
+        *result = local;
+    status = recording_end(w->recording, local.finished ? "finished" : "stopped", error);
+    forget(w);
+    return status;
+}
+
+void recording_abandon(fram_world *w, const char *message)
+{
+    if (!w->recording)
+        return;
+    recording_fail(w->recording, message);
+    forget(w);
+}

@@ -1,0 +1,142 @@
+/* Copying, saving and loading of worlds. */
+#include "api/arguments.h"
+#include "api/handles.h"
+
+#include "base/hash.h"
+#include "fram/live.h"
+#include "io/atomic_file.h"
+#include "io/table_file.h"
+#include "sim/checkpoint.h"
+#include "sim/run_folder.h"
+
+#include <string.h>
+
+void fram_stop_set(volatile int *stop, int value) /* NOLINT(readability-non-const-parameter): it is written */
+{
+    if (stop)
+        __atomic_store_n(stop, value, __ATOMIC_RELAXED);
+}
+
+fram_status fram_world_copy(const fram_world *w, fram_world **out, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"copy", out});
+    if (status != FRAM_OK)
+        return status;
+    fram_world *copy = world_handle(w->scenario, w->base);
+    if (!copy)
+        return error_memory(error);
+    status = world_make_row(copy) ? world_copy(&w->scenario->context->inner, &w->inner, &copy->inner, error)
+                                  : error_memory(error);
+    if (status != FRAM_OK) {
+        world_handle_free(copy);
+        return status;
+    }
+    copy->failed = w->failed;
+    copy->step_wall = w->step_wall;
+    *out = copy;
+    return FRAM_OK;
+}
+
+/* The contents of the files, wherever they lie: the digests of the run folder's list without its paths. */
+fram_status world_find_inputs(fram_world *w, fram_error *error)
+{
+    context *ctx = &w->scenario->context->inner;
+    text_buffer list = {0}, digests = {0};
+    fram_status status = run_folder_inputs(ctx, &w->scenario->inner, &list, error);
+    text_add(ctx, &digests, "");
+    for (const char *line = list.data; status == FRAM_OK && line && *line; line = strchr(line, '\n') + 1)
+        text_add_bytes(ctx, &digests, line, 64);
+    if (status == FRAM_OK && (digests.failed || !digests.data))
+        status = error_memory(error);
+    if (status == FRAM_OK)
+        sha256_text(digests.data, (size_t)digests.count, w->base->inputs);
+    text_free(ctx, &list);
+    text_free(ctx, &digests);
+    return status;
+}
+
+static checkpoint_note note_of(const fram_world *w)
+{
+    checkpoint_note note = {.inputs = w->base->inputs};
+    memcpy(note.scenario_hash, w->scenario->hash, sizeof note.scenario_hash);
+    return note;
+}
+
+fram_status fram_world_save_memory(const fram_world *w, void **data, size_t *size, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"data", data}, {"size", size});
+    if (status != FRAM_OK)
+        return status;
+    checkpoint_note note = note_of(w);
+    char *bytes;
+    status = state_encode(&w->scenario->context->inner, &w->inner, &note, &bytes, size, error);
+    if (status == FRAM_OK)
+        *data = bytes;
+    return status;
+}
+
+void fram_data_free(fram_context *c, void *data)
+{
+    if (c)
+        memory_free(&c->inner, data);
+}
+
+static fram_status load(fram_world *w, const char *name, const void *data, size_t size, fram_error *error)
+{
+    if (w->recording)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world",
+                         "it is recorded, and its series would not follow from one another: end the recording before");
+    context *ctx = &w->scenario->context->inner;
+    checkpoint_note note = note_of(w);
+    world loaded;
+    fram_status status = world_init(ctx, &w->base->model, &loaded, error);
+    if (status != FRAM_OK)
+        return status;
+    status = state_decode(ctx, name, data, size, &w->base->model, &loaded, &note, error);
+    if (status != FRAM_OK) {
+        world_free(ctx, &loaded);
+        return status;
+    }
+    world_free(ctx, &w->inner);
+    w->inner = loaded;
+    w->failed = false;
+    w->step_wall = 0;
+    world_changed(w);
+    return FRAM_OK;
+}
+
+fram_status fram_world_load_memory(fram_world *w, const void *data, size_t size, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"data", data});
+    return status == FRAM_OK ? load(w, "(memory)", data, size, error) : status;
+}
+
+fram_status fram_world_save(const fram_world *w, const char *path, fram_error *error)
+{
+    void *data;
+    size_t size;
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"path", path});
+    if (status == FRAM_OK)
+        status = fram_world_save_memory(w, &data, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    context *ctx = &w->scenario->context->inner;
+    status = atomic_file_write(ctx, path, data, size, error);
+    memory_free(ctx, data);
+    return status;
+}
+
+fram_status fram_world_load(fram_world *w, const char *path, fram_error *error)
+{
+    char *data;
+    size_t size;
+    fram_status status = REFUSE_NULL(error, {"world", w}, {"path", path});
+    context *ctx = status == FRAM_OK ? &w->scenario->context->inner : NULL;
+    if (status == FRAM_OK)
+        status = file_read(ctx, path, TABLE_FILE_BYTES_MOST, &data, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    status = load(w, path, data, size, error);
+    memory_free(ctx, data);
+    return status;
+}

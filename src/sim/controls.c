@@ -1,0 +1,394 @@
+#include "sim/controls.h"
+
+#include "base/transcendental.h"
+#include "sim/feed.h"
+#include "sim/media_now.h"
+
+#include <stdio.h>
+
+/* Beyond all that can be meant: speeds [m/s], lengths [m], angles [deg]; forces [N] and moments [N m]. */
+#define SPEED_MOST 1e3
+#define PLACE_MOST 1e9
+#define ANGLE_MOST 1e6
+#define FORCE_MOST 1e18
+
+/* ---- the list ---- */
+
+typedef struct lister {
+    context *ctx;
+    const scenario *s;
+    control_array *out;
+    bool good;
+} lister;
+
+/* vessel -1: of the world; `number` counts from 1, 0: none. */
+static void add(lister *l, control_role role, int32_t vessel, int32_t which, int32_t axis, const char *format,
+                int32_t number, const char *unit, const char *meaning)
+{
+    control c = {.unit = unit, .meaning = meaning, .role = role, .which = which, .axis = axis};
+    char text[40];
+    snprintf(text, sizeof text, format, (int)number);
+    snprintf(c.name, sizeof c.name, "%s", vessel < 0 ? text : vessel_channel_name(l->s, vessel, text).text);
+    l->good = l->good && array_push(l->ctx, l->out, c);
+}
+
+static void add_vector(lister *l, control_role role, int32_t vessel, int32_t axes, const char *name, const char *unit,
+                       const char *meaning)
+{
+    static const char *const ends[] = {"x", "y", "z"};
+    for (int32_t axis = 0; axis < axes; axis++) {
+        char format[32];
+        snprintf(format, sizeof format, "%s_%s", name, ends[axis]);
+        add(l, role, vessel, vessel > 0 ? vessel : 0, axis, format, 0, unit, meaning);
+    }
+}
+
+static int32_t thrusters_of(const world *w, int32_t vessel)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < w->thrusters.count; i++)
+        count += w->thrusters.vessel[i] == vessel;
+    return count;
+}
+
+static void add_station(lister *l, const world *w, int32_t v)
+{
+    if (!station_is_kept(&w->stations, &w->vessels, v))
+        return;
+    add_vector(l, CONTROL_SET_POINT, v, 2, "set_point", "m", "where the ship's origin shall be, global frame");
+    add(l, CONTROL_SET_POINT, v, v, 2, "set_point_heading", 0, "deg", "heading that is wanted");
+    if (thrusters_of(w, v) > 0)
+        add(l, CONTROL_POSITIONING, v, v, 0, "positioning", 0, "1",
+            "1: the vessel's own controller gives the orders to the thrusters; 0: whoever steps the world does");
+}
+
+static void add_vessel(lister *l, const world *w, int32_t v)
+{
+    vessel_mode mode = (vessel_mode)w->vessels.mode[v];
+    if (mode != VESSEL_FREE)
+        add_vector(l, CONTROL_TOW, v, 2, "tow_velocity", "m/s",
+                   "velocity of the carriage or driven hull, global frame");
+    if (mode != VESSEL_PRESCRIBED) {
+        add_vector(l, CONTROL_FORCE, v, 3, "outside_force", "N", "force on the vessel in every step, global frame");
+        add_vector(l, CONTROL_MOMENT, v, 3, "outside_moment", "N m",
+                   "moment about the centre of mass in every step, global frame");
+    }
+    add_station(l, w, v);
+}
+
+/* Those of each thruster and line, counted for each vessel. */
+static void add_equipment(lister *l, const world *w, int32_t v)
+{
+    int32_t thruster = 0, line = 0;
+    for (int32_t i = 0; i < w->thrusters.count; i++) {
+        if (w->thrusters.vessel[i] != v)
+            continue;
+        add(l, CONTROL_THRUST, v, i, 0, "thruster_%d_order", ++thruster, "N",
+            "thrust ordered, within what the thruster can give; negative: astern");
+        if (w->thrusters.kind[i] != THRUSTER_TUNNEL)
+            add(l, CONTROL_ANGLE, v, i, 0, "thruster_%d_order_angle", thruster, "deg",
+                w->thrusters.kind[i] == THRUSTER_MAIN
+                    ? "direction ordered of the thrust behind the rudder, vessel frame"
+                    : "direction ordered, vessel frame");
+    }
+    for (int32_t i = 0; i < w->lines.count; i++) {
+        if (w->lines.vessel[i] == v)
+            add(l, CONTROL_RELEASE, v, i, 0, "line_%d_release", ++line, "1", "1: the line is let go in the next step");
+    }
+}
+
+bool controls_list(context *ctx, const scenario *s, const model *m, const world *w, control_array *out)
+{
+    lister l = {ctx, s, out, true};
+    if (m->forces == FORCES_FLUID) {
+        add_vector(&l, CONTROL_WIND, -1, 2, "wind", "m/s", "velocity of the wind, towards, global frame");
+        add_vector(&l, CONTROL_CURRENT, -1, 2, "current", "m/s",
+                   "velocity of the current at the surface, towards, global frame");
+    }
+    if (w->feeding.count > 0)
+        add_vector(&l, CONTROL_DRIFT, -1, 2, "ice_drift", "m/s", "velocity of the ice far away, global frame");
+    for (int32_t v = 0; v < w->vessels.count; v++) {
+        add_vessel(&l, w, v);
+        add_equipment(&l, w, v);
+    }
+    return l.good;
+}
+
+/* ---- values ---- */
+
+static double *axis_of(vec3 *v, int32_t axis) { return axis == 0 ? &v->x : axis == 1 ? &v->y : &v->z; }
+
+static double axis_value(vec3 v, int32_t axis) { return *axis_of(&v, axis); }
+
+static vec3 target_of(const world *w, int32_t v)
+{
+    return reference_target(&w->waypoints, v, w->stations.home[v], w->clock.time[0]);
+}
+
+/* What holds in place of an input that nobody told. */
+static vec3 untold(const model *m, const world *w, const control *c)
+{
+    double time = w->clock.time[0];
+    media now = media_now(m, &w->inputs, time);
+    vec2 drift = c->role == CONTROL_DRIFT ? feed_drift(m, &w->inputs, time) : vec2_make(0, 0);
+    return c->role == CONTROL_WIND      ? now.wind
+           : c->role == CONTROL_CURRENT ? now.current
+                                        : vec3_make(drift.x, drift.y, 0);
+}
+
+static vec3 force_told(const world *w, const control *c)
+{
+    int32_t row = input_find(&w->inputs, INPUT_FORCE, c->which);
+    if (row < 0)
+        return vec3_make(0, 0, 0);
+    return c->role == CONTROL_FORCE ? w->inputs.first[row] : w->inputs.second[row];
+}
+
+double control_get(const model *m, const world *w, const control *c)
+{
+    switch (c->role) {
+    case CONTROL_WIND:
+    case CONTROL_CURRENT:
+    case CONTROL_DRIFT:
+        return axis_value(untold(m, w, c), c->axis);
+    case CONTROL_FORCE:
+    case CONTROL_MOMENT:
+        return axis_value(force_told(w, c), c->axis);
+    case CONTROL_TOW:
+        return axis_value(w->vessels.tow_velocity[c->which], c->axis);
+    case CONTROL_SET_POINT:
+        return c->axis == 2 ? degrees(target_of(w, c->which).z) : axis_value(target_of(w, c->which), c->axis);
+    case CONTROL_POSITIONING:
+        return w->stations.positioning[c->which];
+    case CONTROL_THRUST:
+        return w->thrusters.order[c->which];
+    case CONTROL_ANGLE:
+        return degrees(w->thrusters.order_angle[c->which]);
+    case CONTROL_RELEASE:
+        return w->lines.broken[c->which] || w->lines.release_time[c->which] <= w->clock.time[0];
+    }
+    return 0;
+}
+
+/* ---- telling ---- */
+
+static fram_status set_medium(context *ctx, const model *m, world *w, const control *c, double value, fram_error *error)
+{
+    const input_kind kind = c->role == CONTROL_WIND      ? INPUT_WIND
+                            : c->role == CONTROL_CURRENT ? INPUT_CURRENT
+                                                         : INPUT_DRIFT;
+    vec3 now = untold(m, w, c);
+    int32_t row = input_row(ctx, &w->inputs, kind, 0);
+    if (row < 0)
+        return error_memory(error);
+    *axis_of(&now, c->axis) = value;
+    w->inputs.first[row] = now;
+    return FRAM_OK;
+}
+
+static fram_status set_force(context *ctx, world *w, const control *c, double value, fram_error *error)
+{
+    int32_t row = input_row(ctx, &w->inputs, INPUT_FORCE, c->which);
+    if (row < 0)
+        return error_memory(error);
+    *axis_of(c->role == CONTROL_FORCE ? &w->inputs.first[row] : &w->inputs.second[row], c->axis) = value;
+    return FRAM_OK;
+}
+
+static void drop_path(world *w, int32_t vessel)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < w->waypoints.count; i++) {
+        if (w->waypoints.vessel[i] == vessel)
+            continue;
+        if (kept < i)
+            table_move_row(&w->waypoints, &waypoint_table_info, kept, i);
+        kept++;
+    }
+    w->waypoints.count = kept;
+}
+
+/* The point whose offset counts goes with the set point, as it does with way points. */
+static void move_home(world *w, int32_t v, vec3 home)
+{
+    station_table *s = &w->stations;
+    s->watched_home[v].x += home.x - s->home[v].x;
+    s->watched_home[v].y += home.y - s->home[v].y;
+    s->home[v] = home;
+}
+
+static void set_point(world *w, const control *c, double value)
+{
+    vec3 home = target_of(w, c->which);
+    *axis_of(&home, c->axis) = c->axis == 2 ? radians(value) : value;
+    move_home(w, c->which, home);
+    drop_path(w, c->which);
+}
+
+/* Taken up without a jump: what the controller remembers begins at the vessel as it is. */
+static void set_positioning(world *w, int32_t v, bool on)
+{
+    station_table *s = &w->stations;
+    bool was = s->positioning[v] != 0;
+    s->positioning[v] = on;
+    if (was || !on)
+        return;
+    int32_t body = w->vessels.body[v];
+    vec3 r = w->bodies.position[body], velocity = w->bodies.velocity[body];
+    double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
+    vec3 place = vec3_make(r.x, r.y, heading);
+    s->reference[v] = (reference_state){.place = place};
+    s->measured[v] = place;
+    s->estimate[v] = (motion_estimate){.place = place, .velocity = plane_to_vessel(heading, velocity)};
+    s->estimate[v].velocity.z = w->bodies.angular_velocity[body].z;
+    s->integral[v] = s->demand[v] = s->missed[v] = s->load[v] = vec3_make(0, 0, 0);
+    s->vane_heading[v] = heading;
+    s->saturated[v] = 0;
+}
+
+static fram_status refuse(const control *c, double value, double least, double most, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, c->name, "expected %g to %g %s, found %g", least, most, c->unit,
+                     value);
+}
+
+static fram_status set_order(world *w, const control *c, double value, fram_error *error)
+{
+    thruster_table *t = &w->thrusters;
+    int32_t row = c->which, v = t->vessel[row];
+    if (v < w->stations.count && w->stations.positioning[v])
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, c->name,
+                         "the vessel's own controller gives the orders; set its input positioning to 0 before");
+    if (c->role == CONTROL_THRUST) {
+        t->order[row] = fmin(fmax(value, -t->astern[row]), t->ahead[row]);
+    } else {
+        double angle = plane_angle(radians(value)), most = t->rudder[row];
+        t->order_angle[row] = t->kind[row] == THRUSTER_MAIN ? fmin(fmax(angle, -most), most) : angle;
+    }
+    return FRAM_OK;
+}
+
+static double most_of(control_role role)
+{
+    switch (role) {
+    case CONTROL_WIND:
+    case CONTROL_CURRENT:
+    case CONTROL_DRIFT:
+    case CONTROL_TOW:
+        return SPEED_MOST;
+    case CONTROL_SET_POINT:
+        return PLACE_MOST;
+    case CONTROL_ANGLE:
+        return ANGLE_MOST;
+    case CONTROL_POSITIONING:
+    case CONTROL_RELEASE:
+        return 1;
+    case CONTROL_FORCE:
+    case CONTROL_MOMENT:
+    case CONTROL_THRUST:
+        break;
+    }
+    return FORCE_MOST;
+}
+
+fram_status control_set(context *ctx, const model *m, world *w, const control *c, double value, fram_error *error)
+{
+    bool flag = c->role == CONTROL_POSITIONING || c->role == CONTROL_RELEASE;
+    double most = c->role == CONTROL_SET_POINT && c->axis == 2 ? ANGLE_MOST : most_of(c->role);
+    if (flag && value != 0 && value != 1)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, c->name, "expected 0 or 1, found %g", value);
+    if (!(fabs(value) <= most))
+        return refuse(c, value, -most, most, error);
+    switch (c->role) {
+    case CONTROL_WIND:
+    case CONTROL_CURRENT:
+    case CONTROL_DRIFT:
+        return set_medium(ctx, m, w, c, value, error);
+    case CONTROL_FORCE:
+    case CONTROL_MOMENT:
+        return set_force(ctx, w, c, value, error);
+    case CONTROL_TOW:
+        if (fabs(value) > m->speed_limit)
+            return refuse(c, value, -m->speed_limit, m->speed_limit, error);
+        drop_path(w, c->which);
+        *axis_of(&w->vessels.tow_velocity[c->which], c->axis) = value;
+        return FRAM_OK;
+    case CONTROL_SET_POINT:
+        set_point(w, c, value);
+        return FRAM_OK;
+    case CONTROL_POSITIONING:
+        set_positioning(w, c->which, value != 0);
+        return FRAM_OK;
+    case CONTROL_THRUST:
+    case CONTROL_ANGLE:
+        return set_order(w, c, value, error);
+    case CONTROL_RELEASE:
+        /* 0 takes back nothing: a line that is gone stays so. */
+        if (value != 0)
+            w->lines.release_time[c->which] = fmin(w->lines.release_time[c->which], w->clock.time[0]);
+        return FRAM_OK;
+    }
+    return FRAM_OK;
+}
+
+/* ---- paths ---- */
+
+static vec3 place_now(const world *w, int32_t vessel)
+{
+    int32_t body = w->vessels.body[vessel];
+    double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
+    vec3 r = w->bodies.position[body], centre = w->vessels.centre[vessel];
+    vec3 back = plane_to_global(heading, vec3_make(centre.x, centre.y, 0));
+    return vec3_make(r.x - back.x, r.y - back.y, heading);
+}
+
+static fram_status check_path(const world *w, const double *times, const vec3 *places, int32_t count, fram_error *error)
+{
+    double before = w->clock.time[0];
+    for (int32_t i = 0; i < count; i++) {
+        bool finite =
+            fabs(places[i].x) <= PLACE_MOST && fabs(places[i].y) <= PLACE_MOST && fabs(places[i].z) <= ANGLE_MOST;
+        if (!(times[i] > before && times[i] < HUGE_VAL))
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "times",
+                             "expected times that ascend from now, %g s, on; found %g at number %d", w->clock.time[0],
+                             times[i], (int)i);
+        if (!finite)
+            return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "places",
+                             "expected finite places within 1e9 m, found (%g, %g, %g) at number %d", places[i].x,
+                             places[i].y, places[i].z, (int)i);
+        before = times[i];
+    }
+    return FRAM_OK;
+}
+
+static void put_waypoint(waypoint_table *t, int32_t row, int32_t vessel, double time, vec3 place)
+{
+    t->vessel[row] = vessel;
+    t->time[row] = time;
+    t->place[row] = place;
+}
+
+fram_status control_path(context *ctx, world *w, int32_t vessel, const double *times, const vec3 *places, int32_t count,
+                         fram_error *error)
+{
+    fram_status status = check_path(w, times, places, count, error);
+    if (status != FRAM_OK)
+        return status;
+    waypoint_table *t = &w->waypoints;
+    bool free = w->vessels.mode[vessel] == VESSEL_FREE;
+    vec3 from = free && vessel < w->stations.count ? target_of(w, vessel) : place_now(w, vessel);
+    if (count > 0 && !table_reserve(ctx, t, &waypoint_table_info, t->count + count + 1))
+        return error_memory(error);
+    drop_path(w, vessel);
+    if (count > 0) {
+        int32_t row = t->count;
+        if (!table_resize(ctx, t, &waypoint_table_info, row + count + 1))
+            return error_memory(error);
+        put_waypoint(t, row, vessel, w->clock.time[0], from);
+        for (int32_t i = 0; i < count; i++)
+            put_waypoint(t, row + 1 + i, vessel, times[i], places[i]);
+    }
+    if (free && vessel < w->stations.count)
+        move_home(w, vessel, from);
+    return FRAM_OK;
+}

@@ -1,0 +1,242 @@
+/* include/fram/live.h with arguments that cannot be: refused with a word for it, or nothing done; never undefined. */
+#include "fram/live.h"
+#include "testing.h"
+
+#include <limits.h>
+#include <stdio.h>
+
+static fram_error e;
+static fram_context *ctx;
+static fram_scenario *s;
+static fram_world *w;
+
+static const char text[] = "run: {duration: 1, time_step: 0.05}\n"
+                           "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                           "  thrusters: [{x: 18}]\n"
+                           "ice: {source: none}\n";
+
+static void open_all(void)
+{
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+    assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
+    assert_ok(fram_world_create(s, &w, &e), e);
+}
+
+static void close_all(void)
+{
+    fram_world_destroy(w);
+    fram_scenario_destroy(s);
+    fram_context_destroy(ctx);
+}
+
+static void assert_refused(fram_status status, const char *call)
+{
+    ck_assert_msg(status == FRAM_ERROR_USAGE || status == FRAM_ERROR_INPUT, "%s: status %s", call,
+                  fram_status_name(status));
+    ck_assert_msg(e.status == status && e.message[0] && (e.key[0] || e.file[0]), "%s: no words", call);
+    e = (fram_error){0};
+}
+#define REFUSED(call) assert_refused((call), #call)
+
+START_TEST(scenarios_and_states)
+{
+    open_all();
+    fram_scenario *other;
+    fram_world *copy;
+    void *data;
+    size_t size;
+    char longest[2000];
+    memset(longest, 'a', sizeof longest);
+    longest[sizeof longest - 1] = '\0';
+    REFUSED(fram_scenario_parse(NULL, text, NULL, NULL, 0, &other, &e));
+    REFUSED(fram_scenario_parse(ctx, NULL, NULL, NULL, 0, &other, &e));
+    REFUSED(fram_scenario_parse(ctx, text, NULL, NULL, 0, NULL, &e));
+    REFUSED(fram_scenario_parse(ctx, text, NULL, NULL, 2, &other, &e));
+    REFUSED(fram_scenario_parse(ctx, text, longest, NULL, 0, &other, &e));
+    REFUSED(fram_scenario_parse(ctx, "run: [", NULL, NULL, 0, &other, &e));
+    ck_assert_ptr_null(fram_scenario_file(NULL, 0));
+    ck_assert_ptr_null(fram_scenario_file_key(NULL, 0));
+    ck_assert_ptr_null(fram_scenario_file(s, 0));
+    REFUSED(fram_world_copy(NULL, &copy, &e));
+    REFUSED(fram_world_copy(w, NULL, &e));
+    REFUSED(fram_world_save_memory(NULL, &data, &size, &e));
+    REFUSED(fram_world_save_memory(w, NULL, &size, &e));
+    REFUSED(fram_world_save_memory(w, &data, NULL, &e));
+    REFUSED(fram_world_load_memory(NULL, text, 3, &e));
+    REFUSED(fram_world_load_memory(w, NULL, 3, &e));
+    REFUSED(fram_world_load_memory(w, text, sizeof text, &e));
+    REFUSED(fram_world_save(NULL, "x", &e));
+    REFUSED(fram_world_save(w, NULL, &e));
+    ck_assert_int_ne(fram_world_save(w, "/no/such/folder/state", &e), FRAM_OK);
+    REFUSED(fram_world_load(NULL, "x", &e));
+    REFUSED(fram_world_load(w, NULL, &e));
+    fram_data_free(NULL, NULL);
+    fram_data_free(ctx, NULL);
+    close_all();
+}
+END_TEST
+
+START_TEST(channels_and_inputs)
+{
+    open_all();
+    fram_channel c = {.size = sizeof c}, none = {0};
+    static const double wild[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e300, -1e300};
+    static const int numbers[] = {-1, INT_MAX, INT_MIN};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        REFUSED(fram_world_channel(w, numbers[i], &c, &e));
+        REFUSED(fram_world_input(w, numbers[i], &c, &e));
+        REFUSED(fram_world_set_input(w, numbers[i], 0, &e));
+        ck_assert(isnan(fram_world_value(w, numbers[i])) && isnan(fram_world_input_value(w, numbers[i])));
+    }
+    REFUSED(fram_world_channel(NULL, 0, &c, &e));
+    REFUSED(fram_world_channel(w, 0, NULL, &e));
+    REFUSED(fram_world_channel(w, 0, &none, &e));
+    REFUSED(fram_world_input(NULL, 0, &c, &e));
+    REFUSED(fram_world_input(w, 0, NULL, &e));
+    REFUSED(fram_world_input(w, 0, &none, &e));
+    REFUSED(fram_world_set_input(NULL, 0, 0, &e));
+    ck_assert(fram_world_channels(NULL) == 0 && fram_world_inputs(NULL) == 0 && fram_world_values(NULL, NULL, 0) == 0);
+    ck_assert(fram_world_find_channel(NULL, "time") == -1 && fram_world_find_channel(w, NULL) == -1 &&
+              fram_world_find_channel(w, "") == -1 && fram_world_find_channel(w, "Time") == -1);
+    ck_assert(fram_world_find_input(NULL, "wind_x") == -1 && fram_world_find_input(w, NULL) == -1 &&
+              fram_world_find_input(w, "ice_drift_x") == -1);
+    ck_assert_int_eq(fram_world_values(w, NULL, 5), fram_world_channels(w));
+    uint64_t hash = fram_world_hash(w);
+    for (int i = 0; i < fram_world_inputs(w); i++) {
+        for (size_t k = 0; k < sizeof wild / sizeof *wild; k++)
+            REFUSED(fram_world_set_input(w, i, wild[k], &e));
+        ck_assert_int_ne(fram_world_set_input(w, i, (double)NAN, NULL), FRAM_OK);
+    }
+    REFUSED(fram_world_set_input(w, fram_world_find_input(w, "positioning"), 0.5, &e));
+    const double times[] = {1, 2}, places[] = {0, 0, 0, 1, 1, 1}, bad_places[] = {0, 0, (double)NAN, 1, 1, 1},
+                 bad_times[] = {1, (double)NAN};
+    REFUSED(fram_world_set_path(NULL, 0, times, places, 2, &e));
+    REFUSED(fram_world_set_path(w, 1, times, places, 2, &e));
+    REFUSED(fram_world_set_path(w, -1, times, places, 2, &e));
+    REFUSED(fram_world_set_path(w, 0, NULL, places, 2, &e));
+    REFUSED(fram_world_set_path(w, 0, times, NULL, 2, &e));
+    REFUSED(fram_world_set_path(w, 0, times, places, -1, &e));
+    REFUSED(fram_world_set_path(w, 0, times, places, INT_MAX, &e));
+    REFUSED(fram_world_set_path(w, 0, times, bad_places, 2, &e));
+    REFUSED(fram_world_set_path(w, 0, bad_times, places, 2, &e));
+    ck_assert(fram_world_hash(w) == hash);
+    close_all();
+}
+END_TEST
+
+START_TEST(arrays)
+{
+    open_all();
+    fram_body_view view = {0};
+    REFUSED(fram_world_view(NULL, &view, &e));
+    REFUSED(fram_world_view(w, NULL, &e));
+    REFUSED(fram_world_view(w, &view, &e));
+    fram_body_arrays none = {0}, negative = {.size = sizeof negative, .room = INT_MIN};
+    ck_assert_int_eq(fram_world_bodies(NULL, 0, NULL), 0);
+    ck_assert_int_eq(fram_world_bodies(w, 0, &none), fram_world_bodies(w, 0, &negative));
+    ck_assert_int_eq(fram_world_bodies(w, 1u << 31, NULL), 0);
+    int bodies = -1;
+    double xy[2];
+    ck_assert_int_eq(fram_world_outlines(NULL, 0, NULL, 0, NULL, 0, &bodies), 0);
+    ck_assert_int_eq(bodies, 0);
+    ck_assert_int_ge(fram_world_outlines(w, 0, NULL, 5, xy, INT_MIN, NULL), 0);
+    ck_assert_int_eq(fram_world_contacts(NULL, NULL, 0), 0);
+    ck_assert_int_eq(fram_world_contacts(w, NULL, INT_MAX), 0);
+    ck_assert_int_eq(fram_world_fractures(NULL, NULL, 0), 0);
+    ck_assert_int_eq(fram_world_fractures(w, NULL, INT_MAX), 0);
+    close_all();
+}
+END_TEST
+
+START_TEST(recordings)
+{
+    open_all();
+    fram_record_definition d = {0};
+    fram_record_default(NULL);
+    REFUSED(fram_world_record(w, NULL, &e));
+    REFUSED(fram_world_record(w, &d, &e));
+    fram_record_default(&d);
+    REFUSED(fram_world_record(w, &d, &e));
+    d.folder = "";
+    REFUSED(fram_world_record(w, &d, &e));
+    d.folder = "/proc/nowhere/at/all";
+    REFUSED(fram_world_record(NULL, &d, &e));
+    ck_assert_int_ne(fram_world_record(w, &d, &e), FRAM_OK);
+    d.size = sizeof d + 8;
+    REFUSED(fram_world_record(w, &d, &e));
+    ck_assert(!fram_world_is_recorded(NULL) && !fram_world_is_recorded(w));
+    REFUSED(fram_world_checkpoint(NULL, &e));
+    REFUSED(fram_world_checkpoint(w, &e));
+    REFUSED(fram_world_record_end(NULL, NULL, &e));
+    REFUSED(fram_world_record_end(w, NULL, &e));
+    close_all();
+}
+END_TEST
+
+/* Every allocation of a life fails once: an error, nothing leaked, and the world as good as before. */
+START_TEST(no_memory_is_an_error)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        (void)failing_context(&memory, 0);
+        fram_context_definition d;
+        fram_context_default(&d);
+        d.memory = failing_memory_resize;
+        d.memory_user = &memory;
+        fram_world *copy = NULL;
+        void *data = NULL;
+        size_t size;
+        assert_ok(fram_context_create(&d, &ctx, &e), e);
+        assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
+        assert_ok(fram_world_create(s, &w, &e), e);
+        uint64_t hash = fram_world_hash(w);
+        memory.requests = 0;
+        memory.fail_at = n;
+        fram_status status = fram_world_copy(w, &copy, &e);
+        if (status == FRAM_OK)
+            status = fram_world_save_memory(w, &data, &size, &e);
+        if (status == FRAM_OK)
+            status = fram_world_load_memory(w, data, size, &e);
+        ck_assert(fram_world_hash(w) == hash);
+        if (status == FRAM_OK)
+            status = fram_world_set_input(w, fram_world_find_input(w, "wind_x"), 1, &e);
+        bool failed = memory.failed;
+        ck_assert_int_eq(status, failed ? FRAM_ERROR_MEMORY : FRAM_OK);
+        fram_world_destroy(copy);
+        fram_data_free(ctx, data);
+        close_all();
+        ck_assert_int_eq(memory.live, 0);
+        if (!failed)
+            break;
+    }
+}
+END_TEST
+
+/* A program that was built when the definitions ended earlier. */
+START_TEST(older_definitions_are_taken)
+{
+    fram_context_definition d = {
+        .size = offsetof(fram_context_definition, isa), .threads = 2, .isa = "what stands behind"};
+    assert_ok(fram_context_create(&d, &ctx, &e), e);
+    fram_context_destroy(ctx);
+    open_all();
+    const char *root = getenv("TMPDIR");
+    char folder[300];
+    snprintf(folder, sizeof folder, "%s/fram_old_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    fram_record_definition r = {.size = offsetof(fram_record_definition, force), .folder = folder, .force = true};
+    assert_ok(fram_world_record(w, &r, &e), e);
+    assert_ok(fram_world_step(w, &e), e);
+    assert_ok(fram_world_record_end(w, NULL, &e), e);
+    REFUSED(fram_world_record(w, &r, &e)); /* force is behind its end: the folder is not empty */
+    fram_run_definition run = {.size = offsetof(fram_run_definition, force), .folder = folder, .force = true};
+    REFUSED(fram_run(s, &run, NULL, &e));
+    close_all();
+    char command[400];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+}
+END_TEST
+
+TEST_MAIN("live_misuse", scenarios_and_states, channels_and_inputs, arrays, recordings, no_memory_is_an_error,
+          older_definitions_are_taken)

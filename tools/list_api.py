@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Which test calls each function of include/fram: writes the table of docs/api.md; --check says whether it is so.
+
+A test that is named stays so as long as it calls the function; a new function gets the one that calls it most often."""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/api.md"
+MARK = "<!-- written by tools/list_api.py from here on -->\n"
+
+
+def functions():
+    for header in sorted((ROOT / "include/fram").glob("*.h")):
+        text = re.sub(r"/\*.*?\*/", "", header.read_text(), flags=re.S)
+        for name in re.findall(r"FRAM_API[^;]*?\b(fram_[a-z0-9_]+)\(", text):
+            yield header.name, name
+
+
+def named():
+    """The test that the page names for each function."""
+    return dict(re.findall(r"^\| `(fram_[a-z0-9_]+)` \| `[a-z]+\.h` \| \[(test_[a-z_]+\.c)\]", PAGE.read_text(), re.M))
+
+
+def table():
+    before = named()
+    tests = {path.name: path.read_text() for path in sorted((ROOT / "tests/api").glob("test_*.c"))}
+    rows, missing = [], []
+    for header, name in functions():
+        calls = {test: len(re.findall(rf"\b{name}\(", text)) for test, text in tests.items()}
+        best = max(calls, key=lambda test: (calls[test], test))
+        if calls.get(before.get(name), 0):
+            best = before[name]
+        if not calls[best]:
+            missing.append(name)
+            continue
+        rows.append(f"| `{name}` | `{header}` | [{best}](../tests/api/{best}) |\n")
+    return "| function | header | its test |\n|---|---|---|\n" + "".join(rows), missing, len(rows)
+
+
+def main():
+    text, missing, count = table()
+    head = PAGE.read_text().split(MARK)[0]
+    page = head + MARK + "\n" + text
+    for name in missing:
+        print(f"FAILED: no C test calls {name}")
+    if "--check" in sys.argv:
+        if PAGE.read_text() != page:
+            print("FAILED: docs/api.md is not what tools/list_api.py writes; run it")
+            return 1
+    else:
+        PAGE.write_text(page)
+    if count < 50:
+        print(f"FAILED: found {count} functions in include/fram")
+        return 1
+    print(f"{count} functions of include/fram are called by C tests")
+    return 1 if missing else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
