@@ -3,6 +3,7 @@
 #include "io/scenario_file.h"
 #include "base/number_text.h"
 #include "io/file.h"
+#include "io/key_words.h"
 #include "io/utf8.h"
 #include "io/yaml_tree.h"
 #include "model/scenario_schema.h"
@@ -209,7 +210,12 @@ static fram_status unknown_key(const reader *r, const scenario_section *section,
                                const value_place *place)
 {
     char other[KEY_SIZE];
-    const char *nearest = section_nearest(section, name);
+    const char *known = key_other_name(name);
+    const char *nearest = known && section_find(section, known) >= 0 ? known : NULL;
+    if (!nearest && known && find_anywhere(&scenario_schema, "", known, other))
+        nearest = other;
+    if (!nearest)
+        nearest = section_nearest(section, name);
     const char *where = *path ? path : "the scenario";
     if (nearest)
         return refuse(r, place, "expected a key of %s, found %s; did you mean %s?", where, shown(name).text, nearest);

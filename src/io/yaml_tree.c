@@ -2,6 +2,7 @@
 #include "io/yaml_tree.h"
 #include "base/hash.h"
 #include "io/utf8.h"
+#include "io/yaml_indent.h"
 #include <libfyaml.h>
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +21,8 @@ typedef struct open_node {
 
 typedef struct yaml_builder {
     context *ctx;
-    const char *name;
+    const char *name, *data;
+    size_t size;
     fram_error *error;
     yaml_tree *tree;
     int32_t depth, depth_limit;
@@ -280,6 +282,13 @@ static fram_status parser_end(yaml_builder *b, struct fy_parser *parser, struct 
     const struct fy_diag_error *first = fy_diag_errors_iterate(diagnosis, &previous);
     if (!first || !first->msg)
         return refuse(b, "not valid YAML");
+    yaml_blame blame;
+    if (yaml_indent_blame(b->data, b->size, &blame)) {
+        b->line = blame.line;
+        b->column = blame.column;
+        b->depth = 0; /* what was read by then is not where the fault is */
+        return refuse(b, blame.message);
+    }
     char message[200];
     snprintf(message, sizeof message, "not valid YAML: %s", first->msg);
     b->line = first->line;
@@ -361,7 +370,8 @@ fram_status yaml_tree_parse(context *ctx, const char *name, const char *data, si
                             yaml_tree *tree, fram_error *error)
 {
     memset(tree, 0, sizeof *tree);
-    yaml_builder b = {.ctx = ctx, .name = name, .error = error, .tree = tree, .depth_limit = depth_limit};
+    yaml_builder b = {
+        .ctx = ctx, .name = name, .data = data, .size = size, .error = error, .tree = tree, .depth_limit = depth_limit};
     fram_status status = check_text(&b, data, size);
     if (status == FRAM_OK && size > 0)
         status = parse(&b, data, size);

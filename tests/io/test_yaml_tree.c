@@ -150,8 +150,8 @@ END_TEST
 START_TEST(syntax_errors_have_a_place_and_print_nothing)
 {
     fflush(stderr);
-    assert_fails(parse("a: [1, 2\nb: 3\n", 16), error, FRAM_ERROR_INPUT, "not valid YAML");
-    ck_assert_int_ge(error.line, 1);
+    assert_fails(parse("a: [1, 2]]\nb: 3\n", 16), error, FRAM_ERROR_INPUT, "not valid YAML");
+    ck_assert_int_eq(error.line, 1);
     assert_fails(parse("a: 'x\n", 16), error, FRAM_ERROR_INPUT, "not valid YAML");
     ck_assert_int_eq(error.line, 1);
     assert_fails(parse("a: b: c\n", 16), error, FRAM_ERROR_INPUT, "not valid YAML");
@@ -234,6 +234,40 @@ START_TEST(utf8_is_decoded_strictly)
 }
 END_TEST
 
+/* Where a person has to look, not where a parser notices. */
+START_TEST(wrong_indentation_is_blamed_on_its_line)
+{
+    static const struct {
+        const char *text;
+        int line, column;
+        const char *part;
+    } wrong[] = {
+        {"a:\n  b:\n    c: 1\n   d: 2\n", 4, 4, "by 3 blanks, as no block above is; the last line before is line 3"},
+        {"a:\n  b: 1\n\n   # note\n   c: 2\n", 5, 4, "under a key that has its value: line 2, \"b\""},
+        {"a:\n  b: 1\n c: 2\n", 3, 2, "by 1 blank, as no block above is"},
+        {"a: 1\nb:\nc: 3\n  d: 4\ne: 5\n", 4, 3, "line 3, \"c\""},
+        {"a:\n  - b: 1\n    c: 2\n   d: 3\n", 4, 4, "as no block above is"},
+        {"a:\n  - {b: 1,\n c: 2\nd:\n  e: 1\n", 2, 5, "bracket that opens here is not closed"},
+        {"a: [1, 2\n", 1, 4, "bracket that opens here is not closed"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        assert_fails(parse(wrong[i].text, 16), error, FRAM_ERROR_INPUT, wrong[i].part);
+        ck_assert_int_eq(error.line, wrong[i].line);
+        ck_assert_int_eq(error.column, wrong[i].column);
+        ck_assert_str_eq(error.key, "");
+    }
+    /* Other faults keep the parser's own words, whatever stands in quotes and comments. */
+    assert_fails(parse("a: \"[\"\nb: '{' # [\nc: *\n", 16), error, FRAM_ERROR_INPUT, "not valid YAML");
+    ck_assert_int_eq(error.line, 3);
+    /* And what is sound is not asked at all. */
+    assert_ok(
+        parse("a:\n- b: 1\n  c: [1,\n     2]\n-   d: {e: 1}\n    f:\n      - - 1\n        - 2\ng: |\n   x\n     y\n",
+              16),
+        error);
+    yaml_tree_free(&ctx, &tree);
+}
+END_TEST
+
 TEST_MAIN("yaml_tree", the_tree_mirrors_the_text, text_arrives_whole, an_empty_text_has_no_nodes, nesting_is_limited,
           duplicates_are_per_mapping, very_many_keys_are_told_apart, syntax_errors_have_a_place_and_print_nothing,
-          no_memory_is_an_error, utf8_is_decoded_strictly)
+          wrong_indentation_is_blamed_on_its_line, no_memory_is_an_error, utf8_is_decoded_strictly)
