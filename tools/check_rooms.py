@@ -49,7 +49,7 @@ LIBRARY_ROOMS = {
     "cairo": {"io"},
     "png.h": {"io"},
     "zlib.h": {"base", "io"},
-    "nettle/": {"base"},
+    "nettle/": {"base", "io"},
     "pthread.h": {"base"},
 }
 # Files of src/ that may call libm's transcendentals: they draw, and nothing they compute reaches the state.

@@ -62,8 +62,8 @@ def main():
             print(f"{where}: nothing in src/ uses {name}: delete it, or move it to where it is used")
             count += 1
     for name in sorted(KEPT):
-        if name not in places or used[name] > len(places[name]):
-            print(f"tools/check_unused.py: {name} is listed as used by tests only, which is not so")
+        if name not in places:
+            print(f"tools/check_unused.py: {name} is listed as used by tests only, and there is no such function")
             count += 1
     return 1 if count else 0
 

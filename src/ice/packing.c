@@ -43,12 +43,12 @@ static const uint64_t ANOTHER_SEED = 0x9e3779b97f4a7c15;
 static const double SHRINK = 0.997;
 enum { MOST_SHRINKS = 60 };
 
-double pack_mean_squeeze(const pack_work *w)
+double pack_mean_squeeze(const pack_layout *l, const pack_contacts *c)
 {
     double sum = 0;
-    for (int32_t i = 0; i < w->movable; i++)
-        sum += w->squeeze.data[i] / w->bodies.data[i].size;
-    return w->movable > 0 ? sum / w->movable : 0;
+    for (int32_t i = 0; i < l->movable; i++)
+        sum += c->squeeze.data[i] / l->bodies.data[i].size;
+    return l->movable > 0 ? sum / l->movable : 0;
 }
 
 /* One round; `apart` tells that nothing overlapped before it. false: no memory, or w->status. */
@@ -57,10 +57,10 @@ static bool do_round(pack_work *w, double shake, bool *apart)
     w->status = work_continue(w->ctx, "packing the ice", w->round, 0, w->error);
     if (w->status != FRAM_OK || !pack_find_pairs(w, false))
         return false;
-    pack_place(w);
+    pack_place(&w->layout);
     if (!pack_find_rows(w))
         return false;
-    *apart = w->overlap <= 0;
+    *apart = w->contacts.overlap <= 0;
     if (!*apart || shake > 0)
         pack_solve_rows(w, shake);
     w->round++;
@@ -77,7 +77,7 @@ static bool settle(pack_work *w, bool *apart)
             return false;
         if (k % SETTLE_WATCH != SETTLE_WATCH - 1)
             continue;
-        double now = pack_mean_squeeze(w);
+        double now = pack_mean_squeeze(&w->layout, &w->contacts);
         if (now > SETTLING * before)
             break;
         before = now;
@@ -89,7 +89,7 @@ static bool shake(pack_work *w, double amplitude, double length, int32_t *moves)
 {
     bool apart;
     double rounds = length * SHAKE_ROUNDS;
-    int32_t every = w->concave ? GROW_MOVE_EVERY : MOVE_EVERY;
+    int32_t every = w->layout.concave ? GROW_MOVE_EVERY : MOVE_EVERY;
     for (int32_t k = 0; k < rounds; k++) {
         if (k % every == every - 1 && !pack_move_squeezed(w, 0, moves))
             return false;
@@ -108,13 +108,13 @@ static bool grow(pack_work *w, const growth *g, double length, int32_t *moves)
     double rounds = length * g->rounds;
     if (!pack_find_pairs(w, true))
         return false;
-    for (int32_t k = 0; k < rounds && w->scale < 1; k++) {
+    for (int32_t k = 0; k < rounds && w->layout.scale < 1; k++) {
         if (k % GROW_MOVE_EVERY == GROW_MOVE_EVERY - 1 && !pack_move_squeezed(w, 0, moves))
             return false;
         if (!do_round(w, g->first_shake + (g->last_shake - g->first_shake) * k / rounds, &apart))
             return false;
-        double step = fmax(MOST_SHRINK, 1 - pack_mean_squeeze(w) / g->squeeze);
-        w->scale = fmin(1, w->scale * (1 + GROW_RATE * step));
+        double step = fmax(MOST_SHRINK, 1 - pack_mean_squeeze(&w->layout, &w->contacts) / g->squeeze);
+        w->layout.scale = fmin(1, w->layout.scale * (1 + GROW_RATE * step));
     }
     return true;
 }
@@ -125,11 +125,11 @@ static bool find_fit(pack_work *w, double *scale)
     bool apart = false;
     *scale = 0;
     for (int k = 0; k < MOST_SHRINKS && !apart; k++) {
-        w->scale *= SHRINK;
+        w->layout.scale *= SHRINK;
         if (!settle(w, &apart))
             return false;
     }
-    *scale = apart ? w->scale : 0;
+    *scale = apart ? w->layout.scale : 0;
     return true;
 }
 
@@ -148,28 +148,28 @@ static bool finish(pack_work *w, double effort, bool *apart, int32_t *moves)
 static bool begin(pack_work *w, int32_t number)
 {
     w->seed = w->request->seed + (uint64_t)number * ANOTHER_SEED;
-    w->coarse = w->request->coarse != NULL;
-    w->scale = 1;
+    w->layout.coarse = w->request->coarse != NULL;
+    w->layout.scale = 1;
     if (!pack_bodies_make(w))
         return false;
-    w->gap = GAP * w->mean_size;
-    return pack_start(w) && pack_sort_bodies(w);
+    w->gap = GAP * w->layout.mean_size;
+    return pack_start(w) && pack_sort_bodies(w->ctx, &w->layout);
 }
 
 /* One beginning of a field of concave floes: they grow, first as coarse shapes; *apart: it came to an end, *hopeless:
    another one need not be tried.  false: no memory. */
 static bool solve_grown(pack_work *w, double length, packing_report *report, bool *apart, bool *hopeless)
 {
-    w->scale = GROW_FROM;
+    w->layout.scale = GROW_FROM;
     if (!pack_find_pairs(w, true) || !settle(w, apart) || !grow(w, &COARSE_GROWTH, length, &report->moves))
         return false;
-    if (w->coarse && !pack_refine(w))
+    if (w->layout.coarse && !pack_refine(w))
         return false;
     if (!grow(w, &FINE_GROWTH, length, &report->moves))
         return false;
     *apart = false;
-    *hopeless = w->scale < STUNTED;
-    return w->scale < 1 || finish(w, fmin(1, length), apart, &report->moves);
+    *hopeless = w->layout.scale < STUNTED;
+    return w->layout.scale < 1 || finish(w, fmin(1, length), apart, &report->moves);
 }
 
 /* One beginning of a field of convex floes: settle, then shake ever longer. */
@@ -182,7 +182,7 @@ static bool solve_shaken(pack_work *w, double effort, packing_report *report, bo
             return false;
         if (!shake(w, SHAKE, effort * (1 << k), &report->moves) || !settle(w, apart))
             return false;
-        *hopeless = pack_mean_squeeze(w) > HOPELESS;
+        *hopeless = pack_mean_squeeze(&w->layout, &w->contacts) > HOPELESS;
     }
     return true;
 }
@@ -196,7 +196,7 @@ static bool solve(pack_work *w, packing_report *report)
     starts = starts < 1 ? 1 : starts > MOST_STARTS ? MOST_STARTS : starts;
     for (int32_t k = 0; k < starts && good && !apart && !hopeless; k++) {
         good = begin(w, k);
-        bool grown = w->coarse || w->concave;
+        bool grown = w->layout.coarse || w->layout.concave;
         starts = grown ? MOST_GROWTHS : starts;
         if (good)
             good = grown ? solve_grown(w, effort * GROWTH_LENGTH[k], report, &apart, &hopeless)
@@ -204,7 +204,7 @@ static bool solve(pack_work *w, packing_report *report)
     }
     report->done = apart;
     report->rounds = w->round;
-    report->overlap = apart ? 0 : w->overlap;
+    report->overlap = apart ? 0 : w->contacts.overlap;
     report->scale = 1;
     return good;
 }
@@ -213,12 +213,12 @@ fram_status packing_solve(context *ctx, overlay *o, const packing_request *reque
                           packing_report *report, fram_error *error)
 {
     box2 d = request->domain;
-    pack_work w = {.ctx = ctx, .request = request, .overlay = o, .error = error, .scale = 1};
+    pack_work w = {.ctx = ctx, .request = request, .overlay = o, .error = error, .layout.scale = 1};
     w.period = (vec2){request->periodic_x ? d.hi.x - d.lo.x : 0, request->periodic_y ? d.hi.y - d.lo.y : 0};
     *report = (packing_report){0};
-    bool good = solve(&w, report) && array_resize(ctx, poses, w.movable);
+    bool good = solve(&w, report) && array_resize(ctx, poses, w.layout.movable);
     if (good)
-        pack_poses(&w, poses);
+        pack_poses(&w.layout, poses);
     good = good && (report->done || find_fit(&w, &report->scale));
     pack_work_free(&w);
     return good ? FRAM_OK : w.status != FRAM_OK ? w.status : error_memory(error);

@@ -14,10 +14,10 @@ typedef struct axis {
 } axis;
 
 /* Gap of q's vertices (moved by `shift`) beyond one edge of p. */
-static double edge_gap(const pack_work *w, const pack_piece *p, int32_t edge, const pack_piece *q, vec2 shift)
+static double edge_gap(const pack_layout *l, const pack_piece *p, int32_t edge, const pack_piece *q, vec2 shift)
 {
-    vec2 n = w->normal.data[p->first + edge], from = w->vertex.data[p->first + edge];
-    const vec2 *v = w->vertex.data + q->first;
+    vec2 n = l->normal.data[p->first + edge], from = l->vertex.data[p->first + edge];
+    const vec2 *v = l->vertex.data + q->first;
     double least = HUGE_VAL, offset = n.x * (from.x - shift.x) + n.y * (from.y - shift.y);
     for (int32_t i = 0; i < q->count; i++) {
         double d = n.x * v[i].x + n.y * v[i].y;
@@ -27,37 +27,37 @@ static double edge_gap(const pack_work *w, const pack_piece *p, int32_t edge, co
 }
 
 /* The gap along one edge of either; seams part too, but nothing is pushed along them. */
-static double axis_gap(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, int32_t edge)
+static double axis_gap(const pack_layout *l, const pack_piece *a, const pack_piece *b, vec2 shift, int32_t edge)
 {
     if (edge < a->count)
-        return edge_gap(w, a, edge, b, shift);
-    return edge_gap(w, b, edge - a->count, a, (vec2){-shift.x, -shift.y});
+        return edge_gap(l, a, edge, b, shift);
+    return edge_gap(l, b, edge - a->count, a, (vec2){-shift.x, -shift.y});
 }
 
-static bool is_seam(const pack_work *w, const pack_piece *a, const pack_piece *b, int32_t edge)
+static bool is_seam(const pack_layout *l, const pack_piece *a, const pack_piece *b, int32_t edge)
 {
-    return w->seam.data[edge < a->count ? a->first + edge : b->first + edge - a->count] != 0;
+    return l->seam.data[edge < a->count ? a->first + edge : b->first + edge - a->count] != 0;
 }
 
 /* The outer edge with the widest gap; edge -1 when any edge, a seam included, keeps the two farther apart than `far`
    (left in *axis_kept). */
-static axis widest_axis(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, double far,
+static axis widest_axis(const pack_layout *l, const pack_piece *a, const pack_piece *b, vec2 shift, double far,
                         int16_t *kept)
 {
     axis best = {-HUGE_VAL, -1}, inner = {-HUGE_VAL, -1};
     /* An edge that looks away from the other piece's middle parts the two badly, if at all. */
     vec2 way = vec2_sub(vec2_add(b->middle, shift), a->middle);
     for (int32_t e = 0; e < a->count + b->count; e++) {
-        double facing = e < a->count ? vec2_dot(w->normal.data[a->first + e], way)
-                                     : -vec2_dot(w->normal.data[b->first + e - a->count], way);
-        if (facing < 0 && !w->concave)
+        double facing = e < a->count ? vec2_dot(l->normal.data[a->first + e], way)
+                                     : -vec2_dot(l->normal.data[b->first + e - a->count], way);
+        if (facing < 0 && !l->concave)
             continue;
-        double gap = axis_gap(w, a, b, shift, e);
+        double gap = axis_gap(l, a, b, shift, e);
         if (gap > far) {
             *kept = (int16_t)e;
             return (axis){gap, -1};
         }
-        axis *slot = is_seam(w, a, b, e) ? &inner : &best;
+        axis *slot = is_seam(l, a, b, e) ? &inner : &best;
         if (gap > slot->gap)
             *slot = (axis){gap, e};
     }
@@ -69,8 +69,9 @@ static axis widest_axis(const pack_work *w, const pack_piece *a, const pack_piec
 
 static bool push_row(pack_work *w, int32_t body_a, int32_t body_b, vec2 n, vec2 on_a, vec2 on_b, double gap)
 {
-    const pack_body *a = &w->bodies.data[body_a], *b = body_b >= 0 ? &w->bodies.data[body_b] : NULL;
-    pack_row row = {.a = body_a, .b = body_b, .normal = n, .gap = fmax(gap - w->gap, -PACK_MOST_PUSH * w->grain)};
+    const pack_body *a = &w->layout.bodies.data[body_a], *b = body_b >= 0 ? &w->layout.bodies.data[body_b] : NULL;
+    pack_row row = {
+        .a = body_a, .b = body_b, .normal = n, .gap = fmax(gap - w->gap, -PACK_MOST_PUSH * w->layout.grain)};
     row.arm_a = vec2_cross(vec2_sub(on_a, a->centre), n);
     double k = a->weight + a->spin_weight * row.arm_a * row.arm_a;
     if (b) {
@@ -78,23 +79,23 @@ static bool push_row(pack_work *w, int32_t body_a, int32_t body_b, vec2 n, vec2 
         k += b->weight + b->spin_weight * row.arm_b * row.arm_b;
     }
     row.mass = 1 / k;
-    if (-gap > w->overlap)
-        w->overlap = -gap;
-    if (-gap > w->squeeze.data[body_a])
-        w->squeeze.data[body_a] = -gap;
-    if (b && -gap > w->squeeze.data[body_b])
-        w->squeeze.data[body_b] = -gap;
-    return array_push(w->ctx, &w->rows, row);
+    if (-gap > w->contacts.overlap)
+        w->contacts.overlap = -gap;
+    if (-gap > w->contacts.squeeze.data[body_a])
+        w->contacts.squeeze.data[body_a] = -gap;
+    if (b && -gap > w->contacts.squeeze.data[body_b])
+        w->contacts.squeeze.data[body_b] = -gap;
+    return array_push(w->ctx, &w->contacts.rows, row);
 }
 
 static int32_t next_of(int32_t i, int32_t count) { return i + 1 < count ? i + 1 : 0; }
 
 /* Points of the incident piece over the reference edge: its edge that faces the reference one, cut to its length. */
-static int incident_points(const pack_work *w, const pack_piece *ref, int32_t edge, const pack_piece *inc, vec2 shift,
+static int incident_points(const pack_layout *l, const pack_piece *ref, int32_t edge, const pack_piece *inc, vec2 shift,
                            vec2 point[2])
 {
-    vec2 n = w->normal.data[ref->first + edge];
-    const vec2 *v = w->vertex.data + inc->first, *m = w->normal.data + inc->first;
+    vec2 n = l->normal.data[ref->first + edge];
+    const vec2 *v = l->vertex.data + inc->first, *m = l->normal.data + inc->first;
     int32_t deepest = 0;
     double least = HUGE_VAL;
     for (int32_t i = 0; i < inc->count; i++) {
@@ -106,8 +107,8 @@ static int incident_points(const pack_work *w, const pack_piece *ref, int32_t ed
     }
     int32_t before = deepest > 0 ? deepest - 1 : inc->count - 1;
     int32_t face = vec2_dot(n, m[before]) < vec2_dot(n, m[deepest]) ? before : deepest;
-    vec2 from = w->vertex.data[ref->first + edge];
-    vec2 to = w->vertex.data[ref->first + next_of(edge, ref->count)];
+    vec2 from = l->vertex.data[ref->first + edge];
+    vec2 to = l->vertex.data[ref->first + next_of(edge, ref->count)];
     vec2 along = {-n.y, n.x};
     double lo = vec2_dot(along, from), hi = vec2_dot(along, to);
     vec2 p = vec2_add(v[face], shift), q = vec2_add(v[next_of(face, inc->count)], shift);
@@ -128,7 +129,7 @@ static int incident_points(const pack_work *w, const pack_piece *ref, int32_t ed
     point[0] = end[0];
     point[1] = end[1];
     vec2 between = vec2_sub(end[1], end[0]);
-    return vec2_dot(between, between) > 1e-12 * w->mean_size * w->mean_size ? 2 : 1;
+    return vec2_dot(between, between) > 1e-12 * l->mean_size * l->mean_size ? 2 : 1;
 }
 
 static bool add_pair_rows(pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, axis best, double far)
@@ -136,10 +137,10 @@ static bool add_pair_rows(pack_work *w, const pack_piece *a, const pack_piece *b
     bool on_a = best.edge < a->count;
     const pack_piece *ref = on_a ? a : b, *inc = on_a ? b : a;
     int32_t edge = on_a ? best.edge : best.edge - a->count;
-    vec2 n = w->normal.data[ref->first + edge], from = w->vertex.data[ref->first + edge], point[2];
+    vec2 n = w->layout.normal.data[ref->first + edge], from = w->layout.vertex.data[ref->first + edge], point[2];
     /* In the frame of the reference piece. */
     vec2 over = on_a ? shift : (vec2){-shift.x, -shift.y};
-    int points = incident_points(w, ref, edge, inc, over, point);
+    int points = incident_points(&w->layout, ref, edge, inc, over, point);
     for (int k = 0; k < points; k++) {
         double gap = vec2_dot(n, vec2_sub(point[k], from));
         if (gap > far)
@@ -161,15 +162,15 @@ bool pack_boxes_far(box2 a, box2 b, vec2 shift, double far)
 
 static bool find_pair_rows(pack_work *w, double far)
 {
-    for (int32_t i = 0; i < w->pairs.count; i++) {
-        pack_pair *pair = &w->pairs.data[i];
-        const pack_piece *a = &w->pieces.data[pair->a], *b = &w->pieces.data[pair->b];
+    for (int32_t i = 0; i < w->search.pairs.count; i++) {
+        pack_pair *pair = &w->search.pairs.data[i];
+        const pack_piece *a = &w->layout.pieces.data[pair->a], *b = &w->layout.pieces.data[pair->b];
         vec2 shift = {pair->shift_x * w->period.x, pair->shift_y * w->period.y};
         if (pack_boxes_far(a->box, b->box, shift, far))
             continue;
-        if (pair->axis >= 0 && axis_gap(w, a, b, shift, pair->axis) > far)
+        if (pair->axis >= 0 && axis_gap(&w->layout, a, b, shift, pair->axis) > far)
             continue;
-        axis best = widest_axis(w, a, b, shift, far, &pair->axis);
+        axis best = widest_axis(&w->layout, a, b, shift, far, &pair->axis);
         if (best.edge >= 0 && !add_pair_rows(w, a, b, shift, best, far))
             return false;
     }
@@ -179,9 +180,9 @@ static bool find_pair_rows(pack_work *w, double far)
 /* Rows of a piece and the wall n . x <= offset: every vertex that comes near (at most as many as the piece has). */
 static bool find_wall_rows(pack_work *w, vec2 n, double offset, double far)
 {
-    for (int32_t p = 0; p < w->pieces.count; p++) {
-        const pack_piece *piece = &w->pieces.data[p];
-        if (piece->body >= w->movable)
+    for (int32_t p = 0; p < w->layout.pieces.count; p++) {
+        const pack_piece *piece = &w->layout.pieces.data[p];
+        if (piece->body >= w->layout.movable)
             break;
         double nearest = n.x > 0   ? offset - piece->box.hi.x
                          : n.x < 0 ? offset + piece->box.lo.x
@@ -190,7 +191,7 @@ static bool find_wall_rows(pack_work *w, vec2 n, double offset, double far)
         if (nearest > far)
             continue;
         for (int32_t i = piece->first; i < piece->first + piece->count; i++) {
-            vec2 v = w->vertex.data[i];
+            vec2 v = w->layout.vertex.data[i];
             double gap = offset - vec2_dot(n, v);
             if (gap <= far && !push_row(w, piece->body, -1, n, v, v, gap))
                 return false;
@@ -202,24 +203,24 @@ static bool find_wall_rows(pack_work *w, vec2 n, double offset, double far)
 bool pack_find_rows(pack_work *w)
 {
     box2 d = w->request->domain;
-    double far = w->gap + ROW_REACH * w->reach;
-    array_clear(&w->rows);
-    w->overlap = -HUGE_VAL;
-    for (int32_t i = 0; i < w->bodies.count; i++)
-        w->squeeze.data[i] = 0;
+    double far = w->gap + ROW_REACH * w->search.reach;
+    array_clear(&w->contacts.rows);
+    w->contacts.overlap = -HUGE_VAL;
+    for (int32_t i = 0; i < w->layout.bodies.count; i++)
+        w->contacts.squeeze.data[i] = 0;
     bool good = find_pair_rows(w, far);
     if (good && w->period.x == 0)
         good = find_wall_rows(w, (vec2){1, 0}, d.hi.x, far) && find_wall_rows(w, (vec2){-1, 0}, -d.lo.x, far);
     if (good && w->period.y == 0)
         good = find_wall_rows(w, (vec2){0, 1}, d.hi.y, far) && find_wall_rows(w, (vec2){0, -1}, -d.lo.y, far);
-    return good && (!w->concave || pack_part_hooked(w));
+    return good && (!w->layout.concave || pack_part_hooked(w));
 }
 
-double pack_depth(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, double enough)
+double pack_depth(const pack_layout *l, const pack_piece *a, const pack_piece *b, vec2 shift, double enough)
 {
     if (pack_boxes_far(a->box, b->box, shift, -enough))
         return 0;
     int16_t kept;
-    axis best = widest_axis(w, a, b, shift, -enough, &kept);
+    axis best = widest_axis(l, a, b, shift, -enough, &kept);
     return best.edge < 0 ? 0 : -best.gap;
 }

@@ -38,10 +38,10 @@ typedef ARRAY(hooked_pair) hooked_pair_array;
 /* Of a row whether it is deeper than `least` floe sizes, and what it says of its pair. */
 static bool take_deep(const pack_work *w, int32_t i, double least, deep_row *d)
 {
-    const pack_row *r = &w->rows.data[i];
-    if (r->b < 0 || r->b >= w->movable) /* walls and obstacles are convex, each a body of its own */
+    const pack_row *r = &w->contacts.rows.data[i];
+    if (r->b < 0 || r->b >= w->layout.movable) /* walls and obstacles are convex, each a body of its own */
         return false;
-    double size = fmin(w->bodies.data[r->a].size, w->bodies.data[r->b].size);
+    double size = fmin(w->layout.bodies.data[r->a].size, w->layout.bodies.data[r->b].size);
     bool ordered = r->a < r->b;
     *d = (deep_row){ordered ? r->a : r->b, ordered ? r->b : r->a,
                     ordered ? r->normal : (vec2){-r->normal.x, -r->normal.y}, -(r->gap + w->gap), i};
@@ -88,21 +88,21 @@ typedef struct hook_work {
 
 /* Room inside the edges of p for q, moved by shift; sign: 1 where q moves, -1 where p does.  *near is cleared where q
    is farther away than `most`.  false: no memory. */
-static bool add_edges(pack_work *w, const pack_piece *p, const pack_piece *q, vec2 shift, double sign, double most,
-                      hook_work *h, bool *near)
+static bool add_edges(context *ctx, const pack_layout *l, const pack_piece *p, const pack_piece *q, vec2 shift,
+                      double sign, double most, hook_work *h, bool *near)
 {
     for (int32_t e = p->first; e < p->first + p->count; e++) {
-        vec2 n = w->normal.data[e];
-        double offset = vec2_dot(n, vec2_sub(w->vertex.data[e], shift)), least = HUGE_VAL;
+        vec2 n = l->normal.data[e];
+        double offset = vec2_dot(n, vec2_sub(l->vertex.data[e], shift)), least = HUGE_VAL;
         for (int32_t i = q->first; i < q->first + q->count; i++) {
-            double d = n.x * w->vertex.data[i].x + n.y * w->vertex.data[i].y;
+            double d = n.x * l->vertex.data[i].x + n.y * l->vertex.data[i].y;
             least = d < least ? d : least;
         }
         if (least - offset >= most) {
             *near = false;
             return true;
         }
-        if (!array_push(w->ctx, &h->edges, (edge_room){vec2_scale(n, sign), offset - least}))
+        if (!array_push(ctx, &h->edges, (edge_room){vec2_scale(n, sign), offset - least}))
             return false;
     }
     return true;
@@ -114,15 +114,15 @@ static bool find_edges(pack_work *w, const pack_body *a, const pack_body *b, vec
     array_clear(&h->edges);
     array_clear(&h->start);
     for (int32_t q = b->piece; q < b->piece + b->piece_count; q++) {
-        const pack_piece *y = &w->pieces.data[q];
+        const pack_piece *y = &w->layout.pieces.data[q];
         for (int32_t p = a->piece; p < a->piece + a->piece_count; p++) {
-            const pack_piece *x = &w->pieces.data[p];
+            const pack_piece *x = &w->layout.pieces.data[p];
             if (pack_boxes_far(x->box, y->box, shift, most))
                 continue;
             int32_t first = h->edges.count;
             bool near = true;
-            if (!add_edges(w, x, y, shift, 1, most, h, &near) ||
-                (near && !add_edges(w, y, x, (vec2){-shift.x, -shift.y}, -1, most, h, &near)))
+            if (!add_edges(w->ctx, &w->layout, x, y, shift, 1, most, h, &near) ||
+                (near && !add_edges(w->ctx, &w->layout, y, x, (vec2){-shift.x, -shift.y}, -1, most, h, &near)))
                 return false;
             if (!near)
                 h->edges.count = first;
@@ -187,9 +187,9 @@ static bool find_way_out(pack_work *w, const pack_body *a, const pack_body *b, v
 /* A row for a pair in place of all that it has; false: no memory. */
 static bool part_pair(pack_work *w, hooked_pair *pair, hook_work *h)
 {
-    const pack_body *a = &w->bodies.data[pair->a], *b = &w->bodies.data[pair->b];
+    const pack_body *a = &w->layout.bodies.data[pair->a], *b = &w->layout.bodies.data[pair->b];
     vec2 direction = {0, 0}, shift = pack_image_shift(w, a->centre, b->centre);
-    double way = 0, most = FIRST_REACH * pair->depth, last = (a->radius + b->radius) * w->scale;
+    double way = 0, most = FIRST_REACH * pair->depth, last = (a->radius + b->radius) * w->layout.scale;
     pair->parted = false;
     for (; !pair->parted && most < last; most *= NEXT_REACH) {
         if (!find_way_out(w, a, b, shift, most, h, &direction, &way))
@@ -197,8 +197,8 @@ static bool part_pair(pack_work *w, hooked_pair *pair, hook_work *h)
         pair->parted = way < most;
     }
     pack_row row = {.a = pair->a, .b = pair->b, .normal = direction, .mass = 1 / (a->weight + b->weight)};
-    row.gap = fmax(-way - w->gap, -PACK_MOST_PUSH * w->grain);
-    return !pair->parted || array_push(w->ctx, &w->rows, row);
+    row.gap = fmax(-way - w->gap, -PACK_MOST_PUSH * w->layout.grain);
+    return !pair->parted || array_push(w->ctx, &w->contacts.rows, row);
 }
 
 static int by_bodies(const void *p, const void *q)
@@ -208,11 +208,11 @@ static int by_bodies(const void *p, const void *q)
 }
 
 /* Rows of the pairs that got one of their own take no more push. */
-static void drop_rows(pack_work *w, int32_t end, const hooked_pair_array *pairs)
+static void drop_rows(pack_contacts *c, int32_t end, const hooked_pair_array *pairs)
 {
     for (int32_t i = 0; i < end; i++) {
-        pack_row *r = &w->rows.data[i];
-        if (r->b < 0 || w->steps.data[r->a].x == 0 || w->steps.data[r->b].x == 0)
+        pack_row *r = &c->rows.data[i];
+        if (r->b < 0 || c->steps.data[r->a].x == 0 || c->steps.data[r->b].x == 0)
             continue;
         hooked_pair key = {.a = r->a < r->b ? r->a : r->b, .b = r->a < r->b ? r->b : r->a};
         const hooked_pair *found = bsearch(&key, pairs->data, (size_t)pairs->count, sizeof *pairs->data, by_bodies);
@@ -223,9 +223,9 @@ static void drop_rows(pack_work *w, int32_t end, const hooked_pair_array *pairs)
 
 static bool find_deep(pack_work *w, deep_row_array *deep)
 {
-    double least = DEEP + DEEP_SQUEEZE * pack_mean_squeeze(w);
+    double least = DEEP + DEEP_SQUEEZE * pack_mean_squeeze(&w->layout, &w->contacts);
     deep_row d;
-    for (int32_t i = 0; i < w->rows.count; i++)
+    for (int32_t i = 0; i < w->contacts.rows.count; i++)
         if (take_deep(w, i, least, &d) && !array_push(w->ctx, deep, d))
             return false;
     if (deep->count > 0)
@@ -254,17 +254,17 @@ bool pack_part_hooked(pack_work *w)
 {
     hooked_pair_array pairs = {0};
     hook_work h = {0};
-    int32_t end = w->rows.count;
+    int32_t end = w->contacts.rows.count;
     bool good = find_hooked(w, &pairs);
     if (good && pairs.count > 0)
-        memset(w->steps.data, 0, (size_t)w->bodies.count * sizeof *w->steps.data);
+        memset(w->contacts.steps.data, 0, (size_t)w->layout.bodies.count * sizeof *w->contacts.steps.data);
     for (int32_t i = 0; good && i < pairs.count; i++) {
         hooked_pair *pair = &pairs.data[i];
         good = part_pair(w, pair, &h);
-        w->steps.data[pair->a].x = w->steps.data[pair->b].x = 1;
+        w->contacts.steps.data[pair->a].x = w->contacts.steps.data[pair->b].x = 1;
     }
     if (good && pairs.count > 0)
-        drop_rows(w, end, &pairs);
+        drop_rows(&w->contacts, end, &pairs);
     array_free(w->ctx, &pairs);
     array_free(w->ctx, &h.edges);
     array_free(w->ctx, &h.start);

@@ -48,9 +48,9 @@ static int32_t clear_at(const water_map *m, int32_t x, int32_t y)
 }
 
 /* Cells whose centre is inside a convex piece have no open water. */
-static void mark_piece(const pack_work *w, const pack_piece *p, water_map *m)
+static void mark_piece(const pack_layout *l, const pack_piece *p, water_map *m)
 {
-    const vec2 *v = w->vertex.data + p->first;
+    const vec2 *v = l->vertex.data + p->first;
     int32_t y0 = (int32_t)ceil((p->box.lo.y - m->origin.y) / m->width - 0.5);
     int32_t y1 = (int32_t)floor((p->box.hi.y - m->origin.y) / m->width - 0.5);
     for (int32_t y = y0; y <= y1; y++) {
@@ -99,7 +99,7 @@ static bool map_make(pack_work *w, water_map *m)
 {
     box2 d = w->request->domain;
     double wide = d.hi.x - d.lo.x, high = d.hi.y - d.lo.y;
-    double least = fmax(w->least_size, LEAST_SIZE * w->mean_size);
+    double least = fmax(w->layout.least_size, LEAST_SIZE * w->layout.mean_size);
     *m = (water_map){.origin = d.lo, .periodic_x = w->period.x > 0, .periodic_y = w->period.y > 0};
     m->width = fmax(least / CELLS, sqrt(wide * high / MOST_MAP_CELLS));
     m->nx = (int32_t)fmax(1, wide / m->width);
@@ -110,8 +110,8 @@ static bool map_make(pack_work *w, water_map *m)
         return false;
     for (int64_t i = 0; i < cells; i++)
         m->clear[i] = CHAMFER_FAR;
-    for (int32_t p = 0; p < w->pieces.count; p++)
-        mark_piece(w, &w->pieces.data[p], m);
+    for (int32_t p = 0; p < w->layout.pieces.count; p++)
+        mark_piece(&w->layout, &w->layout.pieces.data[p], m);
     spread(m);
     return true;
 }
@@ -148,7 +148,7 @@ static bool is_widest(const water_map *m, int32_t x, int32_t y, int32_t clear)
 
 static bool find_holes(pack_work *w, const water_map *m, hole_array *holes)
 {
-    double least = fmax(w->least_size, LEAST_SIZE * w->mean_size);
+    double least = fmax(w->layout.least_size, LEAST_SIZE * w->layout.mean_size);
     int32_t need = (int32_t)(NARROWEST * CHAMFER_NEXT * least / m->width);
     for (int32_t y = 0; y < m->ny; y++)
         for (int32_t x = 0; x < m->nx; x++) {
@@ -182,14 +182,15 @@ static int worst_first(const void *a, const void *b)
 /* The smaller floe of every pair that overlaps by more than a part of its size, once. */
 static bool list_hooked(pack_work *w, double least, squeezed_array *list)
 {
-    for (int32_t i = 0; i < w->rows.count; i++) {
-        const pack_row *r = &w->rows.data[i];
-        bool other = r->b >= 0 && r->b < w->movable && w->bodies.data[r->b].size < w->bodies.data[r->a].size;
+    for (int32_t i = 0; i < w->contacts.rows.count; i++) {
+        const pack_row *r = &w->contacts.rows.data[i];
+        bool other = r->b >= 0 && r->b < w->layout.movable &&
+                     w->layout.bodies.data[r->b].size < w->layout.bodies.data[r->a].size;
         int32_t body = other ? r->b : r->a;
-        double part = -(r->gap + w->gap) / w->bodies.data[body].size;
-        if (!(part > least) || w->squeeze.data[body] == 0)
+        double part = -(r->gap + w->gap) / w->layout.bodies.data[body].size;
+        if (!(part > least) || w->contacts.squeeze.data[body] == 0)
             continue;
-        w->squeeze.data[body] = 0; /* listed; nothing asks for it before the next round */
+        w->contacts.squeeze.data[body] = 0; /* listed; nothing asks for it before the next round */
         if (!array_push(w->ctx, list, (squeezed){part, body}))
             return false;
     }
@@ -198,8 +199,8 @@ static bool list_hooked(pack_work *w, double least, squeezed_array *list)
 
 static bool list_squeezed(pack_work *w, squeezed_array *list)
 {
-    for (int32_t i = 0; i < w->movable; i++) {
-        double part = w->squeeze.data[i] / w->bodies.data[i].size;
+    for (int32_t i = 0; i < w->layout.movable; i++) {
+        double part = w->contacts.squeeze.data[i] / w->layout.bodies.data[i].size;
         if (part > SQUEEZED && !array_push(w->ctx, list, (squeezed){part, i}))
             return false;
     }
@@ -218,14 +219,14 @@ static bool find_squeezed(pack_work *w, double hooked, squeezed_array *list)
 /* Tries a body at a place at several angles; it stays there if it overlaps less than `bound`. */
 static bool try_place(pack_work *w, int32_t body, vec2 at, double bound, const int32_array *carried)
 {
-    pack_body *b = &w->bodies.data[body], old = *b;
+    pack_body *b = &w->layout.bodies.data[body], old = *b;
     random_stream r = random_begin(w->seed, PACK_STREAM_MOVE, (uint32_t)body);
     r.counter = (uint64_t)w->round;
     b->centre = at;
     bool better = pack_turn_best(w, body, 2 * PI * random_unit(&r), bound, carried) < bound;
     if (!better) {
         *b = old;
-        pack_place_body(w, body);
+        pack_place_body(&w->layout, body);
     }
     return better;
 }
@@ -241,11 +242,11 @@ static bool fill_holes(pack_work *w, const water_map *m, const hole_array *holes
         int tried = 0;
         for (int32_t k = 0; k < list->count && tried < TRIES; k++) {
             squeezed *s = &list->data[k];
-            double half = 0.5 * w->bodies.data[s->body].size * w->scale;
+            double half = 0.5 * w->layout.bodies.data[s->body].size * w->layout.scale;
             if (s->part == 0 || (!hooked && (half > MOST_FILL * room || half < LEAST_FILL * room)))
                 continue;
             tried++;
-            double bound = hooked ? HUGE_VAL : GAIN * w->squeeze.data[s->body];
+            double bound = hooked ? HUGE_VAL : GAIN * w->contacts.squeeze.data[s->body];
             if (!try_place(w, s->body, centre, bound, carried))
                 continue;
             s->part = 0;
@@ -263,7 +264,7 @@ static bool swap_others(pack_work *w, const squeezed_array *list, int32_array *c
     bool good = true;
     for (int32_t k = 0; good && k < list->count; k++) {
         int32_t body = list->data[k].body;
-        if (list->data[k].part > 0 && w->squeeze.data[body] > SQUEEZED * w->bodies.data[body].size)
+        if (list->data[k].part > 0 && w->contacts.squeeze.data[body] > SQUEEZED * w->layout.bodies.data[body].size)
             good = pack_swap_squeezed(w, body, carried);
     }
     return good;
@@ -279,7 +280,7 @@ bool pack_move_squeezed(pack_work *w, double hooked, int32_t *moves)
     if (good && list.count > 0) {
         good = map_make(w, &map) && find_holes(w, &map, &holes);
         good = good && fill_holes(w, &map, &holes, &list, hooked > 0, &carried);
-        good = good && (!w->concave || hooked > 0 || swap_others(w, &list, &carried));
+        good = good && (!w->layout.concave || hooked > 0 || swap_others(w, &list, &carried));
         *moves += carried.count;
     }
     memory_free(w->ctx, map.clear);

@@ -79,12 +79,12 @@ static bool add_to_cells(pack_work *w, places *p, int32_t body, box2 box)
 }
 
 /* Distance of a point from a convex obstacle, from below; negative inside. */
-static double obstacle_distance(const pack_work *w, const pack_body *b, vec2 at)
+static double obstacle_distance(const pack_layout *l, const pack_body *b, vec2 at)
 {
-    const pack_piece *p = &w->pieces.data[b->piece];
+    const pack_piece *p = &l->pieces.data[b->piece];
     double most = -HUGE_VAL;
     for (int32_t i = p->first; i < p->first + p->count; i++)
-        most = fmax(most, vec2_dot(w->local_normal.data[i], vec2_sub(at, w->local.data[i])));
+        most = fmax(most, vec2_dot(l->local_normal.data[i], vec2_sub(at, l->local.data[i])));
     return most;
 }
 
@@ -92,7 +92,7 @@ static double obstacle_distance(const pack_work *w, const pack_body *b, vec2 at)
 static double clearance(const pack_work *w, const places *p, vec2 at)
 {
     box2 d = w->request->domain;
-    double clear = ENOUGH * w->mean_size;
+    double clear = ENOUGH * w->layout.mean_size;
     if (w->period.x == 0)
         clear = fmin(clear, fmin(at.x - d.lo.x, d.hi.x - at.x));
     if (w->period.y == 0)
@@ -100,9 +100,9 @@ static double clearance(const pack_work *w, const places *p, vec2 at)
     int32_t lo[2], hi[2];
     pack_grid_range(&p->grid, (box2){at, at}, lo, hi);
     for (int32_t k = p->head.data[lo[1] * p->grid.nx + lo[0]]; k >= 0; k = p->link[k].next) {
-        const pack_body *b = &w->bodies.data[p->link[k].body];
-        if (p->link[k].body >= w->movable) {
-            clear = fmin(clear, obstacle_distance(w, b, at));
+        const pack_body *b = &w->layout.bodies.data[p->link[k].body];
+        if (p->link[k].body >= w->layout.movable) {
+            clear = fmin(clear, obstacle_distance(&w->layout, b, at));
             continue;
         }
         vec2 way = vec2_sub(b->centre, at);
@@ -118,7 +118,7 @@ static double clearance(const pack_work *w, const places *p, vec2 at)
 static bool put_body(pack_work *w, places *p, int32_t body)
 {
     box2 d = w->request->domain;
-    pack_body *b = &w->bodies.data[body];
+    pack_body *b = &w->layout.bodies.data[body];
     random_stream r = random_begin(w->seed, PACK_STREAM_START, (uint32_t)body);
     double angle = 2 * PI * random_unit(&r), best = -HUGE_VAL;
     b->turn = (vec2){real_cos(angle), real_sin(angle)};
@@ -131,25 +131,25 @@ static bool put_body(pack_work *w, places *p, int32_t body)
             b->centre = at;
         }
     }
-    double reach = disc_radius(b) + ENOUGH * w->mean_size;
+    double reach = disc_radius(b) + ENOUGH * w->layout.mean_size;
     box2 box = {{b->centre.x - reach, b->centre.y - reach}, {b->centre.x + reach, b->centre.y + reach}};
     return add_to_cells(w, p, body, box);
 }
 
 static bool put_all(pack_work *w, places *p, ranked *order)
 {
-    double reach = ENOUGH * w->mean_size;
-    for (int32_t i = w->movable; i < w->bodies.count; i++) {
-        box2 b = w->pieces.data[w->bodies.data[i].piece].box;
+    double reach = ENOUGH * w->layout.mean_size;
+    for (int32_t i = w->layout.movable; i < w->layout.bodies.count; i++) {
+        box2 b = w->layout.pieces.data[w->layout.bodies.data[i].piece].box;
         if (!add_to_cells(w, p, i, (box2){{b.lo.x - reach, b.lo.y - reach}, {b.hi.x + reach, b.hi.y + reach}}))
             return false;
     }
-    for (int32_t i = 0; i < w->movable; i++)
-        order[i] = (ranked){w->bodies.data[i].size, i};
-    qsort(order, (size_t)w->movable, sizeof *order, larger_first);
-    for (int32_t i = 0; i < w->movable; i++) {
+    for (int32_t i = 0; i < w->layout.movable; i++)
+        order[i] = (ranked){w->layout.bodies.data[i].size, i};
+    qsort(order, (size_t)w->layout.movable, sizeof *order, larger_first);
+    for (int32_t i = 0; i < w->layout.movable; i++) {
         if (i % BODIES_A_WORD == 0)
-            w->status = work_continue(w->ctx, "packing the ice: first places", i, w->movable, w->error);
+            w->status = work_continue(w->ctx, "packing the ice: first places", i, w->layout.movable, w->error);
         if (w->status != FRAM_OK || !put_body(w, p, order[i].body))
             return false;
     }
@@ -159,14 +159,14 @@ static bool put_all(pack_work *w, places *p, ranked *order)
 bool pack_start(pack_work *w)
 {
     box2 d = w->request->domain;
-    double wide = d.hi.x - d.lo.x, high = d.hi.y - d.lo.y, width = CELL * w->mean_size;
-    while ((floor(wide / width) + 1) * (floor(high / width) + 1) > 4.0 * w->bodies.count + 16)
+    double wide = d.hi.x - d.lo.x, high = d.hi.y - d.lo.y, width = CELL * w->layout.mean_size;
+    while ((floor(wide / width) + 1) * (floor(high / width) + 1) > 4.0 * w->layout.bodies.count + 16)
         width *= 1.25;
     places p = {.grid = {.origin = d.lo, .width = width}};
     p.grid.nx = (int32_t)floor(wide / width) + 1;
     p.grid.ny = (int32_t)floor(high / width) + 1;
-    pack_place(w); /* boxes of the obstacles */
-    ranked *order = memory_array(w->ctx, (size_t)w->movable + 1, sizeof *order);
+    pack_place(&w->layout); /* boxes of the obstacles */
+    ranked *order = memory_array(w->ctx, (size_t)w->layout.movable + 1, sizeof *order);
     bool good = order && array_resize(w->ctx, &p.head, p.grid.nx * p.grid.ny);
     for (int32_t i = 0; good && i < p.head.count; i++)
         p.head.data[i] = -1;

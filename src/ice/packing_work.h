@@ -1,5 +1,9 @@
-/* What the files of the packing share: bodies, their convex pieces, pairs, contact rows.  Not for other files. One
-   module with packing, whose inside this is. */
+/* What the files of the packing share, one struct for each stage: the layout (packing_bodies, packing_start), the
+   search for pairs (packing_pairs), the contacts of a round (packing_contacts, packing_hooks, packing_solve).  A
+   function takes the stages that it works on; the schedule (packing, packing_moves, packing_fit, packing_swaps) holds
+   them together in pack_work.  Not for other files.  One module with packing, whose inside this is.
+
+   Why not the grid, pairs and solver of dynamics: docs/decisions/0120-own-code-and-libraries.md. */
 #ifndef ICE_PACKING_WORK_H
 #define ICE_PACKING_WORK_H
 
@@ -59,41 +63,54 @@ typedef struct pack_grid {
     int32_t nx, ny;
 } pack_grid;
 
+/* The floes and obstacles, and where they lie. */
+typedef struct pack_layout {
+    ARRAY(pack_body) bodies;
+    ARRAY(pack_piece) pieces;
+    vec2_array local, local_normal; /* vertices, and outward normals of the edges that begin there, body frame */
+    vec2_array vertex, normal;      /* as they lie */
+    ARRAY(uint8_t) seam;            /* 1: the edge is a cut inside its floe */
+    int32_array shape;              /* of each movable body: the request's */
+    int32_t movable;                /* bodies from here on are obstacles */
+    bool coarse;                    /* the bodies are the request's coarse shapes */
+    bool concave;                   /* some floe has several pieces */
+    double scale; /* of the floes: 1 but while concave ones grow, or an impossible field is shrunk until it fits */
+    double mean_size, least_size; /* [m] */
+    double grain;                 /* what large floes are moved by as if they were of this size [m] */
+} pack_layout;
+
+/* Which pieces come near each other, and what that was found by. */
+typedef struct pack_search {
+    ARRAY(pack_item) items;
+    pack_grid grid;
+    int32_array cell_start, cell_item;
+    ARRAY(pack_pair) pairs;
+    vec2_array pair_centre; /* of the bodies when the pairs were found */
+    double reach;           /* pieces nearer than this are pairs [m] */
+} pack_search;
+
+/* The conditions of one round, and the displacements that meet them. */
+typedef struct pack_contacts {
+    ARRAY(pack_row) rows;
+    ARRAY(pack_step) steps;
+    ARRAY(double) squeeze; /* deepest overlap of each body in this round [m] */
+    double overlap;        /* largest of this round; negative: all are apart [m] */
+} pack_contacts;
+
+/* A packing at work: what was asked, how far it is, and the stages' own. */
 typedef struct pack_work {
     context *ctx;
     const packing_request *request;
     overlay *overlay;  /* may be NULL */
     fram_error *error; /* and its status, when it is not for memory that a function returned false */
     fram_status status;
-    vec2 period;       /* 0: walls */
-    uint64_t seed;     /* of this beginning */
-    int32_t movable;   /* bodies from here on are obstacles */
-    bool coarse;       /* the bodies are the request's coarse shapes */
-    bool concave;      /* some floe has several pieces */
-    int32_array shape; /* of each movable body: the request's */
-    double scale;      /* of the floes: 1 but while concave ones grow, or an impossible field is shrunk until it fits */
-    double gap;        /* clear distance the rounds aim at [m] */
-    double mean_size, least_size; /* [m] */
-    double grain;                 /* what large floes are moved by as if they were of this size [m] */
-
-    ARRAY(pack_body) bodies;
-    ARRAY(pack_piece) pieces;
-    vec2_array local, local_normal; /* vertices, and outward normals of the edges that begin there, body frame */
-    vec2_array vertex, normal;      /* as they lie */
-    ARRAY(uint8_t) seam;            /* 1: the edge is a cut inside its floe */
-
-    ARRAY(pack_item) items;
-    pack_grid grid;
-    int32_array cell_start, cell_item;
-    ARRAY(pack_pair) pairs;
-    ARRAY(pack_row) rows;
-    ARRAY(pack_step) steps;
-    vec2_array pair_centre; /* of the bodies when the pairs were found */
-    ARRAY(double) squeeze;  /* deepest overlap of each body in this round [m] */
-    double reach;           /* pieces nearer than this are pairs [m] */
-
-    double overlap; /* largest of this round; negative: all are apart [m] */
+    vec2 period;   /* 0: walls */
+    uint64_t seed; /* of this beginning */
+    double gap;    /* clear distance the rounds aim at [m] */
     int32_t round;
+    pack_layout layout;
+    pack_search search;
+    pack_contacts contacts;
 } pack_work;
 
 /* packing_bodies.c: bodies of the shapes, coarse or not, replace all that there were; false: no memory, or
@@ -103,17 +120,17 @@ bool pack_bodies_make(pack_work *w);
 bool pack_refine(pack_work *w);
 void pack_work_free(pack_work *w);
 /* By the request's shapes; there is room. */
-void pack_poses(const pack_work *w, packing_pose_array *poses);
+void pack_poses(const pack_layout *l, packing_pose_array *poses);
 /* Vertices, normals and boxes as they lie. */
-void pack_place(pack_work *w);
-void pack_place_body(pack_work *w, int32_t body);
+void pack_place(pack_layout *l);
+void pack_place_body(pack_layout *l, int32_t body);
 
 /* Stores the bodies anew in the order of their places, so that neighbours in the water are neighbours in memory:
-   w->shape says which shape is where.  false: no memory. */
-bool pack_sort_bodies(pack_work *w);
+   l->shape says which shape is where.  false: no memory. */
+bool pack_sort_bodies(context *ctx, pack_layout *l);
 
 /* packing.c: mean of the floes' deepest overlaps, each over the floe's size, as the last rows were found. */
-double pack_mean_squeeze(const pack_work *w);
+double pack_mean_squeeze(const pack_layout *l, const pack_contacts *c);
 
 /* packing_start.c: first places and angles; false: no memory, or w->status. */
 bool pack_start(pack_work *w);
@@ -133,7 +150,7 @@ bool pack_find_rows(pack_work *w);
 /* Whether two boxes, the second moved by shift, are farther apart than `far` along an axis. */
 bool pack_boxes_far(box2 a, box2 b, vec2 shift, double far);
 /* How deep b, moved by shift, is in a; what is less than `enough` may be called 0. */
-double pack_depth(const pack_work *w, const pack_piece *a, const pack_piece *b, vec2 shift, double enough);
+double pack_depth(const pack_layout *l, const pack_piece *a, const pack_piece *b, vec2 shift, double enough);
 
 /* packing_hooks.c: pairs of concave floes whose rows contradict one another get one row each instead; false: no
    memory. */

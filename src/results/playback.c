@@ -190,7 +190,7 @@ static fram_status write_page(page_writer *w, const char *page, size_t size, fil
 {
     const char *beside = strstr(page, beside_mark), *hole = strstr(page, record_mark);
     const char *folder = strrchr(w->chunks.folder, '/');
-    w->page = (base64_writer){.file = out};
+    w->page = base64_begin(out);
     fram_status status = file_write(out, page, (size_t)(beside - page), error);
     if (status == FRAM_OK && w->layout.beside)
         status = write_address(out, folder ? folder + 1 : w->chunks.folder, error);

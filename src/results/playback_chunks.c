@@ -102,7 +102,7 @@ static fram_status open_chunk(chunk_writer *w, fram_error *error)
         return status;
     w->open = true;
     w->filled = 0;
-    w->text = (base64_writer){.file = &w->file.writer};
+    w->text = base64_begin(&w->file.writer);
     int length = snprintf(head, sizeof head, "framChunk(%d,\"", (int)w->count++);
     return file_write(&w->file.writer, head, (size_t)length, error);
 }

@@ -171,33 +171,33 @@ START_TEST(a_hooked_pair_comes_apart_along_one_way)
         ck_assert(polygon_list_push(&ctx, &shapes, (polygon){peg, 4}));
     const packing_request request = {.domain = {{-20, -20}, {20, 20}}, .shapes = &shapes};
     fram_error error = {0};
-    pack_work w = {.ctx = &ctx, .request = &request, .overlay = plane, .error = &error, .scale = 1};
+    pack_work w = {.ctx = &ctx, .request = &request, .overlay = plane, .error = &error, .layout.scale = 1};
     ck_assert(pack_bodies_make(&w));
-    w.bodies.data[0].centre = (vec2){0, 0};
-    w.bodies.data[1].centre = (vec2){0, 0.6}; /* its end is 0.1 m from the slot's */
+    w.layout.bodies.data[0].centre = (vec2){0, 0};
+    w.layout.bodies.data[1].centre = (vec2){0, 0.6}; /* its end is 0.1 m from the slot's */
     for (int i = 0; i < OTHERS; i++)
-        w.bodies.data[2 + i].centre = (vec2){-15 + 4 * i, -15};
+        w.layout.bodies.data[2 + i].centre = (vec2){-15 + 4 * i, -15};
     ck_assert(pack_find_pairs(&w, true) && pack_find_rows(&w));
     int32_t taking = -1, count = 0;
-    for (int32_t i = 0; i < w.rows.count; i++)
-        if (w.rows.data[i].mass > 0) {
+    for (int32_t i = 0; i < w.contacts.rows.count; i++)
+        if (w.contacts.rows.data[i].mass > 0) {
             taking = i;
             count++;
         }
     ck_assert_int_eq(count, 1);
-    const pack_row *r = &w.rows.data[taking];
+    const pack_row *r = &w.contacts.rows.data[taking];
     ck_assert_int_eq(r->b, 1);
     assert_absolute(r->normal.x, 0, 1e-12); /* out of the slot, not through its sides */
     assert_absolute(r->normal.y, 1, 1e-12);
     ck_assert_double_lt(r->gap, 0);
     /* And so it leaves. */
-    for (int k = 0; k < 200 && w.overlap > 0; k++) {
+    for (int k = 0; k < 200 && w.contacts.overlap > 0; k++) {
         pack_solve_rows(&w, 0);
         ck_assert(pack_find_pairs(&w, true) && pack_find_rows(&w));
     }
-    ck_assert_double_le(w.overlap, 0);
-    assert_absolute(w.bodies.data[1].centre.x - w.bodies.data[0].centre.x, 0, 0.2);
-    ck_assert_double_ge(w.bodies.data[1].centre.y - w.bodies.data[0].centre.y, 2.5);
+    ck_assert_double_le(w.contacts.overlap, 0);
+    assert_absolute(w.layout.bodies.data[1].centre.x - w.layout.bodies.data[0].centre.x, 0, 0.2);
+    ck_assert_double_ge(w.layout.bodies.data[1].centre.y - w.layout.bodies.data[0].centre.y, 2.5);
     pack_work_free(&w);
     polygon_list_free(&ctx, &shapes);
     overlay_free(plane);

@@ -1,5 +1,6 @@
 /* The layout of files, byte for byte, against what is written about it: base64, blocks of records, whole tables, and
    what a feature keeps for itself. */
+#include "io/atomic_file.h"
 #include "io/base64.h"
 #include "io/csv_read.h"
 #include "io/geojson.h"
@@ -30,6 +31,39 @@ START_TEST(base64_of_the_standard)
         ck_assert(text.count == 0 || strncmp(text.data, vectors[i][1], (size_t)text.count) == 0);
         text_free(&ctx, &text);
     }
+}
+END_TEST
+
+/* A file of the same bytes in pieces of any size. */
+START_TEST(base64_in_pieces)
+{
+    enum { SIZE = 20011 };
+    static unsigned char bytes[SIZE];
+    static const size_t piece[] = {1, 2, 3, 4, 5000, 3072, 0, 7};
+    context_init(&ctx);
+    for (size_t i = 0; i < SIZE; i++)
+        bytes[i] = (unsigned char)(i * 37 + i / 256);
+    text_buffer whole = {0};
+    base64_text(&ctx, &whole, bytes, SIZE);
+    scratch place = scratch_make();
+    atomic_file file;
+    assert_ok(atomic_file_begin(&ctx, scratch_path(&place, "b"), &file, &error), error);
+    base64_writer writer = base64_begin(&file.writer);
+    for (size_t at = 0, k = 0; at < SIZE; k++) {
+        size_t left = SIZE - at, size = piece[k % 8] < left ? piece[k % 8] : left;
+        assert_ok(base64_write(&writer, bytes + at, size, &error), error);
+        at += size;
+    }
+    assert_ok(base64_end(&writer, &error), error);
+    assert_ok(atomic_file_commit(&file, &error), error);
+    size_t size;
+    char *text = scratch_read(place.path, &size);
+    ck_assert_uint_eq(size, (SIZE + 2) / 3 * 4);
+    ck_assert_uint_eq(size, (size_t)whole.count);
+    ck_assert_int_eq(memcmp(text, whole.data, size), 0);
+    free(text);
+    text_free(&ctx, &whole);
+    scratch_remove(&place, "b");
 }
 END_TEST
 
@@ -157,5 +191,5 @@ START_TEST(written_rings_are_closed)
 }
 END_TEST
 
-TEST_MAIN("layout", written_rings_are_closed, base64_of_the_standard, records_are_laid_out_as_told,
+TEST_MAIN("layout", written_rings_are_closed, base64_of_the_standard, base64_in_pieces, records_are_laid_out_as_told,
           tables_of_whole_rows, thickness_is_the_features_own)
