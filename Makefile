@@ -111,6 +111,12 @@ bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)
 
+test-slurm: build | $(STAMPS)/slurm ## studies by a real Slurm of four nodes on this machine, which it installs (as root)
+	@cd build/release && $(CTEST) -L '^slurm$$'
+
+slurm-thousand: build | $(STAMPS)/slurm ## the same with 1,002 runs (SLURM_SEEDS=334 of three conditions)
+	@FRAM=build/release/fram FRAM_SLURM_SEEDS=$(or $(SLURM_SEEDS),334) $(PYTHON) tests/slurm/test_arrays.py
+
 extremes-coverage: build ## how often intervals of extremes hold the truth: 1,000 trials of each sample (an hour)
 	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_extremes_coverage
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
 #
@@ -50,6 +50,10 @@ peers g++               cmd:g++
 peers libbullet-dev     pc:bullet-float64
 peers libode-dev        pc:ode
 validate python3-matplotlib deb:python3-matplotlib
+slurm  slurmctld        cmd:slurmctld
+slurm  slurmd           cmd:slurmd
+slurm  slurm-client     cmd:sbatch
+slurm  munge            cmd:munged
 END
 }
 
@@ -76,9 +80,9 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers | validate) groups="$groups $word" ;;
+    core | dev | viewer | views | peers | validate | slurm) groups="$groups $word" ;;
     *)
-        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate]" >&2
+        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm]" >&2
         exit 2
         ;;
     esac

@@ -1,6 +1,6 @@
 /* Studies: one scenario under many conditions with several seeds each, run as processes of the command `fram` on the
-   cores of this machine.  What a study leaves does not depend on the number of processes nor on the order in which they
-   end. */
+   cores of this machine or as job arrays of Slurm.  What a study leaves does not depend on the number of processes nor
+   on the order in which they end. */
 #ifndef FRAM_STUDY_H
 #define FRAM_STUDY_H
 
@@ -40,7 +40,15 @@ typedef struct fram_study_definition {
     bool retry;          /* run again what failed */
     fram_study_progress_function progress; /* may be NULL; called from the caller's thread */
     void *progress_user;
-    const volatile int *stop; /* may be NULL; set it to stop: what ended is kept */
+    const volatile int *stop;         /* may be NULL; set it to stop: what ended is kept */
+    const char *on;                   /* NULL or "local": processes of this machine; "slurm": job arrays of Slurm */
+    const char *slurm_partition;      /* NULL: the cluster's default */
+    const char *slurm_time;           /* limit of a task as sbatch takes it, "1:00:00"; NULL: the partition's */
+    const char *const *slurm_options; /* further options of sbatch, "--account=ice" */
+    int slurm_option_count;
+    int slurm_runs_per_task; /* 0: such that there are 200 tasks at most */
+    double slurm_poll;       /* between questions to the scheduler [s], 0: 30 */
+    bool dry_run;            /* print the script of the array on standard output, and run nothing */
 } fram_study_definition;
 FRAM_API void fram_study_default(fram_study_definition *definition);
 

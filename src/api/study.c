@@ -7,6 +7,7 @@
 #include "study/study_run.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 struct fram_study {
@@ -129,6 +130,42 @@ static void forward_progress(void *user, const study_progress *p)
     bridge->function(bridge->user, &out);
 }
 
+/* Bounds of what is asked of Slurm: a script's line, runs of a task, seconds. */
+enum { SLURM_WORD_MOST = 200, SLURM_RUNS_MOST = 1000000 };
+#define SLURM_POLL_MOST 3600
+
+static fram_status check_slurm_word(const char *key, const char *word, fram_error *error)
+{
+    if (!word || (*word && strlen(word) <= SLURM_WORD_MOST && !strpbrk(word, "\n\r")))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, key, "expected one line of 1 to %d letters", SLURM_WORD_MOST);
+}
+
+static fram_status check_slurm(const fram_study_definition *d, fram_error *error)
+{
+    bool slurm = d->on && strcmp(d->on, "slurm") == 0;
+    bool asked =
+        d->slurm_partition || d->slurm_time || d->slurm_option_count > 0 || d->slurm_runs_per_task > 0 || d->dry_run;
+    if (!slurm && asked)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--on",
+                         "partition, time, runs a task, options of sbatch and a dry run belong to --on slurm");
+    fram_status status = check_slurm_word("--partition", d->slurm_partition, error);
+    if (status == FRAM_OK)
+        status = check_slurm_word("--time", d->slurm_time, error);
+    for (int i = 0; status == FRAM_OK && i < d->slurm_option_count; i++) {
+        status = check_slurm_word("--sbatch", d->slurm_options[i], error);
+        if (status == FRAM_OK && strncmp(d->slurm_options[i], "--", 2) != 0)
+            status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--sbatch",
+                               "expected an option of sbatch, as --account=ice, found %.60s", d->slurm_options[i]);
+    }
+    if (status == FRAM_OK && (d->slurm_runs_per_task < 0 || d->slurm_runs_per_task > SLURM_RUNS_MOST))
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--runs-per-task", "expected 0 to %d, found %d",
+                           SLURM_RUNS_MOST, d->slurm_runs_per_task);
+    if (status == FRAM_OK && !(d->slurm_poll >= 0 && d->slurm_poll <= SLURM_POLL_MOST))
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--poll", "expected 0 to %d s", SLURM_POLL_MOST);
+    return status;
+}
+
 static fram_status check_definition(const fram_study_definition *d, fram_error *error)
 {
     if (!d || d->size != sizeof *d)
@@ -140,7 +177,9 @@ static fram_status check_definition(const fram_study_definition *d, fram_error *
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "program", "the path of the command fram must be given");
     if (d->jobs < 0 || d->jobs > 4096)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "jobs", "expected 0 to 4096 processes, found %d", d->jobs);
-    return FRAM_OK;
+    if (d->on && strcmp(d->on, "local") != 0 && strcmp(d->on, "slurm") != 0)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--on", "expected local or slurm, found %.60s", d->on);
+    return check_slurm(d, error);
 }
 
 fram_status fram_study_run(const fram_study *s, const fram_study_definition *d, fram_study_result *result,
@@ -152,13 +191,21 @@ fram_status fram_study_run(const fram_study *s, const fram_study_definition *d, 
     if (status != FRAM_OK)
         return status;
     study_progress_bridge bridge = {d->progress, d->progress_user};
+    const slurm_options slurm = {.partition = d->slurm_partition,
+                                 .time = d->slurm_time,
+                                 .options = d->slurm_options,
+                                 .option_count = d->slurm_option_count,
+                                 .runs_per_task = d->slurm_runs_per_task,
+                                 .poll = d->slurm_poll,
+                                 .dry_run = d->dry_run};
     const study_options options = {.folder = d->folder,
                                    .program = d->program,
                                    .jobs = d->jobs,
                                    .retry = d->retry,
                                    .progress = d->progress ? forward_progress : NULL,
                                    .progress_user = &bridge,
-                                   .stop = d->stop};
+                                   .stop = d->stop,
+                                   .slurm = d->on && strcmp(d->on, "slurm") == 0 ? &slurm : NULL};
     study_result inner = {0};
     status = study_run(&s->context->inner, &s->inner, &options, &inner, error);
     if (result)

@@ -127,16 +127,27 @@ int command_study(const command_row *self, int argc, char **argv)
 {
     common_options common;
     fram_study_definition d;
+    option_list sbatch = {0};
     fram_study_default(&d);
     const char *words[2] = {NULL, NULL};
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (one of this study: go on)"},
         {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N", "processes at a time (the cores of this machine)"},
+        {"--on", NULL, OPTION_TEXT, &d.on, "WHERE", "local, or slurm: job arrays over a shared folder (local)"},
+        {"--partition", NULL, OPTION_TEXT, &d.slurm_partition, "NAME", "of Slurm (the cluster's default)"},
+        {"--time", NULL, OPTION_TEXT, &d.slurm_time, "T", "limit of a task, as sbatch takes it: 1:00:00"},
+        {"--runs-per-task", NULL, OPTION_INTEGER, &d.slurm_runs_per_task, "N",
+         "runs of a task, one after the other (such that there are 200 tasks at most)"},
+        {"--sbatch", NULL, OPTION_LIST, &sbatch, "OPTION", "further option of sbatch, --account=ice; may be repeated"},
+        {"--poll", NULL, OPTION_REAL, &d.slurm_poll, "T", "seconds between questions to the scheduler (30)"},
+        {"--dry-run", NULL, OPTION_FLAG, &d.dry_run, NULL, "print the script for Slurm, submit nothing"},
         {"--retry", NULL, OPTION_FLAG, &d.retry, NULL, "run again what failed"},
     };
     int code = options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, words, 1, 2);
     if (code >= 0)
         return code;
+    d.slurm_options = sbatch.value;
+    d.slurm_option_count = sbatch.count;
     bool check = words[1] && strcmp(words[0], "check") == 0;
     if (words[1] && !check)
         return answer_usage(&common, words[0], "expected one study file, or: fram study check STUDY");

@@ -31,6 +31,7 @@ static const command_row commands[] = {
      "run a scenario under many conditions with several seeds each, and tell means with their intervals",
      "  fram study check study.yaml              how many runs, how long, how much disk\n"
      "  fram study study.yaml -o out/study       go on with the same command after a stop\n"
+     "  fram study study.yaml -o out/study --on slurm --partition short --time 1:00:00\n"
      "A study in six lines:\n"
      "  scenario: demo.yaml\n"
      "  set: {run.duration: 60, run.transient: 15}\n"

@@ -186,7 +186,7 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     int64_t seed = w->s->seeds.first + index;
     study_seed *of = &w->conditions[condition].seeds.data[index];
     of->state = RUN_MISSING;
-    if (exit_code == INTERRUPTED)
+    if (exit_code == INTERRUPTED && !w->options->slurm)
         return FRAM_OK;
     char *folder = study_run_path(&w->folder, condition, seed, "");
     char *row = study_run_path(&w->folder, condition, seed, ".row");
@@ -260,6 +260,62 @@ static fram_status work_loop(study_work *w, fram_error *error)
     return status;
 }
 
+/* ---- runs by Slurm ---- */
+
+/* Between looks at the files of a shared folder, which may be far away. */
+enum { LOOK_SECONDS = 1 };
+
+static fram_status submit_missing(study_work *w, slurm_pool *queue, fram_error *error)
+{
+    int32_t condition = 0, index = 0;
+    while (next_run(w, &condition, &index)) {
+        if (!array_push(w->ctx, &w->task, (int64_t)condition << 32 | index) ||
+            !slurm_add(queue, w->folder.id[condition], w->s->seeds.first + index, w->task.count - 1))
+            return error_memory(error);
+        w->conditions[condition].seeds.data[index].state = RUN_GOING;
+    }
+    return slurm_submit(queue, error);
+}
+
+static fram_status take_ended(study_work *w, slurm_pool *queue, fram_error *error)
+{
+    int32_t task = 0;
+    int exit_code = 0;
+    fram_status status = FRAM_OK;
+    while (status == FRAM_OK && slurm_ended(queue, &task, &exit_code))
+        status = take_result(w, (int32_t)(w->task.data[task] >> 32), (int32_t)(w->task.data[task] & INT32_MAX),
+                             exit_code, error);
+    return status;
+}
+
+static fram_status slurm_loop(study_work *w, fram_error *error)
+{
+    const struct timespec pause = {LOOK_SECONDS, 0};
+    slurm_pool queue;
+    fram_status status = slurm_begin(w->ctx, w->options->slurm, w->options->folder, w->options->program, &queue, error);
+    if (status != FRAM_OK)
+        return status;
+    bool dry = w->options->slurm->dry_run;
+    status = submit_missing(w, &queue, error);
+    show_progress(w);
+    while (status == FRAM_OK && !dry && queue.runs.count > 0 && !asked_to_stop(w)) {
+        status = take_ended(w, &queue, error);
+        show_progress(w);
+        if (queue.runs.count > 0)
+            nanosleep(&pause, NULL);
+        slurm_look(&queue);
+        if (status == FRAM_OK)
+            status = submit_missing(w, &queue, error);
+    }
+    if (status != FRAM_OK || queue.runs.count > 0)
+        slurm_stop(&queue);
+    slurm_free(&queue);
+    if (status == FRAM_OK && asked_to_stop(w))
+        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
+                         "interrupted; what ended is kept, continue with the same command");
+    return status;
+}
+
 /* ---- all ---- */
 
 static fram_status write_tables(const study_work *w, study_result *result, fram_error *error)
@@ -299,7 +355,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
         status = update_wanted(&w, c, error);
     if (status == FRAM_OK)
-        status = work_loop(&w, error);
+        status = options->slurm ? slurm_loop(&w, error) : work_loop(&w, error);
     /* The tables of what is there, also of a study that was stopped. */
     if (status == FRAM_OK || status == FRAM_INTERRUPTED) {
         fram_status written = write_tables(&w, result, status == FRAM_OK ? error : NULL);

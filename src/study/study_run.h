@@ -4,6 +4,7 @@
      DIR/conditions/ID.yaml      the effective scenario of a condition, at seed 0
      DIR/runs/ID/SEED.row        the figures of a run that ended (study/run_row.h)
      DIR/runs/ID/SEED/           its folder, as far as it is kept; of a run that failed, all of it, with SEED.log beside
+     DIR/slurm/                  scripts and lists of the arrays that were submitted to Slurm (study/slurm.h)
      DIR/summary.csv             a row a run, by condition and seed
      DIR/conditions.csv          a row a condition: number of seeds, means over them with their confidence intervals
 
@@ -12,6 +13,7 @@
 #ifndef STUDY_STUDY_RUN_H
 #define STUDY_STUDY_RUN_H
 
+#include "study/slurm.h"
 #include "study/study.h"
 
 typedef struct study_progress {
@@ -26,7 +28,8 @@ typedef struct study_options {
     bool retry;                                            /* run again what failed */
     void (*progress)(void *user, const study_progress *p); /* may be NULL */
     void *progress_user;
-    const volatile int *stop; /* may be NULL */
+    const volatile int *stop;   /* may be NULL */
+    const slurm_options *slurm; /* NULL: processes of this machine */
 } study_options;
 
 typedef struct study_result {

@@ -1,0 +1,316 @@
+#define _GNU_SOURCE
+#include "study/slurm.h"
+
+#include "io/atomic_file.h"
+#include "study/capture.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Tasks of an array, by Slurm's own default limit (MaxArraySize 1001); of all, when nothing else is asked. */
+enum { ARRAY_MOST = 1000, TASKS_USUAL = 200 };
+/* Submissions of a run before it counts as failed; questions in a row that must lack it. */
+enum { TRIES_MOST = 4, MISSED_MOST = 2 };
+#define POLL_USUAL 30.0
+/* Exit code of a run that the cluster lost again and again: as if it had been killed. */
+enum { LOST = 137, SIGNAL_CODES = 128 };
+
+static double wall_clock(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* ---- names ---- */
+
+/* "FOLDER/slurm/N.ENDING", to be freed. */
+static char *array_path(const slurm_pool *all, int32_t array, const char *ending)
+{
+    text_buffer b = {0};
+    text_format(all->ctx, &b, "%s/slurm/%d.%s", all->folder, (int)array, ending);
+    char *path = b.failed ? NULL : memory_string(all->ctx, b.data);
+    text_free(all->ctx, &b);
+    return path;
+}
+
+static char *exit_path(const slurm_pool *all, const slurm_run *run)
+{
+    text_buffer b = {0};
+    text_format(all->ctx, &b, "%s/runs/%s/%lld.exit", all->folder, run->id, (long long)run->seed);
+    char *path = b.failed ? NULL : memory_string(all->ctx, b.data);
+    text_free(all->ctx, &b);
+    return path;
+}
+
+static fram_status put(const slurm_pool *all, int32_t array, const char *ending, const text_buffer *text,
+                       fram_error *error)
+{
+    char *path = text->failed ? NULL : array_path(all, array, ending);
+    fram_status status =
+        path ? atomic_file_write(all->ctx, path, text->data, (size_t)text->count, error) : error_memory(error);
+    memory_free(all->ctx, path);
+    return status;
+}
+
+/* ---- beginning and end ---- */
+
+static void cancel(slurm_pool *all, long long job)
+{
+    char number[32];
+    snprintf(number, sizeof number, "%lld", job);
+    const char *const words[] = {"scancel", number, NULL};
+    text_buffer answer = {0};
+    (void)capture(all->ctx, words, &answer, NULL, NULL);
+    text_free(all->ctx, &answer);
+}
+
+/* Arrays of an earlier call: their numbers go on, and what is still queued is cancelled. */
+static void cancel_earlier(slurm_pool *all)
+{
+    text_buffer path = {0};
+    text_format(all->ctx, &path, "%s/slurm", all->folder);
+    DIR *dir = path.failed ? NULL : opendir(path.data);
+    for (struct dirent *e = dir ? readdir(dir) : NULL; e; e = readdir(dir)) {
+        char *end = NULL;
+        long n = strtol(e->d_name, &end, 10);
+        if (n < 1 || n > INT32_MAX / 2 || end == e->d_name)
+            continue;
+        all->arrays = n > all->arrays ? (int32_t)n : all->arrays;
+        if (strcmp(end, ".job") != 0)
+            continue;
+        char *job = array_path(all, (int32_t)n, "job"), *text = NULL;
+        size_t size = 0;
+        if (job && file_read(all->ctx, job, 64, &text, &size, NULL) == FRAM_OK) {
+            cancel(all, strtoll(text, NULL, 10));
+            (void)unlink(job);
+        }
+        memory_free(all->ctx, text);
+        memory_free(all->ctx, job);
+    }
+    if (dir)
+        closedir(dir);
+    text_free(all->ctx, &path);
+}
+
+static fram_status check_commands(slurm_pool *all, fram_error *error)
+{
+    const char *const words[] = {"sbatch", "--version", NULL};
+    text_buffer answer = {0};
+    int code = 0;
+    fram_status status = capture(all->ctx, words, &answer, &code, error);
+    text_free(all->ctx, &answer);
+    if (status == FRAM_OK && code == 0)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--on",
+                     "the command sbatch is not there or does not work: run this on a machine that submits to Slurm");
+}
+
+fram_status slurm_begin(context *ctx, const slurm_options *options, const char *folder, const char *program,
+                        slurm_pool *all, fram_error *error)
+{
+    *all = (slurm_pool){.ctx = ctx, .options = options, .program = program, .asked = wall_clock()};
+    char *whole = realpath(folder, NULL);
+    all->folder = whole ? memory_string(ctx, whole) : NULL;
+    free(whole);
+    if (!all->folder)
+        return error_memory(error);
+    if (options->dry_run)
+        return FRAM_OK;
+    fram_status status = check_commands(all, error);
+    text_buffer path = {0};
+    text_format(ctx, &path, "%s/slurm", all->folder);
+    if (status == FRAM_OK && path.failed)
+        status = error_memory(error);
+    if (status == FRAM_OK && mkdir(path.data, 0777) != 0 && errno != EEXIST)
+        status = file_error(error, path.data, "make the folder", errno);
+    text_free(ctx, &path);
+    if (status == FRAM_OK)
+        cancel_earlier(all);
+    if (status != FRAM_OK)
+        slurm_free(all);
+    return status;
+}
+
+void slurm_stop(slurm_pool *all)
+{
+    for (int32_t i = 0; i < all->jobs.count; i++)
+        cancel(all, (long long)all->jobs.data[i]);
+    array_clear(&all->jobs);
+}
+
+void slurm_free(slurm_pool *all)
+{
+    memory_free(all->ctx, all->folder);
+    all->folder = NULL;
+    array_free(all->ctx, &all->runs);
+    array_free(all->ctx, &all->jobs);
+}
+
+bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task)
+{
+    slurm_run run = {.task = task, .seed = seed, .array = -1};
+    snprintf(run.id, sizeof run.id, "%s", id);
+    return array_push(all->ctx, &all->runs, run);
+}
+
+/* ---- submitting ---- */
+
+/* sbatch says the number of the job, ";CLUSTER" after it perhaps. */
+static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *error)
+{
+    char *script = array_path(all, array, "sh"), *end = NULL;
+    const char *const words[] = {"sbatch", "--parsable", script, NULL};
+    text_buffer answer = {0};
+    int code = 0;
+    fram_status status = script ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
+    long long job = status == FRAM_OK && answer.data ? strtoll(answer.data, &end, 10) : 0;
+    if (status == FRAM_OK && (code != 0 || job < 1))
+        status = error_set(error, FRAM_ERROR_USAGE, script, 0, "--on", "sbatch refuses the script: %.300s",
+                           answer.data ? answer.data : "");
+    if (status == FRAM_OK && !array_push(all->ctx, &all->jobs, job))
+        status = error_memory(error);
+    text_buffer number = {0};
+    text_format(all->ctx, &number, "%lld\n", job);
+    if (status == FRAM_OK)
+        status = put(all, array, "job", &number, error);
+    text_free(all->ctx, &number);
+    text_free(all->ctx, &answer);
+    memory_free(all->ctx, script);
+    return status;
+}
+
+static int32_t waiting(const slurm_pool *all)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < all->runs.count; i++)
+        n += all->runs.data[i].array < 0;
+    return n;
+}
+
+/* The next runs that wait, as one array of at most ARRAY_MOST tasks. */
+static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error)
+{
+    text_buffer list = {0}, script = {0};
+    int32_t n = 0;
+    all->arrays++;
+    for (int32_t i = 0; i < all->runs.count && n < (int64_t)ARRAY_MOST * each; i++) {
+        slurm_run *run = &all->runs.data[i];
+        if (run->array >= 0)
+            continue;
+        text_format(all->ctx, &list, "%s %lld\n", run->id, (long long)run->seed);
+        run->array = all->jobs.count;
+        run->place = n++ / each;
+        run->tries++;
+        run->missed = 0;
+    }
+    const slurm_script_facts facts = {all->options, all->folder, all->program, all->arrays, n, each};
+    slurm_script(all->ctx, &facts, &script);
+    fram_status status = script.failed || list.failed ? error_memory(error) : FRAM_OK;
+    if (status == FRAM_OK && all->options->dry_run) {
+        fputs(script.data, stdout);
+    } else if (status == FRAM_OK) {
+        status = put(all, all->arrays, "list", &list, error);
+        if (status == FRAM_OK)
+            status = put(all, all->arrays, "sh", &script, error);
+        if (status == FRAM_OK)
+            status = submit_script(all, all->arrays, error);
+    }
+    text_free(all->ctx, &list);
+    text_free(all->ctx, &script);
+    return status;
+}
+
+fram_status slurm_submit(slurm_pool *all, fram_error *error)
+{
+    int32_t n = waiting(all), each = all->options->runs_per_task;
+    fram_status status = FRAM_OK;
+    if (each < 1)
+        each = (n + TASKS_USUAL - 1) / TASKS_USUAL;
+    while (status == FRAM_OK && waiting(all) > 0)
+        status = submit_array(all, each, error);
+    return status;
+}
+
+/* ---- what became of them ---- */
+
+static bool read_exit(const slurm_pool *all, const slurm_run *run, int *code)
+{
+    char *path = exit_path(all, run), *text = NULL;
+    size_t size = 0;
+    bool found =
+        path && access(path, F_OK) == 0 && file_read(all->ctx, path, 64, &text, &size, NULL) == FRAM_OK && size > 1;
+    if (found) {
+        *code = (int)strtol(text, NULL, 10);
+        (void)unlink(path);
+    }
+    memory_free(all->ctx, text);
+    memory_free(all->ctx, path);
+    return found;
+}
+
+bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
+{
+    for (int32_t i = 0; i < all->runs.count; i++) {
+        slurm_run *run = &all->runs.data[i];
+        bool ended = read_exit(all, run, exit_code);
+        /* A signal is no answer of the run: the node was short of memory, or the task of time. */
+        if (ended && *exit_code > SIGNAL_CODES && run->tries < TRIES_MOST) {
+            run->array = -1;
+            continue;
+        }
+        if (!ended && run->array < 0 && run->tries >= TRIES_MOST) {
+            ended = true;
+            *exit_code = LOST;
+        }
+        if (!ended)
+            continue;
+        *task = run->task;
+        *run = all->runs.data[--all->runs.count];
+        return true;
+    }
+    return false;
+}
+
+/* Whether the answer of squeue has the task, "JOB_TASK" on a line of its own. */
+static bool has_task(const char *answer, long long job, int32_t place)
+{
+    char word[64];
+    int length = snprintf(word, sizeof word, "%lld_%d", job, (int)place);
+    for (const char *c = answer; c; c = strchr(c, '\n'), c = c ? c + 1 : NULL)
+        if (strncmp(c, word, (size_t)length) == 0 && (c[length] == '\n' || c[length] == '\0'))
+            return true;
+    return false;
+}
+
+void slurm_look(slurm_pool *all)
+{
+    double poll = all->options->poll > 0 ? all->options->poll : POLL_USUAL;
+    if (wall_clock() - all->asked < poll || all->runs.count == 0)
+        return;
+    all->asked = wall_clock();
+    const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--name=fram-study", "--format=%i", NULL};
+    text_buffer answer = {0};
+    int code = 0;
+    /* A scheduler that does not answer has lost nothing. */
+    if (capture(all->ctx, words, &answer, &code, NULL) == FRAM_OK && code == 0) {
+        for (int32_t i = 0; i < all->runs.count; i++) {
+            slurm_run *run = &all->runs.data[i];
+            if (run->array < 0)
+                continue;
+            run->missed = has_task(answer.data ? answer.data : "", (long long)all->jobs.data[run->array], run->place)
+                              ? 0
+                              : run->missed + 1;
+            if (run->missed >= MISSED_MOST)
+                run->array = -1;
+        }
+    }
+    text_free(all->ctx, &answer);
+}

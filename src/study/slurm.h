@@ -1,0 +1,48 @@
+/* Runs of a study as job arrays of Slurm, over a shared file system: no program of ours waits on the nodes.
+
+     DIR/slurm/N.sh     script of the N-th array, N.list its runs, "ID SEED" a line; each task takes the same number
+     DIR/slurm/N.job    number that Slurm gave it
+     DIR/runs/ID/SEED.exit    exit code of a run, put there by its task when it ended
+
+   What ended is seen by these files; the scheduler is asked every half minute at most, which tasks it still has.  Runs
+   whose task is gone without an exit code are submitted again. */
+#ifndef STUDY_SLURM_H
+#define STUDY_SLURM_H
+
+#include "study/slurm_script.h"
+
+typedef struct slurm_run {
+    int32_t task; /* the caller's number */
+    char id[16];
+    int64_t seed;
+    int32_t array, place; /* submitted as this; array -1: not yet */
+    int tries, missed;    /* submissions; questions in a row whose answer lacks it */
+} slurm_run;
+
+typedef struct slurm_pool {
+    context *ctx;
+    const slurm_options *options;
+    const char *program;
+    char *folder; /* absolute */
+    ARRAY(slurm_run) runs;
+    ARRAY(int64_t) jobs; /* Slurm's numbers of the arrays of this call */
+    int32_t arrays;      /* number of the last script in the folder */
+    double asked;        /* when the scheduler was asked last [s] */
+} slurm_pool;
+
+/* FRAM_ERROR_USAGE when sbatch is not there.  Arrays that an earlier call left in the queue are cancelled. */
+fram_status slurm_begin(context *ctx, const slurm_options *options, const char *folder, const char *program,
+                        slurm_pool *all, fram_error *error);
+/* A run to be submitted next. */
+bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task);
+/* Submits what was added and what was lost. */
+fram_status slurm_submit(slurm_pool *all, fram_error *error);
+/* One run that ended, if any did. */
+bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code);
+/* Asks the scheduler, when it is time. */
+void slurm_look(slurm_pool *all);
+/* Cancels what is submitted. */
+void slurm_stop(slurm_pool *all);
+void slurm_free(slurm_pool *all);
+
+#endif

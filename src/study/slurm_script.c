@@ -1,0 +1,52 @@
+#include "study/slurm_script.h"
+
+/* A text as one word of the shell. */
+static void quoted(context *ctx, text_buffer *out, const char *text)
+{
+    text_add(ctx, out, "'");
+    for (const char *c = text; *c; c++)
+        text_format(ctx, out, *c == '\'' ? "'\\''" : "%c", *c);
+    text_add(ctx, out, "'");
+}
+
+static void directives(context *ctx, const slurm_script_facts *f, text_buffer *out)
+{
+    text_format(ctx, out, "#!/bin/bash\n#SBATCH --job-name=fram-study\n#SBATCH --array=0-%d\n",
+                (int)((f->runs + f->each - 1) / f->each - 1));
+    text_add(ctx, out,
+             "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task=1\n#SBATCH --requeue\n#SBATCH --output=/dev/null\n");
+    if (f->options->partition)
+        text_format(ctx, out, "#SBATCH --partition=%s\n", f->options->partition);
+    if (f->options->time)
+        text_format(ctx, out, "#SBATCH --time=%s\n", f->options->time);
+    for (int i = 0; i < f->options->option_count; i++)
+        text_format(ctx, out, "#SBATCH %s\n", f->options->options[i]);
+}
+
+void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out)
+{
+    directives(ctx, f, out);
+    text_add(ctx, out, "\n# Runs of a study: each task takes the same number of lines of the list.\nfolder=");
+    quoted(ctx, out, f->folder);
+    text_add(ctx, out, "\nfram=");
+    quoted(ctx, out, f->program);
+    text_format(ctx, out, "\nlist=$folder/slurm/%d.list\neach=%d\n", (int)f->number, (int)f->each);
+    text_add(ctx, out,
+             "first=$((SLURM_ARRAY_TASK_ID * each + 1))\n"
+             "sed -n \"${first},$((first + each - 1))p\" \"$list\" | while read -r id seed; do\n"
+             "    run=$folder/runs/$id/$seed\n"
+             "    # A task that starts again goes on behind what it has done.\n"
+             "    [ ! -e \"$run.exit\" ] && [ ! -e \"$run.row\" ] || continue\n"
+             "    # Exit code 2: a program of a task that was cancelled still holds the folder.\n"
+             "    for try in 1 2 3 4 5; do\n"
+             "        \"$fram\" run \"$folder/conditions/$id.yaml\" -o \"$run\" --set \"run.seed=$seed\" "
+             "--threads 1 --force --quiet \\\n"
+             "            </dev/null >/dev/null 2>\"$run.log\"\n"
+             "        code=$?\n"
+             "        [ \"$code\" = 2 ] && [ \"$try\" != 5 ] || break\n"
+             "        sleep 2\n"
+             "    done\n"
+             "    mark=$run.exit.$SLURM_ARRAY_JOB_ID.$SLURM_ARRAY_TASK_ID\n"
+             "    echo \"$code\" >\"$mark\" && mv -f \"$mark\" \"$run.exit\"\n"
+             "done\n");
+}

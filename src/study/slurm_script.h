@@ -1,0 +1,26 @@
+/* What is asked of Slurm, and the script of an array of a study.  Knows the words of sbatch; must not know who submits
+ * it. */
+#ifndef STUDY_SLURM_SCRIPT_H
+#define STUDY_SLURM_SCRIPT_H
+
+#include "io/text_buffer.h"
+
+typedef struct slurm_options {
+    const char *partition;      /* NULL: the cluster's default */
+    const char *time;           /* limit of a task as sbatch takes it, NULL: the partition's */
+    const char *const *options; /* further ones of sbatch, as "--account=ice" */
+    int option_count;
+    int runs_per_task; /* 0: such that there are 200 tasks at most */
+    double poll;       /* between questions to the scheduler [s]; 0: 30 */
+    bool dry_run;      /* the script is printed on standard output, and nothing submitted */
+} slurm_options;
+
+typedef struct slurm_script_facts {
+    const slurm_options *options;
+    const char *folder, *program; /* absolute */
+    int32_t number, runs, each;   /* of the array; its runs; runs of a task */
+} slurm_script_facts;
+
+void slurm_script(context *ctx, const slurm_script_facts *f, text_buffer *out);
+
+#endif
