@@ -34,6 +34,8 @@ static const struct {
     {"ice_force_bottom", "load of the ice on the bottom"},
     {"ice_force", "load of the ice on the vessel, mean over the step, global frame"},
     {"ice_moment", "load of the ice about the centre of mass, mean over the step, global frame"},
+    {"hull_contact_force", "what other hulls and walls do to the vessel"},
+    {"hull_contact_moment", "what other hulls and walls do to the vessel, about the centre of mass"},
     {"tow_force", "what the towing carriage does to the vessel"},
     {"tow_moment", "what the towing carriage does to the vessel, about the centre of mass"},
     {"fluid_force", "pressure of the water, drag of water and wind"},

@@ -28,6 +28,7 @@ typedef struct vessel_model {
     double displaced_mass;        /* at the draught [kg] */
     hull_particulars particulars; /* of a file: measured at z = 0 */
     hull_hydrostatics floats;     /* at the draught, ship coordinates */
+    double yielding;              /* of its fenders: depth over force; 0: rigid [m/N] */
     bool has_hydrodynamics;
     hydrodynamics hydrodynamics;
     hull_flows flows;

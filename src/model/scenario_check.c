@@ -154,6 +154,12 @@ static fram_status check_friction(const scenario *s, fram_error *error)
     if (status == FRAM_OK)
         status = check_order(s, "ice.friction.ice_wall_kinetic", f->ice_wall_kinetic, "ice.friction.ice_wall_static",
                              f->ice_wall_static, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "ice.friction.hull_hull_kinetic", f->hull_hull_kinetic, "ice.friction.hull_hull_static",
+                             f->hull_hull_static, error);
+    if (status == FRAM_OK)
+        status = check_order(s, "ice.friction.hull_wall_kinetic", f->hull_wall_kinetic, "ice.friction.hull_wall_static",
+                             f->hull_wall_static, error);
     return status;
 }
 

@@ -86,6 +86,8 @@
     X(gyration_roll, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about x; auto: 0.35 beam")                       \
     X(gyration_pitch, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about y; auto: 0.25 length")                    \
     X(gyration_yaw, AUTOMATIC(1e-9, 1e4), "m", "radius of gyration about z; auto: 0.25 length")                      \
+    X(fender_stiffness, AUTOMATIC(1, 1e15), "N/m",                                                                   \
+      "where another vessel or a wall meets it: force per depth at which it yields and stays so; auto: rigid")       \
     X(hull, SECTION(hull), "", "the form of the hull")                                                               \
     X(mooring, SECTION(mooring), "", "mode free: lines to the bottom")                                               \
     X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                     \
@@ -176,13 +178,17 @@
       "voronoi: one, whose laws of size, thickness and strength the floes follow instead of ice.mean_floe_area")      \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
-#define SCENARIO_FRICTION_KEYS(X)                                            \
-    X(ice_ice_static, REAL(0.3, 0, 10), "1", "ice on ice, sticking")         \
-    X(ice_ice_kinetic, REAL(0.3, 0, 10), "1", "ice on ice, sliding")         \
-    X(ice_hull_static, REAL(0.1, 0, 10), "1", "ice on hull, sticking")       \
-    X(ice_hull_kinetic, REAL(0.1, 0, 10), "1", "ice on hull, sliding")       \
-    X(ice_wall_static, REAL(0.3, 0, 10), "1", "ice on basin wall, sticking") \
-    X(ice_wall_kinetic, REAL(0.3, 0, 10), "1", "ice on basin wall, sliding")
+#define SCENARIO_FRICTION_KEYS(X)                                                 \
+    X(ice_ice_static, REAL(0.3, 0, 10), "1", "ice on ice, sticking")              \
+    X(ice_ice_kinetic, REAL(0.3, 0, 10), "1", "ice on ice, sliding")              \
+    X(ice_hull_static, REAL(0.1, 0, 10), "1", "ice on hull, sticking")            \
+    X(ice_hull_kinetic, REAL(0.1, 0, 10), "1", "ice on hull, sliding")            \
+    X(ice_wall_static, REAL(0.3, 0, 10), "1", "ice on basin wall, sticking")      \
+    X(ice_wall_kinetic, REAL(0.3, 0, 10), "1", "ice on basin wall, sliding")      \
+    X(hull_hull_static, REAL(0.25, 0, 10), "1", "vessel on vessel, sticking")     \
+    X(hull_hull_kinetic, REAL(0.25, 0, 10), "1", "vessel on vessel, sliding")     \
+    X(hull_wall_static, REAL(0.25, 0, 10), "1", "vessel on basin wall, sticking") \
+    X(hull_wall_kinetic, REAL(0.25, 0, 10), "1", "vessel on basin wall, sliding")
 
 #define SCENARIO_FRACTURE_KEYS(X)                                                                               \
     X(wedges, INTEGER(3, 2, 32), "1", "N of the N wedges that share a load; the stencil has twice as many")     \

@@ -14,6 +14,10 @@ TABLE_DEFINE(load_window, LOAD_WINDOW_FIELDS)
 TABLE_DEFINE(recorded, RECORDED_FIELDS)
 #undef TABLE_SELF
 
+#define TABLE_SELF hull_contact_table
+TABLE_DEFINE(hull_contact, HULL_CONTACT_FIELDS)
+#undef TABLE_SELF
+
 /* A list of tables says nothing about who may change them: the const of the world is the caller's to keep. */
 #define STATE(noun, member)                    \
     {                                          \
@@ -45,6 +49,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(pattern, pattern),
         STATE(pattern_vertex, pattern_vertices),
         STATE(input, inputs),
+        STATE(hull_contact, hull_contacts),
     };
     memcpy(out, list, sizeof list);
 }
@@ -136,6 +141,13 @@ void world_free(context *ctx, world *w)
 /* The number of tables as it was when hashes of runs were first published. */
 enum { HASH_SEED = 21 };
 
+/* Tables that came later and have nothing to say: worlds that never needed them have the hashes they had before. */
+static bool is_absent(const world *w, const table_info *info)
+{
+    return (info == &input_table_info && w->inputs.count == 0) ||
+           (info == &hull_contact_table_info && w->hull_contacts.count == 0);
+}
+
 uint64_t world_hash(const world *w)
 {
     world_table tables[WORLD_TABLE_COUNT];
@@ -145,7 +157,7 @@ uint64_t world_hash(const world *w)
     for (int t = 0; t < WORLD_TABLE_COUNT; t++) {
         if (tables[t].info == &recorded_table_info)
             hash = table_hash(&nothing_recorded, tables[t].info, hash);
-        else if (tables[t].info != &input_table_info || w->inputs.count > 0)
+        else if (!is_absent(w, tables[t].info))
             hash = table_hash(tables[t].table, tables[t].info, hash);
     }
     return hash;

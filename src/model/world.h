@@ -40,6 +40,12 @@ TABLE_DECLARE(clock, CLOCK_FIELDS)
     X(moment, vec3, FIELD_F64, 3, "N m", "ice moment about its centre of mass, global frame")
 TABLE_DECLARE(load_window, LOAD_WINDOW_FIELDS)
 
+/* What other hulls and walls did to each vessel in the last step.  Empty until the first such contact. */
+#define HULL_CONTACT_FIELDS(X)                                                                              \
+    X(force, vec3, FIELD_F64, 3, "N", "of hulls and walls on the vessel, mean over the step, global frame") \
+    X(moment, vec3, FIELD_F64, 3, "N m", "about its centre of mass, global frame")
+TABLE_DECLARE(hull_contact, HULL_CONTACT_FIELDS)
+
 /* Which bodies the record already knows, one row per body slot that it has seen. */
 #define RECORDED_FIELDS(X) X(generation, uint32_t, FIELD_U32, 1, "1", "generation in the record, 0: none")
 TABLE_DECLARE(recorded, RECORDED_FIELDS)
@@ -54,6 +60,7 @@ typedef struct ice_load {
     wrench zone[ZONE_COUNT];           /* total, split by hull zone */
     wrench mechanism[MECHANISM_COUNT]; /* total, split by what makes it (sim/mechanisms.h) */
     int32_t contacts;
+    wrench hulls; /* no ice: of other hulls and of walls */
 } ice_load;
 
 /* What the water that moves with a vessel exerts on it in a step: added mass and linear damping.  Scratch. */
@@ -75,6 +82,7 @@ typedef struct world {
     contact_memory_table memory;
     load_window_table load_window;
     recorded_table recorded;
+    hull_contact_table hull_contacts; /* row i belongs to vessel i, or none */
     line_table lines;
     thruster_table thrusters;
     waypoint_table waypoints;
@@ -113,7 +121,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 22 };
+enum { WORLD_TABLE_COUNT = 23 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 
@@ -128,7 +136,7 @@ void world_free(context *ctx, world *w);
    alone. */
 void world_poison_scratch(world *w);
 /* 64-bit hash of the whole state, but for `recorded`, which is no part of what is simulated: a world has the same hash
-   whether it is recorded or not.  Inputs count from the first that is told on. */
+   whether it is recorded or not.  Inputs, and contacts between hulls, count from the first on. */
 uint64_t world_hash(const world *w);
 /* dst's state becomes src's; both are of the same model. */
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error);

@@ -245,6 +245,8 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = check_bodies(w, error);
     if (status == FRAM_OK)
         status = check_inputs(w, error);
+    if (status == FRAM_OK && w->hull_contacts.count != 0 && w->hull_contacts.count != w->vessels.count)
+        status = refuse("hull_contact", 0, NULL, w->hull_contacts.count, error);
     if (status == FRAM_OK && w->vessels.count != m->vessels.count)
         status = refuse("vessel", 0, NULL, w->vessels.count, error);
     if (status == FRAM_OK)

@@ -79,12 +79,14 @@ static model settings_of(const scenario *s)
     out.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides = s->ice.cap_ice_ice && !s->ice.fracture.under_ice_contacts;
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_HULL, f->ice_hull_static, f->ice_hull_kinetic, true);
     set_pair(&out.policies, MATERIAL_ICE, MATERIAL_WALL, f->ice_wall_static, f->ice_wall_kinetic, s->ice.cap_ice_wall);
+    set_pair(&out.policies, MATERIAL_HULL, MATERIAL_HULL, f->hull_hull_static, f->hull_hull_kinetic, false);
+    set_pair(&out.policies, MATERIAL_HULL, MATERIAL_WALL, f->hull_wall_static, f->hull_wall_kinetic, false);
     return out;
 }
 
 fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_entry *entry, model *m, fram_error *error)
 {
-    vessel_model v = {0};
+    vessel_model v = {.yielding = is_automatic(entry->keys->fender_stiffness) ? 0 : 1 / entry->keys->fender_stiffness};
     fram_status status = build_hull(ctx, s, entry, &m->solids, &v, error);
     if (status == FRAM_OK)
         status = build_hydrodynamics(s, entry, &v, error);

@@ -1,5 +1,6 @@
 #include "sim/ice_loads.h"
 
+#include "sim/fenders.h"
 #include "sim/mechanisms.h"
 
 #include <string.h>
@@ -34,6 +35,29 @@ static double crushing_work(const world *w, const contact *c)
     return approach > 0 ? c->impulse[0] * approach : 0;
 }
 
+/* Of a contact with another hull or a wall. */
+static void add_hull_contact(const world *w, const contact *c, int32_t vessel, double scale, ice_load *load)
+{
+    vec3 centre = w->bodies.position[w->vessels.body[vessel]];
+    wrench_add(&load->hulls, centre, vec3_scale(contact_impulse(c), scale), c->point);
+}
+
+/* Kept for the next step from the first contact on; before, there is nothing to keep. */
+static bool keep_hull_contacts(context *ctx, world *w)
+{
+    const ice_load *loads = w->scratch.ice_loads.data;
+    bool any = w->hull_contacts.count > 0;
+    for (int32_t v = 0; v < w->vessels.count && !any; v++)
+        any = vec3_dot(loads[v].hulls.force, loads[v].hulls.force) > 0;
+    if (any && !table_resize(ctx, &w->hull_contacts, &hull_contact_table_info, w->vessels.count))
+        return false;
+    for (int32_t v = 0; v < w->hull_contacts.count; v++) {
+        w->hull_contacts.force[v] = loads[v].hulls.force;
+        w->hull_contacts.moment[v] = loads[v].hulls.moment;
+    }
+    return true;
+}
+
 fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *error)
 {
     int32_t vessels = w->vessels.count;
@@ -44,14 +68,21 @@ fram_status sum_ice_loads(context *ctx, const model *m, world *w, fram_error *er
         memset(loads, 0, (size_t)vessels * sizeof *loads);
     for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
         const contact *c = &w->scratch.contacts.data[i];
-        if (isfinite(c->impulse_limit) && is_capped(c))
+        bool ice = contact_is_of_ice(w, c);
+        if (ice && isfinite(c->impulse_limit) && is_capped(c))
             w->clock.work_crushed[0] += crushing_work(w, c);
         int32_t va = vessel_of(w, c->a), vb = vessel_of(w, c->b);
-        if (va >= 0)
+        if (va >= 0 && ice)
             add_contact(w, c, va, 1, 1 / m->time_step, &loads[va]);
-        if (vb >= 0)
+        else if (va >= 0)
+            add_hull_contact(w, c, va, 1 / m->time_step, &loads[va]);
+        if (vb >= 0 && ice)
             add_contact(w, c, vb, -1, 1 / m->time_step, &loads[vb]);
+        else if (vb >= 0)
+            add_hull_contact(w, c, vb, -1 / m->time_step, &loads[vb]);
     }
+    if (!keep_hull_contacts(ctx, w))
+        return error_memory(error);
     for (int32_t v = 0; v < vessels && load_window_length(w) > 0; v++) {
         int64_t row = load_window_row(w, w->clock.step[0], v);
         w->load_window.force[row] = loads[v].total.force;
@@ -66,6 +97,16 @@ wrench last_ice_load(const world *w, int32_t vessel)
         return (wrench){0};
     int64_t row = load_window_row(w, w->clock.step[0] - 1, vessel);
     return (wrench){w->load_window.force[row], w->load_window.moment[row]};
+}
+
+wrench last_contact_load(const world *w, int32_t vessel)
+{
+    wrench load = last_ice_load(w, vessel);
+    if (vessel < w->hull_contacts.count) {
+        load.force = vec3_add(load.force, w->hull_contacts.force[vessel]);
+        load.moment = vec3_add(load.moment, w->hull_contacts.moment[vessel]);
+    }
+    return load;
 }
 
 wrench load_window_average(const world *w, int32_t vessel)

@@ -1,5 +1,6 @@
 #include "sim/mechanisms.h"
 
+#include "sim/fenders.h"
 #include "sim/force_chain.h"
 
 #include <string.h>
@@ -115,7 +116,8 @@ fram_status mechanisms_find(context *ctx, const model *m, world *w, fram_error *
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < w->scratch.contacts.count && status == FRAM_OK; i++) {
         const contact *c = &w->scratch.contacts.data[i];
-        if (c->impulse[0] == 0 && c->impulse[1] == 0 && c->impulse[2] == 0)
+        bool none = c->impulse[0] == 0 && c->impulse[1] == 0 && c->impulse[2] == 0;
+        if (none || !contact_is_of_ice(w, c))
             continue;
         if (w->bodies.material[c->a] == MATERIAL_HULL && w->bodies.owner[c->a] >= 0)
             status = add_share(ctx, m, w, c, c->a, &s, error);

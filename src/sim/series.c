@@ -141,6 +141,8 @@ static count_channels counts_of(const world *w)
     V3(V, "ice_force_stern", "N", c.ice.zone[ZONE_STERN].force)       \
     V3(V, "ice_force_bottom", "N", c.ice.zone[ZONE_BOTTOM].force)     \
     MECHANISMS(V)                                                     \
+    V3(V, "hull_contact_force", "N", c.ice.hulls.force)               \
+    V3(V, "hull_contact_moment", "N m", c.ice.hulls.moment)           \
     V3(V, "tow_force", "N", c.joint_force)                            \
     V3(V, "tow_moment", "N m", c.joint_moment)                        \
     V3(V, "fluid_force", "N", c.fluid.force)                          \

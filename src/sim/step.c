@@ -2,6 +2,7 @@
 
 #include "model/world_invariants.h"
 #include "sim/feed.h"
+#include "sim/fenders.h"
 #include "sim/ice_loads.h"
 #include "sim/mechanisms.h"
 #include "sim/media_now.h"
@@ -59,7 +60,7 @@ static void respond_vessel(const model *m, const media *now, world *w, int32_t v
     if (!m->vessels.data[v].has_hydrodynamics || mode == VESSEL_PRESCRIBED)
         return;
     int32_t body = w->vessels.body[v];
-    wrench contacts = last_ice_load(w, v), *load = &w->scratch.loads.data[body];
+    wrench contacts = last_contact_load(w, v), *load = &w->scratch.loads.data[body];
     vec3 before = load->force;
     hydrodynamics_respond(&m->vessels.data[v].hydrodynamics, mode == VESSEL_FREE, now, m->time_step, &w->bodies, body,
                           &contacts, load);
@@ -147,10 +148,11 @@ static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_
                             &w->scratch.patch_pairs, w->scratch.collision, error);
 }
 
-/* 3. Crushing patches, their contacts and caps. */
+/* 3. Crushing patches, their contacts and caps; what fenders carry. */
 static fram_status limit_crushing(context *ctx, const model *m, world *w, fram_error *error)
 {
     array_clear(&w->scratch.patches);
+    fenders_limit(m, w);
     return crushing_contacts(ctx, w->scratch.crushing, &m->crushing, &w->bodies, &w->shapes, &w->floes, &w->pairs,
                              &w->scratch.patch_pairs, &m->policies, &w->scratch.patches, &w->scratch.contacts, error);
 }

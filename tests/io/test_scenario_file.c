@@ -201,7 +201,7 @@ START_TEST(random_scenarios_survive_printing)
                                      .wall_thickness = 1};
         s.ice.source = ICE_NONE;
         s.vessel.positioning.active = false; /* needs thrusters */
-        s.ice.friction = (scenario_friction){0.7, 0.6, 0.5, 0.4, 0.3, 0.2};
+        s.ice.friction = (scenario_friction){0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.7, 0.6, 0.5, 0.4};
         if (s.run.time_step > 10)
             s.run.time_step = 10;
         text_buffer first = {0}, second = {0};
