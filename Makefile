@@ -54,6 +54,13 @@ test-cycles: build/release/build.ninja ## CYCLES (10,000) random saves, loads, c
 	@cmake --build --preset release -j$(JOBS) --target test_api_live
 	@FRAM_CYCLES=$(CYCLES) CK_RUN_CASE=live CK_DEFAULT_TIMEOUT=7200 CK_FORK=no build/release/tests/test_api_live
 
+python: build/python/build.ninja | $(STAMPS)/python ## the wheel of the Python package, under build/python
+	@cmake --build --preset python -j$(JOBS) --target fram_shared
+	@$(PYTHON) tools/python_wheel.py build/python build/python
+
+bench-python: build | $(STAMPS)/python ## what reading poses and outlines from Python costs, against its bound
+	@$(PYTHON) bench/run_python.py
+
 bench-recording: build ## what recording costs in time and bytes, against its bounds
 	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)
 
@@ -142,7 +149,7 @@ install: build ## install under DESTDIR and PREFIX (/usr/local)
 	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ] && command -v ldconfig >/dev/null; then ldconfig; fi
 
 deps: ## install all that building and checking needs
-	@tools/deps.sh --install core dev
+	@tools/deps.sh --install core dev python
 
 $(STAMPS)/%: tools/deps.sh
 	@tools/deps.sh --install $*

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, python
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
 #
@@ -54,6 +54,9 @@ slurm  slurmctld        cmd:slurmctld
 slurm  slurmd           cmd:slurmd
 slurm  slurm-client     cmd:sbatch
 slurm  munge            cmd:munged
+python python3-numpy    deb:python3-numpy
+python python3-cffi     deb:python3-cffi
+python python3-pip      deb:python3-pip
 END
 }
 
@@ -80,9 +83,9 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers | validate | slurm) groups="$groups $word" ;;
+    core | dev | viewer | views | peers | validate | slurm | python) groups="$groups $word" ;;
     *)
-        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm]" >&2
+        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [python]" >&2
         exit 2
         ;;
     esac

@@ -1,0 +1,144 @@
+"""libfram through cffi in ABI mode: the public headers are read, no compiler is needed.
+
+The library is, in this order: what the environment variable FRAM_LIBRARY names, the one that the package carries, or
+the system's ``libfram.so.0``.
+"""
+
+from __future__ import annotations
+
+import ctypes.util
+import os
+import pathlib
+import re
+
+import cffi
+
+_HERE = pathlib.Path(__file__).resolve().parent
+_HEADERS = ("error", "fram", "live", "results", "field", "hull", "ice")
+
+
+def _header_folder() -> pathlib.Path:
+    carried = _HERE / "include"
+    return carried if carried.is_dir() else _HERE.parents[2] / "include" / "fram"
+
+
+def _declarations() -> str:
+    """The headers without comments, preprocessor lines and what is for compilers alone."""
+    text = "".join((_header_folder() / f"{name}.h").read_text(encoding="utf-8") for name in _HEADERS)
+    text = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
+    text = re.sub(r'#ifdef __cplusplus.*?#endif', "", text, flags=re.S)
+    text = re.sub(r"^[ \t]*#.*(\\\n.*)*$", "", text, flags=re.M)
+    return text.replace("FRAM_API", "").replace("const volatile int", "int").replace("volatile int", "int")
+
+
+def _library_path() -> str:
+    asked = os.environ.get("FRAM_LIBRARY")
+    if asked:
+        return asked
+    carried = _HERE / "lib" / "libfram.so.0"
+    if carried.exists():
+        return str(carried)
+    found = ctypes.util.find_library("fram")
+    if found:
+        return found
+    raise ImportError("libfram was not found: install the wheel of `make python`, or name it in FRAM_LIBRARY")
+
+
+ffi = cffi.FFI()
+ffi.cdef(_declarations())
+lib = ffi.dlopen(_library_path())
+
+
+class FramError(Exception):
+    """A call of the library failed.
+
+    ``status`` is its word ("input", "usage", ...), ``message`` what was found and expected; ``file``, ``line``,
+    ``column`` and ``key`` say where, and are empty or 0 where there is no place.
+    """
+
+    def __init__(self, status: str, message: str, file: str = "", line: int = 0, column: int = 0, key: str = ""):
+        self.status, self.message = status, message
+        self.file, self.line, self.column, self.key = file, line, column, key
+        place = file + (f":{line}" if line else "") + (f":{column}" if line and column else "")
+        super().__init__(": ".join(part for part in (place, key, message) if part))
+
+
+class UsageError(FramError, ValueError):
+    """The call is wrong: an argument, or the order of calls."""
+
+
+class InputError(FramError, ValueError):
+    """A file or a value that was given is wrong."""
+
+
+class FileError(FramError, OSError):
+    """The operating system refused to read or write."""
+
+
+class OutOfMemory(FramError, MemoryError):
+    """There was no memory."""
+
+
+class SimulationError(FramError, ArithmeticError):
+    """The simulation went wrong: its state is not finite, or a body is too fast."""
+
+
+class UnsupportedError(FramError, NotImplementedError):
+    """This build of the library lacks an optional part."""
+
+
+class InternalError(FramError, RuntimeError):
+    """A defect in Fram itself."""
+
+
+class Interrupted(FramError):
+    """A run was stopped; it wrote a checkpoint."""
+
+
+_KINDS = {1: UsageError, 2: InputError, 3: FileError, 4: OutOfMemory, 5: SimulationError, 6: UnsupportedError,
+          7: InternalError, 8: Interrupted}
+
+
+def text_of(pointer) -> str:
+    """A C string; names of files may hold bytes that are no UTF-8."""
+    return ffi.string(pointer).decode("utf-8", "surrogateescape")
+
+
+def bytes_of(path) -> bytes:
+    """A path or text for C."""
+    encoded = os.fsencode(path)
+    if b"\0" in encoded:
+        raise UsageError("usage", "expected a text without NUL characters", key="text")
+    return encoded
+
+
+def check(status: int, error) -> None:
+    """Raise what a status says."""
+    if status == 0:
+        return
+    kind = _KINDS.get(status, FramError)
+    raise kind(text_of(lib.fram_status_name(status)), text_of(error.message), text_of(error.file), error.line,
+               error.column, text_of(error.key))
+
+
+def new_error():
+    """Room for an error."""
+    return ffi.new("fram_error *")
+
+
+def owned(pointer, destroy, *needs):
+    """A pointer that is destroyed when Python has no more use of it, and before what it needs is."""
+    def end(dead, _needs=needs):
+        destroy(dead)
+
+    return ffi.gc(pointer, end)
+
+
+def version() -> str:
+    """Version of the library."""
+    return text_of(lib.fram_version())
+
+
+def features() -> list[str]:
+    """Optional parts of the library, as words."""
+    return text_of(lib.fram_features()).split()

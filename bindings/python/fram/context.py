@@ -1,0 +1,67 @@
+"""What a program lends to Fram: threads and a place for its log."""
+
+from __future__ import annotations
+
+from typing import Callable, Optional
+
+from ._library import check, ffi, lib, new_error, owned, text_of
+
+_LEVELS = ("error", "warning", "info", "debug")
+
+
+class Context:
+    """Threads and log of the worlds that are made with it.
+
+    threads: how many of the processor's cores a step may use; results never depend on it.
+    log: called as ``log(level, text)`` with level "error", "warning", "info" or "debug", from the thread that called
+    the library.  isa: "baseline", "avx2", "avx512" or None for the best.
+    """
+
+    def __init__(self, threads: int = 1, log: Optional[Callable[[str, str], None]] = None, isa: Optional[str] = None):
+        definition = ffi.new("fram_context_definition *")
+        lib.fram_context_default(definition)
+        self._stop = ffi.new("int *")
+        self._keep = [self._stop]
+        raised: list[BaseException] = []
+        stop = self._stop
+
+        def keep_exception(_kind, exception, _trace):
+            """An exception in a callback is raised when the library has returned; the first one counts."""
+            raised.append(exception)
+            lib.fram_stop_set(stop, 1)
+
+        self._raised, self._keep_exception = raised, keep_exception
+        definition.threads = threads
+        definition.stop = self._stop
+        if isa is not None:
+            self._keep.append(ffi.new("char[]", isa.encode()))
+            definition.isa = self._keep[-1]
+        if log is not None:
+            @ffi.callback("void(void *, fram_log_level, const char *)", onerror=keep_exception)
+            def forward(_user, level, text):
+                log(_LEVELS[int(level)], text_of(text))
+
+            self._keep.append(forward)
+            definition.log = forward
+        error, out = new_error(), ffi.new("fram_context **")
+        check(lib.fram_context_create(definition, out, error), error)
+        self._pointer = owned(out[0], lib.fram_context_destroy, self._keep)
+
+    def _check(self, status: int, error) -> None:
+        lib.fram_stop_set(self._stop, 0)
+        if self._raised:
+            raised = self._raised[0]
+            self._raised.clear()
+            raise raised
+        check(status, error)
+
+
+_default: Optional[Context] = None
+
+
+def default_context() -> Context:
+    """The context of everything that is made without one: one thread, no log."""
+    global _default
+    if _default is None:
+        _default = Context()
+    return _default

@@ -1,0 +1,153 @@
+"""A Gymnasium-style environment: reset, step and spaces by the contract that it documents, without needing it."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Optional, Sequence
+
+import numpy as np
+
+from ._library import InputError, SimulationError, UsageError
+from .scenario import Scenario
+from .world import World
+
+
+class Box:
+    """A box of real numbers, as gymnasium.spaces.Box: low, high, shape, dtype, sample, contains."""
+
+    def __init__(self, low, high, dtype=np.float64):
+        self.low, self.high = np.asarray(low, dtype), np.asarray(high, dtype)
+        self.shape, self.dtype = self.low.shape, np.dtype(dtype)
+        self._random = np.random.default_rng()
+
+    def seed(self, seed: Optional[int] = None) -> None:
+        """Begin the random numbers of `sample` anew."""
+        self._random = np.random.default_rng(seed)
+
+    def sample(self) -> np.ndarray:
+        """A random point; a side without end counts from -1 to 1."""
+        low = np.where(np.isfinite(self.low), self.low, -1)
+        high = np.where(np.isfinite(self.high), self.high, 1)
+        return self._random.uniform(low, high).astype(self.dtype)
+
+    def contains(self, x: Any) -> bool:
+        """Whether x is a point of the box."""
+        x = np.asarray(x)
+        return x.shape == self.shape and bool(np.all(x >= self.low) and np.all(x <= self.high))
+
+    __contains__ = contains
+
+    def __repr__(self) -> str:
+        return f"Box({self.low}, {self.high}, {self.shape}, {self.dtype})"
+
+
+def _box(low, high):
+    try:
+        from gymnasium.spaces import Box as Theirs
+    except ImportError:
+        return Box(low, high)
+    return Theirs(np.asarray(low, np.float64), np.asarray(high, np.float64), dtype=np.float64)
+
+
+OBSERVATIONS = ("offset_x", "offset_y", "heading_deviation", "velocity_x", "velocity_y", "angular_velocity_z",
+                "ice_force_averaged_x", "ice_force_averaged_y")
+"""What a controller of a station sees by default."""
+
+
+def station_reward(world: World) -> float:
+    """Less the horizontal offset [m], and a tenth of the deviation of the heading [deg]."""
+    return -float(np.hypot(world["offset_x"], world["offset_y"]) + 0.1 * abs(world["heading_deviation"]))
+
+
+class StationKeeping:
+    """Keeping a vessel on station in ice by orders to its thrusters.
+
+    actions: names of inputs (default: all orders to thrusters), each scaled so that -1 to 1 is what it can do.
+    observations: names of channels.  interval: simulated time of one `step` [s].  horizon: simulated time after which
+    an episode is truncated [s].  offset_limit: an episode ends when the offset exceeds it [m].  reward: of the world
+    after each step.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": []}
+    render_mode = None
+
+    def __init__(self, scenario: Scenario, actions: Optional[Sequence[str]] = None,
+                 observations: Sequence[str] = OBSERVATIONS, interval: float = 0.5, horizon: Optional[float] = None,
+                 offset_limit: float = float("inf"), reward: Callable[[World], float] = station_reward):
+        self._scenario, self._reward, self._limit = scenario, reward, offset_limit
+        self._seed: Optional[int] = None
+        self._first = scenario.world()
+        inputs = self._first.inputs
+        if "positioning" not in inputs:
+            raise InputError("input", "expected a free vessel with thrusters", key="vessel")
+        self.actions = tuple(actions) if actions is not None else tuple(n for n in inputs if "_order" in n)
+        self.observations = tuple(observations)
+        for name in self.actions + self.observations:
+            if name not in self._first:
+                raise InputError("input", "the world has no such channel or input", key=name)
+        self._ranges = np.array([self._range(name) for name in self.actions]).reshape(-1, 2)
+        self._steps = max(1, round(interval / scenario.time_step))
+        self._horizon = scenario.duration if horizon is None else horizon
+        self.action_space = _box(np.full(len(self.actions), -1.0), np.full(len(self.actions), 1.0))
+        ends = np.full(len(self.observations), np.inf)
+        self.observation_space = _box(-ends, ends)
+        self.world: Optional[World] = None
+
+    def _range(self, name: str) -> tuple[float, float]:
+        """What an order can be at least and at most: the library limits it, and tells what it became."""
+        world = self._first.copy()
+        world["positioning"] = 0
+        largest = 1e15 if world.inputs[name].unit == "N" else 179.999
+        found = []
+        for value in (-largest, largest):
+            world[name] = value
+            found.append(world[name])
+        world.close()
+        return found[0], found[1]
+
+    def _observe(self) -> np.ndarray:
+        return np.array([self.world[name] for name in self.observations], np.float64)
+
+    def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
+        """A new episode; a seed is that of the scenario (ice field, noise).  Returns observation and info."""
+        del options
+        if seed is not None and seed != self._seed:
+            self._seed = int(seed)
+            self._first.close()
+            self._first = self._scenario.replaced({"run.seed": self._seed}).world()
+        if self.world is not None:
+            self.world.close()
+        self.world = self._first.copy()
+        self.world["positioning"] = 0
+        return self._observe(), {"hash": self.world.hash}
+
+    def step(self, action):
+        """Orders for one interval.  Returns observation, reward, terminated, truncated, info."""
+        if self.world is None:
+            raise UsageError("usage", "call reset before step", key="step")
+        action = np.asarray(action, float)
+        if action.shape != (len(self.actions),) or not np.all(np.isfinite(action)):
+            raise InputError("input", f"expected {len(self.actions)} finite numbers, found {action}", key="action")
+        low, high = self._ranges[:, 0], self._ranges[:, 1]
+        told = low + (np.clip(action, -1, 1) + 1) / 2 * (high - low)
+        for name, value in zip(self.actions, told):
+            self.world[name] = value
+        info: dict[str, Any] = {}
+        failed = False
+        try:
+            self.world.step(self._steps)
+        except SimulationError as error:
+            failed, info["error"] = True, str(error)
+        offset = float(np.hypot(self.world["offset_x"], self.world["offset_y"]))
+        info["time"] = self.world.time
+        truncated = not failed and self.world.time >= self._horizon - 1e-9
+        return self._observe(), self._reward(self.world), failed or offset > self._limit, truncated, info
+
+    def render(self) -> None:
+        """Nothing is drawn; see `fram.plot_outlines`."""
+
+    def close(self) -> None:
+        """Free the worlds."""
+        for world in (self.world, self._first):
+            if world is not None:
+                world.close()
+        self.world = None

@@ -1,0 +1,195 @@
+"""Runs that `fram run` or a recorded world left in a folder."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import pathlib
+import tempfile
+from dataclasses import dataclass
+from typing import Any, Mapping, Optional, Sequence, Union
+
+import numpy as np
+
+from ._library import FileError, InputError, bytes_of, ffi, lib, new_error, text_of
+from .context import Context, default_context
+
+try:
+    import pandas
+except ImportError:
+    pandas = None
+
+
+@dataclass(frozen=True)
+class Floe:
+    """A floe, wall or vessel seen from above: outline [m] and what the record tells of it."""
+
+    outline: np.ndarray
+    properties: Mapping[str, Any]
+
+
+def _read_table(path: pathlib.Path) -> tuple[dict[str, np.ndarray], dict[str, str]]:
+    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except OSError as error:
+        raise FileError("io", str(error), file=str(path)) from error
+    if not rows:
+        raise InputError("input", "expected a row of heads, found an empty file", file=str(path), line=1)
+    heads, units = [], {}
+    for head in rows[0]:
+        name, _, unit = head.partition("[")
+        heads.append(name)
+        units[name] = unit.rstrip("]")
+    values = np.empty((len(rows) - 1, len(heads)))
+    count = 0
+    for number, row in enumerate(rows[1:], start=2):
+        try:
+            values[count] = [float(word) for word in row]
+        except ValueError as error:
+            if number == len(rows):
+                break
+            raise InputError("input", f"expected {len(heads)} numbers: {error}", file=str(path), line=number) from error
+        count += 1
+    return {name: values[:count, i] for i, name in enumerate(heads)}, units
+
+
+class Run:
+    """The folder of a run, read when asked for; it may still be going on."""
+
+    def __init__(self, folder: Union[str, os.PathLike], context: Optional[Context] = None):
+        self.folder = pathlib.Path(folder)
+        self._context = context or default_context()
+        if not (self.folder / "run.json").is_file():
+            raise InputError("input", "expected the folder of a run, found no run.json in it", file=str(self.folder))
+
+    @property
+    def info(self) -> dict[str, Any]:
+        """run.json: version, hashes, status, computing time."""
+        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+
+    @property
+    def hash(self) -> str:
+        """State hash at the end, as `World.hash`."""
+        return self.info["state_hash"]
+
+    @property
+    def scenario_text(self) -> str:
+        """The effective scenario as YAML."""
+        return (self.folder / "scenario.yaml").read_text(encoding="utf-8")
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each column of the series."""
+        return _read_table(self.folder / "series.csv")[1]
+
+    def columns(self, table: str = "series") -> dict[str, np.ndarray]:
+        """The columns of series.csv or fractures.csv as numpy arrays."""
+        return _read_table(self.folder / f"{table}.csv")[0]
+
+    @property
+    def series(self):
+        """series.csv as a pandas DataFrame over time; without pandas, as `columns`."""
+        columns = self.columns()
+        return columns if pandas is None else pandas.DataFrame(columns).set_index("time", drop=False)
+
+    @property
+    def fractures(self):
+        """fractures.csv, a row a broken floe: a pandas DataFrame, or without pandas a dict of arrays."""
+        columns = self.columns("fractures")
+        return columns if pandas is None else pandas.DataFrame(columns)
+
+    def to_xarray(self):
+        """The series as an xarray Dataset over time, with units as attributes; ImportError without xarray."""
+        import xarray
+        columns, units = _read_table(self.folder / "series.csv")
+        time = columns.pop("time")
+        data = xarray.Dataset({name: ("time", values, {"units": units[name]}) for name, values in columns.items()},
+                              coords={"time": ("time", time, {"units": units["time"]})})
+        data.attrs["state_hash"] = self.hash
+        return data
+
+    @property
+    def station(self) -> Optional[dict[str, Any]]:
+        """Results of station keeping (station.json), or None."""
+        path = self.folder / "station.json"
+        return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """What befell the vessel on station: lines that parted, thrusters that failed, position lost."""
+        station = self.station or {}
+        found = list(station.get("events", []))
+        for vessel in station.get("vessels", []):
+            found += vessel.get("events", [])
+        return found
+
+    def floes(self, time: float) -> list[Floe]:
+        """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "field.geojson")
+            error = new_error()
+            self._context._check(lib.fram_export_geojson(self._context._pointer, bytes_of(self.folder), bytes_of(path),
+                                                         float(time), ffi.NULL, error), error)
+            with open(path, encoding="utf-8") as file:
+                features = json.load(file)["features"]
+        return [Floe(np.array(f["geometry"]["coordinates"][0][:-1]), f["properties"]) for f in features
+                if f["geometry"]["type"] == "Polygon"]
+
+    def report(self, output: Union[str, os.PathLike, None] = None) -> str:
+        """Write the run's HTML report; its path."""
+        result, error = ffi.new("fram_result *"), new_error()
+        where = ffi.NULL if output is None else ffi.new("char[]", bytes_of(output))
+        self._context._check(lib.fram_report(self._context._pointer, bytes_of(self.folder), where, False, result,
+                                             error), error)
+        return text_of(result.path)
+
+    def plot(self, channels: Union[str, Sequence[str]], axes=None):
+        """Channels over time, by matplotlib; shown by a notebook.  Returns the axes."""
+        import matplotlib.pyplot as pyplot
+        names = [channels] if isinstance(channels, str) else list(channels)
+        columns, units = _read_table(self.folder / "series.csv")
+        for name in names:
+            if name not in columns:
+                raise InputError("input", "the run has no such channel", key=name)
+        axes = axes if axes is not None else pyplot.figure(figsize=(8, 3)).gca()
+        for name in names:
+            axes.plot(columns["time"], columns[name], label=f"{name} [{units[name]}]", linewidth=1)
+        axes.set_xlabel("time [s]")
+        axes.legend()
+        return axes
+
+    def plot_field(self, time: float, axes=None):
+        """The ice from above at a time [s], by matplotlib.  Returns the axes."""
+        return plot_outlines([floe.outline for floe in self.floes(time)], axes)
+
+    def __repr__(self) -> str:
+        info = self.info
+        return f"<fram.Run {self.folder}: {info['status']} at t = {info['time_s']:g} s>"
+
+    def _repr_html_(self) -> str:
+        info = self.info
+        rows = "".join(f"<tr><td>{key}</td><td>{info.get(key, '')}</td></tr>"
+                       for key in ("title", "status", "steps", "time_s", "wall_s", "state_hash"))
+        return f"<table>{rows}</table>"
+
+
+def plot_outlines(outlines, axes=None, **style):
+    """Polygons from above, by matplotlib: of `World.outlines`, or a list of arrays.  Returns the axes."""
+    import matplotlib.pyplot as pyplot
+    from matplotlib.collections import PolyCollection
+    axes = axes if axes is not None else pyplot.figure(figsize=(6, 6)).gca()
+    style = {"facecolor": "#dfe9f2", "edgecolor": "#33536b", "linewidth": 0.5, **style}
+    axes.add_collection(PolyCollection(list(outlines), **style))
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.set_xlabel("x [m]")
+    axes.set_ylabel("y [m]")
+    return axes
+
+
+def open_run(folder: Union[str, os.PathLike], context: Optional[Context] = None) -> Run:
+    """The run in a folder; InputError when there is none."""
+    return Run(folder, context)

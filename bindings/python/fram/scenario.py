@@ -1,0 +1,139 @@
+"""Scenarios: what a run is told."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Callable, Mapping, Optional, Sequence, Union
+
+from ._library import bytes_of, ffi, lib, new_error, owned, text_of
+from .context import Context, default_context
+
+Overrides = Union[Mapping[str, Any], Sequence[str], None]
+
+
+def _override_texts(overrides: Overrides) -> list[bytes]:
+    """{"run.seed": 7} or ["run.seed=7"] as the library takes them."""
+    if overrides is None:
+        return []
+    if not isinstance(overrides, Mapping):
+        return [bytes_of(text) for text in overrides]
+
+    def word(value: Any) -> str:
+        if isinstance(value, bool):
+            return "true" if value else "false"
+        return repr(float(value)) if isinstance(value, float) else str(value)
+
+    return [bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
+
+
+class Scenario:
+    """A scenario that was read and checked; it never changes.  Made by `load` or `from_text`."""
+
+    def __init__(self, pointer, context: Context, origin: tuple):
+        self._context, self._origin = context, origin
+        self._pointer = owned(pointer, lib.fram_scenario_destroy, context._pointer)
+
+    @classmethod
+    def load(cls, path: Union[str, os.PathLike], overrides: Overrides = None,
+             context: Optional[Context] = None) -> "Scenario":
+        """Read a scenario file.
+
+        overrides: values given over those of the file, ``{"run.seed": 7}`` or ``["run.seed=7"]``.  InputError says
+        which file, line and key are wrong.
+        """
+        return cls._make("load", bytes_of(path), None, _override_texts(overrides), context or default_context())
+
+    @classmethod
+    def from_text(cls, text: str, base: Union[str, os.PathLike, None] = None, overrides: Overrides = None,
+                  context: Optional[Context] = None) -> "Scenario":
+        """A scenario from YAML text; relative paths in it start from the folder `base` (default: the working one)."""
+        folder = None if base is None else bytes_of(base)
+        return cls._make("parse", bytes_of(text), folder, _override_texts(overrides), context or default_context())
+
+    @classmethod
+    def _make(cls, how: str, what: bytes, base, overrides: list[bytes], context: Context) -> "Scenario":
+        error, out = new_error(), ffi.new("fram_scenario **")
+        keep = [ffi.new("char[]", text) for text in overrides]
+        items = ffi.new("char *[]", keep) if keep else ffi.NULL
+        if how == "load":
+            status = lib.fram_scenario_load(context._pointer, what, items, len(keep), out, error)
+        else:
+            folder = ffi.NULL if base is None else ffi.new("char[]", base)
+            status = lib.fram_scenario_parse(context._pointer, what, folder, items, len(keep), out, error)
+        context._check(status, error)
+        return cls(out[0], context, (how, what, base, overrides))
+
+    def replaced(self, overrides: Overrides) -> "Scenario":
+        """The same scenario with further overrides, read again."""
+        how, what, base, before = self._origin
+        return self._make(how, what, base, before + _override_texts(overrides), self._context)
+
+    @property
+    def text(self) -> str:
+        """The effective scenario as YAML, every default filled in."""
+        return text_of(lib.fram_scenario_text(self._pointer))
+
+    @property
+    def notes(self) -> str:
+        """What follows from the scenario for a reader's eye: lengths, loads, thresholds, warnings."""
+        return text_of(lib.fram_scenario_notes(self._pointer))
+
+    @property
+    def hash(self) -> str:
+        """64 hexadecimal digits that name the effective scenario."""
+        return text_of(lib.fram_scenario_hash(self._pointer))
+
+    @property
+    def duration(self) -> float:
+        """Simulated time of a run [s]."""
+        return lib.fram_scenario_duration(self._pointer)
+
+    @property
+    def time_step(self) -> float:
+        """[s]"""
+        return lib.fram_scenario_time_step(self._pointer)
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The files that the scenario names, by key, as absolute paths."""
+        found, number = {}, 0
+        while lib.fram_scenario_file(self._pointer, number) != ffi.NULL:
+            key = text_of(lib.fram_scenario_file_key(self._pointer, number))
+            found[key] = text_of(lib.fram_scenario_file(self._pointer, number))
+            number += 1
+        return found
+
+    def check(self) -> None:
+        """Make the vessel, not the ice; InputError for what cannot be, warnings to the context's log."""
+        error = new_error()
+        self._context._check(lib.fram_scenario_check(self._pointer, error), error)
+
+    def world(self) -> "World":
+        """A new world at time 0."""
+        from .world import World
+        error, out = new_error(), ffi.new("fram_world **")
+        self._context._check(lib.fram_world_create(self._pointer, out, error), error)
+        return World(out[0], self)
+
+    def run(self, folder: Union[str, os.PathLike], force: bool = False, until: Optional[float] = None,
+            progress: Optional[Callable[[float, float], None]] = None) -> "Run":
+        """Run to the end, or to the simulated time `until`, with all results in `folder`, as `fram run` does.
+
+        progress: called as ``progress(time, end)`` a few times a second; an exception in it ends the run with a
+        checkpoint and is raised.
+        """
+        from .runs import open_run
+        definition = ffi.new("fram_run_definition *")
+        lib.fram_run_default(definition)
+        name = ffi.new("char[]", bytes_of(folder))
+        definition.folder, definition.force, definition.stop = name, force, self._context._stop
+        definition.until = 0 if until is None else until
+        if progress is not None:
+            @ffi.callback("void(void *, const fram_progress *)", onerror=self._context._keep_exception)
+            def forward(_user, told):
+                progress(told.time, told.end)
+
+            definition.progress = forward
+        error = new_error()
+        self._context._check(lib.fram_run(self._pointer, definition, ffi.NULL, error), error)
+        return open_run(folder)

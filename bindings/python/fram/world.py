@@ -1,0 +1,408 @@
+"""Worlds: everything that moves, stepped, read, steered, kept and recorded."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from ._library import InputError, UsageError, bytes_of, ffi, lib, new_error, owned, text_of
+from .scenario import Scenario
+
+KINDS = {"floe": 0, "vessel": 1, "wall": 2, "other": 3}
+"""Kinds of bodies by name."""
+
+
+class Channel(NamedTuple):
+    """A channel or an input: its number, name, unit and a few words."""
+
+    index: int
+    name: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """Bodies as arrays, a row each: SI units, global frame, orientation as quaternion w, x, y, z."""
+
+    slot: np.ndarray
+    generation: np.ndarray
+    kind: np.ndarray
+    number: np.ndarray
+    parent: np.ndarray
+    mass: np.ndarray
+    thickness: np.ndarray
+    position: np.ndarray
+    orientation: np.ndarray
+    velocity: np.ndarray
+    angular_velocity: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.mass)
+
+
+@dataclass(frozen=True)
+class View:
+    """The world's own arrays, by slot, without a copy: read them before the next step, which makes them invalid.
+
+    Rows where `lives` is 0 have no meaning.
+    """
+
+    lives: np.ndarray
+    generation: np.ndarray
+    mass: np.ndarray
+    position: np.ndarray
+    orientation: np.ndarray
+    velocity: np.ndarray
+    angular_velocity: np.ndarray
+
+
+@dataclass(frozen=True)
+class Outlines:
+    """Plan outlines: those of row i are ``points[offsets[i]:offsets[i + 1]]`` [m]."""
+
+    offsets: np.ndarray
+    points: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, row: int) -> np.ndarray:
+        if not -len(self) <= row < len(self):
+            raise IndexError(row)
+        row %= len(self)
+        return self.points[self.offsets[row]:self.offsets[row + 1]]
+
+    def __iter__(self) -> Iterator[np.ndarray]:
+        return (self[row] for row in range(len(self)))
+
+
+def _dtype(name: str) -> np.dtype:
+    """numpy's form of a C struct of numbers, from cffi's description of it."""
+    kinds = {"int": "i4", "int32_t": "i4", "uint32_t": "u4", "double": "f8"}
+
+    def of(ctype):
+        if ctype.kind == "array":
+            return of(ctype.item), (ctype.length,)
+        if ctype.kind == "enum":
+            return "i4"
+        if ctype.kind == "struct":
+            fields = dict(ctype.fields)
+            return np.dtype({"names": list(fields), "formats": [of(f.type) for f in fields.values()],
+                             "offsets": [f.offset for f in fields.values()], "itemsize": ffi.sizeof(ctype)})
+        return kinds[ctype.cname]
+
+    return of(ffi.typeof(name))
+
+
+_BODY_POINTERS = dict(ffi.typeof("fram_body_arrays").fields)
+_CONTACT, _FRACTURE = _dtype("fram_contact"), _dtype("fram_fracture")
+
+
+def _selection(kind: Union[str, Sequence[str], None]) -> int:
+    kinds = [] if kind is None else [kind] if isinstance(kind, str) else list(kind)
+    bits = 0
+    for word in kinds:
+        if word not in KINDS:
+            raise UsageError("usage", f"expected one of {', '.join(KINDS)}, found {word!r}", key="kind")
+        bits |= 1 << KINDS[word]
+    return bits
+
+
+def _frozen(pointer, count: int, dtype: str, columns: int = 1) -> np.ndarray:
+    array = np.frombuffer(ffi.buffer(pointer, count * columns * np.dtype(dtype).itemsize), dtype) if count else \
+        np.empty(0, dtype)
+    array = array.reshape(-1, columns) if columns > 1 else array
+    array.flags.writeable = False
+    return array
+
+
+class Snapshot:
+    """A state that was kept.  As a context manager it goes back to the state when the block ends."""
+
+    def __init__(self, world: "World"):
+        self._world, self._state = world, world.to_bytes()
+
+    def restore(self) -> None:
+        """Go back to the state; it may be done any number of times."""
+        self._world.from_bytes(self._state)
+
+    def __enter__(self) -> "Snapshot":
+        return self
+
+    def __exit__(self, *_exception) -> None:
+        self.restore()
+
+
+class Recording:
+    """A world that is being recorded; as a context manager the recording ends with the block."""
+
+    def __init__(self, world: "World", folder: str):
+        self._world, self.folder = world, folder
+
+    def checkpoint(self) -> None:
+        """A checkpoint of now, from which `fram resume` can go on."""
+        self._world._call(lib.fram_world_checkpoint)
+
+    def end(self) -> "Run":
+        """The last checkpoint, pictures and results; the finished run."""
+        from .runs import open_run
+        self._world._call(lib.fram_world_record_end, ffi.NULL)
+        return open_run(self.folder)
+
+    def __enter__(self) -> "Recording":
+        return self
+
+    def __exit__(self, kind, *_exception) -> None:
+        if self._world.recorded:
+            self.end()
+
+
+class World:
+    """A world.  ``world["ice_force_x"]`` reads a channel or an input, ``world["wind_x"] = 10`` tells an input."""
+
+    def __init__(self, pointer, scenario: Scenario):
+        self.scenario = scenario
+        self._pointer = owned(pointer, lib.fram_world_destroy, scenario._pointer)
+        self._channels = self._list(lib.fram_world_channels, lib.fram_world_channel)
+        self._inputs = self._list(lib.fram_world_inputs, lib.fram_world_input)
+
+    def _list(self, count, get) -> dict[str, Channel]:
+        found = {}
+        for index in range(count(self._pointer)):
+            channel = ffi.new("fram_channel *", {"size": ffi.sizeof("fram_channel")})
+            self._call(get, index, channel)
+            name = text_of(channel.name)
+            found[name] = Channel(index, name, text_of(channel.unit), text_of(channel.meaning))
+        return found
+
+    def _living(self):
+        if self._pointer is None:
+            raise UsageError("usage", "the world was closed", key="world")
+        return self._pointer
+
+    def _call(self, function, *arguments) -> None:
+        error = new_error()
+        self.scenario._context._check(function(self._living(), *arguments, error), error)
+
+    def close(self) -> None:
+        """Free the world now rather than when Python finds that nobody has it; a recording ends."""
+        if self._pointer is not None:
+            ffi.release(self._pointer)
+            self._pointer = None
+
+    def __enter__(self) -> "World":
+        return self
+
+    def __exit__(self, *_exception) -> None:
+        self.close()
+
+    # ---- stepping ----
+
+    def step(self, n: int = 1, callback: Optional[Callable[["World"], object]] = None) -> float:
+        """`n` time steps; after each, `callback(world)` if there is one; one that returns False ends them early.
+
+        Returns the simulated time [s].  SimulationError when the state went wrong; load a good state to go on.
+        """
+        if n < 0:
+            raise UsageError("usage", f"expected 0 steps or more, found {n}", key="n")
+        pointer, error, check = self._living(), new_error(), self.scenario._context._check
+        for _ in range(n):
+            check(lib.fram_world_step(pointer, error), error)
+            if callback is not None and callback(self) is False:
+                break
+        return self.time
+
+    def run_until(self, time: float, callback: Optional[Callable[["World"], object]] = None) -> float:
+        """Steps until the simulated time is not before `time` [s]."""
+        if not time < float("inf"):
+            raise UsageError("usage", f"expected a finite time, found {time}", key="time")
+        while self.time < time - 1e-9 * self.scenario.time_step:
+            before = self.steps
+            self.step(1)
+            if callback is not None and callback(self) is False or self.steps == before:
+                break
+        return self.time
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return lib.fram_world_time(self._living())
+
+    @property
+    def steps(self) -> int:
+        """Steps done."""
+        return lib.fram_world_steps(self._living())
+
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits of the whole state, as `fram run` and run.json tell them."""
+        return f"{lib.fram_world_hash(self._living()):016x}"
+
+    # ---- channels and inputs ----
+
+    @property
+    def channels(self) -> Mapping[str, Channel]:
+        """Every column of series.csv, by name."""
+        return self._channels
+
+    @property
+    def inputs(self) -> Mapping[str, Channel]:
+        """What the world can be told, by name."""
+        return self._inputs
+
+    def __getitem__(self, name: str) -> float:
+        if name in self._channels:
+            return lib.fram_world_value(self._living(), self._channels[name].index)
+        if name in self._inputs:
+            return lib.fram_world_input_value(self._living(), self._inputs[name].index)
+        raise KeyError(f"{name}: the world has no such channel or input")
+
+    def __setitem__(self, name: str, value: float) -> None:
+        if name not in self._inputs:
+            raise KeyError(f"{name}: the world has no such input")
+        self._call(lib.fram_world_set_input, self._inputs[name].index, float(value))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._channels or name in self._inputs
+
+    def values(self) -> np.ndarray:
+        """All channels in their order."""
+        out = np.empty(len(self._channels))
+        lib.fram_world_values(self._living(), ffi.cast("double *", out.ctypes.data), len(out))
+        return out
+
+    def set_path(self, times: Sequence[float], places: Sequence[Sequence[float]], vessel: int = 0) -> None:
+        """A path from where the vessel is now: places (x, y, heading [m, m, rad]) of the ship's origin at times [s].
+
+        A towed or driven vessel moves along it, the set point of a free one jumps to each place at its time; without
+        places there is no path any more.
+        """
+        t = np.ascontiguousarray(times, float).reshape(-1)
+        p = np.ascontiguousarray(places, float).reshape(-1, 3) if len(t) else np.empty((0, 3))
+        if len(p) != len(t):
+            raise InputError("input", f"expected as many places as times, found {len(p)} and {len(t)}", key="places")
+        self._call(lib.fram_world_set_path, vessel, ffi.cast("double *", t.ctypes.data),
+                   ffi.cast("double *", p.ctypes.data), len(t))
+
+    def apply_wrench(self, body: tuple[int, int], force: Sequence[float], moment: Sequence[float] = (0, 0, 0)) -> None:
+        """An extra force [N] and moment [N m] about the centre of mass, global frame, in the next step only.
+
+        body: (slot, generation), as `bodies` and `vessel` tell them; calls add up.
+        """
+        f, m = (ffi.new("double[3]", [float(x) for x in v]) for v in (force, moment))
+        self._call(lib.fram_body_apply_wrench, {"slot": int(body[0]), "generation": int(body[1])}, f, m)
+
+    # ---- arrays ----
+
+    @property
+    def vessel(self) -> Optional[tuple[int, int]]:
+        """(slot, generation) of the first vessel, or None."""
+        identity = ffi.new("fram_body_id *")
+        return (identity.slot, identity.generation) if lib.fram_world_vessel(self._living(), identity) else None
+
+    def bodies(self, kind: Union[str, Sequence[str], None] = None) -> Bodies:
+        """Copies of what bodies are and how they move; kind: "floe", "vessel", "wall", "other", several, or all."""
+        pointer, selection = self._living(), _selection(kind)
+        count = lib.fram_world_bodies(pointer, selection, ffi.NULL)
+        columns = {"id": (np.int64, 1), "kind": (np.int32, 1), "number": (np.int32, 1), "parent": (np.int32, 1),
+                   "mass": (float, 1), "thickness": (float, 1), "position": (float, 3), "orientation": (float, 4),
+                   "velocity": (float, 3), "angular_velocity": (float, 3)}
+        arrays = {name: np.empty((count, width) if width > 1 else count, dtype)
+                  for name, (dtype, width) in columns.items()}
+        c = ffi.new("fram_body_arrays *", {"size": ffi.sizeof("fram_body_arrays"), "room": count})
+        for name, array in arrays.items():
+            setattr(c, name, ffi.cast(_BODY_POINTERS[name].type, array.ctypes.data))
+        lib.fram_world_bodies(pointer, selection, c)
+        both = arrays.pop("id").view(np.int32).reshape(-1, 2)
+        return Bodies(slot=both[:, 0], generation=both[:, 1].view(np.uint32), **arrays)
+
+    def outlines(self, kind: Union[str, Sequence[str], None] = "floe") -> Outlines:
+        """Plan outlines of floes and walls now, global [m], in the order of `bodies(kind)`."""
+        pointer, selection = self._living(), _selection(kind)
+        bodies = ffi.new("int *")
+        count = lib.fram_world_outlines(pointer, selection, ffi.NULL, 0, ffi.NULL, 0, bodies)
+        offsets, points = np.empty(bodies[0] + 1, np.int32), np.empty((count, 2))
+        lib.fram_world_outlines(pointer, selection, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
+                                ffi.cast("double *", points.ctypes.data), count, ffi.NULL)
+        return Outlines(offsets, points)
+
+    def view(self) -> View:
+        """Poses and velocities of all slots without a copy."""
+        v = ffi.new("fram_body_view *", {"size": ffi.sizeof("fram_body_view")})
+        self._call(lib.fram_world_view, v)
+        return View(lives=_frozen(v.lives, v.slots, "u1"), generation=_frozen(v.generation, v.slots, "u4"),
+                    mass=_frozen(v.mass, v.slots, "f8"), position=_frozen(v.position, v.slots, "f8", 3),
+                    orientation=_frozen(v.orientation, v.slots, "f8", 4),
+                    velocity=_frozen(v.velocity, v.slots, "f8", 3),
+                    angular_velocity=_frozen(v.angular_velocity, v.slots, "f8", 3))
+
+    def _records(self, function, dtype: np.dtype, ctype: str) -> np.ndarray:
+        count = function(self._living(), ffi.NULL, 0)
+        out = np.zeros(count, dtype)
+        function(self._living(), ffi.cast(ctype, out.ctypes.data), count)
+        return out
+
+    def contacts(self) -> np.ndarray:
+        """Points where bodies touched in the last step: a structured array of fram_contact (fram/live.h)."""
+        return self._records(lib.fram_world_contacts, _CONTACT, "fram_contact *")
+
+    def fractures(self) -> np.ndarray:
+        """Floes that broke in the last step: a structured array of fram_fracture (fram/live.h)."""
+        return self._records(lib.fram_world_fractures, _FRACTURE, "fram_fracture *")
+
+    # ---- states ----
+
+    def copy(self) -> "World":
+        """A second world in the same state, steered and recorded apart."""
+        error, out = new_error(), ffi.new("fram_world **")
+        self.scenario._context._check(lib.fram_world_copy(self._living(), out, error), error)
+        return World(out[0], self.scenario)
+
+    def to_bytes(self) -> bytes:
+        """The whole state."""
+        data, size = ffi.new("void **"), ffi.new("size_t *")
+        self._call(lib.fram_world_save_memory, data, size)
+        try:
+            return bytes(ffi.buffer(data[0], size[0]))
+        finally:
+            lib.fram_data_free(self.scenario._context._pointer, data[0])
+
+    def from_bytes(self, state: bytes) -> None:
+        """Take over a state of the same scenario; InputError, and nothing changes, for any other."""
+        self._call(lib.fram_world_load_memory, ffi.from_buffer(state), len(state))
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """The whole state into a file."""
+        self._call(lib.fram_world_save, bytes_of(path))
+
+    def load(self, path: Union[str, os.PathLike]) -> None:
+        """Take over a state of the same scenario from a file."""
+        self._call(lib.fram_world_load, bytes_of(path))
+
+    def snapshot(self) -> Snapshot:
+        """Keep the state: ``with world.snapshot(): ...`` tries something and goes back."""
+        return Snapshot(self)
+
+    # ---- recording ----
+
+    @property
+    def recorded(self) -> bool:
+        """Whether the world is being recorded."""
+        return bool(lib.fram_world_is_recorded(self._living()))
+
+    def record(self, folder: Union[str, os.PathLike], force: bool = False, with_paths: bool = False) -> Recording:
+        """Record each step from now on in a run folder, as `fram run` does."""
+        definition = ffi.new("fram_record_definition *")
+        lib.fram_record_default(definition)
+        name = ffi.new("char[]", bytes_of(folder))
+        definition.folder, definition.force, definition.with_paths = name, force, with_paths
+        self._call(lib.fram_world_record, definition)
+        return Recording(self, os.fsdecode(bytes_of(folder)))
+
+    def __repr__(self) -> str:
+        return "<fram.World closed>" if self._pointer is None else \
+            f"<fram.World at t = {self.time:g} s, {int(self['floes'])} floes>"

@@ -1,0 +1,435 @@
+#!/usr/bin/env python3
+"""The Python package: every method, its errors, and that a world has the hash of the command's run."""
+
+import gc
+import inspect
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import package  # first: it finds the package `fram`
+import numpy as np
+
+import fram
+
+FRAM = os.environ["FRAM"]
+TOWED = """
+run: {duration: 2, time_step: 0.02}
+vessel:
+  mode: towed
+  x: -26
+  speed: 3
+  ramp: 0.1
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+ice:
+  source: floes
+  thickness: 0.5
+  breakable: true
+  floes:
+    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}
+    - {length: 40, width: 20, x: 20.5, y: -11}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}
+output: {frame_interval: 0.1}
+"""
+FREE = """
+run: {duration: 2, time_step: 0.05}
+vessel:
+  mode: free
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+  mooring: {depth: 60, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5, release_time: 0.5}]}
+  thrusters: [{x: 18}, {x: -18, kind: main, rudder_deg: 25}]
+  positioning: {active: true}
+ice: {concentration: 0.5, mean_floe_area: 64, thickness: 0.3}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
+"""
+
+
+def towed(**more):
+    return fram.Scenario.from_text(TOWED, **more)
+
+
+class Package(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def command(self, text, *words):
+        """A run of the command; its answer."""
+        scene = self.folder / "scene.yaml"
+        scene.write_text(text)
+        told = subprocess.run([FRAM, "run", scene, "-o", self.folder / "run", "--json", "-q", *words], check=True,
+                              capture_output=True, text=True)
+        return json.loads(told.stdout)
+
+    def test_a_stepped_world_has_the_hash_of_the_command(self):
+        for text in (TOWED, FREE):
+            answer = self.command(text, "--force")
+            world = fram.Scenario.load(self.folder / "scene.yaml").world()
+            world.run_until(world.scenario.duration)
+            self.assertEqual(world.hash, answer["state_hash"])
+            self.assertEqual(world.steps, answer["steps"])
+            self.assertEqual(world.hash, fram.open(self.folder / "run").hash)
+            last = fram.open(self.folder / "run").columns()
+            for name in world.channels:
+                if name != "step_wall_time":
+                    self.assertAlmostEqual(world[name], last[name][-1], delta=1e-9 * (1 + abs(world[name])))
+
+    def test_scenarios(self):
+        path = self.folder / "scene.yaml"
+        path.write_text(TOWED)
+        one = fram.Scenario.load(path, {"run.seed": 7, "vessel.speed": 2.5})
+        two = fram.Scenario.load(str(path), ["run.seed=7", "vessel.speed=2.5"])
+        self.assertEqual(one.hash, two.hash)
+        self.assertNotEqual(one.hash, towed().hash)
+        self.assertEqual(towed(overrides={"run.seed": 7}).replaced({"vessel.speed": 2.5}).hash, one.hash)
+        self.assertIn("seed: 7", one.text)
+        self.assertTrue(one.notes)
+        self.assertEqual((one.duration, one.time_step, one.files), (2, 0.02, {}))
+        one.check()
+        (self.folder / "floes.txt").write_text("0 0\n8 0\n8 8\n0 8\n")
+        text = "vessel: {present: false}\nice: {source: file, file: floes.txt}\n" \
+               "domain: {x_min: -20, x_max: 20, y_min: -20, y_max: 20, boundary: open}\n"
+        found = fram.Scenario.from_text(text, self.folder)
+        self.assertEqual(found.files, {"ice.file": str(self.folder / "floes.txt")})
+        self.assertIsNone(found.world().vessel)
+        with self.assertRaises(fram.InputError) as told:
+            fram.Scenario.from_text(text)
+        self.assertEqual((told.exception.key, told.exception.line), ("ice.file", 2))
+        with self.assertRaises(fram.InputError) as told:
+            fram.Scenario.load(path, {"run.time_step": -1})
+        self.assertEqual((told.exception.key, told.exception.status), ("run.time_step", "input"))
+        with self.assertRaises(ValueError) as told:
+            fram.Scenario.from_text("run:\n  durration: 3\n")
+        self.assertEqual(told.exception.line, 2)
+        self.assertIn("durration", str(told.exception))
+        with self.assertRaises(fram.InputError):
+            fram.Scenario.load(self.folder / "absent.yaml")
+        with self.assertRaises(fram.UsageError):
+            fram.Scenario.from_text("run\0")
+
+    def test_stepping_reading_and_telling(self):
+        world = towed().world()
+        times = []
+        self.assertAlmostEqual(world.step(3, lambda w: times.append(w.time)), 0.06)
+        np.testing.assert_allclose(times, [0.02, 0.04, 0.06])
+        self.assertAlmostEqual(world.step(9, lambda w: False), 0.08)
+        self.assertAlmostEqual(world.run_until(0.2, lambda w: w.time < 0.15), 0.16)
+        self.assertEqual(world.step(0), world.time)
+        for bad in (lambda: world.step(-1), lambda: world.run_until(float("nan"))):
+            with self.assertRaises(fram.UsageError):
+                bad()
+        values = world.values()
+        for name, channel in world.channels.items():
+            self.assertEqual(values[channel.index], world[name])
+        self.assertEqual(world.channels["ice_force_x"].unit, "N")
+        self.assertIn("ice", world.channels["ice_force_x"].meaning)
+        world["tow_velocity_x"] = 1
+        self.assertEqual(world["tow_velocity_x"], 1)
+        self.assertIn("tow_velocity_x", world)
+        self.assertEqual(world.inputs["tow_velocity_x"].unit, "m/s")
+        self.assertNotIn("set_point_x", world)
+        with self.assertRaises(KeyError):
+            world["no_such"]
+        with self.assertRaises(KeyError):
+            world["ice_force_x"] = 1
+        with self.assertRaises(fram.InputError) as told:
+            world["wind_x"] = float("nan")
+        self.assertEqual(told.exception.key, "wind_x")
+        world.set_path([world.time + 0.2], [(-25.0, 0.1, 0.0)])
+        world.step(10)
+        self.assertAlmostEqual(world["position_y"], 0.1, delta=0.02)
+        world.set_path([], [])
+        with self.assertRaises(fram.InputError):
+            world.set_path([9, 10], [(0, 0, 0)])
+        with self.assertRaises(fram.UsageError):
+            world.set_path([9], [(0, 0, 0)], vessel=4)
+        self.assertIn("floes", repr(world))
+
+    def test_arrays(self):
+        world = towed().world()
+        broken = 0
+        for _ in range(100):
+            world.step()
+            broken += len(world.fractures())
+        self.assertGreater(broken, 0)
+        bodies, floes, view = world.bodies(), world.bodies("floe"), world.view()
+        self.assertEqual(len(floes), world["floes"])
+        self.assertEqual(len(bodies), world["bodies"])
+        self.assertEqual(len(world.bodies(["floe", "vessel"])), len(floes) + 1)
+        np.testing.assert_array_equal(view.position[bodies.slot], bodies.position)
+        np.testing.assert_array_equal(view.orientation[bodies.slot], bodies.orientation)
+        np.testing.assert_array_equal(view.generation[bodies.slot], bodies.generation)
+        self.assertTrue(view.lives[bodies.slot].all())
+        self.assertEqual(len(set(floes.number)), len(floes))
+        with self.assertRaises(ValueError):
+            view.position[0, 0] = 1
+        world = towed().world()  # where no floe is tilted
+        floes, outlines = world.bodies("floe"), world.outlines("floe")
+        self.assertEqual(len(outlines), len(floes))
+        for outline, mass, thickness in zip(outlines, floes.mass, floes.thickness):
+            x, y = outline.T
+            area = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+            self.assertAlmostEqual(mass / (area * thickness), 920, delta=40)
+        self.assertEqual(outlines[-1].shape[1], 2)
+        with self.assertRaises(IndexError):
+            outlines[len(outlines)]
+        world.step(100)
+        contacts = world.contacts()
+        slot = world.vessel[0]
+        sign = np.where(contacts["a"]["slot"] == slot, 1.0, np.where(contacts["b"]["slot"] == slot, -1.0, 0.0))
+        load = (sign[:, None] * contacts["impulse"]).sum(axis=0) / world.scenario.time_step
+        np.testing.assert_allclose(load, [world[f"ice_force_{axis}"] for axis in "xyz"], rtol=1e-9, atol=1e-3)
+        with self.assertRaises(fram.UsageError):
+            world.bodies("ship")
+
+    def test_forces_act_on_bodies(self):
+        world = towed().world()
+        floes = world.bodies("floe")
+        free = int(np.argmax(floes.position[:, 1] < 0))
+        body = (floes.slot[free], floes.generation[free])
+        other = world.copy()
+        world.apply_wrench(body, (1e6, 0, 0), (0, 0, 1e5))
+        world.apply_wrench(body, (1e6, 0, 0))
+        world.step()
+        other.step()
+        gain = world.view().velocity[body[0], 0] - other.view().velocity[body[0], 0]
+        self.assertAlmostEqual(gain / (2e6 * 0.02 / floes.mass[free]), 1, delta=0.1)
+        with self.assertRaises(fram.UsageError):
+            world.apply_wrench((body[0], 99), (1, 0, 0))
+
+    def test_states(self):
+        world = fram.Scenario.from_text(FREE).world()
+        world.step(5)
+        before = world.hash
+        with world.snapshot() as kept:
+            world["positioning"] = 0
+            world["thruster_1_order"] = 1e4
+            world.step(5)
+            after = world.hash
+            kept.restore()
+            self.assertEqual(world.hash, before)
+        self.assertEqual(world.hash, before)
+        other = world.copy()
+        for one in (world, other):
+            one["positioning"] = 0
+            one["thruster_1_order"] = 1e4
+            one.step(5)
+            self.assertEqual(one.hash, after)
+        world.save(self.folder / "state.fram")
+        other = world.scenario.world()
+        other.load(self.folder / "state.fram")
+        self.assertEqual(other.hash, world.hash)
+        self.assertEqual(other.to_bytes(), world.to_bytes())
+        with self.assertRaises(fram.InputError):
+            towed().world().from_bytes(world.to_bytes())
+        with self.assertRaises(fram.InputError):
+            world.load(self.folder / "absent")
+        with self.assertRaises(fram.FramError):
+            world.save(self.folder / "no/such/folder/state")
+        self.assertEqual(other.hash, world.hash)
+
+    def test_recording_and_runs(self):
+        world = towed().world()
+        with world.record(self.folder / "live") as recording:
+            self.assertTrue(world.recorded)
+            world.step(50)
+            recording.checkpoint()
+            world.step(50)
+            with self.assertRaises(fram.UsageError):
+                world.record(self.folder / "other")
+        self.assertFalse(world.recorded)
+        self.command(TOWED)
+        run, mine = fram.open(self.folder / "run"), fram.open(self.folder / "live")
+        self.assertEqual(run.hash, mine.hash)
+        for name in ("record.fram", "fractures.csv"):
+            self.assertEqual((run.folder / name).read_bytes(), (mine.folder / name).read_bytes())
+        self.assertEqual(mine.info["status"], "finished")
+        self.assertIn("duration", mine.scenario_text)
+        self.assertEqual(mine.units["ice_force_x"], "N")
+        self.assertEqual(len(mine.columns()["time"]), 100)
+        self.assertEqual(len(mine.series), 100 if hasattr(mine.series, "iloc") else len(mine.series))
+        self.assertGreater(len(mine.fractures["time"]), 0)
+        floes = mine.floes(1.0)
+        self.assertGreaterEqual(len(floes), 3)
+        self.assertEqual(floes[0].outline.shape[1], 2)
+        with self.assertRaises(fram.InputError):
+            mine.floes(99)
+        self.assertTrue(os.path.exists(mine.report()))
+        self.assertIn("finished", repr(mine))
+        self.assertIn("state_hash", mine._repr_html_())
+        self.assertEqual(mine.events, [])
+        with self.assertRaises(fram.InputError):
+            fram.open(self.folder)
+        later = world.record(self.folder / "later")
+        world.step()
+        self.assertEqual(later.end().info["steps"], 101)
+        told = []
+        again = towed().run(self.folder / "third", progress=lambda time, end: told.append((time, end)))
+        self.assertEqual(again.hash, run.hash)
+        self.assertEqual(told[-1][1], 2)
+        half = towed().run(self.folder / "third", force=True, until=0.5)
+        self.assertEqual(half.info["status"], "stopped")
+        station = fram.Scenario.from_text(FREE).run(self.folder / "station")
+        self.assertIsNotNone(station.station)
+        self.assertEqual(len(station.events), 4)
+        (self.folder / "bad").mkdir()
+        (self.folder / "bad/run.json").write_text("{}")
+        (self.folder / "bad/series.csv").write_text("time[s],x[m]\n1,2\nthree,4\n5,6\n7,")
+        with self.assertRaises(fram.InputError) as error:
+            fram.open(self.folder / "bad").columns()
+        self.assertEqual(error.exception.line, 3)
+        with self.assertRaises(fram.FileError):
+            fram.open(self.folder / "bad").columns("fractures")
+
+    def test_optional_libraries(self):
+        run = towed().run(self.folder / "run")
+        try:
+            import xarray  # noqa: F401
+            data = run.to_xarray()
+            self.assertEqual(data["ice_force_x"].attrs["units"], "N")
+            self.assertEqual(data.sizes["time"], 100)
+        except ImportError:
+            print("without xarray")
+        try:
+            import matplotlib  # noqa: F401
+            self.assertEqual(len(run.plot(["ice_force_x", "ice_force_y"]).get_lines()), 2)
+            self.assertEqual(len(run.plot("yaw").get_lines()), 1)
+            with self.assertRaises(fram.InputError):
+                run.plot("no_such")
+            self.assertEqual(len(run.plot_field(0.5).collections), 1)
+            self.assertEqual(len(fram.plot_outlines(towed().world().outlines()).collections), 1)
+        except ImportError:
+            print("without matplotlib")
+
+    def test_callbacks_raise_through_the_library(self):
+        class Mine(Exception):
+            pass
+
+        def log(level, text):
+            heard.append((level, text))
+            if fail:
+                raise Mine(text)
+
+        heard, fail = [], False
+        context = fram.Context(threads=2, log=log)
+        scenario = towed(context=context)
+        scenario.run(self.folder / "run")
+        self.assertTrue(any(level == "info" for level, _ in heard))
+        fail = True
+        with self.assertRaises(Mine):
+            scenario.run(self.folder / "run", force=True)
+        fail = False
+        scenario.run(self.folder / "run", force=True)
+
+        def stop(time, end):
+            raise Mine
+
+        with self.assertRaises(Mine):
+            scenario.run(self.folder / "run", force=True, progress=stop)
+        world = scenario.world()
+        with self.assertRaises(Mine):
+            world.step(5, lambda w: stop(w.time, 0))
+        self.assertEqual(world.steps, 1)
+        for bad in ({"threads": 0}, {"isa": "sse9"}):
+            with self.assertRaises(fram.UsageError):
+                fram.Context(**bad)
+
+    def test_a_failed_world_is_not_stepped_on(self):
+        world = towed().world()
+        state = world.to_bytes()
+        floes = world.bodies("floe")
+        for slot, generation, y in zip(floes.slot, floes.generation, floes.position[:, 1]):
+            if y < 0:
+                world.apply_wrench((slot, generation), (1e30, 0, 0))
+        with self.assertRaises(ArithmeticError):
+            world.step()
+        with self.assertRaises(fram.UsageError):
+            world.step()
+        world.from_bytes(state)
+        world.step()
+
+    def test_nothing_outlives_what_it_needs(self):
+        for _ in range(20):
+            scenario = towed(context=fram.Context(log=lambda level, text: None))
+            world = scenario.world()
+            del scenario
+            world.step()
+            copy = world.copy()
+            del world
+            gc.collect()
+            copy.step()
+        with copy:
+            pass
+        with self.assertRaises(fram.UsageError):
+            copy.step()
+        self.assertIn("closed", repr(copy))
+
+    def test_environment(self):
+        environment = fram.StationKeeping(fram.Scenario.from_text(FREE), interval=0.2, horizon=1)
+        self.assertEqual(environment.action_space.shape, (len(environment.actions),))
+        first, info = environment.reset(seed=3)
+        self.assertTrue(environment.observation_space.contains(first))
+        environment.action_space.seed(1)
+        path = [environment.action_space.sample() for _ in range(5)]
+
+        def play():
+            rows = [environment.step(action) for action in path]
+            return [row[0] for row in rows], rows[-1]
+
+        one, last = play()
+        self.assertEqual(len(last), 5)
+        self.assertTrue(last[3] and not last[2])
+        again, told = environment.reset(seed=3)
+        np.testing.assert_array_equal(first, again)
+        self.assertEqual(info, told)
+        two, _ = play()
+        np.testing.assert_array_equal(one, two)
+        self.assertLessEqual(last[1], 0)
+        self.assertNotEqual(environment.reset(seed=4)[1]["hash"], told["hash"])
+        environment.render()
+        for bad in ([0.0], np.full(len(environment.actions), np.nan)):
+            with self.assertRaises(fram.InputError):
+                environment.step(bad)
+        environment.close()
+        with self.assertRaises(fram.UsageError):
+            environment.step(path[0])
+        strict = fram.StationKeeping(fram.Scenario.from_text(FREE), interval=0.2, offset_limit=0)
+        strict.reset()
+        self.assertTrue(strict.step(path[0])[2])
+        with self.assertRaises(fram.InputError):
+            fram.StationKeeping(towed())
+        with self.assertRaises(fram.InputError):
+            fram.StationKeeping(fram.Scenario.from_text(FREE), observations=["no_such"])
+        box = fram.Box([0, -1], [1, 1])
+        self.assertIn(box.sample(), box)
+        self.assertNotIn([2, 0], box)
+        self.assertIn("Box", repr(box))
+
+    def test_words(self):
+        self.assertRegex(fram.version(), r"^\d+\.\d+\.\d+$")
+        self.assertIsInstance(fram.features(), list)
+        self.assertEqual(fram.__version__, fram.version())
+
+    def test_every_public_name_has_a_docstring_and_is_tried_here(self):
+        here = pathlib.Path(__file__).read_text(encoding="utf-8")
+        for name in fram.__all__:
+            thing = getattr(fram, name)
+            self.assertTrue(inspect.getdoc(thing), name)
+            if not inspect.isclass(thing) or issubclass(thing, BaseException):
+                continue
+            for member, value in vars(thing).items():
+                a_member = inspect.isfunction(value) or isinstance(value, (property, classmethod))
+                if member.startswith("_") or not a_member:
+                    continue
+                self.assertTrue(inspect.getdoc(getattr(thing, member)) or inspect.getdoc(value), f"{name}.{member}")
+                self.assertTrue(re.search(rf"\.{re.escape(member)}\b", here), f"{name}.{member} is not tried")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""docs/python.md from the docstrings of the package; with --check says whether it is up to date.
+
+FRAM_LIBRARY names libfram where the package does not carry it."""
+
+import inspect
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "bindings/python"))
+PAGE = ROOT / "docs/python.md"
+MARK = "<!-- written by tools/python_reference.py from here on -->\n"
+
+
+def signature(thing):
+    try:
+        # Functions as defaults by their names, not where they lie in memory.
+        return re.sub(r"<function (\w+) at 0x[0-9a-f]+>", r"\1", str(inspect.signature(thing)).replace("'", ""))
+    except (TypeError, ValueError):
+        return ""
+
+
+def members(thing):
+    for name, value in vars(thing).items():
+        if name.startswith("_"):
+            continue
+        if isinstance(value, property):
+            yield f"**`{name}`**", inspect.getdoc(value)
+        elif isinstance(value, classmethod) or inspect.isfunction(value):
+            yield f"**`{name}{signature(getattr(thing, name))}`**", inspect.getdoc(value)
+
+
+def described(thing):
+    """A class, a function or an exception as Markdown."""
+    name = thing.__name__
+    lines = [f"### `fram.{name}`\n"]
+    if inspect.isclass(thing) and not issubclass(thing, BaseException):
+        lines = [f"### `fram.{name}{signature(thing)}`\n"]
+    elif inspect.isfunction(thing):
+        lines = [f"### `fram.{name}{signature(thing)}`\n"]
+    lines.append((inspect.getdoc(thing) or "") + "\n")
+    if inspect.isclass(thing):
+        lines += [f"- {head}: {' '.join((text or '').split())}\n" for head, text in members(thing)]
+    return "\n".join(lines[:2]) + "\n" + "".join(lines[2:])
+
+
+def main():
+    import fram
+    names = [name for name in fram.__all__ if name != "open"]
+    text = "\n".join(described(getattr(fram, name)) for name in sorted(names, key=str.lower))
+    page = PAGE.read_text().split(MARK)[0] + MARK + "\n" + text
+    if "--check" in sys.argv:
+        if PAGE.read_text() != page:
+            print("FAILED: docs/python.md is not what tools/python_reference.py writes; run it")
+            return 1
+        return 0
+    PAGE.write_text(page)
+    return 0
+
+
+sys.exit(main())
