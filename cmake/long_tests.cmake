@@ -15,6 +15,7 @@ set(fram_long_tests
     "ice/packing_ragged:   an impossible field is tried to the end before it is refused"
     "io/geojson:           files of ten million positions, one over the limit"
     "sim/build_stopped:    six builds, each interrupted after a second or two"
+    "sim/drift:            a sheet that drifts over its ship, comes back and is met again, at two time steps"
     "sim/feeding:          hours of drift: the field must not change by being fed"
     "sim/level_ice:        ships through level ice, far enough to see the channel and the loads"
     "sim/real_input:       a run through a field of another's making, 60 s (FRAM_TEST_LONG: the observed floes too)"

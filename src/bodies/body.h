@@ -12,7 +12,8 @@ typedef enum motion {
     MOTION_NONE = 0,   /* free slot */
     MOTION_STATIC,     /* infinite mass, never moves */
     MOTION_PRESCRIBED, /* infinite mass, velocity set from outside each step */
-    MOTION_DYNAMIC     /* moved by forces and contacts */
+    MOTION_DYNAMIC,    /* moved by forces and contacts */
+    MOTION_CARRIED     /* as prescribed, and one rigid body with all others that are carried: these never meet */
 } motion;
 
 /* Selects friction and contact treatment of a pair; see dynamics/contact.h. */

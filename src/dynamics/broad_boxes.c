@@ -98,6 +98,12 @@ static void forget_box(broad_table *boxes, int32_t slot)
     boxes->orientation[slot] = (quat){0, 0, 0, 0};
 }
 
+/* Two of a rigid whole, the ground or a sheet that is carried, never meet. */
+static uint8_t is_fixed(const body_table *bodies, int32_t i)
+{
+    return bodies->motion[i] == MOTION_STATIC || bodies->motion[i] == MOTION_CARRIED;
+}
+
 /* First pass: what became of each body's box. */
 static void look_at_body(const box_work *w, int32_t i, box_block *found)
 {
@@ -111,7 +117,7 @@ static void look_at_body(const box_work *w, int32_t i, box_block *found)
         }
         return;
     }
-    uint8_t fixed = w->bodies->motion[i] == MOTION_STATIC;
+    uint8_t fixed = is_fixed(w->bodies, i);
     if (boxes->generation[i] != w->bodies->generation[i] || boxes->fixed[i] != fixed) {
         *change = BOX_NEW;
         found->changed = true;
@@ -168,7 +174,7 @@ static void renew_body(const box_work *w, int32_t i, box_block *found)
     }
     if (*change == BOX_NEW) {
         boxes->generation[i] = w->bodies->generation[i];
-        boxes->fixed[i] = w->bodies->motion[i] == MOTION_STATIC;
+        boxes->fixed[i] = is_fixed(w->bodies, i);
         boxes->travel[i] = 0;
         boxes->position[i] = w->bodies->position[i];
         boxes->orientation[i] = w->bodies->orientation[i];

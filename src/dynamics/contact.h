@@ -79,7 +79,7 @@ TABLE_DECLARE(pair, PAIR_FIELDS)
 /* What the broad phase remembers of each body slot: the box it was last paired with. */
 #define BROAD_FIELDS(X)                                                                                          \
     X(generation, uint32_t, FIELD_U32, 1, "1", "of the body that was boxed; 0: none")                            \
-    X(fixed, uint8_t, FIELD_U8, 1, "1", "1: that body was static")                                               \
+    X(fixed, uint8_t, FIELD_U8, 1, "1", "1: that body was static or carried")                                    \
     X(lo, vec3, FIELD_F64, 3, "m", "lower corner of the fat box, global frame")                                  \
     X(hi, vec3, FIELD_F64, 3, "m", "upper corner of the fat box")                                                \
     X(travel, double, FIELD_F64, 1, "m", "bound on the way of every point of the body since it was boxed first") \

@@ -39,7 +39,7 @@ static void integrate_block(void *arg, int32_t block, int32_t thread)
     (void)thread;
     KERNEL_PICK(work->ctx, motion_advance)(bodies, work->dt, first, end);
     for (int32_t i = V8_LANES * first; i < V8_LANES * end && i < bodies->count; i++)
-        if (bodies->motion[i] == MOTION_PRESCRIBED)
+        if (bodies->motion[i] == MOTION_PRESCRIBED || bodies->motion[i] == MOTION_CARRIED)
             body_move(bodies, i, bodies->velocity[i], bodies->angular_velocity[i], work->dt);
 }
 

@@ -23,8 +23,8 @@ static const char *definition_fault(const floe_definition *d, double area)
         return "the density must be positive";
     if (!(fabs(d->elevation) < HUGE_VAL && fabs(d->yaw) < HUGE_VAL))
         return "elevation and yaw must be finite";
-    if (d->motion != MOTION_DYNAMIC && d->motion != MOTION_STATIC && d->motion != MOTION_PRESCRIBED)
-        return "the motion must be dynamic, static or prescribed";
+    if (d->motion < MOTION_STATIC || d->motion > MOTION_CARRIED)
+        return "the motion must be static, prescribed, dynamic or carried";
     return NULL;
 }
 

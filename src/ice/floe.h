@@ -25,7 +25,7 @@ typedef struct floe_definition {
     double thickness;
     ice_material material;
     bool breakable;
-    motion motion;    /* MOTION_DYNAMIC, or MOTION_STATIC for level ice */
+    motion motion;    /* MOTION_DYNAMIC, MOTION_STATIC or MOTION_CARRIED for level ice */
     double elevation; /* z of the centre of mass; floating: see floe_floating_elevation */
     double yaw;       /* orientation given to the body; the outline is turned into the body frame by it [rad] */
     int32_t parent;

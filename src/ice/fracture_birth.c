@@ -20,7 +20,7 @@ typedef struct birth {
     body_books before, after; /* of the parents and of the pieces */
 } birth;
 
-/* The tiles of a sheet break in the global plan: level, unturned, at rest. */
+/* The tiles of a sheet break in the global plan: level and unturned. */
 static parent parent_of(const fracture_job *j, int32_t floe)
 {
     const body_table *b = j->state->bodies;
@@ -31,6 +31,7 @@ static parent parent_of(const fracture_job *j, int32_t floe)
                                .material = f->material[floe],
                                .breakable = f->breakable[floe] != 0,
                                .parent = f->number[floe]},
+                .motion = b->motion[body],
                 .position = b->position[body],
                 .velocity = b->velocity[body],
                 .angular_velocity = b->angular_velocity[body],
@@ -219,6 +220,11 @@ static fram_status clean_pieces(const fracture_job *j, double budget, bool *soun
     return FRAM_OK;
 }
 
+motion fracture_motion(const fracture_job *j, int32_t floe)
+{
+    return (motion)j->state->bodies->motion[j->state->floes->body[floe]];
+}
+
 bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
                      int32_t wedge)
 {
@@ -236,6 +242,18 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
    rounding of areas far from the origin.  What was trimmed away before is booked as crushed elsewhere. */
 static const double SAME_AREA = 1e-8;
 #endif
+
+/* Ice that breaks off a sheet that is carried keeps the velocity that it had: lost is only what the lost ice took. */
+static void book_momentum(const birth *b)
+{
+    if (b->from.motion == MOTION_CARRIED) {
+        b->event->momentum_lost = vec3_scale(b->from.velocity, b->event->mass_lost - b->event->mass_gained);
+        b->event->angular_momentum_lost = vec3_cross(b->event->place, b->event->momentum_lost);
+        return;
+    }
+    b->event->momentum_lost = vec3_sub(b->before.momentum, b->after.momentum);
+    b->event->angular_momentum_lost = vec3_sub(b->before.angular_momentum, b->after.angular_momentum);
+}
 
 static fram_status make_pieces(birth *b)
 {
@@ -258,8 +276,7 @@ static fram_status make_pieces(birth *b)
     double line = b->from.definition.material.density * b->from.definition.thickness;
     b->event->mass_lost = line * b->event->area_lost;
     b->event->mass_gained = line * b->event->area_gained;
-    b->event->momentum_lost = vec3_sub(b->before.momentum, b->after.momentum);
-    b->event->angular_momentum_lost = vec3_sub(b->before.angular_momentum, b->after.angular_momentum);
+    book_momentum(b);
     return status;
 }
 

@@ -171,6 +171,9 @@ void fracture_drop_piece(fracture_scratch *s, int32_t i);
    order. */
 fram_status fracture_join_dust(const fracture_job *j);
 
+/* What is left of a floe moves as it did: held, carried or free. */
+motion fracture_motion(const fracture_job *j, int32_t floe);
+
 /* Outlines become the cut pieces: remnants with this motion and the wedges of a floe. */
 bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,
                      int32_t wedge);

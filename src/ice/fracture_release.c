@@ -106,6 +106,40 @@ static bool hangs_together(const fracture_job *j, bool *together)
     return true;
 }
 
+/* Marks the part of the sheet that `seed` belongs to, and its area [m2]. */
+static bool mark_part(const fracture_job *j, int32_t seed, uint8_t mark, double *area)
+{
+    fracture_scratch *s = j->scratch;
+    tile_range all = {0, j->settings->tiles.columns - 1, 0, j->settings->tiles.rows - 1};
+    array_clear(&s->sheet.touched);
+    s->sheet.mark.data[seed] = mark;
+    if (!array_push(j->ctx, &s->sheet.front, seed) || !flood(j, &all, mark, &s->sheet.touched))
+        return false;
+    *area = 0;
+    for (int32_t i = 0; i < s->sheet.touched.count; i++)
+        *area += j->state->floes->area[s->sheet.touched.data[i]];
+    return true;
+}
+
+/* A drifting sheet whose edges all lie within the window hangs on nothing: its largest part is the sheet, and what came
+   off that is loose. */
+static bool mark_largest(const fracture_job *j)
+{
+    fracture_scratch *s = j->scratch;
+    const floe_table *floes = j->state->floes;
+    int32_t largest = -1;
+    double most = 0, area;
+    for (int32_t row = 0; row < s->sheet.mark.count; row++) {
+        if (s->sheet.mark.data[row] != MARK_NONE || floes->body[row] < 0 || floes->tile[row] == 0)
+            continue;
+        if (!mark_part(j, row, MARK_LOOSE, &area))
+            return false;
+        largest = area > most ? row : largest;
+        most = fmax(most, area);
+    }
+    return start_marks(j) && (largest < 0 || mark_part(j, largest, MARK_HELD, &area));
+}
+
 /* Marks all that hangs on an anchored side. */
 static bool mark_held(const fracture_job *j)
 {
@@ -121,6 +155,8 @@ static bool mark_held(const fracture_job *j)
         if (!array_push(j->ctx, &s->sheet.front, row))
             return false;
     }
+    if (s->sheet.front.count == 0 && v.grid->drifts)
+        return mark_largest(j);
     return flood(j, &all, MARK_HELD, NULL);
 }
 

@@ -167,7 +167,7 @@ static fram_status cut_tile(const fracture_job *j, int32_t row, const vec2 *sten
     if (status != FRAM_OK)
         return status;
     if (!array_push(j->ctx, &s->sheet.touched, row) || !snap_rings(j, &s->sheet.remnants, tile - 1) ||
-        !fracture_gather(j->ctx, s, &s->sheet.remnants, MOTION_STATIC, tile, 0))
+        !fracture_gather(j->ctx, s, &s->sheet.remnants, fracture_motion(j, row), tile, 0))
         return error_memory(j->error);
     bool convex = polygon_is_convex(ring);
     for (int i = 0; i < count; i++) {

@@ -1,6 +1,6 @@
-/* Crushed ice goes (crush_trims; docs/decisions/0041): a static floe keeps no ice where a hull has been, so that a hull
-   that comes again meets nothing before the old face, and so that cracks start at the face, not at an edge the hull has
-   long passed.
+/* Crushed ice goes (crush_trims; docs/decisions/0041): a floe that is held or carried keeps no ice where a hull has
+   been, so that a hull that comes again meets nothing before the old face, and so that cracks start at the face, not at
+   an edge the hull has long passed.
 
    While the hull presses on, only what it fills over the whole thickness is cut away, less a rim of the edge threshold:
    the hull's surface inside the floe, and so patch and load, stay what they were.  When it has drawn back from its
@@ -149,7 +149,7 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
     polygon_list_clear(&s->piece.outlines);
     array_clear(&s->piece.rows);
     if (!array_push(j->ctx, &s->sheet.touched, floe) ||
-        !fracture_gather(j->ctx, s, &s->trim.left, MOTION_STATIC, tile, 0))
+        !fracture_gather(j->ctx, s, &s->trim.left, fracture_motion(j, floe), tile, 0))
         return error_memory(j->error);
     fracture_event event = {0};
     bool broke;
@@ -189,19 +189,21 @@ static fram_status trim_floe(const fracture_job *j, const trim_pair *p, bool *tr
     return status == FRAM_OK ? commit(j, p->floe, trimmed) : status;
 }
 
-/* Static ice under a hull, not broken in this step. */
+/* Held or carried ice under a hull, not broken in this step. */
 static bool may_trim(const fracture_job *j, const crushing_patch *p)
 {
     const fracture_state *s = j->state;
-    return s->bodies->motion[p->floe_body] == MOTION_STATIC && s->bodies->material[p->surface_body] == MATERIAL_HULL &&
+    motion kind = (motion)s->bodies->motion[p->floe_body];
+    return (kind == MOTION_STATIC || kind == MOTION_CARRIED) && s->bodies->material[p->surface_body] == MATERIAL_HULL &&
            s->shapes->shapes.kind[s->bodies->shape[p->surface_body]] == SHAPE_SOLID &&
            !j->scratch->broken.data[p->floe_body];
 }
 
-/* The way that the hull has gone since it last pressed on; each floe's first patch in a step counts. */
+/* The way that the hull has gone in the floe since it last pressed on; each floe's first patch in a step counts. */
 static trim_pair pair_of(const fracture_job *j, const crushing_patch *p, bool first)
 {
-    vec3 v = body_point_velocity(j->state->bodies, p->surface_body, p->centre);
+    vec3 v = vec3_sub(body_point_velocity(j->state->bodies, p->surface_body, p->centre),
+                      body_point_velocity(j->state->bodies, p->floe_body, p->centre));
     vec3 *retreat = &j->state->floes->retreat[p->floe];
     if (vec3_dot(v, p->normal) >= 0)
         *retreat = (vec3){0, 0, 0};

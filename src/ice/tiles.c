@@ -23,9 +23,27 @@ static double line_at(double lo, double hi, int32_t i, int32_t count)
     return i == count ? hi : lo + (hi - lo) * i / count;
 }
 
+static double drifting_line(double origin, double pitch, double moved, int64_t number)
+{
+    return origin + (double)number * pitch + moved;
+}
+
+static box2 drifting_box(const tile_grid *g, tile_range r)
+{
+    vec2 o = g->origin, p = g->pitch, m = g->moved;
+    return (box2){
+        {drifting_line(o.x, p.x, m.x, g->column + r.column_first), drifting_line(o.y, p.y, m.y, g->row + r.row_first)},
+        {drifting_line(o.x, p.x, m.x, g->column + r.column_last + 1),
+         drifting_line(o.y, p.y, m.y, g->row + r.row_last + 1)}};
+}
+
+box2 tile_grid_plan(const tile_grid *g) { return drifting_box(g, (tile_range){0, g->columns - 1, 0, g->rows - 1}); }
+
 box2 tile_cell(const tile_grid *g, int32_t cell)
 {
     int32_t i = cell % g->columns, k = cell / g->columns;
+    if (g->drifts)
+        return drifting_box(g, (tile_range){i, i, k, k});
     return (box2){
         {line_at(g->plan.lo.x, g->plan.hi.x, i, g->columns), line_at(g->plan.lo.y, g->plan.hi.y, k, g->rows)},
         {line_at(g->plan.lo.x, g->plan.hi.x, i + 1, g->columns), line_at(g->plan.lo.y, g->plan.hi.y, k + 1, g->rows)}};
@@ -80,35 +98,43 @@ static fram_status open_cell(context *ctx, overlay *plane, box2 cell, const poly
     return FRAM_OK;
 }
 
-fram_status tile_sheet(context *ctx, const tile_grid *g, overlay *plane, const polygon_list *openings, double smallest,
-                       polygon_list *outlines, int32_array *cells, fram_error *error)
+fram_status tile_cell_rings(context *ctx, const tile_grid *g, int32_t cell, overlay *plane,
+                            const polygon_list *openings, double smallest, polygon_list *outlines, int32_array *cells,
+                            fram_error *error)
 {
     polygon_list left = {0}, room = {0};
     vec2_array ring = {0};
-    fram_status status = FRAM_OK;
-    for (int32_t cell = 0; cell < g->columns * g->rows && status == FRAM_OK; cell++) {
-        status = work_continue(ctx, "making the tiles of the sheet", cell, g->columns * g->rows, error);
-        if (status == FRAM_OK)
-            status = open_cell(ctx, plane, tile_cell(g, cell), openings, &left, &room, error);
-        for (int32_t i = 0; i < polygon_list_count(&left) && status == FRAM_OK; i++) {
-            polygon p = polygon_list_get(&left, i);
-            if (!array_resize(ctx, &ring, p.count)) {
-                status = error_memory(error);
-                break;
-            }
-            for (int32_t k = 0; k < p.count; k++)
-                ring.data[k] = p.vertex[k];
-            tile_snap(g, cell, &ring);
-            p = (polygon){ring.data, ring.count};
-            if (p.count < 3 || !(polygon_area(p) >= smallest))
-                continue;
-            if (!polygon_list_push(ctx, outlines, p) || !array_push(ctx, cells, cell))
-                status = error_memory(error);
+    fram_status status = open_cell(ctx, plane, tile_cell(g, cell), openings, &left, &room, error);
+    for (int32_t i = 0; i < polygon_list_count(&left) && status == FRAM_OK; i++) {
+        polygon p = polygon_list_get(&left, i);
+        if (!array_resize(ctx, &ring, p.count)) {
+            status = error_memory(error);
+            break;
         }
+        for (int32_t k = 0; k < p.count; k++)
+            ring.data[k] = p.vertex[k];
+        tile_snap(g, cell, &ring);
+        p = (polygon){ring.data, ring.count};
+        if (p.count < 3 || !(polygon_area(p) >= smallest))
+            continue;
+        if (!polygon_list_push(ctx, outlines, p) || !array_push(ctx, cells, cell))
+            status = error_memory(error);
     }
     polygon_list_free(ctx, &left);
     polygon_list_free(ctx, &room);
     array_free(ctx, &ring);
+    return status;
+}
+
+fram_status tile_sheet(context *ctx, const tile_grid *g, overlay *plane, const polygon_list *openings, double smallest,
+                       polygon_list *outlines, int32_array *cells, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t cell = 0; cell < g->columns * g->rows && status == FRAM_OK; cell++) {
+        status = work_continue(ctx, "making the tiles of the sheet", cell, g->columns * g->rows, error);
+        if (status == FRAM_OK)
+            status = tile_cell_rings(ctx, g, cell, plane, openings, smallest, outlines, cells, error);
+    }
     return status;
 }
 

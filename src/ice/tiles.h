@@ -1,7 +1,8 @@
 /* Level ice (docs/decisions/0040): an intact sheet, held as static floes that are the tiles of a grid, so that an event
    touches only the tiles that its crack reaches.  Between two tiles of neighbouring cells runs a seam, which is neither
    boundary nor crack; what a tile has on its cell's sides and shares with no neighbour is boundary, as is the sheet's
-   outer edge.  Tiles stand level and unturned.  Knows floes; must not know loads. */
+   outer edge.  Tiles stand level and unturned, at rest or
+   carried along together.  Knows floes; must not know loads. */
 #ifndef ICE_TILES_H
 #define ICE_TILES_H
 
@@ -9,16 +10,24 @@
 
 typedef enum sheet_side { SHEET_X_MIN = 0, SHEET_X_MAX, SHEET_Y_MIN, SHEET_Y_MAX, SHEET_SIDES } sheet_side;
 
-/* The sheet's grid: given once, never changed. */
+/* The sheet's grid.  That of a sheet that is held is given once and never changed; that of one that drifts
+   (ice/drift.h) is a window on cells without end, which goes with the sheet. */
 typedef struct tile_grid {
     box2 plan;                  /* the sheet's rectangle, global [m] */
     int32_t columns, rows;      /* cells along x and y; 0: there is no sheet */
     bool anchored[SHEET_SIDES]; /* what no longer hangs on one of these sides drifts */
     double least_seam;          /* a shorter common edge holds nothing together [m] */
+    bool drifts;
+    vec2 origin;         /* drifts: where line 0 of the cells stood at the start, global [m] */
+    vec2 pitch;          /* drifts: size of a cell [m] */
+    vec2 moved;          /* drifts: way of the sheet since [m] */
+    int64_t column, row; /* drifts: number of the first column and row of the window */
 } tile_grid;
 
 /* A grid over a rectangle, its cells near `size` [m]. */
 tile_grid tile_grid_over(box2 plan, double size);
+/* The rectangle of a grid that drifts, from its lines. */
+box2 tile_grid_plan(const tile_grid *g);
 /* The cell of column i and row k is i + k columns. */
 box2 tile_cell(const tile_grid *g, int32_t cell);
 /* Columns and rows that a box reaches into, clamped to the grid; false when it lies outside. */
@@ -31,6 +40,11 @@ bool tile_range_of(const tile_grid *g, box2 box, tile_range *range);
    Pieces under `smallest` [m2] are left out. */
 fram_status tile_sheet(context *ctx, const tile_grid *g, overlay *plane, const polygon_list *openings, double smallest,
                        polygon_list *outlines, int32_array *cells, fram_error *error);
+
+/* The same for one cell. */
+fram_status tile_cell_rings(context *ctx, const tile_grid *g, int32_t cell, overlay *plane,
+                            const polygon_list *openings, double smallest, polygon_list *outlines, int32_array *cells,
+                            fram_error *error);
 
 /* Length that a ring has on the sides of its cell that have a neighbour beyond, or are held [m]. */
 double tile_side_length(const tile_grid *g, int32_t cell, polygon ring);

@@ -10,6 +10,7 @@
 #include "fluid/flow_apply.h"
 #include "fluid/response.h"
 #include "ice/crushing.h"
+#include "ice/drift.h"
 #include "ice/fracture.h"
 #include "model/scenario.h"
 #include "vessel/hull.h"
@@ -47,7 +48,8 @@ typedef struct model {
     pair_policies policies;
     crushing_settings crushing;
     fracture_settings fracture;
-    bool brash; /* what fracture loses goes to the brash account */
+    drift_definition sheet; /* of level ice that drifts; its grid at the start is that of fracture */
+    bool brash;             /* what fracture loses goes to the brash account */
     solver_settings solver;
     domain_boundary boundary;
     box2 domain;                /* [m] */

@@ -1,8 +1,10 @@
 /* What a scenario must satisfy: the range of every key, and that keys go together.  All rules between keys stand here.
  */
 #include "base/number_text.h"
+#include "ice/tiles.h"
 #include "model/scenario_check_vessels.h"
 #include "model/scenario_schema.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -91,12 +93,10 @@ static fram_status check_feeding(const scenario *s, fram_error *error)
 {
     const scenario_domain *d = &s->domain;
     if (d->boundary == DOMAIN_FEEDING) {
-        if (s->ice.source == ICE_NONE || s->ice.source == ICE_FLOES || s->ice.source == ICE_LEVEL)
+        if (s->ice.source == ICE_NONE || s->ice.source == ICE_FLOES)
             return fault(s, error, "ice.source",
                          "expected a field that can go on without end, since domain.boundary is feeding, found %s",
-                         s->ice.source == ICE_NONE    ? "none"
-                         : s->ice.source == ICE_FLOES ? "floes"
-                                                      : "level");
+                         s->ice.source == ICE_NONE ? "none" : "floes");
         return FRAM_OK;
     }
     if (d->drift_file[0])
@@ -189,9 +189,37 @@ static fram_status check_floes(const scenario *s, fram_error *error)
     return FRAM_OK;
 }
 
+/* What only a sheet that drifts has, and what it has not. */
+static fram_status check_sheet_drift(const scenario *s, fram_error *error)
+{
+    const scenario_level *l = &s->ice.level;
+    bool drifts = s->ice.source == ICE_LEVEL && s->domain.boundary == DOMAIN_FEEDING;
+    const char *key[SHEET_SIDES] = {"ice.level.anchored_x_min", "ice.level.anchored_x_max", "ice.level.anchored_y_min",
+                                    "ice.level.anchored_y_max"};
+    const bool held[SHEET_SIDES] = {l->anchored_x_min, l->anchored_x_max, l->anchored_y_min, l->anchored_y_max};
+    if (!drifts && !is_automatic(l->line_load))
+        return fault(s, error, "ice.level.line_load",
+                     "expected auto, since the sheet does not drift (ice.source level with domain.boundary feeding), "
+                     "found %g N/m",
+                     l->line_load);
+    if (is_automatic(l->line_load) && !is_automatic(l->mass))
+        return fault(s, error, "ice.level.mass",
+                     "expected auto, since without ice.level.line_load the sheet drifts whatever it meets, found %g kg",
+                     l->mass);
+    for (int i = 0; drifts && i < SHEET_SIDES; i++)
+        if (!held[i])
+            return fault(s, error, key[i],
+                         "expected true, since a sheet that drifts goes on beyond the domain; its own edges are "
+                         "ice.level.x_min and so on");
+    return FRAM_OK;
+}
+
 static fram_status check_level(const scenario *s, fram_error *error)
 {
     const scenario_level *l = &s->ice.level;
+    fram_status status = check_sheet_drift(s, error);
+    if (status != FRAM_OK)
+        return status;
     if (s->ice.source != ICE_LEVEL) {
         if (l->openings.count == 0)
             return FRAM_OK;
@@ -200,10 +228,21 @@ static fram_status check_level(const scenario *s, fram_error *error)
     }
     double x_min = automatic_or(l->x_min, s->domain.x_min), x_max = automatic_or(l->x_max, s->domain.x_max);
     double y_min = automatic_or(l->y_min, s->domain.y_min), y_max = automatic_or(l->y_max, s->domain.y_max);
+    if (s->domain.boundary == DOMAIN_FEEDING) {
+        /* An edge may lie outside the domain at the start, and a sheet may have no edge on one side. */
+        x_min = is_automatic(l->x_max) ? automatic_or(l->x_min, s->domain.x_min) : automatic_or(l->x_min, -HUGE_VAL);
+        x_max = automatic_or(l->x_max, HUGE_VAL);
+        y_min = is_automatic(l->y_max) ? automatic_or(l->y_min, s->domain.y_min) : automatic_or(l->y_min, -HUGE_VAL);
+        y_max = automatic_or(l->y_max, HUGE_VAL);
+    }
     if (!(x_min < x_max))
         return fault(s, error, "ice.level.x_max", "expected more than ice.level.x_min, %g, found %g", x_min, x_max);
     if (!(y_min < y_max))
         return fault(s, error, "ice.level.y_max", "expected more than ice.level.y_min, %g, found %g", y_min, y_max);
+    if (s->domain.boundary == DOMAIN_FEEDING) {
+        x_min = s->domain.x_min, x_max = s->domain.x_max;
+        y_min = s->domain.y_min, y_max = s->domain.y_max;
+    }
     double size = automatic_or(l->tile_size, x_max - x_min);
     if ((x_max - x_min) / size * ((y_max - y_min) / size) > MOST_TILES)
         return fault(s, error, "ice.level.tile_size",

@@ -126,8 +126,8 @@
 #define SCENARIO_ICE_KEYS(X)                                                                                          \
     X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level packed"), "",                            \
       "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed "   \
-      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides; packed: floes drawn from "    \
-      "ice.populations, then brought to places where none overlap")                                                   \
+      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides or drifting; packed: "         \
+      "floes drawn from ice.populations, then brought to places where none overlap")                                  \
     X(level, SECTION(level), "", "the sheet, for source level")                                                       \
     X(file, PATH(""), "",                                                                                             \
       "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "     \
@@ -233,18 +233,28 @@
     X(crushing_deviation, REAL(0, 0, 1e10), "Pa", "lognormal scatter from floe to floe")                   \
     X(breakable, BOOLEAN(true), "", "its floes may break, where ice.breakable is true")
 
-#define SCENARIO_LEVEL_KEYS(X)                                                                                \
-    X(x_min, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
-    X(x_max, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
-    X(y_min, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
-    X(y_max, AUTOMATIC(-1e7, 1e7), "m", "edge of the sheet; auto: that of the domain")                        \
-    X(anchored_x_min, BOOLEAN(true), "", "the sheet is held at this edge; what hangs on no held edge drifts") \
-    X(anchored_x_max, BOOLEAN(true), "", "the sheet is held at this edge")                                    \
-    X(anchored_y_min, BOOLEAN(true), "", "the sheet is held at this edge")                                    \
-    X(anchored_y_max, BOOLEAN(true), "", "the sheet is held at this edge")                                    \
-    X(tile_size, AUTOMATIC(1e-6, 1e7), "m",                                                                   \
-      "the sheet is held in square tiles of about this size, and an event touches only those it reaches; "    \
-      "auto: twice the characteristic length, four breaking radii")                                           \
+#define SCENARIO_LEVEL_KEYS(X)                                                                                   \
+    X(x_min, AUTOMATIC(-1e7, 1e7), "m",                                                                          \
+      "edge of the sheet; auto: that of the domain; feeding: where it is at the start, auto: none")              \
+    X(x_max, AUTOMATIC(-1e7, 1e7), "m",                                                                          \
+      "edge of the sheet; auto: that of the domain; feeding: where it is at the start, auto: none")              \
+    X(y_min, AUTOMATIC(-1e7, 1e7), "m",                                                                          \
+      "edge of the sheet; auto: that of the domain; feeding: where it is at the start, auto: none")              \
+    X(y_max, AUTOMATIC(-1e7, 1e7), "m",                                                                          \
+      "edge of the sheet; auto: that of the domain; feeding: where it is at the start, auto: none")              \
+    X(anchored_x_min, BOOLEAN(true), "", "the sheet is held at this edge; what hangs on no held edge drifts")    \
+    X(anchored_x_max, BOOLEAN(true), "", "the sheet is held at this edge")                                       \
+    X(anchored_y_min, BOOLEAN(true), "", "the sheet is held at this edge")                                       \
+    X(anchored_y_max, BOOLEAN(true), "", "the sheet is held at this edge")                                       \
+    X(tile_size, AUTOMATIC(1e-6, 1e7), "m",                                                                      \
+      "the sheet is held in square tiles of about this size, and an event touches only those it reaches; "       \
+      "auto: twice the characteristic length, four breaking radii")                                              \
+    X(line_load, AUTOMATIC(0, 1e12), "N/m",                                                                      \
+      "feeding: most that the ice far away drives the sheet with, per metre of the domain across; a sheet that " \
+      "meets more slows down by its mass; 0: a floe with nothing behind it; auto: it drifts whatever it meets")  \
+    X(mass, AUTOMATIC(1, 1e18), "kg",                                                                            \
+      "feeding, with a line_load: all that slows down together; auto: of the sheet between its edges where "     \
+      "all four are given, else of the ice in the domain")                                                       \
     X(openings, LIST(opening, 100), "", "open water in the sheet at the start: channels, leads, basins")
 
 #define SCENARIO_OPENING_KEYS(X)                           \
@@ -279,7 +289,8 @@
     X(y_min, REAL(-100, -1e7, 1e7), "m", "edge")                                                                    \
     X(y_max, REAL(100, -1e7, 1e7), "m", "edge")                                                                     \
     X(boundary, CHOICE(domain_boundary, DOMAIN_WALLS, "walls open feeding"), "",                                    \
-      "walls: a basin; open: ice that leaves is removed; feeding: an endless field drifts through")                 \
+      "walls: a basin; open: ice that leaves is removed; feeding: an endless field, or a sheet of level ice, "      \
+      "drifts through")                                                                                             \
     X(drift_speed, AUTOMATIC(0, 100), "m/s", "feeding: of the field; auto: that of the current at the surface")     \
     X(drift_direction_deg, REAL(0, -360, 360), "deg", "feeding: direction the field drifts to, with a drift_speed") \
     X(drift_file, PATH(""), "",                                                                                     \

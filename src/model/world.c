@@ -50,6 +50,9 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(pattern_vertex, pattern_vertices),
         STATE(input, inputs),
         STATE(hull_contact, hull_contacts),
+        STATE(drift, drift),
+        STATE(drift_cell, drift_cells),
+        STATE(drift_vertex, drift_vertices),
     };
     memcpy(out, list, sizeof list);
 }
@@ -138,15 +141,9 @@ void world_free(context *ctx, world *w)
     memset(w, 0, sizeof *w);
 }
 
-/* The number of tables as it was when hashes of runs were first published. */
+/* The number of tables as it was when hashes of runs were first published; those that came later count only when they
+   have rows, so that worlds that never needed them have the hashes they had before. */
 enum { HASH_SEED = 21 };
-
-/* Tables that came later and have nothing to say: worlds that never needed them have the hashes they had before. */
-static bool is_absent(const world *w, const table_info *info)
-{
-    return (info == &input_table_info && w->inputs.count == 0) ||
-           (info == &hull_contact_table_info && w->hull_contacts.count == 0);
-}
 
 uint64_t world_hash(const world *w)
 {
@@ -157,7 +154,7 @@ uint64_t world_hash(const world *w)
     for (int t = 0; t < WORLD_TABLE_COUNT; t++) {
         if (tables[t].info == &recorded_table_info)
             hash = table_hash(&nothing_recorded, tables[t].info, hash);
-        else if (!is_absent(w, tables[t].info))
+        else if (t < HASH_SEED || ((const table_head *)tables[t].table)->count > 0)
             hash = table_hash(tables[t].table, tables[t].info, hash);
     }
     return hash;

@@ -8,6 +8,7 @@
 #include "dynamics/solver.h"
 #include "fluid/fluid.h"
 #include "ice/crushing.h"
+#include "ice/drift.h"
 #include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
@@ -92,6 +93,9 @@ typedef struct world {
     pattern_table pattern;
     pattern_vertex_table pattern_vertices;
     input_table inputs;
+    drift_table drift; /* one row, or none */
+    drift_cell_table drift_cells;
+    drift_vertex_table drift_vertices;
 
     /* Scratch: written anew each step. */
     struct {
@@ -121,7 +125,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 23 };
+enum { WORLD_TABLE_COUNT = 26 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -13,7 +13,7 @@ typedef struct column_rule {
 } column_rule;
 
 static const column_rule column_rules[] = {
-    {"body", "motion", MOTION_NONE, MOTION_DYNAMIC, NULL},
+    {"body", "motion", MOTION_NONE, MOTION_CARRIED, NULL},
     {"body", "material", 0, MATERIAL_COUNT - 1, NULL},
     {"body", "shape", -1, 0, "shape"},
     {"shape", "kind", SHAPE_NONE, SHAPE_SOLID, NULL},
@@ -47,7 +47,7 @@ static const column_rule column_rules[] = {
 /* Rows of a table: from least to most, or to as many as another has. */
 static const column_rule count_rules[] = {
     {"clock", NULL, 1, 1, NULL},      {"feeding", NULL, 0, 1, NULL},     {"broad", NULL, 0, 0, "body"},
-    {"recorded", NULL, 0, 0, "body"}, {"station", NULL, 0, 0, "vessel"},
+    {"recorded", NULL, 0, 0, "body"}, {"station", NULL, 0, 0, "vessel"}, {"drift", NULL, 0, 1, NULL},
 };
 
 static fram_status refuse(const char *table, int64_t row, const char *column, int64_t found, fram_error *error)
@@ -194,6 +194,10 @@ static fram_status check_floes(const world *w, int32_t tiles, fram_error *error)
         if (!is_span(w->pattern.first[i], w->pattern.size[i], 3, w->pattern_vertices.count))
             return refuse("pattern", i, "first", w->pattern.first[i], error);
     }
+    for (int32_t i = 0; i < w->drift_cells.count; i++) {
+        if (!is_span(w->drift_cells.first[i], w->drift_cells.size[i], 0, w->drift_vertices.count))
+            return refuse("drift_cell", i, "first", w->drift_cells.first[i], error);
+    }
     return FRAM_OK;
 }
 
@@ -251,6 +255,8 @@ fram_status world_check(const model *m, const world *w, fram_error *error)
         status = refuse("vessel", 0, NULL, w->vessels.count, error);
     if (status == FRAM_OK)
         status = check_stations(w, error);
+    if (status == FRAM_OK && w->drift.count != (m->sheet.drifts ? 1 : 0))
+        status = refuse("drift", 0, NULL, w->drift.count, error);
     const tile_grid *tiles = &m->fracture.tiles;
     return status == FRAM_OK ? check_floes(w, tiles->columns * tiles->rows, error) : status;
 }

@@ -93,6 +93,11 @@ fram_status build_field(context *ctx, const scenario *s, const model *m, world *
 {
     if (s->domain.boundary != DOMAIN_FEEDING)
         return build_ice(ctx, s, w, report, error);
+    if (m->sheet.drifts) {
+        drift_world sheet = feed_sheet(m, w);
+        fram_status status = build_drifting(ctx, s, m, w, report, error);
+        return status == FRAM_OK ? drift_begin(ctx, &sheet, feed_drift(m, &w->inputs, 0), error) : status;
+    }
     scenario larger = feeding_scenario(s);
     fram_status status = build_ice(ctx, &larger, w, report, error);
     return status == FRAM_OK ? begin(ctx, s, m, tile_of(s, m->domain), w, error) : status;

@@ -12,6 +12,11 @@ fram_status build_ice(context *ctx, const scenario *s, world *w, field_report *r
 
 /* The grid of a level sheet; without cells for any other source. */
 tile_grid build_tiles(const scenario *s);
+/* What is fixed of level ice that drifts; out stays as it is without. */
+fram_status build_sheet(context *ctx, const scenario *s, drift_definition *out, fram_error *error);
+/* Level ice that drifts: its tiles in the window at the start, at rest. */
+fram_status build_drifting(context *ctx, const scenario *s, const model *m, world *w, field_report *report,
+                           fram_error *error);
 /* Its tiles, also where they are more than a grid can number. */
 double build_tile_number(const scenario *s);
 

@@ -2,11 +2,21 @@
 
 #include "sim/media_now.h"
 
+#include <math.h>
+
 feeding_world feed_world(world *w)
 {
     return (feeding_world){&w->feeding, &w->pattern, &w->pattern_vertices, &w->bodies,       &w->shapes,
                            &w->floes,   &w->boxes,   w->clock.next_floe,   w->clock.ice_left};
 }
+
+drift_world feed_sheet(const model *m, world *w)
+{
+    return (drift_world){&m->sheet,  &m->fracture.tiles, &w->drift, &w->drift_cells,    &w->drift_vertices,
+                         &w->bodies, &w->shapes,         &w->floes, w->clock.next_floe, w->clock.ice_left};
+}
+
+tile_grid feed_grid(const model *m, const world *w) { return drift_grid(&m->fracture.tiles, &w->drift); }
 
 vec2 feed_drift(const model *m, const input_table *inputs, double time)
 {
@@ -24,16 +34,50 @@ vec2 feed_drift(const model *m, const input_table *inputs, double time)
     return vec2_make(current.x, current.y);
 }
 
+/* Skin friction of a medium on a plane area [N]. */
+static vec2 skin_force(double density, double coefficient, double area, vec3 medium, vec2 body)
+{
+    vec2 past = {medium.x - body.x, medium.y - body.y};
+    return vec2_scale(past, 0.5 * density * coefficient * area * vec2_length(past));
+}
+
+/* Water under and air over all ice that moves together, the ice outside the window too. */
+static vec2 sheet_fluid(const model *m, const world *w, double time)
+{
+    if (m->forces != FORCES_FLUID || !isfinite(m->sheet.line_load))
+        return (vec2){0, 0};
+    media now = media_now(m, &w->inputs, time);
+    const drag_coefficients *drag = &m->drag[MATERIAL_ICE];
+    double area = w->drift.mass[0] / (m->sheet.ice.material.density * m->sheet.ice.thickness);
+    vec2 v = w->drift.velocity[0];
+    return vec2_add(skin_force(now.water_density, drag->water_skin, area, media_current(&now, 0), v),
+                    skin_force(now.air_density, drag->air_skin, area, now.wind, v));
+}
+
 void feed_drive(const model *m, world *w, double time)
 {
+    if (w->drift.count > 0) {
+        drift_world sheet = feed_sheet(m, w);
+        drift_drive(&sheet, feed_drift(m, &w->inputs, time), sheet_fluid(m, w, time), m->time_step);
+    }
     if (w->feeding.count == 0)
         return;
     feeding_world fed = feed_world(w);
     feeding_drive(&fed, feed_drift(m, &w->inputs, time));
 }
 
+void feed_load(const model *m, world *w)
+{
+    drift_world sheet = feed_sheet(m, w);
+    drift_load(&sheet, &w->scratch.contacts, m->time_step);
+}
+
 fram_status feed_step(context *ctx, const model *m, world *w, fram_error *error)
 {
+    if (w->drift.count > 0) {
+        drift_world sheet = feed_sheet(m, w);
+        return drift_step(ctx, w->scratch.plane, &sheet, error);
+    }
     feeding_world fed = feed_world(w);
     return feeding_step(ctx, w->scratch.plane, &fed, m->time_step, error);
 }

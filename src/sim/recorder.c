@@ -201,7 +201,7 @@ static fram_status append(recorder *r, uint32_t type, fram_error *error)
 
 static bool moves(const world *w, int32_t slot)
 {
-    return w->bodies.motion[slot] == MOTION_DYNAMIC || w->bodies.motion[slot] == MOTION_PRESCRIBED;
+    return body_is_alive(&w->bodies, slot) && w->bodies.motion[slot] != MOTION_STATIC;
 }
 
 /* The body in this slot is another one than the record knows, or the first. */

@@ -57,7 +57,7 @@ static double population_floes(const scenario *s)
 scene_size scene_size_of(const scenario *s)
 {
     scenario larger = *s;
-    if (s->domain.boundary == DOMAIN_FEEDING)
+    if (s->domain.boundary == DOMAIN_FEEDING && s->ice.source != ICE_LEVEL)
         larger = feeding_scenario(s);
     double floes = 0, each = CELL_BYTES;
     switch (s->ice.source) {

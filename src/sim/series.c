@@ -85,7 +85,7 @@ static vessel_channels vessel_channels_of(const world *w, int32_t v)
 typedef struct count_channels {
     int32_t bodies, floes;
     double entered, held_back; /* with feeding, otherwise 0 */
-    vec2 drift;
+    vec2 drift, sheet_load, sheet_drive;
 } count_channels;
 
 static count_channels counts_of(const world *w)
@@ -99,6 +99,12 @@ static count_channels counts_of(const world *w)
         n.entered = w->feeding.entered[0];
         n.held_back = w->feeding.held_back[0];
         n.drift = w->feeding.velocity[0];
+    }
+    if (w->drift.count > 0) {
+        n.entered = w->drift.entered[0];
+        n.drift = w->drift.velocity[0];
+        n.sheet_load = w->drift.load[0];
+        n.sheet_drive = w->drift.drive[0];
     }
     return n;
 }
@@ -176,6 +182,10 @@ static count_channels counts_of(const world *w)
     W("ice_mass_lost", "kg", w->clock.ice_lost[0])                    \
     W("drift_x", "m/s", n.drift.x)                                    \
     W("drift_y", "m/s", n.drift.y)                                    \
+    W("sheet_load_x", "N", n.sheet_load.x)                            \
+    W("sheet_load_y", "N", n.sheet_load.y)                            \
+    W("sheet_drive_x", "N", n.sheet_drive.x)                          \
+    W("sheet_drive_y", "N", n.sheet_drive.y)                          \
     W("ice_mass_gained", "kg", w->clock.ice_gained[0])                \
     W("ice_mass_crushed", "kg", w->clock.ice_crushed[0])              \
     W("brash_mass", "kg", w->clock.brash_mass[0])                     \

@@ -163,8 +163,10 @@ static fram_status solve_velocities(context *ctx, const model *m, world *w, fram
     fram_status status =
         solver_solve(ctx, w->scratch.solve, &m->solver, m->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
                      &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
-    if (status == FRAM_OK)
+    if (status == FRAM_OK) {
         add_carried_mass(m, w);
+        feed_load(m, w);
+    }
     return status;
 }
 
@@ -173,8 +175,10 @@ static fram_status break_floes(context *ctx, const model *m, world *w, fram_erro
 {
     fracture_state state = {&w->bodies, &w->shapes,         &w->floes,           &w->scratch.contacts,
                             &w->memory, w->clock.next_floe, w->clock.ice_crushed};
+    fracture_settings settings = m->fracture;
+    settings.tiles = feed_grid(m, w);
     array_clear(&w->scratch.fractures);
-    fram_status status = fracture_run(ctx, w->scratch.fracture, &m->fracture, w->scratch.plane, &w->scratch.patches,
+    fram_status status = fracture_run(ctx, w->scratch.fracture, &settings, w->scratch.plane, &w->scratch.patches,
                                       &state, &w->scratch.fractures, error);
     for (int32_t i = 0; i < w->scratch.fractures.count; i++) {
         const fracture_event *e = &w->scratch.fractures.data[i];
@@ -197,12 +201,13 @@ static fram_status integrate(context *ctx, const model *m, world *w, fram_error 
                                     &w->scratch.contacts, error);
 }
 
-/* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked. */
+/* Floes whose centre left an open domain by more than their radius are taken out, and their mass is booked; the tiles
+   of a sheet that drifts leave with their cells. */
 static void remove_strays(const model *m, world *w)
 {
     for (int32_t i = 0; i < w->floes.count; i++) {
         int32_t body = w->floes.body[i];
-        if (body < 0)
+        if (body < 0 || (w->drift.count > 0 && w->floes.tile[i] != 0))
             continue;
         vec3 r = w->bodies.position[body];
         double reach = w->shapes.shapes.radius[w->bodies.shape[body]];
@@ -218,7 +223,7 @@ static void remove_strays(const model *m, world *w)
    in a basin with walls too. */
 static fram_status cross_edge(context *ctx, const model *m, world *w, fram_error *error)
 {
-    if (m->boundary == DOMAIN_OPEN)
+    if (m->boundary == DOMAIN_OPEN || w->drift.count > 0)
         remove_strays(m, w);
     fram_status status = m->boundary == DOMAIN_FEEDING ? feed_step(ctx, m, w, error) : FRAM_OK;
     if (status != FRAM_OK)

@@ -43,6 +43,16 @@ static const char *const scenes[] = {
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n  drift_speed: 3\n"
     "  drift_direction_deg: 200\n"
     "environment:\n  current_speed: 1\n  current_direction_deg: 40\n",
+    /* level ice that drifts onto a moored hull, is driven with a limit and comes and goes */
+    "run:\n  duration: 4\n  time_step: 0.02\n"
+    "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
+    "ice:\n  source: level\n  thickness: 0.4\n  breakable: true\n  keep_out_margin: 0.1\n"
+    "  level: {tile_size: 9, line_load: 20000, mass: 2.0e6, openings: [{x: 50, y: 3, length: 30, width: 7}]}\n"
+    "domain:\n  x_min: -40\n  x_max: 40\n  y_min: -30\n  y_max: 30\n  boundary: feeding\n  drift_speed: 5\n"
+    "  drift_direction_deg: 200\n"
+    "environment:\n  current_speed: 1\n  current_direction_deg: 40\n"
+    "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
     /* floes that break, level ice among them */
     "run:\n  duration: 4\n  time_step: 0.02\n"
     "vessel:\n  mode: towed\n  x: -26\n  speed: 3\n  ramp: 0.5\n"
