@@ -172,7 +172,7 @@ FRAM_API fram_status fram_world_ice_load(const fram_world *world, fram_body_id v
 typedef struct fram_progress {
     double time, end;        /* simulated [s] */
     double wall;             /* since the start of this call [s] */
-    double eta;              /* expected wall time to the end [s] */
+    double eta;              /* expected wall time to the end [s]; NaN in the first second, when it is not known */
     double real_time_factor; /* simulated over wall time */
 } fram_progress;
 typedef void (*fram_progress_function)(void *user, const fram_progress *progress);

@@ -123,10 +123,11 @@ int session_open_making(const common_options *common, work_view *view, fram_cont
 /* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, the second ends
    the process.  From now on a pipe that closes is an error of the write, and does not end it. */
 const volatile int *session_stop_flag(void);
-/* Progress line on standard error: redrawn on a terminal, a line every ten percent elsewhere. */
+/* Progress line on standard error: redrawn on a terminal; elsewhere a line every ten percent and every five seconds. */
 typedef struct progress_view {
     bool terminal;
     int last_tenth;
+    double shown; /* wall clock [s] */
     bool drawn;
 } progress_view;
 void progress_begin(progress_view *view);

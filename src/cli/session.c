@@ -1,6 +1,7 @@
 /* What a command needs around the library: a context that logs to standard error, Ctrl-C, a progress line. */
 #include "cli/cli.h"
 
+#include <math.h>
 #include <signal.h>
 #include <string.h>
 #include <time.h>
@@ -110,11 +111,15 @@ const volatile int *session_stop_flag(void)
 
 void progress_begin(progress_view *view)
 {
-    *view = (progress_view){.terminal = isatty(STDERR_FILENO) == 1, .last_tenth = -1};
+    *view = (progress_view){.terminal = isatty(STDERR_FILENO) == 1, .last_tenth = -1, .shown = wall_clock()};
 }
 
 static void print_eta(double seconds)
 {
+    if (isnan(seconds)) {
+        fputs("not known yet", stderr);
+        return;
+    }
     long s = (long)(seconds + 0.5);
     if (s >= 3600)
         fprintf(stderr, "%ld h %02ld min", s / 3600, s / 60 % 60);
@@ -129,9 +134,11 @@ void progress_show(void *user, const fram_progress *p)
     progress_view *view = user;
     double percent = p->end > 0 ? 100 * p->time / p->end : 100;
     int tenth = (int)(percent / 10);
-    if (!view->terminal && tenth == view->last_tenth)
+    double now = wall_clock();
+    if (!view->terminal && tenth == view->last_tenth && now - view->shown < LINE_PERIOD)
         return;
     view->last_tenth = tenth;
+    view->shown = now;
     if (view->terminal)
         fputs("\r\033[K", stderr);
     fprintf(stderr, "%5.1f %%  t = %.2f of %g s  real-time factor %.2f  left ", percent, p->time, p->end,

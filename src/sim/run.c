@@ -4,6 +4,7 @@
 #include "io/scenario_file.h"
 #include "sim/build.h"
 #include "sim/notes.h"
+#include "sim/pace.h"
 #include "sim/recording.h"
 #include "sim/run_folder.h"
 #include "sim/step.h"
@@ -16,6 +17,7 @@ typedef struct run {
     model model;
     world world;
     double drawn; /* wall clock [s] */
+    pace pace;
 } run;
 
 static fram_status run_init(context *ctx, const scenario *s, const run_options *options, run *r, fram_error *error)
@@ -41,7 +43,7 @@ static void show_progress(run *r, bool last)
     run_progress p = {.time = time, .end = (double)r->record.end_step * r->record.s->run.time_step, .wall = wall};
     double stop = (double)r->record.stop_step * r->record.s->run.time_step;
     p.real_time_factor = wall > 0 ? done / wall : 0;
-    p.eta = done > 0 ? (stop - time) * wall / done : 0;
+    p.eta = pace_left(&r->pace, wall, time, stop);
     r->options->progress(r->options->progress_user, &p);
 }
 
@@ -80,6 +82,7 @@ static void fill_result(run *r, run_result *result)
 static fram_status drive(run *r, run_result *result, fram_error *error)
 {
     r->drawn = 0;
+    r->pace = (pace){0};
     fram_error local = {0};
     fram_status status = step_loop(r, &local);
     /* A flag that is set from here on comes too late to be the reason for the end. */
