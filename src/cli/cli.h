@@ -120,6 +120,10 @@ typedef struct work_view {
     bool terminal;
 } work_view;
 int session_open_making(const common_options *common, work_view *view, fram_context **context);
+/* Of no beginning in particular, never turned back [s]. */
+double wall_clock(void);
+/* "3 min 20 s" to standard error, "not known yet" for a NaN. */
+void print_duration(double seconds);
 /* A flag that Ctrl-C, SIGTERM and a terminal that closes set; the first signal asks for a checkpoint, the second ends
    the process.  From now on a pipe that closes is an error of the write, and does not end it. */
 const volatile int *session_stop_flag(void);

@@ -43,7 +43,7 @@ int session_open(const common_options *common, fram_context **context)
 #define TERMINAL_PERIOD 0.2
 #define LINE_PERIOD 5.0
 
-static double wall_clock(void)
+double wall_clock(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -114,7 +114,7 @@ void progress_begin(progress_view *view)
     *view = (progress_view){.terminal = isatty(STDERR_FILENO) == 1, .last_tenth = -1, .shown = wall_clock()};
 }
 
-static void print_eta(double seconds)
+void print_duration(double seconds)
 {
     if (isnan(seconds)) {
         fputs("not known yet", stderr);
@@ -143,7 +143,7 @@ void progress_show(void *user, const fram_progress *p)
         fputs("\r\033[K", stderr);
     fprintf(stderr, "%5.1f %%  t = %.2f of %g s  real-time factor %.2f  left ", percent, p->time, p->end,
             p->real_time_factor);
-    print_eta(p->eta);
+    print_duration(p->eta);
     if (!view->terminal)
         fputc('\n', stderr);
     view->drawn = view->terminal;

@@ -124,6 +124,7 @@ static void take_notes(const note_taker *n, const scenario *s)
     scene_size size = scene_size_of(s);
     note_fact(n, "memory: about %.2g GB for about %.0f floes; run.memory_limit is %g GB", size.bytes * 1e-9, size.floes,
               s->run.memory_limit);
+    note_fact(n, "disk: about %.2g MB for what the run leaves", size.disk * 1e-6);
     note_ice(n, s);
     note_fracture(n, s);
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {

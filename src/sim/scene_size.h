@@ -3,11 +3,12 @@
 #ifndef SIM_SCENE_SIZE_H
 #define SIM_SCENE_SIZE_H
 
-#include "model/scenario.h"
+#include "model/scenario_vessel.h"
 
 typedef struct scene_size {
     double floes; /* at the start, about; those of ice.file and of histograms are not counted */
     double bytes; /* that a run takes, about: at least half of it in the fields that were measured, at most all */
+    double disk;  /* bytes of the run's folder in the end, within a factor of two in the runs that were measured */
 } scene_size;
 scene_size scene_size_of(const scenario *s);
 

@@ -118,4 +118,19 @@ told "at t = 9 s, after 45 m" "${basin[@]}" --set vessel.course_deg=-90
 expect 2 "$FRAM" check box.yaml "${basin[@]}" --set vessel.x=85 --json
 same "$(value 'j["error"]["key"]')" vessel.x "key of a hull inside a wall"
 
+# How long and how large: a trial of the first steps, and within a factor of two what the run then leaves.
+expect 0 "$FRAM" check box.yaml --build --json --set output.csv_interval=0.1
+python3 - "$(value 'j["run_wall_s"]')" <<'END' || fail "no time is told"
+import sys
+sys.exit(not 0 < float(sys.argv[1]) < 600)
+END
+says "time: by its first steps a run computes" err
+promised=$(sed -n 's/^disk: about \([0-9.e+]*\) MB.*/\1/p' err)
+expect 0 "$FRAM" run box.yaml -o sized -q --set output.csv_interval=0.1
+python3 - "$promised" "$(du -sb sized | cut -f1)" <<'END' || fail "the folder has another size than $promised MB"
+import sys
+promised, found = float(sys.argv[1]) * 1e6, float(sys.argv[2])
+sys.exit(not found / 2 < promised < found * 2)
+END
+
 finish "what cannot be is refused, what will be is told"
