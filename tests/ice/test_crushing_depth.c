@@ -95,4 +95,46 @@ START_TEST(depth_is_continuous)
 }
 END_TEST
 
-TEST_MAIN("crushing depth", depth_is_continuous)
+/* A floe that lies on a flat top is as deep in it as its bottom is under that, its lower ice being the thinner part. */
+START_TEST(flat_top)
+{
+    ice_rig r;
+    ice_rig_make(&r, 0.01);
+    int32_t row = ice_rig_plate(&r, 10, 10, 1, MOTION_DYNAMIC);
+    int32_t hull = ice_rig_box(&r, (vec3){-20, -20, -20}, (vec3){20, 20, 0}, MOTION_STATIC, MATERIAL_HULL);
+    ice_rig_place(&r, hull, (vec3){0, 0, -0.4}, 0, 0, 0);
+    ice_rig_pair(&r, r.floes.body[row], hull);
+    ice_rig_crush(&r);
+    ck_assert_int_eq(r.patches.count, 1);
+    const crushing_patch *p = &r.patches.data[0];
+    assert_relative(p->area, 100, 1e-12);
+    assert_vec3_close(p->normal, ((vec3){0, 0, 1}), 1e-12);
+    for (int32_t k = 0; k < p->contact_count; k++)
+        assert_absolute(r.contacts.data[k].depth, 0.1, 1e-12);
+    ice_rig_free(&r);
+}
+END_TEST
+
+/* The way out of a floe of many pieces leads through all of them, to each side: a wall that stands 8 m deep in it. */
+START_TEST(ways_through_many_pieces)
+{
+    for (int i = 0; i < 4; i++) {
+        ice_rig r;
+        ice_rig_make(&r, 0.01);
+        int32_t row = ice_rig_plate(&r, 10, 10, 1, MOTION_DYNAMIC);
+        ice_rig_cut(&r, r.bodies.shape[r.floes.body[row]], 4);
+        int32_t wall = ice_rig_box(&r, (vec3){0, -40, -30}, (vec3){20, 40, 30}, MOTION_STATIC, MATERIAL_HULL);
+        double angle = i * PI / 2;
+        ice_rig_place(&r, wall, (vec3){-3 * real_cos(angle), -3 * real_sin(angle), 0}, 0, 0, angle);
+        ice_rig_pair(&r, r.floes.body[row], wall);
+        ice_rig_crush(&r);
+        ck_assert_int_eq(r.patches.count, 1);
+        const crushing_patch *p = &r.patches.data[0];
+        assert_relative(p->area, 10, 1e-9);
+        assert_absolute(r.contacts.data[0].depth, 8, 1e-9);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+TEST_MAIN("crushing depth", depth_is_continuous, flat_top, ways_through_many_pieces)

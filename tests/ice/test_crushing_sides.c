@@ -158,16 +158,18 @@ START_TEST(ridge_line_load)
     assert_relative(ice_ridging_line_load(2, 2, 100), real_pow(2, 1.25) * line, 1e-14);
     ck_assert(isinf(ice_ridging_line_load(0, 1, 100)) && isinf(ice_ridging_line_load(2, 1, 0)));
     static const double depth[2] = {0.2, 0.3};
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 4; i++) {
+        /* The last two of 2 and 3 m: the thinner one builds the ridge. */
+        double thin = i < 2 ? 1 : 2, thick = i < 2 ? 1 : 3;
         sides_rig s;
         sides_make(&s, 0.01, 0);
         s.r.settings.ridging = 2;
-        for (int k = 0; k < 2; k++)
-            ice_rig_plate(&s.r, 40, 100, 1, MOTION_DYNAMIC);
-        ice_rig_place(&s.r, 1, (vec3){40 - depth[i], 0, 0}, 0, 0, 0);
+        ice_rig_plate(&s.r, 40, 100, i % 2 ? thin : thick, MOTION_DYNAMIC);
+        ice_rig_plate(&s.r, 40, 100, i % 2 ? thick : thin, MOTION_DYNAMIC);
+        ice_rig_place(&s.r, 1, (vec3){40 - thin * depth[i % 2], 0, 0}, 0, 0, 0);
         sides_find(&s);
-        ck_assert_int_eq(s.r.patches.count, i);
-        assert_relative(sum_of_limits(&s.r), 100 * line, 1e-5);
+        ck_assert_int_eq(s.r.patches.count, i % 2);
+        assert_relative(sum_of_limits(&s.r), 100 * line * real_pow(thin, 1.25), 1e-5);
         sides_free(&s);
     }
     /* A narrow face is crushed before. */
@@ -180,6 +182,48 @@ START_TEST(ridge_line_load)
     sides_find(&s);
     assert_relative(sum_of_limits(&s.r), 2e6 * 0.5, 1e-5);
     sides_free(&s);
+}
+END_TEST
+
+/* Of an inclined patch the front is what is seen level: a plate tilted by 30 degrees runs with its side under another
+   one, whose own sides stand upright. */
+START_TEST(ridge_of_an_inclined_patch)
+{
+    sides_rig s;
+    sides_make(&s, 0.01, 0);
+    s.r.settings.ridging = 0.5;
+    ice_rig_plate(&s.r, 40, 100, 2, MOTION_DYNAMIC);
+    ice_rig_plate(&s.r, 40, 100, 2, MOTION_DYNAMIC);
+    ice_rig_place(&s.r, 0, (vec3){-36, 0, 9}, 0, radians(30), 0);
+    sides_find(&s);
+    ck_assert_int_eq(s.r.patches.count, 1);
+    const crushing_patch *p = &s.r.patches.data[0];
+    double level = sqrt(p->normal.x * p->normal.x + p->normal.y * p->normal.y);
+    ck_assert(level > 0.2 && level < 0.95);
+    double width = level * p->area / 2;
+    assert_relative(p->pressure, 0.5e6 * real_pow(2, 1.25) * real_pow(width, -0.54) / 2, 1e-9);
+    sides_free(&s);
+}
+END_TEST
+
+/* The limit of a pair is shared by the points that touch; one that stands apart carries nothing. */
+START_TEST(points_apart_carry_nothing)
+{
+    ice_rig r;
+    ice_rig_make(&r, 0.01);
+    r.policies.of[MATERIAL_ICE][MATERIAL_ICE].sides = true;
+    for (int i = 0; i < 2; i++)
+        ck_assert_int_eq(ice_rig_plate(&r, 10, 10, 1, MOTION_DYNAMIC), i);
+    ice_rig_place(&r, r.floes.body[1], (vec3){9.9, 0, 0}, 0, 0, 0);
+    static const double depth[3] = {0.1, -0.01, 0.1};
+    for (int i = 0; i < 3; i++) {
+        contact c = {.a = 0, .b = 1, .point = {5, 5.0 * i - 5, 0}, .normal = {1, 0, 0}, .depth = depth[i], .patch = -1};
+        ck_assert(array_push(&r.ctx, &r.contacts, c));
+    }
+    crushing_limit_sides(&r.settings, &r.bodies, &r.shapes, &r.floes, &r.policies, &r.contacts);
+    for (int i = 0; i < 3; i++)
+        assert_relative(r.contacts.data[i].impulse_limit, i == 1 ? 0 : 2e6 * 10 * 0.01 / 2, 1e-7);
+    ice_rig_free(&r);
 }
 END_TEST
 
@@ -242,5 +286,5 @@ START_TEST(others_have_patches)
 }
 END_TEST
 
-TEST_MAIN("crushing sides", face_to_face, corner_in_a_side, corner_impact_on_ice, ridge_line_load, squeezed_row,
-          others_have_patches)
+TEST_MAIN("crushing sides", face_to_face, corner_in_a_side, corner_impact_on_ice, ridge_line_load,
+          ridge_of_an_inclined_patch, points_apart_carry_nothing, squeezed_row, others_have_patches)

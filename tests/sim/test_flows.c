@@ -31,6 +31,10 @@ START_TEST(the_hull_meets_the_tables)
     vec3 still = steady_media_load(&k.m, &k.w, 0, &k.m.media, 0);
     assert_relative(still.y, q * 0.7 * 250, 1e-9);
     assert_relative(still.x, wind * 0.8 * 12 * 3, 1e-9);
+    /* They act at the middle of what is in the water, and of what is over it. */
+    const vessel_model *v = &k.m.vessels.data[0];
+    assert_absolute(v->flows.water.point.z + v->centre.z, -2, 1e-12);
+    assert_absolute(v->flows.air.point.z + v->centre.z, 1.5, 1e-12);
     scene_close(&k);
 }
 END_TEST

@@ -70,6 +70,65 @@ START_TEST(populations_have_their_shares_thickness_and_strength)
 }
 END_TEST
 
+/* Strengths scatter each by itself: two of the same scatter are not those of one draw. */
+START_TEST(strengths_are_drawn_apart)
+{
+    char text[TEXT_SIZE];
+    snprintf(text, sizeof text,
+             "%sice:\n  source: packed\n  concentration: 0.5\n  populations:\n"
+             "    - {size: constant, diameter: 8, thickness: 1, thickness_deviation: 0.3, flexural_strength: 1e6, "
+             "flexural_deviation: 3e5, crushing_strength: 1e6, crushing_deviation: 3e5}\n",
+             plain);
+    scene k;
+    scene_open(&k, text);
+    int32_t n = k.w.floes.count;
+    ck_assert_int_gt(n, 100);
+    double sum[3] = {0}, product[3][3] = {{0}};
+    for (int32_t i = 0; i < n; i++) {
+        const ice_material *m = &k.w.floes.material[i];
+        double x[3] = {k.w.floes.thickness[i] - 1, m->flexural_strength * 1e-6 - 1, m->crushing_strength * 1e-6 - 1};
+        for (int a = 0; a < 3; a++) {
+            sum[a] += x[a];
+            for (int b = 0; b < 3; b++)
+                product[a][b] += x[a] * x[b];
+        }
+    }
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < a; b++) {
+            double covariance = product[a][b] / n - sum[a] * sum[b] / n / n;
+            /* Four standard errors of the correlation of independent ones. */
+            ck_assert_msg(fabs(covariance) < 4 * 0.09 / sqrt(n), "covariance %g of %d and %d", covariance, a, b);
+        }
+    scene_close(&k);
+}
+END_TEST
+
+static void refuse_histogram(const char *sizes, const char *why)
+{
+    char histogram[PATH_SIZE], text[TEXT_SIZE];
+    write_file(histogram, "bins.csv", sizes);
+    snprintf(text, sizeof text,
+             "%sice:\n  source: packed\n  concentration: 0.5\n  populations:\n    - {size: histogram, histogram: %s}\n",
+             plain, histogram);
+    scene k;
+    fram_error error = {0};
+    context_init(&k.ctx);
+    assert_ok(scenario_parse(&k.ctx, "scene.yaml", text, strlen(text), NULL, &k.s, &error), error);
+    ck_assert_int_eq(scene_build(&k.ctx, &k.s, &k.m, &k.w, &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.file, histogram);
+    ck_assert_int_eq(error.line, 3);
+    ck_assert_msg(strstr(error.message, why) != NULL, "%s", error.message);
+    scenario_free(&k.ctx, &k.s);
+    remove(histogram);
+}
+
+START_TEST(bins_of_a_histogram_follow_one_another)
+{
+    refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n4,6,10\n7,12,5\n", "at 6 m, found 7 m");
+    refuse_histogram("diameter_min[m],diameter_max[m],floes[1]\n4,6,10\n5,12,5\n", "at 6 m, found 5 m");
+}
+END_TEST
+
 START_TEST(shapes_come_from_templates_and_sizes_from_a_histogram)
 {
     static const char shapes[] = "{\"type\": \"Polygon\", \"coordinates\": [[[0,0],[3,-1],[2.2,1],[3,3],[0,0]]]}";
@@ -163,6 +222,6 @@ START_TEST(what_cannot_be_packed_is_told)
 }
 END_TEST
 
-TEST_MAIN("packed", populations_have_their_shares_thickness_and_strength,
-          shapes_come_from_templates_and_sizes_from_a_histogram, water_that_a_file_leaves_is_filled,
-          a_packed_field_rests, what_cannot_be_packed_is_told)
+TEST_MAIN("packed", strengths_are_drawn_apart, bins_of_a_histogram_follow_one_another,
+          populations_have_their_shares_thickness_and_strength, shapes_come_from_templates_and_sizes_from_a_histogram,
+          water_that_a_file_leaves_is_filled, a_packed_field_rests, what_cannot_be_packed_is_told)
