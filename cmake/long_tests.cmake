@@ -5,6 +5,7 @@ set(fram_long_tests
     "cli/command:          every command and its refusals, and signals to runs that go on"
     "cli/field:            fields of all sources drawn, written and read again"
     "cli/packed_field:     ten thousand steps at rest, as the promise says"
+    "cli/why:              a chain of floes explained, and computed again by three methods, six times"
     "dynamics/packed:      packed fields must come to rest under each solver"
     "dynamics/solver:      oracles of friction and stacking under each solver"
     "geometry/overlay:     twenty thousand random pairs of outlines against areas"

@@ -20,7 +20,6 @@ KEPT = {
     "overlay_triangulate": "the step under overlay_convex_pieces that GEOS's own triangulation is an oracle for",
     "sheet_edge_deflection": "the field between the breaking radius and the edge, against the closed form",
     "sheet_stress_strip": "the stress that the breaking radius of a strip is held against",
-    "world_copy": "a second world of a model, for those who try steps; its tests are those of the tables",
     "world_difference": "names the first field in which two worlds differ: what a failed test must say",
 }
 

@@ -79,6 +79,27 @@ FRAM_API void fram_video_default(fram_video_definition *definition);
 FRAM_API fram_status fram_video(fram_context *context, const char *run, const fram_video_definition *definition,
                                 fram_result *result, fram_error *error);
 
+/* ---- Why a load was what it was ---- */
+
+typedef struct fram_why_definition {
+    size_t size;         /* of this struct, set by fram_why_default */
+    int peak;            /* 1: the largest of the run's ten largest peaks of the averaged horizontal load; 0: by time */
+    double time;         /* of the moment, with peak 0 [s] */
+    int vessel;          /* 1: the first */
+    bool rerun;          /* true: compute the second before again, at half the time step and with the accurate solver,
+                            from the nearest checkpoint or from the start */
+    bool json;           /* the text is one JSON object in SI units */
+    const char *picture; /* a PNG of the plan; NULL: none */
+    const volatile int *stop; /* non-zero: end with FRAM_INTERRUPTED; may be NULL */
+} fram_why_definition;
+FRAM_API void fram_why_default(fram_why_definition *definition);
+/* Explains a peak of the ice load: mechanisms, floes, the chains of contacts behind them, what broke before, and
+   whether time step and solver matter.  The run's folder is not changed.  A moment that is no recorded peak needs
+   `rerun`. FRAM_ERROR_INPUT for a folder without a run, a peak or time that it does not have.  The caller frees the
+   text with fram_text_free. */
+FRAM_API fram_status fram_why(fram_context *context, const char *run, const fram_why_definition *definition,
+                              char **text, fram_error *error);
+
 /* ---- Capability ---- */
 
 typedef struct fram_capability_definition {

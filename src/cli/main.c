@@ -68,6 +68,12 @@ static const command_row commands[] = {
      "  fram plot out/demo ice_force_averaged_x ice_force_averaged_y -o load.svg\n"
      "  fram plot out/demo ice_force_x roll pitch --from 20 --to 40 -o part.png\n",
      command_plot},
+    {"why", "RUN --peak N | --time T",
+     "explain a peak of the ice load: mechanisms, floes, chains of contacts, breaks before it, time step and solver",
+     "  fram why out/demo --peak 1\n"
+     "  fram why out/demo --peak 3 -o peak3.png --no-rerun\n"
+     "  fram why out/demo --time 12.5 --json\n",
+     command_why},
     {"compare", "RUN RUN", "two runs beside each other, in numbers and plots",
      "  fram compare out/demo out/thick\n"
      "  fram compare out/demo out/thick -o both.html\n",

@@ -17,6 +17,7 @@
     11 frame     i64 step, f64 time, f64 x 3 averaged ice force on the vessel [N], i32 count, i32 0; per moving body, by
                  ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the magnitudes at its
                  contacts, a half float of kN (16 or 18 bytes)
+    12 peak      only in peaks.fram: what carried a large ice load on a vessel, io/peak_block.h
     10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
    frame's first 48 bytes; the frame itself and its forces stand there
 
@@ -38,7 +39,8 @@ enum {
     BLOCK_BIRTHS = 7,
     BLOCK_FORCES = 9,
     BLOCK_FRAME_BESIDE = 10,
-    BLOCK_FRAME = 11
+    BLOCK_FRAME = 11,
+    BLOCK_PEAK = 12
 };
 
 /* Bytes of a frame before its poses. */

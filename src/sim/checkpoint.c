@@ -219,23 +219,20 @@ fram_status state_decode(context *ctx, const char *name, const void *data, size_
     return read_one(ctx, name, data, size, m, w, &found, &other, error);
 }
 
-fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
-                                   fram_error *error)
+/* The newest good one that is not after a step; *found says whether there is any not after it, good or bad. */
+static fram_status read_newest(context *ctx, const char *folder, int64_t most, const model *m, world *w,
+                               checkpoint_note *note, bool *found, fram_error *error)
 {
     step_array steps = {0};
+    *found = false;
     fram_status status = list_steps(ctx, folder, &steps, error);
-    if (status != FRAM_OK) {
-        array_free(ctx, &steps);
-        return status;
-    }
-    status =
-        error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
-    for (int32_t i = 0; i < steps.count; i++) {
+    for (int32_t i = 0; i < steps.count && (status == FRAM_OK || *found); i++) {
         char path[PATH_ROOM];
         bool other = false;
         fram_error reason = {0};
-        if (checkpoint_path(folder, steps.data[i], path, NULL) != FRAM_OK)
+        if (steps.data[i] > most || checkpoint_path(folder, steps.data[i], path, NULL) != FRAM_OK)
             continue;
+        *found = true;
         status = read_one(ctx, path, NULL, 0, m, w, note, &other, &reason);
         if (error && status != FRAM_OK)
             *error = reason;
@@ -245,4 +242,22 @@ fram_status checkpoint_read_newest(context *ctx, const char *folder, const model
     }
     array_free(ctx, &steps);
     return status;
+}
+
+fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
+                                   fram_error *error)
+{
+    bool found;
+    fram_status status = read_newest(ctx, folder, INT64_MAX, m, w, note, &found, error);
+    if (status != FRAM_OK || found)
+        return status;
+    return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
+}
+
+fram_status checkpoint_read_before(context *ctx, const char *folder, double time, const model *m, world *w,
+                                   checkpoint_note *note, bool *found, fram_error *error)
+{
+    double steps = floor(time / m->time_step + 1e-6);
+    *found = false;
+    return steps < 0 ? FRAM_OK : read_newest(ctx, folder, (int64_t)steps, m, w, note, found, error);
 }

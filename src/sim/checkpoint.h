@@ -34,6 +34,10 @@ fram_status state_decode(context *ctx, const char *name, const void *data, size_
    inputs. note->scenario_hash and inputs say what is expected; the lengths are filled. */
 fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
                                    fram_error *error);
+/* The same of a checkpoint that is not after a time [s]; found: false when there is none, and the world is then as it
+   was. */
+fram_status checkpoint_read_before(context *ctx, const char *folder, double time, const model *m, world *w,
+                                   checkpoint_note *note, bool *found, fram_error *error);
 /* Whether a file of this name, without its folder, is a checkpoint. */
 bool checkpoint_is_name(const char *name);
 /* Remove every checkpoint of a folder. */

@@ -92,9 +92,14 @@ static chain_end end_at(const world *w, int32_t body)
     default:
         break;
     }
-    if (w->bodies.motion[body] == MOTION_STATIC)
+    switch ((motion)w->bodies.motion[body]) {
+    case MOTION_STATIC:
         return CHAIN_SHEET;
-    return w->bodies.motion[body] == MOTION_DYNAMIC ? CHAIN_LOOP : CHAIN_DRIVEN;
+    case MOTION_PRESCRIBED:
+        return CHAIN_DRIVEN;
+    default: /* free, or gone since the contacts were solved */
+        return CHAIN_LOOP;
+    }
 }
 
 static bool is_in(const force_chain *chain, int32_t body)

@@ -26,6 +26,7 @@ static void set_intervals(recorder *r, const scenario *s)
     if (r->frame_every > 0)
         r->frames_most = s->run.duration / (r->time_step * (double)r->frame_every);
     r->record_limit = s->output.record_limit * 1e6;
+    peak_watch_init(r->ctx, s->run.time_step, s->run.transient, &r->peaks);
 }
 
 static void free_scratch(recorder *r)
@@ -146,6 +147,8 @@ fram_status recorder_continue(context *ctx, const scenario *s, const char *folde
         status = record_continue(ctx, path, lengths->record, &r->record, error);
     if (status == FRAM_OK)
         status = cut_streams(r, lengths, error);
+    if (status == FRAM_OK)
+        status = peak_watch_read(&r->peaks, folder, error);
     if (status != FRAM_OK)
         recorder_close(r, NULL);
     return status;
@@ -438,6 +441,8 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
     }
     if (status == FRAM_OK && step > 0)
         status = write_fractures(r, w, error);
+    if (status == FRAM_OK && step > 0)
+        status = peak_watch_step(&r->peaks, w, error);
     if (status == FRAM_OK && frame_is_due(r, w))
         status = write_frame(r, w, error);
     return status;
@@ -460,6 +465,7 @@ fram_status recorder_flush(recorder *r, fram_error *error)
 
 fram_status recorder_close(recorder *r, fram_error *error)
 {
+    peak_watch_free(&r->peaks);
     free_scratch(r);
     fram_status series = csv_close(&r->series, error);
     fram_status fractures = csv_close(&r->fractures, series == FRAM_OK ? error : NULL);

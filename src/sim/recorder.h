@@ -9,6 +9,7 @@
 #include "model/scenario.h"
 #include "model/world.h"
 #include "sim/contact_sums.h"
+#include "sim/peak_watch.h"
 #include "sim/series.h"
 
 typedef struct recorder {
@@ -23,6 +24,7 @@ typedef struct recorder {
     ARRAY(unsigned char) block;        /* scratch */
     contact_sum_array sums;            /* scratch, per body slot */
     ARRAY(double) row;                 /* scratch, per column */
+    peak_watch peaks;                  /* written with checkpoints */
 } recorder;
 
 /* New files in folder. */

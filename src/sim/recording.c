@@ -31,6 +31,8 @@ static fram_status end_checkpoint(recording *r, fram_error *error)
 static fram_status write_checkpoint(recording *r, fram_error *error)
 {
     fram_status status = end_checkpoint(r, error);
+    if (status == FRAM_OK)
+        status = peak_watch_write(&r->recorder.peaks, r->folder, error);
     if (status != FRAM_OK)
         return status;
     file_writer *streams[RECORDER_STREAMS];
@@ -125,6 +127,7 @@ static void leave_state(recording *r)
     memcpy(note.scenario_hash, r->hash, sizeof note.scenario_hash);
     (void)end_checkpoint(r, NULL);
     (void)recorder_flush(&r->recorder, NULL);
+    (void)peak_watch_write(&r->recorder.peaks, r->folder, NULL);
     (void)checkpoint_write_failed(r->ctx, r->folder, r->w, &note, NULL);
 }
 

@@ -132,8 +132,8 @@ static void remove_files(const char *folder, bool (*is_such)(const char *name))
 /* Results that a new run may not write, or only at its end: next to its other files they would be taken for its own. */
 static void remove_results(const char *folder)
 {
-    static const char *const names[] = {"failed.fram", "plan.png",     "loads.png",
-                                        "station.png", "station.json", "playback.html"};
+    static const char *const names[] = {"failed.fram",  "plan.png",      "loads.png",  "station.png",
+                                        "station.json", "playback.html", "peaks.fram", "peaks.fram.new"};
     char path[PATH_ROOM];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         if (path_join(folder, names[i], path, NULL) == FRAM_OK)

@@ -299,6 +299,30 @@ START_TEST(results)
     assert_ok(fram_channels(c, run, &text, &e), e);
     fram_text_free(c, text);
 
+    fram_why_definition asked;
+    fram_why_default(NULL);
+    fram_why_default(&asked);
+    asked.rerun = false;
+    asked.peak = 1;
+    REFUSED(fram_why(NULL, run, &asked, &text, &e));
+    REFUSED(fram_why(c, NULL, &asked, &text, &e));
+    REFUSED(fram_why(c, run, NULL, &text, &e));
+    REFUSED(fram_why(c, run, &asked, NULL, &e));
+    asked.peak = INT_MIN;
+    REFUSED(fram_why(c, run, &asked, &text, &e));
+    asked.peak = INT_MAX;
+    REFUSED(fram_why(c, run, &asked, &text, &e));
+    asked.peak = 0;
+    asked.time = nan_value;
+    REFUSED(fram_why(c, run, &asked, &text, &e));
+    asked.time = -1e300;
+    REFUSED(fram_why(c, run, &asked, &text, &e));
+    asked.peak = 1;
+    asked.vessel = 0;
+    REFUSED(fram_why(c, run, &asked, &text, &e));
+    asked.size = 0;
+    REFUSED(fram_why(c, run, &asked, &text, &e));
+
     fram_comparison comparison;
     REFUSED(fram_compare(NULL, run, run, NULL, &comparison, &e));
     REFUSED(fram_compare(c, NULL, run, NULL, &comparison, &e));

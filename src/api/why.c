@@ -1,0 +1,109 @@
+/* fram_why: finished results and the computing again of a moment meet here, for they do not know each other. */
+#include "results/why.h"
+#include "api/arguments.h"
+#include "api/handles.h"
+#include "fram/results.h"
+#include "sim/rerun.h"
+
+#include <math.h>
+
+#define TIME_MOST 1e12
+enum { VESSELS_MOST = 1000000 };
+
+void fram_why_default(fram_why_definition *definition)
+{
+    if (definition)
+        *definition = (fram_why_definition){.size = sizeof *definition, .vessel = 1, .rerun = true};
+}
+
+static fram_status check(const fram_why_definition *d, fram_error *error)
+{
+    fram_status status = definition_check(d, sizeof *d, "fram_why", error);
+    if (status == FRAM_OK && d->peak < 0)
+        status =
+            error_set(error, FRAM_ERROR_USAGE, NULL, 0, "peak", "expected 1, the largest, or more, found %d", d->peak);
+    if (status == FRAM_OK && d->peak == 0)
+        status = number_check("time", d->time, -TIME_MOST, TIME_MOST, error);
+    if (status == FRAM_OK && (d->vessel < 1 || d->vessel > VESSELS_MOST))
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel", "expected 1, the first, or more, found %d",
+                           d->vessel);
+    return status;
+}
+
+/* Rank of a recorded peak, 0 for another moment. */
+static int32_t rank_of(const why *y, const peak_detail *d)
+{
+    for (int32_t i = 0; i < y->peaks.count; i++)
+        if (y->peaks.peak[i] == d)
+            return i + 1;
+    return 0;
+}
+
+/* What is recorded of the moment; NULL: it must be computed again. */
+static fram_status find(const why *y, const fram_why_definition *d, const peak_detail **found, fram_error *error)
+{
+    *found = NULL;
+    if (d->peak > 0)
+        return why_peak(y, d->peak, found, error);
+    fram_status status = why_check_time(y, d->time, error);
+    if (status != FRAM_OK)
+        return status;
+    *found = why_recorded_at(y, d->time);
+    if (*found || d->rerun)
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "time",
+                     "contacts are kept of the %d largest peaks, and %g s is at none of them; name a peak, or let the "
+                     "moment be computed again",
+                     (int)y->peaks.count, d->time);
+}
+
+static fram_status explain(context *ctx, const why *y, const fram_why_definition *d, text_buffer *out,
+                           fram_error *error)
+{
+    const peak_detail *detail;
+    rerun_result *again = NULL;
+    why_check checked = {.done = false};
+    fram_status status = find(y, d, &detail, error);
+    if (status == FRAM_OK && d->rerun) {
+        again = memory_array(ctx, 1, sizeof *again);
+        status = again ? rerun_moment(ctx, y->run.folder, detail ? detail->time : d->time, d->vessel - 1, again, error)
+                       : error_memory(error);
+        if (status == FRAM_OK)
+            checked = (why_check){true, again->start, again->fork, again->same, again->half_step, again->accurate};
+        detail = detail || !again ? detail : &again->detail;
+    }
+    int32_t rank = rank_of(y, detail);
+    if (status == FRAM_OK)
+        status =
+            d->json ? why_json(y, detail, rank, &checked, out, error) : why_text(y, detail, rank, &checked, out, error);
+    if (status == FRAM_OK && d->picture)
+        status = why_picture(y, detail, rank, d->picture, error);
+    memory_free(ctx, again);
+    return status;
+}
+
+fram_status fram_why(fram_context *c, const char *run, const fram_why_definition *d, char **text, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"text", text});
+    if (status == FRAM_OK)
+        status = check(d, error);
+    if (status != FRAM_OK)
+        return status;
+    why y;
+    context *ctx = &c->inner;
+    const volatile int *stop = ctx->stop;
+    status = why_open(ctx, run, d->vessel - 1, &y, error);
+    if (status != FRAM_OK)
+        return status;
+    text_buffer out = {0};
+    if (d->stop)
+        ctx->stop = d->stop;
+    status = explain(ctx, &y, d, &out, error);
+    ctx->stop = stop;
+    why_close(&y);
+    if (status == FRAM_OK)
+        *text = out.data;
+    else
+        text_free(ctx, &out);
+    return status;
+}

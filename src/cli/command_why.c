@@ -1,0 +1,60 @@
+/* fram why: what carried a peak of the ice load. */
+#include "cli/cli.h"
+
+#include "fram/results.h"
+#include <math.h>
+
+int command_why(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run = NULL;
+    int peak = 0, vessel = 1;
+    bool no_rerun = false;
+    fram_why_definition d;
+    fram_why_default(&d);
+    d.time = (double)NAN;
+    const option_row rows[] = {
+        {"--peak", NULL, OPTION_INTEGER, &peak, "N", "the N-th largest peak of the run, 1 to 10"},
+        {"--time", NULL, OPTION_REAL, &d.time, "T", "this moment instead; computed again when it is no such peak [s]"},
+        {"--vessel", NULL, OPTION_INTEGER, &vessel, "N", "of several: the N-th (1)"},
+        {"--no-rerun", NULL, OPTION_FLAG, &no_rerun, NULL,
+         "do not compute the second before again by half steps and by the accurate solver"},
+        {"--output", "-o", OPTION_TEXT, &d.picture, "FILE", "also a picture of the plan, .png"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    if ((peak != 0) == (d.time == d.time))
+        return answer_usage(&common, "--peak", "or --time is needed, and only one of them");
+    if (d.time != d.time && peak < 1)
+        return answer_usage(&common, "--peak", "expected 1, the largest, or more");
+    if (vessel < 1)
+        return answer_usage(&common, "--vessel", "expected 1, the first, or more");
+    const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, "png"}}};
+    code = refuse_outputs(&common, &files);
+    if (code >= 0)
+        return code;
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    d.peak = peak;
+    d.time = peak > 0 ? 0 : d.time;
+    d.vessel = vessel;
+    d.rerun = !no_rerun;
+    d.json = common.json;
+    d.stop = session_stop_flag();
+    char *text = NULL;
+    fram_error error = {0};
+    if (fram_why(context, run, &d, &text, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = EXIT_GOOD;
+        fputs(text, stdout);
+        if (d.picture && !common.quiet)
+            fprintf(stderr, "%s\n", d.picture);
+    }
+    fram_text_free(context, text);
+    fram_context_destroy(context);
+    return code;
+}

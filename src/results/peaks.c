@@ -1,0 +1,172 @@
+#include "results/peaks.h"
+
+#include "io/record_layout.h"
+#include "io/text_buffer.h"
+#include "results/report_parts.h"
+
+#include <errno.h>
+#include <math.h>
+#include <unistd.h>
+
+#define NAME(id, name, text) name,
+#define TEXT(id, name, text) text,
+static const char *const mechanism_names[] = {ICE_MECHANISMS(NAME)}, *const mechanism_texts[] = {ICE_MECHANISMS(TEXT)};
+static const char *const end_names[] = {CHAIN_ENDS(NAME)}, *const end_texts[] = {CHAIN_ENDS(TEXT)};
+static const char *const zone_names[PEAK_ZONES] = {"bow", "shoulder", "midbody", "stern", "bottom"};
+
+const char *mechanism_name(ice_mechanism m) { return mechanism_names[m]; }
+const char *mechanism_text(ice_mechanism m) { return mechanism_texts[m]; }
+const char *chain_end_name(chain_end e) { return end_names[e]; }
+const char *chain_end_text(chain_end e) { return end_texts[e]; }
+const char *peak_zone_name(int32_t zone) { return zone_names[zone]; }
+
+ice_mechanism peak_main_mechanism(const double part[MECHANISM_COUNT])
+{
+    int best = 0;
+    for (int i = 1; i < MECHANISM_COUNT; i++)
+        best = part[i] > part[best] ? i : best;
+    return (ice_mechanism)best;
+}
+
+/* ---- reading ---- */
+
+/* Into its place by falling load; peaks nearer than the separation to a larger one belong to it. */
+static bool insert(context *ctx, peak_list *list, const peak_detail *d)
+{
+    for (int32_t i = 0; i < list->count; i++) {
+        if (fabs(list->peak[i]->time - d->time) >= PEAK_SEPARATION * d->window - 1e-9 * fabs(d->time))
+            continue;
+        if (d->load > list->peak[i]->load)
+            *list->peak[i] = *d;
+        return true;
+    }
+    int32_t at = list->count;
+    if (at == PEAKS_KEPT) {
+        if (list->peak[at - 1]->load >= d->load)
+            return true;
+        at--;
+    } else {
+        list->peak[at] = memory_array(ctx, 1, sizeof **list->peak);
+        if (!list->peak[at])
+            return false;
+        list->count++;
+    }
+    *list->peak[at] = *d;
+    return true;
+}
+
+static void sort(peak_list *list)
+{
+    for (int32_t i = 1; i < list->count; i++) {
+        peak_detail *p = list->peak[i];
+        int32_t k = i;
+        for (; k > 0 && list->peak[k - 1]->load < p->load; k--)
+            list->peak[k] = list->peak[k - 1];
+        list->peak[k] = p;
+    }
+}
+
+fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, peak_list *list, fram_error *error)
+{
+    char path[PATH_ROOM];
+    *list = (peak_list){0};
+    fram_status status = path_join(folder, "peaks.fram", path, error);
+    if (status != FRAM_OK)
+        return status;
+    if (access(path, F_OK) != 0 && errno == ENOENT)
+        return FRAM_OK;
+    record_reader reader;
+    status = record_open(ctx, path, &reader, error);
+    if (status != FRAM_OK)
+        return status;
+    peak_detail *d = memory_array(ctx, 1, sizeof *d);
+    status = d ? FRAM_OK : error_memory(error);
+    bool found = true;
+    while (status == FRAM_OK && found) {
+        record_block block;
+        status = record_next(&reader, &block, &found, error);
+        if (status != FRAM_OK || !found || block.type != BLOCK_PEAK)
+            continue;
+        if (!peak_block_unpack(block.data, block.size, d))
+            status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                               "a peak in this file does not fit: another version of Fram wrote it; run the scenario "
+                               "again");
+        else if (d->vessel == vessel && !insert(ctx, list, d))
+            status = error_memory(error);
+        else
+            sort(list);
+    }
+    record_tell_damage(&reader, "peaks after it are missing");
+    record_reader_close(&reader);
+    memory_free(ctx, d);
+    if (status != FRAM_OK)
+        peak_list_free(ctx, list);
+    return status;
+}
+
+void peak_list_free(context *ctx, peak_list *list)
+{
+    for (int32_t i = 0; i < list->count; i++)
+        memory_free(ctx, list->peak[i]);
+    list->count = 0;
+}
+
+/* ---- telling ---- */
+
+peak_breaks peak_breaks_before(const run_data *d, double time, double before)
+{
+    peak_breaks b = {.last = (double)NAN};
+    const csv_table_column *when = csv_table_find(&d->fractures, "time"), *kind = csv_table_find(&d->fractures, "kind");
+    for (int32_t i = 0; when && kind && i < d->fractures.rows; i++) {
+        double t = when->value.data[i], slack = 1e-9 * (1 + fabs(time));
+        if (t > time + slack || t < time - before)
+            continue;
+        b.splits += kind->value.data[i] == 1;
+        b.bendings += kind->value.data[i] == 2;
+        b.last = t;
+    }
+    return b;
+}
+
+static void tell_floe(context *ctx, const peak_detail *d, text_buffer *out)
+{
+    const peak_floe *f = &d->floe[0];
+    double part = 0;
+    for (int i = 0; i < MECHANISM_COUNT; i++)
+        part += f->part[i];
+    if (d->floe_count == 0 || !(d->load > 0) || part < 0.3 * d->load)
+        return;
+    if (f->number < 0)
+        text_format(ctx, out, "; one body that is no floe carries %.0f %%", 100 * part / d->load);
+    else
+        text_format(ctx, out, "; floe %d carries %.0f %%", (int)f->number, 100 * part / d->load);
+    if (f->links > 1)
+        text_format(ctx, out, ", behind it %d more to %s", f->links - 1,
+                    f->end == CHAIN_SHEET    ? "fixed ice"
+                    : f->end == CHAIN_DRIVEN ? "driven ice"
+                    : f->end == CHAIN_WALL   ? "a wall"
+                    : f->end == CHAIN_VESSEL ? "a vessel"
+                                             : "one that moves freely");
+}
+
+void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text_buffer *out)
+{
+    load_unit unit = load_unit_for(d->load);
+    double zones[PEAK_ZONES] = {0};
+    int32_t zone = 0;
+    for (int32_t z = 0; z < PEAK_ZONES; z++) {
+        for (int i = 0; i < MECHANISM_COUNT; i++)
+            zones[z] += d->zone[z][i];
+        zone = zones[z] > zones[zone] ? z : zone;
+    }
+    ice_mechanism first = peak_main_mechanism(d->mechanism);
+    double share = d->load > 0 ? 100 / d->load : 0;
+    text_format(ctx, out, "%.4g %s, %.0f %% of it by %s, %.0f %% on the %s, from %d %s", d->load * unit.factor,
+                unit.name, d->mechanism[first] * share, mechanism_text(first), zones[zone] * share, zone_names[zone],
+                (int)d->bodies, d->bodies == 1 ? "body" : "bodies");
+    tell_floe(ctx, d, out);
+    peak_breaks b = peak_breaks_before(run, d->time, 5);
+    if (b.splits + b.bendings > 0)
+        text_format(ctx, out, "; %d floes bent off and %d split in the 5 s before", (int)b.bendings, (int)b.splits);
+    text_add(ctx, out, ".");
+}

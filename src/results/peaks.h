@@ -1,0 +1,39 @@
+/* The largest peaks of the ice load on a vessel, as the run explained them (peaks.fram), and what else its results tell
+   of them. */
+#ifndef RESULTS_PEAKS_H
+#define RESULTS_PEAKS_H
+
+#include "base/peak_picker.h"
+#include "io/peak_block.h"
+#include "io/text_buffer.h"
+#include "results/run_data.h"
+
+typedef struct peak_list {
+    int32_t count;
+    peak_detail *peak[PEAKS_KEPT]; /* by falling load */
+} peak_list;
+
+/* The peaks of a vessel (row); none without a file.  FRAM_ERROR_INPUT when the file is of no run of this Fram. */
+fram_status peak_list_read(context *ctx, const char *folder, int32_t vessel, peak_list *list, fram_error *error);
+void peak_list_free(context *ctx, peak_list *list);
+
+/* The floes that broke in the `before` seconds up to a time: how many by kind (1 split, 2 bending). */
+typedef struct peak_breaks {
+    int32_t splits, bendings;
+    double last; /* time of the latest; NaN without [s] */
+} peak_breaks;
+peak_breaks peak_breaks_before(const run_data *d, double time, double before);
+
+/* One sentence about a peak, ended by a full stop. */
+void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text_buffer *out);
+
+/* "crushing"; "crushing at the limit"; "bow"; "inertia"; "its own inertia". */
+const char *mechanism_name(ice_mechanism m);
+const char *mechanism_text(ice_mechanism m);
+const char *peak_zone_name(int32_t zone);
+const char *chain_end_name(chain_end e);
+const char *chain_end_text(chain_end e);
+/* The mechanism with the largest part. */
+ice_mechanism peak_main_mechanism(const double part[MECHANISM_COUNT]);
+
+#endif

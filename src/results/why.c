@@ -1,0 +1,333 @@
+#include "results/why.h"
+
+#include "base/number_text.h"
+#include "results/report_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What happened so long before a peak is told [s]. */
+static const double BEFORE = 5;
+/* Differences under this part of the load matter to nobody: within what chance does from one second to the next. */
+static const double MATTERS = 0.05;
+
+fram_status why_open(context *ctx, const char *folder, int32_t vessel, why *y, fram_error *error)
+{
+    *y = (why){.ctx = ctx};
+    fram_status status = run_data_read(ctx, folder, false, &y->run, error);
+    if (status != FRAM_OK)
+        return status;
+    int32_t vessels = scenario_vessel_count(&y->run.s);
+    if (vessels == 0)
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
+                           "the run has no vessel, so that there is no load to explain");
+    else if (vessel >= vessels)
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "vessel", "expected one from 1 to %d, found %d",
+                           (int)vessels, (int)vessel + 1);
+    y->vessel = vessel;
+    if (status == FRAM_OK)
+        status = peak_list_read(ctx, folder, vessel, &y->peaks, error);
+    if (status != FRAM_OK)
+        run_data_free(ctx, &y->run);
+    return status;
+}
+
+void why_close(why *y)
+{
+    peak_list_free(y->ctx, &y->peaks);
+    run_data_free(y->ctx, &y->run);
+}
+
+fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_error *error)
+{
+    if (y->peaks.count == 0)
+        return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
+                         "the run keeps no peaks of this vessel: it met no ice after its transient of %g s, it was "
+                         "stopped before its first checkpoint, or an earlier Fram made it; name a moment by its time, "
+                         "which is computed again",
+                         y->run.s.run.transient);
+    if (number < 1 || number > y->peaks.count)
+        return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "peak",
+                         "expected 1, the largest, to %d, found %lld; name another moment by its time",
+                         (int)y->peaks.count, (long long)number);
+    *d = y->peaks.peak[number - 1];
+    return FRAM_OK;
+}
+
+const peak_detail *why_recorded_at(const why *y, double time)
+{
+    for (int32_t i = 0; i < y->peaks.count; i++) {
+        const peak_detail *d = y->peaks.peak[i];
+        if (fabs(d->time - time) <= d->window / 4)
+            return d;
+    }
+    return NULL;
+}
+
+fram_status why_check_time(const why *y, double time, fram_error *error)
+{
+    double end = y->run.note.time;
+    if (time > 0 && time <= end * (1 + 1e-12))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, y->run.folder, 0, "time",
+                     "expected a time in the run, above 0 and up to %g s, found %g", end, time);
+}
+
+static double percent(double part, const peak_detail *d) { return d->load > 0 ? 100 * part / d->load : 0; }
+
+static double sum_of(const double part[MECHANISM_COUNT])
+{
+    double sum = 0;
+    for (int i = 0; i < MECHANISM_COUNT; i++)
+        sum += part[i];
+    return sum;
+}
+
+/* ---- text ---- */
+
+static void tell_parts(context *ctx, const peak_detail *d, text_buffer *out)
+{
+    text_add(ctx, out, "\nWhat makes it, along the load:\n");
+    double told[MECHANISM_COUNT];
+    memcpy(told, d->mechanism, sizeof told);
+    for (int k = 0; k < MECHANISM_COUNT; k++) {
+        ice_mechanism m = peak_main_mechanism(told);
+        if (fabs(percent(told[m], d)) >= 0.5 && told[m] > -HUGE_VAL)
+            text_format(ctx, out, "  %5.0f %%  %s\n", percent(told[m], d), mechanism_text(m));
+        told[m] = -HUGE_VAL;
+    }
+    text_add(ctx, out, "Where on the hull:");
+    for (int32_t z = 0; z < PEAK_ZONES; z++)
+        if (fabs(percent(sum_of(d->zone[z]), d)) >= 0.5)
+            text_format(ctx, out, "  %s %.0f %%", peak_zone_name(z), percent(sum_of(d->zone[z]), d));
+    text_add(ctx, out, "\n");
+}
+
+static void name_floe(int32_t number, char out[24])
+{
+    if (number >= 0)
+        snprintf(out, 24, "floe %d", (int)number);
+    else
+        snprintf(out, 24, "no floe");
+}
+
+static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
+{
+    text_format(ctx, out, "\n%d bodies touched the vessel in the window; the largest parts:\n", (int)d->bodies);
+    for (int32_t i = 0; i < d->floe_count && i < 10; i++) {
+        const peak_floe *f = &d->floe[i];
+        char name[24];
+        name_floe(f->number, name);
+        text_format(ctx, out, "  %5.0f %%  %-12s %9.4g %s at (%.4g, %.4g, %.3g) m, %s, mostly %s\n",
+                    percent(sum_of(f->part), d), name, vec3_length(f->force) * unit.factor, unit.name, f->point.x,
+                    f->point.y, f->point.z, peak_zone_name(f->zone), mechanism_text((ice_mechanism)f->mechanism));
+    }
+}
+
+static void tell_chain(context *ctx, const peak_floe *f, const peak_link *link, load_unit unit, text_buffer *out)
+{
+    text_add(ctx, out, "  hull");
+    for (int i = 0; i < f->links; i++) {
+        char name[24];
+        name_floe(link[i].number, name);
+        text_format(ctx, out, " -> %s (%.4g %s)",
+                    link[i].number >= 0    ? name
+                    : f->end == CHAIN_WALL ? "wall"
+                                           : "body",
+                    vec3_length(link[i].push) * unit.factor, unit.name);
+    }
+    text_format(ctx, out, "; the end: %s\n", chain_end_text((chain_end)f->end));
+}
+
+static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
+{
+    int32_t at = 0;
+    text_add(ctx, out, "\nWhat stood behind them in the step of the peak (impulses over the step):\n");
+    for (int32_t i = 0; i < d->floe_count; i++) {
+        if (d->floe[i].links > 0)
+            tell_chain(ctx, &d->floe[i], &d->link[at], unit, out);
+        at += d->floe[i].links;
+    }
+    if (at == 0)
+        text_add(ctx, out, "  nothing to follow: those floes broke in that step or touched no more\n");
+}
+
+static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
+{
+    peak_breaks b = peak_breaks_before(&y->run, d->time, BEFORE);
+    text_format(y->ctx, out, "\nIn the %g s before: %d breaks in bending, %d splits", BEFORE, (int)b.bendings,
+                (int)b.splits);
+    if (isfinite(b.last))
+        text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
+    const double *capped = run_channel(&y->run, "mechanism_crushing_x"), *time = run_channel(&y->run, "time");
+    const double *residual = run_channel(&y->run, "solver_residual");
+    double most = 0;
+    for (int32_t i = 0; capped && time && residual && i < y->run.series.rows; i++)
+        if (time[i] > d->time - BEFORE && time[i] <= d->time)
+            most = fmax(most, residual[i]);
+    text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);
+}
+
+static void tell_difference(context *ctx, const char *how, double load, double same, load_unit unit, text_buffer *out)
+{
+    double part = same > 0 ? load / same - 1 : 0;
+    text_format(ctx, out, "  %-24s %9.4g %s  %+.1f %%%s\n", how, load * unit.factor, unit.name, 100 * part,
+                fabs(part) > MATTERS ? "  it matters" : "");
+}
+
+static void tell_check(context *ctx, const why_check *c, load_unit unit, text_buffer *out)
+{
+    if (!c->done) {
+        text_add(ctx, out, "\nNot computed again: whether time step and solver matter is open.\n");
+        return;
+    }
+    text_format(ctx, out, "\nComputed again from %g s on, by other methods from %g s; largest averaged load:\n",
+                c->start, c->fork);
+    tell_difference(ctx, "as the run was made", c->same, c->same, unit, out);
+    tell_difference(ctx, "half the time step", c->half_step, c->same, unit, out);
+    tell_difference(ctx, "the accurate solver", c->accurate, c->same, unit, out);
+    text_format(ctx, out,
+                "  (more than %g %% is said to matter; contacts that jam are chaotic, so look at means too)\n",
+                100 * MATTERS);
+}
+
+fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why_check *check, text_buffer *out,
+                     fram_error *error)
+{
+    context *ctx = y->ctx;
+    load_unit unit = load_unit_for(d->load);
+    if (rank > 0)
+        text_format(ctx, out, "Peak %d of %d: ", (int)rank, (int)y->peaks.count);
+    text_format(ctx, out, "t = %.6g s, horizontal ice load %.4g %s, averaged over %.3g s\n", d->time,
+                d->load * unit.factor, unit.name, d->window);
+    text_format(ctx, out, "(%.4g, %.4g, %.4g) %s in x, y, z\n", d->force.x * unit.factor, d->force.y * unit.factor,
+                d->force.z * unit.factor, unit.name);
+    peak_sentence(ctx, &y->run, d, out);
+    text_add(ctx, out, "\n");
+    tell_parts(ctx, d, out);
+    tell_floes(ctx, d, unit, out);
+    tell_chains(ctx, d, unit, out);
+    tell_breaks(y, d, out);
+    tell_check(ctx, check, unit, out);
+    return out->failed ? error_memory(error) : FRAM_OK;
+}
+
+/* ---- JSON: one line, SI units ---- */
+
+static void number(context *ctx, text_buffer *out, const char *key, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_format(ctx, out, "\"%s\": %s", key, isfinite(value) ? text : "null");
+}
+
+static void vector(context *ctx, text_buffer *out, const char *key, vec3 v)
+{
+    const double part[3] = {v.x, v.y, v.z};
+    text_format(ctx, out, "\"%s\": [", key);
+    for (int i = 0; i < 3; i++) {
+        char text[NUMBER_TEXT_SIZE];
+        real_to_text(part[i], text);
+        text_format(ctx, out, "%s%s", i > 0 ? ", " : "", isfinite(part[i]) ? text : "null");
+    }
+    text_add(ctx, out, "]");
+}
+
+static void parts(context *ctx, text_buffer *out, const char *key, const double part[MECHANISM_COUNT])
+{
+    text_format(ctx, out, "\"%s\": {", key);
+    for (int i = 0; i < MECHANISM_COUNT; i++) {
+        text_add(ctx, out, i > 0 ? ", " : "");
+        number(ctx, out, mechanism_name((ice_mechanism)i), part[i]);
+    }
+    text_add(ctx, out, "}");
+}
+
+static void json_chain(context *ctx, text_buffer *out, const peak_floe *f, const peak_link *link)
+{
+    text_add(ctx, out, ", \"chain\": [");
+    for (int i = 0; i < f->links; i++) {
+        text_format(ctx, out, "%s{\"floe\": %d, ", i > 0 ? ", " : "", (int)link[i].number);
+        vector(ctx, out, "place", link[i].place);
+        text_add(ctx, out, ", ");
+        vector(ctx, out, "push", link[i].push);
+        text_add(ctx, out, ", ");
+        number(ctx, out, "held_by_contacts", link[i].others);
+        text_add(ctx, out, ", ");
+        number(ctx, out, "held_by_water", link[i].water);
+        text_add(ctx, out, ", ");
+        number(ctx, out, "inertia", link[i].inertia);
+        text_add(ctx, out, "}");
+    }
+    text_format(ctx, out, "], \"end\": %s%s%s", f->links ? "\"" : "",
+                f->links ? chain_end_name((chain_end)f->end) : "null", f->links ? "\"" : "");
+}
+
+static void json_floes(context *ctx, text_buffer *out, const peak_detail *d)
+{
+    int32_t at = 0;
+    text_add(ctx, out, ", \"floes\": [");
+    for (int32_t i = 0; i < d->floe_count; i++) {
+        const peak_floe *f = &d->floe[i];
+        text_format(ctx, out, "%s{\"floe\": %d, \"mechanism\": \"%s\", \"zone\": \"%s\", ", i > 0 ? ", " : "",
+                    (int)f->number, mechanism_name((ice_mechanism)f->mechanism), peak_zone_name(f->zone));
+        vector(ctx, out, "force", f->force);
+        text_add(ctx, out, ", ");
+        vector(ctx, out, "point", f->point);
+        text_add(ctx, out, ", ");
+        parts(ctx, out, "parts", f->part);
+        json_chain(ctx, out, f, &d->link[at]);
+        text_add(ctx, out, "}");
+        at += f->links;
+    }
+    text_add(ctx, out, "]");
+}
+
+static void json_check(context *ctx, text_buffer *out, const why_check *c)
+{
+    text_add(ctx, out, ", \"computed_again\": ");
+    if (!c->done) {
+        text_add(ctx, out, "null");
+        return;
+    }
+    text_add(ctx, out, "{");
+    number(ctx, out, "from", c->start);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "other_methods_from", c->fork);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "same", c->same);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "half_step", c->half_step);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "accurate", c->accurate);
+    text_add(ctx, out, "}");
+}
+
+fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why_check *check, text_buffer *out,
+                     fram_error *error)
+{
+    context *ctx = y->ctx;
+    peak_breaks b = peak_breaks_before(&y->run, d->time, BEFORE);
+    text_format(ctx, out, "{\"peak\": %d, \"peaks\": %d, ", (int)rank, (int)y->peaks.count);
+    number(ctx, out, "time", d->time);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "load", d->load);
+    text_add(ctx, out, ", ");
+    number(ctx, out, "window", d->window);
+    text_add(ctx, out, ", ");
+    vector(ctx, out, "force", d->force);
+    text_add(ctx, out, ", ");
+    parts(ctx, out, "mechanisms", d->mechanism);
+    text_add(ctx, out, ", \"zones\": {");
+    for (int32_t z = 0; z < PEAK_ZONES; z++) {
+        text_add(ctx, out, z > 0 ? ", " : "");
+        parts(ctx, out, peak_zone_name(z), d->zone[z]);
+    }
+    text_format(ctx, out, "}, \"bodies\": %d", (int)d->bodies);
+    json_floes(ctx, out, d);
+    text_format(ctx, out, ", \"bendings_before\": %d, \"splits_before\": %d", (int)b.bendings, (int)b.splits);
+    json_check(ctx, out, check);
+    text_add(ctx, out, "}\n");
+    return out->failed ? error_memory(error) : FRAM_OK;
+}

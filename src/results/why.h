@@ -1,0 +1,42 @@
+/* Why a load was what it was: the explanation of a peak as text, as JSON and as a picture, from what a run recorded, or
+   from what was computed again (the caller's, results know no world). */
+#ifndef RESULTS_WHY_H
+#define RESULTS_WHY_H
+
+#include "model/scenario_vessel.h"
+#include "results/peaks.h"
+
+/* What a second computed again by other methods came to; sim/rerun.h. */
+typedef struct why_check {
+    bool done;
+    double start, fork;
+    double same, half_step, accurate; /* largest averaged load from the fork on [N] */
+} why_check;
+
+typedef struct why {
+    context *ctx;
+    run_data run;
+    int32_t vessel;
+    peak_list peaks; /* of the vessel */
+} why;
+
+/* The run and its peaks; FRAM_ERROR_INPUT when the folder is not that of a run. */
+fram_status why_open(context *ctx, const char *folder, int32_t vessel, why *y, fram_error *error);
+void why_close(why *y);
+/* Peak 1 is the largest.  FRAM_ERROR_INPUT says how many there are, and what to do when there are none. */
+fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_error *error);
+/* The recorded peak whose window has the time in its middle half; NULL: the moment must be computed again. */
+const peak_detail *why_recorded_at(const why *y, double time);
+/* Refuses a time that the run does not have. */
+fram_status why_check_time(const why *y, double time, fram_error *error);
+
+/* The explanation; rank: of a recorded peak, 0 for a moment. */
+fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why_check *check, text_buffer *out,
+                     fram_error *error);
+fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why_check *check, text_buffer *out,
+                     fram_error *error);
+/* Plan of the field near the vessel: the floes that carry the load by their part of it, the chains as lines, forces as
+   arrows.  The field is that of the record, between frames by interpolation.  FRAM_ERROR_UNSUPPORTED without cairo. */
+fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const char *path, fram_error *error);
+
+#endif

@@ -1,0 +1,153 @@
+/* The picture of a peak: the field near the vessel, floes coloured by their part of the load, chains as lines. */
+#include "results/why.h"
+
+#include "results/replay_plan.h"
+#include "results/report_parts.h"
+
+#include <stdio.h>
+
+enum { LONGEST = 1400 };
+
+/* Part of the load that a body carries [%]; a body of a chain that does not touch the vessel 0. */
+static bool part_in(const peak_detail *d, const replay_body *b, double *part)
+{
+    bool found = false;
+    *part = 0;
+    for (int32_t i = 0; i < d->link_count; i++)
+        found = found || (b->number >= 0 && d->link[i].number == b->number);
+    for (int32_t i = 0; i < d->floe_count; i++) {
+        if (b->number < 0 || d->floe[i].number != b->number)
+            continue;
+        found = true;
+        for (int m = 0; m < MECHANISM_COUNT; m++)
+            *part += d->load > 0 ? 100 * d->floe[i].part[m] / d->load : 0;
+    }
+    return found;
+}
+
+/* Outlines are told apart by where they lie in memory: shapes are sorted. */
+static void colour_floes(const replay *r, const replay_moment *m, const peak_detail *d, double most, replay_plan *plan)
+{
+    for (int32_t i = 0; i < plan->shapes.count; i++) {
+        plan_shape *s = &plan->shapes.data[i];
+        for (int32_t k = 0; k < m->poses.count; k++) {
+            double part;
+            if (polygon_list_get(&m->outlines, k).vertex != s->outline.vertex ||
+                !part_in(d, &r->bodies.data[m->poses.data[k].body], &part))
+                continue;
+            s->has_value = true;
+            s->value = (float)(most > 0 ? fmin(fmax(part / most, 0), 1) : 0);
+        }
+    }
+}
+
+/* The hull under the ice that it covers: what carries a load is mostly below it. */
+static void show_under_hull(replay_plan *plan)
+{
+    for (int32_t i = 0; i < plan->shapes.count; i++)
+        if (plan->shapes.data[i].style == PLAN_DECK)
+            plan->shapes.data[i].height = -HUGE_VAL;
+    plan_shapes_sort(plan->shapes.data, plan->shapes.count);
+}
+
+static bool add_lines(context *ctx, const peak_detail *d, double length, replay_plan *plan)
+{
+    bool good = true;
+    int32_t at = 0;
+    array_clear(&plan->arrows);
+    for (int32_t i = 0; i < d->floe_count && good; i++) {
+        const peak_floe *f = &d->floe[i];
+        vec2 point = vec2_make(f->point.x, f->point.y);
+        vec2 way = vec2_make(f->force.x * length, f->force.y * length);
+        good = array_push(ctx, &plan->arrows, (plan_arrow){vec2_sub(point, way), point});
+        for (int k = 1; k < f->links && good; k++) {
+            const peak_link *a = &d->link[at + k - 1], *b = &d->link[at + k];
+            good = array_push(ctx, &plan->arrows,
+                              (plan_arrow){vec2_make(a->place.x, a->place.y), vec2_make(b->place.x, b->place.y)});
+        }
+        at += f->links;
+    }
+    return good;
+}
+
+/* Around the middle of what touches the vessel, and what the chains reach. */
+static box2 window_of(const peak_detail *d, double reach)
+{
+    vec2 vessel = vec2_make(0, 0);
+    for (int32_t i = 0; i < d->floe_count; i++)
+        vessel = vec2_add(vessel, vec2_make(d->floe[i].point.x / d->floe_count, d->floe[i].point.y / d->floe_count));
+    box2 box = {vec2_make(vessel.x - reach, vessel.y - reach), vec2_make(vessel.x + reach, vessel.y + reach)};
+    for (int32_t i = 0; i < d->link_count; i++) {
+        /* A fixed floe's place may be far: the middle of a sheet. */
+        vec3 p = d->link[i].place;
+        if (fabs(p.x - vessel.x) > 3 * reach || fabs(p.y - vessel.y) > 3 * reach)
+            continue;
+        box.lo = vec2_make(fmin(box.lo.x, p.x), fmin(box.lo.y, p.y));
+        box.hi = vec2_make(fmax(box.hi.x, p.x), fmax(box.hi.y, p.y));
+    }
+    return box;
+}
+
+static fram_status draw(const why *y, const replay *r, const replay_moment *m, const peak_detail *d, int32_t rank,
+                        const char *path, fram_error *error)
+{
+    replay_plan plan = {0};
+    load_unit unit = load_unit_for(d->load);
+    vessel_entry vessel = scenario_vessel_entry(&y->run.s, y->vessel);
+    double most = 0, part, force = 0, reach = fmax(0.75 * vessel.keys->hull.length, 1);
+    for (int32_t i = 0; i < m->poses.count; i++)
+        if (part_in(d, &r->bodies.data[m->poses.data[i].body], &part))
+            most = fmax(most, part);
+    for (int32_t i = 0; i < d->floe_count; i++)
+        force = fmax(force, vec3_length(d->floe[i].force));
+    fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, 5, &plan, error);
+    if (status == FRAM_OK) {
+        double length = force > 0 ? 0.3 * reach / force : 0;
+        char title[120], caption[160];
+        show_under_hull(&plan);
+        colour_floes(r, m, d, most, &plan);
+        if (!add_lines(y->ctx, d, length, &plan))
+            status = error_memory(error);
+        char name[24] = "Ice load";
+        if (rank > 0)
+            snprintf(name, sizeof name, "Peak %d", (int)rank);
+        snprintf(title, sizeof title, "%s: %.4g %s at %.6g s", name, d->load * unit.factor, unit.name, d->time);
+        snprintf(caption, sizeof caption,
+                 "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last 5 s",
+                 mechanism_text(peak_main_mechanism(d->mechanism)));
+        plan_view view = {.window = window_of(d, reach),
+                          .title = title,
+                          .caption = caption,
+                          .shapes = plan.shapes.data,
+                          .shape_count = plan.shapes.count,
+                          .marks = plan.marks.data,
+                          .mark_count = plan.marks.count,
+                          .arrows = plan.arrows.data,
+                          .arrow_count = plan.arrows.count,
+                          .arrow_scale = length,
+                          .scale_name = "part of the load [%]",
+                          .scale_hi = most};
+        if (status == FRAM_OK)
+            status = plan_view_write(y->ctx, &view, path, LONGEST, error);
+    }
+    replay_plan_free(y->ctx, &plan);
+    return status;
+}
+
+fram_status why_picture(const why *y, const peak_detail *d, int32_t rank, const char *path, fram_error *error)
+{
+    replay r;
+    replay_moment m = {0};
+    fram_status status = replay_open(y->ctx, y->run.folder, &r, error);
+    if (status != FRAM_OK)
+        return status;
+    /* The last frame stands for what follows it. */
+    status = replay_moment_at(&r, d->time, &m, error);
+    if (status == FRAM_ERROR_INPUT)
+        status = replay_moment_now(&r, &m, error);
+    if (status == FRAM_OK)
+        status = draw(y, &r, &m, d, rank, path, error);
+    replay_moment_free(y->ctx, &m);
+    replay_close(&r);
+    return status;
+}

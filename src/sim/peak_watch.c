@@ -1,0 +1,326 @@
+#include "sim/peak_watch.h"
+
+#include "io/path.h"
+#include "io/record_layout.h"
+#include "sim/force_chain.h"
+#include "sim/ice_loads.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+_Static_assert((int)PEAK_ZONES == (int)ZONE_COUNT, "a peak tells all zones");
+
+/* A longer window is explained by its last steps: contacts of so many are kept. */
+enum { WINDOW_STEPS_MOST = 1000 };
+
+void peak_watch_init(context *ctx, double time_step, double from, peak_watch *p)
+{
+    *p = (peak_watch){.ctx = ctx, .time_step = time_step, .from = from};
+}
+
+void peak_watch_free(peak_watch *p)
+{
+    for (int32_t i = 0; i < p->ring.count; i++)
+        array_free(p->ctx, &p->ring.data[i]);
+    array_free(p->ctx, &p->ring);
+    array_free(p->ctx, &p->vessels);
+    array_free(p->ctx, &p->earlier);
+}
+
+/* On the first step with a world: rooms for its window and vessels. */
+static bool begin(peak_watch *p, const world *w)
+{
+    int64_t steps = load_window_length(w);
+    if (steps > WINDOW_STEPS_MOST)
+        steps = WINDOW_STEPS_MOST;
+    p->window = (double)load_window_length(w) * p->time_step;
+    if (p->vessels.count == w->vessels.count && p->ring.count == steps)
+        return true;
+    if (!array_resize(p->ctx, &p->vessels, w->vessels.count))
+        return false;
+    for (int32_t v = 0; v < p->vessels.count; v++)
+        peak_picker_init(&p->vessels.data[v].picker, PEAK_SEPARATION * p->window, p->from);
+    int32_t had = p->ring.count;
+    if (!array_resize(p->ctx, &p->ring, (int32_t)steps))
+        return false;
+    for (int32_t i = had; i < p->ring.count; i++)
+        p->ring.data[i] = (ice_share_array){0};
+    return true;
+}
+
+fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error)
+{
+    if (!begin(p, w))
+        return error_memory(error);
+    if (p->ring.count == 0)
+        return FRAM_OK;
+    ice_share_array *row = &p->ring.data[p->next];
+    int32_t count = w->scratch.shares.count;
+    if (!array_resize(p->ctx, row, count))
+        return error_memory(error);
+    if (count > 0)
+        memcpy(row->data, w->scratch.shares.data, (size_t)count * sizeof *row->data);
+    p->next = (p->next + 1) % p->ring.count;
+    p->filled += p->filled < p->ring.count;
+    return FRAM_OK;
+}
+
+/* ---- sums over the window ---- */
+
+/* What one body does to the vessel in the window. */
+typedef struct body_sum {
+    peak_floe floe;
+    double weight, zone[PEAK_ZONES];
+} body_sum;
+typedef ARRAY(body_sum) body_sum_array;
+
+/* Bodies in the order of their first contact; looked for from the last one found, which most contacts are of. */
+static body_sum *sum_of(context *ctx, body_sum_array *sums, const ice_share *s, int32_t *last)
+{
+    for (int32_t k = 0; k < sums->count; k++) {
+        int32_t i = (*last + k) % sums->count;
+        const peak_floe *f = &sums->data[i].floe;
+        if (f->number == s->floe && (s->floe >= 0 || f->slot == s->body)) {
+            *last = i;
+            return &sums->data[i];
+        }
+    }
+    const body_sum fresh = {.floe = {.number = s->floe, .slot = s->body}};
+    if (!array_push(ctx, sums, fresh))
+        return NULL;
+    *last = sums->count - 1;
+    return &sums->data[*last];
+}
+
+static void add_share(body_sum *b, const ice_share *s, vec3 along, double scale, peak_detail *d)
+{
+    vec3 normal = vec3_scale(s->normal, scale), friction = vec3_scale(s->friction, scale);
+    vec3 force = vec3_add(normal, friction);
+    double size = vec3_length(force), of_normal = vec3_dot(normal, along), of_friction = vec3_dot(friction, along);
+    b->floe.slot = s->body;
+    b->floe.force = vec3_add(b->floe.force, force);
+    b->floe.point = vec3_mad(b->floe.point, s->point, size);
+    b->weight += size;
+    b->floe.part[s->mechanism] += of_normal;
+    b->floe.part[MECHANISM_FRICTION] += of_friction;
+    b->zone[s->zone] += of_normal + of_friction;
+    d->mechanism[s->mechanism] += of_normal;
+    d->mechanism[MECHANISM_FRICTION] += of_friction;
+    d->zone[s->zone][s->mechanism] += of_normal;
+    d->zone[s->zone][MECHANISM_FRICTION] += of_friction;
+}
+
+static int32_t largest(const double *value, int32_t count)
+{
+    int32_t best = 0;
+    for (int32_t i = 1; i < count; i++)
+        best = value[i] > value[best] ? i : best;
+    return best;
+}
+
+static double part_of(const peak_floe *f)
+{
+    double sum = 0;
+    for (int i = 0; i < MECHANISM_COUNT; i++)
+        sum += f->part[i];
+    return sum;
+}
+
+static int compare_sums(const void *a, const void *b)
+{
+    const peak_floe *x = &((const body_sum *)a)->floe, *y = &((const body_sum *)b)->floe;
+    double p = part_of(x), q = part_of(y);
+    return p != q ? (p > q ? -1 : 1) : x->number != y->number ? (x->number < y->number ? -1 : 1) : x->slot - y->slot;
+}
+
+static void list_floes(body_sum_array *sums, peak_detail *d)
+{
+    if (sums->count > 1)
+        qsort(sums->data, (size_t)sums->count, sizeof *sums->data, compare_sums);
+    d->bodies = sums->count;
+    for (int32_t i = 0; i < sums->count && i < PEAK_FLOES; i++) {
+        body_sum *b = &sums->data[i];
+        b->floe.mechanism = (uint8_t)largest(b->floe.part, MECHANISM_COUNT);
+        b->floe.zone = (uint8_t)largest(b->zone, PEAK_ZONES);
+        b->floe.point = b->weight > 0 ? vec3_scale(b->floe.point, 1 / b->weight) : b->floe.point;
+        d->floe[d->floe_count++] = b->floe;
+    }
+}
+
+/* ---- chains ---- */
+
+static int32_t number_at(const world *w, int32_t body)
+{
+    bool ice = w->bodies.material[body] == MATERIAL_ICE && w->bodies.owner[body] >= 0;
+    return ice && body_is_alive(&w->bodies, body) ? w->floes.number[w->bodies.owner[body]] : -1;
+}
+
+/* Of a floe that is still there: its slot is another's when it broke in this step. */
+static void add_chain(const world *w, double time_step, int32_t hull, force_chain *chain, peak_floe *f, peak_detail *d)
+{
+    if (f->number < 0 || number_at(w, f->slot) != f->number)
+        return;
+    force_chain_follow(w, time_step, hull, f->slot, chain);
+    if (vec3_length(chain->link[0].push) == 0)
+        return;
+    int32_t count = chain->count < PEAK_CHAIN_LINKS ? chain->count : PEAK_CHAIN_LINKS;
+    f->links = (uint8_t)count;
+    f->end = (uint8_t)(count < chain->count ? CHAIN_LOOP : chain->end);
+    for (int32_t i = 0; i < count; i++) {
+        const chain_link *l = &chain->link[i];
+        d->link[d->link_count++] = (peak_link){
+            l->body, number_at(w, l->body), w->bodies.position[l->body], l->push, l->others, l->water, l->inertia};
+    }
+}
+
+fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_detail *d, fram_error *error)
+{
+    memset(d, 0, sizeof *d);
+    vec3 force = load_window_average(w, vessel).force;
+    d->time = w->clock.time[0];
+    d->load = sqrt(force.x * force.x + force.y * force.y);
+    d->window = p->window;
+    d->vessel = vessel;
+    d->force = force;
+    vec3 along = d->load > 0 ? vec3_make(force.x / d->load, force.y / d->load, 0) : vec3_make(0, 0, 0);
+    body_sum_array sums = {0};
+    int32_t last = 0;
+    bool good = true;
+    for (int32_t k = 0; k < p->filled && good; k++) {
+        const ice_share_array *row = &p->ring.data[(p->next + p->ring.count - p->filled + k) % p->ring.count];
+        for (int32_t i = 0; i < row->count && good; i++) {
+            if (row->data[i].vessel != vessel)
+                continue;
+            body_sum *b = sum_of(p->ctx, &sums, &row->data[i], &last);
+            good = b != NULL;
+            if (good)
+                add_share(b, &row->data[i], along, 1.0 / p->filled, d);
+        }
+    }
+    if (good)
+        list_floes(&sums, d);
+    array_free(p->ctx, &sums);
+    if (!good || !contact_web_make(p->ctx, w))
+        return error_memory(error);
+    force_chain *chain = memory_array(p->ctx, 1, sizeof *chain);
+    if (!chain)
+        return error_memory(error);
+    for (int32_t i = 0; i < d->floe_count && i < PEAK_CHAINS; i++)
+        add_chain(w, p->time_step, w->vessels.body[vessel], chain, &d->floe[i], d);
+    memory_free(p->ctx, chain);
+    return FRAM_OK;
+}
+
+/* ---- the largest ones ---- */
+
+static void keep_detail(vessel_peaks *v, int32_t at)
+{
+    if (at < 0)
+        return;
+    size_t after = (size_t)(v->picker.count - 1 - at);
+    memmove(&v->kept[at + 1], &v->kept[at], after * sizeof *v->kept);
+    v->kept[at] = v->candidate;
+}
+
+/* The peaks of the call before that lie before this one. */
+static void take_earlier(peak_watch *p, double now)
+{
+    for (int32_t i = 0; i < p->earlier.count; i++) {
+        const peak_detail *d = &p->earlier.data[i];
+        if (d->vessel >= p->vessels.count || d->time >= now)
+            continue;
+        vessel_peaks *v = &p->vessels.data[d->vessel];
+        v->candidate = *d;
+        v->picker.candidate = (load_peak){d->time, d->load};
+        v->picker.open = true;
+        keep_detail(v, peak_picker_ends(&v->picker));
+    }
+    array_clear(&p->earlier);
+}
+
+fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error)
+{
+    fram_status status = peak_watch_keep(p, w, error);
+    double time = w->clock.time[0];
+    if (status == FRAM_OK)
+        take_earlier(p, time);
+    for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++) {
+        vessel_peaks *peaks = &p->vessels.data[v];
+        vec3 force = load_window_average(w, v).force;
+        keep_detail(peaks, peak_picker_settles(&peaks->picker, time));
+        if (peak_picker_rises(&peaks->picker, time, sqrt(force.x * force.x + force.y * force.y)))
+            status = peak_watch_explain(p, w, v, &peaks->candidate, error);
+    }
+    return status;
+}
+
+/* ---- the file ---- */
+
+static fram_status append(record_writer *file, unsigned char *room, const peak_detail *d, fram_error *error)
+{
+    record_part part = {room, peak_block_pack(d, room)};
+    return record_append(file, BLOCK_PEAK, &part, 1, error);
+}
+
+static fram_status append_vessel(record_writer *file, unsigned char *room, const vessel_peaks *v, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < v->picker.count && status == FRAM_OK; i++)
+        status = append(file, room, &v->kept[i], error);
+    /* Explained when it would be kept. */
+    bool large = v->picker.count < PEAKS_KEPT || v->picker.candidate.value > v->picker.kept[PEAKS_KEPT - 1].value;
+    return status == FRAM_OK && v->picker.open && large ? append(file, room, &v->candidate, error) : status;
+}
+
+fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error)
+{
+    char path[PATH_ROOM], fresh[PATH_ROOM];
+    fram_status status = path_join(folder, "peaks.fram", path, error);
+    if (status == FRAM_OK)
+        status = path_join(folder, "peaks.fram.new", fresh, error);
+    record_writer file;
+    if (status == FRAM_OK)
+        status = record_create(p->ctx, fresh, &file, error);
+    if (status != FRAM_OK)
+        return status;
+    unsigned char *room = memory_array(p->ctx, PEAK_BLOCK_ROOM, 1);
+    if (!room)
+        status = error_memory(error);
+    for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++)
+        status = append_vessel(&file, room, &p->vessels.data[v], error);
+    memory_free(p->ctx, room);
+    fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
+    status = status == FRAM_OK ? closed : status;
+    if (status == FRAM_OK && rename(fresh, path) != 0)
+        status = file_error(error, path, "replace the file", errno);
+    if (status != FRAM_OK)
+        (void)unlink(fresh);
+    return status;
+}
+
+fram_status peak_watch_read(peak_watch *p, const char *folder, fram_error *error)
+{
+    char path[PATH_ROOM];
+    record_reader reader;
+    fram_status status = path_join(folder, "peaks.fram", path, error);
+    if (status != FRAM_OK)
+        return status;
+    fram_error none;
+    status = record_open(p->ctx, path, &reader, &none);
+    if (status != FRAM_OK)
+        return status == FRAM_ERROR_MEMORY ? error_memory(error) : FRAM_OK;
+    record_block block;
+    bool found = true;
+    peak_detail d;
+    while (status == FRAM_OK && found) {
+        status = record_next(&reader, &block, &found, error);
+        if (status == FRAM_OK && found && block.type == BLOCK_PEAK && peak_block_unpack(block.data, block.size, &d) &&
+            !array_push(p->ctx, &p->earlier, d))
+            status = error_memory(error);
+    }
+    record_reader_close(&reader);
+    return status;
+}

@@ -1,0 +1,44 @@
+/* Watches the ice load on each vessel for its largest peaks, with the contacts of the last averaging window at hand (a
+   ring of the steps), so that what carried a peak can be told when it is over.  Reads the world only. */
+#ifndef SIM_PEAK_WATCH_H
+#define SIM_PEAK_WATCH_H
+
+#include "base/peak_picker.h"
+#include "io/peak_block.h"
+#include "model/world.h"
+
+typedef ARRAY(ice_share) ice_share_array;
+
+typedef struct vessel_peaks {
+    peak_picker picker;
+    peak_detail kept[PEAKS_KEPT]; /* row i explains picker.kept[i] */
+    peak_detail candidate;
+} vessel_peaks;
+
+typedef struct peak_watch {
+    context *ctx;
+    double time_step, from, window; /* [s] */
+    ARRAY(ice_share_array) ring;    /* one per step of the window, WINDOW_STEPS_MOST at most */
+    int32_t next, filled;
+    ARRAY(vessel_peaks) vessels;
+    ARRAY(peak_detail) earlier; /* of a call that this one continues, until its first step */
+} peak_watch;
+
+void peak_watch_init(context *ctx, double time_step, double from, peak_watch *p);
+void peak_watch_free(peak_watch *p);
+/* Keeps the contacts of the step that was just done. */
+fram_status peak_watch_keep(peak_watch *p, const world *w, fram_error *error);
+/* What carries the load of a vessel now: after peak_watch_keep. */
+fram_status peak_watch_explain(peak_watch *p, world *w, int32_t vessel, peak_detail *d, fram_error *error);
+
+/* Each step of a run, in place of both: keeps what explains the largest peaks so far. */
+fram_status peak_watch_step(peak_watch *p, world *w, fram_error *error);
+
+/* The peaks so far as FOLDER/peaks.fram (results/peaks.h reads it), the ones that are not over too.  A failure leaves
+   the file of before. */
+fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *error);
+/* Peaks of an earlier call that this one continues; none where there is no such file, or a damaged one.  Those behind
+   the state that the run goes on from are dropped on the first step. */
+fram_status peak_watch_read(peak_watch *p, const char *folder, fram_error *error);
+
+#endif

@@ -1,0 +1,190 @@
+#include "sim/rerun.h"
+
+#include "io/path.h"
+#include "io/scenario_file.h"
+#include "sim/build.h"
+#include "sim/checkpoint.h"
+#include "sim/ice_loads.h"
+#include "sim/peak_watch.h"
+#include "sim/recording.h"
+#include "sim/run_folder.h"
+#include "sim/step.h"
+
+#include <string.h>
+
+/* The methods differ from so long before the moment [s]: long enough for contacts to settle, short enough that the
+   motions stay those of the run. */
+static const double DIFFERS_FOR = 1;
+/* Sweeps a step of the accurate solver: ten times the default of a run.  Level ice that jams would take a hundred times
+   as many to its tolerance, and minutes for a second. */
+enum { ACCURATE_SWEEPS = 300 };
+
+typedef struct rerun {
+    context *ctx;
+    const char *folder;
+    scenario s;
+    double time;
+    int32_t vessel;
+    rerun_result *out;
+} rerun;
+
+static fram_status step_once(const rerun *r, const model *m, world *w, fram_error *error)
+{
+    if (r->ctx->stop && *r->ctx->stop)
+        return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s", w->clock.time[0]);
+    return world_step(r->ctx, m, w, error);
+}
+
+/* Largest averaged load from where the world is to the end, which is half a window after the moment: another method has
+   its peak a little earlier or later. */
+static fram_status follow(const rerun *r, const model *m, world *w, double *largest, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    int64_t end = step_at(r->time, m->time_step);
+    int64_t first = w->clock.step[0] + load_window_length(w), last = end + load_window_length(w) / 2;
+    *largest = 0;
+    while (status == FRAM_OK && w->clock.step[0] < last) {
+        status = step_once(r, m, w, error);
+        vec3 f = load_window_average(w, r->vessel).force;
+        if (w->clock.step[0] >= first)
+            *largest = fmax(*largest, sqrt(f.x * f.x + f.y * f.y));
+    }
+    return status;
+}
+
+/* As the run was made, with what carries the load at the moment. */
+static fram_status explain(const rerun *r, const model *m, world *w, fram_error *error)
+{
+    peak_watch watch;
+    peak_watch_init(r->ctx, m->time_step, 0, &watch);
+    fram_status status = FRAM_OK;
+    int64_t end = step_at(r->time, m->time_step);
+    while (status == FRAM_OK && w->clock.step[0] < end) {
+        status = step_once(r, m, w, error);
+        if (status == FRAM_OK)
+            status = peak_watch_keep(&watch, w, error);
+    }
+    if (status == FRAM_OK)
+        status = peak_watch_explain(&watch, w, r->vessel, &r->out->detail, error);
+    peak_watch_free(&watch);
+    return status;
+}
+
+/* A copy of the world goes on by another method. */
+static fram_status follow_other(const rerun *r, const world *from, double time_step, bool accurate, double *largest,
+                                fram_error *error)
+{
+    scenario s = r->s;
+    model m = {0};
+    world w = {0};
+    s.run.time_step = time_step;
+    if (accurate) {
+        s.run.solver.kind = SOLVER_ACCURATE;
+        s.run.solver.most_iterations = ACCURATE_SWEEPS;
+    }
+    fram_status status = build_model(r->ctx, &s, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = world_copy(r->ctx, from, &w, error);
+    if (status == FRAM_OK) {
+        double steps = r->s.run.time_step / time_step;
+        w.clock.step[0] = (int64_t)floor((double)w.clock.step[0] * steps + 0.5);
+        if (time_step != r->s.run.time_step)
+            status = build_load_window(r->ctx, &s, w.vessels.count, &w, error);
+        if (status == FRAM_OK)
+            status = follow(r, &m, &w, largest, error);
+        world_free(r->ctx, &w);
+    }
+    model_free(r->ctx, &m);
+    return status;
+}
+
+/* From the fork: the run's own method twice, for the moment and for the largest load, then the others. */
+static fram_status compare(const rerun *r, const model *m, world *w, fram_error *error)
+{
+    double dt = r->s.run.time_step;
+    world again = {0};
+    fram_status status = follow_other(r, w, dt, false, &r->out->same, error);
+    if (status == FRAM_OK)
+        status = follow_other(r, w, dt / 2, false, &r->out->half_step, error);
+    if (status == FRAM_OK)
+        status = follow_other(r, w, dt, true, &r->out->accurate, error);
+    if (status == FRAM_OK)
+        status = world_copy(r->ctx, w, &again, error);
+    if (status != FRAM_OK)
+        return status;
+    status = explain(r, m, &again, error);
+    world_free(r->ctx, &again);
+    return status;
+}
+
+/* The state at or before `time`, into an empty world. */
+static fram_status start_from(const rerun *r, double time, const model *m, world *w, fram_error *error)
+{
+    checkpoint_note note = {0};
+    text_buffer inputs = {0};
+    bool found = false;
+    fram_status status = scenario_hash(r->ctx, &r->s, note.scenario_hash, error);
+    if (status == FRAM_OK)
+        status = run_folder_inputs(r->ctx, &r->s, &inputs, error);
+    if (status == FRAM_OK)
+        status = world_init(r->ctx, m, w, error);
+    if (status == FRAM_OK) {
+        note.inputs = inputs.data;
+        status = checkpoint_read_before(r->ctx, r->folder, time, m, w, &note, &found, error);
+        if (status != FRAM_OK || !found)
+            world_free(r->ctx, w);
+    }
+    text_free(r->ctx, &inputs);
+    if (status != FRAM_OK || found)
+        return status;
+    field_report report;
+    return build_world(r->ctx, &r->s, m, w, &report, error);
+}
+
+static fram_status go_back(const rerun *r, const model *m, fram_error *error)
+{
+    world w = {0};
+    double fork = fmax(r->time - DIFFERS_FOR - r->s.output.averaging_window, 0);
+    fram_status status = start_from(r, fork, m, &w, error);
+    if (status != FRAM_OK)
+        return status;
+    r->out->start = w.clock.time[0];
+    log_write(r->ctx, LOG_INFO, "computing again from t = %g s", r->out->start);
+    if (r->vessel >= w.vessels.count)
+        status = error_set(error, FRAM_ERROR_INPUT, r->folder, 0, "vessel",
+                           "the run has %d vessels, expected one of them", (int)w.vessels.count);
+    int64_t first = step_at(fork, m->time_step);
+    while (status == FRAM_OK && w.clock.step[0] < first)
+        status = step_once(r, m, &w, error);
+    r->out->fork = w.clock.time[0];
+    if (status == FRAM_OK)
+        status = compare(r, m, &w, error);
+    world_free(r->ctx, &w);
+    return status;
+}
+
+fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t vessel, rerun_result *out,
+                         fram_error *error)
+{
+    char path[PATH_ROOM];
+    rerun r = {.ctx = ctx, .folder = folder, .time = time, .vessel = vessel, .out = out};
+    memset(out, 0, sizeof *out);
+    fram_status status = path_join(folder, "scenario.yaml", path, error);
+    if (status == FRAM_OK)
+        status = scenario_read(ctx, path, NULL, &r.s, error);
+    if (status != FRAM_OK)
+        return status;
+    model m = {0};
+    if (!(time >= r.s.run.time_step && time <= r.s.run.duration * (1 + 1e-12)))
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "time", "expected a time from %g s to %g s, found %g",
+                           r.s.run.time_step, r.s.run.duration, time);
+    if (status == FRAM_OK)
+        status = build_model(ctx, &r.s, &m, error);
+    if (status == FRAM_OK) {
+        status = go_back(&r, &m, error);
+        model_free(ctx, &m);
+    }
+    scenario_free(ctx, &r.s);
+    return status;
+}

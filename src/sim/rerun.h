@@ -1,0 +1,23 @@
+/* A moment of a finished run computed again, from its nearest checkpoint or from the start: what carried the load then,
+   and how much of it hangs on the time step and on the solver.  Reads the run's folder, writes nothing. */
+#ifndef SIM_RERUN_H
+#define SIM_RERUN_H
+
+#include "io/peak_block.h"
+#include "model/scenario.h"
+
+typedef struct rerun_result {
+    peak_detail detail; /* of the vessel at that time, as peak_watch_explain */
+    double start;       /* of the state that was gone on from [s] */
+    double fork;        /* from here on the others differ: a second and a window before the time [s] */
+    double half_step;   /* largest averaged load from the fork on, with half the time step [N] */
+    double accurate;    /* the same with the accurate solver [N] */
+    double same;        /* the same as the run was made [N] */
+} rerun_result;
+
+/* vessel: row.  FRAM_ERROR_INPUT for a folder that is not of a run, a time outside it, a vessel that is not there, and
+   for inputs that were changed since.  FRAM_INTERRUPTED when the context's stop flag is set. */
+fram_status rerun_moment(context *ctx, const char *folder, double time, int32_t vessel, rerun_result *out,
+                         fram_error *error);
+
+#endif

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# fram why: a ship that is driven by thrusters and current against three floes and a wall has a chain of three floes to
+# the wall, which the command finds; moments and refusals; JSON; nothing in the folder changes.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+cat >chain.yaml <<'YAML'
+run: {duration: 12, time_step: 0.02, transient: 2}
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 20, draught: 4, freeboard: 3}
+  hydrodynamics: {source: none}
+environment: {current_speed: 2}
+domain: {boundary: walls, x_min: -60, x_max: 44.02, y_min: -40, y_max: 40}
+ice:
+  source: floes
+  crushing_strength: 1.0e9
+  floes:
+    - {x: 24.005, y: 0, length: 8, width: 8}
+    - {x: 32.005, y: 0, length: 8, width: 8}
+    - {x: 40.005, y: 0, length: 8, width: 8}
+output: {checkpoint_interval: 4, frame_interval: 1}
+YAML
+expect 0 "$FRAM" run chain.yaml -o run --quiet
+find run -type f -exec cksum {} + | sort >before
+expect 0 "$FRAM" why run --peak 1 -o peak.png
+find run -type f -exec cksum {} + | sort >after
+cmp -s before after || fail "fram why changes the run's folder"
+says "Peak 1 of" out
+says "a chain of floes against" out
+holds 'hull -> floe 0 (.*) -> floe 1 (.*) -> floe 2 (.*) -> wall (.*); the end: it is a wall' out
+says "half the time step" out
+says "the accurate solver" out
+[ "$(head -c 4 peak.png | tail -c 3)" = PNG ] || fail "peak.png is no picture"
+
+# As JSON: the parts sum to the load, by zone too; computed again by the same method it is the same.
+expect 0 "$FRAM" why run --peak 1 --json
+same "$(value "abs(sum(j['mechanisms'].values()) / j['load'] - 1) < 1e-5")" True "sum of the mechanisms"
+same "$(value "abs(sum(sum(z.values()) for z in j['zones'].values()) / j['load'] - 1) < 1e-5")" True "sum of the zones"
+same "$(value "[l['floe'] for l in j['floes'][0]['chain']]")" "[0, 1, 2, -1]" "chain"
+same "$(value "j['floes'][0]['end']")" wall "end of the chain"
+same "$(value "abs(j['computed_again']['same'] / j['load'] - 1) < 1e-6")" True "load computed again"
+same "$(value "j['computed_again']['from'] > 0 or j['time'] < 6")" True "nearest checkpoint"
+time=$(value "j['time']")
+load=$(value "j['load']")
+
+# A moment: at the peak it is the recorded one; elsewhere it is computed again, or refused.
+expect 0 "$FRAM" why run --time "$time" --json
+same "$(value "j['peak']")" 1 "peak at its time"
+expect 0 "$FRAM" why run --time 3.5 --json
+same "$(value "j['peak'] == 0 and abs(j['time'] - 3.5) < 1e-9 and abs(j['load']) < 2 * $load")" True "moment"
+expect 2 "$FRAM" why run --time 3.5 --no-rerun
+says "computed again" err
+expect 0 "$FRAM" why run --peak 1 --no-rerun --json
+same "$(value "j['computed_again']")" None "not computed again"
+
+# Refusals.
+expect 2 "$FRAM" why run
+expect 2 "$FRAM" why run --peak 1 --time 3
+expect 2 "$FRAM" why run --peak 0
+expect 2 "$FRAM" why run --peak -1
+expect 2 "$FRAM" why run --peak 11
+says "expected 1, the largest" err
+expect 2 "$FRAM" why run --time 100
+says "up to 12 s" err
+expect 2 "$FRAM" why run --time 0
+expect 2 "$FRAM" why run --time -1
+expect 2 "$FRAM" why run --peak 1 --vessel 2
+expect 2 "$FRAM" why nowhere --peak 1
+expect 2 "$FRAM" why chain.yaml --peak 1
+expect 2 "$FRAM" why run --peak 1 -o run/series.csv
+rm run/peaks.fram
+expect 2 "$FRAM" why run --peak 1 --no-rerun
+says "keeps no peaks" err
+expect 0 "$FRAM" why run --time "$time" --json
+same "$(value "abs(j['load'] / $load - 1) < 1e-6")" True "peak computed again without the file"
+printf 'not peaks at all' >run/peaks.fram
+expect 2 "$FRAM" why run --peak 1
+says "peaks.fram" err
+expect 0 "$FRAM" run chain.yaml -o bare --quiet --set vessel.present=false
+expect 2 "$FRAM" why bare --peak 1
+says "no vessel" err
+finish "peaks explained, computed again, refused"

@@ -1,0 +1,66 @@
+/* The bytes of an explained peak: what goes in comes out, and nothing else is taken. */
+#include "testing.h"
+
+#include "io/peak_block.h"
+
+static peak_detail sample(void)
+{
+    peak_detail d = {.time = 12.345678901234, .load = 1.5e6, .window = 0.5, .vessel = 1, .bodies = 7};
+    d.force = vec3_make(-1, 2, -3);
+    d.floe_count = 2;
+    d.link_count = 3;
+    d.floe[0] = (peak_floe){.number = 5, .slot = 9, .mechanism = MECHANISM_CHAIN, .zone = 4, .links = 3};
+    d.floe[0].end = CHAIN_WALL;
+    d.floe[0].part[MECHANISM_FRICTION] = 0.25;
+    d.floe[1].number = -1;
+    d.link[2] = (peak_link){3, -1, {1, 2, 3}, {4, 5, 6}, 7, 8, 9};
+    d.zone[4][MECHANISM_IMPACT] = 42;
+    d.mechanism[MECHANISM_BENDING] = 43;
+    return d;
+}
+
+START_TEST(there_and_back)
+{
+    static unsigned char room[PEAK_BLOCK_ROOM];
+    peak_detail d = sample(), back;
+    size_t size = peak_block_pack(&d, room);
+    ck_assert(peak_block_unpack(room, size, &back));
+    ck_assert(back.time == d.time && back.load == d.load && back.vessel == 1 && back.bodies == 7);
+    ck_assert(back.floe[0].number == 5 && back.floe[0].part[MECHANISM_FRICTION] == 0.25);
+    ck_assert(back.link[2].push.z == 6 && back.link[2].inertia == 9 && back.zone[4][MECHANISM_IMPACT] == 42);
+    ck_assert(memcmp(&back, &d, sizeof d) == 0);
+    /* The largest one fits into the room. */
+    d.floe_count = PEAK_FLOES;
+    d.link_count = 0;
+    for (int i = 0; i < PEAK_FLOES; i++) {
+        d.floe[i].links = i < PEAK_CHAINS ? PEAK_CHAIN_LINKS : 0;
+        d.link_count += d.floe[i].links;
+    }
+    size = peak_block_pack(&d, room);
+    ck_assert(size < PEAK_BLOCK_ROOM && peak_block_unpack(room, size, &back));
+}
+END_TEST
+
+START_TEST(other_bytes)
+{
+    static unsigned char room[PEAK_BLOCK_ROOM];
+    peak_detail d = sample(), back;
+    size_t size = peak_block_pack(&d, room);
+    for (size_t cut = 0; cut < size; cut++)
+        ck_assert(!peak_block_unpack(room, cut, &back));
+    ck_assert(!peak_block_unpack(room, size + 1, &back));
+    d.floe[0].mechanism = MECHANISM_COUNT;
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    d = sample();
+    d.floe[0].links = 4;
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    d = sample();
+    d.vessel = -1;
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+    d = sample();
+    d.load = (double)NAN;
+    ck_assert(!peak_block_unpack(room, peak_block_pack(&d, room), &back));
+}
+END_TEST
+
+TEST_MAIN("peak_block", there_and_back, other_bytes)
