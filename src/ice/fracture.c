@@ -190,8 +190,10 @@ static fram_status cut_stencil(const fracture_job *j, const fracture_load *l, cr
         return FRAM_OK;
     polygon_list_clear(&s->floe.remnants);
     polygon_list_clear(&s->floe.pieces);
-    fram_status status = fracture_bend(j->ctx, j->plane, j->settings, l->stress.breaking_radius, ring, start,
-                                       &s->floe.remnants, &s->floe.pieces, j->error);
+    break_size size = fracture_break_size(l);
+    break_shape shape;
+    fracture_shape(j->settings->wedges, start, &size, &shape);
+    fram_status status = fracture_bend(j->ctx, j->plane, &shape, ring, &s->floe.remnants, &s->floe.pieces, j->error);
     /* No sound cut of this outline: it stays whole, and the next step tries again. */
     if (status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT) {
         log_write(j->ctx, LOG_DEBUG, "a floe could not be cut in bending: %s", j->error ? j->error->message : "");

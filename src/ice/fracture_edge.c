@@ -4,51 +4,86 @@
 
 #include "ice/wedge.h"
 
-/* The sectors of a straight edge's N wedges around a start, one after the other. */
+/* The sectors of a straight edge's N wedges around a start, one after the other, and the strip between them. */
 typedef struct sectors {
-    vec2 corner[3 * MOST_STENCIL];
-    int32_t size[MOST_STENCIL];
-    int count;
+    vec2 corner[3 * MOST_STENCIL + 4];
+    int32_t size[MOST_STENCIL + 1];
+    int wedges, count; /* those of the wedges, and all */
+    double reach;      /* [m] */
 } sectors;
 
-static void make_sectors(const fracture_job *j, const crack_start *start, double radius, sectors *out)
+static void add_strip(const crack_start *start, double radius, double width, sectors *out)
 {
-    vec2 stencil[MOST_STENCIL];
-    out->count = fracture_stencil(j->settings->wedges, radius, start, stencil);
+    vec2 d = start->direction, aside = vec2_scale((vec2){-d.y, d.x}, width / 2), end = vec2_scale(d, radius);
+    vec2 left = vec2_add(start->point, aside), right = vec2_sub(start->point, aside);
+    vec2 *at = out->corner + (ptrdiff_t)3 * out->count;
+    at[0] = right;
+    at[1] = vec2_add(right, end);
+    at[2] = vec2_add(left, end);
+    at[3] = left;
+    out->size[out->count++] = 4;
+}
+
+static void make_sectors(const fracture_job *j, const crack_start *start, double radius, double width, sectors *out)
+{
+    const break_size size = {.radius = radius, .width = width};
+    break_shape shape;
+    fracture_shape(j->settings->wedges, start, &size, &shape);
+    out->wedges = out->count = 2 * j->settings->wedges;
+    out->reach = radius;
     for (int i = 0; i < out->count; i++) {
         out->size[i] = 3;
-        out->corner[3 * i] = start->point;
-        out->corner[3 * i + 1] = stencil[i];
-        out->corner[3 * i + 2] = stencil[i + 1 < out->count ? i + 1 : 0];
+        for (int k = 0; k < 3; k++)
+            out->corner[3 * i + k] = shape.part[i][k];
     }
+    if (width > 0)
+        add_strip(start, radius, width, out);
 }
 
 /* Ice in the sectors over that of the N whole ones that a straight edge has. */
 static double part_of(const sectors *s, const double *area)
 {
     double sum = 0, whole = 0;
-    for (int i = 0; i < s->count; i++) {
+    for (int i = 0; i < s->wedges; i++) {
         sum += area[i];
         whole += polygon_area((polygon){s->corner + 3 * i, 3});
     }
     return whole > 0 ? 2 * sum / whole : 0;
 }
 
-static fram_status ice_of_floe(const fracture_job *j, const fracture_load *l, double radius, edge_ice *edge)
+static edge_ice ice_of(const fracture_job *j, const sectors *s, const double *area, double length)
+{
+    bool equal = j->settings->sharing == SHARING_EQUAL;
+    return (edge_ice){equal ? 1 : part_of(s, area), s->count > s->wedges ? area[s->wedges] / s->reach : 0, length};
+}
+
+/* Width along the edge of an even load with the patch's mean square; none that is narrower than the ice is thick, since
+   a beam of that width is none. */
+static double contact_width(const fracture_job *j, const fracture_load *l, const crack_start *start)
+{
+    vec2 t = {-start->direction.y, start->direction.x};
+    double square = t.x * t.x * l->spread[0] + 2 * t.x * t.y * l->spread[1] + t.y * t.y * l->spread[2];
+    double width = j->settings->wide_contacts ? sqrt(12 * fmax(square, 0)) : 0;
+    return width > l->thickness ? width : 0;
+}
+
+static fram_status ice_of_floe(const fracture_job *j, fracture_load *l, double radius, edge_ice *edge)
 {
     polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
     crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
     int32_t end;
-    double area[MOST_STENCIL] = {0};
+    double area[MOST_STENCIL + 1] = {0}, length = crack_length(outline, &start, &end);
     sectors s;
-    make_sectors(j, &start, fmin(radius, crack_length(outline, &start, &end)), &s);
-    for (int i = 0; i < s.count; i++)
-        area[i] = polygon_overlap_area(outline, (polygon){s.corner + 3 * i, 3});
-    edge->wedges = part_of(&s, area);
+    l->width = contact_width(j, l, &start);
+    make_sectors(j, &start, fmin(radius, length), l->width, &s);
+    const vec2 *at = s.corner;
+    for (int i = 0; i < s.count; at += s.size[i], i++)
+        area[i] = polygon_overlap_area(outline, (polygon){at, s.size[i]});
+    *edge = ice_of(j, &s, area, length);
     return FRAM_OK;
 }
 
-static fram_status ice_of_sheet(const fracture_job *j, const fracture_load *l, double radius, edge_ice *edge)
+static fram_status ice_of_sheet(const fracture_job *j, fracture_load *l, double radius, edge_ice *edge)
 {
     crack_start start;
     bool found;
@@ -56,12 +91,20 @@ static fram_status ice_of_sheet(const fracture_job *j, const fracture_load *l, d
         fracture_sheet_start(j, l->place, fracture_sheet_reach(&j->settings->tiles), radius, &start, &found);
     if (status != FRAM_OK || !found)
         return status;
-    double area[MOST_STENCIL] = {0};
+    double area[MOST_STENCIL + 1] = {0};
+    double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius);
     sectors s;
-    make_sectors(j, &start, fmin(radius, fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius)), &s);
+    l->width = contact_width(j, l, &start);
+    make_sectors(j, &start, fmin(radius, length), l->width, &s);
     status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
-    edge->wedges = part_of(&s, area);
+    *edge = ice_of(j, &s, area, length);
     return status;
+}
+
+break_size fracture_break_size(const fracture_load *l)
+{
+    bool wide = l->width > 0 && l->stress.strip_length > 0;
+    return (break_size){l->stress.breaking_radius, wide ? l->width : 0, l->stress.strip_length};
 }
 
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area)
@@ -72,10 +115,11 @@ double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, 
     return length * wedge_breaking_estimate(radius / length);
 }
 
-fram_status fracture_find_ice(const fracture_job *j, const fracture_load *l, edge_ice *edge)
+fram_status fracture_find_ice(const fracture_job *j, fracture_load *l, edge_ice *edge)
 {
     *edge = EDGE_STRAIGHT;
-    if (j->settings->sharing == SHARING_EQUAL)
+    l->width = 0;
+    if (j->settings->sharing == SHARING_EQUAL && !j->settings->wide_contacts)
         return FRAM_OK;
     double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area);
     return l->tile ? ice_of_sheet(j, l, radius, edge) : ice_of_floe(j, l, radius, edge);

@@ -70,6 +70,20 @@ static vec3 patch_impulse(const crushing_patch *p, const contact_array *contacts
     return sum;
 }
 
+/* Mean squares of a patch about its place, from its points: these have the second moments of the patch. */
+static void spread_of(const crushing_patch *p, const fracture_state *state, int32_t body, bool in_plan, double out[3])
+{
+    vec3 at = in_plan ? p->centre : body_to_local(state->bodies, body, p->centre);
+    out[0] = out[1] = out[2] = 0;
+    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++) {
+        vec3 point = state->contacts->data[i].point;
+        vec3 d = vec3_sub(in_plan ? point : body_to_local(state->bodies, body, point), at);
+        out[0] += d.x * d.x / p->contact_count;
+        out[1] += d.x * d.y / p->contact_count;
+        out[2] += d.y * d.y / p->contact_count;
+    }
+}
+
 /* The load of a patch on one of its two bodies. */
 static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings *settings,
                      const crushing_patch_array *patches, int32_t patch, const fracture_state *state, int32_t body)
@@ -95,6 +109,7 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
         .horizontal_area = own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
         .thickness = state->floes->thickness[floe],
         .ice = state->floes->material[floe]};
+    spread_of(p, state, body, tile != 0, l.spread);
     return array_push(ctx, &s->load.all, l);
 }
 
@@ -118,6 +133,10 @@ static bool is_one_patch(const tile_grid *g, const fracture_load *a, const fract
 static void merge_into(fracture_load *a, const fracture_load *b)
 {
     double area = a->area + b->area, share = area > 0 ? b->area / area : 0.5;
+    vec2 apart = vec2_sub(b->place, a->place);
+    const double between[3] = {apart.x * apart.x, apart.x * apart.y, apart.y * apart.y};
+    for (int i = 0; i < 3; i++)
+        a->spread[i] = (1 - share) * a->spread[i] + share * b->spread[i] + share * (1 - share) * between[i];
     a->vector = vec3_add(a->vector, b->vector);
     a->place = vec2_add(a->place, vec2_scale(vec2_sub(b->place, a->place), share));
     a->plan.lo = (vec2){fmin(a->plan.lo.x, b->plan.lo.x), fmin(a->plan.lo.y, b->plan.lo.y)};

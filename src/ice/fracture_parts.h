@@ -28,6 +28,8 @@ typedef struct fracture_load {
     double plane_force;           /* in its plane [N] */
     vec2 place;                   /* r_break [m] */
     box2 plan;                    /* of a sheet: bounds of the patch, global [m] */
+    double spread[3];             /* xx, xy, yy: mean squares of the patch about its place [m2] */
+    double width;                 /* of the contact along the edge; 0: it acts as a narrow one [m] */
     double area, horizontal_area; /* of the patch [m2] */
     double thickness;             /* of the floe [m] */
     ice_material ice;
@@ -128,8 +130,9 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
 
 /* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);
-/* The ice that a load stands on, by the areas inside the sectors of its stencil; EDGE_STRAIGHT with SHARING_EQUAL. */
-fram_status fracture_find_ice(const fracture_job *j, const fracture_load *l, edge_ice *edge);
+/* The ice that a load stands on, by the areas inside the sectors of its stencil; N whole wedges with SHARING_EQUAL. The
+   load gets its width along the edge. */
+fram_status fracture_find_ice(const fracture_job *j, fracture_load *l, edge_ice *edge);
 
 crack_start crack_start_of(polygon p, vec2 load, double snap);
 
@@ -150,15 +153,33 @@ bool fracture_splits(const fracture_settings *settings, polygon outline, const f
 /* The stencil's 2 N points around the start. */
 enum { MOST_STENCIL = 64 };
 int fracture_stencil(int32_t wedges, double radius, const crack_start *start, vec2 out[MOST_STENCIL]);
-/* Cut one ring by the stencil: remnants and wedges are appended. */
-fram_status fracture_bend(context *ctx, overlay *plane, const fracture_settings *settings, double radius, polygon ring,
-                          const crack_start *start, polygon_list *remnants, polygon_list *wedges, fram_error *error);
+/* What a break in bending takes out. */
+typedef struct break_size {
+    double radius;       /* of the wedges: R_bending [m] */
+    double width;        /* of the contact along the edge, between the end wedges; 0: narrow [m] */
+    double strip_length; /* of the strip there, from the edge [m] */
+} break_size;
+typedef struct break_shape {
+    vec2 outline[MOST_STENCIL + 4];
+    int count;
+    vec2 part[MOST_STENCIL + 1]
+             [4]; /* the wedges, by falling angle from the first crack; then the strip, if there is one */
+    int32_t corners[MOST_STENCIL + 1];
+    int parts;
+} break_shape;
+/* The break that a failing load makes. */
+break_size fracture_break_size(const fracture_load *l);
+void fracture_shape(int32_t wedges, const crack_start *start, const break_size *size, break_shape *out);
+
+/* Cut one ring by a shape: remnants and wedges are appended. */
+fram_status fracture_bend(context *ctx, overlay *plane, const break_shape *shape, polygon ring, polygon_list *remnants,
+                          polygon_list *wedges, fram_error *error);
 
 /* Simple, and by so much that rounding in a shift of the origin does not spoil it. */
 bool fracture_outline_is_sound(context *ctx, polygon p);
 
 /* The part of one wedge inside a ring, appended to wedges; a convex ring needs no general overlay. */
-fram_status fracture_cut_wedge(context *ctx, overlay *plane, polygon ring, bool convex, const vec2 tip[3],
+fram_status fracture_cut_wedge(context *ctx, overlay *plane, polygon ring, bool convex, polygon corner,
                                polygon_list *wedges, fram_error *error);
 
 /* Unite pieces i and k; *joined says whether that gave one ring, which then is piece k's. */

@@ -152,7 +152,7 @@ static bool snap_rings(const fracture_job *j, polygon_list *rings, int32_t cell)
 }
 
 /* One tile under the stencil: its remnants and the parts of the wedges inside it join the cut pieces. */
-static fram_status cut_tile(const fracture_job *j, int32_t row, const vec2 *stencil, int count, vec2 centre)
+static fram_status cut_tile(const fracture_job *j, int32_t row, const break_shape *shape)
 {
     fracture_scratch *s = j->scratch;
     tile_sheet_view v = fracture_sheet_view(j);
@@ -160,20 +160,21 @@ static fram_status cut_tile(const fracture_job *j, int32_t row, const vec2 *sten
     if (!tile_outline(j->ctx, &v, row, &s->sheet.ring))
         return error_memory(j->error);
     polygon ring = {s->sheet.ring.data, s->sheet.ring.count};
-    if (!(polygon_overlap_area(ring, (polygon){stencil, count}) > 0))
+    polygon stencil = {shape->outline, shape->count};
+    if (!(polygon_overlap_area(ring, stencil) > 0))
         return FRAM_OK;
     polygon_list_clear(&s->sheet.remnants);
-    fram_status status = overlay_difference(j->plane, ring, (polygon){stencil, count}, &s->sheet.remnants, j->error);
+    fram_status status = overlay_difference(j->plane, ring, stencil, &s->sheet.remnants, j->error);
     if (status != FRAM_OK)
         return status;
     if (!array_push(j->ctx, &s->sheet.touched, row) || !snap_rings(j, &s->sheet.remnants, tile - 1) ||
         !fracture_gather(j->ctx, s, &s->sheet.remnants, fracture_motion(j, row), tile, 0))
         return error_memory(j->error);
     bool convex = polygon_is_convex(ring);
-    for (int i = 0; i < count; i++) {
-        const vec2 tip[3] = {centre, stencil[i], stencil[i + 1 < count ? i + 1 : 0]};
+    for (int i = 0; i < shape->parts; i++) {
+        polygon corner = {shape->part[i], shape->corners[i]};
         polygon_list_clear(&s->sheet.wedge_parts);
-        status = fracture_cut_wedge(j->ctx, j->plane, ring, convex, tip, &s->sheet.wedge_parts, j->error);
+        status = fracture_cut_wedge(j->ctx, j->plane, ring, convex, corner, &s->sheet.wedge_parts, j->error);
         if (status != FRAM_OK)
             return status;
         if (!snap_rings(j, &s->sheet.wedge_parts, tile - 1) ||
@@ -253,21 +254,22 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     fracture_scratch *s = j->scratch;
     const tile_grid *g = &j->settings->tiles;
     double radius = l->stress.breaking_radius;
-    vec2 stencil[MOST_STENCIL];
-    int count = fracture_stencil(j->settings->wedges, radius, start, stencil);
+    break_size size = fracture_break_size(l);
+    break_shape shape;
+    fracture_shape(j->settings->wedges, start, &size, &shape);
     tile_range range;
     bool refused = false, broke;
     polygon_list_clear(&s->piece.outlines);
     array_clear(&s->piece.rows);
     array_clear(&s->sheet.touched);
-    if (!tile_range_of(g, box_around(start->point, radius), &range))
+    if (!tile_range_of(g, polygon_bounds((polygon){shape.outline, shape.count}), &range))
         return FRAM_OK;
     fram_status status = FRAM_OK;
     for (int32_t k = range.row_first; k <= range.row_last; k++)
         for (int32_t i = range.column_first; i <= range.column_last; i++)
             for (int32_t row = s->sheet.index.first.data[i + k * g->columns]; row >= 0;
                  row = s->sheet.index.next.data[row]) {
-                status = or_refuse(j, cut_tile(j, row, stencil, count, start->point), &refused);
+                status = or_refuse(j, cut_tile(j, row, &shape), &refused);
                 if (status != FRAM_OK || refused)
                     return status;
             }

@@ -31,6 +31,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .smallest_piece_area = s->ice.smallest_piece_area,
                                .edge_threshold = s->ice.edge_threshold,
                                .thick_plate_radius = s->ice.fracture.thick_plate_radius,
+                               .wide_contacts = s->ice.fracture.wide_contacts,
                                .wedge_room = s->ice.fracture.wedge_room,
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,
                                .tiles = build_tiles(s),

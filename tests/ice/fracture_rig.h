@@ -119,6 +119,23 @@ static inline bool fracture_rig_load(fracture_rig *r, int32_t row, vec2 place, d
     return array_push(&r->ctx, &r->contacts, c) && array_push(&r->ctx, &r->patches, p);
 }
 
+/* The last load becomes even along a line of this half vector, in the floe's own frame; it must be the last contact. */
+static inline bool fracture_rig_widen(fracture_rig *r, vec2 half)
+{
+    crushing_patch *p = &r->patches.data[r->patches.count - 1];
+    contact second = r->contacts.data[p->contact_first];
+    mat3 rotation = quat_matrix(r->bodies.orientation[p->floe_body]);
+    double to = 1 / sqrt(3.0);
+    vec3 aside = mat3_mul_vec(rotation, (vec3){half.x * to, half.y * to, 0});
+    second.impulse[0] /= 2;
+    second.point = vec3_add(p->centre, aside);
+    r->contacts.data[p->contact_first] = second;
+    second.point = vec3_sub(p->centre, aside);
+    second.key += 50000;
+    p->contact_count = 2;
+    return array_push(&r->ctx, &r->contacts, second);
+}
+
 static inline fram_status fracture_rig_try(fracture_rig *r, fram_error *e)
 {
     fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number, &r->crushed};

@@ -184,14 +184,15 @@ static void bending(drawing *d, int column, const char *title, polygon p, vec2 l
     context ctx;
     context_init(&ctx);
     overlay *plane = overlay_create(&ctx);
-    fracture_settings settings = fracture_rig_settings();
     polygon_list left = {0}, wedges = {0};
     fram_error e = {0};
     crack_start start = crack_start_of(p, load, 1e-9);
     vec2 stencil[MOST_STENCIL];
     int count = fracture_stencil(3, radius, &start, stencil);
     panel(d, column, 1, 9.5, title);
-    assert_ok(fracture_bend(&ctx, plane, &settings, radius, p, &start, &left, &wedges, &e), e);
+    break_shape shape;
+    fracture_shape(3, &start, &(break_size){.radius = radius}, &shape);
+    assert_ok(fracture_bend(&ctx, plane, &shape, p, &left, &wedges, &e), e);
     ck_assert_int_eq(polygon_list_count(&left), remnants);
     double area = 0;
     for (int32_t i = 0; i < polygon_list_count(&left); i++)

@@ -224,6 +224,7 @@ static void break_one(fracture_rig *r, random_stream *s, fuzz_books *books)
     r->bodies.angular_velocity[body] = (vec3){random_normal(s), random_normal(s), random_normal(s)};
     r->settings.wedges = 2 + (int32_t)random_uniform(s, 0, 4);
     r->settings.splitting_factor = random_unit(s) < 0.5 ? 3 : 1;
+    r->settings.wide_contacts = random_unit(s) < 0.5;
     r->settings.edge_threshold = random_unit(s) < 0.2 ? 0 : 0.15;
     for (int turn = 0; turn < GENERATIONS && fracture_rig_count(r) > 0; turn++) {
         row = random_floe(r, s);
@@ -232,6 +233,8 @@ static void break_one(fracture_rig *r, random_stream *s, fuzz_books *books)
             vec2 place = random_place(s, fracture_rig_outline(r, row));
             ck_assert(
                 fracture_rig_load(r, row, place, 1e8 * random_uniform(s, 0.5, 1), random_power_law(s, 1e-3, 8, 0)));
+            vec2 half = {random_uniform(s, -8, 8), random_uniform(s, -8, 8)};
+            ck_assert(!r->settings.wide_contacts || fracture_rig_widen(r, half));
         }
         body_books before = body_books_of(&r->bodies);
         double reach = 0; /* of the farthest ice from the origin [m] */

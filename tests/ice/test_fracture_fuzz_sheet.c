@@ -35,6 +35,7 @@ static void random_sheet(fracture_rig *r, random_stream *s, box2 plan)
     polygon_list openings = {0};
     r->settings.wedges = 2 + (int32_t)random_uniform(s, 0, 6);
     r->settings.sharing = random_unit(s) < 0.5 ? SHARING_WIDTH : SHARING_EQUAL;
+    r->settings.wide_contacts = random_unit(s) < 0.5;
     r->settings.edge_threshold = random_unit(s) < 0.2 ? 0 : random_power_law(s, 0.01, 0.3, 0);
     r->settings.smallest_floe_area = random_power_law(s, 0.02, 1, 0);
     r->settings.smallest_piece_area = r->settings.smallest_floe_area * random_power_law(s, 0.01, 1, 0);
@@ -86,8 +87,11 @@ START_TEST(fuzzed_bites)
         for (int turn = 0; turn < 40 && sheet_count(&r, true) > 0; turn++) {
             double before = fracture_rig_area(&r);
             int loads = 1 + (int)random_uniform(&s, 0, 2.5);
-            for (int i = 0; i < loads; i++)
+            for (int i = 0; i < loads; i++) {
                 ck_assert(sheet_load(&r, random_place(&r, &s, plan), 1e7, random_power_law(&s, 1e-3, 8, 0)));
+                vec2 half = {random_uniform(&s, -6, 6), random_uniform(&s, -6, 6)};
+                ck_assert(!r.settings.wide_contacts || fracture_rig_widen(&r, half));
+            }
             events += fracture_rig_break(&r);
             for (int32_t i = 0; i < r.events.count; i++)
                 releases += r.events.data[i].kind == FRACTURE_RELEASE;

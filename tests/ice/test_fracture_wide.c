@@ -1,0 +1,189 @@
+/* Contacts that are wide along the edge: a strip breaks off between the end wedges, as strong and as long as the ice
+   behind the contact makes it (docs/decisions/0129). */
+#include "sheet_rig.h"
+
+#include "ice/strip.h"
+#include "ice_rig.h"
+
+/* ---- plates driven into an edge ---- */
+
+typedef struct breaking {
+    fracture_event event;
+    double largest; /* area of the largest loose piece [m2] */
+} breaking;
+
+/* A plate of this width at 45 degrees moves at 0.1 m/s into the straight edge of ice of 1 m, 300 m x 200 m, until that
+   breaks. */
+static breaking plate_breaks(double width, double dt)
+{
+    ice_rig r;
+    ice_rig_make(&r, dt);
+    int32_t row = ice_rig_plate(&r, 300, 200, 1, MOTION_STATIC), ice = r.floes.body[row];
+    r.bodies.position[ice] = (vec3){150, 0, 0};
+    mesh plate = {0};
+    ck_assert(mesh_make_box(&r.ctx, (vec3){-10, -width / 2, -3}, (vec3){0, width / 2, 3}, &plate));
+    for (int32_t i = 0; i < plate.vertex.count; i++)
+        plate.vertex.data[i].x += plate.vertex.data[i].z;
+    int32_t hull = ice_rig_hull(&r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+    r.bodies.position[hull] = (vec3){-0.5, 0, 0};
+    r.bodies.velocity[hull] = (vec3){0.1, 0, 0};
+    ice_rig_pair(&r, ice, hull);
+    fracture_scratch *scratch = fracture_scratch_create(&r.ctx);
+    fracture_settings settings = fracture_rig_settings();
+    settings.time_step = dt;
+    settings.thick_plate_radius = false;
+    settings.splitting = SPLITTING_NONE;
+    settings.wide_contacts = true;
+    fracture_event_array events = {0};
+    for (int step = 0; step * dt < 2 && events.count == 0; step++) {
+        fram_error e = {0};
+        ice_rig_crush(&r);
+        wrench *loads = memory_array(&r.ctx, (size_t)r.bodies.count, sizeof *loads);
+        ck_assert(loads);
+        assert_ok(solver_solve(&r.ctx, r.solve, &r.solver, dt, &r.bodies, loads, &r.joints, &r.contacts, &r.memory,
+                               &r.report, &e),
+                  e);
+        memory_free(&r.ctx, loads);
+        fracture_state state = {&r.bodies, &r.shapes, &r.floes, &r.contacts, &r.memory, &r.next_number, NULL};
+        assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
+        integrate_poses(&r.ctx, &r.bodies, dt);
+    }
+    ck_assert_int_eq(events.count, 1);
+    breaking b = {.event = events.data[0]};
+    for (int32_t i = 0; i < r.floes.count; i++)
+        if (r.floes.body[i] >= 0 && r.bodies.motion[r.floes.body[i]] == MOTION_DYNAMIC)
+            b.largest = fmax(b.largest, r.floes.area[i]);
+    array_free(&r.ctx, &events);
+    fracture_scratch_free(&r.ctx, scratch);
+    ice_rig_free(&r);
+    return b;
+}
+
+/* docs/oracles.md, section 1: N = 3, frictionless.  The load grows by its crushing, 2 MPa 0.1 m/s times the width. */
+START_TEST(plates)
+{
+    static const double WIDTHS[] = {2, 10, 20, 50}, LOADS[] = {337e3, 437e3, 562e3, 937e3};
+    double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81);
+    for (int i = 0; i < 4; i++) {
+        /* A step's growth is 4 and 2 % of the load. */
+        double growth = 2e6 * 0.1 * WIDTHS[i];
+        for (int half = 1; half <= 2; half++) {
+            double dt = 0.04 / half * LOADS[i] / growth;
+            breaking b = plate_breaks(WIDTHS[i], dt);
+            ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
+            ck_assert_msg(b.event.load > 0.998 * LOADS[i] && b.event.load < (1.002 + 0.04 / half) * LOADS[i],
+                          "%g m, step %g: %g kN", WIDTHS[i], dt, b.event.load / 1e3);
+            assert_relative(b.event.crack_length, 4.14196, 0.02);
+            /* 811 m2 under 50 m.  The two points of a narrow patch carry its depth along with its width. */
+            assert_relative(b.largest, 1.1107207 * l * WIDTHS[i], 0.07 / WIDTHS[i]);
+            ck_assert_int_eq(b.event.pieces, 6); /* a remnant, a strip and four wedges */
+        }
+    }
+}
+END_TEST
+
+/* ---- floes under given loads ---- */
+
+/* A load P straight down, even along a line of this half vector about a place of the floe's own frame. */
+static void wide_load(fracture_rig *r, int32_t row, vec2 place, vec2 half, double load, double area)
+{
+    ck_assert(fracture_rig_load(r, row, place, load, area) && fracture_rig_widen(r, half));
+}
+
+static int32_t beam_floe(fracture_rig *r, double length, double width)
+{
+    double x = length / 2, y = width / 2;
+    const vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
+    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, MOTION_DYNAMIC);
+    ck_assert_int_ge(row, 0);
+    return row;
+}
+
+/* A floe that is loaded along its whole end is a beam: no ice for wedges beside it, and its own length.  Rigid where it
+   is short, Nevel's strip where it is long. */
+START_TEST(floes_are_beams)
+{
+    static const double LENGTHS[] = {3, 8, 20, 45, 90};
+    double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81), width = 12;
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    r.settings.wide_contacts = true;
+    r.settings.smallest_floe_area = 0.01;
+    for (int i = 0; i < 5; i++) {
+        strip s = strip_solve(LENGTHS[i] / l);
+        double bears = 0.5e6 / 6 * width / (s.moment * l);
+        for (int turn = 0; turn < 2; turn++) {
+            int32_t row = beam_floe(&r, LENGTHS[i], width);
+            wide_load(&r, row, (vec2){-LENGTHS[i] / 2 + 0.01, 0}, (vec2){0, width / 2}, (turn ? 1.002 : 0.998) * bears,
+                      0.2);
+            ck_assert_int_eq(fracture_rig_break(&r), turn);
+            if (turn) {
+                ck_assert_int_eq(fracture_rig_count(&r), 2);
+                double least = HUGE_VAL;
+                for (int32_t k = 0; k < r.floes.count; k++)
+                    if (r.floes.body[k] >= 0)
+                        least = fmin(least, r.floes.area[k]);
+                double piece = fmin(s.x_max * l, LENGTHS[i] - s.x_max * l);
+                assert_relative(least, piece * width, 1e-6);
+            }
+            fracture_rig_remove_all(&r);
+        }
+    }
+    assert_relative(strip_solve(3 / l).x_max * l, 1, 1e-2);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* A contact no wider than the ice is thick, and any contact without the option, is narrow. */
+START_TEST(narrow)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    for (int turn = 0; turn < 3; turn++) {
+        double half = turn == 1 ? 0.6 : turn ? 6 : 0.4;
+        r.settings.wide_contacts = turn < 2;
+        double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT).wedge_capacity;
+        int32_t row = beam_floe(&r, 100, 100);
+        wide_load(&r, row, (vec2){-49.9, 0}, (vec2){0, half}, 1.001 * bears, 0.5);
+        ck_assert_int_eq(fracture_rig_break(&r), turn != 1);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
+/* The same load on a sheet of tiles and on one floe breaks the same off; patches that a seam divides are one. */
+START_TEST(sheets)
+{
+    double areas[3] = {0};
+    for (int i = 0; i < 3; i++) {
+        static const double SIZES[3] = {400, 30, 20};
+        fracture_rig r;
+        fracture_rig_make(&r);
+        sheet_make(&r, (box2){{-60, 0}, {60, 360}}, SIZES[i], NULL);
+        r.settings.wide_contacts = true;
+        double before = fracture_rig_area(&r);
+        /* The whole load on the one tile; its halves meet on a seam of the smaller ones, at x = 0. */
+        for (int k = 0; k < (i ? 2 : 1); k++) {
+            double x = i ? 8 * k - 4 : 0, half = i ? 4 : 8;
+            int32_t row = sheet_tile_at(&r, (vec2){x, 0});
+            vec3 origin = r.bodies.position[r.floes.body[row]];
+            wide_load(&r, row, (vec2){x - origin.x, 0.05 - origin.y}, (vec2){half, 0}, i ? 3e5 : 6e5, i ? 0.2 : 0.4);
+            r.patches.data[k].plan = (box2){{x - half - origin.x, -origin.y}, {x + half - origin.x, 0.1 - origin.y}};
+        }
+        fracture_rig_break(&r);
+        for (int32_t k = 0; k < r.floes.count; k++)
+            if (r.floes.body[k] >= 0 && r.bodies.motion[r.floes.body[k]] == MOTION_DYNAMIC)
+                areas[i] += r.floes.area[k];
+        assert_relative(fracture_rig_area(&r), before, 1e-3);
+        ck_assert(areas[i] > 50);
+        fracture_rig_free(&r);
+    }
+    assert_relative(areas[1], areas[0], 1e-6);
+    assert_relative(areas[2], areas[0], 1e-6);
+}
+END_TEST
+
+TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, sheets)
