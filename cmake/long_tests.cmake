@@ -21,6 +21,7 @@ set(fram_long_tests
     "sim/level_ice:        ships through level ice, far enough to see the channel and the loads"
     "sim/real_input:       a run through a field of another's making, 60 s (FRAM_TEST_LONG: the observed floes too)"
     "slurm/arrays:         a cluster is started, loses a node and gets its runs back"
+    "study/study:          some two hundred short runs, killed, widened, gone on with"
     "study/extremes_coverage: intervals of ten cases, twenty trials each (FRAM_TEST_LONG: a thousand)"
     "runs/resume:           golden scenes straight and through a checkpoint")
 set(fram_short_limit 150) # [s]: thirty times 5 s, for machines that are busy or slow

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "io/csv_read.h"
 #include "io/text_buffer.h"
+#include "study/words.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -63,6 +64,40 @@ fram_status study_whole(const study_source *r, const yaml_node *node, double lo,
         return study_refuse(r, node, "expected a whole number, found %g", value);
     *out = (int64_t)value;
     return FRAM_OK;
+}
+
+fram_status study_time(const study_source *r, const yaml_node *node, double lo, double hi, double *out)
+{
+    static const struct {
+        const char *unit;
+        double seconds;
+    } units[] = {{"", 1}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}};
+    const char *text = node->kind == YAML_SCALAR ? yaml_text(r->tree, node->value) : "";
+    char *end = NULL;
+    double value = strtod(text, &end);
+    for (size_t i = 0; *text && i < sizeof units / sizeof *units; i++) {
+        if (strcmp(end, units[i].unit) == 0 && value * units[i].seconds >= lo && value * units[i].seconds <= hi) {
+            *out = value * units[i].seconds;
+            return FRAM_OK;
+        }
+    }
+    return study_refuse(r, node, "expected a time from %g to %g s, as 10800, 90min or 3h, found %s", lo, hi,
+                        *text ? text : "none");
+}
+
+fram_status study_unknown(const study_source *r, const yaml_node *node, const char *const *names, size_t count)
+{
+    const char *near = word_nearest(names, count, study_key(r, node));
+    char list[300] = "";
+    size_t used = 0;
+    for (size_t i = 0; i < count && used + WORD_ROOM < sizeof list; i++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s",
+                                 i == 0           ? ""
+                                 : i + 1 == count ? " or "
+                                                  : ", ",
+                                 names[i]);
+    return study_refuse(r, node, "unknown key: expected %s%s%s%s", list, near ? "; did you mean " : "",
+                        near ? near : "", near ? "?" : "");
 }
 
 /* ---- keys and values ---- */
@@ -274,6 +309,8 @@ static fram_status fill_latin(const study_source *r, const yaml_node *node, int6
     return status;
 }
 
+static const char *const latin_names[] = {"count", "seed", "keys"};
+
 static fram_status read_latin(const study_source *r, const yaml_node *node)
 {
     const yaml_node *keys = NULL;
@@ -288,7 +325,7 @@ static fram_status read_latin(const study_source *r, const yaml_node *node)
         else if (strcmp(name, "keys") == 0)
             keys = k;
         else
-            status = study_refuse(r, k, "unknown key: expected count, seed or keys");
+            status = study_unknown(r, k, latin_names, sizeof latin_names / sizeof *latin_names);
     }
     if (status != FRAM_OK)
         return status;
@@ -303,13 +340,15 @@ fram_status study_conditions_read(const study_source *r, const yaml_node *node)
     static const struct {
         const char *name;
         fram_status (*read)(const study_source *, const yaml_node *);
-    } ways[] = {{"grid", read_grid}, {"list", read_list}, {"table", read_table}, {"latin", read_latin}};
+    } ways[] = {{"grid", read_grid},   {"list", read_list},         {"table", read_table},
+                {"latin", read_latin}, {"sobol", study_sobol_read}, {"morris", study_morris_read}};
     if (node->kind != YAML_MAPPING || node->count != 1)
-        return study_refuse(r, node, "expected one of grid, list, table and latin");
+        return study_refuse(r, node, "expected one of grid, list, table, latin, sobol and morris");
     const yaml_node *way = study_child(r, node);
     r->out->keys_line = way->line;
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++)
         if (strcmp(study_key(r, way), ways[i].name) == 0)
             return ways[i].read(r, way);
-    return study_refuse(r, way, "unknown key: expected grid, list, table or latin");
+    static const char *const names[] = {"grid", "list", "table", "latin", "sobol", "morris"};
+    return study_unknown(r, way, names, sizeof names / sizeof *names);
 }

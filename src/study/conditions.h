@@ -22,9 +22,17 @@ const char *study_key(const study_source *r, const yaml_node *node);
 fram_status study_number(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
 /* The same, whole. */
 fram_status study_whole(const study_source *r, const yaml_node *node, double lo, double hi, int64_t *out);
+/* A time in seconds, or with a unit: 90min, 3h, 20d. */
+fram_status study_time(const study_source *r, const yaml_node *node, double lo, double hi, double *out);
+/* The refusal of a key that is none of the names, with the nearest one. */
+fram_status study_unknown(const study_source *r, const yaml_node *node, const char *const *names, size_t count);
 /* Children of a mapping or sequence. */
 const yaml_node *study_child(const study_source *r, const yaml_node *node);
 const yaml_node *study_next(const study_source *r, const yaml_node *node);
+
+/* Designs of sensitivity: `vary: {sobol: ...}` and `vary: {morris: ...}`. */
+fram_status study_sobol_read(const study_source *r, const yaml_node *node);
+fram_status study_morris_read(const study_source *r, const yaml_node *node);
 
 /* Reads the node under `vary` into keys, values and conditions. */
 fram_status study_conditions_read(const study_source *r, const yaml_node *node);

@@ -2,7 +2,7 @@
 
 #include "base/transcendental.h"
 #include "study/minimise.h"
-#include "study/special.h"
+#include "study/student.h"
 
 #include <math.h>
 
@@ -117,10 +117,18 @@ static double end_of(const profile_question *q, double level, double first, doub
     return isnan(root_outside) ? first * (double)INFINITY : next;
 }
 
+/* Bound of the root of the deviance.  For large samples that of the normal law (Wilks 1938); as the mean of a normal
+   sample, where it is exact, small ones take Student's of as many degrees as values are left. */
+static double root_bound(const profile_question *q)
+{
+    int parameters = q->law->kind == LAW_GEV ? 3 : 2;
+    return student_quantile(q->confidence, q->count - parameters);
+}
+
 level_interval profile_interval(const profile_question *q)
 {
     level_interval out = {.level = level_of(q)};
-    double x[2] = {0, q->law->shape}, z = normal_quantile(0.5 + 0.5 * q->confidence);
+    double x[2] = {0, q->law->shape}, z = root_bound(q);
     double least = cost_at(q, out.level, x);
     double first = q->law->kind == LAW_WEIBULL ? 0.02 * (out.level - q->law->location) : 0.2 * q->law->scale;
     out.low = end_of(q, out.level, -first, least, z);

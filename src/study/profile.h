@@ -1,5 +1,6 @@
 /* Confidence intervals by profile likelihood (Coles 2001, 2.6.6): all values of a quantile that the data do not speak
-   against, by Wilks's theorem.  Knows laws and samples; the same to the bit everywhere. */
+   against, by Wilks's theorem with Student's t in place of the normal law.  Knows laws and samples; the same to the bit
+   everywhere. */
 #ifndef STUDY_PROFILE_H
 #define STUDY_PROFILE_H
 

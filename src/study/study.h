@@ -33,6 +33,24 @@ typedef enum study_keep {
     KEEP_ALL          /* the whole folder */
 } study_keep;
 
+/* Conditions that are points of a design of sensitivity (study/sensitivity.h). */
+typedef enum study_design_kind { DESIGN_NONE = 0, DESIGN_SOBOL, DESIGN_MORRIS } study_design_kind;
+typedef struct study_design {
+    study_design_kind kind;
+    int32_t count;       /* rows or paths */
+    ARRAY(double) point; /* conditions x keys, in the unit cube */
+} study_design;
+
+/* What is asked of rare loads, of the largest values of the runs of each condition. */
+enum { STUDY_LEVELS_MOST = 8 };
+typedef struct study_extremes {
+    bool asked, gev;                                            /* gev: that law, not Gumbel's */
+    double duration, confidence;                                /* [s], 0.95 */
+    double level[STUDY_LEVELS_MOST], annual[STUDY_LEVELS_MOST]; /* probabilities of staying below; in a year, over */
+    int levels, annuals, hours_line;
+    ARRAY(double) hours; /* a year that each condition lasts; empty: not asked */
+} study_extremes;
+
 typedef struct study {
     char *file;          /* the study file */
     char *scenario;      /* path of the scenario, to be opened from here */
@@ -43,6 +61,8 @@ typedef struct study {
     int32_t keys_line;   /* in the study file */
     study_seeds seeds;
     study_keep keep;
+    study_design design;
+    study_extremes extremes;
 } study;
 
 /* Most conditions of a study, and most seeds of a condition: far beyond what anybody waits for. */

@@ -3,6 +3,7 @@
 #include "io/file.h"
 #include "io/scenario_file.h"
 #include "study/conditions.h"
+#include "study/study_extremes.h"
 
 #include <string.h>
 
@@ -51,6 +52,7 @@ static fram_status read_set(const study_source *r, const yaml_node *node)
 
 static fram_status read_seeds_member(const study_source *r, const yaml_node *k, bool *most_given)
 {
+    static const char *const names[] = {"least", "most", "mean_within", "largest_within", "confidence", "first"};
     study_seeds *s = &r->out->seeds;
     const char *name = study_key(r, k);
     int64_t whole = 0;
@@ -64,8 +66,7 @@ static fram_status read_seeds_member(const study_source *r, const yaml_node *k, 
         return study_whole(r, k, 0, 1e15, &s->first);
     bool least = strcmp(name, "least") == 0, most = strcmp(name, "most") == 0;
     if (!least && !most)
-        return study_refuse(r, k,
-                            "unknown key: expected least, most, mean_within, largest_within, confidence or first");
+        return study_unknown(r, k, names, sizeof names / sizeof *names);
     fram_status status = study_whole(r, k, 1, STUDY_SEEDS_MOST, &whole);
     *most_given = *most_given || most;
     *(least ? &s->least : &s->most) = (int32_t)whole;
@@ -120,11 +121,9 @@ static fram_status read_root(const study_source *r)
     static const struct {
         const char *name;
         fram_status (*read)(const study_source *, const yaml_node *);
-    } keys[] = {{"scenario", read_scenario},
-                {"set", read_set},
-                {"seeds", read_seeds},
-                {"vary", study_conditions_read},
-                {"keep", read_keep}};
+    } keys[] = {{"scenario", read_scenario},     {"set", read_set},   {"seeds", read_seeds},
+                {"vary", study_conditions_read}, {"keep", read_keep}, {"extremes", study_extremes_read}};
+    static const char *const names[] = {"scenario", "set", "seeds", "vary", "keep", "extremes"};
     if (r->tree->nodes.count == 0 || r->tree->nodes.data[0].kind != YAML_MAPPING)
         return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, NULL,
                          "the file is no study: expected keys as `scenario: FILE` and `seeds: 20`");
@@ -137,13 +136,13 @@ static fram_status read_root(const study_source *r)
                 status = keys[i].read(r, k);
         }
         if (!known)
-            status = study_refuse(r, k, "unknown key: expected scenario, set, seeds, vary or keep");
+            status = study_unknown(r, k, names, sizeof names / sizeof *names);
         if (status != FRAM_OK)
             return status;
     }
     if (!r->out->scenario)
         return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, "scenario", "is missing: name a scenario file");
-    return FRAM_OK;
+    return study_extremes_check(r->out, r->error);
 }
 
 /* ---- checks of all conditions ---- */

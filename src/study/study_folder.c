@@ -5,6 +5,7 @@
 #include "io/atomic_file.h"
 #include "io/folder.h"
 #include "io/scenario_file.h"
+#include "io/temporary.h"
 #include "sim/run_folder.h"
 #include "study/study_file.h"
 
@@ -98,14 +99,31 @@ static fram_status write_condition(study_folder *f, int32_t condition, fram_erro
     return status;
 }
 
+/* A study that was killed while it wrote its first file left a part of that. */
+static void remove_leftovers(context *ctx, const char *path)
+{
+    DIR *dir = opendir(path);
+    for (struct dirent *e = dir ? readdir(dir) : NULL; e; e = readdir(dir)) {
+        text_buffer b = {0};
+        text_format(ctx, &b, "%s/%s", path, e->d_name);
+        if (temporary_is_of(e->d_name, "study.yaml") && !b.failed)
+            (void)unlink(b.data);
+        text_free(ctx, &b);
+    }
+    if (dir)
+        closedir(dir);
+}
+
 /* A folder that holds something else is left alone. */
 static fram_status check_folder(context *ctx, const char *path, fram_error *error)
 {
     text_buffer b = {0};
     text_format(ctx, &b, "%s/study.yaml", path);
     fram_status status = b.failed ? error_memory(error) : FRAM_OK;
-    if (status == FRAM_OK && !file_is_readable(b.data))
+    if (status == FRAM_OK && !file_is_readable(b.data)) {
+        remove_leftovers(ctx, path);
         status = run_folder_check(path, false, error);
+    }
     text_free(ctx, &b);
     return status;
 }

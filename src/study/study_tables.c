@@ -2,7 +2,7 @@
 #include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "study/seeds.h"
-#include "study/study_folder.h"
+#include "study/study_answers.h"
 
 #include <math.h>
 #include <string.h>
@@ -108,6 +108,8 @@ fram_status study_tables_write(const study_folder *f, const condition_rows *cond
         status = write_table(f, "summary.csv", &runs, error);
     if (status == FRAM_OK)
         status = write_table(f, "conditions.csv", &means, error);
+    if (status == FRAM_OK)
+        status = study_answers_write(f, conditions, error);
     text_free(f->ctx, &runs);
     text_free(f->ctx, &means);
     return status;

@@ -2,6 +2,7 @@
 """Studies: the same bytes however they were run, stopped, killed and widened; mistakes told at their place."""
 import csv
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -141,6 +142,74 @@ class Studies(unittest.TestCase):
         self.assertLess(there, 6)
         self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 6)
 
+    def test_extremes_of_conditions_and_of_a_year(self):
+        study = self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
+                           "extremes: {duration: 10min, method: gumbel, levels: [0.9], hours: [100, 20], "
+                           "annual: [1e-2, 1e-4]}\n")
+        self.fram(study, "-o", self.at / "out")
+        rows = self.rows("out", "extremes.csv")
+        self.assertEqual([(r["condition"], r["figure"], r["runs"]) for r in rows],
+                         [("1", "load_largest", "12"), ("2", "load_largest", "12")])
+        # The command says the same of the same largest loads.
+        with open(self.at / "out" / "summary.csv") as file:
+            lines = file.read().splitlines()
+        (self.at / "second.csv").write_text("\n".join([lines[0], *lines[13:]]) + "\n")
+        done = subprocess.run([FRAM, "extremes", self.at / "second.csv", "--channel", "load_largest", "--maxima",
+                               "--block", "2", "--duration", "10min", "--method", "gumbel", "--level", "0.9", "--json"],
+                              capture_output=True, text=True, check=True)
+        said = json.loads(done.stdout.splitlines()[-1])["methods"][0]
+        for name, level in (("most_probable", said["most_probable"]), ("below_0.9", said["levels"][0])):
+            self.assertAlmostEqual(float(rows[1][name]) / level["level"], 1, delta=1e-12)
+        self.assertLess(float(rows[1]["low"]), float(rows[1]["most_probable"]))
+        self.assertLess(float(rows[1]["most_probable"]), float(rows[1]["high"]))
+        year = self.rows("out", "annual.csv")
+        self.assertEqual([float(r["annual_probability"]) for r in year], [1e-2, 1e-4])
+        # By hand: the level where 180,000 and 36,000 blocks expect -log(1 - p) exceedances.
+        fits = []
+        for i in (0, 12):
+            (self.at / "one.csv").write_text("\n".join([lines[0], *lines[1 + i:13 + i]]) + "\n")
+            done = subprocess.run([FRAM, "extremes", self.at / "one.csv", "--channel", "load_largest", "--maxima",
+                                   "--block", "2", "--method", "gumbel", "--json"],
+                                  capture_output=True, text=True, check=True)
+            fits.append(json.loads(done.stdout.splitlines()[-1])["methods"][0])
+        for row, p in zip(year, (1e-2, 1e-4)):
+            x = float(row["level"])
+            expected = sum(1800 * h * math.exp(-(x - f["location"]) / f["scale"]) for h, f in zip((100, 20), fits))
+            self.assertAlmostEqual(expected / -math.log1p(-p), 1, delta=1e-6)
+            self.assertTrue(float(row["low"]) < x < float(row["high"]))
+        few = self.write("set: {run.duration: 1, run.transient: 0.5}\nseeds: 3\n"
+                         "extremes: {hours: [10], annual: [0.1]}\n")
+        self.fram(few, "-o", self.at / "few")
+        self.assertIn("too few", self.rows("few", "extremes.csv")[0]["note"])
+        self.assertIn("condition 1", self.rows("few", "annual.csv")[0]["note"])
+
+    def test_which_input_moves_the_load(self):
+        base = "set: {run.duration: 0.6, run.transient: 0.1}\n"
+        study = self.write(base + "vary: {sobol: {count: 10, keys: {vessel.speed: [1, 2], output.averaging_window: "
+                           "[0.1, 0.2]}}}\n")
+        self.assertEqual(self.fram(study, "-o", self.at / "sobol")["runs"], 40)
+        rows = self.rows("sobol", "sensitivity.csv")
+        self.assertEqual([r["key"] for r in rows[:2]], ["vessel.speed", "output.averaging_window"])
+        study = self.write(base + "vary: {morris: {count: 3, levels: 4, keys: {vessel.speed: [1, 2], "
+                           "output.frame_interval: [0.1, 0.4]}}}\n")
+        self.assertEqual(self.fram(study, "-o", self.at / "morris")["runs"], 9)
+        rows = self.rows("morris", "sensitivity.csv")
+        # How often frames are recorded moves no load.
+        self.assertEqual([float(r["mu_star"]) for r in rows if r["key"] == "output.frame_interval"],
+                         [0] * (len(rows) // 2))
+        self.refused("vary: {sobol: {count: 5, keys: {vessel.speed: [1, 2]}}}\n", "study.yaml:2: count", "10")
+        self.refused("vary: {morris: {count: 5, levels: 3, keys: {vessel.speed: [1, 2]}}}\n", "levels", "even")
+        self.refused("vary: {morris: {count: 5, keys: {vessel.speed: [1, 1]}}}\n", "vessel.speed", "wider")
+        self.refused("vary: {morrris: {count: 5}}\n", "morrris", "did you mean morris?")
+        self.refused("extremes: {methd: gev}\n", "study.yaml:2: methd", "did you mean method?")
+        self.refused("extremes: {method: pot}\n", "study.yaml:2: method", "keep: series")
+        self.refused("extremes: {duration: 3x}\n", "duration", "3x")
+        self.refused("extremes: {hours: [1, 2], annual: [0.01]}\n", "hours", "1 conditions, found 2")
+        self.refused("extremes: {annual: [0.01]}\n", "extremes", "hours")
+        self.refused("extremes: {hours: [9000], annual: [0.01]}\n", "hours", "8784")
+        self.refused("extremes: {levels: [1]}\n", "levels")
+        self.refused("seed: 3\n", "seed", "did you mean seeds?")
+
     def test_mistakes_are_told_at_their_place(self):
         self.refused("vary: {grid: {ice.thicknes: [1]}}\n", "study.yaml:2: ice.thicknes", "condition 1")
         self.refused("set:\n  run.duration: -1\n", "study.yaml:3: run.duration")
@@ -156,6 +225,10 @@ class Studies(unittest.TestCase):
         (self.at / "empty.yaml").write_text("")
         self.assertIn("no study", self.fram("check", self.at / "empty.yaml", code=2)["error"]["message"])
         self.fram(self.at / "none.yaml", "-o", self.at / "out", code=2)
+        # A study that was killed in its first moment leaves a part of its first file, which is in nobody's way.
+        (self.at / "begun").mkdir()
+        (self.at / "begun" / ("study.yaml." + "0" * 16 + ".new")).write_text("scen")
+        self.fram(self.write("set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n"), "-o", self.at / "begun")
         # A folder that holds something else stays as it is.
         (self.at / "full").mkdir()
         (self.at / "full" / "letter.txt").write_text("x")

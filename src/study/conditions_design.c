@@ -1,0 +1,120 @@
+/* Conditions that are designs of sensitivity: points of Sobol's and Morris's schemes within the ranges of keys. */
+#include "study/conditions.h"
+#include "study/sensitivity.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct design_range {
+    double lo, hi;
+} design_range;
+
+static fram_status read_range(const study_source *r, const yaml_node *k, design_range *out)
+{
+    if (k->kind != YAML_SEQUENCE || k->count != 2)
+        return study_refuse(r, k, "expected the ends of a range, as [0.5, 1.5]");
+    const yaml_node *lo = study_child(r, k), *hi = study_next(r, lo);
+    fram_status status = study_number(r, lo, -1e300, 1e300, &out->lo);
+    if (status == FRAM_OK)
+        status = study_number(r, hi, out->lo, 1e300, &out->hi);
+    if (status == FRAM_OK && !(out->hi > out->lo))
+        status = study_refuse(r, k, "expected a range that is wider than nothing");
+    if (status == FRAM_OK && strcmp(study_key(r, k), "run.seed") == 0)
+        status = study_refuse(r, k, "seeds are given by `seeds`, not as a condition");
+    if (status == FRAM_OK && !text_list_add(r->ctx, &r->out->keys, study_key(r, k)))
+        status = error_memory(r->error);
+    return status;
+}
+
+/* Values of the points: nine digits are read well. */
+static fram_status write_values(const study_source *r, const design_range *range)
+{
+    int32_t k = r->out->keys.count;
+    for (int32_t i = 0; i < r->out->design.point.count; i++) {
+        char text[32];
+        const design_range *of = &range[i % k];
+        snprintf(text, sizeof text, "%.9g", of->lo + r->out->design.point.data[i] * (of->hi - of->lo));
+        if (!text_list_add(r->ctx, &r->out->values, text))
+            return error_memory(r->error);
+    }
+    return FRAM_OK;
+}
+
+static fram_status draw_points(const study_source *r, int64_t seed, int32_t levels)
+{
+    study *s = r->out;
+    int32_t k = s->keys.count, n = s->design.count;
+    if (!array_resize(r->ctx, &s->design.point, s->conditions * k))
+        return error_memory(r->error);
+    if (s->design.kind == DESIGN_MORRIS)
+        morris_points(n, k, levels, seed, s->design.point.data);
+    else if (!sobol_points(r->ctx, n, k, seed, s->design.point.data))
+        return error_memory(r->error);
+    return FRAM_OK;
+}
+
+/* The ranges under `keys`, and the number of conditions that follows from them. */
+static fram_status read_ranges(const study_source *r, const yaml_node *node, design_range *range)
+{
+    study *s = r->out;
+    if (node->kind != YAML_MAPPING || node->count == 0)
+        return study_refuse(r, node, "expected keys with a range each");
+    if (node->count > SENSITIVITY_KEYS_MOST)
+        return study_refuse(r, node, "found %d keys, expected at most %d", (int)node->count, SENSITIVITY_KEYS_MOST);
+    fram_status status = FRAM_OK;
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k))
+        status = read_range(r, k, range++);
+    int64_t each = s->keys.count + (s->design.kind == DESIGN_MORRIS ? 1 : 2), all = each * s->design.count;
+    if (status == FRAM_OK && all > STUDY_CONDITIONS_MOST)
+        status =
+            study_refuse(r, node, "found %lld conditions, expected at most %d: count times the number of keys + %d",
+                         (long long)all, STUDY_CONDITIONS_MOST, s->design.kind == DESIGN_MORRIS ? 1 : 2);
+    s->conditions = status == FRAM_OK ? (int32_t)all : s->conditions;
+    return status;
+}
+
+static fram_status read_design(const study_source *r, const yaml_node *node, study_design_kind kind)
+{
+    static const char *const names[] = {"count", "seed", "keys", "levels"};
+    const yaml_node *keys = NULL;
+    int64_t count = 0, seed = 1, levels = 4;
+    fram_status status = FRAM_OK;
+    if (node->kind != YAML_MAPPING)
+        return study_refuse(r, node, "expected count, keys and, if wanted, seed");
+    for (const yaml_node *k = study_child(r, node); k && status == FRAM_OK; k = study_next(r, k)) {
+        const char *name = study_key(r, k);
+        if (strcmp(name, "count") == 0)
+            status = study_whole(r, k, kind == DESIGN_MORRIS ? 2 : 10, STUDY_CONDITIONS_MOST, &count);
+        else if (strcmp(name, "seed") == 0)
+            status = study_whole(r, k, 0, 1e15, &seed);
+        else if (strcmp(name, "keys") == 0)
+            keys = k;
+        else if (strcmp(name, "levels") == 0 && kind == DESIGN_MORRIS)
+            status = study_whole(r, k, 2, SENSITIVITY_LEVELS_MOST, &levels);
+        else
+            status = study_unknown(r, k, names, kind == DESIGN_MORRIS ? 4 : 3);
+    }
+    if (status != FRAM_OK)
+        return status;
+    if (!keys || count == 0)
+        return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
+    if (levels % 2 != 0)
+        return study_refuse(r, node, "expected an even number of levels, found %d", (int)levels);
+    design_range range[SENSITIVITY_KEYS_MOST];
+    r->out->design.kind = kind;
+    r->out->design.count = (int32_t)count;
+    status = read_ranges(r, keys, range);
+    if (status == FRAM_OK)
+        status = draw_points(r, seed, (int32_t)levels);
+    return status == FRAM_OK ? write_values(r, range) : status;
+}
+
+fram_status study_sobol_read(const study_source *r, const yaml_node *node)
+{
+    return read_design(r, node, DESIGN_SOBOL);
+}
+
+fram_status study_morris_read(const study_source *r, const yaml_node *node)
+{
+    return read_design(r, node, DESIGN_MORRIS);
+}

@@ -1,0 +1,265 @@
+#include "study/study_answers.h"
+
+#include "base/number_text.h"
+#include "io/atomic_file.h"
+#include "study/sensitivity.h"
+#include "study/study_extremes.h"
+#include "study/study_file.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Figures that have extremes, and those that inputs move. */
+typedef struct answer_figure {
+    run_figure figure;
+    const char *name, *unit;
+} answer_figure;
+static const answer_figure rare[] = {{ROW_load_largest, "load_largest", "N"},
+                                     {ROW_offset_largest, "offset_largest", "m"},
+                                     {ROW_line_tension_largest, "line_tension_largest", "N"}};
+static const answer_figure moved[] = {{ROW_load_mean, "load_mean", "N"},
+                                      {ROW_load_significant, "load_significant", "N"},
+                                      {ROW_load_largest, "load_largest", "N"},
+                                      {ROW_offset_largest, "offset_largest", "m"},
+                                      {ROW_line_tension_largest, "line_tension_largest", "N"}};
+enum { RARE = sizeof rare / sizeof *rare, MOVED = sizeof moved / sizeof *moved };
+
+static void add_number(const study_folder *f, text_buffer *b, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_format(f->ctx, b, ",%s", isnan(value) ? "" : text);
+}
+
+static void add_interval(const study_folder *f, text_buffer *b, const level_interval *i)
+{
+    add_number(f, b, i->level);
+    add_number(f, b, i->low);
+    add_number(f, b, i->high);
+}
+
+static fram_status write_table(const study_folder *f, const char *name, const text_buffer *b, fram_error *error)
+{
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/%s", f->path, name);
+    fram_status status = path.failed || b->failed
+                             ? error_memory(error)
+                             : atomic_file_write(f->ctx, path.data, b->data, (size_t)b->count, error);
+    text_free(f->ctx, &path);
+    return status;
+}
+
+/* ---- extremes ---- */
+
+/* Values of a figure of the runs of each condition. */
+static fram_status collect(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                           condition_maxima *out, fram_error *error)
+{
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        array_clear(&out[c].value);
+        for (int32_t i = 0; i < conditions[c].rows.count; i++) {
+            double x = conditions[c].rows.data[i].figure[figure];
+            if (isfinite(x) && !array_push(f->ctx, &out[c].value, x))
+                return error_memory(error);
+        }
+    }
+    return FRAM_OK;
+}
+
+/* How long the runs of each condition are after their transient. */
+static fram_status find_blocks(const study_folder *f, condition_maxima *out, fram_error *error)
+{
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        scenario one = {0};
+        fram_status status = study_scenario(f->ctx, f->s, c, f->s->seeds.first, &one, error);
+        if (status != FRAM_OK)
+            return status;
+        out[c].block = fmax(one.run.duration - one.run.transient, one.run.time_step);
+        scenario_free(f->ctx, &one);
+    }
+    return FRAM_OK;
+}
+
+static bool any_values(const study_folder *f, const condition_maxima *of)
+{
+    for (int32_t c = 0; c < f->s->conditions; c++)
+        if (of[c].value.count > 0)
+            return true;
+    return false;
+}
+
+static void extremes_heads(const study_folder *f, text_buffer *b)
+{
+    text_add(f->ctx, b, "condition,figure,unit,method,runs,block[s],duration[s],most_probable,low,high");
+    for (int i = 0; i < f->s->extremes.levels; i++) {
+        char p[NUMBER_TEXT_SIZE];
+        real_to_text(f->s->extremes.level[i], p);
+        text_format(f->ctx, b, ",below_%s,below_%s_low,below_%s_high", p, p, p);
+    }
+    text_add(f->ctx, b, ",note\n");
+}
+
+static fram_status add_extremes(const study_folder *f, const answer_figure *figure, const condition_maxima *of,
+                                text_buffer *b, fram_error *error)
+{
+    const study_extremes *x = &f->s->extremes;
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = x->duration;
+    ask.confidence = x->confidence;
+    ask.levels = x->levels;
+    memcpy(ask.probability, x->level, sizeof x->level);
+    extreme_method method = x->gev ? EXTREME_GEV : EXTREME_GUMBEL;
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        extreme_result r;
+        fram_status status =
+            extremes_of_maxima(f->ctx, of[c].value.data, of[c].value.count, of[c].block, method, &ask, &r, error);
+        if (status != FRAM_OK)
+            return status;
+        text_format(f->ctx, b, "%d,%s,%s,%s,%d", (int)c + 1, figure->name, figure->unit, extreme_method_name(method),
+                    (int)of[c].value.count);
+        add_number(f, b, of[c].block);
+        add_number(f, b, x->duration);
+        add_interval(f, b, &r.most_probable);
+        for (int i = 0; i < x->levels; i++)
+            add_interval(f, b, &r.level[i]);
+        text_format(f->ctx, b, ",\"%s\"\n", r.note);
+    }
+    return FRAM_OK;
+}
+
+static fram_status add_annual(const study_folder *f, const answer_figure *figure, const condition_maxima *of,
+                              text_buffer *b, fram_error *error)
+{
+    const study_extremes *x = &f->s->extremes;
+    for (int i = 0; i < x->annuals; i++) {
+        level_interval level;
+        int32_t missing = -1;
+        fram_status status = annual_level(f->ctx, x, of, f->s->conditions, x->annual[i], &level, &missing, error);
+        if (status != FRAM_OK)
+            return status;
+        text_format(f->ctx, b, "%s,%s,%s", figure->name, figure->unit, x->gev ? "gev" : "gumbel");
+        add_number(f, b, x->annual[i]);
+        add_interval(f, b, &level);
+        if (missing >= 0)
+            text_format(f->ctx, b, ",\"No answer: condition %d occurs and has no fit: more seeds.\"\n",
+                        (int)missing + 1);
+        else
+            text_add(f->ctx, b, ",\n");
+    }
+    return FRAM_OK;
+}
+
+static fram_status write_extremes(const study_folder *f, const condition_rows *conditions, fram_error *error)
+{
+    text_buffer table = {0}, year = {0};
+    condition_maxima *of = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *of);
+    fram_status status = of ? find_blocks(f, of, error) : error_memory(error);
+    extremes_heads(f, &table);
+    text_add(f->ctx, &year, "figure,unit,method,annual_probability,level,low,high,note\n");
+    for (int i = 0; i < RARE && status == FRAM_OK; i++) {
+        status = collect(f, conditions, rare[i].figure, of, error);
+        if (status != FRAM_OK || !any_values(f, of))
+            continue;
+        status = add_extremes(f, &rare[i], of, &table, error);
+        if (status == FRAM_OK)
+            status = add_annual(f, &rare[i], of, &year, error);
+    }
+    if (status == FRAM_OK)
+        status = write_table(f, "extremes.csv", &table, error);
+    if (status == FRAM_OK && f->s->extremes.annuals > 0)
+        status = write_table(f, "annual.csv", &year, error);
+    for (int32_t c = 0; of && c < f->s->conditions; c++)
+        array_free(f->ctx, &of[c].value);
+    memory_free(f->ctx, of);
+    text_free(f->ctx, &table);
+    text_free(f->ctx, &year);
+    return status;
+}
+
+/* ---- sensitivity ---- */
+
+/* Mean over the seeds of each condition; NaN without any. */
+static void average(const study_folder *f, const condition_rows *conditions, run_figure figure, double *out)
+{
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        double sum = 0;
+        int32_t n = 0;
+        for (int32_t i = 0; i < conditions[c].rows.count; i++) {
+            double x = conditions[c].rows.data[i].figure[figure];
+            sum += isfinite(x) ? x : 0;
+            n += isfinite(x);
+        }
+        out[c] = n > 0 ? sum / n : (double)NAN;
+    }
+}
+
+static void add_sobol(const study_folder *f, const answer_figure *figure, int32_t rows, const sobol_index *of,
+                      text_buffer *b)
+{
+    for (int32_t k = 0; k < f->s->keys.count; k++) {
+        const level_interval first = {of[k].first, of[k].first_low, of[k].first_high};
+        const level_interval total = {of[k].total, of[k].total_low, of[k].total_high};
+        text_format(f->ctx, b, "%s,%s,%d", figure->name, f->s->keys.data[k], (int)rows);
+        add_interval(f, b, &first);
+        add_interval(f, b, &total);
+        text_add(f->ctx, b, "\n");
+    }
+}
+
+static void add_morris(const study_folder *f, const answer_figure *figure, const morris_effect *of, text_buffer *b)
+{
+    for (int32_t k = 0; k < f->s->keys.count; k++) {
+        text_format(f->ctx, b, "%s,%s,%d", figure->name, f->s->keys.data[k], (int)of[k].count);
+        add_number(f, b, of[k].mu);
+        add_number(f, b, of[k].mu_star);
+        add_number(f, b, of[k].sigma);
+        text_add(f->ctx, b, "\n");
+    }
+}
+
+static fram_status write_sensitivity(const study_folder *f, const condition_rows *conditions, fram_error *error)
+{
+    const study_design *d = &f->s->design;
+    text_buffer b = {0};
+    double *answer = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *answer);
+    fram_status status = answer ? FRAM_OK : error_memory(error);
+    text_add(f->ctx, &b,
+             d->kind == DESIGN_SOBOL ? "figure,key,rows,first,first_low,first_high,total,total_low,total_high\n"
+                                     : "figure,key,effects,mu,mu_star,sigma\n");
+    for (int i = 0; i < MOVED && status == FRAM_OK; i++) {
+        sobol_index sobol[SENSITIVITY_KEYS_MOST];
+        morris_effect morris[SENSITIVITY_KEYS_MOST];
+        bool any = false;
+        average(f, conditions, moved[i].figure, answer);
+        for (int32_t c = 0; c < f->s->conditions; c++)
+            any = any || isfinite(answer[c]);
+        if (!any)
+            continue;
+        if (d->kind == DESIGN_MORRIS) {
+            morris_effects(answer, d->point.data, d->count, f->s->keys.count, morris);
+            add_morris(f, &moved[i], morris, &b);
+            continue;
+        }
+        int32_t rows = sobol_indices(f->ctx, answer, d->count, f->s->keys.count, sobol);
+        if (rows < 0)
+            status = error_memory(error);
+        else
+            add_sobol(f, &moved[i], rows, sobol, &b);
+    }
+    if (status == FRAM_OK)
+        status = write_table(f, "sensitivity.csv", &b, error);
+    memory_free(f->ctx, answer);
+    text_free(f->ctx, &b);
+    return status;
+}
+
+fram_status study_answers_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    if (f->s->extremes.asked)
+        status = write_extremes(f, conditions, error);
+    if (status == FRAM_OK && f->s->design.kind != DESIGN_NONE)
+        status = write_sensitivity(f, conditions, error);
+    return status;
+}
