@@ -90,7 +90,7 @@ format: $(STAMPS)/dev ## put every C file into the form that lint asks for
 
 fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
 	@cmake --build --preset fuzz -j$(JOBS)
-	@tools/fuzz.sh build/fuzz $(FUZZ_SECONDS)
+	@tools/fuzz.sh build/fuzz $(FUZZ_SECONDS) $(JOBS)
 
 fuzz-fracture: build/release/build.ninja build/asan/build.ninja ## break FUZZ_EVENTS (1,000,000) random floes
 	@cmake --build --preset release -j$(JOBS) --target test_ice_fracture_fuzz

@@ -1,38 +1,48 @@
 #!/bin/sh
-# Fuzz every target of a build for some seconds each:  tools/fuzz.sh BUILD SECONDS
+# Fuzz every target of a build for some seconds each, some at a time:  tools/fuzz.sh BUILD SECONDS [JOBS [TARGET...]]
 # The committed seeds in fuzz/corpus/<name> and the words of the format in fuzz/words/<name>.dict are only read; what is
 # found is kept in BUILD/corpus/<name>, and a failing input in BUILD/findings.
 set -eu
 build=$1
 seconds=$2
+jobs=${3:-1}
+[ $# -lt 3 ] || shift
+shift 2
 cd "$(dirname "$0")/.."
-set -- "$build"/fuzz/fuzz_*
-if [ ! -x "$1" ]; then
-    echo "fuzz: there are no targets yet"
-    exit 0
-fi
-mkdir -p "$build/findings"
-for target; do
-    name=${target##*/fuzz_}
+
+fuzz_one() {
+    name=${1##*/fuzz_}
+    mkdir -p "$build/findings"
     mkdir -p "$build/corpus/$name"
     seeds=fuzz/corpus/$name
     [ -d "$seeds" ] || seeds=""
     words=fuzz/words/$name.dict
     [ -f "$words" ] && words=-dict=$words || words=""
-    echo "fuzz: $name for $seconds s"
     log=$build/findings/$name.log
     # GEOS 3.11 leaks rings of degenerate polygons that it fails to repair, which cannot be told from a leak of ours
     # without whole stacks (30 times as slow); ours are looked for by the tests, under the same sanitizer.
     leaks=1
     [ "$name" = overlay ] && leaks=0
     # shellcheck disable=SC2086  # seeds and words are one word or none
-    if ! ASAN_OPTIONS=detect_leaks=$leaks "$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 \
+    if ! ASAN_OPTIONS=detect_leaks=$leaks "$1" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2560 \
         -print_final_stats=1 -artifact_prefix="$build/findings/$name-" \
         $words "$build/corpus/$name" $seeds >"$log" 2>&1; then
         tail -n 60 "$log"
         echo "fuzz: $name failed; the input is in $build/findings" >&2
-        exit 1
+        return 1
     fi
-    sed -n 's/^stat::number_of_executed_units: */fuzz:   inputs run: /p' "$log"
-done
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
+    echo "fuzz: $name for $seconds s, inputs run: $runs"
+}
+
+if [ $# -eq 1 ]; then
+    fuzz_one "$1"
+    exit
+fi
+[ $# -gt 0 ] || set -- "$build"/fuzz/fuzz_*
+if [ ! -x "$1" ]; then
+    echo "fuzz: there are no targets yet"
+    exit 0
+fi
+printf '%s\n' "$@" | xargs -P "$jobs" -n 1 "tools/${0##*/}" "$build" "$seconds" 1 || exit 1
 echo "fuzz: no finding in $# targets"

@@ -34,11 +34,7 @@ cmake --build "$build" -j"$jobs" >"$build/lint-build.log" || { cat "$build/lint-
 python3 tools/check_objects.py "$build" || bad=1
 
 echo "lint: analysis (clang-tidy)"
-# Only files that the build knows (others have no flags to be analysed with), one a run: given several, clang-tidy 14
-# calls every va_list after the first file's uninitialised.
-echo "$sources" | grep '\.c$' | while read -r file; do
-    grep -q "\"file\": \".*/$file\"" "$build/compile_commands.json" && echo "$file"
-done | xargs -r -P "$jobs" -n 1 clang-tidy --quiet -p "$build" 2>/dev/null || bad=1
+python3 tools/tidy.py "$build" "$jobs" "$@" || bad=1
 
 [ $bad = 0 ] || { echo "lint: failed" >&2; exit 1; }
 echo "lint: clean"
