@@ -2,28 +2,35 @@
 # the long time limit: a test that is not named here and grows long is stopped.  `make test` begins with them.
 set(fram_long_tests
     "cli/bench:            the bench's own times are long enough to be measured"
+    "cli/check:            each thing a vessel cannot be or is told of, a command of its own"
     "cli/command:          every command and its refusals, and signals to runs that go on"
     "cli/field:            fields of all sources drawn, written and read again"
+    "cli/hull:             hulls of every form read, drawn, cut into convex pieces and written, a command each"
+    "cli/hull_files:       thirty-five hull files of exporters and kinds, and the remedy of each that is refused"
     "cli/packed_field:     ten thousand steps at rest, as the promise says"
     "cli/why:              a chain of floes explained, and computed again by three methods, six times"
     "dynamics/packed:      packed fields must come to rest under each solver"
     "dynamics/solver:      oracles of friction and stacking under each solver"
     "geometry/overlay:     twenty thousand random pairs of outlines against areas"
     "geometry/polygon_clip: random pairs of outlines, every kind of degeneracy"
+    "ice/field:            managed ice of every concentration and law of size, five seeds each"
     "ice/field_pack:       six kinds of field, five seeds each (FRAM_TEST_LONG: twenty)"
     "ice/field_sized:      power diagrams to 0.2 % of the areas, five seeds (FRAM_TEST_LONG: twenty)"
     "ice/fracture_algorithms: random outlines against slow and plain versions of each algorithm"
     "ice/packing_ragged:   an impossible field is tried to the end before it is refused"
     "io/geojson:           files of ten million positions, one over the limit"
+    "results/report:       runs with a fed field and with level ice, long enough for their books to matter"
     "sim/build_stopped:    six builds, each interrupted after a second or two"
     "sim/drift:            a sheet that drifts over its ship, comes back and is met again, at two time steps"
     "sim/feeding:          hours of drift: the field must not change by being fed"
     "sim/level_ice:        ships through level ice, far enough to see the channel and the loads"
-    "sim/real_input:       a run through a field of another's making, 60 s (FRAM_TEST_LONG: the observed floes too)"
+    "sim/real_input:       a run of 60 s through outlined floes, repaired (FRAM_TEST_LONG: 462 observed ones too)"
     "slurm/arrays:         a cluster is started, loses a node and gets its runs back"
     "study/study:          some two hundred short runs, killed, widened, gone on with"
     "study/extremes_coverage: intervals of ten cases, twenty trials each (FRAM_TEST_LONG: a thousand)"
-    "runs/resume:           golden scenes straight and through a checkpoint")
+    "runs/resume:          golden scenes straight and through a checkpoint"
+    "study/study:          studies of several runs each: stopped, killed, widened, in parallel"
+    "tools/torture:        the campaign of faults tried on commands that misbehave on purpose")
 set(fram_short_limit 150) # [s]: thirty times 5 s, for machines that are busy or slow
 set(fram_long_limit 600)  # [s]
 

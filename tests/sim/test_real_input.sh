@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Input as somebody might bring it: open rings, some turned the wrong way, crossing themselves, overlapping; repaired,
-# written, read again, and a run through them (scenes/real_input.yaml).  With the repository's own floes
-# (tests/data/floes.geojson) and a hull made from main particulars; with FRAM_TEST_LONG, and where they stand beside the
-# sources, also with 462 observed floes and the hull of an FPSO.
+# written, read again, and a run through them (scenes/real_input.yaml).  With the repository's own floes and hull of
+# panels; with FRAM_TEST_LONG, and where they stand beside the sources, also with 462 observed floes and the hull of an
+# FPSO.
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -74,15 +74,13 @@ sys.exit(bool(failures))
 PYTHON
 }
 
-try own "$FRAM_SOURCE/tests/data/floes.geojson" 72 72 487062 \
-    --set vessel.hull.form=icebreaker --set vessel.hull.length=200 --set vessel.hull.beam=44 \
-    --set vessel.hull.draught=12 --set vessel.hull.file= --set vessel.x=-910 --set vessel.y=-102 \
-    --set domain.x_min=-1100
+try own "$FRAM_SOURCE/tests/data/floes.geojson" 72 72 487062
 data=$FRAM_SOURCE/../shared/data
 if [ -z "${FRAM_TEST_LONG:-}" ]; then
     echo "without the observed floes: they are for FRAM_TEST_LONG"
 elif [ -f "$data/observed_floes.geojson" ] && [ -f "$data/hulls/fpso_low.gdf" ]; then
-    try observed "$data/observed_floes.geojson" 462 462 1168741
+    try observed "$data/observed_floes.geojson" 462 462 1168741 --set "vessel.hull.file=$data/hulls/fpso_low.gdf" \
+        --set vessel.x=-760 --set vessel.y=0 --set domain.x_min=-880
 else
     echo "without the observed floes: there is no $data/observed_floes.geojson"
 fi
