@@ -128,10 +128,10 @@ def perturb(draw, sections, tree, count):
             return
         section = draw.choice(sections)
         node = place(tree, section.path, draw.random() < 0.15, draw)
-        if node is None:
+        if node is None or not section.keys:
             continue
         key = draw.choice(section.keys)
-        if key.kind == "path" or ".".join((*key.path, key.name)) in GIVEN or not section.keys:
+        if key.kind == "path" or ".".join((*key.path, key.name)) in GIVEN:
             continue
         now = node.get(key.name, key.default)
         if isinstance(now, float) and key.power:
