@@ -12,8 +12,8 @@
 #ifdef FRAM_HAVE_CAIRO
 
 /* Colour-blind safe (Okabe and Ito 2008). */
-static const image_colour palette[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00},
-                                       {0.00, 0.62, 0.45}, {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00}};
+static const image_colour palette[] = {{0.60, 0.70, 0.80}, {0.00, 0.27, 0.55}, {0.84, 0.37, 0.00}, {0.00, 0.62, 0.45},
+                                       {0.80, 0.47, 0.65}, {0.90, 0.62, 0.00}, {0.34, 0.71, 0.91}, {0.45, 0.35, 0.30}};
 enum { PALETTE_SIZE = sizeof palette / sizeof *palette };
 /* More ticks than any axis needs: a bound for data at the end of the range of doubles. */
 enum { MOST_TICKS = 50 };
@@ -241,7 +241,7 @@ static void draw_band(cairo_t *page, const frame *f, const chart_line *line, ima
     for (int32_t i = line->count - 1; i >= 0; i--)
         cairo_line_to(page, to_px(f, line->x[i]), bound_py(f, line->y2[i]));
     cairo_close_path(page);
-    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, BAND_OPACITY);
+    cairo_set_source_rgba(page, colour.r, colour.g, colour.b, line->solid ? 1 : BAND_OPACITY);
     cairo_fill(page);
 }
 
@@ -303,7 +303,7 @@ static void draw_legend(cairo_t *page, const chart *c, const frame *f)
         image_text(page, x, f->top - 8, 12, ALIGN_LEFT, false, c->lines[k].name);
         bool band = c->lines[k].style == CHART_BAND;
         image_colour colour = colour_of(&c->lines[k], k);
-        cairo_set_source_rgba(page, colour.r, colour.g, colour.b, band ? BAND_OPACITY : 1);
+        cairo_set_source_rgba(page, colour.r, colour.g, colour.b, band && !c->lines[k].solid ? BAND_OPACITY : 1);
         cairo_set_line_width(page, band ? 10 : 3);
         cairo_move_to(page, x - 26, f->top - 12);
         cairo_line_to(page, x - 6, f->top - 12);

@@ -18,6 +18,7 @@ typedef struct chart_line {
     bool thick;
     chart_style style;
     const double *y2; /* of a band */
+    bool solid;       /* a band that hides what is behind it */
     int colour;       /* number in the palette, from 1; 0: by the place in the list */
 } chart_line;
 

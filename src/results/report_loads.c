@@ -175,6 +175,8 @@ fram_status report_loads(report *r, fram_error *error)
     html_grid_end(&r->page);
     load_table(r, unit);
     if (status == FRAM_OK)
+        status = report_mechanisms(r, unit, error);
+    if (status == FRAM_OK)
         status = station(r, unit, error);
     report_vessel_section(r, "Motion of the vessel");
     html_grid_begin(&r->page);

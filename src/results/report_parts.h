@@ -50,6 +50,7 @@ void report_statistics(report *r, const char *channel, const char *name, double 
 
 /* The sections, in files of their own. */
 fram_status report_loads(report *r, fram_error *error);
+fram_status report_mechanisms(report *r, load_unit unit, fram_error *error);
 fram_status report_field(report *r, fram_error *error);
 fram_status report_fractures(report *r, fram_error *error);
 fram_status report_books(report *r, fram_error *error);

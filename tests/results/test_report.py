@@ -31,10 +31,14 @@ ice: {{source: level, thickness: 0.4, breakable: true, crush_trims: true, level:
 domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
 }
-SECTIONS = ("Scenario", "Ice load", "Motion of the vessel", "Ice field", "Fracture", "Mass and energy",
-            "Quality of the solution", "Origin", "The whole scenario")
-CHARTS = ("Ice load over time", "Histogram of the load", "Exceedance of the load", "Floe sizes", "Floes in the field",
-          "Broken floes", "Energy", "Residual", "Overlap")
+SECTIONS = ("Scenario", "Ice load", "What makes the load", "Motion of the vessel", "Ice field",
+            "Fracture", "Mass and energy", "Quality of the solution", "Origin", "The whole scenario")
+CHARTS = ("Ice load over time", "Ice load by mechanism", "Histogram of the load",
+          "Exceedance of the load", "Floe sizes", "Floes in the field", "Broken floes", "Energy", "Residual", "Overlap")
+MECHANISMS = ("splitting of a floe", "bending of ice that has not broken", "crushing at the limit",
+              "a chain of floes against fixed or driven ice, a wall or a vessel", "floes that other floes hold back",
+              "turning and submerging of floes", "impact of floes that give way freely",
+              "sliding friction along the hull")
 
 
 class Tables(html.parser.HTMLParser):
@@ -93,6 +97,9 @@ def check(name, run, pictures):
         assert least <= significant <= mean < 0, rows["averaged, along X"]
     else:
         assert book["ice_mass_lost"] + book["ice_mass_crushed"] > 0, book
+    shares = [number(rows[m][0]) for m in MECHANISMS]
+    assert abs(sum(shares) - 100) < 0.1 and max(shares) > 10, shares
+    assert re.search(r"[0-9.]+ k?N, \d+ % of it by .*, from \d+ bod(y|ies).*\.$", rows["1"][1]), rows["1"]
     for row in ("kinetic energy", "crushing work"):
         assert row in rows, (name, row)
     kinetic = float(last["kinetic_energy[J]"]) * 1e-3

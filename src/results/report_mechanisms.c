@@ -1,0 +1,180 @@
+/* The report's section on what makes the load: mechanisms over time, stacked, and the ten largest peaks in words. */
+#include "results/report_parts.h"
+
+#include "results/peaks.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* The chart has so many means over time at most. */
+enum { BINS_MOST = 600 };
+
+/* Means of the parts of each mechanism along the horizontal load: the load of the same stretch of time. */
+typedef struct stacked {
+    int32_t bins;
+    double width;                                         /* of a bin [s] */
+    double *time, *part[MECHANISM_COUNT];                 /* parts [N] */
+    double *low[MECHANISM_COUNT], *high[MECHANISM_COUNT]; /* of the bands, in the chart's unit */
+} stacked;
+
+static double *kept_column(report *r, int32_t rows)
+{
+    double *column = memory_array(r->ctx, (size_t)rows, sizeof *column);
+    if (column && array_push(r->ctx, &r->kept, column))
+        return column;
+    memory_free(r->ctx, column);
+    return NULL;
+}
+
+static bool make_room(report *r, stacked *s)
+{
+    s->time = kept_column(r, s->bins);
+    bool good = s->time != NULL;
+    for (int m = 0; m < MECHANISM_COUNT && good; m++) {
+        s->part[m] = kept_column(r, s->bins);
+        s->low[m] = kept_column(r, s->bins);
+        s->high[m] = kept_column(r, s->bins);
+        good = s->part[m] && s->low[m] && s->high[m];
+    }
+    return good;
+}
+
+/* The bins begin at the first row; each has the same number of rows but the last. */
+static bool find_parts(const report *r, int32_t every, stacked *s)
+{
+    const double *time = run_channel(&r->d, "time"), *x[MECHANISM_COUNT], *y[MECHANISM_COUNT];
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        char name[64];
+        snprintf(name, sizeof name, "mechanism_%s_x", mechanism_name((ice_mechanism)m));
+        x[m] = run_vessel_channel(&r->d, r->vessel, name);
+        name[strlen(name) - 1] = 'y';
+        y[m] = run_vessel_channel(&r->d, r->vessel, name);
+        if (!x[m] || !y[m])
+            return false;
+    }
+    for (int32_t b = 0; b < s->bins; b++) {
+        double fx[MECHANISM_COUNT] = {0}, fy[MECHANISM_COUNT] = {0}, all_x = 0, all_y = 0;
+        int32_t first = b * every, end = first + every < r->d.series.rows ? first + every : r->d.series.rows;
+        for (int m = 0; m < MECHANISM_COUNT; m++) {
+            for (int32_t i = first; i < end; i++) {
+                fx[m] += x[m][i] / (end - first);
+                fy[m] += y[m][i] / (end - first);
+            }
+            all_x += fx[m];
+            all_y += fy[m];
+        }
+        double load = sqrt(all_x * all_x + all_y * all_y);
+        s->time[b] = (time[first] + time[end - 1]) / 2;
+        for (int m = 0; m < MECHANISM_COUNT; m++)
+            s->part[m][b] = load > 0 ? (fx[m] * all_x + fy[m] * all_y) / load : 0;
+    }
+    return true;
+}
+
+/* What pushes with the load goes up from zero, what pushes against it down. */
+static void stack(const stacked *s, double factor)
+{
+    for (int32_t b = 0; b < s->bins; b++) {
+        double up = 0, down = 0;
+        for (int m = 0; m < MECHANISM_COUNT; m++) {
+            double part = s->part[m][b] * factor, *from = part > 0 ? &up : &down;
+            s->low[m][b] = fmin(*from, *from + part);
+            s->high[m][b] = fmax(*from, *from + part);
+            *from += part;
+        }
+    }
+}
+
+static fram_status draw_stack(report *r, const stacked *s, load_unit unit, fram_error *error)
+{
+    chart_line bands[MECHANISM_COUNT];
+    char label[48], subtitle[96];
+    stack(s, unit.factor);
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        bands[m] = chart_line_make(mechanism_name((ice_mechanism)m), s->time, s->low[m], s->bins, false);
+        bands[m].style = CHART_BAND;
+        bands[m].y2 = s->high[m];
+        bands[m].colour = m + 1;
+        bands[m].solid = true;
+    }
+    snprintf(label, sizeof label, "along the load [%s]", unit.name);
+    snprintf(subtitle, sizeof subtitle, "means over %.3g s; what pushes against the load is under zero", s->width);
+    chart c = chart_make("Ice load by mechanism", subtitle, "time [s]", label, bands, MECHANISM_COUNT);
+    return html_chart(&r->page, &c, true, error);
+}
+
+static void share_table(report *r, const stacked *s)
+{
+    const char *const heads[] = {"mechanism", "part of the mean load after the transient [%]"};
+    double sum[MECHANISM_COUNT] = {0}, all = 0;
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        for (int32_t b = 0; b < s->bins; b++)
+            sum[m] += s->time[b] >= r->d.s.run.transient ? s->part[m][b] : 0;
+        all += sum[m];
+    }
+    if (!(all > 0))
+        return;
+    html_table_begin(&r->page, heads, 2);
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        html_row_begin(&r->page);
+        html_cell(&r->page, mechanism_text((ice_mechanism)m));
+        html_number(&r->page, 100 * sum[m] / all);
+        html_row_end(&r->page);
+    }
+    html_table_end(&r->page);
+}
+
+static fram_status peak_table(report *r, fram_error *error)
+{
+    const char *const heads[] = {"peak", "time [s]", "what it was"};
+    peak_list list;
+    fram_status status = peak_list_read(r->ctx, r->d.folder, r->vessel, &list, error);
+    if (status != FRAM_OK || list.count == 0)
+        return status;
+    html_paragraph(&r->page,
+                   "The largest peaks of the averaged horizontal load, four windows apart at least; fram why tells "
+                   "more of each.");
+    html_table_begin(&r->page, heads, 3);
+    for (int32_t i = 0; i < list.count; i++) {
+        text_buffer words = {0};
+        char rank[16];
+        snprintf(rank, sizeof rank, "%d", (int)i + 1);
+        peak_sentence(r->ctx, &r->d, list.peak[i], &words);
+        html_row_begin(&r->page);
+        html_cell(&r->page, rank);
+        html_number(&r->page, list.peak[i]->time);
+        html_cell(&r->page, words.data ? words.data : "");
+        html_row_end(&r->page);
+        r->page.text.failed = r->page.text.failed || words.failed;
+        text_free(r->ctx, &words);
+    }
+    html_table_end(&r->page);
+    peak_list_free(r->ctx, &list);
+    return FRAM_OK;
+}
+
+fram_status report_mechanisms(report *r, load_unit unit, fram_error *error)
+{
+    int32_t rows = r->d.series.rows;
+    const double *time = run_channel(&r->d, "time");
+    char name[] = "mechanism_friction_x";
+    bool loaded = false;
+    for (int32_t i = 0; i < r->load.count; i++)
+        loaded = loaded || r->load.data[i] > 0;
+    if (rows < 2 || !time || !loaded || !run_vessel_channel(&r->d, r->vessel, name))
+        return FRAM_OK;
+    double step = (time[rows - 1] - time[0]) / (rows - 1), window = r->d.s.output.averaging_window;
+    double every = ceil(fmax(window / step, (double)rows / BINS_MOST) - 1e-9);
+    int32_t size = every < 1 ? 1 : every > rows ? rows : (int32_t)every;
+    stacked s = {.bins = (rows + size - 1) / size, .width = size * step};
+    if (!make_room(r, &s))
+        return error_memory(error);
+    if (!find_parts(r, size, &s))
+        return FRAM_OK;
+    report_vessel_section(r, "What makes the load");
+    fram_status status = draw_stack(r, &s, unit, error);
+    if (status != FRAM_OK)
+        return status;
+    share_table(r, &s);
+    return peak_table(r, error);
+}
