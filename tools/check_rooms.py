@@ -10,6 +10,7 @@ Rules (CONTRIBUTING.md says why):
     with" and the names of the others;
   - files of src/ have at most 500 lines (kernels and all others 800) of at most 120 columns, no reminders of unfinished
     work and no paths of one machine;
+  - docs/architecture.md names files that are there;
   - no libm function whose last bits differ between machines is called in src/, except in LIBM_EXEMPT.
 
 Prints file:line: message for each breach; exit code 1 when there is one.
@@ -196,10 +197,22 @@ def circle_breaches(modules):
                                          'say "one module with" and name the others')
 
 
+def page_breaches():
+    """(path, line, message) for each file that docs/architecture.md names and that is not there."""
+    page = ROOT / "docs" / "architecture.md"
+    for number, line in enumerate(page.read_text().splitlines() if page.exists() else (), 1):
+        for name in re.findall(r"`([a-z_]+/[\w/.-]+\.(?:c|h|sh|py|yaml))`", line):
+            if not any((ROOT / place / name).exists() for place in ("", "src", "include")):
+                yield "docs/architecture.md", number, f"there is no {name}"
+
+
 def main():
     count = 0
     for path, message in circle_breaches(modules_of_source()):
         print(f"{path}:1: {message}")
+        count += 1
+    for path, line, message in page_breaches():
+        print(f"{path}:{line}: {message}")
         count += 1
     for path in own_files():
         if path.suffix not in TEXT_SUFFIXES and path.name not in ("Makefile", "run"):

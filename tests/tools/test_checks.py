@@ -89,6 +89,11 @@ class House(unittest.TestCase):
         self.assertIn("src/ice/floe.c:501: 501 lines; at most 500", said)
         self.assertEqual(said.count("lines; at most"), 1)
 
+    def test_files_that_the_architecture_names(self):
+        self.plant("src/ice/floe.c", "int x;\n")
+        self.plant("docs/architecture.md", "See `ice/floe.c` and\n`ice/crack.c`, `fuzz/corpus`.\n")
+        self.assertEqual(self.rooms(), "docs/architecture.md:2: there is no ice/crack.c\n")
+
     def test_upward_and_sideways_includes(self):
         self.plant("src/base/vec.h", '\n#include "ice/floe.h"\n')
         self.plant("src/ice/floe.c", '#include "vessel/hull.h"\n')
