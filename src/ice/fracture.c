@@ -80,13 +80,15 @@ static crack_start start_of(polygon p, const fracture_load *l)
 
 fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_kind kind, double length)
 {
-    bool split = kind == FRACTURE_SPLIT;
+    bool split = kind == FRACTURE_SPLIT, plane = split && l->split_ratio > 0;
     return (fracture_event){
         .kind = (int32_t)kind,
         .place = place,
-        .load = l->force,
+        .load = plane ? l->plane_force : l->force,
         .crack_length = length,
-        .stress_ratio = split ? l->radial_ratio : l->wedge_ratio,
+        .stress_ratio = plane   ? l->split_ratio
+                        : split ? l->radial_ratio
+                                : l->wedge_ratio,
         .loaded_radius = split ? l->stress.radial_radius : l->stress.wedge_radius,
     };
 }

@@ -6,7 +6,7 @@
      1. loads: one per crushing patch (fracture_load.c), the ice that it stands on (fracture_edge.c), and the stresses
         it makes there;
      2. a radial crack opens when sigma_yy >= sigma_f; where it finds the floe's other side near enough, the floe splits
-        (fracture_split.c);
+        (fracture_split.c); by toughness it splits when the load in its plane is large enough, whatever bends it;
      3. otherwise wedges break off when sigma_wedge >= sigma_f (fracture_bend.c);
      4. the parent goes, its pieces are cleaned and become floes, and what was lost is booked (fracture_birth.c).
    Floes are treated by ascending body slot, patches of a floe by falling stress over strength.
@@ -60,15 +60,15 @@ typedef struct fracture_settings {
 
 /* One event: a floe that broke.  Scratch row, made anew each step. */
 typedef struct fracture_event {
-    int32_t kind;                   /* enum fracture_kind */
-    int32_t floe;                   /* running number of the parent */
-    int32_t first_piece;            /* running number of the first piece; the others follow */
-    int32_t pieces;                 /* floes made */
-    vec3 place;                     /* where the first crack starts, global [m] */
-    double load;                    /* P [N] */
-    double crack_length;            /* split: of the crack; bending: R_bending of the first stencil [m] */
-    double stress_ratio;            /* of the criterion that was met: stress over flexural strength */
-    double loaded_radius;           /* a of that criterion [m] */
+    int32_t kind;         /* enum fracture_kind */
+    int32_t floe;         /* running number of the parent */
+    int32_t first_piece;  /* running number of the first piece; the others follow */
+    int32_t pieces;       /* floes made */
+    vec3 place;           /* where the first crack starts, global [m] */
+    double load;          /* P; of a split by toughness the load in the plane [N] */
+    double crack_length;  /* split: of the crack; bending: R_bending of the first stencil [m] */
+    double stress_ratio;  /* of the criterion that was met: stress over flexural strength, load over largest */
+    double loaded_radius; /* a of that criterion [m] */
     double parent_area, piece_area; /* of the parent, and of all pieces together [m2] */
     double area_lost, area_gained;  /* parent = pieces + lost - gained, to rounding [m2] */
     double mass_lost, mass_gained;  /* [kg] */

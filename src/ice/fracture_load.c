@@ -204,6 +204,17 @@ static bool fails(const fracture_settings *settings, const fracture_load *l, edg
     return sheet_stress(fmax(radius / length, POINT_LOAD), l->ice.poisson_ratio) * l->force >= strength;
 }
 
+/* With SPLITTING_TOUGHNESS a floe of its own splits by its load in the plane, whatever bends it. */
+static double split_ratio(const fracture_job *j, const fracture_load *l)
+{
+    if (j->settings->splitting != SPLITTING_TOUGHNESS || l->tile)
+        return 0;
+    polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
+    double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area), length;
+    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
+    return fracture_split_ratio(j->settings, outline, l, l->thickness, &start, &length);
+}
+
 /* Stresses of all loads; those that fail in no way go. */
 static fram_status keep_failing(const fracture_job *j)
 {
@@ -213,25 +224,26 @@ static fram_status keep_failing(const fracture_job *j)
         fracture_load l = all->data[i];
         l.force = fabs(l.vector.z);
         l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
-        if (!may_fail(j->settings, &l))
+        l.split_ratio = split_ratio(j, &l);
+        if (l.split_ratio < 1 && !may_fail(j->settings, &l))
             continue;
         edge_ice edge;
         fram_status status = fracture_find_ice(j, &l, &edge);
         if (status != FRAM_OK)
             return status;
-        if (!fails(j->settings, &l, edge))
+        if (l.split_ratio < 1 && !fails(j->settings, &l, edge))
             continue;
         l.stress = fracture_edge_stress(j->settings, &l.ice, l.thickness, l.force, l.horizontal_area, edge);
         l.radial_ratio = l.stress.radial_stress / l.ice.flexural_strength;
         l.wedge_ratio = l.stress.wedge_stress / l.ice.flexural_strength;
-        if (l.radial_ratio >= 1 || l.wedge_ratio >= 1)
+        if (l.radial_ratio >= 1 || l.wedge_ratio >= 1 || l.split_ratio >= 1)
             all->data[kept++] = l;
     }
     all->count = kept;
     return FRAM_OK;
 }
 
-static double severity(const fracture_load *l) { return fmax(l->radial_ratio, l->wedge_ratio); }
+static double severity(const fracture_load *l) { return fmax(fmax(l->radial_ratio, l->wedge_ratio), l->split_ratio); }
 
 static int compare_loads(const void *a, const void *b)
 {

@@ -35,6 +35,7 @@ typedef struct fracture_load {
     ice_material ice;
     edge_stress stress;
     double radial_ratio, wedge_ratio; /* stress over flexural strength */
+    double split_ratio;               /* with SPLITTING_TOUGHNESS: load in the plane over the largest; else 0 */
 } fracture_load;
 typedef ARRAY(fracture_load) fracture_load_array;
 
@@ -145,6 +146,11 @@ double crack_length(polygon p, const crack_start *start, int32_t *edge);
    the split (a child that crosses itself, is too small or too narrow); *memory is set when that is what failed. */
 bool fracture_split(context *ctx, const fracture_settings *settings, polygon outline, const crack_start *start,
                     polygon_list *out, bool *memory);
+
+/* The load in the plane over the largest that the floe bears by its toughness, whatever bends it; 0 where the crack
+   leaves no floe on one side.  length gets the crack's. */
+double fracture_split_ratio(const fracture_settings *settings, polygon outline, const fracture_load *load,
+                            double thickness, const crack_start *start, double *length);
 
 /* Whether the load's radial crack runs through the floe; length gets the crack's. */
 bool fracture_splits(const fracture_settings *settings, polygon outline, const fracture_load *load, double thickness,

@@ -125,21 +125,31 @@ static void sides_of(polygon p, const crack_start *start, double side[2])
     }
 }
 
+double fracture_split_ratio(const fracture_settings *settings, polygon outline, const fracture_load *load,
+                            double thickness, const crack_start *start, double *length)
+{
+    int32_t edge;
+    double side[2];
+    *length = crack_length(outline, start, &edge);
+    sides_of(outline, start, side);
+    if (edge < 0 || !(fmin(side[0], side[1]) > 0))
+        return 0;
+    return load->plane_force / fracture_splitting_force(thickness, settings->toughness, *length, side[0], side[1]);
+}
+
 bool fracture_splits(const fracture_settings *settings, polygon outline, const fracture_load *load, double thickness,
                      const crack_start *start, double *length)
 {
     int32_t edge;
+    if (settings->splitting == SPLITTING_TOUGHNESS)
+        return fracture_split_ratio(settings, outline, load, thickness, start, length) >= 1;
     if (settings->splitting == SPLITTING_NONE || load->radial_ratio < 1)
         return false;
     *length = crack_length(outline, start, &edge);
     double radius = load->stress.breaking_radius;
     if (edge < 0 || !(*length > radius))
         return false;
-    if (settings->splitting == SPLITTING_LENGTH)
-        return *length < settings->splitting_factor * radius;
-    double side[2];
-    sides_of(outline, start, side);
-    return load->plane_force >= fracture_splitting_force(thickness, settings->toughness, *length, side[0], side[1]);
+    return *length < settings->splitting_factor * radius;
 }
 
 /* ---- the children ---- */

@@ -190,25 +190,25 @@
     X(hull_wall_static, REAL(0.25, 0, 10), "1", "vessel on basin wall, sticking") \
     X(hull_wall_kinetic, REAL(0.25, 0, 10), "1", "vessel on basin wall, sliding")
 
-#define SCENARIO_FRACTURE_KEYS(X)                                                                                 \
-    X(wedges, INTEGER(3, 2, 32), "1", "N of the N wedges that share a load; the stencil has twice as many")       \
-    X(sharing, CHOICE(wedge_sharing, SHARING_WIDTH, "width equal"), "",                                           \
-      "width: each wedge carries by the width of the ice in its sector, a corner less than an edge; equal: N "    \
-      "whole wedges whatever ice is there")                                                                       \
-    X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                           \
-      "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than "   \
-      "splitting_factor R; toughness: fracture mechanics; none: floes do not split")                              \
-    X(splitting_factor, REAL(3, 0, 1e6), "1", "length: S_k; 1 or less produces no splitting")                     \
-    X(toughness, REAL(150e3, 1e-3, 1e12), "Pa m^0.5", "toughness: fracture toughness K_IC")                       \
-    X(narrowness, REAL(4, 1, 1e6), "1",                                                                           \
-      "R_size: a floe does not split into one whose box is longer than this many "                                \
-      "widths")                                                                                                   \
-    X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")      \
-    X(wide_contacts, BOOLEAN(false), "",                                                                          \
-      "a load that is wide along the edge breaks a strip off between its wedges; false: it acts as a narrow one") \
-    X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")        \
-    X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")              \
-    X(brash, BOOLEAN(false), "",                                                                                  \
+#define SCENARIO_FRACTURE_KEYS(X)                                                                                     \
+    X(wedges, INTEGER(3, 2, 32), "1", "N of the N wedges that share a load; the stencil has twice as many")           \
+    X(sharing, CHOICE(wedge_sharing, SHARING_WIDTH, "width equal"), "",                                               \
+      "width: each wedge carries by the width of the ice in its sector, a corner less than an edge; equal: N "        \
+      "whole wedges whatever ice is there")                                                                           \
+    X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                               \
+      "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than "       \
+      "splitting_factor R; toughness: fracture mechanics, by the load in the floe's plane; none: floes do not split") \
+    X(splitting_factor, REAL(3, 0, 1e6), "1", "length: S_k; 1 or less produces no splitting")                         \
+    X(toughness, REAL(150e3, 1e-3, 1e12), "Pa m^0.5", "toughness: fracture toughness K_IC")                           \
+    X(narrowness, REAL(4, 1, 1e6), "1",                                                                               \
+      "R_size: a floe does not split into one whose box is longer than this many "                                    \
+      "widths")                                                                                                       \
+    X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")          \
+    X(wide_contacts, BOOLEAN(false), "",                                                                              \
+      "a load that is wide along the edge breaks a strip off between its wedges; false: it acts as a narrow one")     \
+    X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")            \
+    X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")                  \
+    X(brash, BOOLEAN(false), "",                                                                                      \
       "pieces under smallest_floe_area are booked as brash, with their momentum, not as lost")
 
 #define SCENARIO_POPULATION_KEYS(X)                                                                        \
