@@ -110,6 +110,10 @@ fram_status study_tables_write(const study_folder *f, const condition_rows *cond
         status = write_table(f, "conditions.csv", &means, error);
     if (status == FRAM_OK)
         status = study_answers_write(f, conditions, error);
+    if (status == FRAM_OK)
+        status = study_netcdf_write(f, conditions, error);
+    if (status == FRAM_OK)
+        status = study_page_write(f, conditions, error);
     text_free(f->ctx, &runs);
     text_free(f->ctx, &means);
     return status;

@@ -87,7 +87,7 @@ class Studies(unittest.TestCase):
         self.fram(self.write("seeds: 2\nvary: {grid: {vessel.speed: [2]}}\n", "small.yaml"), "-o", self.at / "wide")
         self.assertEqual(self.fram(study, "-o", self.at / "wide")["made"], 4)
         self.assertEqual(self.fram(study, "-o", self.at / "wide")["made"], 0)
-        for table in ("summary.csv", "conditions.csv"):
+        for table in ("summary.csv", "conditions.csv", "study.html"):
             whole = (self.at / "one" / table).read_bytes()
             for other in ("many", "killed", "wide"):
                 self.assertEqual((self.at / other / table).read_bytes(), whole, f"{other} {table}")
@@ -141,6 +141,28 @@ class Studies(unittest.TestCase):
         there = len(self.rows("out"))
         self.assertLess(there, 6)
         self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 6)
+
+    def test_the_page_and_the_netcdf_file(self):
+        study = self.write("seeds: {least: 2, first: 4}\nkeep: series\n"
+                           "vary: {grid: {ice.thickness: [0.5, 1], vessel.speed: [2, 2.5]}}\n")
+        self.fram(study, "-o", self.at / "out")
+        rows = self.rows("out")
+        page = (self.at / "out" / "study.html").read_text()
+        worst = max(rows, key=lambda r: float(r["load_largest[N]"]))
+        for words in ("Heat maps", "Worst runs", "<b>8", "Largest load", "image/svg", f"/{worst['seed']}/\">runs/"):
+            self.assertTrue(words in page, words)
+        if not (self.at / "out" / "study.nc").exists():
+            self.skipTest("this build has no NetCDF")
+        read = ("import sys, xarray; d = xarray.open_dataset(sys.argv[1]);"
+                "print(repr(float(d.load_largest.sel(condition=3, seed=5))), d.load_largest.units,"
+                "float(d['ice.thickness'].sel(condition=3)), int(d.status.min()))")
+        done = subprocess.run(["/usr/bin/python3", "-c", read, self.at / "out" / "study.nc"], capture_output=True,
+                              text=True)
+        if done.returncode:
+            self.skipTest("python3-xarray or python3-netcdf4 is not installed")
+        value, unit, thickness, status = done.stdout.split()
+        self.assertEqual((float(value), unit, float(thickness), status),
+                         (float(rows[5]["load_largest[N]"]), "N", 1.0, "1"))
 
     def test_extremes_of_conditions_and_of_a_year(self):
         study = self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"

@@ -1,0 +1,371 @@
+/* study.html: what a study says, for people: conditions with intervals, charts, seeds, the worst runs. */
+#include "io/atomic_file.h"
+#include "io/csv_read.h"
+#include "io/html_page.h"
+#include "study/seeds.h"
+#include "study/study_answers.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Figures of the page, in its units. */
+typedef struct page_figure {
+    run_figure figure;
+    const char *name, *unit;
+    double factor;
+} page_figure;
+static const page_figure shown[] = {{ROW_load_mean, "Mean load", "kN", 1e-3},
+                                    {ROW_load_significant, "Significant load", "kN", 1e-3},
+                                    {ROW_load_largest, "Largest load", "kN", 1e-3},
+                                    {ROW_offset_largest, "Largest offset", "m", 1},
+                                    {ROW_line_tension_largest, "Largest line tension", "kN", 1e-3},
+                                    {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
+enum { SHOWN = sizeof shown / sizeof *shown, WORST = 10, CONDITIONS_OF_TABLE = 500 };
+/* An interval wider than this part of the mean calls for more seeds. */
+#define WIDE 0.1
+
+typedef struct study_page {
+    const study_folder *f;
+    const condition_rows *conditions;
+    html_page page;
+    double_array x, mean, low, high, seed_x, seed_y; /* of the chart in hand */
+} study_page;
+
+/* ---- numbers ---- */
+
+static seed_interval interval_of(const study_page *p, int32_t condition, const page_figure *figure)
+{
+    const condition_rows *of = &p->conditions[condition];
+    seed_interval out = {(double)NAN, (double)NAN};
+    double *value = memory_array(p->f->ctx, (size_t)of->rows.count + 1, sizeof *value);
+    for (int32_t i = 0; value && i < of->rows.count; i++)
+        value[i] = of->rows.data[i].figure[figure->figure] * figure->factor;
+    if (value)
+        out = seed_interval_of(value, of->rows.count, p->f->s->seeds.confidence);
+    memory_free(p->f->ctx, value);
+    return out;
+}
+
+static bool has_figure(const study_page *p, const page_figure *figure)
+{
+    for (int32_t c = 0; c < p->f->s->conditions; c++)
+        if (isfinite(interval_of(p, c, figure).mean))
+            return true;
+    return false;
+}
+
+/* ---- head and table ---- */
+
+static void count_runs(const study_page *p, int64_t *runs, int64_t *failed)
+{
+    *runs = *failed = 0;
+    for (int32_t c = 0; c < p->f->s->conditions; c++) {
+        *runs += p->conditions[c].rows.count;
+        for (int32_t i = 0; i < p->conditions[c].rows.count; i++)
+            *failed += p->conditions[c].rows.data[i].failed;
+    }
+}
+
+static void add_head(study_page *p)
+{
+    char text[64];
+    int64_t runs, failed;
+    count_runs(p, &runs, &failed);
+    const char *slash = strrchr(p->f->s->scenario, '/');
+    html_begin(&p->page, "Study", slash ? slash + 1 : p->f->s->scenario);
+    html_figures_begin(&p->page);
+    snprintf(text, sizeof text, "%d", (int)p->f->s->conditions);
+    html_figure(&p->page, "conditions", text, "");
+    snprintf(text, sizeof text, "%lld", (long long)runs);
+    html_figure(&p->page, "runs", text, "");
+    snprintf(text, sizeof text, "%lld", (long long)failed);
+    html_figure(&p->page, "of them failed", text, "");
+    snprintf(text, sizeof text, "%g", 100 * p->f->s->seeds.confidence);
+    html_figure(&p->page, "confidence of the intervals", text, "%");
+    html_figures_end(&p->page);
+    html_paragraph(&p->page,
+                   "Loads are the horizontal ice force on the vessel, averaged over output.averaging_window, after the "
+                   "transient. A mean over seeds stands with half the width of its interval (Student's t).");
+}
+
+static void add_interval(study_page *p, seed_interval i)
+{
+    char mean[32], half[32], text[80];
+    html_number_text(i.mean, mean);
+    html_number_text(i.half, half);
+    snprintf(text, sizeof text, "%s ± %s", mean, half);
+    html_cell(&p->page, isfinite(i.half) ? text : isfinite(i.mean) ? mean : "–");
+}
+
+static void add_row(study_page *p, int32_t condition, const bool *has)
+{
+    char text[32];
+    bool wide = false;
+    html_row_begin(&p->page);
+    snprintf(text, sizeof text, "%d", (int)condition + 1);
+    html_cell(&p->page, text);
+    for (int32_t k = 0; k < p->f->s->keys.count; k++)
+        html_cell(&p->page, study_value(p->f->s, condition, k));
+    snprintf(text, sizeof text, "%d", (int)p->conditions[condition].rows.count);
+    html_cell(&p->page, text);
+    for (int i = 0; i < SHOWN; i++) {
+        if (!has[i])
+            continue;
+        seed_interval of = interval_of(p, condition, &shown[i]);
+        wide = wide || (shown[i].figure == ROW_load_mean && !(of.half <= WIDE * fabs(of.mean)) && of.mean != 0);
+        add_interval(p, of);
+    }
+    html_cell(&p->page, wide ? "more seeds" : "");
+    html_row_end(&p->page);
+}
+
+static void add_table(study_page *p, const bool *has)
+{
+    const char *heads[128] = {"no."};
+    char names[SHOWN][64];
+    int32_t count = 1;
+    html_section(&p->page, "Conditions");
+    for (int32_t k = 0; k < p->f->s->keys.count && count < 100; k++)
+        heads[count++] = p->f->s->keys.data[k];
+    heads[count++] = "seeds";
+    for (int i = 0; i < SHOWN; i++) {
+        snprintf(names[i], sizeof names[i], "%s [%s]", shown[i].name, shown[i].unit);
+        if (has[i])
+            heads[count++] = names[i];
+    }
+    heads[count++] = "";
+    html_table_begin(&p->page, heads, count);
+    for (int32_t c = 0; c < p->f->s->conditions && c < CONDITIONS_OF_TABLE; c++)
+        add_row(p, c, has);
+    html_table_end(&p->page);
+    html_paragraph(&p->page, "\"more seeds\": half the interval of the mean load is wider than %g %% of the mean.",
+                   100 * WIDE);
+    if (p->f->s->conditions > CONDITIONS_OF_TABLE)
+        html_paragraph(&p->page, "The first %d conditions; conditions.csv has all.", CONDITIONS_OF_TABLE);
+}
+
+/* ---- charts: seeds as points, means with their bands ---- */
+
+static bool collect(study_page *p, const page_figure *figure)
+{
+    context *ctx = p->f->ctx;
+    double_array *all[] = {&p->x, &p->mean, &p->low, &p->high, &p->seed_x, &p->seed_y};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        array_clear(all[i]);
+    for (int32_t c = 0; c < p->f->s->conditions; c++) {
+        seed_interval of = interval_of(p, c, figure);
+        double half = isfinite(of.half) ? of.half : 0;
+        if (!array_push(ctx, &p->x, c + 1.0) || !array_push(ctx, &p->mean, of.mean) ||
+            !array_push(ctx, &p->low, of.mean - half) || !array_push(ctx, &p->high, of.mean + half))
+            return false;
+        for (int32_t i = 0; i < p->conditions[c].rows.count; i++) {
+            double y = p->conditions[c].rows.data[i].figure[figure->figure] * figure->factor;
+            if (isfinite(y) && (!array_push(ctx, &p->seed_x, c + 1.0) || !array_push(ctx, &p->seed_y, y)))
+                return false;
+        }
+    }
+    return true;
+}
+
+static fram_status add_chart(study_page *p, const page_figure *figure, fram_error *error)
+{
+    char label[64];
+    if (!collect(p, figure))
+        return error_memory(error);
+    chart_line lines[3] = {chart_line_make("interval", p->x.data, p->low.data, p->x.count, false),
+                           chart_line_make("seeds", p->seed_x.data, p->seed_y.data, p->seed_x.count, false),
+                           chart_line_make("mean over seeds", p->x.data, p->mean.data, p->x.count, true)};
+    lines[0].style = CHART_BAND;
+    lines[0].y2 = p->high.data;
+    lines[1].style = CHART_POINTS;
+    snprintf(label, sizeof label, "%s [%s]", figure->name, figure->unit);
+    chart c = chart_make(figure->name, "a dot is a run", "condition", label, lines, 3);
+    return html_chart(&p->page, &c, false, error);
+}
+
+static fram_status add_charts(study_page *p, const bool *has, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    html_section(&p->page, "Seeds and means");
+    html_grid_begin(&p->page);
+    for (int i = 0; i < SHOWN && status == FRAM_OK; i++)
+        if (has[i])
+            status = add_chart(p, &shown[i], error);
+    html_grid_end(&p->page);
+    return status;
+}
+
+/* ---- heat maps, of grids over two keys ---- */
+
+/* Number of the value among those that came before, in the order in which they appear. */
+static int32_t place_of(const study *s, int32_t key, int32_t condition)
+{
+    int32_t place = 0;
+    for (int32_t c = 0; c <= condition; c++) {
+        bool fresh = true;
+        for (int32_t d = 0; d < c && fresh; d++)
+            fresh = strcmp(study_value(s, d, key), study_value(s, c, key)) != 0;
+        if (strcmp(study_value(s, c, key), study_value(s, condition, key)) == 0)
+            return place;
+        place += fresh;
+    }
+    return place;
+}
+
+static int32_t values_of(const study *s, int32_t key)
+{
+    int32_t most = 0;
+    for (int32_t c = 0; c < s->conditions; c++) {
+        int32_t place = place_of(s, key, c);
+        most = place > most ? place : most;
+    }
+    return most + 1;
+}
+
+static void add_heat_cell(study_page *p, double value, double greatest)
+{
+    char text[32];
+    int part = greatest > 0 && value > 0 ? (int)(value / greatest * 100) : 0;
+    html_number_text(value, text);
+    text_format(p->f->ctx, &p->page.text,
+                "<td style=\"text-align:center;background:color-mix(in srgb,#d1603d %d%%,#fff)\">%s</td>", part, text);
+}
+
+enum { HEAT_MOST = 12 };
+
+static void add_heat(study_page *p, const page_figure *figure, int32_t rows, int32_t columns)
+{
+    const study *s = p->f->s;
+    double greatest = 0;
+    for (int32_t c = 0; c < s->conditions; c++)
+        greatest = fmax(greatest, interval_of(p, c, figure).mean);
+    html_paragraph(&p->page, "%s [%s]: %s downwards, %s across", figure->name, figure->unit, s->keys.data[0],
+                   s->keys.data[1]);
+    text_add(p->f->ctx, &p->page.text, "<table><tr><th></th>");
+    for (int32_t c = 0; c < columns; c++)
+        text_format(p->f->ctx, &p->page.text, "<th style=\"text-align:center\">%s</th>", study_value(s, c, 1));
+    text_add(p->f->ctx, &p->page.text, "</tr>\n");
+    for (int32_t r = 0; r < rows; r++) {
+        text_format(p->f->ctx, &p->page.text, "<tr><th>%s</th>", study_value(s, r * columns, 0));
+        for (int32_t c = 0; c < columns; c++)
+            add_heat_cell(p, interval_of(p, r * columns + c, figure).mean, greatest);
+        text_add(p->f->ctx, &p->page.text, "</tr>\n");
+    }
+    text_add(p->f->ctx, &p->page.text, "</table>\n");
+}
+
+/* Only of a grid over two keys, whose conditions are in its order; its values are numbers or plain words. */
+static void add_heats(study_page *p, const bool *has)
+{
+    const study *s = p->f->s;
+    if (s->keys.count != 2 || s->conditions < 4 || s->conditions > HEAT_MOST * HEAT_MOST)
+        return;
+    int32_t rows = values_of(s, 0), columns = values_of(s, 1);
+    if (rows < 2 || columns < 2 || rows > HEAT_MOST || columns > HEAT_MOST || rows * columns != s->conditions)
+        return;
+    for (int32_t c = 0; c < s->conditions; c++)
+        if (place_of(s, 0, c) != c / columns || place_of(s, 1, c) != c % columns ||
+            strpbrk(study_value(s, c, 0), "<>&") || strpbrk(study_value(s, c, 1), "<>&"))
+            return;
+    html_section(&p->page, "Heat maps");
+    for (int i = 0; i < SHOWN; i++)
+        if (has[i])
+            add_heat(p, &shown[i], rows, columns);
+}
+
+/* ---- the worst runs ---- */
+
+typedef struct worst_run {
+    int32_t condition, index;
+    double load;
+} worst_run;
+
+static int32_t find_worst(const study_page *p, worst_run out[WORST])
+{
+    int32_t count = 0;
+    for (int32_t c = 0; c < p->f->s->conditions; c++) {
+        for (int32_t i = 0; i < p->conditions[c].rows.count; i++) {
+            double load = p->conditions[c].rows.data[i].figure[ROW_load_largest];
+            int32_t at = count < WORST ? count : WORST;
+            while (at > 0 && load > out[at - 1].load)
+                at--;
+            if (!isfinite(load) || at == WORST)
+                continue;
+            count += count < WORST;
+            memmove(out + at + 1, out + at, (size_t)(count - at - 1) * sizeof *out);
+            out[at] = (worst_run){c, i, load};
+        }
+    }
+    return count;
+}
+
+static void add_worst(study_page *p)
+{
+    static const char *const heads[] = {"condition", "seed", "largest load [kN]", "mean load [kN]", "folder"};
+    worst_run worst[WORST];
+    int32_t count = find_worst(p, worst);
+    html_section(&p->page, "Worst runs");
+    html_paragraph(&p->page, "%s",
+                   p->f->s->keep == KEEP_SUMMARY
+                       ? "Their folders were not kept (keep: summary): to look at one, run its "
+                         "condition's scenario again with its seed."
+                       : "fram view FOLDER plays a run whose record was kept (keep: all).");
+    html_table_begin(&p->page, heads, 5);
+    for (int32_t i = 0; i < count; i++) {
+        const run_row *row = &p->conditions[worst[i].condition].rows.data[worst[i].index];
+        const char *id = p->f->id[worst[i].condition];
+        long long seed = (long long)(p->f->s->seeds.first + worst[i].index);
+        char text[32];
+        html_row_begin(&p->page);
+        snprintf(text, sizeof text, "%d", (int)worst[i].condition + 1);
+        html_cell(&p->page, text);
+        snprintf(text, sizeof text, "%lld", seed);
+        html_cell(&p->page, text);
+        html_number(&p->page, worst[i].load * 1e-3);
+        html_number(&p->page, row->figure[ROW_load_mean] * 1e-3);
+        if (p->f->s->keep == KEEP_SUMMARY)
+            text_format(p->f->ctx, &p->page.text, "<td><a href=\"conditions/%s.yaml\">scenario</a></td>", id);
+        else
+            text_format(p->f->ctx, &p->page.text, "<td><a href=\"runs/%s/%lld/\">runs/%s/%lld</a></td>", id, seed, id,
+                        seed);
+        html_row_end(&p->page);
+    }
+    html_table_end(&p->page);
+}
+
+/* ---- all ---- */
+
+static fram_status make_page(study_page *p, fram_error *error)
+{
+    bool has[SHOWN];
+    for (int i = 0; i < SHOWN; i++)
+        has[i] = has_figure(p, &shown[i]);
+    add_head(p);
+    add_table(p, has);
+    fram_status status = add_charts(p, has, error);
+    if (status == FRAM_OK) {
+        add_heats(p, has);
+        add_worst(p);
+        html_end(&p->page);
+    }
+    return status;
+}
+
+fram_status study_page_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
+{
+    study_page p = {.f = f, .conditions = conditions, .page = {f->ctx, {0}}};
+    text_buffer path = {0};
+    text_format(f->ctx, &path, "%s/study.html", f->path);
+    fram_status status = make_page(&p, error);
+    if (status == FRAM_OK && (path.failed || p.page.text.failed))
+        status = error_memory(error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(f->ctx, path.data, p.page.text.data, (size_t)p.page.text.count, error);
+    double_array *all[] = {&p.x, &p.mean, &p.low, &p.high, &p.seed_x, &p.seed_y};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        array_free(f->ctx, all[i]);
+    text_free(f->ctx, &path);
+    html_free(&p.page);
+    return status;
+}
