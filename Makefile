@@ -55,7 +55,7 @@ test-cycles: build/release/build.ninja ## CYCLES (10,000) random saves, loads, c
 	@FRAM_CYCLES=$(CYCLES) CK_RUN_CASE=live CK_DEFAULT_TIMEOUT=7200 CK_FORK=no build/release/tests/test_api_live
 
 python: build/python/build.ninja | $(STAMPS)/python ## the wheel of the Python package, under build/python
-	@cmake --build --preset python -j$(JOBS) --target fram_shared
+	@cmake --build --preset python -j$(JOBS) --target fram_shared fram_fmu
 	@$(PYTHON) tools/python_wheel.py build/python build/python
 
 bench-python: build | $(STAMPS)/python ## what reading poses and outlines from Python costs, against its bound

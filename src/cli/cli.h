@@ -146,6 +146,7 @@ int command_fatigue(const command_row *self, int argc, char **argv);
 int command_check(const command_row *self, int argc, char **argv);
 int command_resume(const command_row *self, int argc, char **argv);
 int command_bench(const command_row *self, int argc, char **argv);
+int command_fmu(const command_row *self, int argc, char **argv);
 int command_view(const command_row *self, int argc, char **argv);
 int command_keys(const command_row *self, int argc, char **argv);
 int command_ice(const command_row *self, int argc, char **argv);

@@ -1,0 +1,35 @@
+/* Fram: scenarios as co-simulation units of FMI 2.0, for programs that import such (docs/fmu.md). */
+#ifndef FRAM_FMU_H
+#define FRAM_FMU_H
+
+#include "fram/fram.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct fram_fmu_definition {
+    size_t size;        /* of this struct, set by fram_fmu_default */
+    const char *output; /* NAME.fmu; NAME, letters, digits and _, is the model's */
+    const char *binary; /* fram_fmu.so, which the unit carries */
+    /* Names of inputs (fram_world_input) and channels that the unit has; * and ? stand for any characters.  NULL with
+       0: all inputs; all channels but time and step_wall_time. */
+    const char *const *inputs, *const *outputs;
+    int input_count, output_count;
+} fram_fmu_definition;
+
+typedef struct fram_fmu_result {
+    int inputs, outputs; /* variables of the unit */
+    int files;           /* of the scenario that it carries */
+} fram_fmu_result;
+
+FRAM_API void fram_fmu_default(fram_fmu_definition *definition);
+/* Write the unit; the world is made once for that.  FRAM_ERROR_USAGE, with the key "input" or "output", for a name that
+   the scenario does not have.  result may be NULL. */
+FRAM_API fram_status fram_fmu(const fram_scenario *scenario, const fram_fmu_definition *definition,
+                              fram_fmu_result *result, fram_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,107 @@
+/* fram fmu: a scenario as a co-simulation unit. */
+#include "cli/cli.h"
+
+#include "fram/fmu.h"
+
+#include <string.h>
+#include <unistd.h>
+
+enum { PATH_SIZE = 1024 };
+
+/* The unit's binary beside the command: in the build tree, or where it was installed. */
+static bool find_binary(char out[PATH_SIZE])
+{
+    static const char *const places[] = {"fram_fmu.so", "../lib/fram/fram_fmu.so",
+                                         "../lib/x86_64-linux-gnu/fram/fram_fmu.so"};
+    char self[PATH_SIZE / 2];
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    if (length <= 0)
+        return false;
+    self[length] = '\0';
+    char *slash = strrchr(self, '/');
+    if (!slash)
+        return false;
+    *slash = '\0';
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        snprintf(out, PATH_SIZE, "%s/%s", self, places[i]);
+        if (access(out, R_OK) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void print_result(const common_options *common, const char *output, const fram_fmu_result *r)
+{
+    if (!common->quiet)
+        fprintf(stderr, "%s: %d inputs, %d outputs, %d files of the scenario\n", output, r->inputs, r->outputs,
+                r->files);
+    if (!common->json)
+        return;
+    json j = json_begin();
+    json_text(&j, "unit", output);
+    json_integer(&j, "inputs", r->inputs);
+    json_integer(&j, "outputs", r->outputs);
+    json_integer(&j, "files", r->files);
+    json_end(&j);
+}
+
+static int write_unit(const common_options *common, const char *path, const option_list *overrides,
+                      const fram_fmu_definition *definition)
+{
+    work_view work;
+    fram_context *context = NULL;
+    int code = session_open_making(common, &work, &context);
+    if (code >= 0)
+        return code;
+    fram_scenario *scenario = NULL;
+    fram_error error = {0};
+    fram_fmu_result result = {0};
+    fram_status status = fram_scenario_load(context, path, overrides->value, overrides->count, &scenario, &error);
+    if (status == FRAM_OK)
+        status = fram_fmu(scenario, definition, &result, &error);
+    fram_scenario_destroy(scenario);
+    fram_context_destroy(context);
+    if (status != FRAM_OK) {
+        bool named = status == FRAM_ERROR_USAGE && strcmp(error.key, "input") == 0;
+        bool chosen = status == FRAM_ERROR_USAGE && strcmp(error.key, "output") == 0 && !error.file[0];
+        if (named || chosen)
+            snprintf(error.key, sizeof error.key, "%s", named ? "--in" : "--out");
+        return answer_error(common, &error);
+    }
+    print_result(common, definition->output, &result);
+    return EXIT_GOOD;
+}
+
+int command_fmu(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    fram_fmu_definition d;
+    fram_fmu_default(&d);
+    option_list overrides = {0}, inputs = {0}, outputs = {0};
+    const char *path = NULL;
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &d.output, "NAME.fmu", "the unit (required); NAME is the model's"},
+        {"--in", NULL, OPTION_LIST, &inputs, "NAME", "an input of the unit, * and ? for any (all); may be repeated"},
+        {"--out", NULL, OPTION_LIST, &outputs, "NAME",
+         "a channel as output, * and ? for any (all but clocks); may be repeated"},
+        {"--binary", NULL, OPTION_TEXT, &d.binary, "FILE", "fram_fmu.so, if it is not beside the command"},
+        {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
+    if (code >= 0)
+        return code;
+    if (!d.output)
+        return answer_usage(&common, "--output", "is missing: name the unit, -o NAME.fmu");
+    char found[PATH_SIZE];
+    if (!d.binary && !find_binary(found))
+        return answer_usage(&common, "--binary", "fram_fmu.so is not beside the command: name it with --binary FILE");
+    if (!d.binary)
+        d.binary = found;
+    d.inputs = inputs.value;
+    d.input_count = inputs.count;
+    d.outputs = outputs.value;
+    d.output_count = outputs.count;
+    const command_files files = {.inputs = {path, d.binary}, .outputs = {{"--output", d.output, "fmu"}}};
+    code = refuse_outputs(&common, &files);
+    return code >= 0 ? code : write_unit(&common, path, &overrides, &d);
+}

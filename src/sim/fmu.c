@@ -1,0 +1,265 @@
+#include "sim/fmu.h"
+
+#include "base/hash.h"
+#include "fram/version.h"
+#include "io/file.h"
+#include "io/path.h"
+#include "io/scenario_file.h"
+#include "io/zip_file.h"
+#include "model/scenario_schema.h"
+#include "sim/build.h"
+#include "sim/controls.h"
+#include "sim/fmu_description.h"
+#include "sim/run_folder.h"
+#include "sim/series.h"
+
+#include <fnmatch.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { FILE_LIMIT = 1 << 30 };
+
+typedef struct packer {
+    context *ctx;
+    const scenario *s;
+    const fmu_options *o;
+    zip_file zip;
+    fmu_variable_array variables;
+    control_array controls;
+    series_layout columns;
+    fmu_names names;
+    text_buffer packed; /* names of files in resources, each ended by a NUL */
+    int32_t files;
+} packer;
+
+/* ---- variables ---- */
+
+static bool is_chosen(const char *name, const char *const *patterns, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (fnmatch(patterns[i], name, 0) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Every name that was asked for is there. */
+static fram_status check_names(const packer *p, bool inputs, fram_error *error)
+{
+    const char *const *patterns = inputs ? p->o->inputs : p->o->outputs;
+    int count = inputs ? p->o->input_count : p->o->output_count;
+    for (int k = 0; k < count; k++) {
+        int32_t rows = inputs ? p->controls.count : p->columns.columns.count;
+        bool found = false;
+        for (int32_t i = 0; i < rows && !found; i++)
+            found = fnmatch(patterns[k], inputs ? p->controls.data[i].name : p->columns.columns.data[i].name, 0) == 0;
+        if (!found)
+            return error_set(error, FRAM_ERROR_USAGE, NULL, 0, inputs ? "input" : "output",
+                             "the scenario has no %s \"%s\"", inputs ? "input" : "channel", patterns[k]);
+    }
+    return FRAM_OK;
+}
+
+static fram_status choose(packer *p, const model *m, const world *w, fram_error *error)
+{
+    bool good = true;
+    for (int32_t i = 0; i < p->controls.count && good; i++) {
+        const control *c = &p->controls.data[i];
+        if (p->o->input_count == 0 || is_chosen(c->name, p->o->inputs, p->o->input_count))
+            good = array_push(p->ctx, &p->variables,
+                              ((fmu_variable){true, c->name, c->unit, c->meaning, control_get(m, w, c)}));
+    }
+    for (int32_t i = 0; i < p->columns.columns.count && good; i++) {
+        const csv_column *c = &p->columns.columns.data[i];
+        bool of_clock = strcmp(c->name, "time") == 0 || strcmp(c->name, "step_wall_time") == 0;
+        if (p->o->output_count == 0 ? !of_clock : is_chosen(c->name, p->o->outputs, p->o->output_count))
+            good = array_push(p->ctx, &p->variables, ((fmu_variable){false, c->name, c->unit, "", 0}));
+    }
+    return good ? FRAM_OK : error_memory(error);
+}
+
+/* The world says what it can be told and how that stands; a scenario that cannot be made is refused here. */
+static fram_status list_variables(packer *p, fram_error *error)
+{
+    model m;
+    world w;
+    field_report report;
+    fram_status status = build_model(p->ctx, p->s, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = build_world(p->ctx, p->s, &m, &w, &report, error);
+    if (status == FRAM_OK) {
+        if (!controls_list(p->ctx, p->s, &m, &w, &p->controls))
+            status = error_memory(error);
+        if (status == FRAM_OK)
+            status = series_columns(p->ctx, p->s, &p->columns, error);
+        if (status == FRAM_OK)
+            status = check_names(p, true, error);
+        if (status == FRAM_OK)
+            status = check_names(p, false, error);
+        if (status == FRAM_OK)
+            status = choose(p, &m, &w, error);
+        world_free(p->ctx, &w);
+    }
+    model_free(p->ctx, &m);
+    return status;
+}
+
+/* ---- names ---- */
+
+/* Letters, digits and _ of the output's stem, as the binary's name must be. */
+static fram_status name_of(packer *p, fram_error *error)
+{
+    const char *slash = strrchr(p->o->output, '/'), *stem = slash ? slash + 1 : p->o->output;
+    size_t length = strcspn(stem, ".");
+    bool letter = length > 0 && ((stem[0] | 32) >= 'a' && (stem[0] | 32) <= 'z');
+    for (size_t i = 0; i < length && letter; i++)
+        letter =
+            (stem[i] >= '0' && stem[i] <= '9') || ((stem[i] | 32) >= 'a' && (stem[i] | 32) <= 'z') || stem[i] == '_';
+    if (!letter || length >= sizeof p->names.identifier || strcmp(stem + length, ".fmu") != 0)
+        return error_set(
+            error, FRAM_ERROR_USAGE, p->o->output, 0, "output",
+            "expected NAME.fmu, where NAME is a letter and then letters, digits and _; it names the model");
+    memcpy(p->names.identifier, stem, length);
+    return FRAM_OK;
+}
+
+/* A guid of all that the importer relies on: scenario, its files, variables. */
+static fram_status find_guid(packer *p, const char *list, fram_error *error)
+{
+    char hash[65], digest[65];
+    text_buffer inputs = {0}, all = {0};
+    fram_status status = scenario_hash(p->ctx, p->s, hash, error);
+    if (status == FRAM_OK)
+        status = run_folder_inputs(p->ctx, p->s, &inputs, error);
+    if (status == FRAM_OK) {
+        text_format(p->ctx, &all, "%s %s\n%s", FRAM_VERSION, hash, list);
+        for (const char *line = inputs.data; *line; line = strchr(line, '\n') + 1)
+            text_add_bytes(p->ctx, &all, line, 64);
+        status = all.failed ? error_memory(error) : FRAM_OK;
+    }
+    if (status == FRAM_OK) {
+        sha256_text(all.data, (size_t)all.count, digest);
+        snprintf(p->names.guid, sizeof p->names.guid, "{%.8s-%.4s-%.4s-%.4s-%.12s}", digest, digest + 8, digest + 12,
+                 digest + 16, digest + 20);
+    }
+    text_free(p->ctx, &inputs);
+    text_free(p->ctx, &all);
+    return status;
+}
+
+/* ---- files ---- */
+
+/* Whether a file of this name is in the archive already. */
+static bool is_packed(const packer *p, const char *name)
+{
+    const char *at = p->packed.data;
+    for (int32_t i = 0; i < p->files; i++, at += strlen(at) + 1) {
+        if (strcmp(at, name) == 0)
+            return true;
+    }
+    return false;
+}
+
+static fram_status pack_file(packer *p, const char *path, const char *name, bool executable, fram_error *error)
+{
+    char *data;
+    size_t size;
+    fram_status status = file_read(p->ctx, path, FILE_LIMIT, &data, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    status = zip_add(&p->zip, name, data, size, executable, error);
+    memory_free(p->ctx, data);
+    return status;
+}
+
+static fram_status pack_input(void *user, const scenario_key *key, const void *member, const char *path_of_key,
+                              fram_error *error)
+{
+    packer *p = user;
+    const char *given = member;
+    char path[SCENARIO_TEXT_SIZE], name[SCENARIO_TEXT_SIZE + 12];
+    if (key->kind != KEY_PATH || !*given)
+        return FRAM_OK;
+    fram_status status = scenario_absolute_path(p->s, path_of_key, given, path, error);
+    if (status != FRAM_OK)
+        return status;
+    const char *slash = strrchr(path, '/');
+    snprintf(name, sizeof name, "resources/%s", slash ? slash + 1 : path);
+    if (is_packed(p, name))
+        return error_set(error, FRAM_ERROR_INPUT, path, 0, path_of_key,
+                         "another file of the scenario has the same name, and resources hold one: rename one of them");
+    text_add_bytes(p->ctx, &p->packed, name, strlen(name) + 1);
+    p->files++;
+    return p->packed.failed ? error_memory(error) : pack_file(p, path, name, false, error);
+}
+
+static fram_status pack_text(packer *p, const char *name, const text_buffer *text, fram_error *error)
+{
+    if (text->failed)
+        return error_memory(error);
+    return zip_add(&p->zip, name, text->data, (size_t)text->count, false, error);
+}
+
+static fram_status pack_scenario(packer *p, fram_error *error)
+{
+    const scenario_print_options options = {.comments = true, .names_only = true};
+    static const char own[] = "resources/scenario.yaml\0resources/variables.txt";
+    text_buffer text = {0};
+    text_add_bytes(p->ctx, &p->packed, own, sizeof own);
+    p->files = 2;
+    fram_status status = scenario_print(p->ctx, p->s, &options, &text, error);
+    if (status == FRAM_OK)
+        status = pack_text(p, "resources/scenario.yaml", &text, error);
+    text_free(p->ctx, &text);
+    return status == FRAM_OK ? scenario_walk(p->s, pack_input, p, error) : status;
+}
+
+static fram_status pack_all(packer *p, fram_error *error)
+{
+    char name[sizeof p->names.identifier + 40];
+    text_buffer list = {0}, text = {0};
+    for (int32_t i = 0; i < p->variables.count; i++)
+        text_format(p->ctx, &list, "%s %s\n", p->variables.data[i].is_input ? "input" : "output",
+                    p->variables.data[i].name);
+    text_add(p->ctx, &list, "");
+    fram_status status = list.failed ? error_memory(error) : find_guid(p, list.data, error);
+    if (status == FRAM_OK) {
+        fmu_describe(p->ctx, p->s, &p->names, &p->variables, &text);
+        status = pack_text(p, "modelDescription.xml", &text, error);
+    }
+    snprintf(name, sizeof name, "binaries/linux64/%s.so", p->names.identifier);
+    if (status == FRAM_OK)
+        status = pack_file(p, p->o->binary, name, true, error);
+    if (status == FRAM_OK)
+        status = pack_scenario(p, error);
+    if (status == FRAM_OK) {
+        text.count = 0;
+        text_format(p->ctx, &text, "%s\n%s", p->names.guid, list.data);
+        status = pack_text(p, "resources/variables.txt", &text, error);
+    }
+    text_free(p->ctx, &list);
+    text_free(p->ctx, &text);
+    return status == FRAM_OK ? zip_write(&p->zip, p->o->output, error) : status;
+}
+
+fram_status fmu_write(context *ctx, const scenario *s, const fmu_options *options, fmu_report *report,
+                      fram_error *error)
+{
+    packer p = {.ctx = ctx, .s = s, .o = options, .zip = {.ctx = ctx}};
+    *report = (fmu_report){0};
+    fram_status status = name_of(&p, error);
+    if (status == FRAM_OK)
+        status = list_variables(&p, error);
+    if (status == FRAM_OK)
+        status = pack_all(&p, error);
+    for (int32_t i = 0; i < p.variables.count; i++)
+        *(p.variables.data[i].is_input ? &report->inputs : &report->outputs) += 1;
+    report->files = p.files > 2 ? p.files - 2 : 0;
+    zip_free(&p.zip);
+    array_free(ctx, &p.variables);
+    array_free(ctx, &p.controls);
+    series_layout_free(ctx, &p.columns);
+    text_free(ctx, &p.packed);
+    return status;
+}

@@ -1,0 +1,76 @@
+/* include/fram/fmu.h: units are written, and what cannot be is refused; tests/fmi steps them. */
+#include "fram/fmu.h"
+#include "fram/live.h"
+#include "testing.h"
+
+#include <stdio.h>
+#include <unistd.h>
+
+static const char text[] = "run: {duration: 1, time_step: 0.05}\n"
+                           "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                           "  thrusters: [{x: 18}]\n"
+                           "ice: {source: none}\n";
+
+START_TEST(units_are_written_and_mistakes_refused)
+{
+    fram_error e;
+    fram_context *ctx;
+    fram_scenario *s;
+    fram_fmu_result result;
+    char folder[300], output[340], command[340];
+    const char *root = getenv("TMPDIR");
+    snprintf(folder, sizeof folder, "%s/fram_fmu_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    snprintf(output, sizeof output, "%s/ship_1.fmu", folder);
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+    assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
+    fram_fmu_definition d = {0};
+    fram_fmu_default(NULL);
+    ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
+    fram_fmu_default(&d);
+    ck_assert_int_eq(fram_fmu(s, NULL, NULL, &e), FRAM_ERROR_USAGE);
+    ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
+    d.output = output;
+    ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
+    d.binary = "/proc/self/exe"; /* any file: it is packed as it is */
+    ck_assert_int_eq(fram_fmu(NULL, &d, NULL, &e), FRAM_ERROR_USAGE);
+    assert_ok(fram_fmu(s, &d, &result, &e), e);
+    ck_assert(result.inputs > 5 && result.outputs > 90 && result.files == 0);
+    ck_assert_int_eq(access(output, R_OK), 0);
+    static const char *const inputs[] = {"thruster_*", NULL}, *const outputs[] = {"position_?"},
+                             *const none[] = {"no_such"};
+    d.inputs = inputs;
+    d.input_count = 1;
+    d.outputs = outputs;
+    d.output_count = 1;
+    assert_ok(fram_fmu(s, &d, &result, NULL), e);
+    ck_assert(result.inputs == 2 && result.outputs == 3);
+    d.input_count = 2;
+    ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
+    d.input_count = -1;
+    ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
+    d.input_count = 1;
+    d.inputs = none;
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "no_such");
+    ck_assert_str_eq(e.key, "input");
+    d.inputs = NULL;
+    d.input_count = 0;
+    d.outputs = none;
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "no_such");
+    ck_assert_str_eq(e.key, "output");
+    d.outputs = outputs;
+    static const char *const bad[] = {"", "ship", "1ship.fmu", "ship.zip", "a ship.fmu", "s.h.fmu", ".fmu"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        d.output = bad[i];
+        ck_assert_msg(fram_fmu(s, &d, NULL, &e) == FRAM_ERROR_USAGE, "%s", bad[i]);
+    }
+    d.output = "/no/such/folder/ship.fmu";
+    ck_assert_int_ne(fram_fmu(s, &d, NULL, &e), FRAM_OK);
+    fram_scenario_destroy(s);
+    fram_context_destroy(ctx);
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+}
+END_TEST
+
+TEST_MAIN("fmu", units_are_written_and_mistakes_refused)
