@@ -18,7 +18,8 @@ ice:
   source: floes
   thickness: {THICKNESS}
   density: {DENSITY}
-  floes: [{{length: 10, width: 10}}, {{length: 20, width: 10, x: 30}}, {{length: 20, width: 20, x: 60}},
+  floes: [{{length: 10, width: 10, thickness: 2, fixed: true}},
+          {{length: 20, width: 10, x: 30}}, {{length: 20, width: 20, x: 60}},
           {{length: 20, width: 30, x: 90}}]
 domain: {{x_min: -100, x_max: 200, y_min: -40, y_max: 40, boundary: open}}
 """
@@ -79,10 +80,13 @@ def main():
         close(rows["mean floe area [m2]"][0], sum(areas) / 4, 1e-3)
         close(rows["median floe area [m2]"][0], (200 + 400) / 2, 1e-3)
         close(rows["largest floe [m2]"][0], 600, 1e-3)
-        close(rows["ice mass [t]"][0], sum(areas) * THICKNESS * DENSITY * 1e-3, 1e-3)
+        volume = 100 * 2 + (200 + 400 + 600) * THICKNESS
+        close(rows["ice mass [t]"][0], volume * DENSITY * 1e-3, 1e-3)
+        close(rows["mean thickness [m]"][0], volume / sum(areas), 1e-3)
+        assert rows["of these fixed"] == [1, 1], rows["of these fixed"]
 
         # Three of them: the middle one is the median.
-        close(report(run(folder, "three", FLOES.replace(", {length: 20, width: 10, x: 30}", "")))[
+        close(report(run(folder, "three", FLOES.replace("{length: 20, width: 10, x: 30}, ", "")))[
             "median floe area [m2]"][0], 400, 1e-3)
 
         # What the box has taken the place of is crushed, but for a rim in front of it, and the books close on it.
@@ -104,7 +108,10 @@ def main():
             assert min(load) < -1000 and max(load) <= 0, (min(load), max(load))
             close(rows["ice load along X, least"][k], min(load), 1e-9)
             assert abs(rows["ice load along X, greatest"][k] - max(load)) < 1e-9 * -min(load), (rows, max(load))
-            close(rows["ice load along X, mean"][k], sum(load) / len(load), 1e-3)
+            mean = sum(load) / len(load)
+            close(rows["ice load along X, mean"][k], mean, 1e-3)
+            close(rows["ice load along X, deviation"][k], (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5, 5e-3)
+            close(rows["x at the end"][k], -22 + SPEED * (WAY + 2), 1e-3)
         # A vertical face is pushed through ice that crushes: strength x beam x thickness.
         close(rows["ice load along X, least"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
         close(rows["ice load along X, least"][1], -1e6 * BEAM * THICKNESS * 1e-3, 0.02)

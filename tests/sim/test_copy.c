@@ -34,6 +34,9 @@ START_TEST(original_and_copy_go_the_same_way)
     const wrench push = {{2e5, 0, 0}, {0, 0, 1e6}};
     assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
     assert_ok(world_copy(&k.ctx, &k.w, &copy, &error), error);
+    ck_assert_int_eq(copy.scratch.ice_loads.count, 1);
+    ck_assert(vec3_length(k.w.scratch.ice_loads.data[0].total.force) > 0);
+    assert_vec3_close(copy.scratch.ice_loads.data[0].total.force, k.w.scratch.ice_loads.data[0].total.force, 0);
     uint64_t then = world_hash(&k.w), hash = steps(&k, &copy, 60);
     ck_assert(world_hash(&k.w) == then);
     ck_assert(hash != then);

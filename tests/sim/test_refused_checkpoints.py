@@ -94,7 +94,25 @@ def moved_body(data):
     return with_sums(bytes(data))
 
 
+def other_components(data):
+    """The first field of the first body table has a number more in each row; every checksum fits."""
+    data, name = bytearray(data), struct.pack("<I", 4) + b"body"
+    at = data.index(name) + len(name) + 4
+    at += 4 + struct.unpack_from("<I", data, at)[0] + 4
+    struct.pack_into("<I", data, at, struct.unpack_from("<I", data, at)[0] + 1)
+    return with_sums(bytes(data))
+
+
+def longer(data):
+    """More bytes behind the last table, told in the head; every checksum fits."""
+    data = bytearray(data) + b"more"
+    struct.pack_into("<Q", data, 16, len(data))
+    return with_sums(bytes(data))
+
+
 DAMAGE = {
+    "a field of other components": (other_components, "the type of this version for the field position"),
+    "bytes behind the last table": (longer, "expected the end of the file"),
     "empty": (lambda data: b"", "too short|cut short|expected"),
     "cut in its head": (lambda data: data[:20], "short|expected"),
     "cut in its middle": (lambda data: data[:len(data) // 2], r"of \d+ bytes, found"),

@@ -79,8 +79,10 @@ START_TEST(what_names_nothing_is_found)
     FOUND(&k, bodies.owner[floe], -1, key);
     FOUND(&k, floes.body[0], w->bodies.count, "floe[0].body");
     FOUND(&k, floes.body[0], vessel, "floe[0].body");
+    FOUND(&k, floes.body[0], scene_floe(&k, 1), "floe[0].body");
     FOUND(&k, floes.tile[0], 1, "floe[0].tile");
     FOUND(&k, floes.number[0], INT32_MAX, "floe[0].number");
+    FOUND(&k, floes.number[0], w->clock.next_floe[0], "floe[0].number");
     FOUND(&k, vessels.body[0], -1, "vessel[0].body");
     FOUND(&k, vessels.joint[0], w->joints.count, "vessel[0].joint");
     FOUND(&k, vessels.mode[0], 9, "vessel[0].mode");
@@ -112,9 +114,11 @@ START_TEST(what_names_nothing_is_found)
     FOUND(&k, clock.count, 0, "clock");
     /* A vessel that the model does not know. */
     fram_error error = {0};
-    k.m.vessels.count = 0;
-    ck_assert_int_eq(world_check(&k.m, &k.w, &error), FRAM_ERROR_INPUT);
-    ck_assert(strncmp(error.key, "vessel", 6) == 0);
+    for (int32_t other = 0; other <= 2; other += 2) {
+        k.m.vessels.count = other;
+        ck_assert_int_eq(world_check(&k.m, &k.w, &error), FRAM_ERROR_INPUT);
+        ck_assert(strncmp(error.key, "vessel", 6) == 0);
+    }
     k.m.vessels.count = 1;
     assert_sound(&k);
     scene_close(&k);

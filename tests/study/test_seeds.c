@@ -46,6 +46,20 @@ START_TEST(seeds_go_on_until_the_interval_is_narrow)
     ck_assert_int_eq(seeds_wanted(&rule, calm, wide, 40), 4);
     rule.largest_within = 0.1;
     ck_assert_int_eq(seeds_wanted(&rule, calm, wide, 40), 40);
+    /* One of both is not enough, and of means below nothing their size counts. */
+    rule.mean_within = 0.1;
+    ck_assert_int_eq(seeds_wanted(&rule, wide, calm, 40), 40);
+    double below[40];
+    for (int i = 0; i < 40; i++)
+        below[i] = -100 - i % 2;
+    ck_assert_int_eq(seeds_wanted(&rule, below, calm, 40), 4);
+    /* A quarter more at a time from eight on, and never more than the most: 4 5 6 7 8 10 12 15 18 22 27 33 40. */
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 8), 10);
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 27), 33);
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 33), 40);
+    rule.most = 37;
+    ck_assert_int_eq(seeds_wanted(&rule, wide, wide, 33), 37);
+    rule.most = 40;
     /* What later seeds say changes nothing that was decided before them. */
     calm[20] = 1e9;
     ck_assert_int_eq(seeds_wanted(&rule, calm, calm, 40), 4);

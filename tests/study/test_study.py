@@ -125,10 +125,17 @@ class Studies(unittest.TestCase):
         latin = self.write("set: {run.duration: 0.1, run.transient: 0}\nvary:\n  latin: {count: 8, seed: 3, keys: "
                            "{vessel.speed: [1, 2], ice.thickness: [0.4, 1.2]}}\n")
         self.fram(latin, "-o", self.at / "out")
-        rows = self.rows("out")
+        rows, orders = self.rows("out"), []
         for key, lo, hi in (("vessel.speed", 1, 2), ("ice.thickness", 0.4, 1.2)):
-            strata = sorted(int((float(r[key]) - lo) / (hi - lo) * 8) for r in rows)
-            self.assertEqual(strata, list(range(8)))
+            places = [(float(r[key]) - lo) / (hi - lo) * 8 for r in rows]
+            self.assertEqual(sorted(int(p) for p in places), list(range(8)))
+            # Each anywhere in its stratum, and the strata of one key in another order than those of the other.
+            self.assertGreater(max(p % 1 for p in places) - min(p % 1 for p in places), 0.3)
+            orders.append([int(p) for p in places])
+        self.assertNotEqual(*orders)
+        self.refused("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
+                     "    - {ice.thickness: 1, vessel.speed: 2}\n", "study.yaml:5", "in their order")
+        self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "study.yaml:2", "seeds are given by")
 
     def test_ctrl_c_keeps_what_ended(self):
         study = self.write("set: {run.duration: 20}\nseeds: 6\n")

@@ -1,0 +1,115 @@
+/* Rows of a study as small files and as lines of summary.csv, and runs as processes. */
+#include "study/processes.h"
+#include "study/run_row.h"
+#include "testing.h"
+
+#include <time.h>
+
+enum { PATH = 256 };
+
+static void scratch_path(char out[PATH])
+{
+    const char *folder = getenv("TMPDIR");
+    snprintf(out, PATH, "%s/fram-row-%ld", folder && *folder ? folder : "/tmp", (long)getpid());
+}
+
+static run_row sample(void)
+{
+    run_row row = {.failed = true, .reason = "a \"floe\", lost", .state_hash = "0123456789abcdef"};
+    for (int i = 0; i < ROW_FIGURES; i++)
+        row.figure[i] = i == 3 ? (double)NAN : 1.0 / (i + 3);
+    return row;
+}
+
+START_TEST(a_row_comes_back_whole_or_not_at_all)
+{
+    context ctx;
+    context_init(&ctx);
+    fram_error error = {0};
+    char path[PATH], text[4096];
+    scratch_path(path);
+    for (int failed = 0; failed < 2; failed++) {
+        run_row row = sample(), back;
+        bool found;
+        row.failed = failed;
+        assert_ok(run_row_write(&ctx, path, &row, &error), error);
+        assert_ok(run_row_read(&ctx, path, &back, &found, &error), error);
+        ck_assert(found);
+        ck_assert_int_eq(back.failed, failed);
+        ck_assert_str_eq(back.reason, row.reason);
+        ck_assert_str_eq(back.state_hash, row.state_hash);
+        for (int i = 0; i < ROW_FIGURES; i++)
+            ck_assert(back.figure[i] == row.figure[i] || (isnan(back.figure[i]) && isnan(row.figure[i])));
+    }
+    /* Cut behind any of its lines, it is none. */
+    FILE *file = fopen(path, "r");
+    ck_assert_ptr_nonnull(file);
+    size_t size = fread(text, 1, sizeof text, file);
+    fclose(file);
+    for (size_t cut = 1; cut < size; cut++) {
+        if (text[cut - 1] != '\n' && cut % 7)
+            continue;
+        run_row back;
+        bool found = true;
+        file = fopen(path, "w");
+        ck_assert_ptr_nonnull(file);
+        ck_assert_uint_eq(fwrite(text, 1, cut, file), cut);
+        fclose(file);
+        assert_ok(run_row_read(&ctx, path, &back, &found, &error), error);
+        ck_assert_msg(!found, "the first %zu of %zu bytes are taken for a row", cut, size);
+    }
+    remove(path);
+}
+END_TEST
+
+START_TEST(quotation_marks_are_doubled_in_a_line)
+{
+    context ctx;
+    context_init(&ctx);
+    run_row row = sample();
+    text_buffer line = {0};
+    run_row_line(&ctx, &row, &line);
+    ck_assert_msg(strncmp(line.data, ",failed,0.333", 13) == 0, "%s", line.data);
+    ck_assert_ptr_nonnull(strstr(line.data, ",0123456789abcdef,\"a \"\"floe\"\", lost\"\n"));
+    text_free(&ctx, &line);
+}
+END_TEST
+
+/* How a process ended: by its own code, or by a signal; what it said is in its log. */
+START_TEST(processes_tell_how_they_ended)
+{
+    static const struct {
+        const char *script;
+        int code;
+    } cases[] = {{"exit 0", 0}, {"echo the reason >&2; exit 7", 7}, {"kill -9 $$", 128 + 9}, {"kill -15 $$", 128 + 15}};
+    context ctx;
+    context_init(&ctx);
+    char log[PATH], said[64] = "";
+    scratch_path(log);
+    for (int32_t i = 0; i < 4; i++) {
+        process_pool all = {0};
+        fram_error error = {0};
+        const char *const words[] = {"/bin/sh", "-c", cases[i].script, NULL};
+        int32_t task = -1;
+        int code = -1;
+        assert_ok(processes_start(&ctx, &all, words, log, 10 + i, &error), error);
+        while (!processes_ended(&all, &task, &code))
+            nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+        ck_assert_int_eq(task, 10 + i);
+        ck_assert_int_eq(code, cases[i].code);
+        ck_assert_int_eq(all.running.count, 0);
+        if (cases[i].code == 7) {
+            FILE *file = fopen(log, "r");
+            ck_assert_ptr_nonnull(file);
+            ck_assert_ptr_nonnull(fgets(said, sizeof said, file));
+            ck_assert_str_eq(said, "the reason\n");
+            fclose(file);
+        }
+        processes_free(&ctx, &all);
+    }
+    remove(log);
+}
+END_TEST
+
+TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, quotation_marks_are_doubled_in_a_line,
+          processes_tell_how_they_ended)
