@@ -273,7 +273,6 @@ START_TEST(an_island_drifts)
                        "         stern_angle_deg: 35, parallel_midbody: 0.4}\n"
                        "environment: {current_speed: 0.5, current_direction_deg: 90}\n"
                        "ice:\n  source: level\n  thickness: 0.5\n  breakable: true\n"
-                       "  fracture: {sharing: equal}\n" /* a ship that pushes the block little */
                        "  level:\n    x_min: 0\n    anchored_x_min: false\n    openings:\n"
                        "      - {x: 20, y: 22, length: 50, width: 8}\n"
                        "      - {x: 40, y: 5, length: 8, width: 42}\n"
