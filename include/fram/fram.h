@@ -153,6 +153,14 @@ FRAM_API int fram_world_slots(const fram_world *world);
 FRAM_API bool fram_world_body(const fram_world *world, int slot, fram_body_id *id);
 /* The first vessel; false without one. */
 FRAM_API bool fram_world_vessel(const fram_world *world, fram_body_id *id);
+/* How many vessels there are: those of the scenario that are present, in its order. */
+FRAM_API int fram_world_vessels(const fram_world *world);
+/* One of them by its number, from 0; false for a number that there is not. */
+FRAM_API bool fram_world_vessel_at(const fram_world *world, int vessel, fram_body_id *id);
+/* One of them by its name in the scenario, and the name of one: "" when it has none, NULL when it is not there.  The
+   text lives as long as the scenario. */
+FRAM_API bool fram_world_vessel_named(const fram_world *world, const char *name, fram_body_id *id);
+FRAM_API const char *fram_world_vessel_name(const fram_world *world, int vessel);
 /* FRAM_ERROR_USAGE when the body lives no more. */
 FRAM_API fram_status fram_body_state_get(const fram_world *world, fram_body_id body, fram_body_state *state,
                                          fram_error *error);

@@ -115,6 +115,7 @@ typedef struct fram_capability_definition {
     double line_safety;         /* 2: breaking load over the tension that a line may have, intact */
     double line_safety_damaged; /* 1.43: after a failure */
     const volatile int *stop;   /* non-zero: end with FRAM_INTERRUPTED, nothing written; may be NULL */
+    const char *vessel;         /* its name, where the scenario has several, which are left out; otherwise NULL */
 } fram_capability_definition;
 FRAM_API void fram_capability_default(fram_capability_definition *definition);
 /* From which direction and up to which drift speed the scenario's thrusters and mooring hold its vessel, in a static

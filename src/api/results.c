@@ -246,6 +246,7 @@ fram_status fram_capability(const fram_scenario *from, const fram_capability_def
                                         .allowance = d->allowance,
                                         .line_safety = d->line_safety,
                                         .line_safety_damaged = d->line_safety_damaged,
+                                        .vessel = d->vessel,
                                         .stop = d->stop};
     export_report report = {.frames = 0};
     status = capability_write(&from->context->inner, &from->inner, &options, report.path, error);

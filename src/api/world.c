@@ -3,6 +3,7 @@
 #include "api/handles.h"
 
 #include "fram/live.h"
+#include "model/scenario_vessel.h"
 #include "sim/build.h"
 
 #include <math.h>
@@ -166,6 +167,25 @@ bool fram_world_body(const fram_world *w, int slot, fram_body_id *id)
 bool fram_world_vessel(const fram_world *w, fram_body_id *id)
 {
     return w && w->inner.vessels.count > 0 && fram_world_body(w, w->inner.vessels.body[0], id);
+}
+
+int fram_world_vessels(const fram_world *w) { return w ? w->inner.vessels.count : 0; }
+
+bool fram_world_vessel_at(const fram_world *w, int vessel, fram_body_id *id)
+{
+    return w && vessel >= 0 && vessel < w->inner.vessels.count && fram_world_body(w, w->inner.vessels.body[vessel], id);
+}
+
+bool fram_world_vessel_named(const fram_world *w, const char *name, fram_body_id *id)
+{
+    return w && name && fram_world_vessel_at(w, scenario_find_vessel(&w->scenario->inner, name), id);
+}
+
+const char *fram_world_vessel_name(const fram_world *w, int vessel)
+{
+    if (!w || vessel < 0 || vessel >= w->inner.vessels.count)
+        return NULL;
+    return scenario_vessel_entry(&w->scenario->inner, vessel).keys->name;
 }
 
 static bool is_living(const body_table *b, fram_body_id id)

@@ -45,6 +45,8 @@ int command_capability(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (required)"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
+        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME",
+         "of a list of vessels: whose capability; the others are left out"},
         {"--measure", NULL, OPTION_REAL, &d.measure, "T",
          "simulated seconds of each run that measures the ice load on the fixed hull (120)"},
         {"--formula", NULL, OPTION_FLAG, &d.formula, NULL,

@@ -11,12 +11,13 @@
      7 births    i32 count; per body: i32 slot, u32 generation, u8 material, u8 moves, u8 breakable, u8 level ice, f32
    thickness, f32 density, i32 number of the floe and of the one it broke from (-1: none), i32 vertices; f32 x y per
                  outline vertex (body frame); a body that does not move adds its pose
-     9 forces    i32 count, i32 0; per force on the first vessel in the last step: i32 kind (1 ice, all contacts with
-   one floe; 2 mooring line; 3 thruster), i32 slot of the floe or number of line or thruster (from 1), f32 x y z of the
-   point, f32 x y z of the force [N], global frame; before the frame it belongs to
-    11 frame     i64 step, f64 time, f64 x 3 averaged ice force on the vessel [N], i32 count, i32 0; per moving body, by
-                 ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the magnitudes at its
-                 contacts, a half float of kN (16 or 18 bytes)
+     9 forces    i32 count, i32 0; per force on a vessel in the last step: i32 kind (1 ice, all contacts with one
+   floe; 2 mooring line; 3 thruster; 4 all contacts with another hull or a wall), i32 slot of the body or number of the
+   vessel's line or thruster (from 1), f32 x y z of the point, f32 x y z of the force [N], global frame; before the
+   frame it belongs to
+    11 frame     i64 step, f64 time, f64 x 3 averaged ice force on the first vessel [N], i32 count, i32 0; per moving
+                 body, by ascending slot: its pose, and, if that is marked, u16 contact force, the sum of the
+                 magnitudes at its contacts, a half float of kN (16 or 18 bytes)
     12 peak      only in peaks.fram: what carried a large ice load on a vessel, io/peak_block.h
     10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
    frame's first 48 bytes; the frame itself and its forces stand there
@@ -46,8 +47,18 @@ enum {
 /* Bytes of a frame before its poses. */
 enum { FRAME_HEAD_SIZE = 48 };
 
-/* Kinds of a force on the vessel. */
-typedef enum record_force_kind { RECORD_FORCE_ICE = 1, RECORD_FORCE_LINE, RECORD_FORCE_THRUSTER } record_force_kind;
+/* Kinds of a force on a vessel. */
+typedef enum record_force_kind {
+    RECORD_FORCE_ICE = 1,
+    RECORD_FORCE_LINE,
+    RECORD_FORCE_THRUSTER,
+    RECORD_FORCE_HULL /* of another hull or a wall */
+} record_force_kind;
+/* Contacts push, and are drawn towards their point; lines and thrusters pull. */
+static inline bool record_force_pushes(record_force_kind kind)
+{
+    return kind == RECORD_FORCE_ICE || kind == RECORD_FORCE_HULL;
+}
 
 /* FRAM_ERROR_INPUT for a type of block that earlier layouts had; path names the record in the message. */
 fram_status record_check_block(const char *path, uint32_t type, fram_error *error);

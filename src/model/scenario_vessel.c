@@ -32,6 +32,23 @@ vessel_entry scenario_vessel_entry(const scenario *s, int32_t index)
     return (vessel_entry){&s->vessel, "vessel"};
 }
 
+int32_t scenario_find_vessel(const scenario *s, const char *name)
+{
+    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
+        if (*name && strcmp(scenario_vessel_entry(s, v).keys->name, name) == 0)
+            return v;
+    }
+    return -1;
+}
+
+scenario scenario_of_vessel(const scenario *s, int32_t index)
+{
+    scenario alone = *s;
+    alone.vessel = *scenario_vessel_entry(s, index).keys;
+    memset(&alone.vessels, 0, sizeof alone.vessels);
+    return alone;
+}
+
 vessel_title vessel_title_of(const vessel_entry *entry)
 {
     vessel_title title;

@@ -19,6 +19,10 @@ int32_t scenario_vessel_count(const scenario *s);
 vessel_entry scenario_vessel_entry(const scenario *s, int32_t index);
 /* An item of the list, present or not. */
 vessel_entry scenario_vessel_item(const scenario *s, int32_t item);
+/* Row of the vessel of this name; -1 without one. */
+int32_t scenario_find_vessel(const scenario *s, const char *name);
+/* The scenario with one of its vessels alone, in the short form.  It refers to what s owns, and must not be freed. */
+scenario scenario_of_vessel(const scenario *s, int32_t index);
 /* Whether channels and results are called by vessels' names: those of a list are, a single `vessel` is not. */
 bool scenario_names_vessels(const scenario *s);
 /* How a text speaks of a vessel: "the vessel", or "vessel NAME". */

@@ -1,6 +1,7 @@
 /* Two runs beside each other: the same numbers of both, and their channels over each other. */
 #include "io/atomic_file.h"
 #include "io/html_page.h"
+#include "model/scenario_vessel.h"
 #include "results/report.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
@@ -72,15 +73,28 @@ static const struct {
     {"step_wall_time", "computing time of a step, mean", MEAN, 1e3, "ms"},
 };
 
+/* One measure of a channel in both runs; vessel: its name before a colon, or "". */
+static void find_row(pair *p, size_t i, const char *channel, const char *vessel)
+{
+    double value[2];
+    char name[sizeof p->result->row->name];
+    for (int k = 0; k < 2; k++)
+        value[k] = measure_of(&p->d[k], channel, rows[i].what) * rows[i].factor;
+    snprintf(name, sizeof name, "%.*s%s%s", (int)VESSEL_NAME_MOST, vessel, *vessel ? ": " : "", rows[i].name);
+    add_row(p, name, rows[i].unit, value);
+}
+
+/* Vessels of lists are compared by name: those of the first run. */
 static void find_rows(pair *p)
 {
     const double time[2] = {p->d[0].note.time, p->d[1].note.time};
+    const scenario *s = &p->d[0].s;
+    int32_t named = scenario_names_vessels(s) ? scenario_vessel_count(s) : 0;
     add_row(p, "simulated time", "s", time);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        double value[2];
-        for (int k = 0; k < 2; k++)
-            value[k] = measure_of(&p->d[k], rows[i].channel, rows[i].what) * rows[i].factor;
-        add_row(p, rows[i].name, rows[i].unit, value);
+        find_row(p, i, rows[i].channel, "");
+        for (int32_t v = 0; v < named; v++)
+            find_row(p, i, vessel_channel_name(s, v, rows[i].channel).text, scenario_vessel_entry(s, v).keys->name);
     }
     p->result->same_scenario = strcmp(p->d[0].note.scenario_hash, p->d[1].note.scenario_hash) == 0;
     p->result->same_state = strcmp(p->d[0].note.state_hash, p->d[1].note.state_hash) == 0;
@@ -115,6 +129,22 @@ static fram_status overlay_chart(pair *p, const char *channel, const char *title
     }
     memory_free(p->ctx, scaled[0]);
     memory_free(p->ctx, scaled[1]);
+    return status;
+}
+
+/* Of the world or the vessel, or one of each vessel of a list. */
+static fram_status overlay_charts(pair *p, const char *channel, const char *title, const char *label, double factor,
+                                  fram_error *error)
+{
+    const scenario *s = &p->d[0].s;
+    int32_t named = scenario_names_vessels(s) ? scenario_vessel_count(s) : 0;
+    fram_status status = overlay_chart(p, channel, title, label, factor, error);
+    for (int32_t v = 0; v < named && status == FRAM_OK; v++) {
+        char full[120];
+        snprintf(full, sizeof full, "%s, vessel %.*s", title, (int)VESSEL_NAME_MOST,
+                 scenario_vessel_entry(s, v).keys->name);
+        status = overlay_chart(p, vessel_channel_name(s, v, channel).text, full, label, factor, error);
+    }
     return status;
 }
 
@@ -165,7 +195,7 @@ static fram_status compose(pair *p, fram_error *error)
     html_grid_begin(&p->page);
     fram_status status = FRAM_OK;
     for (size_t i = 0; i < sizeof charts / sizeof *charts && status == FRAM_OK; i++)
-        status = overlay_chart(p, charts[i].channel, charts[i].title, charts[i].label, charts[i].factor, error);
+        status = overlay_charts(p, charts[i].channel, charts[i].title, charts[i].label, charts[i].factor, error);
     html_grid_end(&p->page);
     html_end(&p->page);
     return status == FRAM_OK && p->page.text.failed ? error_memory(error) : status;

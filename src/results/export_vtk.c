@@ -149,7 +149,10 @@ static void add_hull(vtk_export *e, const replay_body *b, const replay_pose *p)
         end_cell(e->ctx, s);
     }
     fill_vec3(e->ctx, s, 0, "velocity [m/s]", p->velocity);
-    fill_vec3(e->ctx, s, 1, "ice force, averaged [N]", e->r.frame.ice_force);
+    /* A frame has that of the first vessel alone. */
+    bool is_first = first == 0;
+    const double none = (double)NAN;
+    fill_vec3(e->ctx, s, 1, "ice force, averaged [N]", is_first ? e->r.frame.ice_force : vec3_make(none, none, none));
 }
 
 /* A vertex at the point of each force on the vessel. */
@@ -158,13 +161,13 @@ static void add_forces(vtk_export *e)
     sheet *s = &e->part[PART_FORCES];
     for (int32_t i = 0; i < e->r.frame.forces.count; i++) {
         const replay_force *force = &e->r.frame.forces.data[i];
-        bool ice = force->kind == RECORD_FORCE_ICE && force->which >= 0;
+        bool body = record_force_pushes(force->kind) && force->which >= 0;
         add_corner(e->ctx, s, add_point(e->ctx, s, force->point));
         end_cell(e->ctx, s);
         fill_vec3(e->ctx, s, 0, "force [N]", force->force);
         fill_real(e->ctx, s, 1, "magnitude [N]", vec3_length(force->force));
         fill_real(e->ctx, s, 2, "kind", force->kind);
-        fill_real(e->ctx, s, 3, "number", ice ? e->r.bodies.data[force->which].number : force->which);
+        fill_real(e->ctx, s, 3, "number", body ? e->r.bodies.data[force->which].number : force->which);
     }
     /* A frame without forces has the fields too. */
     if (s->cells == 0) {

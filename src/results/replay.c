@@ -197,7 +197,8 @@ static bool read_forces(replay *r, cursor *c)
     for (int32_t i = 0; i < count && !c->unsound; i++) {
         int32_t kind = take_i32(c), which = take_i32(c);
         vec3 point = take_vec3(c), force = take_vec3(c);
-        if (kind == RECORD_FORCE_ICE)
+        c->unsound = c->unsound || kind < RECORD_FORCE_ICE || kind > RECORD_FORCE_HULL;
+        if (record_force_pushes((record_force_kind)kind))
             which = which >= 0 && which < r->at_slot.count ? r->at_slot.data[which] : -1;
         if (!c->unsound &&
             !array_push(r->ctx, &r->next.forces, (replay_force){(record_force_kind)kind, which, point, force}))

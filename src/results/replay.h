@@ -36,9 +36,9 @@ typedef struct replay_pose {
 
 typedef struct replay_force {
     record_force_kind kind;
-    int32_t which; /* line or thruster, from 1; of ice the floe, in replay.bodies, or -1 */
+    int32_t which; /* line or thruster, from 1; floe, hull or wall, in replay.bodies, or -1 */
     vec3 point;    /* [m] */
-    vec3 force;    /* on the vessel [N] */
+    vec3 force;    /* on a vessel [N] */
 } replay_force;
 
 typedef struct replay_fracture {
@@ -52,7 +52,7 @@ typedef struct replay_fracture {
 typedef struct replay_frame {
     int64_t number, step;
     double time;
-    vec3 ice_force;           /* on the vessel, averaged [N] */
+    vec3 ice_force;           /* on the first vessel, averaged [N] */
     ARRAY(replay_pose) poses; /* of all bodies that are there, those that do not move last */
     ARRAY(replay_force) forces;
 } replay_frame;

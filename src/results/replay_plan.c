@@ -59,12 +59,12 @@ static bool add_shape(const replay *r, const replay_moment *m, int32_t row, plan
     return array_push(r->ctx, &out->shapes, shape);
 }
 
-/* Ice pushes: its arrows end where it does; lines and thrusters pull: theirs begin there. */
+/* Contacts push: their arrows end where they do; lines and thrusters pull: theirs begin there. */
 static bool add_arrow(const replay *r, const replay_force *f, double length, replay_plan *out)
 {
     vec2 at = vec2_make(f->point.x, f->point.y), way = vec2_make(f->force.x * length, f->force.y * length);
     plan_arrow arrow = {at, vec2_add(at, way)};
-    if (f->kind == RECORD_FORCE_ICE)
+    if (record_force_pushes(f->kind))
         arrow = (plan_arrow){vec2_sub(at, way), at};
     return array_push(r->ctx, &out->arrows, arrow);
 }

@@ -6,6 +6,7 @@
 #include "io/path.h"
 #include "io/scenario_file.h"
 #include "io/video_file.h"
+#include "model/scenario_vessel.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -114,7 +115,7 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     double left = 14, right = v->options->width - 14, top = v->options->height - CURVE_HEIGHT + CURVE_TOP;
     double bottom = v->options->height - 10, begin = v->time.data[0], end = v->time.data[v->time.count - 1];
     double span = end > begin ? end - begin : 1, most = v->most > 0 ? v->most : 1;
-    char text[96];
+    char text[128];
     cairo_move_to(page, left, bottom);
     for (int32_t i = 0; i < v->time.count; i++)
         cairo_line_to(page, left + (v->time.data[i] - begin) / span * (right - left),
@@ -128,7 +129,9 @@ static void draw_curve(const video *v, cairo_t *page, double now)
     cairo_rectangle(page, x - 1, top - 4, 2, bottom - top + 4);
     cairo_fill(page);
     image_set_colour(page, (image_colour){0.1, 0.1, 0.1});
-    snprintf(text, sizeof text, "horizontal ice load on the vessel, averaged; largest %.4g kN", v->most * 1e-3);
+    vessel_entry first = scenario_vessel_entry(&v->s, 0);
+    snprintf(text, sizeof text, "horizontal ice load on %s, averaged; largest %.4g kN", vessel_title_of(&first).text,
+             v->most * 1e-3);
     image_text(page, left, top - 5, 12, ALIGN_LEFT, false, text);
 }
 

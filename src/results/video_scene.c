@@ -22,7 +22,8 @@ static const struct {
     const char *name;
 } forces[] = {[RECORD_FORCE_ICE] = {{0.76, 0.09, 0.36}, "ice"},
               [RECORD_FORCE_LINE] = {{0.11, 0.50, 0.23}, "line"},
-              [RECORD_FORCE_THRUSTER] = {{0.42, 0.25, 0.71}, "thruster"}};
+              [RECORD_FORCE_THRUSTER] = {{0.42, 0.25, 0.71}, "thruster"},
+              [RECORD_FORCE_HULL] = {{0.55, 0.36, 0.10}, "hull or wall"}};
 enum { FORCE_KINDS = sizeof forces / sizeof *forces };
 
 /* ---- camera ---- */
@@ -123,7 +124,7 @@ static fram_status draw_bodies(context *ctx, const video_scene *s, const replay 
 /* [pixels] */
 enum { ARROW_WIDTH = 2, ARROW_HEAD = 12 };
 
-/* Ice pushes: its arrows end where it does; lines and thrusters pull: theirs begin there. */
+/* Contacts push: their arrows end where they do; lines and thrusters pull: theirs begin there. */
 static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, const solid_view *v,
                         bool used[FORCE_KINDS])
 {
@@ -131,7 +132,7 @@ static void draw_forces(cairo_t *page, const video_scene *s, const replay *r, co
         const replay_force *f = &r->frame.forces.data[i];
         vec3 way = vec3_scale(f->force, s->arrow), from = f->point, to = vec3_add(f->point, way);
         double x0, y0, x1, y1;
-        if (f->kind == RECORD_FORCE_ICE) {
+        if (record_force_pushes(f->kind)) {
             to = f->point;
             from = vec3_sub(f->point, way);
         }
@@ -232,7 +233,7 @@ fram_status video_scene_draw(context *ctx, const video_scene *s, const replay *r
     image_text(page, EDGE, 47, 12.5, ALIGN_LEFT, false, s->caption);
     draw_axes(page, &v, &camera, width - 60, 34);
     double below = ABOVE + h + 24, x = draw_scale_bar(page, &v, &camera, s->arrow, EDGE, below);
-    if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER]) {
+    if (used[RECORD_FORCE_ICE] || used[RECORD_FORCE_LINE] || used[RECORD_FORCE_THRUSTER] || used[RECORD_FORCE_HULL]) {
         image_text(page, x, below, 12, ALIGN_LEFT, false, "forces on the vessel:");
         x += image_text_width(page, 12, false, "forces on the vessel:") + 10;
     }

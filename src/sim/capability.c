@@ -1,6 +1,7 @@
 #include "sim/capability.h"
 
 #include "base/transcendental.h"
+#include "model/scenario_vessel.h"
 #include "sim/build.h"
 #include "sim/steady_load.h"
 
@@ -289,11 +290,30 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
     return status;
 }
 
+/* The scenario with the vessel that is asked for alone. */
+static fram_status choose_vessel(const scenario *s, const char *name, scenario *alone, fram_error *error)
+{
+    int32_t row = name ? scenario_find_vessel(s, name) : 0;
+    if (row < 0)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel", "the scenario has no vessel of the name \"%.60s\"",
+                         name);
+    if (!name && scenario_vessel_count(s) > 1)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
+                         "the scenario has %d vessels: name the one whose capability is asked for",
+                         (int)scenario_vessel_count(s));
+    *alone = scenario_of_vessel(s, row);
+    return FRAM_OK;
+}
+
 fram_status capability_find(context *ctx, const scenario *s, const capability_options *o, capability *c,
                             fram_error *error)
 {
     *c = (capability){.options = *o, .wind_speed = s->environment.wind_speed};
-    fram_status status = check(s, o, error);
+    scenario alone = *s;
+    fram_status status = choose_vessel(s, o->vessel, &alone, error);
+    s = &alone;
+    if (status == FRAM_OK)
+        status = check(s, o, error);
     if (status != FRAM_OK)
         return status;
     c->loads.directions = o->directions;

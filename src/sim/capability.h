@@ -22,6 +22,7 @@ typedef struct capability_options {
     double speed_step, speed_most;           /* [m/s] */
     double allowance;                        /* what mean loads are multiplied by */
     double line_safety, line_safety_damaged; /* breaking load over allowed tension: intact, after a failure */
+    const char *vessel;                      /* its name, where the scenario has several; else NULL */
     const volatile int *stop;                /* non-zero: FRAM_INTERRUPTED, nothing written; may be NULL */
 } capability_options;
 

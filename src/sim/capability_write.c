@@ -6,6 +6,7 @@
 #include "io/atomic_file.h"
 #include "io/image.h"
 #include "io/polar.h"
+#include "model/scenario_vessel.h"
 #include "sim/run_folder.h"
 
 #include <stdio.h>
@@ -188,10 +189,14 @@ static void describe(context *ctx, const scenario *s, const capability *c, text_
         text_format(ctx, b, "  %g s, highest third of the peaks\n", o->measure);
     text_format(ctx, b, "Wind: %.3g m/s\n", c->wind_speed);
     text_format(ctx, b, "Allowance on mean loads: %.3g\n", o->allowance);
-    if (s->vessel.mooring.lines.count > 0)
+    int32_t row = o->vessel ? scenario_find_vessel(s, o->vessel) : 0;
+    const scenario_vessel *keys = scenario_vessel_entry(s, row).keys;
+    if (keys->name[0])
+        text_format(ctx, b, "Vessel %s alone\n", keys->name);
+    if (keys->mooring.lines.count > 0)
         text_format(ctx, b, "Lines: breaking load over %.3g intact, %.3g after\n  a failure\n", o->line_safety,
                     o->line_safety_damaged);
-    if (s->vessel.mooring.lines.count > 0 && s->vessel.mooring.turret)
+    if (keys->mooring.lines.count > 0 && keys->mooring.turret)
         text_add(ctx, b, "The ship is kept at its angle to the drift.\n");
     text_add(ctx, b, "Static balance: no motion, no waves, no losses\nof thrust.\n");
 }

@@ -9,13 +9,13 @@ static void add_on_vessel(contact_sum *sum, const contact *c, vec3 force, double
     sum->weight += magnitude;
 }
 
-bool contact_sums_of(context *ctx, const world *w, double time_step, contact_sum_array *sums)
+bool contact_sums_of(context *ctx, const world *w, double time_step, int32_t vessel, contact_sum_array *sums)
 {
     if (!array_resize(ctx, sums, w->bodies.count))
         return false;
     if (sums->count > 0)
         memset(sums->data, 0, (size_t)sums->count * sizeof *sums->data);
-    int32_t hull = w->vessels.count > 0 ? w->vessels.body[0] : -1;
+    int32_t hull = vessel >= 0 ? w->vessels.body[vessel] : -1;
     for (int32_t i = 0; i < w->scratch.contacts.count; i++) {
         const contact *c = &w->scratch.contacts.data[i];
         vec3 force = vec3_scale(contact_impulse(c), 1 / time_step);

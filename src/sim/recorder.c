@@ -293,38 +293,55 @@ static fram_status write_solid(recorder *r, world *w, int32_t slot, fram_error *
     return append(r, BLOCK_SOLID, error);
 }
 
-/* ---- forces on the first vessel ---- */
+/* ---- forces on the vessels ---- */
 
 static bool put_force(recorder *r, int32_t kind, int32_t which, vec3 point, vec3 force)
 {
     return put_i32(r, kind) && put_i32(r, which) && put_vec3(r, point) && put_vec3(r, force);
 }
 
-static bool put_line_forces(recorder *r, const world *w, int32_t *count)
+static bool put_line_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
 {
+    int32_t body = w->vessels.body[vessel], number = 0;
     bool good = true;
     for (int32_t i = 0; i < w->lines.count && good; i++) {
-        if (w->lines.vessel[i] != 0 || w->lines.broken[i])
+        number += w->lines.vessel[i] == vessel;
+        if (w->lines.vessel[i] != vessel || w->lines.broken[i])
             continue;
-        int32_t body = w->vessels.body[0];
         line_pull pull = mooring_line_pull(&w->lines, i, w->bodies.position[body], w->bodies.orientation[body]);
-        good = put_force(r, RECORD_FORCE_LINE, i + 1, pull.point, pull.force);
+        good = put_force(r, RECORD_FORCE_LINE, number, pull.point, pull.force);
         ++*count;
     }
     return good;
 }
 
-static bool put_thruster_forces(recorder *r, const world *w, int32_t *count)
+static bool put_thruster_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
 {
+    int32_t body = w->vessels.body[vessel], number = 0;
     bool good = true;
     for (int32_t i = 0; i < w->thrusters.count && good; i++) {
-        if (w->thrusters.vessel[i] != 0 || w->thrusters.failed[i])
+        number += w->thrusters.vessel[i] == vessel;
+        if (w->thrusters.vessel[i] != vessel || w->thrusters.failed[i])
             continue;
-        int32_t body = w->vessels.body[0];
         double thrust = w->thrusters.thrust[i], angle = w->thrusters.angle[i];
         vec3 force = vec3_make(thrust * real_cos(angle), thrust * real_sin(angle), 0);
-        good = put_force(r, RECORD_FORCE_THRUSTER, i + 1, body_to_global(&w->bodies, body, w->thrusters.place[i]),
+        good = put_force(r, RECORD_FORCE_THRUSTER, number, body_to_global(&w->bodies, body, w->thrusters.place[i]),
                          mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), force));
+        ++*count;
+    }
+    return good;
+}
+
+/* Of floes, hulls and walls that touch it. */
+static bool put_contact_forces(recorder *r, const world *w, int32_t vessel, int32_t *count)
+{
+    bool good = contact_sums_of(r->ctx, w, r->time_step, vessel, &r->sums);
+    for (int32_t i = 0; i < r->sums.count && good; i++) {
+        const contact_sum *s = &r->sums.data[i];
+        if (s->weight == 0)
+            continue;
+        record_force_kind kind = w->bodies.material[i] == MATERIAL_ICE ? RECORD_FORCE_ICE : RECORD_FORCE_HULL;
+        good = put_force(r, kind, i, vec3_scale(s->moment, 1 / s->weight), s->on_vessel);
         ++*count;
     }
     return good;
@@ -337,14 +354,9 @@ static fram_status write_forces(recorder *r, const world *w, fram_error *error)
     int32_t count = 0;
     const int32_t head[2] = {0, 0};
     bool good = put(r, head, sizeof head);
-    for (int32_t i = 0; i < r->sums.count && good; i++) {
-        const contact_sum *s = &r->sums.data[i];
-        if (s->weight == 0)
-            continue;
-        good = put_force(r, RECORD_FORCE_ICE, i, vec3_scale(s->moment, 1 / s->weight), s->on_vessel);
-        count++;
-    }
-    good = good && put_line_forces(r, w, &count) && put_thruster_forces(r, w, &count);
+    for (int32_t v = 0; v < w->vessels.count && good; v++)
+        good = put_contact_forces(r, w, v, &count) && put_line_forces(r, w, v, &count) &&
+               put_thruster_forces(r, w, v, &count);
     if (!good)
         return error_memory(error);
     set_i32(r, 0, count);
@@ -368,7 +380,7 @@ static fram_status write_frame(recorder *r, world *w, fram_error *error)
     }
     if (status == FRAM_OK)
         status = write_births(r, w, error);
-    if (status == FRAM_OK && !contact_sums_of(r->ctx, w, r->time_step, &r->sums))
+    if (status == FRAM_OK && !contact_sums_of(r->ctx, w, r->time_step, -1, &r->sums))
         status = error_memory(error);
     if (status == FRAM_OK)
         status = write_forces(r, w, error);

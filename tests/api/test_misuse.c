@@ -150,6 +150,13 @@ START_TEST(worlds)
     ck_assert(!fram_world_body(NULL, 0, &id) && !fram_world_body(w, 0, NULL) && !fram_world_body(w, -1, &id) &&
               !fram_world_body(w, INT_MAX, &id) && !fram_world_body(w, fram_world_slots(w), &id));
     ck_assert(!fram_world_vessel(NULL, &id) && !fram_world_vessel(w, NULL) && fram_world_vessel(w, &id));
+    ck_assert(fram_world_vessels(NULL) == 0 && fram_world_vessels(w) == 1);
+    ck_assert(!fram_world_vessel_at(NULL, 0, &id) && !fram_world_vessel_at(w, 0, NULL) &&
+              !fram_world_vessel_at(w, -1, &id) && !fram_world_vessel_at(w, 1, &id) && fram_world_vessel_at(w, 0, &id));
+    ck_assert(!fram_world_vessel_named(NULL, "a", &id) && !fram_world_vessel_named(w, NULL, &id) &&
+              !fram_world_vessel_named(w, "", &id) && !fram_world_vessel_named(w, "a", &id));
+    ck_assert(!fram_world_vessel_name(NULL, 0) && !fram_world_vessel_name(w, -1) && !fram_world_vessel_name(w, 1));
+    ck_assert_str_eq(fram_world_vessel_name(w, 0), "");
     REFUSED(fram_body_state_get(NULL, id, &state, &e));
     REFUSED(fram_body_state_get(w, id, NULL, &e));
     REFUSED(fram_world_ice_load(NULL, id, &load, &e));

@@ -139,7 +139,7 @@ START_TEST(sums_of_a_floes_contacts)
                             contact_of(one, two, 4, HUGE_VAL)};
     for (int i = 0; i < 3; i++)
         ck_assert(array_push(&k.ctx, &k.w.scratch.contacts, all[i]));
-    ck_assert(contact_sums_of(&k.ctx, &k.w, k.m.time_step, &sums));
+    ck_assert(contact_sums_of(&k.ctx, &k.w, k.m.time_step, 0, &sums));
     /* Normals are -x: the first contact pushes the hull back by 50 N, the second one ahead by 20 N. */
     assert_vec3_close(sums.data[one].on_vessel, vec3_make(-50 + 20, 0, 0), 1e-12);
     assert_vec3_close(sums.data[two].on_vessel, vec3_make(0, 0, 0), 0);

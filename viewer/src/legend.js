@@ -3,7 +3,7 @@
 
 const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sans-serif';
 const WIDTH = 204, EDGE = 12, LINE = 18;
-export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5' };
+export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5', hull: '#8c5c1a' };
 const MARK = '#d9730d';
 
 /** A number with its unit, kilo or mega as fits. */

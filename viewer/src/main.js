@@ -135,7 +135,7 @@ class Player {
             thickness: thickness.length ? [least(thickness), most(thickness)] : [0, 1],
             age: [0, Math.max(10, 0.25 * (this.end - this.time))],
         };
-        this.kinds = ['ice', 'line', 'thruster'].filter((kind) => kinds.has(kind));
+        this.kinds = ['ice', 'line', 'thruster', 'hull'].filter((kind) => kinds.has(kind));
         const size = this.scene.box.getSize(new THREE.Vector3());
         // A few arrows may be longer: one hard blow must not make all others vanish.
         this.arrowScale = 0.12 * Math.max(size.x, size.y) / (1000 * high(pull.map((f) => f / 1000), 0.001));

@@ -205,7 +205,7 @@ function decode(view, at, forces, frame) {
     return { poses, contact, forces: forces < 0 ? [] : readForces(new Cursor(view, forces)) };
 }
 
-const KINDS = ['', 'ice', 'line', 'thruster'];
+const KINDS = ['', 'ice', 'line', 'thruster', 'hull'];
 function readForces(c) {
     const count = c.i32();
     c.i32();

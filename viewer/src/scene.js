@@ -117,7 +117,7 @@ export class Scene {
             way.normalize();
             turn.setFromUnitVectors(up, way);
             at.set(...f.point);
-            if (f.kind === 'ice') at.addScaledVector(way, -length);
+            if (f.kind === 'ice' || f.kind === 'hull') at.addScaledVector(way, -length);
             const thick = Math.min(length, this.arrowWidth);
             matrix.compose(at, turn, size.set(thick, length, thick));
             this.arrows.setMatrixAt(n, matrix);

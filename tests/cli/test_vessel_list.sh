@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# A scenario with a list of vessels through the command: results, report, exports and plots by the vessels' names.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+scene=$FRAM_SOURCE/scenes/three_vessels.yaml
+run=$scratch/run
+"$FRAM" run "$scene" -o "$run" --quiet --set run.duration=2 --set run.transient=0 --set output.frame_interval=0.5 \
+    --set vessels.tug.y=-20.7 --set vessels.tug.speed=0.5 || fail "the run failed"
+for name in loads-icebreaker.png loads-ship.png loads-tug.png station-ship.json station-tug.json; do
+    [ -s "$run/$name" ] || fail "there is no $name"
+done
+for name in loads.png station.json station-icebreaker.json; do
+    [ ! -e "$run/$name" ] || fail "there is a $name"
+done
+grep -q '"vessel": "ship"' "$run/station-ship.json" || fail "station-ship.json does not name its vessel"
+[ "$(grep -c '"number": [0-9]*, "parted"' "$run/station-ship.json")" = 6 ] || fail "the ship has not six lines"
+grep -q '"parted"' "$run/station-tug.json" && fail "the tug has lines of the ship"
+
+python3 - "$run" <<'END' || failures=$((failures + 1))
+import csv
+import sys
+
+rows = [{key.split("[")[0]: float(value) for key, value in row.items()}
+        for row in csv.DictReader(open(sys.argv[1] + "/series.csv"))]
+names = ["icebreaker", "ship", "tug"]
+columns = {name: {c.split(".", 1)[1] for c in rows[0] if c.startswith(name + ".")} for name in names}
+assert "ice_force_x" not in rows[0] and "kinetic_energy" in rows[0]
+assert columns["icebreaker"] < columns["ship"] and "line_6_tension" in columns["ship"]
+assert "thruster_1_thrust" in columns["tug"] and "line_1_tension" not in columns["tug"]
+assert any(row["tug.hull_contact_force_y"] < 0 for row in rows), "the tug does not meet the ship"
+for row in rows:
+    both = row["tug.hull_contact_force_y"] + row["ship.hull_contact_force_y"]
+    assert abs(both) <= 1e-9 * abs(row["tug.hull_contact_force_y"]), row
+END
+
+"$FRAM" report "$run" --quiet || fail "the report failed"
+for text in "Ice load, vessel icebreaker" "Keeping station, vessel ship" "Motion of the vessel, vessel tug"; do
+    grep -q "$text" "$run/report.html" || fail "the report has no section $text"
+done
+"$FRAM" plot "$run" ship.offset_x tug.hull_contact_force_y -o "$scratch/p.svg" --quiet || fail "the plot failed"
+expect 2 "$FRAM" plot "$run" ice_force_x -o "$scratch/q.svg"
+for format in "--vtk" "--netcdf" "--geojson --time=1"; do
+    # shellcheck disable=SC2086 # words of a format
+    "$FRAM" export "$run" $format --quiet || fail "the export $format failed"
+done
+"$FRAM" compare "$run" "$run" -o "$scratch/c.html" --quiet || fail "the comparison failed"
+grep -q "tug: ice load along X, mean" "$scratch/c.html" || fail "the comparison has no row of the tug"
+
+# The capability of the vessel that is asked for, the others left out.
+expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula
+expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula --vessel barge
+"$FRAM" capability "$scene" -o "$scratch/ship" --formula --vessel ship --directions 4 --speed-step 0.5 --quiet ||
+    fail "there is no capability of the ship"
+
+# Results of vessels that are gone do not stay beside those of a new run.
+"$FRAM" run "$scene" -o "$run" --force --quiet --set run.duration=0.1 --set run.transient=0 \
+    --set vessels.tug.present=false || fail "the second run failed"
+for name in loads-tug.png station-tug.json; do
+    [ ! -e "$run/$name" ] || fail "$name of the run before was left"
+done
+head -1 "$run/series.csv" | grep -q "tug\." && fail "a vessel that is not present has columns"
+
+finish "vessels of a list go by name"
