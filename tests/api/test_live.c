@@ -4,6 +4,8 @@
 #include "fram/results.h"
 #include "testing.h"
 
+#include <pthread.h>
+#include <sched.h>
 #include <stdio.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -713,21 +715,45 @@ START_TEST(a_text_finds_its_files_from_its_folder)
 }
 END_TEST
 
-START_TEST(a_stop_flag_is_set_from_elsewhere)
+/* Told from a thread of its own as soon as the run has begun: TSan looks on. */
+static atomic_int begun;
+
+static void tell_begun(void *user, const fram_progress *progress)
+{
+    (void)user;
+    (void)progress;
+    atomic_store(&begun, 1);
+}
+
+static void *stop_it(void *flag)
+{
+    while (!atomic_load(&begun))
+        sched_yield();
+    fram_stop_set(flag, 1);
+    return NULL;
+}
+
+START_TEST(a_stop_flag_is_set_from_another_thread)
 {
     static int flag;
     fram_stop_set(NULL, 1);
-    fram_stop_set(&flag, 1);
     open_text(busy);
+    static const char *const overrides[] = {"run.duration=10000"};
+    fram_scenario_destroy(scenario_of_test);
+    assert_ok(fram_scenario_parse(ctx, busy, NULL, overrides, 1, &scenario_of_test, &e), e);
+    pthread_t thread;
+    ck_assert_int_eq(pthread_create(&thread, NULL, stop_it, &flag), 0);
     char run[PATH];
     snprintf(run, sizeof run, "%s/run", folder);
     fram_run_definition rd;
     fram_run_default(&rd);
     rd.folder = run;
     rd.stop = &flag;
+    rd.progress = tell_begun;
     fram_run_result result = {0};
     ck_assert_int_eq(fram_run(scenario_of_test, &rd, &result, &e), FRAM_INTERRUPTED);
-    fram_stop_set(&flag, 0);
+    ck_assert_int_eq(pthread_join(thread, NULL), 0);
+    ck_assert(result.steps > 0 && !result.finished);
     close_all();
 }
 END_TEST
@@ -737,4 +763,5 @@ TEST_MAIN("live", a_recorded_world_leaves_what_a_run_leaves, a_recording_can_be_
           a_world_that_failed_is_not_stepped_on, channels_are_the_columns_of_the_series,
           arrays_tell_what_single_calls_tell, contacts_sum_to_the_load_and_fractures_are_told,
           every_input_is_state_and_has_its_effect, positioning_set_points_and_lines_are_steered,
-          towing_drift_and_paths_are_steered, a_text_finds_its_files_from_its_folder, a_stop_flag_is_set_from_elsewhere)
+          towing_drift_and_paths_are_steered, a_text_finds_its_files_from_its_folder,
+          a_stop_flag_is_set_from_another_thread)
