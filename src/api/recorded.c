@@ -26,7 +26,6 @@ static fram_status begin(fram_world *w, recording *r, fram_error *error)
     if (status != FRAM_OK)
         return status;
     table_free(r->ctx, &w->inner.recorded, &recorded_table_info);
-    w->inner.recorded = (recorded_table){0};
     return recording_begin(r, &w->inner, error);
 }
 
