@@ -100,7 +100,7 @@ static fram_status read_design(const study_source *r, const yaml_node *node, stu
         return study_refuse(r, node, "%s is missing", keys ? "count" : "keys");
     if (levels % 2 != 0)
         return study_refuse(r, node, "expected an even number of levels, found %d", (int)levels);
-    design_range range[SENSITIVITY_KEYS_MOST];
+    design_range range[SENSITIVITY_KEYS_MOST] = {{0, 0}};
     r->out->design.kind = kind;
     r->out->design.count = (int32_t)count;
     status = read_ranges(r, keys, range);

@@ -107,7 +107,7 @@ double minimise(minimise_function f, const void *of, int count, double *x, const
                 int descents)
 {
     simplex s = {.f = f, .of = of, .n = count};
-    double around[MINIMISE_MOST], before = (double)INFINITY;
+    double around[MINIMISE_MOST] = {0}, before = (double)INFINITY;
     for (int k = 0; k < count; k++)
         around[k] = step[k];
     for (int i = 0; i < descents; i++) {

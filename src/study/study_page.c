@@ -22,6 +22,8 @@ static const page_figure shown[] = {{ROW_load_mean, "Mean load", "kN", 1e-3},
                                     {ROW_line_tension_largest, "Largest line tension", "kN", 1e-3},
                                     {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
 enum { SHOWN = sizeof shown / sizeof *shown, WORST = 10, CONDITIONS_OF_TABLE = 500 };
+/* More dots than that nobody tells apart, and the page grows by hundreds of bytes with each. */
+enum { DOTS_MOST = 2000 };
 /* An interval wider than this part of the mean calls for more seeds. */
 #define WIDE 0.1
 
@@ -149,6 +151,8 @@ static void add_table(study_page *p, const bool *has)
 
 static bool collect(study_page *p, const page_figure *figure)
 {
+    int64_t runs, failed;
+    count_runs(p, &runs, &failed);
     context *ctx = p->f->ctx;
     double_array *all[] = {&p->x, &p->mean, &p->low, &p->high, &p->seed_x, &p->seed_y};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
@@ -161,7 +165,8 @@ static bool collect(study_page *p, const page_figure *figure)
             return false;
         for (int32_t i = 0; i < p->conditions[c].rows.count; i++) {
             double y = p->conditions[c].rows.data[i].figure[figure->figure] * figure->factor;
-            if (isfinite(y) && (!array_push(ctx, &p->seed_x, c + 1.0) || !array_push(ctx, &p->seed_y, y)))
+            if (runs <= DOTS_MOST && isfinite(y) &&
+                (!array_push(ctx, &p->seed_x, c + 1.0) || !array_push(ctx, &p->seed_y, y)))
                 return false;
         }
     }
@@ -180,7 +185,8 @@ static fram_status add_chart(study_page *p, const page_figure *figure, fram_erro
     lines[0].y2 = p->high.data;
     lines[1].style = CHART_POINTS;
     snprintf(label, sizeof label, "%s [%s]", figure->name, figure->unit);
-    chart c = chart_make(figure->name, "a dot is a run", "condition", label, lines, 3);
+    chart c = chart_make(figure->name, p->seed_x.count > 0 ? "a dot is a run" : "too many runs for dots", "condition",
+                         label, lines, 3);
     return html_chart(&p->page, &c, false, error);
 }
 
@@ -315,7 +321,7 @@ static void add_worst(study_page *p)
     for (int32_t i = 0; i < count; i++) {
         const run_row *row = &p->conditions[worst[i].condition].rows.data[worst[i].index];
         const char *id = p->f->id[worst[i].condition];
-        long long seed = (long long)(p->f->s->seeds.first + worst[i].index);
+        long long seed = (long long)p->f->s->seeds.first + worst[i].index;
         char text[32];
         html_row_begin(&p->page);
         snprintf(text, sizeof text, "%d", (int)worst[i].condition + 1);
