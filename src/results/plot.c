@@ -4,6 +4,7 @@
 #include "io/csv_read.h"
 #include "results/run_data.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ typedef struct plot {
     int32_t count;
     const double *time;
     int32_t first, rows;
+    ARRAY(double *) kept; /* values in a larger unit */
 } plot;
 
 /* Characters that both begin with, then fewer left over. */
@@ -79,6 +81,46 @@ static fram_status add_channel(plot *p, const run_data *d, const char *name, fra
     return FRAM_OK;
 }
 
+/* Units that are told in thousands and millions where their numbers are large, as people write them. */
+static bool takes_prefix(const char *unit)
+{
+    static const char *const units[] = {"N", "N m", "J", "W", "Pa"};
+    for (size_t i = 0; i < sizeof units / sizeof *units; i++)
+        if (strcmp(unit, units[i]) == 0)
+            return true;
+    return false;
+}
+
+static double greatest(const panel *at)
+{
+    double most = 0;
+    for (int32_t i = 0; i < at->count; i++)
+        for (int32_t k = 0; k < at->lines[i].count; k++)
+            most = fmax(most, fabs(at->lines[i].y[k]));
+    return most;
+}
+
+/* The prefix of the panel's unit; its lines are given values to go with it. */
+static fram_status take_prefix(context *ctx, plot *p, panel *at, const char **prefix, fram_error *error)
+{
+    double most = takes_prefix(at->unit) ? greatest(at) : 0, factor = most >= 1e7 ? 1e-6 : 1e-3;
+    *prefix = "";
+    if (!(most >= 1e4))
+        return FRAM_OK;
+    *prefix = most >= 1e7 ? "M" : "k";
+    for (int32_t i = 0; i < at->count; i++) {
+        double *y = memory_array(ctx, (size_t)at->lines[i].count, sizeof *y);
+        if (!y || !array_push(ctx, &p->kept, y)) {
+            memory_free(ctx, y);
+            return error_memory(error);
+        }
+        for (int32_t k = 0; k < at->lines[i].count; k++)
+            y[k] = factor * at->lines[i].y[k];
+        at->lines[i].y = y;
+    }
+    return FRAM_OK;
+}
+
 static fram_status draw(context *ctx, const run_data *d, plot *p, const char *output, fram_error *error)
 {
     chart charts[CHANNELS_MOST];
@@ -86,8 +128,11 @@ static fram_status draw(context *ctx, const run_data *d, plot *p, const char *ou
     for (int32_t i = 0; i < p->count; i++) {
         panel *at = &p->panels[i];
         bool bare = strcmp(at->unit, "1") == 0 || !at->unit[0];
-        snprintf(at->label, sizeof at->label, "%s%s%s%s", at->count == 1 ? at->lines[0].name : "", bare ? "" : " [",
-                 bare ? "" : at->unit, bare ? "" : "]");
+        const char *prefix;
+        if (take_prefix(ctx, p, at, &prefix, error) != FRAM_OK)
+            return FRAM_ERROR_MEMORY;
+        snprintf(at->label, sizeof at->label, "%s%s%s%s%s", at->count == 1 ? at->lines[0].name : "", bare ? "" : " [",
+                 prefix, bare ? "" : at->unit, bare ? "" : "]");
         charts[i] =
             chart_make(i == 0 ? title : "", "", i + 1 == p->count ? "time [s]" : "", at->label, at->lines, at->count);
         charts[i].free_y = true;
@@ -121,6 +166,9 @@ fram_status plot_channels(context *ctx, const char *folder, const char *const *c
         status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the run has no row between these times");
     if (status == FRAM_OK)
         status = draw(ctx, &d, &p, output, error);
+    for (int32_t i = 0; i < p.kept.count; i++)
+        memory_free(ctx, p.kept.data[i]);
+    array_free(ctx, &p.kept);
     memory_free(ctx, p.panels);
     run_data_free(ctx, &d);
     return status;
