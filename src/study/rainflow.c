@@ -70,14 +70,6 @@ bool rainflow(context *ctx, const double *value, int32_t count, rain_cycles *out
 
 void rainflow_free(context *ctx, rain_cycles *c) { array_free(ctx, &c->list); }
 
-double rainflow_count(const rain_cycles *c)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < c->list.count; i++)
-        sum += c->list.data[i].count;
-    return sum;
-}
-
 double equivalent_range(const rain_cycles *c, double slope, double cycles)
 {
     double greatest = 0, sum = 0;

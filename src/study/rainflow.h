@@ -19,7 +19,5 @@ void rainflow_free(context *ctx, rain_cycles *c);
 /* The range that does the damage of all cycles in `cycles` of its own, with the slope m of an S-N line (Miner 1945):
    (sum n range^m / cycles)^(1/m). */
 double equivalent_range(const rain_cycles *c, double slope, double cycles);
-/* Sum of the counts. */
-double rainflow_count(const rain_cycles *c);
 
 #endif

@@ -12,6 +12,14 @@ static double count_of(const rain_cycles *c, double range)
     return sum;
 }
 
+static double cycles_of(const rain_cycles *c)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < c->list.count; i++)
+        sum += c->list.data[i].count;
+    return sum;
+}
+
 /* E1049-85 (2017), figure 6: range 9: 0.5, 8: 1.0, 6: 0.5, 4: 1.5, 3: 0.5; one cycle of range 4 about a mean of 1. */
 START_TEST(the_example_of_the_standard)
 {
@@ -23,7 +31,7 @@ START_TEST(the_example_of_the_standard)
     static const double table[][2] = {{9, 0.5}, {8, 1.0}, {7, 0}, {6, 0.5}, {5, 0}, {4, 1.5}, {3, 0.5}, {2, 0}, {1, 0}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
         assert_absolute(count_of(&c, table[i][0]), table[i][1], 1e-15);
-    assert_absolute(rainflow_count(&c), 4, 1e-15);
+    assert_absolute(cycles_of(&c), 4, 1e-15);
     int whole = 0;
     for (int32_t i = 0; i < c.list.count; i++) {
         if (c.list.data[i].count < 1)
@@ -47,7 +55,7 @@ START_TEST(only_turning_points_count)
     ck_assert(rainflow(&ctx, value, sizeof value / sizeof *value, &c));
     assert_absolute(count_of(&c, 8), 1, 0);
     assert_absolute(count_of(&c, 4), 1.5, 0);
-    assert_absolute(rainflow_count(&c), 4, 0);
+    assert_absolute(cycles_of(&c), 4, 0);
     rainflow_free(&ctx, &c);
 }
 END_TEST
@@ -63,7 +71,7 @@ START_TEST(waves_of_one_range_are_their_own_equivalent)
         value[i] = 10 + 3 * real_cos(2 * PI * i / STEPS);
     rain_cycles c = {0};
     ck_assert(rainflow(&ctx, value, WAVES * STEPS + 1, &c));
-    assert_absolute(rainflow_count(&c), WAVES, 1e-12);
+    assert_absolute(cycles_of(&c), WAVES, 1e-12);
     for (double m = 1; m < 12; m += 1.5) {
         assert_relative(equivalent_range(&c, m, WAVES), 6, 1e-9);
         assert_relative(equivalent_range(&c, m, 3 * WAVES), 6 * real_pow(1.0 / 3, 1 / m), 1e-9);
