@@ -155,35 +155,6 @@ static box3 box3_grown(box3 b, double by)
 
 /* ---- piece against piece ---- */
 
-static bool reserve_polyhedron(context *ctx, polyhedron *room, const polyhedron *model)
-{
-    return array_reserve(ctx, &room->vertex, model->vertex.count) &&
-           array_reserve(ctx, &room->face, model->face.count) && array_reserve(ctx, &room->loop, model->loop.count) &&
-           array_reserve(ctx, &room->edge_direction, model->edge_direction.count);
-}
-
-static void place_polyhedron(const polyhedron *model, mat3 r, vec3 centre, polyhedron *room)
-{
-    room->vertex.count = model->vertex.count;
-    for (int32_t i = 0; i < model->vertex.count; i++)
-        room->vertex.data[i] = vec3_add(centre, mat3_mul_vec(r, model->vertex.data[i]));
-    room->face.count = model->face.count;
-    for (int32_t i = 0; i < model->face.count; i++) {
-        room->face.data[i] = model->face.data[i];
-        vec3 normal = mat3_mul_vec(r, model->face.data[i].normal);
-        room->face.data[i].normal = normal;
-        room->face.data[i].offset = model->face.data[i].offset + vec3_dot(normal, centre);
-    }
-    room->loop.count = model->loop.count;
-    for (int32_t i = 0; i < model->loop.count; i++)
-        room->loop.data[i] = model->loop.data[i];
-    room->edge_direction.count = model->edge_direction.count;
-    for (int32_t i = 0; i < model->edge_direction.count; i++)
-        room->edge_direction.data[i] = mat3_mul_vec(r, model->edge_direction.data[i]);
-    room->centre = vec3_add(centre, mat3_mul_vec(r, model->centre));
-    room->radius = model->radius;
-}
-
 /* The piece as a polyhedron in room; seams get the faces that are none. */
 static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron *room, uint64_t *seams)
 {
@@ -196,11 +167,7 @@ static bool place_piece(context *ctx, const party *p, int32_t piece, polyhedron 
         prism_polyhedron(&q, room);
         return true;
     }
-    const polyhedron *model = &solid_pieces(p)->data[piece];
-    if (!reserve_polyhedron(ctx, room, model))
-        return false;
-    place_polyhedron(model, p->rotation, p->centre, room);
-    return true;
+    return polyhedron_place(ctx, &solid_pieces(p)->data[piece], p->rotation, p->centre, room);
 }
 
 /* Points of two pieces, -1 without memory. */

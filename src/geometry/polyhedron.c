@@ -22,6 +22,38 @@ void polyhedron_array_free(context *ctx, polyhedron_array *a)
     array_free(ctx, a);
 }
 
+static bool reserve_like(context *ctx, polyhedron *p, const polyhedron *model)
+{
+    return array_reserve(ctx, &p->vertex, model->vertex.count) && array_reserve(ctx, &p->face, model->face.count) &&
+           array_reserve(ctx, &p->loop, model->loop.count) &&
+           array_reserve(ctx, &p->edge_direction, model->edge_direction.count);
+}
+
+bool polyhedron_place(context *ctx, const polyhedron *model, mat3 r, vec3 centre, polyhedron *out)
+{
+    if (!reserve_like(ctx, out, model))
+        return false;
+    out->vertex.count = model->vertex.count;
+    for (int32_t i = 0; i < model->vertex.count; i++)
+        out->vertex.data[i] = vec3_add(centre, mat3_mul_vec(r, model->vertex.data[i]));
+    out->face.count = model->face.count;
+    for (int32_t i = 0; i < model->face.count; i++) {
+        out->face.data[i] = model->face.data[i];
+        vec3 normal = mat3_mul_vec(r, model->face.data[i].normal);
+        out->face.data[i].normal = normal;
+        out->face.data[i].offset = model->face.data[i].offset + vec3_dot(normal, centre);
+    }
+    out->loop.count = model->loop.count;
+    for (int32_t i = 0; i < model->loop.count; i++)
+        out->loop.data[i] = model->loop.data[i];
+    out->edge_direction.count = model->edge_direction.count;
+    for (int32_t i = 0; i < model->edge_direction.count; i++)
+        out->edge_direction.data[i] = mat3_mul_vec(r, model->edge_direction.data[i]);
+    out->centre = vec3_add(centre, mat3_mul_vec(r, model->centre));
+    out->radius = model->radius;
+    return true;
+}
+
 void polyhedron_translate(polyhedron *p, vec3 by)
 {
     for (int32_t i = 0; i < p->vertex.count; i++)

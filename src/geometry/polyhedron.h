@@ -28,6 +28,9 @@ void polyhedron_free(context *ctx, polyhedron *p);
 void polyhedron_array_free(context *ctx, polyhedron_array *a);
 /* Move vertices, planes and centre. */
 void polyhedron_translate(polyhedron *p, vec3 by);
+/* `model` turned by r about its origin and moved by `centre`, in place of what out held; out's memory is used again.
+   false: no memory. */
+bool polyhedron_place(context *ctx, const polyhedron *model, mat3 r, vec3 centre, polyhedron *out);
 
 /* Convex hull of points: quickhull with exact predicates.  Points that stand out less than `tolerance` [m] (at least
    the rounding of the coordinates) may be left outside, and triangles within it of a common plane are one face.  Its

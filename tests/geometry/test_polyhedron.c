@@ -249,6 +249,59 @@ START_TEST(needles_and_plates)
 }
 END_TEST
 
+/* Every face holds its vertices in its plane, and all others behind it. */
+static void check_planes(const polyhedron *p, double slack)
+{
+    for (int32_t k = 0; k < p->face.count; k++) {
+        const polyhedron_face *f = &p->face.data[k];
+        for (int32_t i = 0; i < p->vertex.count; i++)
+            ck_assert_double_le(vec3_dot(f->normal, p->vertex.data[i]) - f->offset, slack);
+        for (int32_t i = f->first; i < f->first + f->count; i++)
+            assert_absolute(vec3_dot(f->normal, p->vertex.data[p->loop.data[i]]), f->offset, slack);
+    }
+}
+
+/* Turned and moved, and moved back: the same body, in memory that is used again. */
+START_TEST(bodies_in_other_places)
+{
+    context ctx = plain();
+    random_stream r = random_begin(17, 1, 1);
+    polyhedron p = {0}, q = {0};
+    fram_error error;
+    for (int round = 0; round < 20; round++) {
+        vec3 point[40], centre = {random_normal(&r), 10 * random_normal(&r), random_normal(&r)};
+        for (int i = 0; i < 40; i++)
+            point[i] = (vec3){random_normal(&r), random_normal(&r), random_normal(&r)};
+        assert_ok(polyhedron_hull(&ctx, point, 40 - round, 0, &p, &error), error);
+        mat3 turn = quat_matrix(quat_from_roll_pitch_yaw(0.3 * round, 1, 2));
+        ck_assert(polyhedron_place(&ctx, &p, turn, centre, &q));
+        check_planes(&q, 1e-12);
+        ck_assert_int_eq(q.edge_direction.count, p.edge_direction.count);
+        assert_relative(polyhedron_volume(&q), polyhedron_volume(&p), 1e-12);
+        assert_vec3_close(q.centre, vec3_add(centre, mat3_mul_vec(turn, p.centre)), 1e-14);
+        for (int32_t i = 0; i < q.edge_direction.count; i++)
+            assert_vec3_close(q.edge_direction.data[i], mat3_mul_vec(turn, p.edge_direction.data[i]), 1e-15);
+        assert_bits(q.radius, p.radius);
+        polyhedron_translate(&q, vec3_neg(centre));
+        check_planes(&q, 1e-12);
+        assert_vec3_close(q.centre, mat3_mul_vec(turn, p.centre), 1e-13);
+    }
+    polyhedron_free(&ctx, &q);
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context failing = failing_context(&memory, n);
+        polyhedron out = {0};
+        bool placed = polyhedron_place(&failing, &p, quat_matrix(quat_identity()), p.centre, &out);
+        polyhedron_free(&failing, &out);
+        ck_assert_int_eq(memory.live, 0);
+        ck_assert(placed == !memory.failed);
+        if (placed)
+            break;
+    }
+    polyhedron_free(&ctx, &p);
+}
+END_TEST
+
 START_TEST(inputs_that_span_nothing)
 {
     context ctx = plain();
@@ -300,5 +353,5 @@ START_TEST(memory_runs_out)
 END_TEST
 
 TEST_MAIN("polyhedron", box_from_a_cloud, random_points, noisy_sides, order_does_not_move_the_shape,
-          faces_of_a_prism_are_merged, too_thin_to_be_merged, needles_and_plates, inputs_that_span_nothing,
-          memory_runs_out)
+          faces_of_a_prism_are_merged, too_thin_to_be_merged, needles_and_plates, bodies_in_other_places,
+          inputs_that_span_nothing, memory_runs_out)
