@@ -59,11 +59,11 @@ class Fram:
         self.calls, self.longest, self.most_memory = 0, 0.0, 0.0
         self.running = set()
 
-    def start(self, words, environment=None, **files):
-        """A process that somebody else waits for; limits are set."""
+    def start(self, words, environment=None, cpu_limit=CPU_LIMIT_S, **files):
+        """A process that somebody else waits for; limits are set, of its computing time in seconds."""
         env = dict(os.environ, LC_ALL="C.UTF-8", **(environment or {}))
         process = subprocess.Popen([self.path, *map(str, words)], env=env, stdin=subprocess.DEVNULL, **files)
-        for kind, most in ((resource.RLIMIT_CPU, CPU_LIMIT_S), (resource.RLIMIT_AS, MEMORY_LIMIT_MB << 20),
+        for kind, most in ((resource.RLIMIT_CPU, cpu_limit), (resource.RLIMIT_AS, MEMORY_LIMIT_MB << 20),
                            (resource.RLIMIT_CORE, 0)):
             try:
                 resource.prlimit(process.pid, kind, (most, most + 5 if kind == resource.RLIMIT_CPU else most))

@@ -26,6 +26,7 @@ output: {frame_interval: 5, checkpoint_interval: 20, csv_interval: 1}
 MEMORY_GROWTH_MB = 8
 COST_GROWTH = 1.5
 LEAST_COST_ROWS = 1000
+LONG_LIMIT_S = 100 * 3600  # of computing, for a soak by simulated hours
 MASS_OPEN = 1e-6  # of the mass at the start [%]
 
 
@@ -65,7 +66,8 @@ def case(rig, draw, folder):
     scene.write_text(text, encoding="utf-8")
     seconds = max(5.0, rig.minutes * 60 * 0.08)
     with open(folder / "err", "wb") as err:
-        process = rig.fram.start(("run", scene, "-o", run, "--threads", "1", "-q"), stdout=err, stderr=err)
+        limit = {"cpu_limit": LONG_LIMIT_S} if rig.soak_hours else {}
+        process = rig.fram.start(("run", scene, "-o", run, "--threads", "1", "-q"), stdout=err, stderr=err, **limit)
         if rig.soak_hours:
             samples, expected = watch(process, float("inf"), 2), 0
         else:
