@@ -23,7 +23,7 @@ typedef struct polygon_list {
 
 static inline int32_t polygon_list_count(const polygon_list *l) { return l->start.count > 0 ? l->start.count - 1 : 0; }
 polygon polygon_list_get(const polygon_list *l, int32_t i);
-/* Append a copy of p, which must not be a view into l itself; false when there is no memory (l is then unchanged). */
+/* Append a copy of p, which may be one of the list itself; false when there is no memory (l is then unchanged). */
 bool polygon_list_push(context *ctx, polygon_list *l, polygon p);
 void polygon_list_clear(polygon_list *l);
 void polygon_list_free(context *ctx, polygon_list *l);
