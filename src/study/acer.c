@@ -135,10 +135,10 @@ typedef struct tail_points {
 
 static void add_point(tail_points *t, double level, int64_t exceedances, double values)
 {
-    /* Of a Poisson number: relative half width of the 95 % interval of the rate. */
-    double half = 1.959963984540054 / sqrt((double)exceedances);
-    if (!(half < 1))
+    /* Of a Poisson number: relative half width of the 95 % interval of the rate, which fewer than four do not give. */
+    if (exceedances < 4)
         return;
+    double half = 1.959963984540054 / sqrt((double)exceedances);
     double width = real_log((1 + half) / (1 - half));
     t->level[t->count] = level;
     t->log_rate[t->count] = real_log((double)exceedances / values);
