@@ -22,6 +22,7 @@ set(fram_long_tests
     "results/report:       runs with a fed field and with level ice, long enough for their books to matter"
     "sim/build_stopped:    six builds, each interrupted after a second or two"
     "sim/drift:            a sheet that drifts over its ship, comes back and is met again, at two time steps"
+    "sim/propulsion:       ten minutes of tracks in open water, and an icebreaker in ice until its speed is steady"
     "sim/feeding:          hours of drift: the field must not change by being fed"
     "sim/level_ice:        ships through level ice, far enough to see the channel and the loads"
     "sim/real_input:       a run of 60 s through outlined floes, repaired (FRAM_TEST_LONG: 462 observed ones too)"

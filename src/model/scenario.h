@@ -11,6 +11,7 @@
 #include "ice/import.h"
 #include "model/scenario_keys.h"
 #include "vessel/mooring.h"
+#include "vessel/pattern.h"
 #include "vessel/station.h"
 
 /* Where the ice comes from. */

@@ -89,6 +89,26 @@ static fram_status check_line_tables(const scenario *s, const vessel_entry *e, f
     return FRAM_OK;
 }
 
+/* A ship that drives itself is free and keeps no station. */
+static fram_status check_propulsion(const scenario *s, const vessel_entry *e, fram_error *error)
+{
+    const scenario_propulsion *p = &e->keys->propulsion;
+    bool drives = !is_automatic(p->bollard_pull), aims = p->waypoints.count > 0 || p->pattern.kind != PATTERN_NONE;
+    if (!drives && aims)
+        return vessel_fault(s, e, "propulsion.bollard_pull", error,
+                            "expected a thrust, since way points or a pattern are given, found auto");
+    if (drives && e->keys->mode != VESSEL_FREE)
+        return vessel_fault(s, e, "propulsion.bollard_pull", error, "expected auto, since %s.mode is not free",
+                            e->path);
+    if (drives && e->keys->positioning.active)
+        return vessel_fault(s, e, "propulsion.bollard_pull", error,
+                            "expected auto, since %s.positioning.active is true", e->path);
+    if (p->waypoints.count > 0 && p->pattern.kind != PATTERN_NONE)
+        return vessel_fault(s, e, "propulsion.waypoints", error, "expected none, since there is a pattern, found %d",
+                            (int)p->waypoints.count);
+    return FRAM_OK;
+}
+
 /* Lines, thrusters and positioning act on a vessel that is free, and positioning needs thrusters. */
 static fram_status check_station(const scenario *s, const vessel_entry *e, fram_error *error)
 {
@@ -110,7 +130,9 @@ static fram_status check_station(const scenario *s, const vessel_entry *e, fram_
         snprintf(key, sizeof key, "positioning.waypoints[%d].time", (int)i);
         return vessel_fault(s, e, key, error, "expected a later time than that of the way point before");
     }
-    fram_status status = check_line_count(s, e, error);
+    fram_status status = check_propulsion(s, e, error);
+    if (status == FRAM_OK)
+        status = check_line_count(s, e, error);
     if (status == FRAM_OK)
         status = check_line_tables(s, e, error);
     return status == FRAM_OK ? check_path(s, e, error) : status;

@@ -20,6 +20,7 @@
 #ifndef MODEL_SCENARIO_KEYS_H
 #define MODEL_SCENARIO_KEYS_H
 
+#include "model/scenario_propulsion_keys.h"
 #include "model/scenario_station_keys.h"
 
 #include "model/scenario_water_keys.h"
@@ -93,6 +94,7 @@
     X(thrusters, LIST(thruster, 32), "", "mode free: thrusters")                                                     \
     X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                       \
     X(station, SECTION(station), "", "what counts as being on station")                                              \
+    X(propulsion, SECTION(propulsion), "", "mode free: a ship that drives itself through the ice")                   \
     X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")                                    \
     X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")               \
     X(wind_coefficients, SECTION(flow), "", "force coefficients of the wind over its direction")
@@ -353,6 +355,7 @@
     S(run, SCENARIO_RUN_KEYS)                 \
     S(hull, SCENARIO_HULL_KEYS)               \
     SCENARIO_STATION_SECTIONS(S)              \
+    SCENARIO_PROPULSION_SECTIONS(S)           \
     SCENARIO_WATER_SECTIONS(S)                \
     S(vessel, SCENARIO_VESSEL_KEYS)           \
     S(friction, SCENARIO_FRICTION_KEYS)       \

@@ -59,6 +59,15 @@ SECTION_DEFINE(positioning, SCENARIO_POSITIONING_KEYS)
 #define SELF scenario_station
 SECTION_DEFINE(station, SCENARIO_STATION_KEYS)
 #undef SELF
+#define SELF scenario_course_point
+SECTION_DEFINE(course_point, SCENARIO_COURSE_POINT_KEYS)
+#undef SELF
+#define SELF scenario_pattern
+SECTION_DEFINE(pattern, SCENARIO_PATTERN_KEYS)
+#undef SELF
+#define SELF scenario_propulsion
+SECTION_DEFINE(propulsion, SCENARIO_PROPULSION_KEYS)
+#undef SELF
 #define SELF scenario_flow_row
 SECTION_DEFINE(flow_row, SCENARIO_FLOW_ROW_KEYS)
 #undef SELF

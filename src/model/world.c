@@ -53,6 +53,8 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(drift, drift),
         STATE(drift_cell, drift_cells),
         STATE(drift_vertex, drift_vertices),
+        STATE(propulsion, propulsion),
+        STATE(course, course),
     };
     memcpy(out, list, sizeof list);
 }

@@ -16,6 +16,7 @@
 #include "model/mechanism.h"
 #include "model/model.h"
 #include "vessel/mooring.h"
+#include "vessel/propulsion.h"
 #include "vessel/station.h"
 
 /* One row. */
@@ -96,6 +97,8 @@ typedef struct world {
     drift_table drift; /* one row, or none */
     drift_cell_table drift_cells;
     drift_vertex_table drift_vertices;
+    propulsion_table propulsion; /* a row for each vessel that drives itself */
+    course_table course;
 
     /* Scratch: written anew each step. */
     struct {
@@ -125,7 +128,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 26 };
+enum { WORLD_TABLE_COUNT = 28 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/build_ice.h"
+#include "sim/build_propulsion.h"
 #include "sim/build_station.h"
 #include "sim/vessel_check.h"
 #include "vessel/path.h"
@@ -142,6 +143,8 @@ fram_status build_vessel(context *ctx, const scenario *s, const vessel_entry *en
         status = add_vessel(ctx, s, entry->keys, &m->vessels.data[row], w, error);
     if (status == FRAM_OK)
         status = build_station(ctx, s, entry, m, row, w, error);
+    if (status == FRAM_OK)
+        status = build_propulsion(ctx, s, entry, m, row, w, error);
     if (status == FRAM_OK)
         status = check_clear_of_walls(ctx, s, entry, w, row, error);
     if (status == FRAM_OK)

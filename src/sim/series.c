@@ -19,6 +19,7 @@ typedef struct vessel_channels {
     vec3 offset, estimate, bias, demand;
     double thruster_power, line_tension_max;
     int32_t lines_parted, thrusters_failed, saturated;
+    double net_thrust, steering_deg, besets, rams, rounds; /* of a ship that drives itself */
 } vessel_channels;
 
 /* What keeps a vessel on station. */
@@ -49,11 +50,27 @@ static void add_station(const world *w, int32_t v, vessel_channels *c)
     }
 }
 
+/* How a ship drives itself. */
+static void add_propulsion(const world *w, int32_t v, vessel_channels *c)
+{
+    const propulsion_table *p = &w->propulsion;
+    for (int32_t i = 0; i < p->count; i++) {
+        if (p->vessel[i] != v)
+            continue;
+        c->net_thrust = p->thrust[i];
+        c->steering_deg = degrees(p->steering[i]);
+        c->besets = (double)p->besets[i];
+        c->rams = (double)p->rams[i];
+        c->rounds = (double)p->rounds[i];
+    }
+}
+
 static vessel_channels vessel_channels_of(const world *w, int32_t v)
 {
     vessel_channels c = {0};
     if (v >= w->vessels.count)
         return c;
+    add_propulsion(w, v, &c);
     int32_t body = w->vessels.body[v], joint = w->vessels.joint[v];
     vec3 rpy = quat_roll_pitch_yaw(w->bodies.orientation[body]);
     mat3 r = quat_matrix(w->bodies.orientation[body]);
@@ -171,6 +188,11 @@ static count_channels counts_of(const world *w)
     V("estimated_heading", "deg", c.estimate.z)                       \
     V3(V, "estimated_load", "N", c.bias)                              \
     V3(V, "demanded_force", "N", c.demand)                            \
+    V("net_thrust", "N", c.net_thrust)                                \
+    V("steering_angle", "deg", c.steering_deg)                        \
+    V("besets", "1", c.besets)                                        \
+    V("rams", "1", c.rams)                                            \
+    V("pattern_rounds", "1", c.rounds)                                \
     W("bodies", "1", n.bodies)                                        \
     W("floes", "1", n.floes)                                          \
     W("contacts", "1", w->scratch.contacts.count)                     \

@@ -6,6 +6,7 @@
 #include "sim/ice_loads.h"
 #include "sim/mechanisms.h"
 #include "sim/media_now.h"
+#include "sim/propulsion_forces.h"
 #include "sim/station_forces.h"
 #include "vessel/path.h"
 
@@ -125,6 +126,8 @@ static fram_status external_forces(context *ctx, const model *m, world *w, fram_
         return status;
     add_outside(w);
     status = station_forces(ctx, m, w, error);
+    if (status == FRAM_OK)
+        status = propulsion_forces(ctx, m, w, error);
     if (status != FRAM_OK)
         return status;
     if (m->forces == FORCES_FLUID)

@@ -25,8 +25,15 @@ bool event_add(context *ctx, event_table *events, station_event kind, double tim
 const char *event_name(station_event kind)
 {
     static const char *const names[EVENT_COUNT] = {
-        "line_break",        "line_release", "thruster_failure", "position_lost",
-        "position_regained", "heading_lost", "heading_regained",
+        "line_break",
+        "line_release",
+        "thruster_failure",
+        "position_lost",
+        "position_regained",
+        "heading_lost",
+        "heading_regained",
+        "beset",
+        "ram",
     };
     return (int)kind >= 0 && kind < EVENT_COUNT ? names[kind] : "unknown";
 }
@@ -56,6 +63,12 @@ void event_text(const event_table *events, int32_t row, char *out, size_t size)
         return;
     case EVENT_HEADING_REGAINED:
         snprintf(out, size, "heading regained: it is off by %.4g deg", degrees(value));
+        return;
+    case EVENT_BESET:
+        snprintf(out, size, "beset under a net thrust of %.4g kN", value * 1e-3);
+        return;
+    case EVENT_RAM:
+        snprintf(out, size, "backed %.4g m, and rams", value);
         return;
     case EVENT_COUNT:
         break;

@@ -12,6 +12,8 @@ typedef enum station_event {
     EVENT_POSITION_REGAINED,
     EVENT_HEADING_LOST, /* the heading came to deviate by more than its limit; value: deviation [rad] */
     EVENT_HEADING_REGAINED,
+    EVENT_BESET, /* the ice stopped a ship that pushes; value: net thrust [N] */
+    EVENT_RAM,   /* it has backed and comes again; value: how far it backed [m] */
     EVENT_COUNT
 } station_event;
 

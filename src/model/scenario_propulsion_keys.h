@@ -1,0 +1,44 @@
+/* Keys of a vessel that drives itself: net thrust, steering, way points and patterns, ramming.  Part of
+   scenario_keys.h, which says what the rows mean. */
+#ifndef MODEL_SCENARIO_PROPULSION_KEYS_H
+#define MODEL_SCENARIO_PROPULSION_KEYS_H
+
+#define SCENARIO_COURSE_POINT_KEYS(X)                      \
+    X(x, REAL(0, -1e7, 1e7), "m", "of the centre of mass") \
+    X(y, REAL(0, -1e7, 1e7), "m", "of the centre of mass")
+
+#define SCENARIO_PATTERN_KEYS(X)                                                                                  \
+    X(kind, CHOICE(pattern_kind, PATTERN_NONE, "none line across circle square sector"), "",                      \
+      "line: updrift and back; across: to and fro across the drift; circle, square: about a centre updrift; "     \
+      "sector: to and fro on an arc about the place")                                                             \
+    X(x, REAL(0, -1e7, 1e7), "m", "place that the pattern is updrift of: that of the vessel it protects")         \
+    X(y, REAL(0, -1e7, 1e7), "m", "of that place")                                                                \
+    X(distance, REAL(500, 1e-3, 1e6), "m", "updrift of it: of the middle, of the near end of a line, of the arc") \
+    X(width, REAL(200, 1e-3, 1e6), "m", "length of a line or an arc, diameter of a circle, side of a square")     \
+    X(period, AUTOMATIC(1e-3, 1e7), "s", "of a round, which gives the speed that is wanted; auto: propulsion.speed")
+
+#define SCENARIO_PROPULSION_KEYS(X)                                                                             \
+    X(bollard_pull, AUTOMATIC(1e-6, 1e12), "N", "thrust at no speed and full power; auto: no such propulsion")  \
+    X(open_water_speed, REAL(8, 1e-3, 100), "m/s", "at full power, where the net thrust has fallen to nothing") \
+    X(power, REAL(1, 1e-3, 1), "1",                                                                             \
+      "share of full power: bollard pull goes with its 2/3, open-water speed with its 1/3")                     \
+    X(astern, REAL(0.7, 0, 1), "1", "bollard pull astern over that ahead")                                      \
+    X(speed, AUTOMATIC(0, 100), "m/s", "over the ground that is wanted; auto: as fast as it goes")              \
+    X(steering_angle_deg, REAL(35, 0, 90), "deg", "largest angle of the thrust at the stern")                   \
+    X(steering_rate_deg, REAL(2.5, 1e-3, 1e3), "deg/s", "at which that angle changes")                          \
+    X(steering_x, AUTOMATIC(-1e4, 1e4), "m",                                                                    \
+      "where the thrust acts, forward of the centre of mass; auto: -0.45 lengths")                              \
+    X(lookahead, AUTOMATIC(1e-3, 1e5), "m", "how far ahead on its track the autopilot aims; auto: 2.5 lengths") \
+    X(beset_speed, REAL(0.1, 1e-6, 100), "m/s", "a ship that pushes and is slower in the ice ...")              \
+    X(beset_time, REAL(20, 1e-3, 1e6), "s", "... for so long is beset: it backs, and rams")                     \
+    X(ram_distance, AUTOMATIC(1e-3, 1e5), "m", "it backs so far; auto: its length")                             \
+    X(waypoints, LIST(course_point, 1000), "",                                                                  \
+      "steered for one after the other; after the last the leg goes on; none: the heading is kept")             \
+    X(pattern, SECTION(pattern), "", "of ice management, in place of way points; it turns with the drift")
+
+#define SCENARIO_PROPULSION_SECTIONS(S)         \
+    S(course_point, SCENARIO_COURSE_POINT_KEYS) \
+    S(pattern, SCENARIO_PATTERN_KEYS)           \
+    S(propulsion, SCENARIO_PROPULSION_KEYS)
+
+#endif

@@ -1,0 +1,38 @@
+#include "sim/propulsion_forces.h"
+
+#include "sim/feed.h"
+#include "sim/media_now.h"
+
+/* What the water takes of the thrust: drag on the hull, and the linear damping of surge, which acts afterwards. */
+static double resistance_of(const model *m, const world *w, int32_t vessel, vec2 water)
+{
+    int32_t body = w->vessels.body[vessel], row = w->shapes.shapes.solid[w->bodies.shape[body]];
+    vec3 bow = mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), vec3_make(1, 0, 0)), v = w->bodies.velocity[body];
+    const vessel_model *fixed = &m->vessels.data[vessel];
+    double sum = 0;
+    if (row >= 0 && w->scratch.fluid.count > row)
+        sum -= vec3_dot(w->scratch.fluid.data[row].water_drag.force, bow);
+    if (fixed->has_hydrodynamics)
+        sum += fixed->hydrodynamics.damping.m[0][0] * vec3_dot(vec3_sub(v, vec3_make(water.x, water.y, 0)), bow);
+    return sum;
+}
+
+fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error *error)
+{
+    if (w->propulsion.count == 0)
+        return FRAM_OK;
+    media now = media_now(m, &w->inputs, w->clock.time[0]);
+    vec3 current = media_current(&now, 0);
+    vec2 water = {current.x, current.y};
+    bool drifts = m->boundary == DOMAIN_FEEDING;
+    vec2 drift = drifts ? feed_drift(m, &w->inputs, w->clock.time[0]) : vec2_make(0, 0);
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
+        int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
+        propulsion_moment moment = {w->clock.time[0], m->time_step, water, drift,
+                                    m->forces == FORCES_FLUID ? resistance_of(m, w, vessel, water) : 0};
+        status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
+                                 &w->scratch.loads.data[body], &w->events, error);
+    }
+    return status;
+}

@@ -1,0 +1,27 @@
+/* Tracks of an icebreaker that manages ice for another vessel: closed lines in a frame whose first axis points updrift
+   from a place that stays, and whose second is to the left of it.  Pure geometry. */
+#ifndef VESSEL_PATTERN_H
+#define VESSEL_PATTERN_H
+
+#include "base/vec.h"
+
+typedef enum pattern_kind {
+    PATTERN_NONE = 0,
+    PATTERN_LINE,   /* updrift and back, from `distance` to `distance` + `width` */
+    PATTERN_ACROSS, /* to and fro across the drift, `width` long, `distance` updrift */
+    PATTERN_CIRCLE, /* of diameter `width` about a centre `distance` updrift, counter-clockwise */
+    PATTERN_SQUARE, /* of side `width` about that centre, counter-clockwise */
+    PATTERN_SECTOR  /* to and fro on an arc of radius `distance` about the place, `width` long */
+} pattern_kind;
+
+typedef struct pattern_shape {
+    pattern_kind kind;
+    double distance, width; /* [m] */
+} pattern_shape;
+
+/* The point at this share of a round, from 0 to 1: updrift and across [m]. */
+vec2 pattern_point(const pattern_shape *p, double share);
+/* Length of a round [m]. */
+double pattern_length(const pattern_shape *p);
+
+#endif

@@ -1,0 +1,99 @@
+/* A vessel that drives itself (docs/decisions/0140): net thrust that falls with speed, a course-keeping autopilot that
+   follows way points or a pattern, backing and ramming when the ice stops it.
+
+   Net thrust is what is left for ice once open water is paid for (Riska et al. 1997):
+       T_net(v) = T_b (1 - v / (3 v_ow) - 2/3 (v / v_ow)^2),
+   so that a vessel in open water runs at v_ow.  At a share p of full power T_b goes with p^(2/3) and v_ow with p^(1/3).
+   The gross thrust, which also turns the ship, is the net one and the water's resistance to the hull.
+
+   The water past a hull that drifts aside or turns lifts it as a wing of low aspect: without that a ship slides on
+   sideways for minutes, and no course can be kept (Clarke, Gedling and Hine 1983).
+
+   The thrust acts at the stern and turns by the steering angle, as an azimuthing unit does: T cos(delta) ahead,
+   T sin(delta) aside.  Knows bodies and vessels; must not know ice: where the ice drifts is told. */
+#ifndef VESSEL_PROPULSION_H
+#define VESSEL_PROPULSION_H
+
+#include "bodies/body.h"
+#include "vessel/event.h"
+#include "vessel/pattern.h"
+#include "vessel/vessel.h"
+
+typedef enum propulsion_phase { PROPULSION_AHEAD = 0, PROPULSION_ASTERN } propulsion_phase;
+
+/* Lift on the hull at a speed u ahead: Y = u (y_v v + y_r r) to port, N = u (n_v v + n_r r) counter-clockwise, for a
+   velocity v to port and a rate of turn r. */
+typedef struct hull_lift {
+    double y_v; /* [kg/m] */
+    double y_r; /* [kg] */
+    double n_v; /* [kg] */
+    double n_r; /* [kg m] */
+} hull_lift;
+/* Of a hull's waterline length, beam, draught and displaced volume, by the regression of Clarke, Gedling and Hine
+   (1983), which was made of merchant hulls. */
+hull_lift hull_lift_of(double length, double beam, double draught, double volume, double water_density);
+
+/* What stays: numbers of one vessel's propulsion. */
+typedef struct propulsion_settings {
+    double bollard_pull;     /* T_b at the power that is given [N] */
+    double open_water_speed; /* v_ow at that power [m/s] */
+    double astern;           /* bollard pull astern over that ahead [1] */
+    double speed;            /* that is wanted over the ground; infinity: as fast as it goes [m/s] */
+    double steering_most;    /* [rad] */
+    double steering_rate;    /* [rad/s] */
+    double steering_x;       /* where the thrust acts, forward of the centre of mass [m] */
+    double lookahead;        /* how far ahead on its track the autopilot aims [m] */
+    double beset_speed;      /* in the ice; a ship slower than that under thrust ... [m/s] */
+    double beset_time;       /* ... for so long is beset [s] */
+    double ram_distance;     /* it backs so far [m] */
+    double x, y;             /* place of the pattern [m] */
+    double distance, width;  /* of the pattern [m] */
+    hull_lift lift;
+} propulsion_settings;
+
+#define PROPULSION_FIELDS(X)                                                                      \
+    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                    \
+    X(settings, propulsion_settings, FIELD_F64, 19, "SI", "thrust, steering, autopilot, pattern") \
+    X(pattern, uint8_t, FIELD_U8, 1, "1", "enum pattern_kind")                                    \
+    X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                  \
+    X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift")                             \
+    X(share, double, FIELD_F64, 1, "1", "of the pattern's round where the autopilot aims")        \
+    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done")                           \
+    X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                   \
+    X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                      \
+    X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")            \
+    X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                            \
+    X(slow_time, double, FIELD_F64, 1, "s", "under thrust and slower than the beset speed")       \
+    X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                            \
+    X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                        \
+    X(rams, int64_t, FIELD_I64, 1, "1", "times that it came ahead again after backing")
+TABLE_DECLARE(propulsion, PROPULSION_FIELDS)
+
+/* Way points of all vessels that follow some, in their order. */
+#define COURSE_FIELDS(X)                                       \
+    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel") \
+    X(place, vec2, FIELD_F64, 2, "m", "of the way point")
+TABLE_DECLARE(course, COURSE_FIELDS)
+
+/* T_net at a speed through the water [N]; a speed astern counts as 0. */
+double propulsion_net_thrust(double bollard_pull, double open_water_speed, double speed);
+
+/* A new row for a vessel that lies where it was made. */
+fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, int32_t vessel,
+                           const vessel_table *vessels, const body_table *bodies, propulsion_table *out,
+                           fram_error *error);
+
+/* What the step looks like to a propulsion. */
+typedef struct propulsion_moment {
+    double time, dt;
+    vec2 water;        /* velocity of the water [m/s] */
+    vec2 drift;        /* velocity of the ice far away; 0: the pattern keeps its axis [m/s] */
+    double resistance; /* of the water to the hull, against its way ahead [N] */
+} propulsion_moment;
+
+/* Steer, set the thrust, and add it to the load on the hull (about its centre of mass). */
+fram_status propulsion_step(context *ctx, propulsion_table *propulsion, int32_t row, const propulsion_moment *now,
+                            const vessel_table *vessels, const body_table *bodies, const course_table *course,
+                            wrench *load, event_table *events, fram_error *error);
+
+#endif

@@ -1,0 +1,311 @@
+/* A vessel that drives itself: speed in open water and in ice, tracks that turn with the drift, ramming. */
+#include "scene.h"
+
+#include "base/transcendental.h"
+
+#include <stdio.h>
+
+/* A ship with what it follows. */
+#define SHIP_WITH(track)                                                               \
+    "run: {duration: 1000, time_step: 0.05, scale: 30}\n"                              \
+    "vessel:\n  mode: free\n"                                                          \
+    "  hull: {form: icebreaker, length: 60, beam: 14, draught: 5, freeboard: 4,\n"     \
+    "         stem_angle_deg: 25, entrance_angle_deg: 30, flare_angle_deg: 8,\n"       \
+    "         stern_angle_deg: 30, parallel_midbody: 0.4}\n"                           \
+    "  propulsion: {bollard_pull: 8.0e5, open_water_speed: 7" track "}\n"              \
+    "ice: {source: none}\n"                                                            \
+    "domain: {x_min: -2000, x_max: 8000, y_min: -4000, y_max: 4000, boundary: open}\n" \
+    "environment: {hull_drag: {water_form: 1}}\n" /* of a ship's side in cross flow */
+
+static const char *const SHIP = SHIP_WITH("");
+
+static double speed_of(const scene *k) { return k->w.bodies.velocity[k->w.vessels.body[0]].x; }
+
+/* ---- thrust ---- */
+
+/* From rest M dv/dt = T_net(v), with M the mass and no added mass here: the speed after each time is that of the
+   equation, integrated by itself; in the end it is the open-water speed, whatever the hull's drag. */
+START_TEST(runs_at_its_open_water_speed)
+{
+    for (int half = 0; half < 2; half++) {
+        const char *power[] = {half ? "vessel.propulsion.power=0.5" : "vessel.propulsion.power=1"};
+        double third = half ? real_pow(0.5, 1.0 / 3) : 1, pull = 8e5 * third * third, most = 7 * third;
+        scene k;
+        scene_open_with(&k, SHIP, power, 1);
+        double mass = k.w.bodies.mass[k.w.vessels.body[0]], v = 0;
+        for (int i = 1; i <= 6000; i++) {
+            scene_steps(&k, 1);
+            v += 0.05 / mass * pull * (1 - v / (3 * most) - 2 * v * v / (3 * most * most));
+            if (i % 200 == 0)
+                ck_assert_msg(fabs(speed_of(&k) - v) < 0.01 * most, "%g m/s after %g s, expected %g", speed_of(&k),
+                              0.05 * i, v);
+        }
+        assert_absolute(speed_of(&k), most, 0.005 * most);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+START_TEST(net_thrust_is_the_published_curve)
+{
+    assert_relative(propulsion_net_thrust(1e6, 8, 0), 1e6, 1e-15);
+    assert_relative(propulsion_net_thrust(1e6, 8, 4), 1e6 * (1 - 1.0 / 6 - 1.0 / 6), 1e-15);
+    assert_absolute(propulsion_net_thrust(1e6, 8, 8), 0, 1e-9);
+    ck_assert(propulsion_net_thrust(1e6, 8, 9) < 0);
+}
+END_TEST
+
+/* By hand for 60 x 14 x 5 m of block coefficient 0.5: pi (T/L)^2 = pi / 144, rho L^2 / 2 = 1 845 000 kg/m. */
+START_TEST(lift_on_the_hull_is_the_published_regression)
+{
+    hull_lift l = hull_lift_of(60, 14, 5, 2100, 1025);
+    const double flat = PI / 144, square = 1845000;
+    assert_relative(l.y_v, -square * flat * (1 + 0.4 * 0.5 * 2.8), 1e-12);
+    assert_relative(l.y_r, -square * 60 * flat * (-0.5 + 2.2 * 14 / 60 - 0.08 * 2.8), 1e-12);
+    assert_relative(l.n_v, -square * 60 * flat * (0.5 + 2.4 * 5 / 60), 1e-12);
+    assert_relative(l.n_r, -square * 3600 * flat * (0.25 + 0.039 * 2.8 - 0.56 * 14 / 60), 1e-12);
+}
+END_TEST
+
+/* A ship that slides to port as it goes ahead is pushed back to starboard and its bow turned to where it goes; without
+   way on, or astern, nothing of that.  Steering angle and water's drag are 0 here: the load is thrust and lift alone.
+ */
+START_TEST(lift_acts_against_sliding_and_turning)
+{
+    static const double ahead[] = {4, 0, -2};
+    for (int n = 0; n < 3; n++) {
+        scene k;
+        scene_open(&k, SHIP);
+        int32_t body = k.w.vessels.body[0];
+        wrench load = {0};
+        propulsion_moment now = {0, 1e-9, {0.3, 0.1}, {0, 0}, 0};
+        k.w.bodies.velocity[body] = vec3_make(ahead[n] + 0.3, 0.5 + 0.1, 0);
+        k.w.bodies.angular_velocity[body] = vec3_make(0, 0, -0.01);
+        hull_lift l = k.w.propulsion.settings[0].lift;
+        fram_error error = {0};
+        assert_ok(propulsion_step(&k.ctx, &k.w.propulsion, 0, &now, &k.w.vessels, &k.w.bodies, &k.w.course, &load,
+                                  &k.w.events, &error),
+                  error);
+        double u = n == 0 ? 4 : 0;
+        assert_absolute(load.force.y, u * (0.5 * l.y_v - 0.01 * l.y_r), 1);
+        assert_absolute(load.moment.z, u * (0.5 * l.n_v - 0.01 * l.n_r), 30);
+        ck_assert(n > 0 || load.force.y < -1e5);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+/* A wanted speed is kept within the band that full thrust needs. */
+START_TEST(keeps_the_speed_that_is_wanted)
+{
+    static const char *const wanted[] = {"vessel.propulsion.speed=3"};
+    scene k;
+    scene_open_with(&k, SHIP, wanted, 1);
+    scene_steps(&k, 3000);
+    assert_absolute(speed_of(&k), 3, 0.02);
+    scene_close(&k);
+}
+END_TEST
+
+/* ---- tracks ---- */
+
+START_TEST(patterns_are_closed_lines_of_their_length)
+{
+    for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
+        pattern_shape p = {(pattern_kind)kind, 300, 120};
+        double sum = 0;
+        vec2 last = pattern_point(&p, 0), first = last;
+        for (int i = 1; i <= 4000; i++) {
+            vec2 next = pattern_point(&p, i % 4000 / 4000.0);
+            sum += vec2_length(vec2_sub(next, last));
+            last = next;
+        }
+        assert_relative(sum, pattern_length(&p), 1e-5);
+        ck_assert(vec2_length(vec2_sub(last, first)) < 1e-9);
+    }
+    pattern_shape arc = {PATTERN_SECTOR, 300, 120}, circle = {PATTERN_CIRCLE, 300, 120};
+    for (int i = 0; i < 100; i++) {
+        assert_relative(vec2_length(pattern_point(&arc, i / 100.0)), 300, 1e-12);
+        assert_relative(vec2_length(vec2_sub(pattern_point(&circle, i / 100.0), (vec2){300, 0})), 60, 1e-12);
+    }
+}
+END_TEST
+
+/* Way points: within a lookahead of each of them, then along the last leg's line. */
+START_TEST(follows_way_points)
+{
+    scene k;
+    scene_open(&k, SHIP_WITH(", waypoints: [{x: 800, y: 0}, {x: 800, y: 900}, {x: -200, y: 900}]"));
+    double nearest[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    const vec2 place[3] = {{800, 0}, {800, 900}, {-200, 900}};
+    for (int i = 0; i < 11000; i++) {
+        scene_steps(&k, 1);
+        vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+        for (int n = 0; n < 3; n++)
+            nearest[n] = fmin(nearest[n], vec2_length(vec2_sub((vec2){r.x, r.y}, place[n])));
+    }
+    for (int n = 0; n < 3; n++)
+        ck_assert_msg(nearest[n] < 150, "%g m from way point %d", nearest[n], n);
+    vec3 end = k.w.bodies.position[k.w.vessels.body[0]];
+    ck_assert_msg(end.x < -100 && fabs(end.y - 900) < 20, "ends at %g %g", end.x, end.y);
+    scene_close(&k);
+}
+END_TEST
+
+/* A circle updrift of a place is gone round; when the drift turns, so does the circle. */
+START_TEST(goes_round_its_circle)
+{
+    static const char *const circle[] = {"vessel.propulsion.pattern.kind=circle",
+                                         "vessel.propulsion.pattern.distance=600",
+                                         "vessel.propulsion.pattern.width=700",
+                                         "vessel.propulsion.lookahead=100",
+                                         "vessel.x=300",
+                                         "vessel.propulsion.speed=4"};
+    scene k;
+    scene_open_with(&k, SHIP, circle, 6);
+    double worst = 0;
+    k.m.boundary = DOMAIN_FEEDING; /* no ice: only the drift that the pattern turns with */
+    k.m.drift_given = true;
+    for (int i = 0; i < 24000; i++) {
+        bool turned = i >= 12000;
+        k.m.drift = turned ? vec2_make(0, -0.5) : vec2_make(-0.5, 0);
+        scene_steps(&k, 1);
+        vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+        vec2 centre = turned ? (vec2){0, 600} : (vec2){600, 0};
+        double off = fabs(vec2_length(vec2_sub((vec2){r.x, r.y}, centre)) - 350);
+        if (i % 12000 > 6000)
+            worst = fmax(worst, off);
+    }
+    ck_assert_msg(worst < 35, "%g m off the circle", worst);
+    ck_assert_int_ge(k.w.propulsion.rounds[0], 1);
+    scene_close(&k);
+}
+END_TEST
+
+/* ---- ice ---- */
+
+/* Lindqvist (1989): crushing at the stem, bending, submersion; with speed [N]. */
+static double lindqvist(double v, double h)
+{
+    double phi = 25 * PI / 180, alpha = 30 * PI / 180, mu = 0.1, sigma = 5e5, e = 5e9, nu = 0.3, b = 14, t = 5, l = 60;
+    double tan_phi = real_tan(phi), cos_phi = real_cos(phi), sin_phi = real_sin(phi);
+    double psi = real_atan2(tan_phi, real_sin(alpha)), cos_psi = real_cos(psi), weight = 1025 * 9.81;
+    double crush = 0.5 * sigma * h * h * (tan_phi + mu * cos_phi / cos_psi) / (1 - mu * sin_phi / cos_psi);
+    double bend = 27.0 / 64 * sigma * b * real_pow(h, 1.5) / sqrt(e / (12 * (1 - nu * nu) * weight)) *
+                  (real_tan(psi) + mu * cos_phi / (real_sin(alpha) * cos_psi)) * (1 + 1 / cos_psi);
+    double sink =
+        (1025 - 920) * 9.81 * h * b *
+        (t * (b + t) / (b + 2 * t) +
+         mu * (0.7 * l - t / tan_phi - b / (4 * real_tan(alpha)) +
+               t * cos_phi * cos_psi * sqrt(1 / (sin_phi * sin_phi) + 1 / (real_tan(alpha) * real_tan(alpha)))));
+    return (crush + bend) * (1 + 1.4 * v / sqrt(9.81 * h)) + sink * (1 + 9.4 * v / sqrt(9.81 * l));
+}
+
+/* Speed at which net thrust is Lindqvist's resistance; 0 when it never is. */
+static double lindqvist_speed(double pull, double h)
+{
+    double lo = 0, hi = 7;
+    for (int i = 0; i < 60; i++) {
+        double v = (lo + hi) / 2;
+        *(propulsion_net_thrust(pull, 7, v) > lindqvist(v, h) ? &lo : &hi) = v;
+    }
+    return lo;
+}
+
+/* Mean speed in level ice over the second half of 24 s, from a start at a given speed; the ship is not beset. */
+static double speed_in(const char *thickness, const char *start)
+{
+    const char *ice[] = {"ice.source=level",   thickness,           "ice.breakable=true",
+                         "ice.level.x_min=32", "domain.x_min=-100", "domain.x_max=200",
+                         "domain.y_min=-40",   "domain.y_max=40",   start,
+                         "run.time_step=0.02"};
+    scene k;
+    scene_open_with(&k, SHIP, ice, 10);
+    int steps = getenv("FRAM_TEST_SHORT") ? 400 : 1200;
+    scene_steps(&k, steps / 2);
+    double from = k.w.bodies.position[k.w.vessels.body[0]].x;
+    scene_steps(&k, steps / 2);
+    double way = k.w.bodies.position[k.w.vessels.body[0]].x - from;
+    ck_assert_int_eq(k.w.propulsion.besets[0], 0);
+    scene_close(&k);
+    return way / (0.02 * steps / 2);
+}
+
+/* The thicker the ice the slower, near the speed at which the net thrust is Lindqvist's resistance: Fram's resistance
+   of such a ship is 0.58 to 0.79 of his (docs/validation/lindqvist.md), so that it is faster. */
+START_TEST(speed_falls_with_thickness)
+{
+    double v1 = speed_in("ice.thickness=0.4", "vessel.speed=5"), v2 = speed_in("ice.thickness=0.8", "vessel.speed=3");
+    double l1 = lindqvist_speed(8e5, 0.4), l2 = lindqvist_speed(8e5, 0.8);
+    printf("%g and %g m/s; Lindqvist %g and %g\n", v1, v2, l1, l2);
+    ck_assert_msg(v1 > v2, "%g and %g m/s; Lindqvist %g and %g", v1, v2, l1, l2);
+    ck_assert_msg(v1 > 0.9 * l1 && v1 < 1.5 * l1, "%g m/s, Lindqvist %g", v1, l1);
+    ck_assert_msg(v2 > 0.9 * l2 && v2 < 2.5 * l2, "%g m/s, Lindqvist %g", v2, l2);
+    ck_assert(lindqvist_speed(8e5, 3) < 1e-6);
+}
+END_TEST
+
+/* Where it cannot go on it backs by its distance and comes again. */
+START_TEST(backs_and_rams)
+{
+    static const char *const ice[] = {"ice.source=level",
+                                      "ice.thickness=3",
+                                      "ice.level.x_min=40",
+                                      "domain.x_min=-200",
+                                      "domain.x_max=200",
+                                      "domain.y_min=-40",
+                                      "domain.y_max=40",
+                                      "vessel.speed=3",
+                                      "vessel.propulsion.beset_time=5",
+                                      "vessel.propulsion.ram_distance=30"};
+    scene k;
+    scene_open_with(&k, SHIP, ice, 10);
+    double furthest = -HUGE_VAL, back = HUGE_VAL;
+    for (int i = 0; i < 6000 && k.w.propulsion.rams[0] < 3; i++) {
+        scene_steps(&k, 1);
+        double x = k.w.bodies.position[k.w.vessels.body[0]].x;
+        furthest = fmax(furthest, x);
+        back = k.w.propulsion.rams[0] > 0 ? fmin(back, x) : back;
+    }
+    ck_assert_int_eq(k.w.propulsion.rams[0], 3);
+    ck_assert_int_eq(k.w.propulsion.besets[0], 3);
+    ck_assert_msg(furthest - back > 20 && furthest - back < 60, "backs by %g m", furthest - back);
+    int told = 0;
+    for (int32_t i = 0; i < k.w.events.count; i++)
+        told += k.w.events.kind[i] == EVENT_BESET || k.w.events.kind[i] == EVENT_RAM;
+    ck_assert_int_eq(told, 6);
+    scene_close(&k);
+}
+END_TEST
+
+/* ---- what is refused ---- */
+
+static void check_refusal(const char *text, const char *const *overrides, int count, const char *key)
+{
+    context ctx;
+    scenario s = {0};
+    fram_error error = {0};
+    const scenario_overrides list = {overrides, count};
+    context_init(&ctx);
+    ck_assert_int_eq(scenario_parse(&ctx, "scene.yaml", text, strlen(text), &list, &s, &error), FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, key);
+    scenario_free(&ctx, &s);
+}
+
+START_TEST(refusals_name_their_key)
+{
+    static const char *const towed[] = {"vessel.mode=towed"};
+    static const char *const none[] = {"vessel.propulsion.bollard_pull=auto", "vessel.propulsion.pattern.kind=line"};
+    static const char *const both[] = {"vessel.propulsion.pattern.kind=line"};
+    static const char *const kind[] = {"vessel.propulsion.pattern.kind=spiral"};
+    check_refusal(SHIP, towed, 1, "vessel.propulsion.bollard_pull");
+    check_refusal(SHIP, none, 2, "vessel.propulsion.bollard_pull");
+    check_refusal(SHIP_WITH(", waypoints: [{x: 1, y: 1}]"), both, 1, "vessel.propulsion.waypoints");
+    check_refusal(SHIP, kind, 1, "vessel.propulsion.pattern.kind");
+}
+END_TEST
+
+TEST_MAIN("propulsion", runs_at_its_open_water_speed, net_thrust_is_the_published_curve,
+          lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
+          keeps_the_speed_that_is_wanted, patterns_are_closed_lines_of_their_length, follows_way_points,
+          goes_round_its_circle, speed_falls_with_thickness, backs_and_rams, refusals_name_their_key)
