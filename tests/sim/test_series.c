@@ -22,6 +22,7 @@ typedef struct row {
 static void take(const scene *k, row *r)
 {
     fram_error error = {0};
+    series_layout_free((context *)&k->ctx, &r->layout); /* of the last row, or nothing */
     assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
     ck_assert_int_le(r->layout.columns.count, 400);
     series_row(&r->layout, &k->w, 0, r->value);
@@ -48,7 +49,7 @@ static void assert_channels(const row *r, const char *name, vec3 expected)
 START_TEST(station_as_recorded)
 {
     scene k;
-    row r;
+    row r = {0};
     scene_open(&k, moored);
     station_table *s = &k.w.stations;
     s->mooring_load[0] = (wrench){{1, 2, 3}, {4, 5, 6}};
@@ -65,6 +66,7 @@ START_TEST(station_as_recorded)
     assert_channels(&r, "estimated_load", vec3_make(16, 17, 18));
     ck_assert(channel(&r, "offset_x") == 19 && channel(&r, "offset_y") == 20);
     assert_relative(channel(&r, "heading_deviation"), 21, 1e-12);
+    series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
 END_TEST
@@ -73,7 +75,7 @@ END_TEST
 START_TEST(mooring_moments_are_about_the_centre_of_mass)
 {
     scene k;
-    row r;
+    row r = {0};
     scene_open(&k, moored);
     int32_t body = k.w.vessels.body[0];
     vec3 at = k.w.bodies.position[body];
@@ -88,6 +90,7 @@ START_TEST(mooring_moments_are_about_the_centre_of_mass)
     assert_absolute(channel(&r, "mooring_moment_x"), expected.moment.x, 1e-9 * scale);
     assert_absolute(channel(&r, "mooring_moment_y"), expected.moment.y, 1e-9 * scale);
     assert_absolute(channel(&r, "mooring_moment_z"), expected.moment.z, 1e-9 * scale);
+    series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
 END_TEST
@@ -95,7 +98,7 @@ END_TEST
 START_TEST(counts_as_recorded)
 {
     scene k;
-    row r;
+    row r = {0};
     scene_open(&k, moored);
     k.w.lines.tension[0] = 700;
     k.w.lines.tension[1] = 500;
@@ -115,6 +118,7 @@ START_TEST(counts_as_recorded)
     floe_remove(&k.w.bodies, &k.w.shapes, &k.w.floes, 2);
     take(&k, &r);
     ck_assert(channel(&r, "bodies") == bodies - 1 && channel(&r, "floes") == floes - 1);
+    series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
 END_TEST
@@ -123,7 +127,7 @@ END_TEST
 START_TEST(loads_in_the_vessels_axes)
 {
     scene k;
-    row r;
+    row r = {0};
     scene_open(&k, moored);
     int32_t body = k.w.vessels.body[0];
     k.w.bodies.orientation[body] = quat_from_roll_pitch_yaw(0, 0, PI / 2);
@@ -140,6 +144,7 @@ START_TEST(loads_in_the_vessels_axes)
     assert_absolute(channel(&r, "ice_moment_body_z"), 40, 1e-9);
     assert_channels(&r, "fluid_force", vec3_make(3, 20, 100));
     assert_channels(&r, "fluid_moment", vec3_make(0, 0, 4));
+    series_layout_free(&k.ctx, &r.layout);
     scene_close(&k);
 }
 END_TEST

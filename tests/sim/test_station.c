@@ -14,6 +14,7 @@ typedef struct record_row {
 static void take_row(const scene *k, record_row *r)
 {
     fram_error error = {0};
+    series_layout_free((context *)&k->ctx, &r->layout); /* of the last row, or nothing */
     assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
     ck_assert_int_le(r->layout.columns.count, 400);
     series_row(&r->layout, &k->w, 0, r->value);
@@ -50,7 +51,7 @@ static double worst_balance(const char *const *overrides, int count, int steps)
 {
     scene k;
     scene_open_with(&k, towed, overrides, count);
-    record_row row;
+    record_row row = {0};
     double worst = 0, peak = 0, mass = k.w.bodies.mass[k.w.vessels.body[0]];
     vec3 before = k.w.bodies.velocity[k.w.vessels.body[0]];
     for (int i = 0; i < steps; i++) {
@@ -65,6 +66,7 @@ static double worst_balance(const char *const *overrides, int count, int steps)
         before = now;
     }
     ck_assert_msg(peak > 1e4, "the hull met no ice (%g N)", peak);
+    series_layout_free(&k.ctx, &row.layout);
     scene_close(&k);
     return worst / peak;
 }
@@ -94,7 +96,7 @@ START_TEST(a_ship_holds_its_place_until_its_thrusters_fail)
 {
     scene k;
     scene_open(&k, held);
-    record_row row;
+    record_row row = {0};
     scene_steps(&k, 59 * 20);
     take_row(&k, &row);
     ck_assert(fabs(channel(&row, "offset_x")) < 0.5 && fabs(channel(&row, "offset_y")) < 1);
@@ -113,6 +115,7 @@ START_TEST(a_ship_holds_its_place_until_its_thrusters_fail)
     ck_assert_int_eq(k.w.events.count, 4);
     ck_assert_int_eq(k.w.events.kind[3], EVENT_POSITION_LOST);
     assert_absolute(k.w.events.value[3], 8, 0.1);
+    series_layout_free(&k.ctx, &row.layout);
     scene_close(&k);
 }
 END_TEST
@@ -132,7 +135,7 @@ START_TEST(a_moored_ship_begins_in_balance)
     scene_open(&k, moored);
     vec3 start = k.w.bodies.position[0];
     ck_assert(start.x > 0.1 && start.y > 0.05);
-    record_row row;
+    record_row row = {0};
     scene_steps(&k, 1);
     take_row(&k, &row);
     vec3 pull = channel3(&row, "mooring_force"), drag = channel3(&row, "fluid_force");
@@ -142,6 +145,7 @@ START_TEST(a_moored_ship_begins_in_balance)
     scene_steps(&k, 400);
     assert_absolute(k.w.bodies.position[0].x, start.x, 0.1);
     assert_absolute(k.w.bodies.position[0].y, start.y, 0.1);
+    series_layout_free(&k.ctx, &row.layout);
     scene_close(&k);
 }
 END_TEST
