@@ -341,7 +341,7 @@ static bool put_contact_forces(recorder *r, const world *w, int32_t vessel, int3
         if (s->weight == 0)
             continue;
         record_force_kind kind = w->bodies.material[i] == MATERIAL_ICE ? RECORD_FORCE_ICE : RECORD_FORCE_HULL;
-        good = put_force(r, kind, i, vec3_scale(s->moment, 1 / s->weight), s->on_vessel);
+        good = put_force(r, (int32_t)kind, i, vec3_scale(s->moment, 1 / s->weight), s->on_vessel);
         ++*count;
     }
     return good;

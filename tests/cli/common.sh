@@ -29,6 +29,8 @@ expect() {
     "$@" >out 2>err || code=$?
     [ "$code" = "$wanted" ] || fail "exit code $code instead of $wanted: $*: $(tail -n 2 err)"
 }
+# Whether the command has an optional library: built_with cairo, built_with netcdf.
+built_with() { "$FRAM" --version | grep -q "$1"; }
 # The value of an expression of the JSON object j on the last line of out.
 value() { tail -n 1 out | python3 -c 'import json, sys; j = json.load(sys.stdin); print('"$1"')'; }
 # same FOUND WANTED NAME

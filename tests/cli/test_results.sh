@@ -23,7 +23,7 @@ YAML
 "$FRAM" run scene.yaml -o run -q
 "$FRAM" run scene.yaml -o thin -q --set ice.thickness=0.4
 pictures=no
-! "$FRAM" --version | grep -q cairo || pictures=yes
+! built_with cairo || pictures=yes
 
 # Help, and words that do not fit.
 for command in export report plot compare video; do

@@ -21,7 +21,9 @@ output: {checkpoint_interval: 4, frame_interval: 1}
 YAML
 expect 0 "$FRAM" run chain.yaml -o run --quiet
 find run -type f -exec cksum {} + | sort >before
-expect 0 "$FRAM" why run --peak 1 -o peak.png
+picture=()
+! built_with cairo || picture=(-o peak.png)
+expect 0 "$FRAM" why run --peak 1 "${picture[@]}"
 find run -type f -exec cksum {} + | sort >after
 cmp -s before after || fail "fram why changes the run's folder"
 says "Peak 1 of" out
@@ -29,7 +31,7 @@ says "a chain of floes against" out
 holds 'hull -> floe 0 (.*) -> floe 1 (.*) -> floe 2 (.*) -> wall (.*); the end: it is a wall' out
 says "half the time step" out
 says "the accurate solver" out
-[ "$(head -c 4 peak.png | tail -c 3)" = PNG ] || fail "peak.png is no picture"
+! built_with cairo || [ "$(head -c 4 peak.png | tail -c 3)" = PNG ] || fail "peak.png is no picture"
 
 # As JSON: the parts sum to the load, by zone too; computed again by the same method it is the same.
 expect 0 "$FRAM" why run --peak 1 --json

@@ -78,7 +78,7 @@ START_TEST(lengths_between)
     static const double LENGTHS[] = {0.1, 0.5, 1, 2, 3, 4, 6};
     double last = 0;
     for (size_t i = 0; i < sizeof LENGTHS / sizeof *LENGTHS; i++) {
-        double place, moment = by_steps(LENGTHS[i], &place);
+        double place = 0, moment = by_steps(LENGTHS[i], &place);
         strip s = strip_solve(LENGTHS[i]);
         assert_relative(s.moment, moment, 1e-5);
         assert_absolute(s.x_max, place, 1.5 * LENGTHS[i] / NODES);
