@@ -143,6 +143,9 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
     char *text = NULL, ignored[16];
     size_t size = 0;
     csv_want want = {.path = path, .time = -1, .maxima = source->maxima};
+    fram_status readable = file_check(path, error);
+    if (readable != FRAM_OK)
+        return readable;
     if (!source->channel)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "channel", "is missing: name the column of %s", path);
     fram_status status = file_read(ctx, path, SERIES_BYTES_MOST, &text, &size, error);

@@ -134,6 +134,7 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "tension"), "series.csv:4:", "expected a number", "x")
         self.refused(("extremes", file, "--channel", "tensoin"), "tensoin", "did you mean tension?")
         self.refused(("extremes", file), "channel")
+        self.refused(("extremes", str(file) + "-not-there"), "series.csv-not-there")
         self.refused(("extremes", file, "--channel", "tension", "--method", "gumble"), "method", "gumble")
         self.refused(("extremes", file, "--channel", "tension", "--duration", "3 hours"), "--duration")
         self.refused(("extremes", file, "--channel", "tension", "--duration", "-3h"), "duration")
