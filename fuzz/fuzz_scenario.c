@@ -56,7 +56,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     } else {
         PROMISE(status == FRAM_ERROR_INPUT || status == FRAM_ERROR_USAGE);
         PROMISE(error.status == status);
-        PROMISE(strcmp(error.file, "fuzz.yaml") == 0 || strcmp(error.file, "--set") == 0);
+        PROMISE(strcmp(error.file, "fuzz.yaml") == 0 || strcmp(error.file, SCENARIO_OVERRIDE) == 0);
         PROMISE(error.message[0] != '\0');
     }
     free(copy);
