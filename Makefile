@@ -64,7 +64,7 @@ bench-python: build | $(STAMPS)/python ## what reading poses and outlines from P
 bench-recording: build ## what recording costs in time and bytes, against its bounds
 	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)
 
-test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and the threaded rooms under TSan
+test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and those with threads under TSan
 
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
@@ -72,7 +72,7 @@ test-asan: build/asan/build.ninja
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS)
-	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^(base|dynamics|fluid|ice|vessel|sim|api)$$'
+	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^threads$$'
 
 test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
 	@cmake --build --preset clang -j$(JOBS)

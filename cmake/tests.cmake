@@ -4,6 +4,7 @@
 #   tests/<group>/test_<topic>.py  FRAM_SOURCE set; exit code 77 means skipped (say why on standard output)
 #   fuzz/fuzz_<name>.c             LLVMFuzzerTestOneInput; the committed corpus is replayed as fuzz/<name>
 # Every test runs in the source folder, and none reads the clock to pass.
+# Each has its room for a label; those that make threads are labelled so too, since a race needs two of them.
 
 # libcheck kills a test after 4 s by default: too little for a sanitizer on a busy machine.
 set(test_environment "CK_DEFAULT_TIMEOUT=300" "FRAM_BUILD=${CMAKE_BINARY_DIR}" "FRAM_SOURCE=${CMAKE_SOURCE_DIR}"
@@ -20,6 +21,13 @@ if(FRAM_SANITIZE)
         "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tools/leaks.txt:print_suppressions=0"
         "UBSAN_OPTIONS=print_stacktrace=1" "TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1")
 endif()
+
+function(fram_label_threads name source)
+    file(STRINGS "${source}" mentions REGEX "pool_create|threads")
+    if(mentions)
+        set_property(TEST ${name} APPEND PROPERTY LABELS threads)
+    endif()
+endfunction()
 
 function(fram_test name label)
     add_test(NAME ${name} COMMAND ${ARGN} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
@@ -51,6 +59,7 @@ if(FRAM_TESTS)
         target_compile_options(${program} PRIVATE -Wno-psabi)
         set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
         fram_test(${room}/${topic} ${room} ${program})
+        fram_label_threads(${room}/${topic} "${source}")
     endforeach()
 
     find_package(Python3 COMPONENTS Interpreter QUIET)

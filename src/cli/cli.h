@@ -88,6 +88,12 @@ void json_close(json *j);
 void json_open_list(json *j, const char *key);
 void json_close_list(json *j);
 
+/* --- beside.c --- */
+
+enum { BESIDE_SIZE = 1024 };
+/* The first of the places, relative to the folder of the command's own file, where a file can be read; false: none. */
+bool find_beside(const char *const *places, size_t count, char out[BESIDE_SIZE]);
+
 /* --- outputs.c --- */
 
 /* A file that a command writes: the option that names it, and the endings of the names of its kind, "png svg" (NULL:

@@ -4,30 +4,13 @@
 #include "fram/fmu.h"
 
 #include <string.h>
-#include <unistd.h>
-
-enum { PATH_SIZE = 1024 };
 
 /* The unit's binary beside the command: in the build tree, or where it was installed. */
-static bool find_binary(char out[PATH_SIZE])
+static bool find_binary(char out[BESIDE_SIZE])
 {
     static const char *const places[] = {"fram_fmu.so", "../lib/fram/fram_fmu.so",
                                          "../lib/x86_64-linux-gnu/fram/fram_fmu.so"};
-    char self[PATH_SIZE / 2];
-    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (length <= 0)
-        return false;
-    self[length] = '\0';
-    char *slash = strrchr(self, '/');
-    if (!slash)
-        return false;
-    *slash = '\0';
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        snprintf(out, PATH_SIZE, "%s/%s", self, places[i]);
-        if (access(out, R_OK) == 0)
-            return true;
-    }
-    return false;
+    return find_beside(places, sizeof places / sizeof *places, out);
 }
 
 static void print_result(const common_options *common, const char *output, const fram_fmu_result *r)
@@ -92,7 +75,7 @@ int command_fmu(const command_row *self, int argc, char **argv)
         return code;
     if (!d.output)
         return answer_usage(&common, "--output", "is missing: name the unit, -o NAME.fmu");
-    char found[PATH_SIZE];
+    char found[BESIDE_SIZE];
     if (!d.binary && !find_binary(found))
         return answer_usage(&common, "--binary", "fram_fmu.so is not beside the command: name it with --binary FILE");
     if (!d.binary)

@@ -2,29 +2,12 @@
 #include "cli/cli.h"
 
 #include <string.h>
-#include <unistd.h>
-
-enum { PATH_SIZE = 1024 };
 
 /* The viewer's page beside the command: in the build tree, or where it was installed. */
-static bool find_page(char out[PATH_SIZE])
+static bool find_page(char out[BESIDE_SIZE])
 {
     static const char *const places[] = {"../viewer/playback.html", "../share/fram/playback.html"};
-    char self[PATH_SIZE / 2];
-    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (length <= 0)
-        return false;
-    self[length] = '\0';
-    char *slash = strrchr(self, '/');
-    if (!slash)
-        return false;
-    *slash = '\0';
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        snprintf(out, PATH_SIZE, "%s/%s", self, places[i]);
-        if (access(out, R_OK) == 0)
-            return true;
-    }
-    return false;
+    return find_beside(places, sizeof places / sizeof *places, out);
 }
 
 static void print_result(const common_options *common, const char *output, const fram_playback_result *r)
@@ -74,7 +57,7 @@ int command_view(const command_row *self, int argc, char **argv)
     if (!is_limit(page_mb) || !is_limit(total_mb))
         return answer_usage(&common, is_limit(page_mb) ? "--total-limit" : "--page-limit",
                             "expected megabytes from 0 (as by default) to 1e6");
-    char found[PATH_SIZE], beside[PATH_SIZE];
+    char found[BESIDE_SIZE], beside[BESIDE_SIZE];
     if (!definition.viewer_page && !find_page(found))
         return answer_usage(&common, "--page",
                             "the viewer's page is not there: build it with make viewer, or name it with --page FILE");

@@ -218,9 +218,10 @@ static fram_status add_table(const study_source *r, const yaml_node *node, const
 
 static fram_status read_table(const study_source *r, const yaml_node *node)
 {
-    if (node->kind != YAML_SCALAR)
+    const char *name = node->kind == YAML_SCALAR ? yaml_text(r->tree, node->value) : "";
+    if (!*name)
         return study_refuse(r, node, "expected the name of a CSV file with a column for each key");
-    const char *name = yaml_text(r->tree, node->value), *slash = strrchr(r->out->file, '/');
+    const char *slash = strrchr(r->out->file, '/');
     text_buffer path = {0};
     if (name[0] != '/' && slash)
         text_add_bytes(r->ctx, &path, r->out->file, (size_t)(slash + 1 - r->out->file));

@@ -70,7 +70,7 @@ class Units(unittest.TestCase):
             self.assertIn(variable.find("Real").get("unit"), units | {None})
         outputs = [i for i, v in enumerate(unit.variables.values(), start=1) if v.get("causality") == "output"]
         self.assertEqual([int(u.get("index")) for u in unit.description.find("ModelStructure/Outputs")], outputs)
-        self.assertEqual(unit.library.fmi2GetVersion(), b"2.0")
+        self.assertEqual(unit.binary.fmi2GetVersion(), b"2.0")
         # The same scenario makes the same bytes.
         (self.folder / "again").mkdir()
         self.fram("fmu", self.scene, "-o", self.folder / "again/ship.fmu", "-q")

@@ -27,9 +27,9 @@ class Unit:
         self.variables = {v.get("name"): v for v in self.description.iter("ScalarVariable")}
         self.reference = {name: int(v.get("valueReference")) for name, v in self.variables.items()}
         self.step_size = float(self.description.find("DefaultExperiment").get("stepSize"))
-        self.library = c.CDLL(str(self.folder / f"binaries/linux64/{self.name}.so"))
-        self.library.fmi2Instantiate.restype = c.c_void_p
-        self.library.fmi2GetVersion.restype = c.c_char_p
+        self.binary = c.CDLL(str(self.folder / f"binaries/linux64/{self.name}.so"))
+        self.binary.fmi2Instantiate.restype = c.c_void_p
+        self.binary.fmi2GetVersion.restype = c.c_char_p
 
     def instance(self, guid=None, where=None, name="one"):
         return Instance(self, guid or self.description.get("guid"), where, name)
@@ -45,11 +45,11 @@ class Instance:
 
         self.callbacks = Callbacks(LOGGER(log), None, None, None, None)
         where = where or (unit.folder / "resources").as_uri()
-        self.c = unit.library.fmi2Instantiate(name.encode(), 1, guid.encode(), where.encode(), c.byref(self.callbacks),
+        self.c = unit.binary.fmi2Instantiate(name.encode(), 1, guid.encode(), where.encode(), c.byref(self.callbacks),
                                               0, 0)
 
     def call(self, name, *arguments, status=OK):
-        found = getattr(self.unit.library, "fmi2" + name)(c.c_void_p(self.c), *arguments)
+        found = getattr(self.unit.binary, "fmi2" + name)(c.c_void_p(self.c), *arguments)
         assert found == status, f"{name}: status {found}, {self.told}"
 
     def initialise(self, start=0.0):
@@ -97,7 +97,7 @@ class Instance:
         return state
 
     def free(self):
-        self.unit.library.fmi2FreeInstance(c.c_void_p(self.c))
+        self.unit.binary.fmi2FreeInstance(c.c_void_p(self.c))
 
 
 class World:

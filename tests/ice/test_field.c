@@ -97,7 +97,7 @@ START_TEST(every_seed)
 END_TEST
 
 /* The same bits for the same seed, on one thread and on three. */
-START_TEST(deterministic)
+START_TEST(the_same_on_any_threads)
 {
     context ctx;
     context_init(&ctx);
@@ -438,5 +438,5 @@ START_TEST(periodic_fields)
 }
 END_TEST
 
-TEST_MAIN("field", concentrations, every_seed, periodic_fields, deterministic, sizes, roundness, keep_out_zones,
-          zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out)
+TEST_MAIN("field", concentrations, every_seed, periodic_fields, the_same_on_any_threads, sizes, roundness,
+          keep_out_zones, zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out)

@@ -55,4 +55,22 @@ static inline void scene_close(scene *k)
 /* Body slot of the n-th floe. */
 static inline int32_t scene_floe(const scene *k, int32_t n) { return k->w.floes.body[n]; }
 
+/* That the scenario is refused, by its reader or as it is built, with the key at fault. */
+static inline void check_refusal(const char *text, const char *const *overrides, int count, const char *key)
+{
+    context ctx;
+    scenario s = {0};
+    world w;
+    model m;
+    fram_error error = {0};
+    const scenario_overrides list = {overrides, count};
+    context_init(&ctx);
+    fram_status status = scenario_parse(&ctx, "scene.yaml", text, strlen(text), &list, &s, &error);
+    if (status == FRAM_OK)
+        status = scene_build(&ctx, &s, &m, &w, &error);
+    ck_assert_int_eq(status, FRAM_ERROR_INPUT);
+    ck_assert_str_eq(error.key, key);
+    scenario_free(&ctx, &s);
+}
+
 #endif

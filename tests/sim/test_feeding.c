@@ -246,6 +246,8 @@ static double mean_load(const char *const *overrides, int count)
 /* Ice that is driven presses harder than ice that the water alone moves. */
 START_TEST(driven_ice_presses)
 {
+    if (getenv("FRAM_TEST_SHORT"))
+        return; /* ten thousand steps of code that the other tests walk too */
     static const char *const open[] = {"domain.boundary=open"};
     static const char *const against[] = {"domain.drift_speed=0.6", "domain.drift_direction_deg=180",
                                           "environment.current_speed=0"};
@@ -317,23 +319,6 @@ START_TEST(open_water_is_clear)
 END_TEST
 
 /* ---- what is refused ---- */
-
-static void check_refusal(const char *text, const char *const *overrides, int count, const char *key)
-{
-    context ctx;
-    scenario s = {0};
-    world w;
-    model m;
-    fram_error error = {0};
-    const scenario_overrides list = {overrides, count};
-    context_init(&ctx);
-    fram_status status = scenario_parse(&ctx, "scene.yaml", text, strlen(text), &list, &s, &error);
-    if (status == FRAM_OK)
-        status = scene_build(&ctx, &s, &m, &w, &error);
-    ck_assert_int_eq(status, FRAM_ERROR_INPUT);
-    ck_assert_str_eq(error.key, key);
-    scenario_free(&ctx, &s);
-}
 
 START_TEST(refusals_name_their_key)
 {

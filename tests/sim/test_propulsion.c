@@ -280,18 +280,6 @@ END_TEST
 
 /* ---- what is refused ---- */
 
-static void check_refusal(const char *text, const char *const *overrides, int count, const char *key)
-{
-    context ctx;
-    scenario s = {0};
-    fram_error error = {0};
-    const scenario_overrides list = {overrides, count};
-    context_init(&ctx);
-    ck_assert_int_eq(scenario_parse(&ctx, "scene.yaml", text, strlen(text), &list, &s, &error), FRAM_ERROR_INPUT);
-    ck_assert_str_eq(error.key, key);
-    scenario_free(&ctx, &s);
-}
-
 START_TEST(refusals_name_their_key)
 {
     static const char *const towed[] = {"vessel.mode=towed"};

@@ -135,6 +135,7 @@ class Studies(unittest.TestCase):
         self.assertNotEqual(*orders)
         self.refused("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
                      "    - {ice.thickness: 1, vessel.speed: 2}\n", "study.yaml:5", "in their order")
+        self.refused("vary:\n  table:\n", "study.yaml:3: table", "expected the name of a CSV file")
         self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "study.yaml:2", "seeds are given by")
 
     def test_ctrl_c_keeps_what_ended(self):
