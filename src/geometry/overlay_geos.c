@@ -34,6 +34,7 @@ void overlay_free(overlay *o)
     GEOS_finish_r(o->geos);
     array_free(o->ctx, &o->ring);
     polygon_list_free(o->ctx, &o->rings);
+    polygon_list_free(o->ctx, &o->pieces);
     polygon_list_free(o->ctx, &o->found);
     memory_free(o->ctx, o);
 }
@@ -76,20 +77,26 @@ static fram_status read_ring(overlay *o, const GEOSGeometry *ring, int32_t *n, f
     return FRAM_OK;
 }
 
-fram_status cut_rings(overlay *o, fram_error *error)
-{
-    fram_status status = polygon_cut_holes(o->ctx, &o->rings, &o->found);
-    if (status == FRAM_ERROR_MEMORY)
-        return error_memory(error);
-    if (status != FRAM_OK)
-        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the holes of an overlay could not be cut open");
-    return FRAM_OK;
-}
-
 /* Thinner than rounding: what is left over or missing between outlines that nearly coincide. */
 static bool is_noise(polygon p)
 {
     return p.count < 3 || fabs(polygon_area(p)) <= polygon_rounding(p) * polygon_perimeter(p);
+}
+
+fram_status cut_rings(overlay *o, fram_error *error)
+{
+    polygon_list_clear(&o->pieces);
+    fram_status status = polygon_cut_holes(o->ctx, &o->rings, &o->pieces);
+    if (status == FRAM_ERROR_MEMORY)
+        return error_memory(error);
+    if (status != FRAM_OK)
+        return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the holes of an overlay could not be cut open");
+    for (int32_t i = 0; i < polygon_list_count(&o->pieces); i++) {
+        polygon piece = polygon_list_get(&o->pieces, i);
+        if (!is_noise(piece) && !polygon_list_push(o->ctx, &o->found, piece))
+            return error_memory(error);
+    }
+    return FRAM_OK;
 }
 
 /* Add a polygon to the found rings; a hole is left out or cut open. */

@@ -9,10 +9,11 @@
 struct overlay {
     context *ctx;
     GEOSContextHandle_t geos;
-    char message[256];  /* what GEOS said last */
-    vec2_array ring;    /* scratch: a closed ring on its way to GEOS or back */
-    polygon_list rings; /* scratch: outline and holes of one polygon */
-    polygon_list found; /* the rings of a result, in normal form, before they are sorted */
+    char message[256];   /* what GEOS said last */
+    vec2_array ring;     /* scratch: a closed ring on its way to GEOS or back */
+    polygon_list rings;  /* scratch: outline and holes of one polygon */
+    polygon_list pieces; /* of a polygon whose holes were cut open */
+    polygon_list found;  /* the rings of a result, in normal form, before they are sorted */
 };
 
 /* FRAM_ERROR_INPUT unless p is valid; role ("the clip") is what the message calls it. */
@@ -21,7 +22,8 @@ fram_status overlay_check(overlay *o, polygon p, const char *role, fram_error *e
 fram_status geos_failed(overlay *o, const char *what, fram_error *error);
 /* A GEOS polygon of a ring of at least 3 vertices, or NULL with *status set. */
 GEOSGeometry *shape_of_ring(overlay *o, polygon p, fram_status *status, fram_error *error);
-/* Add the polygon of the scratch rings, the outline and then its holes, cut open, to the found rings. */
+/* Add the polygon of the scratch rings, the outline and then its holes, cut open, to the found rings, without pieces
+   thinner than rounding. */
 fram_status cut_rings(overlay *o, fram_error *error);
 /* Add the polygons of any geometry, whatever it nests, to the found rings; holes are filled or cut open. */
 fram_status read_shape(overlay *o, const GEOSGeometry *shape, bool fill_holes, fram_error *error);
