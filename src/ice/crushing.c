@@ -149,15 +149,19 @@ static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_polic
     return set_surface(j, p);
 }
 
-/* Pressure on a patch; between two floes that of the weaker one, and no more than builds a ridge: the width of the
-   patch along the plane is its area, seen level, over the thickness of the thinner floe. */
-static double pair_pressure(const job *j, const crushing_pair *p, double area, double level_area)
+/* Pressure on a patch about a centre in the frame of the floe; between two floes that of the weaker one, and no more
+   than builds a ridge: the width of the patch along the plane is its area, seen level, over the thickness of the
+   thinner floe. */
+static double pair_pressure(const job *j, const crushing_pair *p, vec3 centre, double area, double level_area)
 {
-    double pressure = ice_crushing_pressure(&j->floes->material[p->floe], area);
+    ice_material ice = strength_crushing_at(&j->settings->strength, j->floes, p->floe, vec2_make(centre.x, centre.y));
+    double pressure = ice_crushing_pressure(&ice, area);
     if (j->bodies->material[p->surface_body] != MATERIAL_ICE)
         return pressure;
     int32_t other = j->bodies->owner[p->surface_body];
-    pressure = fmin(pressure, ice_crushing_pressure(&j->floes->material[other], area));
+    vec3 seen = mat3_tmul_vec(p->surface.rotation, vec3_sub(centre, p->surface.offset));
+    ice = strength_crushing_at(&j->settings->strength, j->floes, other, vec2_make(seen.x, seen.y));
+    pressure = fmin(pressure, ice_crushing_pressure(&ice, area));
     double thickness = fmin(j->floes->thickness[p->floe], j->floes->thickness[other]);
     return fmin(pressure, ice_ridging_line_load(j->settings->ridging, thickness, level_area / thickness) / thickness);
 }
@@ -245,7 +249,8 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .area = area,
                             .horizontal_area = fabs(c->area.z),
                             .surface_area = c->surface,
-                            .pressure = pair_pressure(j, p, area, sqrt(fmax(1 - normal.z * normal.z, 0)) * area),
+                            .pressure =
+                                pair_pressure(j, p, c->centre, area, sqrt(fmax(1 - normal.z * normal.z, 0)) * area),
                             .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
@@ -330,7 +335,7 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
                             .centre = vec3_add(p->position, mat3_mul_vec(p->rotation, inner)),
                             .area = area,
                             .surface_area = area,
-                            .pressure = pair_pressure(j, p, area, area),
+                            .pressure = pair_pressure(j, p, inner, area, area),
                             .contact_first = j->contacts->count,
                             .contact_count = 1};
     double depth = fmin(distance + patch_way_out(&p->prism, inner, vec3_neg(normal)), thickness);

@@ -17,7 +17,7 @@
 
 #include "dynamics/collision.h"
 #include "geometry/mesh_bvh.h"
-#include "ice/floe.h"
+#include "ice/strength.h"
 
 /* Scratch row, made anew each step. */
 typedef struct crushing_patch {
@@ -40,6 +40,7 @@ typedef struct crushing_settings {
     double smallest_area;     /* patches under it are dropped [m2] */
     double skin;              /* bodies nearer than this touch: run.solver.contact_skin [m] */
     double ridging;           /* R of the ridge-building line load between floes, 0: none (ice/material.h) */
+    strength_field strength;  /* how strengths vary over the ice */
     bool correct_unbreakable; /* comparison switch: a hull pushes unbreakable floes out of itself */
     bool top_plane_area;      /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
 } crushing_settings;

@@ -101,12 +101,11 @@ static double contact_area(const side_floe floe[2], vec3 middle, const contact *
 }
 
 /* Largest force on a contact of two floes: the pressure of the weaker one, no more than what builds a ridge. */
-static double largest_force(const crushing_settings *s, const floe_table *floes, int32_t a, int32_t b, double area,
-                            double width)
+static double largest_force(const crushing_settings *s, const floe_table *floes, const ice_material ice[2],
+                            const int32_t row[2], double area, double width)
 {
-    double pressure =
-        fmin(ice_crushing_pressure(&floes->material[a], area), ice_crushing_pressure(&floes->material[b], area));
-    double thickness = fmin(floes->thickness[a], floes->thickness[b]), force = pressure * area;
+    double pressure = fmin(ice_crushing_pressure(&ice[0], area), ice_crushing_pressure(&ice[1], area));
+    double thickness = fmin(floes->thickness[row[0]], floes->thickness[row[1]]), force = pressure * area;
     return width > 0 ? fmin(force, ice_ridging_line_load(s->ridging, thickness, width) * width) : force;
 }
 
@@ -129,8 +128,13 @@ static void limit_group(const crushing_settings *s, const body_table *bodies, co
         middle = vec3_scale(middle, 1.0 / touching);
         const side_floe floe[2] = {floe_of(bodies, shapes, g->a), floe_of(bodies, shapes, g->b)};
         double width, area = contact_area(floe, middle, &contacts->data[deepest], rim, &width);
-        limit =
-            largest_force(s, floes, bodies->owner[g->a], bodies->owner[g->b], area, width) * s->time_step / touching;
+        const int32_t row[2] = {bodies->owner[g->a], bodies->owner[g->b]};
+        ice_material ice[2];
+        for (int i = 0; i < 2; i++) {
+            vec3 local = mat3_tmul_vec(floe[i].turn, vec3_sub(middle, floe[i].at));
+            ice[i] = strength_crushing_at(&s->strength, floes, row[i], vec2_make(local.x, local.y));
+        }
+        limit = largest_force(s, floes, ice, row, area, width) * s->time_step / touching;
     }
     assert(limit >= 0 && isfinite(limit));
     for (int32_t i = g->first; i < g->end; i++) {

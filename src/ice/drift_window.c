@@ -159,9 +159,10 @@ static bool let_leave(context *ctx, const drift_world *w, const tile_grid *g, co
 /* ---- cells that enter ---- */
 
 static fram_status make_tiles(context *ctx, overlay *plane, const drift_world *w, const polygon_list *rings,
-                              int32_t cell, fram_error *error)
+                              int32_t cell, vec2 moved, fram_error *error)
 {
     floe_definition d = w->definition->ice;
+    d.ice_origin = vec2_scale(moved, -1);
     fram_status status = FRAM_OK;
     d.tile = cell + 1;
     for (int32_t i = 0; i < polygon_list_count(rings) && status == FRAM_OK; i++) {
@@ -191,7 +192,7 @@ static fram_status let_enter(context *ctx, overlay *plane, const drift_world *w,
     else if (!known)
         status = drift_cell_rings(ctx, w->definition, g, cell, plane, &rings, &cells, error);
     if (status == FRAM_OK)
-        status = make_tiles(ctx, plane, w, &rings, cell, error);
+        status = make_tiles(ctx, plane, w, &rings, cell, g->moved, error);
     polygon_list_free(ctx, &rings);
     array_free(ctx, &cells);
     return status;

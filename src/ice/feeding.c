@@ -80,7 +80,8 @@ fram_status feeding_make_floe(context *ctx, overlay *o, const feeding_world *w, 
                          .breakable = p->breakable[row] != 0,
                          .motion = MOTION_PRESCRIBED,
                          .elevation = p->elevation[row],
-                         .parent = -1};
+                         .parent = -1,
+                         .ice_origin = vec2_sub(p->place[row], place)};
     int32_t floe = -1;
     fram_status status = floe_create(ctx, &d, w->feeding->piece_area_limit[0], o, w->bodies, w->shapes, w->floes,
                                      w->next_number, &floe, error);

@@ -1,6 +1,8 @@
 /* Making and removing floes; see floe.h. */
 #include "ice/floe.h"
 
+#include "base/transcendental.h"
+
 #include <string.h>
 
 #define TABLE_SELF floe_table
@@ -72,6 +74,15 @@ static int32_t free_row(context *ctx, floe_table *floes)
     return row;
 }
 
+/* Turned by yaw [rad]. */
+static vec2 turned_by(double yaw, vec2 p)
+{
+    if (yaw == 0)
+        return p;
+    double c = real_cos(yaw), s = real_sin(yaw);
+    return (vec2){c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
 fram_status floe_create(context *ctx, const floe_definition *d, double piece_area_limit, overlay *o, body_table *bodies,
                         shape_store *shapes, floe_table *floes, int32_t *next_number, int32_t *row, fram_error *error)
 {
@@ -112,6 +123,8 @@ fram_status floe_create(context *ctx, const floe_definition *d, double piece_are
     floes->parent[at] = d->parent;
     floes->tile[at] = d->tile;
     floes->retreat[at] = (vec3){0, 0, 0};
+    floes->ice_origin[at] = vec2_add(d->ice_origin, turned_by(d->ice_yaw, plan.centroid));
+    floes->ice_yaw[at] = d->ice_yaw + d->yaw;
     floes->number[at] = (*next_number)++;
     *row = at;
     return FRAM_OK;
@@ -126,6 +139,8 @@ void floe_remove(body_table *bodies, shape_store *shapes, floe_table *floes, int
     floes->body[row] = -1;
     floes->thickness[row] = floes->area[row] = 0;
     floes->retreat[row] = (vec3){0, 0, 0};
+    floes->ice_origin[row] = (vec2){0, 0};
+    floes->ice_yaw[row] = 0;
     floes->material[row] = (ice_material){0};
     floes->breakable[row] = 0;
     floes->parent[row] = floes->number[row] = floes->tile[row] = 0;

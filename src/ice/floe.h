@@ -17,7 +17,9 @@
     X(parent, int32_t, FIELD_I32, 1, "1", "number of the floe it broke from, -1: original")            \
     X(number, int32_t, FIELD_I32, 1, "1", "running number, never used twice")                          \
     X(tile, int32_t, FIELD_I32, 1, "1", "cell of the level sheet it is a part of, plus 1; 0: of none") \
-    X(retreat, vec3, FIELD_F64, 3, "m", "static: way of the hull in it since it last pressed on")
+    X(retreat, vec3, FIELD_F64, 3, "m", "static: way of the hull in it since it last pressed on")      \
+    X(ice_origin, vec2, FIELD_F64, 2, "m", "where the ice at the body's origin stood at the start")    \
+    X(ice_yaw, double, FIELD_F64, 1, "rad", "how the body's frame is turned in the ice of the start")
 TABLE_DECLARE(floe, FLOE_FIELDS)
 
 typedef struct floe_definition {
@@ -29,7 +31,9 @@ typedef struct floe_definition {
     double elevation; /* z of the centre of mass; floating: see floe_floating_elevation */
     double yaw;       /* orientation given to the body; the outline is turned into the body frame by it [rad] */
     int32_t parent;
-    int32_t tile; /* cell of the level sheet plus 1 (ice/tiles.h), 0 for any other floe */
+    int32_t tile;    /* cell of the level sheet plus 1 (ice/tiles.h), 0 for any other floe */
+    vec2 ice_origin; /* where the origin of the outline's coordinates stood in the ice of the start [m] */
+    double ice_yaw;  /* how these coordinates are turned in it [rad] */
 } floe_definition;
 
 /* Height of the centre of a level floe at rest in still water [m]: h/2 - h rho_i/rho_w. */

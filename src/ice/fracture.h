@@ -55,6 +55,7 @@ typedef struct fracture_settings {
     bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
     bool under_ice_contacts;    /* option: patches between floes break them too */
     tile_grid tiles;            /* level sheet, if there is one */
+    strength_field strength;    /* how strengths vary over the ice */
     bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 

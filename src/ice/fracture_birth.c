@@ -30,15 +30,19 @@ static parent parent_of(const fracture_job *j, int32_t floe)
     parent p = {.definition = {.thickness = f->thickness[floe],
                                .material = f->material[floe],
                                .breakable = f->breakable[floe] != 0,
-                               .parent = f->number[floe]},
+                               .parent = f->number[floe],
+                               .ice_origin = f->ice_origin[floe],
+                               .ice_yaw = f->ice_yaw[floe]},
                 .motion = b->motion[body],
                 .position = b->position[body],
                 .velocity = b->velocity[body],
                 .angular_velocity = b->angular_velocity[body],
                 .orientation = b->orientation[body],
                 .rotation = quat_matrix(b->orientation[body])};
-    if (tile)
-        p.position.x = p.position.y = 0;
+    if (!tile)
+        return p;
+    p.definition.ice_origin = vec2_sub(p.definition.ice_origin, vec2_make(p.position.x, p.position.y));
+    p.position.x = p.position.y = 0;
     return p;
 }
 

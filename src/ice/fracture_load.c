@@ -215,6 +215,13 @@ static double split_ratio(const fracture_job *j, const fracture_load *l)
     return fracture_split_ratio(j->settings, outline, l, l->thickness, &start, &length);
 }
 
+/* In the frame of the floe; of a sheet that of the load's tile [m]. */
+static vec2 place_on_floe(const fracture_state *state, const fracture_load *l)
+{
+    vec3 at = state->bodies->position[l->body];
+    return l->tile ? vec2_sub(l->place, vec2_make(at.x, at.y)) : l->place;
+}
+
 /* Stresses of all loads; those that fail in no way go. */
 static fram_status keep_failing(const fracture_job *j)
 {
@@ -223,6 +230,7 @@ static fram_status keep_failing(const fracture_job *j)
     for (int32_t i = 0; i < all->count; i++) {
         fracture_load l = all->data[i];
         l.force = fabs(l.vector.z);
+        l.ice = strength_flexural_at(&j->settings->strength, j->state->floes, l.floe, place_on_floe(j->state, &l));
         l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
         l.split_ratio = split_ratio(j, &l);
         if (l.split_ratio < 1 && !may_fail(j->settings, &l))

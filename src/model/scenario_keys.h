@@ -156,6 +156,7 @@
     X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                     \
     X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                             \
     X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")            \
+    X(strength, SECTION(strength), "", "scatter of both strengths over the ice, drawn by run.seed")                   \
     X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")    \
     X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                              \
     X(cap_ice_ice, BOOLEAN(true), "",                                                                                 \
@@ -236,6 +237,16 @@
     X(crushing_strength, AUTOMATIC(1e-3, 1e10), "Pa", "mean; auto: ice.crushing_strength")                 \
     X(crushing_deviation, REAL(0, 0, 1e10), "Pa", "lognormal scatter from floe to floe")                   \
     X(breakable, BOOLEAN(true), "", "its floes may break, where ice.breakable is true")
+
+#define SCENARIO_STRENGTH_KEYS(X)                                                                                   \
+    X(flexural_variation, REAL(0, 0, 2), "1",                                                                       \
+      "coefficient of variation of the flexural strength from place to place, lognormal about the floe's; 0: none") \
+    X(crushing_variation, REAL(0, 0, 2), "1",                                                                       \
+      "coefficient of variation of the crushing strength from place to place, lognormal about the floe's; 0: none") \
+    X(correlation_length, SCALED(10, 30, 1, 1e-3, 1e7), "m",                                                        \
+      "distance at which the correlation of the strengths' logarithms has fallen to 1/e")                           \
+    X(common, REAL(0, 0, 1), "1",                                                                                   \
+      "correlation of the logarithms of both strengths at one place: 0 they vary apart, 1 together")
 
 #define SCENARIO_LEVEL_KEYS(X)                                                                                   \
     X(x_min, AUTOMATIC(-1e7, 1e7), "m",                                                                          \
@@ -364,6 +375,7 @@
     S(opening, SCENARIO_OPENING_KEYS)         \
     S(population, SCENARIO_POPULATION_KEYS)   \
     S(level, SCENARIO_LEVEL_KEYS)             \
+    S(strength, SCENARIO_STRENGTH_KEYS)       \
     S(ice, SCENARIO_ICE_KEYS)                 \
     S(domain, SCENARIO_DOMAIN_KEYS)           \
     S(ice_drag, SCENARIO_ICE_DRAG_KEYS)       \

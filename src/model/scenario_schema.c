@@ -101,6 +101,9 @@ SECTION_DEFINE(population, SCENARIO_POPULATION_KEYS)
 #define SELF scenario_level
 SECTION_DEFINE(level, SCENARIO_LEVEL_KEYS)
 #undef SELF
+#define SELF scenario_strength
+SECTION_DEFINE(strength, SCENARIO_STRENGTH_KEYS)
+#undef SELF
 #define SELF scenario_ice
 SECTION_DEFINE(ice, SCENARIO_ICE_KEYS)
 #undef SELF

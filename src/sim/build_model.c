@@ -15,6 +15,16 @@ static void set_pair(pair_policies *p, material a, material b, double mu_static,
 /* Boxes of moving bodies reach ahead by this many steps: they are then renewed about as often as those of slow ones. */
 #define LOOKAHEAD_STEPS 25
 
+static strength_field strength_of(const scenario *s)
+{
+    const scenario_strength *k = &s->ice.strength;
+    return (strength_field){.seed = (uint64_t)s->run.seed,
+                            .flexural_variation = k->flexural_variation,
+                            .crushing_variation = k->crushing_variation,
+                            .length = k->correlation_length,
+                            .common = k->common};
+}
+
 fracture_settings build_fracture_settings(const scenario *s)
 {
     const scenario_environment *e = &s->environment;
@@ -35,6 +45,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .wedge_room = s->ice.fracture.wedge_room,
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,
                                .tiles = build_tiles(s),
+                               .strength = strength_of(s),
                                .crush_trims = s->ice.crush_trims};
 }
 
@@ -56,6 +67,7 @@ static model settings_of(const scenario *s)
         .crushing = {.time_step = s->run.time_step,
                      .skin = v->contact_skin,
                      .ridging = s->ice.ridging_resistance,
+                     .strength = strength_of(s),
                      .correct_unbreakable = s->ice.correct_unbreakable,
                      .top_plane_area = s->ice.top_plane_area},
         .fracture = build_fracture_settings(s),

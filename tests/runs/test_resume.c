@@ -40,6 +40,7 @@ static const char *const scenes[] = {
     "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
     "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
     "ice:\n  concentration: 0.85\n  mean_floe_area: 64\n  thickness: 0.4\n  breakable: true\n"
+    "  strength: {flexural_variation: 0.3, crushing_variation: 0.3, common: 0.5}\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n  drift_speed: 3\n"
     "  drift_direction_deg: 200\n"
     "environment:\n  current_speed: 1\n  current_direction_deg: 40\n",
@@ -48,6 +49,7 @@ static const char *const scenes[] = {
     "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
     "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
     "ice:\n  source: level\n  thickness: 0.4\n  breakable: true\n  keep_out_margin: 0.1\n"
+    "  strength: {flexural_variation: 0.3, crushing_variation: 0.3}\n"
     "  level: {tile_size: 9, line_load: 20000, mass: 2.0e6, openings: [{x: 50, y: 3, length: 30, width: 7}]}\n"
     "domain:\n  x_min: -40\n  x_max: 40\n  y_min: -30\n  y_max: 30\n  boundary: feeding\n  drift_speed: 5\n"
     "  drift_direction_deg: 200\n"

@@ -135,6 +135,18 @@ END_TEST
 
 /* ---- books ---- */
 
+/* Tiles know where their ice stood at the start, those that entered later and those that are left after breaks too. */
+static void check_places(const scene *k)
+{
+    for (int32_t i = 0; i < k->w.floes.count; i++) {
+        if (k->w.floes.body[i] < 0 || k->w.floes.tile[i] == 0)
+            continue;
+        vec3 at = k->w.bodies.position[k->w.floes.body[i]];
+        vec2 was = vec2_sub(vec2_make(at.x, at.y), k->w.drift.moved[0]);
+        assert_absolute(vec2_length(vec2_sub(k->w.floes.ice_origin[i], was)), 0, 1e-9);
+    }
+}
+
 /* Ice that enters, leaves, breaks and is crushed: nothing gets lost; the ship meets what the sheet and the pieces give.
  */
 START_TEST(nothing_gets_lost)
@@ -148,6 +160,7 @@ START_TEST(nothing_gets_lost)
         assert_relative(booked(&k), start, 1e-11);
     }
     ck_assert(k.w.drift.entered[0] > 1e5 && k.w.clock.bendings[0] > 10 && k.w.drift.broken[0] > 0);
+    check_places(&k);
     assert_relative(k.w.drift.moved[0].x, -steps * 0.02, 1e-9);
     ck_assert(fabs(k.w.drift.moved[0].y) < 1e-9);
     scene_close(&k);

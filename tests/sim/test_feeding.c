@@ -129,6 +129,8 @@ START_TEST(hours_of_drift_keep_the_field)
         int32_t body = w->pattern.body[row];
         if (w->pattern.state[row] != PATTERN_INSIDE || w->bodies.generation[body] != w->pattern.generation[row])
             continue;
+        vec2 stood = w->floes.ice_origin[w->bodies.owner[body]];
+        assert_absolute(vec2_length(vec2_sub(stood, w->pattern.place[row])), 0, 1e-9);
         vec2 off = vec2_sub(vec2_add(w->pattern.place[row], w->feeding.displacement[0]),
                             vec2_make(w->bodies.position[body].x, w->bodies.position[body].y));
         vec2 tile = w->feeding.tile[0];
