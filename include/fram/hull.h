@@ -41,7 +41,9 @@ FRAM_API void fram_hull_file_default(fram_hull_file_definition *definition);
 FRAM_API fram_status fram_hull_load(fram_context *context, const char *path,
                                     const fram_hull_file_definition *definition, fram_hull **hull, fram_error *error);
 
-/* Main particulars of a box or of an icebreaking hull: wedge bow, flared midbody, raked stern, made of planes. */
+/* Main particulars of a box, of an icebreaking hull (wedge bow, flared midbody, raked stern, made of planes) or of a
+   ship of full form (tanker, FPSO, drillship: flat of side and bottom, without bulb).  Of a ship NaN in an angle,
+   parallel_midbody, bilge_radius or transom takes what is usual or follows from the block coefficient. */
 typedef struct fram_hull_particulars {
     size_t size;              /* of this struct, set by fram_hull_particulars_default */
     bool box;                 /* only length, beam, draught and freeboard matter */
@@ -54,7 +56,10 @@ typedef struct fram_hull_particulars {
     double flare_angle;       /* sides against the vertical [rad] */
     double stern_angle;       /* run of the stern against the water plane [rad] */
     double parallel_midbody;  /* length of the parallel middle body over the length [1] */
-    double block_coefficient; /* met by the shape of the bilge; 0: sharp bilges, default [1] */
+    double block_coefficient; /* met by the shape of the bilge, of a ship by its ends; 0: sharp bilges, default [1] */
+    bool ship;                /* instead of an icebreaker; not with box */
+    double bilge_radius;      /* of a ship [m]; NaN, default: as beam and draught have it */
+    double transom; /* of a ship: breadth of the transom over the beam, 0 a pointed stern; NaN, default: 0.5 */
 } fram_hull_particulars;
 FRAM_API void fram_hull_particulars_default(fram_hull_particulars *particulars);
 /* FRAM_ERROR_INPUT, with the member's name as key, when the particulars do not go together; a block coefficient out of

@@ -8,6 +8,7 @@
 #include "io/hull_view.h"
 #include "vessel/hydrostatics.h"
 
+#include <stddef.h>
 #include <stdio.h>
 
 struct fram_hull {
@@ -127,27 +128,49 @@ void fram_hull_particulars_default(fram_hull_particulars *p)
                                  .entrance_angle = radians(30),
                                  .flare_angle = radians(8),
                                  .stern_angle = radians(30),
-                                 .parallel_midbody = 0.4};
+                                 .parallel_midbody = 0.4,
+                                 .bilge_radius = (double)NAN,
+                                 .transom = (double)NAN};
+}
+
+static fram_status particulars_of(const fram_hull_particulars *given, hull_particulars *out, fram_error *error)
+{
+    fram_hull_particulars p;
+    fram_hull_particulars_default(&p);
+    fram_status status =
+        definition_take(&p, given, sizeof p, offsetof(fram_hull_particulars, ship), "fram_hull_particulars", error);
+    if (status != FRAM_OK)
+        return status;
+    if (p.box && p.ship)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ship", "a hull is either a box or a ship");
+    *out = (hull_particulars){.form = p.box    ? HULL_BOX
+                                      : p.ship ? HULL_SHIP
+                                               : HULL_ICEBREAKER,
+                              .length = p.length,
+                              .beam = p.beam,
+                              .draught = p.draught,
+                              .freeboard = p.freeboard,
+                              .stem_angle = p.stem_angle,
+                              .entrance_angle = p.entrance_angle,
+                              .flare_angle = p.flare_angle,
+                              .stern_angle = p.stern_angle,
+                              .parallel_midbody = p.parallel_midbody,
+                              .block_coefficient = p.block_coefficient,
+                              .bilge_radius = p.bilge_radius,
+                              .transom = p.transom};
+    if (p.ship)
+        hull_particulars_fill(out);
+    return FRAM_OK;
 }
 
 fram_status fram_hull_make(fram_context *c, const fram_hull_particulars *p, fram_hull **out, fram_error *error)
 {
+    hull_particulars particulars;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"hull", out});
     if (status == FRAM_OK)
-        status = definition_check(p, sizeof *p, "fram_hull_particulars", error);
+        status = particulars_of(p, &particulars, error);
     if (status != FRAM_OK)
         return status;
-    const hull_particulars particulars = {.form = p->box ? HULL_BOX : HULL_ICEBREAKER,
-                                          .length = p->length,
-                                          .beam = p->beam,
-                                          .draught = p->draught,
-                                          .freeboard = p->freeboard,
-                                          .stem_angle = p->stem_angle,
-                                          .entrance_angle = p->entrance_angle,
-                                          .flare_angle = p->flare_angle,
-                                          .stern_angle = p->stern_angle,
-                                          .parallel_midbody = p->parallel_midbody,
-                                          .block_coefficient = p->block_coefficient};
     fram_hull *h = hull_begin(c);
     if (!h)
         return error_memory(error);

@@ -13,7 +13,7 @@ typedef struct hull_words {
     const char *path;
     fram_hull_file_definition file;
     fram_hull_particulars particulars; /* angles in degrees until the hull is made */
-    bool box;
+    bool box, ship;
     fram_hull_condition condition;
     double kg, lcg, tcg;
     double tolerance;
@@ -30,7 +30,7 @@ static hull_words words_default(void)
     fram_hull_particulars *p = &w.particulars;
     p->length = p->beam = p->parallel_midbody = (double)NAN;
     p->stem_angle = p->entrance_angle = p->flare_angle = p->stern_angle = (double)NAN;
-    p->block_coefficient = (double)NAN;
+    p->block_coefficient = p->bilge_radius = p->transom = (double)NAN;
     return w;
 }
 
@@ -61,17 +61,23 @@ static int read_words(const command_row *self, hull_words *w, common_options *co
          "file: lengths times this are metres (0.001 for millimetres)"},
         {"--length", NULL, OPTION_REAL, &p->length, "L", "no file: length of the waterline [m]"},
         {"--beam", NULL, OPTION_REAL, &p->beam, "B", "no file: beam of the waterline [m]"},
-        {"--stem-angle-deg", NULL, OPTION_REAL, &p->stem_angle, "A", "no file: stem against the water plane, 30"},
+        {"--stem-angle-deg", NULL, OPTION_REAL, &p->stem_angle, "A",
+         "no file: stem against the water plane, 30, ship 75"},
         {"--entrance-angle-deg", NULL, OPTION_REAL, &p->entrance_angle, "A",
-         "no file: half entrance angle of the waterline, 30"},
-        {"--flare-angle-deg", NULL, OPTION_REAL, &p->flare_angle, "A", "no file: sides against the vertical, 8"},
+         "no file: half entrance angle of the waterline, 30, ship: as the block coefficient has it"},
+        {"--flare-angle-deg", NULL, OPTION_REAL, &p->flare_angle, "A",
+         "no file: sides against the vertical, 8, ship 0"},
         {"--stern-angle-deg", NULL, OPTION_REAL, &p->stern_angle, "A",
-         "no file: run of the stern against the water plane, 30"},
+         "no file: run of the stern against the water plane, 30, ship 45"},
         {"--parallel-midbody", NULL, OPTION_REAL, &p->parallel_midbody, "P",
-         "no file: parallel middle body over the length, 0.4"},
+         "no file: parallel middle body over the length, 0.4, ship: as the block coefficient has it"},
         {"--block-coefficient", NULL, OPTION_REAL, &p->block_coefficient, "CB",
-         "no file: met by the bilge; otherwise sharp bilges"},
+         "no file: met by the bilge, of a ship by its ends; otherwise sharp bilges, ship 0.8"},
+        {"--bilge-radius", NULL, OPTION_REAL, &p->bilge_radius, "R", "ship: radius of the bilge [m]"},
+        {"--transom", NULL, OPTION_REAL, &p->transom, "S", "ship: breadth of the transom over the beam, 0.5"},
         {"--box", NULL, OPTION_FLAG, &w->box, NULL, "no file: a box instead of an icebreaker"},
+        {"--ship", NULL, OPTION_FLAG, &w->ship, NULL,
+         "no file: a tanker, FPSO or drillship, flat of side and bottom, instead of an icebreaker"},
     };
     return options_read_some(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->path, 0, 1);
 }
@@ -90,11 +96,13 @@ static const char *given_particular(const hull_words *w)
                  {"--flare-angle-deg", p->flare_angle},
                  {"--stern-angle-deg", p->stern_angle},
                  {"--parallel-midbody", p->parallel_midbody},
-                 {"--block-coefficient", p->block_coefficient}};
+                 {"--block-coefficient", p->block_coefficient},
+                 {"--bilge-radius", p->bilge_radius},
+                 {"--transom", p->transom}};
     for (size_t i = 0; i < sizeof given / sizeof *given; i++)
         if (!isnan(given[i].value))
             return given[i].name;
-    return w->box ? "--box" : NULL;
+    return w->box ? "--box" : w->ship ? "--ship" : NULL;
 }
 
 static void take(double *member, double given, double unit)
@@ -110,6 +118,9 @@ static fram_status make_from_particulars(const hull_words *w, fram_context *cont
     fram_hull_particulars p;
     fram_hull_particulars_default(&p);
     p.box = w->box;
+    p.ship = w->ship;
+    if (p.ship)
+        p.stem_angle = p.entrance_angle = p.flare_angle = p.stern_angle = p.parallel_midbody = (double)NAN;
     take(&p.length, given->length, 1);
     take(&p.beam, given->beam, 1);
     take(&p.draught, w->condition.draught, 1);
@@ -120,12 +131,17 @@ static fram_status make_from_particulars(const hull_words *w, fram_context *cont
     take(&p.stern_angle, given->stern_angle, DEGREE);
     take(&p.parallel_midbody, given->parallel_midbody, 1);
     take(&p.block_coefficient, given->block_coefficient, 1);
+    take(&p.bilge_radius, given->bilge_radius, 1);
+    take(&p.transom, given->transom, 1);
     return fram_hull_make(context, &p, hull, error);
 }
 
 /* ---- answers ---- */
 
-static const char *form_name(const hull_words *w) { return w->path ? w->path : w->box ? "a box" : "an icebreaker"; }
+static const char *form_name(const hull_words *w)
+{
+    return w->path ? w->path : w->box ? "a box" : w->ship ? "a ship" : "an icebreaker";
+}
 
 static const char *title_of(const hull_words *w)
 {
@@ -337,6 +353,11 @@ int command_hull(const command_row *self, int argc, char **argv)
         return answer_usage(&common, particular, "is for a hull without a file; a file has its own form");
     if (!w.path && (isnan(w.particulars.length) || isnan(w.particulars.beam) || isnan(w.condition.draught)))
         return answer_usage(&common, "hull", "needs a mesh file, or --length, --beam and --draught; see --help");
+    if (w.box && w.ship)
+        return answer_usage(&common, "--ship", "is not together with --box");
+    if (!w.ship && !w.path && !(isnan(w.particulars.bilge_radius) && isnan(w.particulars.transom)))
+        return answer_usage(&common, isnan(w.particulars.transom) ? "--bilge-radius" : "--transom",
+                            "is of a ship: add --ship");
     const command_files files = {.inputs = {w.path},
                                  .outputs = {{"--draw", w.draw, "png"}, {"--output", w.output, "stl obj gdf"}}};
     code = refuse_outputs(&common, &files);

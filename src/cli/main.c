@@ -98,6 +98,7 @@ static const command_row commands[] = {
      "  fram hull ship.stl --draught 7.5\n"
      "  fram hull panels.gdf --freeboard 6 --draw hull.png --json\n"
      "  fram hull ship.obj --mass 9.5e6 --kg 8.2 --repair -o closed.stl\n"
+     "  fram hull --ship --length 220 --beam 42 --draught 12 --freeboard 7 --block-coefficient 0.84 --draw tanker.png\n"
      "  fram hull --length 100 --beam 20 --draught 7 --stem-angle-deg 30 --block-coefficient 0.55 -o ship.stl\n",
      command_hull},
     {"field", "FILE | SCENARIO",

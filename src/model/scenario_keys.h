@@ -99,30 +99,41 @@
     X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")               \
     X(wind_coefficients, SECTION(flow), "", "force coefficients of the wind over its direction")
 
-#define SCENARIO_HULL_KEYS(X)                                                                                      \
-    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file cone"), "",                                    \
-      "box; icebreaker: wedge bow, flared midbody and raked stern; file: a mesh, which has its own length, beam, " \
-      "draught and angles; cone: inverted, of 24 facets, length and beam its diameter, sides at the flare angle")  \
-    X(file, PATH(""), "",                                                                                          \
-      "form file: mesh (STL, OBJ, GDF) in ship coordinates, x forward, z = 0 in the design waterline")             \
-    X(file_scale, REAL(1, 1e-6, 1e6), "1", "form file: lengths of the file times this are metres")                 \
-    X(seal_width, AUTOMATIC(0, 1e3), "m",                                                                          \
-      "form file: cracks up to this width are sealed; auto: a two-thousandth of the length")                       \
-    X(repair, BOOLEAN(false), "", "form file: fill holes and turn triangles instead of refusing the mesh")         \
-    X(length, REAL(100, 1e-3, 1e4), "m", "waterline length")                                                       \
-    X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                                            \
-    X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                                                 \
-    X(freeboard, REAL(4, 1e-4, 1e3), "m",                                                                          \
-      "height of the deck above the waterline; form file: a level open top is raised by this and decked")          \
-    X(stem_angle_deg, REAL(30, 5, 90), "deg", "stem against the water plane, at the waterline")                    \
-    X(entrance_angle_deg, REAL(30, 5, 90), "deg", "half entrance angle of the waterline")                          \
-    X(flare_angle_deg, REAL(8, 0, 80), "deg", "sides against the vertical")                                        \
-    X(stern_angle_deg, REAL(30, 5, 90), "deg", "run of the stern against the water plane")                         \
-    X(parallel_midbody, REAL(0.4, 0, 1), "1", "length of the parallel middle body over the waterline length")      \
-    X(block_coefficient, AUTOMATIC(0.01, 1), "1",                                                                  \
-      "icebreaker: displaced volume over length, beam and draught, met by the bilge; auto: sharp bilges")          \
-    X(piece_distance, AUTOMATIC(1e-6, 1e3), "m",                                                                   \
-      "form file: largest distance of the convex pieces for contact to the mesh; auto: a hundredth of the beam")   \
+#define SCENARIO_HULL_KEYS(X)                                                                                        \
+    X(form, CHOICE(hull_form, HULL_ICEBREAKER, "box icebreaker file cone ship"), "",                                 \
+      "box; icebreaker: wedge bow, flared midbody and raked stern; file: a mesh, which has its own length, beam, "   \
+      "draught and angles; cone: inverted, of 24 facets, length and beam its diameter, sides at the flare angle; "   \
+      "ship: tanker, FPSO or drillship, flat of side and bottom, without bulb, block coefficient up to 0.9")         \
+    X(file, PATH(""), "",                                                                                            \
+      "form file: mesh (STL, OBJ, GDF) in ship coordinates, x forward, z = 0 in the design waterline")               \
+    X(file_scale, REAL(1, 1e-6, 1e6), "1", "form file: lengths of the file times this are metres")                   \
+    X(seal_width, AUTOMATIC(0, 1e3), "m",                                                                            \
+      "form file: cracks up to this width are sealed; auto: a two-thousandth of the length")                         \
+    X(repair, BOOLEAN(false), "", "form file: fill holes and turn triangles instead of refusing the mesh")           \
+    X(length, REAL(100, 1e-3, 1e4), "m", "waterline length")                                                         \
+    X(beam, REAL(20, 1e-3, 1e4), "m", "waterline beam")                                                              \
+    X(draught, REAL(7, 1e-3, 1e3), "m", "draught")                                                                   \
+    X(freeboard, REAL(4, 1e-4, 1e3), "m",                                                                            \
+      "height of the deck above the waterline; form file: a level open top is raised by this and decked")            \
+    X(stem_angle_deg, AUTOMATIC(5, 90), "deg", "stem against the water plane, at the waterline; auto: 30, ship: 75") \
+    X(entrance_angle_deg, AUTOMATIC(5, 90), "deg",                                                                   \
+      "half entrance angle of the waterline; auto: 30, ship: of a parabola as long as the entrance")                 \
+    X(flare_angle_deg, AUTOMATIC(0, 80), "deg", "sides against the vertical; auto: 8, ship: 0, and nothing else")    \
+    X(stern_angle_deg, AUTOMATIC(5, 90), "deg",                                                                      \
+      "run of the stern, of a ship its transom, against the water plane; auto: 30, ship: 45")                        \
+    X(parallel_midbody, AUTOMATIC(0, 1), "1",                                                                        \
+      "length of the parallel middle body over the waterline length; auto: 0.4, ship: by the block coefficient")     \
+    X(block_coefficient, AUTOMATIC(0.01, 1), "1",                                                                    \
+      "displaced volume over length, beam and draught; icebreaker: met by the bilge; ship: by the lengths of "       \
+      "entrance and run, or with parallel_midbody by their fullness; auto: sharp bilges, ship: 0.8, or what "        \
+      "parallel_midbody leaves")                                                                                     \
+    X(bilge_radius, AUTOMATIC(0, 1e3), "m",                                                                          \
+      "ship: radius of the bilge; auto: a tenth of the root of beam times draught, a tenth of the beam or half the " \
+      "draught, whatever is least")                                                                                  \
+    X(transom, AUTOMATIC(0, 0.95), "1",                                                                              \
+      "ship: breadth of the transom at the waterline over the beam, 0: a pointed stern; auto: 0.5")                  \
+    X(piece_distance, AUTOMATIC(1e-6, 1e3), "m",                                                                     \
+      "form file: largest distance of the convex pieces for contact to the mesh; auto: a hundredth of the beam")     \
     X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
 #define SCENARIO_ICE_KEYS(X)                                                                                          \

@@ -70,7 +70,7 @@ static fram_status key_figures(report *r, fram_error *error)
 }
 
 static const char *const modes[] = {"prescribed motion", "towed", "free"};
-static const char *const forms[] = {"box", "icebreaking hull", "hull from a file", "cone"};
+static const char *const forms[] = {"box", "icebreaking hull", "hull from a file", "cone", "ship of full form"};
 
 static const char *const boundaries[] = {"walls", "open", "in an endless field that drifts through"};
 

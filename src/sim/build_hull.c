@@ -16,17 +16,21 @@ typedef struct new_hull {
 
 static hull_particulars particulars_of(const scenario_hull *h)
 {
-    return (hull_particulars){.form = h->form,
-                              .length = h->length,
-                              .beam = h->beam,
-                              .draught = h->draught,
-                              .freeboard = h->freeboard,
-                              .stem_angle = radians(h->stem_angle_deg),
-                              .entrance_angle = radians(h->entrance_angle_deg),
-                              .flare_angle = radians(h->flare_angle_deg),
-                              .stern_angle = radians(h->stern_angle_deg),
-                              .parallel_midbody = h->parallel_midbody,
-                              .block_coefficient = automatic_or(h->block_coefficient, 0)};
+    hull_particulars p = {.form = h->form,
+                          .length = h->length,
+                          .beam = h->beam,
+                          .draught = h->draught,
+                          .freeboard = h->freeboard,
+                          .stem_angle = radians(h->stem_angle_deg),
+                          .entrance_angle = radians(h->entrance_angle_deg),
+                          .flare_angle = radians(h->flare_angle_deg),
+                          .stern_angle = radians(h->stern_angle_deg),
+                          .parallel_midbody = h->parallel_midbody,
+                          .block_coefficient = automatic_or(h->block_coefficient, 0),
+                          .bilge_radius = h->bilge_radius,
+                          .transom = h->transom};
+    hull_particulars_fill(&p);
+    return p;
 }
 
 /* An error of the rooms below names a member; the scenario's key is longer, and angles are in degrees there. */

@@ -3,6 +3,7 @@
 
 #include "base/transcendental.h"
 #include "vessel/hull_cone.h"
+#include "vessel/hull_ship.h"
 
 /* Two faces this far apart, relative to the length, are one face of the convex piece. */
 #define FACE_TOLERANCE 1e-9
@@ -111,6 +112,8 @@ static double block_of(const hull_particulars *p, const hull_lines *l, double bi
 void hull_block_range(const hull_particulars *p, double *least, double *most)
 {
     *least = *most = 1;
+    if (p->form == HULL_SHIP)
+        hull_ship_block_range(p, least, most);
     if (p->form != HULL_ICEBREAKER)
         return;
     hull_lines l = lines_of(p);
@@ -135,6 +138,19 @@ static double bilge_of(const hull_particulars *p, const hull_lines *l)
 }
 
 /* ---- particulars ---- */
+
+void hull_particulars_fill(hull_particulars *p)
+{
+    if (p->form == HULL_SHIP) {
+        hull_ship_fill(p);
+        return;
+    }
+    double *angle[] = {&p->stem_angle, &p->entrance_angle, &p->stern_angle};
+    for (int i = 0; i < 3; i++)
+        *angle[i] = isnan(*angle[i]) ? radians(30) : *angle[i];
+    p->flare_angle = isnan(p->flare_angle) ? radians(8) : p->flare_angle;
+    p->parallel_midbody = isnan(p->parallel_midbody) ? 0.4 : p->parallel_midbody;
+}
 
 static fram_status check_lengths(const hull_particulars *p, fram_error *error)
 {
@@ -217,6 +233,8 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
         status = check_block(p, error);
     else if (status == FRAM_OK && p->form == HULL_CONE)
         status = hull_cone_check(p, error);
+    else if (status == FRAM_OK && p->form == HULL_SHIP)
+        status = hull_ship_check(p, error);
     if (status != FRAM_OK || p->form != HULL_ICEBREAKER)
         return status;
     status = check_angles(p, error);
@@ -303,9 +321,10 @@ fram_status hull_make(context *ctx, const hull_particulars *p, mesh *surface, po
     if (p->form == HULL_MESH)
         return error_set(
             error, FRAM_ERROR_INPUT, NULL, 0, "form",
-            "a hull of form mesh comes from a mesh file; box, icebreaker and cone are made from particulars");
+            "a hull of form mesh comes from a mesh file; box, icebreaker, cone and ship are made from particulars");
     bool made = p->form == HULL_BOX    ? make_box(ctx, p, surface)
                 : p->form == HULL_CONE ? hull_cone_make(ctx, p, surface)
+                : p->form == HULL_SHIP ? hull_ship_make(ctx, p, surface)
                                        : make_icebreaker(ctx, p, surface);
     polyhedron piece = {0};
     status = made ? polyhedron_hull(ctx, surface->vertex.data, surface->vertex.count, FACE_TOLERANCE * p->length,
@@ -344,6 +363,8 @@ hull_zones hull_zones_of(const hull_particulars *p)
         hull_lines lines = lines_of(p);
         bow = lines.entrance * lines.half_beam;
         stern = lines.run * lines.half_beam;
+    } else if (p->form == HULL_SHIP) {
+        hull_ship_ends(p, &bow, &stern);
     } else if (p->form == HULL_MESH || p->form == HULL_CONE) {
         bow = stern = p->length / 5;
     }

@@ -5,7 +5,7 @@
 
 #include "geometry/polyhedron.h"
 
-typedef enum hull_form { HULL_BOX = 0, HULL_ICEBREAKER, HULL_MESH, HULL_CONE } hull_form;
+typedef enum hull_form { HULL_BOX = 0, HULL_ICEBREAKER, HULL_MESH, HULL_CONE, HULL_SHIP } hull_form;
 
 /* Main particulars. */
 typedef struct hull_particulars {
@@ -20,11 +20,17 @@ typedef struct hull_particulars {
     double stern_angle;       /* run of the stern against the water plane [rad] */
     double parallel_midbody;  /* length of the parallel middle body / L [1] */
     double block_coefficient; /* displaced volume / (L B T) [1]; 0: sharp bilges, whatever it then is */
+    double bilge_radius;      /* of a ship [m] */
+    double transom;           /* of a ship: breadth of the transom at the waterline / B [1] */
     double midships;          /* x of the middle of the waterline, other than 0 for a mesh only [m] */
 } hull_particulars;
 
-/* The least and the largest block coefficient that the bilge can make of an icebreaker whose other particulars make a
-   hull (a box has 1). */
+/* Replace each NaN by what is usual for the form: 30 degrees for angles, 8 for flare and 0.4 of the length for the
+   parallel body, but for a ship, whose own are in hull_ship.h. */
+void hull_particulars_fill(hull_particulars *p);
+
+/* The least and the largest block coefficient that the bilge can make of an icebreaker, or the ends of a ship, whose
+   other particulars make a hull (a box has 1). */
 void hull_block_range(const hull_particulars *p, double *least, double *most);
 
 /* Whether the particulars make a hull.  FRAM_ERROR_INPUT, with key the name of the one that does not fit
@@ -38,8 +44,8 @@ fram_status hull_particulars_check(const hull_particulars *p, fram_error *error)
    entrance and parallel body leave of L; without any left the stern is a raked transom.  So at z = 0 length, beam and
    parallel body are exactly those given, the whole is convex, and its one piece is exact.  A block coefficient is met
    to rounding by the bilge: rounded, then drawn towards a V, in flat strips; waterline, stem and sides stay.  Triangles
-   of port and starboard mirror each other. FRAM_ERROR_INPUT as hull_particulars_check and for HULL_MESH, which comes
-   from a file.
+   of port and starboard mirror each other. The form of a ship is told in hull_ship.h. FRAM_ERROR_INPUT as
+   hull_particulars_check and for HULL_MESH, which comes from a file.
  */
 fram_status hull_make(context *ctx, const hull_particulars *p, mesh *surface, polyhedron_array *pieces,
                       fram_error *error);

@@ -35,6 +35,29 @@ expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --block-coefficient 0.9
 same "$(value 'j["error"]["key"]')" block_coefficient "key"
 says "can be 0.3750 to 0.5661" err
 
+# A tanker: sound when read again, of the block coefficient asked for; what cannot be is refused with its key.
+tanker=(--ship --length 320 --beam 60 --draught 21 --freeboard 9)
+for block in 0.75 0.9; do
+    expect 0 "$FRAM" hull "${tanker[@]}" --block-coefficient $block -o tanker.stl --force --quiet
+    expect 0 "$FRAM" hull tanker.stl --json
+    same "$(value 'abs(j["block_coefficient"] - '$block') < 1e-5, j["closed"], j["convex_pieces"]["count"]')" \
+        "True True 1" "the tanker of $block"
+done
+refused_ship() {
+    local key=$1
+    shift
+    expect 2 "$FRAM" hull "${tanker[@]}" --json "$@"
+    same "$(value 'j["error"]["key"]')" "$key" "key of $*"
+}
+refused_ship block_coefficient --block-coefficient 0.98
+refused_ship flare_angle --flare-angle-deg 8
+refused_ship bilge_radius --bilge-radius 30
+refused_ship transom --transom 0.05
+refused_ship parallel_midbody --parallel-midbody 0.95
+refused_ship --ship --box
+expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --transom 0.5
+says "is of a ship" err
+
 # A ship with bulb, flare and transom: cut as finely as it is told, and symmetric.
 ship=$FRAM_SOURCE/examples/hulls/ship_with_bulb.obj
 before=0
