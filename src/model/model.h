@@ -13,6 +13,8 @@
 #include "ice/drift.h"
 #include "ice/fracture.h"
 #include "model/scenario.h"
+#include "model/scenario_vessel.h"
+#include "vessel/approach.h"
 #include "vessel/hull.h"
 
 /* Where external forces come from. */
@@ -24,12 +26,15 @@ typedef enum force_source {
 
 /* What is fixed of a vessel: its hull as it was made, and what the fluids do to it. */
 typedef struct vessel_model {
-    int32_t solid;                /* of the hull, in model.solids, about the centre of mass */
-    vec3 centre;                  /* of mass, ship coordinates [m] */
-    double displaced_mass;        /* at the draught [kg] */
-    hull_particulars particulars; /* of a file: measured at z = 0 */
-    hull_hydrostatics floats;     /* at the draught, ship coordinates */
-    double yielding;              /* of its fenders: depth over force; 0: rigid [m/N] */
+    int32_t solid;                   /* of the hull, in model.solids, about the centre of mass */
+    vec3 centre;                     /* of mass, ship coordinates [m] */
+    double displaced_mass;           /* at the draught [kg] */
+    hull_particulars particulars;    /* of a file: measured at z = 0 */
+    hull_hydrostatics floats;        /* at the draught, ship coordinates */
+    double yielding;                 /* of its fenders: depth over force; 0: rigid [m/N] */
+    char name[VESSEL_NAME_MOST + 1]; /* "" without */
+    approach_settings approach;
+    vec2_array plan; /* convex outline of the whole hull seen from above, about the centre of mass [m] */
     bool has_hydrodynamics;
     hydrodynamics hydrodynamics;
     hull_flows flows;

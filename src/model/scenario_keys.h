@@ -95,6 +95,7 @@
     X(positioning, SECTION(positioning), "", "mode free: dynamic positioning")                                       \
     X(station, SECTION(station), "", "what counts as being on station")                                              \
     X(propulsion, SECTION(propulsion), "", "mode free: a ship that drives itself through the ice")                   \
+    X(approach, SECTION(approach), "", "when another vessel is going to come too close")                             \
     X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")                                    \
     X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")               \
     X(wind_coefficients, SECTION(flow), "", "force coefficients of the wind over its direction")

@@ -1,4 +1,5 @@
-/* Keys of a vessel that drives itself: net thrust, steering, way points and patterns, ramming.  Part of
+/* Keys of a vessel that drives itself: net thrust, steering, way points and patterns, ramming; and of vessels that
+   are going to meet.  Part of
    scenario_keys.h, which says what the rows mean. */
 #ifndef MODEL_SCENARIO_PROPULSION_KEYS_H
 #define MODEL_SCENARIO_PROPULSION_KEYS_H
@@ -36,7 +37,13 @@
       "steered for one after the other; after the last the leg goes on; none: the heading is kept")             \
     X(pattern, SECTION(pattern), "", "of ice management, in place of way points; it turns with the drift")
 
+#define SCENARIO_APPROACH_KEYS(X)                                                                                \
+    X(limit, AUTOMATIC(0, 1e6), "m",                                                                             \
+      "clear distance to any other hull; an event tells that at present velocities it will be less; auto: none") \
+    X(look_ahead, REAL(300, 1e-3, 1e5), "s", "how far ahead it is looked")
+
 #define SCENARIO_PROPULSION_SECTIONS(S)         \
+    S(approach, SCENARIO_APPROACH_KEYS)         \
     S(course_point, SCENARIO_COURSE_POINT_KEYS) \
     S(pattern, SCENARIO_PATTERN_KEYS)           \
     S(propulsion, SCENARIO_PROPULSION_KEYS)

@@ -65,6 +65,9 @@ SECTION_DEFINE(course_point, SCENARIO_COURSE_POINT_KEYS)
 #define SELF scenario_pattern
 SECTION_DEFINE(pattern, SCENARIO_PATTERN_KEYS)
 #undef SELF
+#define SELF scenario_approach
+SECTION_DEFINE(approach, SCENARIO_APPROACH_KEYS)
+#undef SELF
 #define SELF scenario_propulsion
 SECTION_DEFINE(propulsion, SCENARIO_PROPULSION_KEYS)
 #undef SELF

@@ -49,6 +49,12 @@ scenario scenario_of_vessel(const scenario *s, int32_t index)
     return alone;
 }
 
+const char *scenario_vessel_name(const scenario *s, int32_t index)
+{
+    bool there = index >= 0 && index < scenario_vessel_count(s) && scenario_names_vessels(s);
+    return there ? scenario_vessel_entry(s, index).keys->name : NULL;
+}
+
 vessel_title vessel_title_of(const vessel_entry *entry)
 {
     vessel_title title;

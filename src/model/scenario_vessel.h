@@ -25,6 +25,8 @@ int32_t scenario_find_vessel(const scenario *s, const char *name);
 scenario scenario_of_vessel(const scenario *s, int32_t index);
 /* Whether channels and results are called by vessels' names: those of a list are, a single `vessel` is not. */
 bool scenario_names_vessels(const scenario *s);
+/* Name of a vessel by its row; NULL where vessels have none, and for a row that is not there. */
+const char *scenario_vessel_name(const scenario *s, int32_t index);
 /* How a text speaks of a vessel: "the vessel", or "vessel NAME". */
 typedef struct vessel_title {
     char text[VESSEL_NAME_MOST + 12];

@@ -55,6 +55,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(drift_vertex, drift_vertices),
         STATE(propulsion, propulsion),
         STATE(course, course),
+        STATE(approach, approaches),
     };
     memcpy(out, list, sizeof list);
 }

@@ -15,6 +15,7 @@
 #include "model/inputs.h"
 #include "model/mechanism.h"
 #include "model/model.h"
+#include "vessel/approach.h"
 #include "vessel/mooring.h"
 #include "vessel/propulsion.h"
 #include "vessel/station.h"
@@ -99,6 +100,7 @@ typedef struct world {
     drift_vertex_table drift_vertices;
     propulsion_table propulsion; /* a row for each vessel that drives itself */
     course_table course;
+    approach_table approaches; /* a row for each vessel that watches and each other one */
 
     /* Scratch: written anew each step. */
     struct {
@@ -128,7 +130,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 28 };
+enum { WORLD_TABLE_COUNT = 29 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -116,6 +116,30 @@ static void scenario_table(report *r)
     html_table_end(&r->page);
 }
 
+/* What befell the vessels: lines, thrusters, position, besetting, approaches. */
+static void events(report *r)
+{
+    enum { SHOWN = 40 };
+    const run_note *n = &r->d.note;
+    if (n->events.count == 0)
+        return;
+    const char *const heads[] = {"time [s]", "vessel", "what befell it"};
+    html_section(&r->page, "Events");
+    html_table_begin(&r->page, heads, 3);
+    for (int32_t i = 0; i < n->events.count && i < SHOWN; i++) {
+        const run_event *e = &n->events.data[i];
+        html_row_begin(&r->page);
+        html_number(&r->page, e->time);
+        html_cell(&r->page, e->vessel);
+        html_cell(&r->page, e->text);
+        html_row_end(&r->page);
+    }
+    html_table_end(&r->page);
+    double all = n->events.count + n->events_left_out;
+    if (all > SHOWN)
+        html_paragraph(&r->page, "The first %d of %.0f events; run.json has more of them.", (int)SHOWN, all);
+}
+
 static fram_status appendix(report *r, fram_error *error)
 {
     text_buffer notes = {0}, text = {0};
@@ -144,6 +168,7 @@ static fram_status compose(report *r, fram_error *error)
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
     fram_status status = key_figures(r, error);
     scenario_table(r);
+    events(r);
     for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && status == FRAM_OK; v++) {
         status = report_choose_vessel(r, v, error);
         if (status == FRAM_OK)

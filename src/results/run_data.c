@@ -21,8 +21,47 @@ typedef struct note_member {
     double *number;
 } note_member;
 
-static fram_status read_member(json_walk *w, const char *key, run_note *n, fram_error *error)
+static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
 {
+    char key[64];
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_OBJECT, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        status = json_walk_member(w, first, key, sizeof key, &more, error);
+        if (status != FRAM_OK || !more)
+            break;
+        if (strcmp(key, "time_s") == 0)
+            status = json_walk_number(w, &e->time, error);
+        else if (strcmp(key, "vessel") == 0)
+            status = json_walk_text(w, e->vessel, sizeof e->vessel, error);
+        else if (strcmp(key, "text") == 0)
+            status = json_walk_text(w, e->text, sizeof e->text, error);
+        else
+            status = json_walk_skip(w, error);
+    }
+    return status;
+}
+
+static fram_status read_events(context *ctx, json_walk *w, run_note *n, fram_error *error)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        run_event e = {0};
+        status = json_walk_element(w, first, &more, error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = read_event(w, &e, error);
+        if (status == FRAM_OK && !array_push(ctx, &n->events, e))
+            status = error_memory(error);
+    }
+    return status;
+}
+
+static fram_status read_member(context *ctx, json_walk *w, const char *key, run_note *n, fram_error *error)
+{
+    if (strcmp(key, "events") == 0)
+        return read_events(ctx, w, n, error);
     const note_member members[] = {
         {"fram_version", n->version, sizeof n->version, NULL},
         {"compiler", n->compiler, sizeof n->compiler, NULL},
@@ -37,6 +76,7 @@ static fram_status read_member(json_walk *w, const char *key, run_note *n, fram_
         {"time_s", NULL, 0, &n->time},
         {"wall_s", NULL, 0, &n->wall},
         {"recording_s", NULL, 0, &n->recording},
+        {"events_left_out", NULL, 0, &n->events_left_out},
     };
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         if (strcmp(key, members[i].name) != 0)
@@ -63,7 +103,7 @@ static fram_status read_note(context *ctx, const char *folder, run_note *n, fram
         status = json_walk_member(&w, first, key, sizeof key, &more, error);
         if (status != FRAM_OK || !more)
             break;
-        status = read_member(&w, key, n, error);
+        status = read_member(ctx, &w, key, n, error);
     }
     memory_free(ctx, text);
     return status;
@@ -140,8 +180,10 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
         status = path_join(folder, "scenario.yaml", path, error);
     if (status == FRAM_OK)
         status = scenario_read(ctx, path, NULL, &d->s, error);
-    if (status != FRAM_OK)
+    if (status != FRAM_OK) {
+        array_free(ctx, &d->note.events);
         return status;
+    }
     status = path_join(folder, "series.csv", path, error);
     if (status == FRAM_OK)
         status = csv_table_read(ctx, path, &d->series, error);
@@ -159,6 +201,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
 void run_data_free(context *ctx, run_data *d)
 {
     scenario_free(ctx, &d->s);
+    array_free(ctx, &d->note.events);
     csv_table_free(ctx, &d->series);
     csv_table_free(ctx, &d->fractures);
     array_free(ctx, &d->before.areas);

@@ -7,11 +7,18 @@
 #include "io/path.h"
 #include "model/scenario.h"
 
+/* What befell a vessel, as run.json has it. */
+typedef struct run_event {
+    double time; /* [s] */
+    char vessel[25], text[160];
+} run_event;
+
 /* Texts of run.json; "" for those that are missing. */
 typedef struct run_note {
     char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
     char scenario_hash[65], state_hash[17];
-    double threads, steps, time, wall, recording;
+    double threads, steps, time, wall, recording, events_left_out;
+    ARRAY(run_event) events;
 } run_note;
 
 /* The ice of one frame. */

@@ -208,6 +208,13 @@ static void add_lines(context *ctx, text_buffer *b, const station_data *d, doubl
     text_add(ctx, b, "],\n");
 }
 
+static void tell_event(const station_data *d, int32_t row, char *out, size_t size)
+{
+    const event_table *events = d->outcome->events;
+    bool of_two = event_is_of_two((station_event)events->kind[row]);
+    event_text(events, row, of_two ? scenario_vessel_name(d->s, events->number[row]) : NULL, out, size);
+}
+
 static void add_events(context *ctx, text_buffer *b, const station_data *d)
 {
     const event_table *events = d->outcome->events;
@@ -217,7 +224,7 @@ static void add_events(context *ctx, text_buffer *b, const station_data *d)
         if (events->vessel[i] != d->vessel)
             continue;
         char text[160];
-        event_text(events, i, text, sizeof text);
+        tell_event(d, i, text, sizeof text);
         text_format(ctx, b, "%s\n    {\"kind\": \"%s\", ", first ? "" : ",",
                     event_name((station_event)events->kind[i]));
         add_number(ctx, b, "time_s", events->time[i], ", ");
@@ -302,7 +309,7 @@ static void describe_events(context *ctx, const station_data *d, text_buffer *b)
         if (events->vessel[i] != d->vessel || count++ >= TOLD)
             continue;
         char text[160];
-        event_text(events, i, text, sizeof text);
+        tell_event(d, i, text, sizeof text);
         text_format(ctx, b, "t = %.1f s: %s.\n", events->time[i], text);
     }
     if (count > TOLD)

@@ -1,5 +1,6 @@
 #include "sim/build.h"
 
+#include "sim/approach_watch.h"
 #include "sim/build_feeding.h"
 #include "sim/build_ice.h"
 #include "sim/build_vessel.h"
@@ -82,6 +83,8 @@ static fram_status build_before_ice(context *ctx, const scenario *s, const model
         vessel_entry entry = scenario_vessel_entry(s, i);
         status = build_vessel(ctx, s, &entry, m, w, error);
     }
+    if (status == FRAM_OK)
+        status = approach_watch_begin(ctx, m, w, error);
     if (status != FRAM_OK)
         world_free(ctx, w);
     return status;

@@ -1,5 +1,6 @@
 #include "sim/build_model.h"
 
+#include "sim/approach_watch.h"
 #include "sim/build_flows.h"
 #include "sim/build_hull.h"
 #include "sim/build_hydrodynamics.h"
@@ -102,11 +103,15 @@ fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_ent
     vessel_model v = {.yielding = is_automatic(entry->keys->fender_stiffness) ? 0 : 1 / entry->keys->fender_stiffness};
     fram_status status = build_hull(ctx, s, entry, &m->solids, &v, error);
     if (status == FRAM_OK)
+        status = approach_watch_model(ctx, s, entry, m, &v, error);
+    if (status == FRAM_OK)
         status = build_hydrodynamics(s, entry, &v, error);
     if (status == FRAM_OK)
         status = build_flows(ctx, s, entry, &v, error);
     if (status == FRAM_OK && !array_push(ctx, &m->vessels, v))
         status = error_memory(error);
+    if (status != FRAM_OK)
+        array_free(ctx, &v.plan);
     return status;
 }
 

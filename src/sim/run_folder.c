@@ -9,6 +9,7 @@
 #include "io/scenario_file.h"
 #include "io/temporary.h"
 #include "model/scenario_schema.h"
+#include "model/scenario_vessel.h"
 #include "sim/checkpoint.h"
 
 #include <errno.h>
@@ -280,6 +281,30 @@ static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
     text_add(ctx, b, "],\n");
 }
 
+/* What befell the vessels, as far as a file that is read in one go can hold it. */
+static void add_events(context *ctx, text_buffer *b, const scenario *s, const event_table *events)
+{
+    enum { MOST = 1000 };
+    int32_t shown = events->count < MOST ? events->count : MOST;
+    text_add(ctx, b, "  \"events\": [");
+    for (int32_t i = 0; i < shown; i++) {
+        char text[160];
+        bool of_two = event_is_of_two((station_event)events->kind[i]);
+        const char *name = scenario_vessel_name(s, events->vessel[i]);
+        const char *other = of_two ? scenario_vessel_name(s, events->number[i]) : NULL;
+        event_text(events, i, other, text, sizeof text);
+        text_format(ctx, b, "%s\n    {\"time_s\": %.17g, \"kind\": \"%s\", ", i > 0 ? "," : "", events->time[i],
+                    event_name((station_event)events->kind[i]));
+        if (name)
+            text_format(ctx, b, "\"vessel\": \"%s\", ", name);
+        if (other)
+            text_format(ctx, b, "\"other\": \"%s\", ", other);
+        text_format(ctx, b, "\"value\": %.17g, \"ahead_s\": %.17g, \"text\": \"%s\"}", events->value[i],
+                    events->ahead[i], text);
+    }
+    text_format(ctx, b, "],\n  \"events_left_out\": %d,\n", (int)(events->count - shown));
+}
+
 fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
                                      const run_summary *summary, fram_error *error)
 {
@@ -301,6 +326,7 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     if (summary->message)
         add_text_member(ctx, &b, "message", summary->message);
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
+    add_events(ctx, &b, s, &w->events);
     text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"recording_s\": %.4f,\n  \"recording_end_s\": %.4f,\n", summary->wall,
                 summary->recording, summary->recording_end);
     text_format(ctx, &b, "  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->state_hash);

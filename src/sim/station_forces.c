@@ -4,21 +4,11 @@
 
 #include <string.h>
 
-static void tell(context *ctx, const world *w, int32_t from)
-{
-    for (int32_t i = from; i < w->events.count; i++) {
-        char text[160];
-        event_text(&w->events, i, text, sizeof text);
-        log_write(ctx, LOG_WARNING, "t = %.2f s: %s", w->events.time[i], text);
-    }
-}
-
 fram_status station_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     station_table *stations = &w->stations;
     if (stations->count == 0)
         return FRAM_OK;
-    int32_t told = w->events.count;
     double time = w->clock.time[0], dt = m->time_step;
     fram_status status = FRAM_OK;
     size_t size = (size_t)stations->count * sizeof(wrench);
@@ -38,6 +28,5 @@ fram_status station_forces(context *ctx, const model *m, world *w, fram_error *e
     if (status == FRAM_OK)
         status = mooring_step(ctx, &w->lines, &w->vessels, &w->bodies, time, loads, stations->mooring_load, &w->events,
                               error);
-    tell(ctx, w, told);
     return status;
 }

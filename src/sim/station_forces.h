@@ -4,7 +4,7 @@
 
 #include "model/world.h"
 
-/* Adds to scratch.loads.  What befell a vessel is booked in the table of events and told to the log. */
+/* Adds to scratch.loads.  What befell a vessel is booked in the table of events. */
 fram_status station_forces(context *ctx, const model *m, world *w, fram_error *error);
 
 #endif

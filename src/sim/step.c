@@ -1,6 +1,8 @@
 #include "sim/step.h"
 
 #include "model/world_invariants.h"
+#include "sim/approach_watch.h"
+#include "sim/events_tell.h"
 #include "sim/feed.h"
 #include "sim/fenders.h"
 #include "sim/ice_loads.h"
@@ -125,9 +127,13 @@ static fram_status external_forces(context *ctx, const model *m, world *w, fram_
     if (status != FRAM_OK)
         return status;
     add_outside(w);
+    int32_t told = w->events.count;
     status = station_forces(ctx, m, w, error);
     if (status == FRAM_OK)
         status = propulsion_forces(ctx, m, w, error);
+    if (status == FRAM_OK)
+        status = approach_watch(ctx, m, w, error);
+    events_tell(ctx, m, w, told);
     if (status != FRAM_OK)
         return status;
     if (m->forces == FORCES_FLUID)

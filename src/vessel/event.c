@@ -19,6 +19,7 @@ bool event_add(context *ctx, event_table *events, station_event kind, double tim
     events->kind[row] = (int32_t)kind;
     events->vessel[row] = vessel;
     events->number[row] = number;
+    events->ahead[row] = 0;
     return true;
 }
 
@@ -34,14 +35,20 @@ const char *event_name(station_event kind)
         "heading_regained",
         "beset",
         "ram",
+        "approach",
+        "approach_over",
     };
     return (int)kind >= 0 && kind < EVENT_COUNT ? names[kind] : "unknown";
 }
 
-void event_text(const event_table *events, int32_t row, char *out, size_t size)
+bool event_is_of_two(station_event kind) { return kind == EVENT_APPROACH || kind == EVENT_APPROACH_OVER; }
+
+void event_text(const event_table *events, int32_t row, const char *other, char *out, size_t size)
 {
     double value = events->value[row];
     int number = (int)events->number[row] + 1;
+    char name[24];
+    snprintf(name, sizeof name, "%d", number);
     switch ((station_event)events->kind[row]) {
     case EVENT_LINE_BREAK:
         snprintf(out, size, "mooring line %d broke at a tension of %.4g kN", number, value * 1e-3);
@@ -69,6 +76,13 @@ void event_text(const event_table *events, int32_t row, char *out, size_t size)
         return;
     case EVENT_RAM:
         snprintf(out, size, "backed %.4g m, and rams", value);
+        return;
+    case EVENT_APPROACH:
+        snprintf(out, size, "vessel %s is going to pass at %.4g m, in %.4g s at present velocities",
+                 other ? other : name, value, events->ahead[row]);
+        return;
+    case EVENT_APPROACH_OVER:
+        snprintf(out, size, "vessel %s is clear again: it came as near as %.4g m", other ? other : name, value);
         return;
     case EVENT_COUNT:
         break;

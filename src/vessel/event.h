@@ -12,24 +12,30 @@ typedef enum station_event {
     EVENT_POSITION_REGAINED,
     EVENT_HEADING_LOST, /* the heading came to deviate by more than its limit; value: deviation [rad] */
     EVENT_HEADING_REGAINED,
-    EVENT_BESET, /* the ice stopped a ship that pushes; value: net thrust [N] */
-    EVENT_RAM,   /* it has backed and comes again; value: how far it backed [m] */
+    EVENT_BESET,         /* the ice stopped a ship that pushes; value: net thrust [N] */
+    EVENT_RAM,           /* it has backed and comes again; value: how far it backed [m] */
+    EVENT_APPROACH,      /* another vessel is going to pass closer than the limit; value: predicted distance [m] */
+    EVENT_APPROACH_OVER, /* value: least distance that there was [m] */
     EVENT_COUNT
 } station_event;
 
-#define EVENT_FIELDS(X)                                        \
-    X(time, double, FIELD_F64, 1, "s", "simulated time")       \
-    X(value, double, FIELD_F64, 1, "", "what the kind says")   \
-    X(kind, int32_t, FIELD_I32, 1, "1", "enum station_event")  \
-    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel") \
-    X(number, int32_t, FIELD_I32, 1, "1", "line or thruster, from 0; -1: none")
+#define EVENT_FIELDS(X)                                                                                   \
+    X(time, double, FIELD_F64, 1, "s", "simulated time")                                                  \
+    X(value, double, FIELD_F64, 1, "", "what the kind says")                                              \
+    X(kind, int32_t, FIELD_I32, 1, "1", "enum station_event")                                             \
+    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                            \
+    X(number, int32_t, FIELD_I32, 1, "1", "line, thruster, or row of the other vessel, from 0; -1: none") \
+    X(ahead, double, FIELD_F64, 1, "s", "until what is predicted comes, 0 for what has come")
 TABLE_DECLARE(event, EVENT_FIELDS)
 
 /* false: no memory. */
 bool event_add(context *ctx, event_table *events, station_event kind, double time, int32_t vessel, int32_t number,
                double value);
-/* "line 3 broke at a tension of 2.1 MN", for people; numbers count from 1. */
-void event_text(const event_table *events, int32_t row, char *out, size_t size);
+/* Whether its number is the row of another vessel. */
+bool event_is_of_two(station_event kind);
+/* "line 3 broke at a tension of 2.1 MN", for people; numbers count from 1.  other: how the other vessel of an event of
+   two is called; NULL: by its number. */
+void event_text(const event_table *events, int32_t row, const char *other, char *out, size_t size);
 /* "line_break", for machines. */
 const char *event_name(station_event kind);
 

@@ -4,7 +4,8 @@
 scene=$FRAM_SOURCE/scenes/three_vessels.yaml
 run=$scratch/run
 "$FRAM" run "$scene" -o "$run" --quiet --set run.duration=2 --set run.transient=0 --set output.frame_interval=0.5 \
-    --set vessels.tug.y=-20.7 --set vessels.tug.speed=0.5 || fail "the run failed"
+    --set vessels.tug.y=-20.7 --set vessels.tug.speed=0.5 --set vessels.icebreaker.approach.limit=30 \
+    --set vessels.icebreaker.approach.look_ahead=100 || fail "the run failed"
 pictures=()
 ! built_with cairo || pictures=(loads-icebreaker.png loads-ship.png loads-tug.png)
 for name in "${pictures[@]}" station-ship.json station-tug.json; do
@@ -13,6 +14,16 @@ done
 for name in loads.png station.json station-icebreaker.json; do
     [ ! -e "$run/$name" ] || fail "there is a $name"
 done
+python3 - "$run" <<'END' || failures=$((failures + 1))
+import json
+import sys
+
+# The icebreaker gathers way towards the ship, past which it goes at 16 m.
+note = json.load(open(sys.argv[1] + "/run.json"))
+(event,) = [e for e in note["events"] if e["kind"] == "approach" and e["other"] == "ship"]
+assert event["vessel"] == "icebreaker" and 15.9 < event["value"] < 30 and event["ahead_s"] <= 100, event
+assert "vessel ship is going to pass at" in event["text"] and note["events_left_out"] == 0
+END
 grep -q '"vessel": "ship"' "$run/station-ship.json" || fail "station-ship.json does not name its vessel"
 [ "$(grep -c '"number": [0-9]*, "parted"' "$run/station-ship.json")" = 6 ] || fail "the ship has not six lines"
 grep -q '"parted"' "$run/station-tug.json" && fail "the tug has lines of the ship"
@@ -35,7 +46,8 @@ for row in rows:
 END
 
 "$FRAM" report "$run" --quiet || fail "the report failed"
-for text in "Ice load, vessel icebreaker" "Keeping station, vessel ship" "Motion of the vessel, vessel tug"; do
+for text in "vessel ship is going to pass at" \
+    "Ice load, vessel icebreaker" "Keeping station, vessel ship" "Motion of the vessel, vessel tug"; do
     grep -q "$text" "$run/report.html" || fail "the report has no section $text"
 done
 ! built_with cairo ||
