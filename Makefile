@@ -145,8 +145,18 @@ coverage: build/coverage/build.ninja $(STAMPS)/dev ## line coverage of src/ by t
 	@tools/coverage.sh build/coverage $(JOBS)
 
 install: build ## install under DESTDIR and PREFIX (/usr/local)
+	@$(PYTHON) tools/manual_page.py build/release/fram build/release/fram.1
 	@DESTDIR="$(DESTDIR)" cmake --install build/release --prefix "$(PREFIX)"
 	@if [ -z "$(DESTDIR)" ] && [ "$$(id -u)" = 0 ] && command -v ldconfig >/dev/null; then ldconfig; fi
+
+deb: | $(STAMPS)/core $(STAMPS)/deb ## Debian packages of this machine's kind under build/packages, checked by lintian
+	@JOBS=$(JOBS) tools/package.sh deb
+
+archive: | $(STAMPS)/core $(STAMPS)/deb ## a relocatable tar archive under build/packages
+	@JOBS=$(JOBS) tools/package.sh archive
+
+test-packages: | $(STAMPS)/trial ## the packages and the archive in empty Debian 12 roots (as root, with a network)
+	@JOBS=$(JOBS) tools/try_packages.sh
 
 deps: ## install all that building and checking needs
 	@tools/deps.sh --install core dev python

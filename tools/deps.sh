@@ -1,6 +1,8 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, python
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, python,
+#                                             deb, trial
+# Sizes are told first, and a person at a terminal is asked (FRAM_YES=1: not).
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
 #
@@ -57,6 +59,11 @@ slurm  munge            cmd:munged
 python python3-numpy    deb:python3-numpy
 python python3-cffi     deb:python3-cffi
 python python3-pip      deb:python3-pip
+deb    debhelper        cmd:dh
+deb    dh-python        cmd:dh_python3
+deb    lintian          cmd:lintian
+deb    fonts-dejavu-core file:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
+trial  debootstrap      cmd:debootstrap
 END
 }
 
@@ -83,9 +90,10 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers | validate | slurm | python) groups="$groups $word" ;;
+    core | dev | viewer | views | peers | validate | slurm | python | deb | trial) groups="$groups $word" ;;
     *)
-        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [python]" >&2
+        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [python] \
+[deb] [trial]" >&2
         exit 2
         ;;
     esac
@@ -113,11 +121,37 @@ if [ "$(id -u)" != 0 ]; then
     as_root=sudo
 fi
 
+# What apt says of the sizes: "Need to get 12.3 MB of archives." and "After this operation, 45 MB ... will be used."
+sizes() {
+    # shellcheck disable=SC2086  # packages is a list of words
+    LC_ALL=C apt-get install --assume-no --no-install-recommends $packages 2>/dev/null |
+        sed -n 's/^Need to get /deps: to download: /p; s/^After this operation, /deps: on disk: /p'
+}
+
+# Whoever sits at a terminal is asked; FRAM_YES=1 answers yes.
+agreed() {
+    if [ -n "${FRAM_YES:-}" ] || [ ! -t 0 ] || [ ! -t 1 ]; then return 0; fi
+    printf 'deps: install them with apt-get now? [Y/n] '
+    read -r answer || return 1
+    case $answer in "" | [Yy]*) return 0 ;; *) return 1 ;; esac
+}
+
 apt_install() {
     # shellcheck disable=SC2086  # packages is a list of words
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $packages
 }
 
+told=$(sizes || true)
+if [ -z "$told" ]; then
+    # Lists of packages that are old or absent know no sizes.
+    $as_root apt-get -qq update || echo "deps: apt-get update failed; trying with the lists that are here" >&2
+    told=$(sizes || true)
+fi
+echo "${told:-deps: apt-get does not tell their size}"
+if ! agreed; then
+    echo "deps: nothing was installed. The same by hand: apt-get install --no-install-recommends $packages" >&2
+    exit 1
+fi
 echo "deps: installing them with apt-get"
 if ! apt_install >/dev/null 2>&1; then
     # Package lists may be old or absent.

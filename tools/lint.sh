@@ -1,7 +1,8 @@
 #!/bin/sh
 # Everything about form:  tools/lint.sh [FILE...]     (needs a configured and built build/release)
-# 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py and check_unused.py, 4 the faults of
-# tests/mutants, 5 the objects by check_objects.py, 6 clang-tidy.  Given C files, 1 and 6 look at those only.
+# 1 form by clang-format, 2 scripts by shellcheck, 3 the house by check_rooms.py and check_unused.py, 4 what documents
+# cite by check_documents.py, 5 the faults of tests/mutants, 6 the objects by check_objects.py, 7 clang-tidy.  Given C
+# files, 1 and 7 look at those only.
 set -eu
 cd "$(dirname "$0")/.."
 build=${BUILD:-build/release}
@@ -25,6 +26,9 @@ echo "lint: rooms (tools/check_rooms.py)"
 python3 tools/check_rooms.py || bad=1
 python3 tools/draw_architecture.py --check || bad=1
 python3 tools/check_unused.py || bad=1
+
+echo "lint: documents (tools/check_documents.py)"
+python3 tools/check_documents.py || bad=1
 
 echo "lint: faults to be tried (tools/mutate)"
 python3 tools/mutate/mutate.py --check || bad=1

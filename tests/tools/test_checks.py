@@ -128,6 +128,31 @@ class House(unittest.TestCase):
         self.assertIn("src/ice/wide.c:1: ", said)
         self.assertIn("docs/guide.md:1: ", said)
 
+    def documents(self):
+        done = subprocess.run([sys.executable, self.root / "tools/check_documents.py"], capture_output=True, text=True)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.returncode, 1 if done.stdout else 0)
+        # The tools themselves cite pages that this small house lacks.
+        return "".join(line for line in done.stdout.splitlines(True) if not line.startswith("tools/"))
+
+    def test_documents_cite_what_is_there(self):
+        self.plant("src/ice/floe.c", "int a; /* docs/theory.md */\n")
+        self.plant("docs/theory.md",
+                   "# Ice & water\n\n```\n# no heading\n```\n## Ice & water\n[a\nlink](#ice--water-1)\n")
+        self.plant("README.md",
+                   "[t](docs/theory.md#ice--water), `src/ice/*.c`, src/ice/floe, build/x.md, src/<room>/a.c\n")
+        self.assertEqual(self.documents(), "")
+
+    def test_documents_that_cite_what_is_not_there(self):
+        self.plant("src/ice/floe.c", "\n/* docs/absent.md */\n")
+        self.plant("docs/theory.md", "# Ice\n\n[a\nlink](absent.md)\n")
+        self.plant("README.md", "[t](docs/theory.md#water)\n[t](../README.md)\n`src/ice/wave.h`\n`src/*.none`\n")
+        said = self.documents()
+        for line in ("src/ice/floe.c:2: docs/absent.md is", "docs/theory.md:3: the link absent.md",
+                     "README.md:1: the link", "README.md:2: the link ../README.md", "README.md:3: src/ice/wave.h",
+                     "README.md:4: src/*.none"):
+            self.assertIn(line, said)
+
     def test_libm_in_the_source(self):
         self.plant("src/ice/wave.c", "double f(double x)\n{\n    return sin (x) + powf(2, 3);\n}\n")
         said = self.rooms()

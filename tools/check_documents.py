@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Check the documents: what they cite is in the repository.
+
+Rules:
+  - a link of a Markdown file leads to a file of the repository, and its #part to a heading there;
+  - a path in a Markdown file that begins with a folder of the repository (`src/ice/floe.h`, tests/cli/common.sh) is
+    there; * stands for any letters, <words> and upper-case names for what the reader fills in;
+  - a comment or text of any other file, tests apart, that names a page docs/*.md or a scene names one that is there.
+
+What a build makes (build/, out/) is not looked for.  Prints file:line: message for each breach; exit code 1 when there
+is one."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+TEXT_SUFFIXES = {".c", ".h", ".py", ".sh", ".cmake", ".txt", ".yaml", ".mjs", ".ipynb", ".html"}
+FOLDERS = r"(?:src|tests|docs|scenes|tools|bench|fuzz|examples|bindings|include|viewer|validation|cmake|packaging)"
+LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+PATH = re.compile(rf"(?<![\w./$-]){FOLDERS}/[\w.*<>{{}}|,/-]*[\w*>}}]")
+PAGE = re.compile(r"(?<![\w./-])(?:docs|scenes)/[\w./-]+\.(?:md|yaml|png|svg)\b")
+HEADING = re.compile(r"^#{1,6} +(.*?)#*$", re.M)
+FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
+# Patterns and places that a reader fills in are no files.
+OPEN = re.compile(r"[<>{}|,]|NNNN|\bNAME\b|[A-Z]{4,}\b(?!\.md)")
+
+
+def own_files():
+    listing = subprocess.run([ROOT / "tools/sources.sh"], capture_output=True, text=True, check=True)
+    return [pathlib.Path(name) for name in listing.stdout.splitlines()]
+
+
+def anchor(heading):
+    """The name by which a heading is linked to, as the hosts of repositories make it."""
+    plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
+    return re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+
+
+def anchors(path):
+    """All anchors of a page: a heading that comes again is numbered."""
+    found, counts = set(), {}
+    for heading in HEADING.findall(FENCE.sub("", path.read_text(encoding="utf-8"))):
+        name = anchor(heading)
+        found.add(name if name not in counts else f"{name}-{counts[name]}")
+        counts[name] = counts.get(name, 0) + 1
+    return found
+
+
+def is_there(name):
+    """A file or folder of the repository; * as in a shell; a C file may be named without its ending."""
+    if "*" in name:
+        return any(ROOT.glob(name))
+    return any((ROOT / (name + end)).exists() for end in ("", ".c", ".h", ".py", ".sh"))
+
+
+def link_breach(page, target):
+    """Why a link of page leads nowhere, or None."""
+    if re.match(r"[a-z]+:", target):
+        return None
+    name, _, part = target.partition("#")
+    path = (ROOT / page.parent / name).resolve() if name else ROOT / page
+    if not path.exists() or ROOT not in (path, *path.parents):
+        return f"the link {target} leads to nothing in the repository"
+    if part and path.suffix == ".md" and part not in anchors(path):
+        return f"the link {target} leads to no heading of its page"
+    return None
+
+
+def without_links(text):
+    """The text with its lines, but not its links, whose names are relative to the page."""
+    return LINK.sub(lambda link: "\n" * link[0].count("\n"), text)
+
+
+def breaches(page):
+    """Line and message of each breach."""
+    text = (ROOT / page).read_text(encoding="utf-8", errors="replace")
+    markdown = page.suffix == ".md"
+    for link in LINK.finditer(text) if markdown else ():
+        said = link_breach(page, link[1])
+        if said:
+            yield text.count("\n", 0, link.start()) + 1, said
+    for number, line in enumerate(without_links(text).split("\n"), 1):
+        for name in (PATH if markdown else PAGE).findall(line):
+            if not OPEN.search(name) and not is_there(name.rstrip(".")):
+                yield number, f"{name} is not in the repository"
+
+
+def main():
+    bad = 0
+    for page in own_files():
+        # Tests name files that they plant, or that must be missing.
+        if page.suffix == ".md" or page.suffix in TEXT_SUFFIXES and page.parts[0] != "tests":
+            for number, message in breaches(page):
+                print(f"{page}:{number}: {message}")
+                bad += 1
+    return 1 if bad else 0
+
+
+sys.exit(main())
