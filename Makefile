@@ -72,7 +72,7 @@ test-asan: build/asan/build.ninja
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS)
-	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^threads$$'
+	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^threads$$' -LE '^runs$$'
 
 test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
 	@cmake --build --preset clang -j$(JOBS)

@@ -1,4 +1,4 @@
-/* How often intervals of extremes hold the true value: samples of known laws, again and again.  20 trials each; with
+/* How often intervals of extremes hold the true value: samples of known laws, again and again.  12 trials each; with
    FRAM_TEST_LONG 1,000, and a table of them (`make extremes-coverage`, bench/results/extremes.md). */
 #include "testing.h"
 
@@ -95,7 +95,7 @@ typedef struct coverage_case {
 static int trials(void)
 {
     const char *asked = getenv("FRAM_TEST_LONG");
-    int number = asked ? atoi(asked) : 20;
+    int number = asked ? atoi(asked) : 12;
     return number == 1 ? 1000 : number;
 }
 
@@ -166,7 +166,7 @@ START_TEST(intervals_hold_the_truth_as_often_as_they_say)
         if (only && atoi(only) != (int)i + 1)
             continue;
         cover(&cases[i], held, bias);
-        /* Of 20 trials fewer than 15 once in 40,000 times where 95 % hold. */
+        /* Of 12 trials fewer than 9 once in 450 times where 95 % hold. */
         ck_assert_msg(held[0] >= 75 && held[1] >= 75, "%s by %s: %g %% and %g %%", cases[i].name,
                       extreme_method_name(cases[i].method), held[0], held[1]);
     }
