@@ -1,7 +1,7 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
 #   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, python,
-#                                             deb, trial
+#                                             deb, trial, live, wasm
 # Sizes are told first, and a person at a terminal is asked (FRAM_YES=1: not).
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
@@ -48,6 +48,9 @@ views  python3-h5py     deb:python3-h5py
 views  python3-pandas   deb:python3-pandas
 views  python3-xarray   deb:python3-xarray
 views  python3-netcdf4  deb:python3-netcdf4
+live   libmicrohttpd-dev pc:libmicrohttpd
+wasm   emscripten       cmd:emcc
+wasm   dpkg-dev         cmd:dpkg-source
 peers g++               cmd:g++
 peers libbullet-dev     pc:bullet-float64
 peers libode-dev        pc:ode
@@ -90,10 +93,12 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers | validate | slurm | python | deb | trial) groups="$groups $word" ;;
+    core | dev | viewer | views | peers | validate | slurm | python | deb | trial | live | wasm)
+        groups="$groups $word"
+        ;;
     *)
         echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [python] \
-[deb] [trial]" >&2
+[deb] [trial] [live] [wasm]" >&2
         exit 2
         ;;
     esac

@@ -185,6 +185,10 @@ typedef struct fram_progress {
 } fram_progress;
 typedef void (*fram_progress_function)(void *user, const fram_progress *progress);
 
+/* Told once, when a run may be looked on at: the address to open in a browser on this machine, which lasts as long as
+   the call.  Whoever knows it can see the run, and change nothing. */
+typedef void (*fram_live_function)(void *user, const char *address);
+
 typedef struct fram_run_definition {
     size_t size;        /* of this struct, set by fram_run_default */
     const char *folder; /* where results go; made when missing */
@@ -195,6 +199,10 @@ typedef struct fram_run_definition {
     void *progress_user;
     const volatile int *stop; /* non-zero: write a checkpoint, once the world is made, and return FRAM_INTERRUPTED;
                                  NULL: the context's, while the world is made */
+    const char *live_page;    /* the page without a run (make viewer): the run can be looked on at while it goes, until
+                                 this call ends.  NULL: it cannot.  FRAM_ERROR_UNSUPPORTED without libmicrohttpd */
+    fram_live_function live;  /* called before the world is made; must be there with live_page */
+    void *live_user;
 } fram_run_definition;
 
 typedef struct fram_run_result {

@@ -195,10 +195,13 @@ FRAM_API fram_status fram_world_set_path(fram_world *world, int vessel, const do
 /* ---- Recording ---- */
 
 typedef struct fram_record_definition {
-    size_t size;        /* of this struct, set by fram_record_default */
-    const char *folder; /* where results go; made when missing */
-    bool force;         /* write into a folder that is not empty */
-    bool with_paths;    /* the record tells where input files lie; otherwise names alone */
+    size_t size;           /* of this struct, set by fram_record_default */
+    const char *folder;    /* where results go; made when missing */
+    bool force;            /* write into a folder that is not empty */
+    bool with_paths;       /* the record tells where input files lie; otherwise names alone */
+    const char *live_page; /* as in fram_run_definition: until the recording ends */
+    fram_live_function live;
+    void *live_user;
 } fram_record_definition;
 FRAM_API void fram_record_default(fram_record_definition *definition);
 /* From now on each step is recorded: time series, record, pictures and checkpoints come when the scenario's `output`

@@ -5,6 +5,7 @@
 #include "fram/fram.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
+#include "results/live_view.h"
 #include "sim/controls.h"
 #include "sim/recording.h"
 #include "sim/series.h"
@@ -42,6 +43,7 @@ struct fram_world {
     world_base *base;
     world inner;
     recording *recording; /* NULL: not recorded */
+    live_view *live;      /* of the recording; NULL: none */
     double step_wall;     /* time that the last step took [s] */
     bool failed;          /* the last step did; nothing is stepped from such a state */
     double *row;          /* values of all channels ... */
@@ -58,6 +60,9 @@ bool world_make_row(fram_world *w);
 fram_status world_find_inputs(fram_world *w, fram_error *error);
 /* FRAM_ERROR_USAGE after a step that failed. */
 fram_status world_refuse_failed(const fram_world *w, fram_error *error);
+/* A live view of a folder whose address the caller was told; page NULL: none.  FRAM_ERROR_USAGE without `live`. */
+fram_status live_open(context *ctx, const char *folder, const char *page, fram_live_function live, void *user,
+                      live_view **view, fram_error *error);
 /* The recording of a world that went wrong, if it has one, is closed as a failed run. */
 void recording_abandon(fram_world *w, const char *message);
 /* The row of all channels now. */

@@ -16,6 +16,8 @@ static void forget(fram_world *w)
     recording *r = w->recording;
     w->recording = NULL;
     recording_free(r);
+    live_view_end(w->live);
+    w->live = NULL;
     memory_free(r->ctx, r);
 }
 
@@ -56,7 +58,11 @@ fram_status fram_world_record(fram_world *w, const fram_record_definition *defin
     r->with_paths = d.with_paths;
     r->finish = run_results_write;
     if (status == FRAM_OK)
+        status = live_open(ctx, d.folder, d.live_page, d.live, d.live_user, &w->live, error);
+    if (status == FRAM_OK)
         status = begin(w, r, error);
+    if (status == FRAM_OK)
+        live_view_begin(w->live);
     if (status != FRAM_OK)
         forget(w);
     return status;

@@ -15,6 +15,23 @@ void fram_run_default(fram_run_definition *definition)
         *definition = (fram_run_definition){.size = sizeof *definition};
 }
 
+fram_status live_open(context *ctx, const char *folder, const char *page, fram_live_function live, void *user,
+                      live_view **view, fram_error *error)
+{
+    *view = NULL;
+    if (!page)
+        return FRAM_OK;
+    if (!live)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "live",
+                         "expected a function that is told the address, found NULL");
+    fram_status status = live_view_open(ctx, folder, page, view, error);
+    if (status == FRAM_OK)
+        live(user, live_view_address(*view));
+    return status;
+}
+
+static void begin_view(void *user) { live_view_begin(user); }
+
 /* The caller's progress function with its user pointer. */
 typedef struct progress_bridge {
     fram_progress_function function;
@@ -48,6 +65,7 @@ static run_options options_of(const fram_run_definition *d, progress_bridge *bri
                          .force = d->force,
                          .with_paths = d->with_paths,
                          .until = d->until,
+                         .begun = begin_view,
                          .progress = d->progress ? forward_progress : NULL,
                          .progress_user = bridge,
                          .stop = d->stop,
@@ -80,7 +98,13 @@ fram_status fram_run(const fram_scenario *s, const fram_run_definition *definiti
     progress_bridge bridge;
     run_options options = options_of(&d, &bridge);
     run_result inner = {0};
+    live_view *view;
+    status = live_open(&s->context->inner, d.folder, d.live_page, d.live, d.live_user, &view, error);
+    if (status != FRAM_OK)
+        return status;
+    options.begun_user = view;
     status = run_start(&s->context->inner, &s->inner, &options, &inner, error);
+    live_view_end(view);
     copy_result(&inner, result);
     return status;
 }
@@ -97,7 +121,13 @@ fram_status fram_resume(fram_context *c, const fram_run_definition *definition, 
     progress_bridge bridge;
     run_options options = options_of(&d, &bridge);
     run_result inner = {0};
+    live_view *view;
+    status = live_open(&c->inner, d.folder, d.live_page, d.live, d.live_user, &view, error);
+    if (status != FRAM_OK)
+        return status;
+    options.begun_user = view;
     status = run_resume(&c->inner, &options, &inner, error);
+    live_view_end(view);
     copy_result(&inner, result);
     return status;
 }

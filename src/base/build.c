@@ -17,6 +17,11 @@
 #else
 #define PART_LIBFYAML ""
 #endif
+#ifdef FRAM_HAVE_LIBMICROHTTPD
+#define PART_LIBMICROHTTPD ", libmicrohttpd " FRAM_HAVE_LIBMICROHTTPD
+#else
+#define PART_LIBMICROHTTPD ""
+#endif
 #ifdef FRAM_HAVE_LIBPNG
 #define PART_LIBPNG ", libpng " FRAM_HAVE_LIBPNG
 #else
@@ -38,7 +43,8 @@
 #define PART_ZLIB ""
 #endif
 
-static const char parts[] = PART_CAIRO PART_GEOS PART_LIBFYAML PART_LIBPNG PART_NETCDF PART_NETTLE PART_ZLIB;
+static const char parts[] =
+    PART_CAIRO PART_GEOS PART_LIBFYAML PART_LIBMICROHTTPD PART_LIBPNG PART_NETCDF PART_NETTLE PART_ZLIB;
 
 const char *build_parts(void) { return sizeof parts > 2 ? parts + 2 : "none"; }
 

@@ -144,6 +144,11 @@ void progress_begin(progress_view *view);
 void progress_show(void *user, const fram_progress *p);
 void progress_end(progress_view *view);
 
+/* --- command_view.c --- */
+
+/* The viewer's page, where `make viewer` or an installation put it; false: it is not there. */
+bool viewer_page_find(char out[BESIDE_SIZE]);
+
 /* --- the commands, one file each --- */
 int command_run(const command_row *self, int argc, char **argv);
 int command_study(const command_row *self, int argc, char **argv);

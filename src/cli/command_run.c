@@ -40,6 +40,26 @@ static int finish(const common_options *common, fram_status status, const fram_e
     return EXIT_GOOD;
 }
 
+static void tell_address(void *user, const char *address)
+{
+    (void)user;
+    fprintf(stderr, "live view: %s\n", address);
+    fflush(stderr);
+}
+
+/* --live: the run can be looked on at.  -1: good, otherwise an exit code. */
+static int prepare_live(const common_options *common, bool live, char page[BESIDE_SIZE],
+                        fram_run_definition *definition)
+{
+    if (!live)
+        return -1;
+    if (!viewer_page_find(page))
+        return answer_usage(common, "--live", "needs the viewer's page: build it with make viewer");
+    definition->live_page = page;
+    definition->live = tell_address;
+    return -1;
+}
+
 /* Where to stop: by default the end of the scenario.  -1: good, otherwise an exit code. */
 static int check_until(const common_options *common, double until)
 {
@@ -54,12 +74,16 @@ int command_run(const command_row *self, int argc, char **argv)
     definition.until = TO_THE_END;
     option_list overrides = {0};
     const char *path = NULL;
+    bool live = false;
+    char page[BESIDE_SIZE];
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &definition.folder, "DIR", "folder for the results (required)"},
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--with-paths", NULL, OPTION_FLAG, &definition.with_paths, NULL,
          "the record tells where the input files lie, not their names alone"},
+        {"--live", NULL, OPTION_FLAG, &live, NULL,
+         "print an address at which a browser here sees the run while it goes"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code < 0)
@@ -68,6 +92,9 @@ int command_run(const command_row *self, int argc, char **argv)
         return code;
     if (!definition.folder)
         return answer_usage(&common, "--output", "is missing: name a folder for the results, -o DIR");
+    code = prepare_live(&common, live, page, &definition);
+    if (code >= 0)
+        return code;
     code = refuse_run_folder(&common, path, definition.folder);
     if (code >= 0)
         return code;
@@ -103,12 +130,18 @@ int command_resume(const command_row *self, int argc, char **argv)
     fram_run_definition definition;
     fram_run_default(&definition);
     definition.until = TO_THE_END;
+    bool live = false;
+    char page[BESIDE_SIZE];
     const option_row rows[] = {
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
+        {"--live", NULL, OPTION_FLAG, &live, NULL,
+         "print an address at which a browser here sees the run while it goes"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &definition.folder, 1);
     if (code < 0)
         code = check_until(&common, definition.until);
+    if (code < 0)
+        code = prepare_live(&common, live, page, &definition);
     if (code >= 0)
         return code;
 

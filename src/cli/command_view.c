@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* The viewer's page beside the command: in the build tree, or where it was installed. */
-static bool find_page(char out[BESIDE_SIZE])
+bool viewer_page_find(char out[BESIDE_SIZE])
 {
     static const char *const places[] = {"../viewer/playback.html", "../share/fram/playback.html"};
     return find_beside(places, sizeof places / sizeof *places, out);
@@ -58,7 +58,7 @@ int command_view(const command_row *self, int argc, char **argv)
         return answer_usage(&common, is_limit(page_mb) ? "--total-limit" : "--page-limit",
                             "expected megabytes from 0 (as by default) to 1e6");
     char found[BESIDE_SIZE], beside[BESIDE_SIZE];
-    if (!definition.viewer_page && !find_page(found))
+    if (!definition.viewer_page && !viewer_page_find(found))
         return answer_usage(&common, "--page",
                             "the viewer's page is not there: build it with make viewer, or name it with --page FILE");
     if (!definition.viewer_page)

@@ -219,6 +219,26 @@ static fram_status read_viewer(context *ctx, const char *path, char **page, size
                      record_mark);
 }
 
+fram_status playback_live_page(context *ctx, const char *viewer, const char *address, char **page, size_t *size,
+                               fram_error *error)
+{
+    char *text = NULL;
+    size_t length = 0;
+    fram_status status = read_viewer(ctx, viewer, &text, &length, error);
+    if (status != FRAM_OK)
+        return status;
+    const char *beside = strstr(text, beside_mark), *hole = strstr(text, record_mark);
+    char *made = memory_array(ctx, length + strlen(address) + 1, 1);
+    if (made) {
+        const char *between = beside + sizeof beside_mark - 1, *after = hole + sizeof record_mark - 1;
+        *size = (size_t)snprintf(made, length + strlen(address) + 1, "%.*s%s%.*s%s", (int)(beside - text), text,
+                                 address, (int)(hole - between), between, after);
+        *page = made;
+    }
+    memory_free(ctx, text);
+    return made ? FRAM_OK : error_memory(error);
+}
+
 /* The files first: a page that is there has all that it asks for. */
 static fram_status write_all(context *ctx, page_writer *w, const playback_options *options, const char *page,
                              size_t size, fram_error *error)

@@ -20,5 +20,8 @@ typedef struct playback_report {
 /* Put FOLDER/record.fram into a page.  FRAM_ERROR_INPUT when the record has no frame or the viewer's page is none. */
 fram_status playback_write(context *ctx, const char *folder, const playback_options *options, playback_report *report,
                            fram_error *error);
+/* The viewer's page that follows a record at a relative address, in memory of ctx. */
+fram_status playback_live_page(context *ctx, const char *viewer, const char *address, char **page, size_t *size,
+                               fram_error *error);
 
 #endif

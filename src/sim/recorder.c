@@ -455,8 +455,12 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
         status = write_fractures(r, w, error);
     if (status == FRAM_OK && step > 0)
         status = peak_watch_step(&r->peaks, w, error);
-    if (status == FRAM_OK && frame_is_due(r, w))
+    if (status == FRAM_OK && frame_is_due(r, w)) {
         status = write_frame(r, w, error);
+        /* Whoever looks on meanwhile sees whole frames. */
+        if (status == FRAM_OK)
+            status = record_flush(&r->record, false, error);
+    }
     return status;
 }
 

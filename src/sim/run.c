@@ -82,6 +82,8 @@ static void fill_result(run *r, run_result *result)
 static fram_status drive(run *r, run_result *result, fram_error *error)
 {
     r->drawn = 0;
+    if (r->options->begun)
+        r->options->begun(r->options->begun_user);
     r->pace = (pace){0};
     fram_error local = {0};
     fram_status status = step_loop(r, &local);

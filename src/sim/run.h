@@ -14,8 +14,10 @@ typedef struct run_progress {
 typedef struct run_options {
     const char *folder;
     bool force;
-    bool with_paths; /* the record tells where input files lie; otherwise their names alone */
-    double until;    /* stop there with a checkpoint; <= 0: the scenario's end [s] */
+    bool with_paths;           /* the record tells where input files lie; otherwise their names alone */
+    double until;              /* stop there with a checkpoint; <= 0: the scenario's end [s] */
+    void (*begun)(void *user); /* the streams in the folder are those of this run; may be NULL */
+    void *begun_user;
     void (*progress)(void *user, const run_progress *p); /* may be NULL */
     void *progress_user;
     const volatile int *stop; /* may be NULL */

@@ -4,6 +4,7 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { History } from './history.js';
 import { drawHeader, Legend } from './legend.js';
 import { Poses } from './poses.js';
+import { follow } from './live.js';
 import { bytesOf, Chunks, FrameStore, readRecord, titleOf } from './record.js';
 import { own, Scene } from './scene.js';
 import { Timeline } from './timeline.js';
@@ -46,6 +47,7 @@ class Player {
         this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t));
         this.history = new History($('history'), record, this.store);
         this.hull = record.bodies.find((b) => b.material === 'hull');
+        this.drawn = { bodies: record.bodies.length, fractures: record.fractures.length };
         this.tabulate();
         this.poses.show(0);
         this.findRanges();
@@ -55,6 +57,29 @@ class Player {
         this.setLegend();
         this.ready = true;
         requestAnimationFrame((now) => this.tick(now));
+    }
+
+    /** The record has grown.  A view that stood at its end goes on with it. */
+    grow() {
+        if (!this.ready) return;
+        const { frames, bodies, fractures } = this.record, atEnd = this.time >= this.end;
+        this.end = frames.at(-1).time;
+        if (bodies.length !== this.drawn.bodies || fractures.length !== this.drawn.fractures) {
+            this.drawn = { bodies: bodies.length, fractures: fractures.length };
+            this.poses.grow();
+            this.scene.grow();
+            this.tabulate();
+            this.coloured = null;
+        }
+        this.poses.frame = -1;
+        // The ends of the colours follow while there is little to go by.
+        if (frames.length >= 2 * this.ranged) {
+            this.findRanges();
+            this.setLegend();
+        }
+        this.timeline.grow();
+        if (atEnd && !this.playing) this.time = this.end;
+        this.dirty = true;
     }
 
     /** Of a file from beside the page: there is more to draw, and to tell of a picked floe. */
@@ -107,6 +132,7 @@ class Player {
 
     /** Ends of the colours: the 99th percentile of some frames that need no file from beside the page. */
     findRanges() {
+        this.ranged = this.record.frames.length;
         const { record, poses } = this, ice = record.bodies.filter((b) => b.material === 'ice');
         const thickness = ice.map((b) => b.thickness), n = record.frames.length, speed = [], force = [];
         const kinds = new Set();
@@ -384,7 +410,10 @@ function ramp(t) {
 const RAMP = Float32Array.from({ length: 768 }, (_, i) => ramp(Math.floor(i / 3) / 255).toArray()[i % 3]);
 
 try {
-    window.fram = new Player(readRecord(bytesOf($('record').textContent)));
+    const record = $('record').textContent.trim();
+    // A page without a record follows one that is being written.
+    if (record) window.fram = new Player(readRecord(bytesOf(record)));
+    else follow($('record').dataset.beside, (grown) => { window.fram = new Player(grown); return window.fram; }, tell);
 } catch (e) {
     $('note').textContent = `The record cannot be played: ${e.message}`;
     throw e;

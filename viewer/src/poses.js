@@ -5,7 +5,12 @@ export class Poses {
     constructor(record, store) {
         this.record = record;
         this.store = store;
-        const n = record.bodies.length;
+        this.grow();
+    }
+
+    /** Tables for all bodies that there are now. */
+    grow() {
+        const { record } = this, n = record.bodies.length;
         this.pose = new Float32Array(7 * n);
         this.shown = new Uint8Array(n);
         this.speed = new Float32Array(n);

@@ -59,14 +59,55 @@ class Cursor {
  *  file beside the page}.
  *  Fracture: {time, kind, floe, place, load}. */
 export function readRecord(buffer) {
-    const view = new DataView(buffer);
-    if (buffer.byteLength < HEAD || text(buffer, 0, 8) !== MAGIC) throw new Error('this is not a record of Fram');
-    if (view.getUint32(12, true) !== 0x01020304) throw new Error('the record was written with another byte order');
-    const state = { record: { scenario: '', bodies: [], frames: [], fractures: [] }, alive: new Map(), order: null };
-    eachBlock(view, HEAD, (type, at, size) => readBlock(state, type, new Cursor(view, at), buffer, size));
-    if (!state.record.frames.length) throw new Error('the record holds no frames (output.frame_interval is 0?)');
-    return state.record;
+    const reader = new RecordReader();
+    reader.append(buffer);
+    if (!reader.record.frames.length) throw new Error('the record holds no frames (output.frame_interval is 0?)');
+    return reader.record;
 }
+
+/** Reads a record that grows: whole blocks are taken as they come, the beginning of one waits for the rest. */
+export class RecordReader {
+    constructor() {
+        this.record = { scenario: '', bodies: [], frames: [], fractures: [] };
+        this.state = { record: this.record, alive: new Map(), order: null };
+        this.rest = new ArrayBuffer(0);
+        this.headed = false;
+    }
+
+    append(buffer) {
+        const whole = this.rest.byteLength ? joined(this.rest, buffer) : buffer, view = new DataView(whole);
+        this.rest = whole;
+        if (!this.headed && !this.readHead(view)) return;
+        // Forces belong to the frame after them: they wait for it, so that both lie in one piece of memory.
+        let good = this.start;
+        eachBlock(view, this.start, (type, at, size) => {
+            readBlock(this.state, type, new Cursor(view, at), whole, size);
+            if (type !== FORCES) good = at + padded(size);
+        });
+        this.state.forces = undefined;
+        this.rest = whole.slice(good);
+        this.start = 0;
+    }
+
+    readHead(view) {
+        if (view.byteLength < HEAD) return false;
+        if (text(view.buffer, 0, 8) !== MAGIC) throw new Error('this is not a record of Fram');
+        if (view.getUint32(12, true) !== 0x01020304) throw new Error('the record was written with another byte order');
+        this.headed = true;
+        this.start = HEAD;
+        return true;
+    }
+}
+
+function joined(a, b) {
+    const out = new Uint8Array(a.byteLength + b.byteLength);
+    out.set(new Uint8Array(a));
+    out.set(new Uint8Array(b), a.byteLength);
+    return out.buffer;
+}
+
+/** Blocks begin at multiples of 8. */
+function padded(size) { return Math.ceil(size / 8) * 8; }
 
 /** Calls visit(type, start of payload, size) until the end, a cut block, or a visit that returns true. */
 function eachBlock(view, at, visit) {
@@ -74,7 +115,7 @@ function eachBlock(view, at, visit) {
         const type = view.getUint32(at + 4, true), size = Number(view.getBigUint64(at + 8, true));
         if (at + HEAD + size > view.byteLength) return; // cut short: what came before is good
         if (visit(type, at + HEAD, size)) return;
-        at += HEAD + Math.ceil(size / 8) * 8;
+        at += HEAD + padded(size);
     }
 }
 

@@ -57,6 +57,18 @@ export class Scene {
         this.scene.add(this.edges);
     }
 
+    /** Bodies, fractures or both are more than they were. */
+    grow() {
+        for (const old of [this.mesh, this.edges, this.markers]) {
+            this.scene.remove(old);
+            old.geometry.dispose();
+            old.material.dispose();
+        }
+        this.texture.dispose();
+        this.addBodies();
+        this.addMarkers();
+    }
+
     /** Vertices are given in the body's frame: turn and move them by the pose of their body. */
     fetchPoses(shader) {
         shader.uniforms.poses = { value: this.texture };

@@ -5,15 +5,22 @@ import { forceText } from './legend.js';
 export class Timeline {
     constructor(canvas, record, seek) {
         this.canvas = canvas;
+        this.record = record;
         this.frames = record.frames;
+        this.grow();
+        const drag = (e) => { if (e.buttons & 1) seek(this.timeAt(e.offsetX)); };
+        canvas.addEventListener('pointerdown', (e) => { canvas.setPointerCapture(e.pointerId); drag(e); });
+        canvas.addEventListener('pointermove', drag);
+    }
+
+    /** What follows from all frames that there are now. */
+    grow() {
         this.begin = this.frames[0].time;
         this.span = this.frames.at(-1).time - this.begin || 1;
         this.load = this.frames.map((f) => Math.hypot(f.force[0], f.force[1]) / 1000);
         this.most = this.load.reduce((a, b) => Math.max(a, b), 1e-9);
-        this.events = record.fractures.map((f) => f.time);
-        const drag = (e) => { if (e.buttons & 1) seek(this.timeAt(e.offsetX)); };
-        canvas.addEventListener('pointerdown', (e) => { canvas.setPointerCapture(e.pointerId); drag(e); });
-        canvas.addEventListener('pointermove', drag);
+        this.events = this.record.fractures.map((f) => f.time);
+        this.back = null;
     }
 
     timeAt(x) { return this.begin + Math.min(1, Math.max(0, x / this.canvas.clientWidth)) * this.span; }

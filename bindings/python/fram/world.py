@@ -394,13 +394,25 @@ class World:
         """Whether the world is being recorded."""
         return bool(lib.fram_world_is_recorded(self._living()))
 
-    def record(self, folder: Union[str, os.PathLike], force: bool = False, with_paths: bool = False) -> Recording:
-        """Record each step from now on in a run folder, as `fram run` does."""
+    def record(self, folder: Union[str, os.PathLike], force: bool = False, with_paths: bool = False,
+               live_page: Union[str, os.PathLike, None] = None,
+               live: Optional[Callable[[str], None]] = None) -> Recording:
+        """Record each step from now on in a run folder, as `fram run` does.
+
+        ``live_page`` (the viewer's page, which `make viewer` builds) lets a browser on this machine look on until the
+        recording ends: ``live(address)`` is told where.
+        """
         definition = ffi.new("fram_record_definition *")
         lib.fram_record_default(definition)
         name = ffi.new("char[]", bytes_of(folder))
         definition.folder, definition.force, definition.with_paths = name, force, with_paths
+        page = ffi.NULL if live_page is None else ffi.new("char[]", bytes_of(live_page))
+        told: list[str] = []
+        callback = ffi.callback("void(void *, const char *)", lambda _, text: told.append(ffi.string(text).decode()))
+        definition.live_page, definition.live = page, callback if live is not None else ffi.NULL
         self._call(lib.fram_world_record, definition)
+        if told and live is not None:
+            live(told[0])
         return Recording(self, os.fsdecode(bytes_of(folder)))
 
     def __repr__(self) -> str:
