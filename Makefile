@@ -8,7 +8,7 @@ FUZZ_EVENTS ?= 1000000
 TORTURE_MINUTES ?= 60
 TORTURE_FLAGS ?=
 MUTATE_FLAGS ?=
-BENCH_SCENE ?= scenes/demo.yaml
+BENCH_SCENE ?= scenes/managed_ice.yaml
 BENCH_FLAGS ?=
 VALIDATE_FLAGS ?=
 # Debian's own Python knows Debian's packages.
@@ -112,7 +112,7 @@ mutate: build/release/build.ninja ## make each small fault of tests/mutants and 
 mutate-check: ## whether each fault of tests/mutants still fits the code (seconds)
 	@$(PYTHON) tools/mutate/mutate.py --check
 
-bench: build ## measure the speed of BENCH_SCENE (the demo); BENCH_FLAGS go to `fram bench`
+bench: build ## measure the speed of BENCH_SCENE (managed ice); BENCH_FLAGS go to `fram bench`
 	@build/release/fram bench $(BENCH_SCENE) $(BENCH_FLAGS)
 
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py

@@ -23,13 +23,14 @@ ABOUT = """# What recording costs
 machine, nothing else running. Every run measures itself: `run.json` has `wall_s`, `recording_s` of it for all that is
 written (rows of the series, frames, checkpoints, pictures and figures at the end; waiting for the disk included) and
 `recording_end_s`, the part at the end, which does not grow with the run; middle of {rounds} runs with everything as the
-scene says. Lengths are those of the demo, of `make scenes`, and two minutes for 10,000 floes. Bytes are all of the
+scene says. Lengths are those of the managed field, of `make scenes`, two minutes for 10,000 floes. Bytes are all of the
 record: frames, forces on the vessel, outlines, the hull, the scenario. Bounds: 5 % of the run time, 20 bytes per moving
 floe and frame.
 
 """
 AFTER = """
-The demo is near the bound: single runs of it lay between 4.1 and 5.1 % earlier on 2026-11-22, on a busier machine.
+The managed field is near the bound: single runs of it lay between 4.1 and 5.1 % earlier on 2026-11-22, on a busier
+machine.
 What does not grow with the run is about 0.1 s, half of it for `plan.png`: a run of a second or two is not within the
 bound on time (120 s of the supply ship, 1.0 s, 11 %; 24 s of the 10,000 floes, 2.1 s, 6 %), nor one of a few frames
 within that on bytes, for outlines, written once, take about 130 bytes a floe. Why it is as it is stands in [decision
@@ -37,7 +38,7 @@ within that on bytes, for outlines, written once, take about 130 bytes a floe. W
 """
 MOST_PART, MOST_BYTES = 5.0, 20.0
 # Scene and how long it runs [s].
-SCENES = (("scenes/demo.yaml", 60), ("scenes/supply_ship.yaml", 600), ("bench/playback.yaml", 120))
+SCENES = (("scenes/managed_ice.yaml", 60), ("scenes/supply_ship.yaml", 600), ("bench/playback.yaml", 120))
 HEAD, FRAME = 24, 11
 
 

@@ -5,14 +5,14 @@ import world
 
 LONG = False
 END = 12.0
-SCENES = {"demo": {}, "level_ice": {}, "breaking floes": {"ice__breakable": "true", "ice__thickness": 0.5}}
+SCENES = {"managed_ice": {}, "level_ice": {}, "breaking floes": {"ice__breakable": "true", "ice__thickness": 0.5}}
 PARTS = ("capped", "elastic", "friction")
 ZONES = ("bow", "shoulder", "midbody", "stern", "bottom")
 AXES = ("x", "y", "z")
 
 
 def path(scene):
-    return ladder.ROOT / "scenes" / f"{'demo' if scene == 'breaking floes' else scene}.yaml"
+    return ladder.ROOT / "scenes" / f"{'managed_ice' if scene == 'breaking floes' else scene}.yaml"
 
 
 def ice_mass(scene, time, keys):
@@ -26,8 +26,10 @@ def case(out):
     c = ladder.Case(
         "The books of a run",
         1,
-        f"{END:g} s of the demo, of level ice, and of the demo with floes of 0.5 m that break: do the parts of the "
-        "ice force sum to the force, and its zones; do carriage, ice and water together accelerate the hull; is "
+        f"{END:g} s of the managed field, of level ice, and of the managed field with floes of 0.5 m that break: "
+        "do the "
+        "parts of the ice force sum to the force, and its zones; do carriage, ice and water together accelerate "
+        "the hull; is "
         "the ice's mass that of the start less what is booked; do the areas of every event close.",
         "Sums, Newton's law and the conservation of area and mass.",
         "Sums, Newton's law and areas to 1e-9 of the largest value, mass to 1e-10; to Newton's law is added what the "

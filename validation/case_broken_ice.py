@@ -25,7 +25,7 @@ def case(out):
     c = ladder.Case(
         "Resistance in broken ice against speed",
         5,
-        f"Mean ice resistance of the demo's hull at 1, 2 and 3 m/s, {len(SEEDS)} seeds each.",
+        f"Mean ice resistance of the managed field's hull at 1, 2 and 3 m/s, {len(SEEDS)} seeds each.",
         "Zuev (channels full of broken ice) and Huang et al. 2021 (A rho_i B h v^2 C^1.5/Fn, A 0.20 for a container "
         "ship).",
         "Power of the speed between Huang's (1) and that of pure inertia (2), within a factor of 2.5 of the nearer "

@@ -27,7 +27,8 @@ def case(out):
     c = ladder.Case(
         "Resistance against concentration",
         5,
-        "Mean ice resistance of the demo's hull in fields of 50 to 90 % (walls 150 m to either side), 4 seeds each.",
+        "Mean ice resistance of the managed field's hull in fields of 50 to 90 % (walls 150 m to either side), "
+        "4 seeds each.",
         "Zuev's formula for channels of broken ice; Huang et al. (2021) for unbroken floe fields (a container ship). "
         "Neither is for this hull.",
         "Resistance grows with concentration, with a local exponent of 1.3 to 4 (published range over 0.4 to 0.9), and "

@@ -1,4 +1,4 @@
-"""Walls close by, and the size of the floes: what both do to the mean load of the demo."""
+"""Walls close by, and the size of the floes: what both do to the mean load of the managed field."""
 
 import demo_field
 import ladder
@@ -13,12 +13,13 @@ def case(out):
     c = ladder.Case(
         "Confinement and floe size",
         7,
-        "Mean resistance of the demo's hull (beam 20 m, 80 %) between walls 30 to 200 m to either side, and with "
+        "Mean resistance of the managed field's hull (beam 20 m, 80 %) between walls 30 to 200 m to either side, "
+        "and with "
         f"floes of 50 to 400 m2 in mean; {len(SEEDS)} seeds each.",
         "Model tests in basins of several widths: a field that cannot yield sideways loads more; larger floes at "
         "the same concentration load more (they are fewer and heavier, and jam).",
         "Falls as the walls go away, and no longer changes by more than 2 standard errors from 150 to 200 m (the "
-        "field size of the demo is enough). Grows from the smallest floes to the largest.",
+        "field size of the managed field is enough). Grows from the smallest floes to the largest.",
     )
     c.header = ["half width [m]", "mean floe area [m2]", "mean [kN]", "standard error [kN]"]
     by_width, by_area = [], []

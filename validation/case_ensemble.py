@@ -11,7 +11,8 @@ def case(out):
     c = ladder.Case(
         "Numerics and the mean load",
         3,
-        "Mean ice resistance of the demo's hull over 16 seeds: with the time step of the scene, with half of it, and "
+        "Mean ice resistance of the managed field's hull over 16 seeds: with the time step of the scene, with half "
+        "of it, and "
         "with twice the sweeps of the solver.",
         "The differences between the three ensembles.",
         "Single runs are chaotic and differ; the means differ by less than 2 standard errors, and the standard error's "

@@ -4,7 +4,7 @@ import ladder
 import world
 
 LONG = False
-SCENES = {"demo": 6.0, "level_ice": 6.0}
+SCENES = {"managed_ice": 6.0, "level_ice": 6.0}
 WAYS = [("1 thread", {}), ("2 threads", {"threads": 2}), ("5 threads", {"threads": 5}),
         ("baseline instructions", {"isa": "baseline"}), ("AVX2", {"isa": "avx2"}), ("AVX-512", {"isa": "avx512"})]
 
@@ -21,7 +21,8 @@ def case(out):
     c = ladder.Case(
         "The same bits from any number of threads, instruction set, and after a stop",
         1,
-        "Hash of the whole state after 6 s of the demo and of level ice: threads, instruction sets, and a run that was "
+        "Hash of the whole state after 6 s of the managed field and of level ice: threads, instruction sets, and a "
+        "run that was "
         "stopped half way and resumed.",
         "The runs themselves.",
         "Equal to the bit: results are formed in an order that data alone decide.",

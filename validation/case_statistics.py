@@ -22,7 +22,8 @@ def case(out):
     c = ladder.Case(
         "How many runs are enough",
         8,
-        f"Mean, significant and largest resistance of {LENGTHS[0]:g}, {LENGTHS[1]:g} and {LENGTHS[2]:g} s of the demo "
+        f"Mean, significant and largest resistance of {LENGTHS[0]:g}, {LENGTHS[1]:g} and {LENGTHS[2]:g} s of the "
+        "managed field "
         f"over {len(SEEDS)} seeds, and from their scatter the number of seeds for a mean within 5 % and a peak within "
         "15 % (95 %).",
         "Statistics of independent runs: n = (1.96 cv / wanted)^2.",

@@ -1,8 +1,8 @@
-"""The demo's field and hull, towed, with what is varied: the runs that several cases of the ladder share."""
+"""The managed field and its hull, towed, with what is varied: the runs that several cases of the ladder share."""
 
 import ladder
 
-DEMO = ladder.ROOT / "scenes" / "demo.yaml"
+DEMO = ladder.ROOT / "scenes" / "managed_ice.yaml"
 START = 15.0  # [s] run.transient of the scene
 BEAM, THICKNESS, SPEED, CONCENTRATION = 20.0, 1.0, 2.0, 0.8  # of the scene
 LENGTH, ICE_DENSITY, GRAVITY = 100.0, 910.0, 9.81

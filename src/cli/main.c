@@ -127,7 +127,7 @@ static const char help_before[] =
 static const char help_after[] =
     "\nA first run, from the folder of the sources:\n"
     "  fram check scenes/demo.yaml                what will be simulated\n"
-    "  fram run scenes/demo.yaml -o out/demo      about a minute; then look into out/demo:\n"
+    "  fram run scenes/demo.yaml -o out/demo      half a minute of computing; then look into out/demo:\n"
     "      plan.png         the field seen from above\n"
     "      loads.png        ice load on the vessel over time\n"
     "      series.csv       all channels, one row a step, name[unit] headers\n"

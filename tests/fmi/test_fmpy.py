@@ -30,10 +30,10 @@ from fmpy.validation import validate_fmu  # noqa: E402
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        for scene in ("supply_ship", "demo", "level_ice"):
+        for scene in ("supply_ship", "managed_ice", "level_ice"):
             unit = pathlib.Path(folder) / f"{scene}.fmu"
             subprocess.run([os.environ["FRAM"], "fmu", f"scenes/{scene}.yaml", "-o", unit, "-q", "--set",
-                            "ice.mean_floe_area=2000", "--set", "ice.concentration=0.5"] if scene == "demo" else
+                            "ice.mean_floe_area=2000", "--set", "ice.concentration=0.5"] if scene == "managed_ice" else
                            [os.environ["FRAM"], "fmu", f"scenes/{scene}.yaml", "-o", unit, "-q"], check=True)
             findings = validate_fmu(str(unit))
             assert not findings, findings
