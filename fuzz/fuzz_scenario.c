@@ -13,7 +13,7 @@ static void print_and_read_again(context *ctx, const scenario *first)
     text_buffer text = {0}, again = {0};
     scenario second;
     fram_error error = {0};
-    char hash[65], hash_again[65];
+    char hash[SHA256_TEXT_SIZE], hash_again[SHA256_TEXT_SIZE];
     PROMISE(scenario_print(ctx, first, NULL, &text, &error) == FRAM_OK);
     PROMISE(text.data);
     PROMISE(scenario_hash(ctx, first, hash, &error) == FRAM_OK);

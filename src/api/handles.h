@@ -2,6 +2,7 @@
 #ifndef API_HANDLES_H
 #define API_HANDLES_H
 
+#include "base/hash.h"
 #include "fram/fram.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
@@ -25,7 +26,7 @@ struct fram_scenario {
     text_buffer text, notes;
     text_buffer files; /* of the scenario: key, path, each ended by a NUL, one after the other */
     int32_t file_count;
-    char hash[65];
+    char hash[SHA256_TEXT_SIZE];
 };
 
 /* What the worlds of one scenario that were copied from one another have in common; it never changes while they live,
@@ -35,7 +36,7 @@ typedef struct world_base {
     model model;
     control_array controls;
     series_layout columns;
-    char inputs[65]; /* of the contents of all files that the scenario names: SHA-256 */
+    char inputs[SHA256_TEXT_SIZE]; /* of the contents of all files that the scenario names: SHA-256 */
 } world_base;
 
 struct fram_world {

@@ -58,7 +58,7 @@ uint64_t hash_bytes(const void *data, size_t size, uint64_t seed)
     return spread(h ^ ((uint64_t)size * MULTIPLIER_2));
 }
 
-void sha256_text(const void *data, size_t size, char out[65])
+void sha256_text(const void *data, size_t size, char out[SHA256_TEXT_SIZE])
 {
     static const char digits[] = "0123456789abcdef";
     struct sha256_ctx state;

@@ -23,7 +23,8 @@ void overlay_free(overlay *o);
 /* Valid: a simple ring (repeated vertices in a row are allowed, neighbouring or distant edges that meet elsewhere
    are not), of at least 3 vertices, finite, counter-clockwise with area > 0.  Exact, and decided here, not by
    GEOS.  On false, reason and place (both may be NULL) say why and where. */
-bool overlay_is_valid(overlay *o, polygon p, char reason[128], vec2 *place);
+enum { OVERLAY_REASON_SIZE = 128 };
+bool overlay_is_valid(overlay *o, polygon p, char reason[OVERLAY_REASON_SIZE], vec2 *place);
 
 /* Each appends simple rings to out.  Where outlines touch without crossing, nothing is made of the points and lines. */
 fram_status overlay_difference(overlay *o, polygon subject, polygon clip, polygon_list *out, fram_error *error);

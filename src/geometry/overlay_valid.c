@@ -17,18 +17,18 @@ static vec2 common_point(polygon p, int32_t i, int32_t j)
     return side_a == side_b ? d : vec2_add(a, vec2_scale(vec2_sub(b, a), side_a / (side_a - side_b)));
 }
 
-static bool refuse(char reason[128], vec2 *place, vec2 where, const char *why)
+static bool refuse(char reason[OVERLAY_REASON_SIZE], vec2 *place, vec2 where, const char *why)
 {
     if (reason)
-        snprintf(reason, 128, "%s", why);
+        snprintf(reason, OVERLAY_REASON_SIZE, "%s", why);
     if (place)
         *place = where;
     return false;
 }
 
-bool overlay_is_valid(overlay *o, polygon p, char reason[128], vec2 *place)
+bool overlay_is_valid(overlay *o, polygon p, char reason[OVERLAY_REASON_SIZE], vec2 *place)
 {
-    char text[128];
+    char text[OVERLAY_REASON_SIZE];
     int32_t a, b;
     for (int32_t i = 0; i < p.count; i++)
         if (!isfinite(p.vertex[i].x) || !isfinite(p.vertex[i].y)) {
@@ -50,7 +50,7 @@ bool overlay_is_valid(overlay *o, polygon p, char reason[128], vec2 *place)
 
 fram_status overlay_check(overlay *o, polygon p, const char *role, fram_error *error)
 {
-    char reason[128];
+    char reason[OVERLAY_REASON_SIZE];
     if (overlay_is_valid(o, p, reason, NULL))
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "%s is no valid polygon: %s", role, reason);

@@ -151,7 +151,7 @@ static fram_status sound_pieces(importing *m)
             reverse(m->vertex.data, m->vertex.count);
         return polygon_list_push(m->ctx, &m->pieces, p) ? FRAM_OK : error_memory(m->error);
     }
-    char reason[128];
+    char reason[OVERLAY_REASON_SIZE];
     overlay_is_valid(m->plane, p, reason, &at);
     status = fault(m, IMPORT_NOTE_CROSSED, true, at, &mended);
     return status == FRAM_OK && mended ? overlay_make_valid(m->plane, p, &m->pieces, m->error) : status;

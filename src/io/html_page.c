@@ -142,22 +142,22 @@ void html_cell(html_page *p, const char *text)
     add(p, "</td>");
 }
 
-void html_number_text(double value, char out[32])
+void html_number_text(double value, char out[HTML_NUMBER_SIZE])
 {
     double size = fabs(value);
     if (value != value)
-        snprintf(out, 32, "\xe2\x80\x93");
+        snprintf(out, HTML_NUMBER_SIZE, "\xe2\x80\x93");
     else if (size >= 1e6 || (size > 0 && size < 1e-3))
-        snprintf(out, 32, "%.3e", value);
+        snprintf(out, HTML_NUMBER_SIZE, "%.3e", value);
     else if (size >= 1000)
-        snprintf(out, 32, "%.0f", value);
+        snprintf(out, HTML_NUMBER_SIZE, "%.0f", value);
     else
-        snprintf(out, 32, "%.4g", value);
+        snprintf(out, HTML_NUMBER_SIZE, "%.4g", value);
 }
 
 void html_number(html_page *p, double value)
 {
-    char text[32];
+    char text[HTML_NUMBER_SIZE];
     html_number_text(value, text);
     add(p, "<td class=\"n\">");
     add(p, text);

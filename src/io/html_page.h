@@ -48,6 +48,7 @@ void html_picture(html_page *p, const void *png, size_t size, const char *captio
 void html_verbatim(html_page *p, const char *text);
 
 /* A number to four significant digits, as html_number writes it. */
-void html_number_text(double value, char out[32]);
+enum { HTML_NUMBER_SIZE = 32 };
+void html_number_text(double value, char out[HTML_NUMBER_SIZE]);
 
 #endif

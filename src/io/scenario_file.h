@@ -7,6 +7,7 @@
 #ifndef IO_SCENARIO_FILE_H
 #define IO_SCENARIO_FILE_H
 
+#include "base/hash.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 
@@ -45,7 +46,7 @@ fram_status scenario_absolute_path(const scenario *s, const char *key, const cha
                                    fram_error *error);
 /* SHA-256 of the effective scenario without comments and with files by their name alone, hexadecimal: the same wherever
    the files lie.  Their contents are to be hashed on their own. */
-fram_status scenario_hash(context *ctx, const scenario *s, char out[65], fram_error *error);
+fram_status scenario_hash(context *ctx, const scenario *s, char out[SHA256_TEXT_SIZE], fram_error *error);
 
 /* The input reference, every key with type, unit, default, range and meaning, as Markdown. */
 fram_status scenario_reference(context *ctx, text_buffer *out, fram_error *error);

@@ -206,7 +206,7 @@ fram_status scenario_print(context *ctx, const scenario *s, const scenario_print
     return print(&p);
 }
 
-fram_status scenario_hash(context *ctx, const scenario *s, char out[65], fram_error *error)
+fram_status scenario_hash(context *ctx, const scenario *s, char out[SHA256_TEXT_SIZE], fram_error *error)
 {
     text_buffer text = {0};
     printer p = {.ctx = ctx, .out = &text, .scenario = s, .paths = PATH_NAME, .error = error};

@@ -245,7 +245,7 @@ static void number_print(const void *data, field_kind kind, size_t index, char o
 
 /* The first number of two columns that differs in its bits, as text. */
 static bool column_difference(const char *table, const field_info *field, const void *a, const void *b, int32_t rows,
-                              char text[200])
+                              char text[WORLD_DIFFERENCE_SIZE])
 {
     size_t number = field_kind_size(field->kind), count = (size_t)rows * (size_t)field->components;
     for (size_t i = 0; i < count; i++) {
@@ -255,18 +255,19 @@ static bool column_difference(const char *table, const field_info *field, const 
         number_print(a, field->kind, i, first);
         number_print(b, field->kind, i, second);
         size_t components = (size_t)field->components;
-        snprintf(text, 200, "%s[%zu].%s[%zu]: %s and %s", table, i / components, field->name, i % components, first,
-                 second);
+        snprintf(text, WORLD_DIFFERENCE_SIZE, "%s[%zu].%s[%zu]: %s and %s", table, i / components, field->name,
+                 i % components, first, second);
         return true;
     }
     return false;
 }
 
-static bool table_difference(const world_table *a, const world_table *b, char text[200])
+static bool table_difference(const world_table *a, const world_table *b, char text[WORLD_DIFFERENCE_SIZE])
 {
     const table_head *head_a = a->table, *head_b = b->table;
     if (head_a->count != head_b->count) {
-        snprintf(text, 200, "%s: %d and %d rows", a->info->name, (int)head_a->count, (int)head_b->count);
+        snprintf(text, WORLD_DIFFERENCE_SIZE, "%s: %d and %d rows", a->info->name, (int)head_a->count,
+                 (int)head_b->count);
         return true;
     }
     for (int f = 0; f < a->info->field_count; f++) {
@@ -278,7 +279,7 @@ static bool table_difference(const world_table *a, const world_table *b, char te
     return false;
 }
 
-bool world_difference(const world *a, const world *b, char text[200])
+bool world_difference(const world *a, const world *b, char text[WORLD_DIFFERENCE_SIZE])
 {
     world_table of_a[WORLD_TABLE_COUNT], of_b[WORLD_TABLE_COUNT];
     world_tables(a, of_a);

@@ -150,7 +150,8 @@ uint64_t world_hash(const world *w);
 /* dst's state becomes src's; both are of the same model. */
 fram_status world_copy_state(context *ctx, world *dst, const world *src, fram_error *error);
 /* The first differing table, field and row of two states, as text; false when they are equal. */
-bool world_difference(const world *a, const world *b, char text[200]);
+enum { WORLD_DIFFERENCE_SIZE = 200 };
+bool world_difference(const world *a, const world *b, char text[WORLD_DIFFERENCE_SIZE]);
 
 /* Steps of the load window; 0 without vessels. */
 int64_t load_window_length(const world *w);

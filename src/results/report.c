@@ -10,7 +10,7 @@
 
 static void figure(report *r, const char *name, double value, const char *unit)
 {
-    char text[32];
+    char text[HTML_NUMBER_SIZE];
     html_number_text(value, text);
     html_figure(&r->page, name, text, unit);
 }

@@ -2,6 +2,7 @@
 #ifndef RESULTS_REPORT_H
 #define RESULTS_REPORT_H
 
+#include "io/csv_read.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 
@@ -13,7 +14,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
 
 /* One quantity of two runs. */
 typedef struct compare_row {
-    char name[64], unit[16];
+    char name[64], unit[UNIT_SIZE];
     double a, b; /* a NaN: the run does not have it */
 } compare_row;
 enum { COMPARE_ROWS_MOST = 640 };

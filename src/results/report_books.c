@@ -32,7 +32,7 @@ static double growth(const report *r, const char *channel, int32_t from, int32_t
 
 static void book_row(report *r, const char *name, double value, const char *unit)
 {
-    char text[32], all[64];
+    char text[HTML_NUMBER_SIZE], all[64];
     html_number_text(value, text);
     snprintf(all, sizeof all, "%s %s", text, unit);
     html_row_begin(&r->page);

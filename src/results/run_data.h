@@ -3,6 +3,7 @@
 #ifndef RESULTS_RUN_DATA_H
 #define RESULTS_RUN_DATA_H
 
+#include "base/hash.h"
 #include "io/csv_read.h"
 #include "io/path.h"
 #include "model/scenario.h"
@@ -16,7 +17,7 @@ typedef struct run_event {
 /* Texts of run.json; "" for those that are missing. */
 typedef struct run_note {
     char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
-    char scenario_hash[65], state_hash[17];
+    char scenario_hash[SHA256_TEXT_SIZE], state_hash[17];
     double threads, steps, time, wall, recording, events_left_out;
     ARRAY(run_event) events;
 } run_note;

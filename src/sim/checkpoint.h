@@ -3,6 +3,7 @@
 #ifndef SIM_CHECKPOINT_H
 #define SIM_CHECKPOINT_H
 
+#include "base/hash.h"
 #include "io/late_commit.h"
 #include "io/text_buffer.h"
 #include "model/world.h"
@@ -10,7 +11,7 @@
 /* What stands beside the state. */
 typedef struct checkpoint_note {
     uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
-    char scenario_hash[65];
+    char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs; /* text of inputs_list, compared on resume */
 } checkpoint_note;
 

@@ -127,7 +127,7 @@ static fram_status name_of(packer *p, fram_error *error)
 /* A guid of all that the importer relies on: scenario, its files, variables. */
 static fram_status find_guid(packer *p, const char *list, fram_error *error)
 {
-    char hash[65], digest[65];
+    char hash[SHA256_TEXT_SIZE], digest[SHA256_TEXT_SIZE];
     text_buffer inputs = {0}, all = {0};
     fram_status status = scenario_hash(p->ctx, p->s, hash, error);
     if (status == FRAM_OK)

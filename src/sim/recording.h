@@ -4,6 +4,7 @@
 #ifndef SIM_RECORDING_H
 #define SIM_RECORDING_H
 
+#include "base/hash.h"
 #include "io/late_commit.h"
 #include "io/path.h"
 #include "io/text_buffer.h"
@@ -28,7 +29,7 @@ typedef struct recording {
     recorder recorder;
     late_commit checkpoint; /* under way */
     text_buffer inputs;
-    char hash[65];
+    char hash[SHA256_TEXT_SIZE];
     double started;     /* wall clock [s] */
     double began_at;    /* simulated time at which this call began [s] */
     double record_time; /* for all that was written so far [s] */

@@ -216,7 +216,7 @@ static fram_status add_input(void *user, const scenario_key *key, const void *me
     const char *given = member;
     if (key->kind != KEY_PATH || !*given)
         return FRAM_OK;
-    char path[SCENARIO_TEXT_SIZE], digest[65];
+    char path[SCENARIO_TEXT_SIZE], digest[SHA256_TEXT_SIZE];
     char *data = NULL;
     size_t size = 0;
     /* Absolute, as in the run folder's scenario: the run is resumed from any folder. */

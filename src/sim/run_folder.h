@@ -3,6 +3,7 @@
 #ifndef SIM_RUN_FOLDER_H
 #define SIM_RUN_FOLDER_H
 
+#include "base/hash.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 #include "model/world.h"
@@ -28,7 +29,7 @@ fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out,
 typedef struct run_summary {
     const char *status;  /* "running", "stopped", "finished", "interrupted", "failed" */
     const char *message; /* of a failure, or NULL */
-    char scenario_hash[65];
+    char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs;
     int threads;
     double wall;          /* of the last call [s] */

@@ -43,7 +43,7 @@ static const char *next_cell(const char *c, char *text, size_t room)
 enum { CELL_ROOM = 128, HEADS_MOST = 512 };
 
 /* Name and unit of "name[unit]" or "name [unit]". */
-static void split_head(char *head, char unit[16])
+static void split_head(char *head, char unit[UNIT_SIZE])
 {
     char *open = strchr(head, '['), *close = open ? strchr(open, ']') : NULL;
     unit[0] = '\0';
@@ -56,7 +56,8 @@ static void split_head(char *head, char unit[16])
 }
 
 /* Number of the column, or -1 with the error set. */
-static int find_head(const char *path, const char *line, const char *name, bool must, char unit[16], fram_error *error)
+static int find_head(const char *path, const char *line, const char *name, bool must, char unit[UNIT_SIZE],
+                     fram_error *error)
 {
     char head[CELL_ROOM], near[CELL_ROOM] = "";
     int least = WORD_ROOM, at = 0;
@@ -138,7 +139,7 @@ static fram_status read_lines(context *ctx, const csv_want *want, const char *te
 }
 
 static fram_status read_csv(context *ctx, const char *path, const series_source *source, double_array *time,
-                            double_array *value, char unit[16], fram_error *error)
+                            double_array *value, char unit[UNIT_SIZE], fram_error *error)
 {
     char *text = NULL, ignored[16];
     size_t size = 0;
@@ -185,8 +186,8 @@ static fram_status no_channel(const run_data *d, const char *name, fram_error *e
                      d->folder);
 }
 
-static fram_status take_channel(context *ctx, const run_data *d, const char *name, double_array *value, char unit[16],
-                                fram_error *error)
+static fram_status take_channel(context *ctx, const run_data *d, const char *name, double_array *value,
+                                char unit[UNIT_SIZE], fram_error *error)
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
     const double *x = run_channel(d, "ice_force_averaged_x"), *y = run_channel(d, "ice_force_averaged_y");
@@ -202,7 +203,7 @@ static fram_status take_channel(context *ctx, const run_data *d, const char *nam
 }
 
 static fram_status read_run(context *ctx, const char *folder, const series_source *source, double_array *time,
-                            double_array *value, char unit[16], double *from, fram_error *error)
+                            double_array *value, char unit[UNIT_SIZE], double *from, fram_error *error)
 {
     run_data d;
     fram_status status = run_data_read(ctx, folder, false, &d, error);
@@ -268,7 +269,7 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
     double_array time = {0}, *value = &out->values[i];
     double from = 0;
     fram_status status = FRAM_OK;
-    char unit[16];
+    char unit[UNIT_SIZE];
     if (is_folder(path) && !source->maxima)
         status = read_run(ctx, path, source, &time, value, unit, &from, error);
     else

@@ -23,7 +23,7 @@ typedef struct series_data {
     series_part *parts; /* a file each; owned, as the values */
     double_array *values;
     int32_t count;
-    char unit[16];
+    char unit[UNIT_SIZE];
 } series_data;
 
 /* FRAM_ERROR_INPUT with file, line and channel: no such column (with the nearest one), a cell that is no number, times

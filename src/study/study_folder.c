@@ -42,7 +42,7 @@ char *study_scenario_path(const study_folder *f, int32_t condition)
 /* What decides the result of a run, but for its seed. */
 static fram_status name_condition(study_folder *f, int32_t condition, const scenario *one, fram_error *error)
 {
-    char hash[65];
+    char hash[SHA256_TEXT_SIZE];
     text_buffer b = {0}, inputs = {0};
     fram_status status = scenario_hash(f->ctx, one, hash, error);
     if (status == FRAM_OK)

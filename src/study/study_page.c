@@ -93,7 +93,7 @@ static void add_head(study_page *p)
 
 static void add_interval(study_page *p, seed_interval i)
 {
-    char mean[32], half[32], text[80];
+    char mean[HTML_NUMBER_SIZE], half[HTML_NUMBER_SIZE], text[80];
     html_number_text(i.mean, mean);
     html_number_text(i.half, half);
     snprintf(text, sizeof text, "%s ± %s", mean, half);
@@ -231,7 +231,7 @@ static int32_t values_of(const study *s, int32_t key)
 
 static void add_heat_cell(study_page *p, double value, double greatest)
 {
-    char text[32];
+    char text[HTML_NUMBER_SIZE];
     int part = greatest > 0 && value > 0 ? (int)(value / greatest * 100) : 0;
     html_number_text(value, text);
     text_format(p->f->ctx, &p->page.text,

@@ -84,7 +84,7 @@ END_TEST
 /* FIPS 180-2 appendix B and the empty message. */
 START_TEST(sha256_known_answers)
 {
-    char text[65];
+    char text[SHA256_TEXT_SIZE];
     sha256_text("abc", 3, text);
     ck_assert_str_eq(text, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     sha256_text("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq", 56, text);

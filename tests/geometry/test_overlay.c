@@ -29,7 +29,7 @@ static void check_normal(const polygon_list *l)
 {
     for (int32_t i = 0; i < polygon_list_count(l); i++) {
         polygon p = polygon_list_get(l, i);
-        char reason[128] = "";
+        char reason[OVERLAY_REASON_SIZE] = "";
         ck_assert_msg(overlay_is_valid(o, p, reason, NULL), "ring %d: %s", (int)i, reason);
         for (int32_t k = 0; k < p.count; k++) {
             ck_assert_int_le(vec2_compare(p.vertex[0], p.vertex[k]), 0);
@@ -353,7 +353,7 @@ END_TEST
 START_TEST(validity_and_its_reasons)
 {
     setup();
-    char reason[128];
+    char reason[OVERLAY_REASON_SIZE];
     vec2 place;
     ck_assert(overlay_is_valid(o, RING(square), reason, &place));
     ck_assert(!overlay_is_valid(o, RING(bow), reason, &place));

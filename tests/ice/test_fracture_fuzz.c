@@ -120,7 +120,7 @@ static void check_children(fracture_rig *r, const fracture_event *e, fuzz_books 
             r->floes.number[i] >= e->first_piece + e->pieces)
             continue;
         polygon p = fracture_rig_outline(r, i);
-        char reason[128];
+        char reason[OVERLAY_REASON_SIZE];
         ck_assert_msg(overlay_is_valid(r->plane, p, reason, NULL), "%s", reason);
         ck_assert(polygon_area(p) >= r->settings.smallest_floe_area * (1 - 1e-12));
         ck_assert_int_eq(r->floes.parent[i], e->floe);

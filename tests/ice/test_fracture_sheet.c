@@ -42,7 +42,7 @@ static void check_sheet(fracture_rig *r)
             continue;
         ck_assert(tile_outline(&r->ctx, &v, i, &ring));
         polygon p = {ring.data, ring.count};
-        char reason[128];
+        char reason[OVERLAY_REASON_SIZE];
         ck_assert_msg(overlay_is_valid(r->plane, p, reason, NULL), "%s", reason);
         box2 cell = tile_cell(v.grid, r->floes.tile[i] - 1), box = polygon_bounds(p);
         ck_assert(box.lo.x >= cell.lo.x && box.hi.x <= cell.hi.x && box.lo.y >= cell.lo.y && box.hi.y <= cell.hi.y);

@@ -113,7 +113,7 @@ START_TEST(an_empty_mapping_is_all_defaults)
         scenario s;
         fram_status status = parse_text(texts[i], NULL, &s);
         ck_assert_msg(status == FRAM_OK, "text %zu: %s", i, error.message);
-        char hash[65], expected[65];
+        char hash[SHA256_TEXT_SIZE], expected[SHA256_TEXT_SIZE];
         assert_ok(scenario_hash(&ctx, &s, hash, &error), error);
         assert_ok(scenario_hash(&ctx, &defaults, expected, &error), error);
         ck_assert_str_eq(hash, expected);
@@ -144,7 +144,7 @@ START_TEST(printing_and_reading_again_gives_the_same)
     for (int comments = 0; comments < 2; comments++) {
         scenario s, again;
         text_buffer first = {0}, second = {0};
-        char hash_first[65], hash_second[65];
+        char hash_first[SHA256_TEXT_SIZE], hash_second[SHA256_TEXT_SIZE];
         assert_ok(parse_text(example, NULL, &s), error);
         print_to(&s, comments, &first);
         assert_ok(parse_text(first.data, NULL, &again), error);
@@ -224,7 +224,7 @@ END_TEST
 START_TEST(the_hash_sees_every_value_and_no_comment)
 {
     scenario s;
-    char hash[65], other[65];
+    char hash[SHA256_TEXT_SIZE], other[SHA256_TEXT_SIZE];
     assert_ok(parse_text("title: a\n", NULL, &s), error);
     assert_ok(scenario_hash(&ctx, &s, hash, &error), error);
     s.run.seed++;
@@ -248,7 +248,7 @@ START_TEST(absolute_paths_hold_anywhere)
     const scenario_print_options options = {.absolute_paths = true};
     scenario s, again;
     text_buffer text = {0};
-    char hash[65], other[65], folder[400], expected[600];
+    char hash[SHA256_TEXT_SIZE], other[SHA256_TEXT_SIZE], folder[400], expected[600];
     assert_ok(parse_text(example, NULL, &s), error);
     assert_ok(scenario_print(&ctx, &s, &options, &text, &error), error);
     assert_ok(scenario_parse(&ctx, "elsewhere.yaml", text.data, (size_t)text.count, NULL, &again, &error), error);
@@ -434,7 +434,7 @@ START_TEST(no_memory_is_an_error_everywhere)
         context failing = failing_context(&memory, n);
         scenario s;
         text_buffer text = {0};
-        char hash[65];
+        char hash[SHA256_TEXT_SIZE];
         fram_status status = scenario_parse(&failing, "a.yaml", example, strlen(example), &overrides, &s, &error);
         if (status == FRAM_OK) {
             status = scenario_print(&failing, &s, NULL, &text, &error);

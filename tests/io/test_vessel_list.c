@@ -100,7 +100,7 @@ START_TEST(printed_and_read_again)
 {
     scenario s, again;
     text_buffer text = {0};
-    char hash[65], hash_again[65];
+    char hash[SHA256_TEXT_SIZE], hash_again[SHA256_TEXT_SIZE];
     assert_ok(parse(two, NULL, &s), error);
     assert_ok(scenario_print(&ctx, &s, NULL, &text, &error), error);
     ck_assert_ptr_null(strstr(text.data, "\nvessel:"));

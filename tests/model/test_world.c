@@ -83,7 +83,7 @@ START_TEST(a_copy_is_equal_and_apart)
 {
     context_init(&ctx);
     world a, b;
-    char text[200];
+    char text[WORLD_DIFFERENCE_SIZE];
     assert_ok(world_init(&ctx, &no_vessels, &a, &error), error);
     assert_ok(world_init(&ctx, &no_vessels, &b, &error), error);
     ck_assert(!world_difference(&a, &b, text));
@@ -105,7 +105,7 @@ START_TEST(the_first_difference_is_named)
 {
     context_init(&ctx);
     world a, b;
-    char text[200];
+    char text[WORLD_DIFFERENCE_SIZE];
     assert_ok(world_init(&ctx, &no_vessels, &a, &error), error);
     assert_ok(world_init(&ctx, &no_vessels, &b, &error), error);
     fill(&a);
@@ -153,7 +153,7 @@ START_TEST(a_copied_world_stands_by_itself)
 {
     context_init(&ctx);
     world a, b;
-    char text[200];
+    char text[WORLD_DIFFERENCE_SIZE];
     assert_ok(world_init(&ctx, &no_vessels, &a, &error), error);
     fill(&a);
     const contact touch = {.a = 3, .b = 4, .depth = 0.5};
