@@ -24,10 +24,11 @@ static const struct {
 /* ---- from a run ---- */
 
 /* Statistics of a channel, or of the magnitude of two. */
-static fram_status statistics(context *ctx, const run_data *d, const char *x, const char *y, channel_statistics *out,
-                              fram_error *error)
+static fram_status statistics(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y,
+                              channel_statistics *out, fram_error *error)
 {
-    const double *time = run_channel(d, "time"), *a = run_channel(d, x), *b = y ? run_channel(d, y) : NULL;
+    const double *time = run_channel(d, "time"), *a = run_vessel_channel(d, vessel, x),
+                 *b = y ? run_vessel_channel(d, vessel, y) : NULL;
     double none = (double)NAN;
     *out = (channel_statistics){none, none, none, none, none, 0};
     if (!time || !a || (y && !b))
@@ -42,18 +43,18 @@ static fram_status statistics(context *ctx, const run_data *d, const char *x, co
     return FRAM_OK;
 }
 
-static fram_status add_station(context *ctx, const run_data *d, run_row *out, fram_error *error)
+static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
     channel_statistics offset, heading, tension, power, parted;
-    fram_status status = statistics(ctx, d, "offset_x", "offset_y", &offset, error);
+    fram_status status = statistics(ctx, d, vessel, "offset_x", "offset_y", &offset, error);
     if (status == FRAM_OK)
-        status = statistics(ctx, d, "heading_deviation", NULL, &heading, error);
+        status = statistics(ctx, d, vessel, "heading_deviation", NULL, &heading, error);
     if (status == FRAM_OK)
-        status = statistics(ctx, d, "line_tension_max", NULL, &tension, error);
+        status = statistics(ctx, d, vessel, "line_tension_max", NULL, &tension, error);
     if (status == FRAM_OK)
-        status = statistics(ctx, d, "thruster_power", NULL, &power, error);
+        status = statistics(ctx, d, vessel, "thruster_power", NULL, &power, error);
     if (status == FRAM_OK)
-        status = statistics(ctx, d, "lines_parted", NULL, &parted, error);
+        status = statistics(ctx, d, vessel, "lines_parted", NULL, &parted, error);
     if (status != FRAM_OK)
         return status;
     out->figure[ROW_offset_mean] = offset.mean;
@@ -66,27 +67,30 @@ static fram_status add_station(context *ctx, const run_data *d, run_row *out, fr
     return FRAM_OK;
 }
 
-static double mean_of(const run_data *d, const char *channel)
+static double mean_of(const run_data *d, int32_t vessel, const char *channel)
 {
-    const double *time = run_channel(d, "time"), *value = run_channel(d, channel);
+    const double *time = run_channel(d, "time"), *value = run_vessel_channel(d, vessel, channel);
     return time && value ? channel_statistics_of(time, value, d->series.rows, d->s.run.transient).mean : (double)NAN;
 }
 
-static fram_status fill(context *ctx, const run_data *d, run_row *out, fram_error *error)
+static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
     channel_statistics load;
-    fram_status status = statistics(ctx, d, "ice_force_averaged_x", "ice_force_averaged_y", &load, error);
-    if (status == FRAM_OK && !scenario_names_vessels(&d->s) && station_has_results(&d->s, 0))
-        status = add_station(ctx, d, out, error);
+    fram_status status = statistics(ctx, d, vessel, "ice_force_averaged_x", "ice_force_averaged_y", &load, error);
+    if (status == FRAM_OK && station_has_results(&d->s, vessel))
+        status = add_station(ctx, d, vessel, out, error);
     out->figure[ROW_time] = d->note.time;
     out->figure[ROW_load_mean] = load.mean;
     out->figure[ROW_load_deviation] = load.deviation;
     out->figure[ROW_load_significant] = load.significant;
     out->figure[ROW_load_largest] = load.greatest;
-    out->figure[ROW_force_x_mean] = mean_of(d, "ice_force_averaged_x");
-    out->figure[ROW_force_y_mean] = mean_of(d, "ice_force_averaged_y");
+    out->figure[ROW_force_x_mean] = mean_of(d, vessel, "ice_force_averaged_x");
+    out->figure[ROW_force_y_mean] = mean_of(d, vessel, "ice_force_averaged_y");
     out->figure[ROW_fractures] = d->fractures.rows;
     snprintf(out->state_hash, sizeof out->state_hash, "%s", d->note.state_hash);
+    if (vessel < scenario_vessel_count(&d->s))
+        snprintf(out->vessel, sizeof out->vessel, "%.*s", (int)VESSEL_NAME_MOST,
+                 scenario_vessel_entry(&d->s, vessel).keys->name);
     return status;
 }
 
@@ -97,19 +101,29 @@ static void begin_row(run_row *out)
         out->figure[i] = (double)NAN;
 }
 
-fram_status run_row_of(context *ctx, const char *folder, run_row *out, fram_error *error)
+/* A scenario without a vessel has a row too: of its ice. */
+fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_error *error)
 {
     run_data d;
-    begin_row(out);
+    *out = (run_rows){0};
     fram_status status = run_data_read(ctx, folder, false, &d, error);
     if (status != FRAM_OK)
         return status;
-    status = fill(ctx, &d, out, error);
+    int32_t vessels = scenario_vessel_count(&d.s);
+    for (int32_t v = 0; v < (vessels > 0 ? vessels : 1) && status == FRAM_OK; v++) {
+        run_row row;
+        begin_row(&row);
+        status = fill(ctx, &d, v, &row, error);
+        if (status == FRAM_OK && !array_push(ctx, out, row))
+            status = error_memory(error);
+    }
     run_data_free(ctx, &d);
+    if (status != FRAM_OK)
+        array_free(ctx, out);
     return status;
 }
 
-void run_row_failed(context *ctx, const char *folder, int exit_code, run_row *out)
+static void fill_failure(context *ctx, const char *folder, int exit_code, run_row *out)
 {
     run_data d;
     begin_row(out);
@@ -126,9 +140,25 @@ void run_row_failed(context *ctx, const char *folder, int exit_code, run_row *ou
             *c = ' ';
 }
 
+fram_status run_rows_failed(context *ctx, const char *folder, int exit_code, run_rows *out, fram_error *error)
+{
+    run_row row;
+    *out = (run_rows){0};
+    fill_failure(ctx, folder, exit_code, &row);
+    return array_push(ctx, out, row) ? FRAM_OK : error_memory(error);
+}
+
+const run_row *run_rows_find(const run_rows *rows, const char *vessel)
+{
+    for (int32_t i = 0; i < rows->count; i++)
+        if (!vessel || rows->data[i].failed || strcmp(rows->data[i].vessel, vessel) == 0)
+            return &rows->data[i];
+    return NULL;
+}
+
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 1";
+static const char mark[] = "fram study row 2";
 
 static void number(context *ctx, text_buffer *out, double value)
 {
@@ -137,15 +167,19 @@ static void number(context *ctx, text_buffer *out, double value)
     text_add(ctx, out, isfinite(value) ? text : "");
 }
 
-fram_status run_row_write(context *ctx, const char *path, const run_row *row, fram_error *error)
+fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows, fram_error *error)
 {
     text_buffer text = {0};
-    text_format(ctx, &text, "%s\n%s\n%s\n%s\n", mark, row->failed ? "failed" : "finished", row->reason,
-                row->state_hash);
-    for (int i = 0; i < ROW_FIGURES; i++) {
-        text_format(ctx, &text, "%s ", figures[i].name);
-        number(ctx, &text, row->figure[i]);
-        text_add(ctx, &text, "\n");
+    text_format(ctx, &text, "%s\n", mark);
+    for (int32_t k = 0; k < rows->count; k++) {
+        const run_row *row = &rows->data[k];
+        text_format(ctx, &text, "%s\n%s\n%s\n%s\n", row->failed ? "failed" : "finished", row->vessel, row->reason,
+                    row->state_hash);
+        for (int i = 0; i < ROW_FIGURES; i++) {
+            text_format(ctx, &text, "%s ", figures[i].name);
+            number(ctx, &text, row->figure[i]);
+            text_add(ctx, &text, "\n");
+        }
     }
     text_add(ctx, &text, "end\n");
     fram_status status =
@@ -165,19 +199,20 @@ static char *next_line(char **rest)
     return line;
 }
 
-static bool read_lines(char *text, run_row *row)
+/* Copies a line that fits. */
+static bool take_line(char **rest, char *out, size_t room)
 {
-    const char *head = next_line(&text), *state = next_line(&text), *reason = next_line(&text),
-               *hash = next_line(&text);
-    if (!head || !state || !reason || !hash || strcmp(head, mark) != 0 || strlen(reason) >= sizeof row->reason ||
-        strlen(hash) >= sizeof row->state_hash)
+    const char *line = next_line(rest);
+    if (!line || strlen(line) >= room)
         return false;
-    begin_row(row);
-    row->failed = strcmp(state, "failed") == 0;
-    memcpy(row->reason, reason, strlen(reason) + 1);
-    memcpy(row->state_hash, hash, strlen(hash) + 1);
+    memcpy(out, line, strlen(line) + 1);
+    return true;
+}
+
+static bool read_figures(char **rest, run_row *row)
+{
     for (int i = 0; i < ROW_FIGURES; i++) {
-        char *line = next_line(&text), *end = NULL;
+        char *line = next_line(rest), *end = NULL;
         size_t length = strlen(figures[i].name);
         if (!line || strncmp(line, figures[i].name, length) != 0 || line[length] != ' ')
             return false;
@@ -187,23 +222,48 @@ static bool read_lines(char *text, run_row *row)
         if (*end)
             return false;
     }
-    const char *end = next_line(&text);
-    return end && strcmp(end, "end") == 0;
+    return true;
+}
+
+/* What is there is added to rows; false, too, where it is not whole. */
+static bool read_lines(context *ctx, char *text, run_rows *rows, bool *no_memory)
+{
+    const char *head = next_line(&text);
+    if (!head || strcmp(head, mark) != 0)
+        return false;
+    for (const char *state = next_line(&text); state; state = next_line(&text)) {
+        run_row row;
+        begin_row(&row);
+        if (strcmp(state, "end") == 0)
+            return rows->count > 0;
+        row.failed = strcmp(state, "failed") == 0;
+        if (!take_line(&text, row.vessel, sizeof row.vessel) || !take_line(&text, row.reason, sizeof row.reason) ||
+            !take_line(&text, row.state_hash, sizeof row.state_hash) || !read_figures(&text, &row))
+            return false;
+        *no_memory = !array_push(ctx, rows, row);
+        if (*no_memory)
+            return false;
+    }
+    return false;
 }
 
 enum { ROW_FILE_LIMIT = 1 << 16 };
 
-fram_status run_row_read(context *ctx, const char *path, run_row *row, bool *found, fram_error *error)
+fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *found, fram_error *error)
 {
     char *text = NULL;
     size_t size = 0;
+    bool no_memory = false;
     *found = false;
+    *rows = (run_rows){0};
     if (!file_is_readable(path))
         return FRAM_OK;
     fram_status status = file_read(ctx, path, ROW_FILE_LIMIT, &text, &size, error);
-    *found = status == FRAM_OK && strlen(text) == size && read_lines(text, row);
+    *found = status == FRAM_OK && strlen(text) == size && read_lines(ctx, text, rows, &no_memory);
     memory_free(ctx, text);
-    return status;
+    if (!*found)
+        array_free(ctx, rows);
+    return no_memory ? error_memory(error) : status;
 }
 
 /* ---- in summary.csv ---- */

@@ -1,11 +1,12 @@
-/* The figures of one run of a study: a row of summary.csv. */
+/* The figures of one run of a study: a row of summary.csv, and one for each vessel of the run. */
 #ifndef STUDY_RUN_ROW_H
 #define STUDY_RUN_ROW_H
 
 #include "base/context.h"
 #include "io/text_buffer.h"
+#include "model/scenario_vessel.h"
 
-/* Every column once: name, unit.  Loads are the magnitude of the horizontal ice force on the vessel, averaged over
+/* Every column once: name, unit.  Loads are the magnitude of the horizontal ice force on a vessel, averaged over
    output.averaging_window; statistics are of the time after run.transient; what a run does not have is a NaN.
    significant: mean of the highest third of the peaks. */
 #define RUN_ROW_FIGURES(X)              \
@@ -31,21 +32,27 @@ typedef enum run_figure { RUN_ROW_FIGURES(RUN_ROW_NAME) ROW_FIGURES } run_figure
 
 enum { ROW_REASON = 256 };
 typedef struct run_row {
+    char vessel[VESSEL_NAME_MOST + 1]; /* that the figures are of; "" where vessels have no names, and of a failure */
     bool failed;
     char reason[ROW_REASON]; /* of a failure, on one line */
     char state_hash[17];
     double figure[ROW_FIGURES];
 } run_row;
+/* Of all vessels of a run, in their order; one row at least.  Free with array_free. */
+typedef ARRAY(run_row) run_rows;
 
 /* From the folder of a run that finished. */
-fram_status run_row_of(context *ctx, const char *folder, run_row *out, fram_error *error);
+fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_error *error);
 /* Of a run that failed: from its run.json, or else from its exit code. */
-void run_row_failed(context *ctx, const char *folder, int exit_code, run_row *out);
+fram_status run_rows_failed(context *ctx, const char *folder, int exit_code, run_rows *out, fram_error *error);
+/* The row of a vessel; NULL: the first.  A failure has one row, whoever is asked for.  NULL: there is no such vessel.
+ */
+const run_row *run_rows_find(const run_rows *rows, const char *vessel);
 
 /* To and from a small file, so that a run is judged once. found is false when there is none, or one that was not
-   written whole by this version. */
-fram_status run_row_write(context *ctx, const char *path, const run_row *row, fram_error *error);
-fram_status run_row_read(context *ctx, const char *path, run_row *row, bool *found, fram_error *error);
+   written whole by this version; nothing is to be freed then. */
+fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows, fram_error *error);
+fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *found, fram_error *error);
 
 /* The end of a line of summary.csv, and of its heads: ",status,FIGURES,state_hash,reason". */
 void run_row_heads(context *ctx, text_buffer *out);

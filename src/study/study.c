@@ -22,6 +22,7 @@ void study_free(context *ctx, study *s)
 {
     memory_free(ctx, s->file);
     memory_free(ctx, s->scenario);
+    memory_free(ctx, s->vessel);
     for (int32_t i = 0; i < s->set.count; i++) {
         memory_free(ctx, s->set.data[i].key);
         memory_free(ctx, s->set.data[i].value);

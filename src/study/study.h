@@ -54,6 +54,8 @@ typedef struct study_extremes {
 typedef struct study {
     char *file;          /* the study file */
     char *scenario;      /* path of the scenario, to be opened from here */
+    char *vessel;        /* whose figures the tables tell; NULL: the first that is present */
+    int vessel_line;     /* in the study file */
     assignment_list set; /* for all runs */
     text_list keys;      /* that the conditions vary */
     text_list values;    /* conditions x keys, one condition after the other */

@@ -2,6 +2,7 @@
 
 #include "io/file.h"
 #include "io/scenario_file.h"
+#include "model/scenario_vessel.h"
 #include "study/conditions.h"
 #include "study/study_extremes.h"
 
@@ -28,6 +29,15 @@ static fram_status read_scenario(const study_source *r, const yaml_node *node)
     bool good = !path.failed && set_text(r->ctx, &r->out->scenario, path.data);
     text_free(r->ctx, &path);
     return good ? FRAM_OK : error_memory(r->error);
+}
+
+/* That there is such a vessel is seen to with the conditions. */
+static fram_status read_vessel(const study_source *r, const yaml_node *node)
+{
+    if (node->kind != YAML_SCALAR || !*yaml_text(r->tree, node->value))
+        return study_refuse(r, node, "expected the name of a vessel of the scenario");
+    r->out->vessel_line = node->line;
+    return set_text(r->ctx, &r->out->vessel, yaml_text(r->tree, node->value)) ? FRAM_OK : error_memory(r->error);
 }
 
 static fram_status read_set(const study_source *r, const yaml_node *node)
@@ -122,8 +132,9 @@ static fram_status read_root(const study_source *r)
         const char *name;
         fram_status (*read)(const study_source *, const yaml_node *);
     } keys[] = {{"scenario", read_scenario},     {"set", read_set},   {"seeds", read_seeds},
-                {"vary", study_conditions_read}, {"keep", read_keep}, {"extremes", study_extremes_read}};
-    static const char *const names[] = {"scenario", "set", "seeds", "vary", "keep", "extremes"};
+                {"vary", study_conditions_read}, {"keep", read_keep}, {"extremes", study_extremes_read},
+                {"vessel", read_vessel}};
+    static const char *const names[] = {"scenario", "set", "seeds", "vary", "keep", "extremes", "vessel"};
     if (r->tree->nodes.count == 0 || r->tree->nodes.data[0].kind != YAML_MAPPING)
         return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, NULL,
                          "the file is no study: expected keys as `scenario: FILE` and `seeds: 20`");
@@ -188,14 +199,34 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
     return status;
 }
 
+/* The vessel whose figures are told must be there under every condition. */
+static fram_status check_vessel(context *ctx, const study *s, int32_t condition, const scenario *one, fram_error *error)
+{
+    if (!s->vessel || scenario_find_vessel(one, s->vessel) >= 0)
+        return FRAM_OK;
+    text_buffer there = {0};
+    for (int32_t v = 0; v < scenario_vessel_count(one); v++) {
+        const char *name = scenario_vessel_entry(one, v).keys->name;
+        text_format(ctx, &there, "%s%s", v > 0 ? ", " : "", name[0] ? name : "one without a name");
+    }
+    fram_status status =
+        error_set(error, FRAM_ERROR_INPUT, s->file, s->vessel_line, "vessel",
+                  "condition %d: expected the name of a vessel that is present (%.300s), found \"%.40s\"",
+                  (int)condition + 1, there.data ? there.data : "there is none", s->vessel);
+    text_free(ctx, &there);
+    return status;
+}
+
 static fram_status check_conditions(context *ctx, const study *s, fram_error *error)
 {
     fram_status status = FRAM_OK;
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++) {
         scenario one = {0};
         status = study_scenario(ctx, s, c, s->seeds.first, &one, error);
-        if (status == FRAM_OK)
+        if (status == FRAM_OK) {
+            status = check_vessel(ctx, s, c, &one, error);
             scenario_free(ctx, &one);
+        }
     }
     return status;
 }

@@ -61,8 +61,14 @@ static fram_status load_row(study_work *w, int32_t condition, int32_t index, fra
     study_seed *seed = &w->conditions[condition].seeds.data[index];
     char *path = study_run_path(&w->folder, condition, w->s->seeds.first + index, ".row");
     bool found = false;
-    fram_status status = path ? run_row_read(w->ctx, path, &seed->row, &found, error) : error_memory(error);
+    run_rows rows = {0};
+    fram_status status = path ? run_rows_read(w->ctx, path, &rows, &found, error) : error_memory(error);
     memory_free(w->ctx, path);
+    const run_row *chosen = found ? run_rows_find(&rows, w->s->vessel) : NULL;
+    found = chosen != NULL;
+    if (chosen)
+        seed->row = *chosen;
+    array_free(w->ctx, &rows);
     seed->state = found && !(seed->row.failed && w->options->retry) ? RUN_THERE : RUN_MISSING;
     return status;
 }
@@ -181,6 +187,25 @@ static fram_status fill_pool(study_work *w, fram_error *error)
     return status;
 }
 
+/* The figures of a run that ended: of all vessels to its file, those of the study's vessel to *out. */
+static fram_status judge_run(const study_work *w, const char *folder, const char *path, int exit_code, run_row *out,
+                             fram_error *error)
+{
+    run_rows rows = {0};
+    fram_status status = exit_code == 0 ? run_rows_of(w->ctx, folder, &rows, error)
+                                        : run_rows_failed(w->ctx, folder, exit_code, &rows, error);
+    if (status == FRAM_OK)
+        status = run_rows_write(w->ctx, path, &rows, error);
+    const run_row *chosen = status == FRAM_OK ? run_rows_find(&rows, w->s->vessel) : NULL;
+    if (chosen)
+        *out = *chosen;
+    else if (status == FRAM_OK)
+        status =
+            error_set(error, FRAM_ERROR_INTERNAL, folder, 0, "vessel", "the run has no vessel \"%s\"", w->s->vessel);
+    array_free(w->ctx, &rows);
+    return status;
+}
+
 static fram_status take_result(study_work *w, int32_t condition, int32_t index, int exit_code, fram_error *error)
 {
     int64_t seed = w->s->seeds.first + index;
@@ -192,12 +217,8 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     char *row = study_run_path(&w->folder, condition, seed, ".row");
     char *log = study_run_path(&w->folder, condition, seed, ".log");
     fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
-    if (status == FRAM_OK && exit_code == 0)
-        status = run_row_of(w->ctx, folder, &of->row, error);
-    else if (status == FRAM_OK)
-        run_row_failed(w->ctx, folder, exit_code, &of->row);
     if (status == FRAM_OK)
-        status = run_row_write(w->ctx, row, &of->row, error);
+        status = judge_run(w, folder, row, exit_code, &of->row, error);
     if (status == FRAM_OK) {
         of->state = RUN_THERE;
         w->made++;

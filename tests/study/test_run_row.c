@@ -29,17 +29,29 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     char path[PATH], text[4096];
     scratch_path(path);
     for (int failed = 0; failed < 2; failed++) {
-        run_row row = sample(), back;
+        run_row row[2] = {sample(), sample()};
+        run_rows rows = {row, 2, 2}, back;
         bool found;
-        row.failed = failed;
-        assert_ok(run_row_write(&ctx, path, &row, &error), error);
-        assert_ok(run_row_read(&ctx, path, &back, &found, &error), error);
+        row[0].failed = row[1].failed = failed;
+        snprintf(row[1].vessel, sizeof row[1].vessel, "tanker");
+        row[1].figure[1] = 7;
+        assert_ok(run_rows_write(&ctx, path, &rows, &error), error);
+        assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
         ck_assert(found);
-        ck_assert_int_eq(back.failed, failed);
-        ck_assert_str_eq(back.reason, row.reason);
-        ck_assert_str_eq(back.state_hash, row.state_hash);
-        for (int i = 0; i < ROW_FIGURES; i++)
-            ck_assert(back.figure[i] == row.figure[i] || (isnan(back.figure[i]) && isnan(row.figure[i])));
+        ck_assert_int_eq(back.count, 2);
+        for (int k = 0; k < 2; k++) {
+            ck_assert_int_eq(back.data[k].failed, failed);
+            ck_assert_str_eq(back.data[k].vessel, row[k].vessel);
+            ck_assert_str_eq(back.data[k].reason, row[k].reason);
+            ck_assert_str_eq(back.data[k].state_hash, row[k].state_hash);
+            for (int i = 0; i < ROW_FIGURES; i++)
+                ck_assert(back.data[k].figure[i] == row[k].figure[i] ||
+                          (isnan(back.data[k].figure[i]) && isnan(row[k].figure[i])));
+        }
+        ck_assert_ptr_eq(run_rows_find(&back, NULL), &back.data[0]);
+        ck_assert_ptr_eq(run_rows_find(&back, "tanker"), &back.data[failed ? 0 : 1]);
+        ck_assert_ptr_eq(run_rows_find(&back, "tug"), failed ? &back.data[0] : NULL);
+        array_free(&ctx, &back);
     }
     /* Cut behind any of its lines, it is none. */
     FILE *file = fopen(path, "r");
@@ -49,13 +61,13 @@ START_TEST(a_row_comes_back_whole_or_not_at_all)
     for (size_t cut = 1; cut < size; cut++) {
         if (text[cut - 1] != '\n' && cut % 7)
             continue;
-        run_row back;
+        run_rows back;
         bool found = true;
         file = fopen(path, "w");
         ck_assert_ptr_nonnull(file);
         ck_assert_uint_eq(fwrite(text, 1, cut, file), cut);
         fclose(file);
-        assert_ok(run_row_read(&ctx, path, &back, &found, &error), error);
+        assert_ok(run_rows_read(&ctx, path, &back, &found, &error), error);
         ck_assert_msg(!found, "the first %zu of %zu bytes are taken for a row", cut, size);
     }
     remove(path);

@@ -72,6 +72,46 @@ class Studies(unittest.TestCase):
         kept = list((self.at / "out" / "runs").glob("*/5/*"))
         self.assertEqual({p.name for p in kept}, {"scenario.yaml", "run.json", "series.csv", "fractures.csv"})
 
+    def test_a_vessel_of_a_list_has_its_figures(self):
+        (self.at / "two.yaml").write_text("""
+run: {duration: 3, time_step: 0.02, transient: 1}
+vessels:
+  - {name: east, mode: towed, x: -30, speed: 2, hull: {length: 30, beam: 10, draught: 4, freeboard: 2}}
+  - {name: moored, mode: free, x: 30, hull: {form: box, length: 20, beam: 10, draught: 4, freeboard: 2},
+     mooring: {depth: 80, lines: [{count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}]}}
+ice: {concentration: 0.8, mean_floe_area: 64}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+""")
+        study = self.at / "study.yaml"
+        rows, made = {}, {}
+        for vessel in (None, "east", "moored"):
+            study.write_text("scenario: two.yaml\nkeep: series\n" + (f"vessel: {vessel}\n" if vessel else ""))
+            made[vessel] = self.fram(study, "-o", self.at / "out")["made"]
+            (rows[vessel],) = self.rows("out")
+        # Another vessel is told of without another run.
+        self.assertEqual(made, {None: 1, "east": 0, "moored": 0})
+        self.assertEqual(rows[None], rows["east"])
+        self.assertEqual(rows["east"]["state_hash"], rows["moored"]["state_hash"])
+        (series,) = (self.at / "out" / "runs").glob("*/1/series.csv")
+        with open(series, newline="") as file:
+            lines = [r for r in csv.DictReader(file) if float(r["time[s]"]) >= 1]
+        for name in ("east", "moored"):
+            load = [math.hypot(float(r[f"{name}.ice_force_averaged_x[N]"]), float(r[f"{name}.ice_force_averaged_y[N]"]))
+                    for r in lines]
+            self.assertAlmostEqual(float(rows[name]["load_mean[N]"]), sum(load) / len(load), delta=1e-9 * max(load))
+        tension = max(float(r["moored.line_tension_max[N]"]) for r in lines)
+        self.assertAlmostEqual(float(rows["moored"]["line_tension_largest[N]"]), tension, delta=1e-6 * tension)
+        self.assertEqual(rows["east"]["line_tension_largest[N]"], "")
+
+    def test_a_vessel_that_is_not_there_is_refused(self):
+        (self.at / "base.yaml").write_text(BASE.replace("vessel: {", "vessel: {name: alone, "))
+        self.refused("vessel: tug\n", "study.yaml:2", "vessel", "alone", '"tug"')
+        self.refused("vessel: [alone]\n", "study.yaml:2", "vessel")
+        self.refused("vessel: alone\nvary: {grid: {vessel.present: [true, false]}}\n", "condition 2", "there is none")
+        study = self.write("vessel: alone\n")
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["runs"], 1)
+        self.assertGreater(float(self.rows("out")[0]["load_mean[N]"]), 0)
+
     def test_the_same_bytes_however_it_was_run(self):
         study = self.write("seeds: 3\nvary: {grid: {vessel.speed: [1.5, 2]}}\n")
         self.fram(study, "-o", self.at / "one", "--jobs", "1")
