@@ -16,6 +16,7 @@
 #define ICE_FRACTURE_H
 
 #include "ice/crushing.h"
+#include "ice/edge_load.h"
 #include "ice/tiles.h"
 
 typedef enum fracture_kind {
@@ -44,6 +45,7 @@ typedef struct fracture_settings {
     int32_t wedges;       /* N_wedges; the stencil has twice as many */
     wedge_sharing sharing;
     splitting_rule splitting;
+    edge_load_rule load_rule;
     double splitting_factor;    /* S_k */
     double toughness;           /* K_IC [Pa m^0.5], for SPLITTING_TOUGHNESS */
     double narrowness;          /* R_size: a split child's box may be this much longer than wide */
@@ -90,7 +92,8 @@ typedef struct fracture_state {
     contact_array *contacts;
     contact_memory_table *memory;
     int32_t *next_number;
-    double *crushed; /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
+    double *crushed;             /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
+    edge_load_table *edge_loads; /* what floes feel; may be NULL with EDGE_LOAD_STEP */
 } fracture_state;
 
 /* All fracture of one step.  Children keep the parent's orientation, material, thickness and motion of their material
@@ -109,6 +112,12 @@ double fracture_wedge_width(int32_t wedges);
 /* Radius of a load of this area [m2]: the area as a part of a disc, area = share a^2; where a < 1.724 h and thick is
    set, a_eff = sqrt(1.6 a^2 + h^2) - 0.675 h (Westergaard 1926) [m]. */
 double fracture_loaded_radius(double area, double share, double thickness, bool thick);
+
+/* Time in which an edge under a load on this area [m2] responds [s]: 1/omega of the waves of an ice sheet on deep
+   water, omega^2 = (D k^4 + rho_w g)/(rho_i h + rho_w/k) (Greenhill 1887), of the wave number k = pi/(4 R_bending),
+   with which a beam that is loaded at its end has its largest moment at R_bending (Hetenyi 1946). */
+double fracture_response_time(const fracture_settings *settings, const ice_material *ice, double thickness,
+                              double area);
 
 /* The ice that a load stands on. */
 typedef struct edge_ice {

@@ -281,7 +281,9 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
     }
     if (!merge_seams(ctx, s, &j->settings->tiles))
         return error_memory(j->error);
-    fram_status status = keep_failing(j);
+    fram_status status = fracture_respond(j);
+    if (status == FRAM_OK)
+        status = keep_failing(j);
     if (status == FRAM_OK && s->load.all.count > 1)
         qsort(s->load.all.data, (size_t)s->load.all.count, sizeof *s->load.all.data, compare_loads);
     return status;

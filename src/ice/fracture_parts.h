@@ -57,10 +57,19 @@ typedef struct cut_piece {
 } cut_piece;
 typedef ARRAY(cut_piece) cut_piece_array;
 
+/* A load by the floe and the surface that it is between. */
+typedef struct load_pair {
+    int32_t floe;    /* running number */
+    int32_t surface; /* slot */
+    int32_t load;    /* row */
+} load_pair;
+
 /* The loads at hand. */
 typedef struct load_work {
     fracture_load_array all;
-    int32_array root; /* the least load that is one with each, across seams */
+    ARRAY(load_pair) pairs; /* those of floes that float, sorted */
+    ARRAY(vec3) felt;       /* one per load: what was felt there before this step */
+    int32_array root;       /* the least load that is one with each, across seams */
 } load_work;
 
 /* One floe being cut, in its own frame. */
@@ -128,6 +137,9 @@ struct fracture_scratch {
 /* Loads of this step on breakable floes that fail in one way at least, by ascending slot, then falling stress over
    strength, ties by patch. */
 fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *patches);
+
+/* By EDGE_LOAD_RESPONSE, the loads on floes that float become what these feel, which is remembered. */
+fram_status fracture_respond(const fracture_job *j);
 
 /* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);

@@ -210,6 +210,9 @@
     X(sharing, CHOICE(wedge_sharing, SHARING_WIDTH, "width equal"), "",                                               \
       "width: each wedge carries by the width of the ice in its sector, a corner less than an edge; equal: N "        \
       "whole wedges whatever ice is there")                                                                           \
+    X(load_over, CHOICE(edge_load_rule, EDGE_LOAD_RESPONSE, "step response"), "",                                     \
+      "what breaks floes that float: step: the impulse of a time step over the step; response: the load as a mean "   \
+      "over the time in which the edge responds; level and fixed ice: always step")                                   \
     X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                               \
       "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than "       \
       "splitting_factor R; toughness: fracture mechanics, by the load in the floe's plane; none: floes do not split") \

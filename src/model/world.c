@@ -56,6 +56,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(propulsion, propulsion),
         STATE(course, course),
         STATE(approach, approaches),
+        STATE(edge_load, edge_loads),
     };
     memcpy(out, list, sizeof list);
 }

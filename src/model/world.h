@@ -101,6 +101,7 @@ typedef struct world {
     propulsion_table propulsion; /* a row for each vessel that drives itself */
     course_table course;
     approach_table approaches; /* a row for each vessel that watches and each other one */
+    edge_load_table edge_loads;
 
     /* Scratch: written anew each step. */
     struct {
@@ -130,7 +131,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 29 };
+enum { WORLD_TABLE_COUNT = 30 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -35,6 +35,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .wedges = (int32_t)s->ice.fracture.wedges,
                                .sharing = s->ice.fracture.sharing,
                                .splitting = s->ice.fracture.splitting,
+                               .load_rule = s->ice.fracture.load_over,
                                .splitting_factor = s->ice.fracture.splitting_factor,
                                .toughness = s->ice.fracture.toughness,
                                .narrowness = s->ice.fracture.narrowness,
