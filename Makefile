@@ -40,6 +40,9 @@ build/viewer/playback.html: $(wildcard viewer/*.json viewer/*.mjs viewer/.npmrc 
 demo: build ## run scenes/demo.yaml with a playback page, and say which files to look at
 	@tools/demo.sh
 
+site: | $(STAMPS)/site ## the documents as pages with search, build/site/index.html, which open from disk
+	@$(PYTHON) tools/site/site.py
+
 scenes: build ## run the ready scenes of vessels on station for ten minutes each, results under out/
 	@tools/scenes.sh
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
 #   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, python,
-#                                             deb, trial, live, wasm
+#                                             deb, trial, live, wasm, site
 # Sizes are told first, and a person at a terminal is asked (FRAM_YES=1: not).
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
@@ -39,6 +39,8 @@ dev  gcovr              cmd:gcovr
 dev  valgrind           cmd:valgrind
 dev  util-linux         cmd:setarch
 dev  g++                cmd:g++
+dev  python3-markdown   deb:python3-markdown
+site python3-markdown   deb:python3-markdown
 viewer nodejs           cmd:node
 viewer npm              cmd:npm
 views  chromium         cmd:chromium
@@ -93,12 +95,12 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers | validate | slurm | python | deb | trial | live | wasm)
+    core | dev | viewer | views | peers | validate | slurm | python | deb | trial | live | wasm | site)
         groups="$groups $word"
         ;;
     *)
         echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [python] \
-[deb] [trial] [live] [wasm]" >&2
+[deb] [trial] [live] [wasm] [site]" >&2
         exit 2
         ;;
     esac

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+"""The documents' site in headless Chromium, from disk: words that are typed find their page, at a wide and a narrow
+window, and nothing is complained of."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import chromium
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PYTHON = next((name for name in ("/usr/bin/python3", sys.executable) if os.path.exists(name) and
+               not subprocess.run([name, "-c", "import markdown"], capture_output=True).returncode), None)
+TYPE = """(() => {
+    const field = document.getElementById("search");
+    field.value = %r;
+    field.dispatchEvent(new Event("input"));
+    return [...document.querySelectorAll("#found a")].map((link) => link.href);
+})()"""
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(77)
+
+
+def go_to(browser, page):
+    browser.call("Page.navigate", url=page.as_uri())
+    browser.until(f"location.href === {page.as_uri()!r} && document.readyState === 'complete'", "it does not load")
+
+
+def main():
+    if not chromium.path():
+        skip("Chromium is not installed")
+    if not PYTHON:
+        skip("python3-markdown is not installed")
+    with tempfile.TemporaryDirectory() as folder:
+        site = pathlib.Path(folder) / "site"
+        subprocess.run([PYTHON, ROOT / "tools/site/site.py", site], check=True, cwd=ROOT, capture_output=True)
+        for width in (1200, 420):
+            with chromium.Browser(width, 800) as browser:
+                go_to(browser, site / "docs/theory.html")
+                hits = browser.run(TYPE % "catenary breaking_load turret")
+                assert any(hit.split("#")[0].endswith("docs/station.html") for hit in hits), hits
+                assert browser.run(TYPE % "xyzzyplugh") == []
+                assert browser.run("document.getElementById('found').textContent") == "Nothing found."
+                assert browser.run(TYPE % "") == []
+                assert browser.run("document.getElementById('menu').hidden") is False
+                assert browser.run("document.documentElement.scrollWidth <= window.innerWidth"), f"wider than {width}"
+                go_to(browser, site / "index.html")
+                assert browser.run("[...document.images].every((image) => image.naturalWidth > 0)"), "no picture"
+    print("search and pictures at two widths")
+
+
+main()

@@ -1,0 +1,58 @@
+// Search in the texts of all pages (index.js): every word must be in a section; headings and titles count more.
+(function () {
+    const field = document.getElementById("search");
+    const list = document.getElementById("found");
+    const menu = document.getElementById("menu");
+    const base = document.body.dataset.base;
+
+    function score(words, title, heading, text) {
+        let sum = 0;
+        for (const word of words) {
+            if (!text.includes(word) && !title.includes(word)) return 0;
+            sum += 1 + (heading.includes(word) ? 10 : 0) + (title.includes(word) ? 5 : 0);
+            sum += Math.min(5, text.split(word).length - 1) / 5;
+        }
+        return sum;
+    }
+
+    function search(asked) {
+        const words = asked.toLowerCase().split(/\s+/).filter(Boolean);
+        if (!words.length) return [];
+        const found = [];
+        for (const page of pages)
+            for (const [heading, anchor, text] of page.s) {
+                const sum = score(words, page.t.toLowerCase(), heading.toLowerCase(), text.toLowerCase());
+                if (sum) found.push({ sum, page, heading, anchor, text, word: words[0] });
+            }
+        return found.sort((a, b) => b.sum - a.sum).slice(0, 20);
+    }
+
+    function show(found) {
+        list.replaceChildren();
+        for (const hit of found) {
+            const item = document.createElement("li");
+            const link = document.createElement("a");
+            link.href = base + hit.page.a + (hit.anchor ? "#" + hit.anchor : "");
+            link.textContent = hit.heading && hit.heading !== hit.page.t ? hit.page.t + ": " + hit.heading : hit.page.t;
+            const around = document.createElement("small");
+            const at = Math.max(0, hit.text.toLowerCase().indexOf(hit.word) - 40);
+            around.textContent = hit.text.slice(at, at + 120);
+            item.append(link, around);
+            list.append(item);
+        }
+        if (!found.length) list.append(Object.assign(document.createElement("li"), { textContent: "Nothing found." }));
+    }
+
+    field.addEventListener("input", () => {
+        const asked = field.value.trim();
+        list.hidden = !asked;
+        menu.hidden = Boolean(asked);
+        if (asked) show(search(asked));
+    });
+    document.addEventListener("keydown", (event) => {
+        if (event.key === "/" && document.activeElement !== field) {
+            event.preventDefault();
+            field.focus();
+        }
+    });
+})();
