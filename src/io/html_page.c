@@ -24,6 +24,13 @@ static const char style[] =
     ".figure b{display:block;font-size:23px;line-height:1.25;font-variant-numeric:tabular-nums}\n"
     ".figure b small{font-size:14px;font-weight:500;color:var(--soft)}\n"
     ".figure span{font-size:12.5px;color:var(--soft)}\n"
+    ".verdict{border:1px solid var(--line);border-left:7px solid #2e7d4f;border-radius:8px;padding:12px 16px 10px;"
+    "margin:14px 0;break-inside:avoid}.verdict>b{font-size:19px;line-height:1.3}\n"
+    ".verdict.caution{border-left-color:#d08700}.verdict.bad{border-left-color:#b3261e}\n"
+    ".verdict ul{list-style:none;margin:8px 0 0;padding:0}.verdict li{display:flex;gap:9px;padding:2px 0}\n"
+    ".verdict i{font-style:normal;font-weight:700;width:14px;flex:none;text-align:center;color:#2e7d4f}\n"
+    ".verdict .note i{color:var(--soft)}.verdict .caution i{color:#b37400}.verdict .bad i{color:#b3261e}\n"
+    ".verdict em{font-style:normal;color:var(--soft)}\n"
     "table{border-collapse:collapse;width:100%;margin:10px 0 16px;font-size:13.5px;font-variant-numeric:tabular-nums}\n"
     "th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1.5px solid var(--line);"
     "padding:5px 10px 5px 0}\n"
@@ -103,6 +110,36 @@ void html_paragraph(html_page *p, const char *format, ...)
     va_end(arguments);
     add(p, "</p>\n");
 }
+
+static const char *const grade_words[] = {"good", "note", "caution", "bad"};
+static const char *const grade_marks[] = {"\xe2\x9c\x93", "\xe2\x80\xa2", "!", "\xe2\x9c\x97"};
+
+void html_verdict_begin(html_page *p, verdict_grade grade, const char *title)
+{
+    add(p, "<section class=\"verdict ");
+    add(p, grade_words[grade]);
+    add(p, "\">\n<b>");
+    html_escaped(p, title);
+    add(p, "</b>\n<ul>\n");
+}
+
+void html_verdict_line(html_page *p, verdict_grade grade, const char *text, const char *remedy)
+{
+    add(p, "<li class=\"");
+    add(p, grade_words[grade]);
+    add(p, "\"><i>");
+    add(p, grade_marks[grade]);
+    add(p, "</i><span>");
+    html_escaped(p, text);
+    if (*remedy) {
+        add(p, " <em>");
+        html_escaped(p, remedy);
+        add(p, "</em>");
+    }
+    add(p, "</span></li>\n");
+}
+
+void html_verdict_end(html_page *p) { add(p, "</ul>\n</section>\n"); }
 
 void html_figures_begin(html_page *p) { add(p, "<div class=\"figures\">\n"); }
 

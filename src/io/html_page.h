@@ -21,6 +21,12 @@ void html_section(html_page *p, const char *title);
 void html_paragraph(html_page *p, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void html_escaped(html_page *p, const char *text);
 
+/* A box with what a reader must know first: begin with its sentence, lines with what to do ("": nothing), end. */
+typedef enum verdict_grade { VERDICT_GOOD = 0, VERDICT_NOTE, VERDICT_CAUTION, VERDICT_BAD } verdict_grade;
+void html_verdict_begin(html_page *p, verdict_grade grade, const char *title);
+void html_verdict_line(html_page *p, verdict_grade grade, const char *text, const char *remedy);
+void html_verdict_end(html_page *p);
+
 /* A row of large figures: begin, figures, end. */
 void html_figures_begin(html_page *p);
 void html_figure(html_page *p, const char *name, const char *value, const char *unit);

@@ -10,8 +10,12 @@
 
 static void figure(report *r, const char *name, double value, const char *unit)
 {
-    char text[HTML_NUMBER_SIZE];
-    html_number_text(value, text);
+    char text[32];
+    /* Counts and times are told whole. */
+    if (!*unit || strcmp(unit, "s") == 0)
+        snprintf(text, sizeof text, "%.10g", value);
+    else
+        report_number(value, text);
     html_figure(&r->page, name, text, unit);
 }
 
@@ -32,10 +36,12 @@ static fram_status vessel_figures(report *r, int32_t vessel, const double *time,
     if (status != FRAM_OK)
         return status;
     load_unit unit = report_load_unit(r);
+    char averaged[64];
+    snprintf(averaged, sizeof averaged, "largest ice load, averaged over %.3g s", r->d.s.output.averaging_window);
     channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
     vessel_figure(r, "mean ice load", s.mean * unit.factor, unit.name);
     vessel_figure(r, "significant peak", s.significant * unit.factor, unit.name);
-    vessel_figure(r, "largest ice load, averaged", s.greatest * unit.factor, unit.name);
+    vessel_figure(r, averaged, s.greatest * unit.factor, unit.name);
     return FRAM_OK;
 }
 
@@ -74,18 +80,91 @@ static const char *const forms[] = {"box", "icebreaking hull", "hull from a file
 
 static const char *const boundaries[] = {"walls", "open", "in an endless field that drifts through"};
 
+/* A file as the page may tell it: with its path only where that was asked for. */
+static const char *file_told(const report *r, const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash && !r->with_paths ? slash + 1 : path;
+}
+
+/* What keeps a free vessel: lines counted one by one, thrusters, control. */
+static void kept_facts(report *r, const scenario_vessel *v)
+{
+    char lines[80] = "no mooring", thrusters[48] = "no thrusters";
+    int64_t count = 0;
+    for (int32_t i = 0; i < v->mooring.lines.count; i++)
+        count += v->mooring.lines.data[i].count;
+    if (count > 0)
+        snprintf(lines, sizeof lines, "%lld mooring line%s%s in %.4g m of water", (long long)count,
+                 count > 1 ? "s" : "", v->mooring.turret ? " on a turret" : "", v->mooring.depth);
+    if (v->thrusters.count > 0)
+        snprintf(thrusters, sizeof thrusters, "%d thruster%s", (int)v->thrusters.count,
+                 v->thrusters.count > 1 ? "s" : "");
+    html_fact(&r->page, "kept by", "%s, %s%s%s", lines, thrusters, v->positioning.active ? ", dynamic positioning" : "",
+              is_automatic(v->propulsion.bollard_pull) ? "" : ", its own propulsion");
+}
+
 static void vessel_facts(report *r, const vessel_entry *entry)
 {
     const scenario_vessel *v = entry->keys;
     const scenario_hull *h = &v->hull;
     char name[64];
     snprintf(name, sizeof name, "vessel%s%.*s", v->name[0] ? " " : "", (int)VESSEL_NAME_MOST, v->name);
-    html_fact(&r->page, name, "%s, %s; %g m long, %g m wide, %g m draught", forms[h->form], modes[v->mode], h->length,
-              h->beam, h->draught);
-    html_fact(&r->page, "speed and heading", "%g m/s, %g deg", v->speed, v->heading_deg);
-    if (v->mode == VESSEL_FREE && (v->mooring.lines.count > 0 || v->thrusters.count > 0))
-        html_fact(&r->page, "kept by", "mooring lines in groups: %d, thrusters: %d%s", (int)v->mooring.lines.count,
-                  (int)v->thrusters.count, v->positioning.active ? ", dynamic positioning" : "");
+    if (h->form == HULL_MESH)
+        html_fact(&r->page, name, "%s (%s), %s", forms[h->form], file_told(r, h->file), modes[v->mode]);
+    else
+        html_fact(&r->page, name, "%s, %s; %g m long, %g m wide, %g m draught", forms[h->form], modes[v->mode],
+                  h->length, h->beam, h->draught);
+    if (v->path.count > 0)
+        html_fact(&r->page, "motion", "along a path of %d points", (int)v->path.count);
+    else if (v->mode == VESSEL_FREE)
+        html_fact(&r->page, "motion", "free in six degrees of freedom, heading %g deg at the start%s", v->heading_deg,
+                  v->speed > 0 ? ", under way" : ", at rest");
+    else
+        html_fact(&r->page, "motion", "%g m/s towards %g deg, heading %g deg", v->speed,
+                  automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
+    if (v->mode == VESSEL_FREE)
+        kept_facts(r, v);
+}
+
+/* Ice that differs in kind: populations, each with its share and what it has of its own. */
+static void population_facts(report *r, const scenario_ice *i)
+{
+    for (int32_t k = 0; k < i->populations.count; k++) {
+        const scenario_population *p = &i->populations.data[k];
+        html_fact(&r->page, k == 0 ? "populations" : "", "%d: %g m thick, flexural strength %g kPa", (int)k + 1,
+                  automatic_or(p->thickness, i->thickness),
+                  automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3);
+    }
+}
+
+static void ice_facts(report *r)
+{
+    static const char *const sources[] = {
+        "managed ice (Voronoi cells)", "listed floes", "none", "observed floes", "level ice", "packed floes"};
+    const scenario_ice *i = &r->d.s.ice;
+    html_fact(&r->page, "ice", "%s, %g m thick, %g kg/m3; crushing %g kPa, flexural strength %g kPa; %s",
+              sources[i->source], i->thickness, i->density, i->crushing_strength * 1e-3, i->flexural_strength * 1e-3,
+              i->breakable ? "breaks" : "does not break");
+    if (i->source == ICE_FILE)
+        html_fact(&r->page, "field", "from %s", file_told(r, i->file));
+    if (i->source == ICE_VORONOI && i->populations.count == 0)
+        html_fact(&r->page, "field", "%g %% of the area free for ice asked for, floes of %g m2 on average",
+                  100 * i->concentration, i->mean_floe_area);
+    else if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
+        html_fact(&r->page, "field", "%g %% of the area free for ice asked for", 100 * i->concentration);
+    population_facts(r, i);
+}
+
+/* A uniform flow, or the file of its history. */
+static void flow_fact(report *r, const char *name, const char *file, double speed, double direction)
+{
+    if (file[0])
+        html_fact(&r->page, name, "as %s has it over time", file_told(r, file));
+    else if (speed > 0)
+        html_fact(&r->page, name, "%g m/s towards %g deg", speed, direction);
+    else
+        html_fact(&r->page, name, "none");
 }
 
 static void scenario_table(report *r)
@@ -98,19 +177,21 @@ static void scenario_table(report *r)
         vessel_entry entry = scenario_vessel_entry(s, v);
         vessel_facts(r, &entry);
     }
-    if (i->source != ICE_NONE) {
-        html_fact(&r->page, "ice", "%g m thick, %g kg/m3; crushing %g kPa, flexural strength %g kPa; %s", i->thickness,
-                  i->density, i->crushing_strength * 1e-3, i->flexural_strength * 1e-3,
-                  i->breakable ? "breaks" : "does not break");
-        if (i->source == ICE_VORONOI)
-            html_fact(&r->page, "field", "managed ice, %g %% asked for, floes of %g m2 on average",
-                      100 * i->concentration, i->mean_floe_area);
-    }
+    if (i->source != ICE_NONE)
+        ice_facts(r);
     html_fact(&r->page, "domain", "%g m x %g m, %s", s->domain.x_max - s->domain.x_min,
               s->domain.y_max - s->domain.y_min, boundaries[s->domain.boundary]);
-    html_fact(&r->page, "current and wind", "%g m/s towards %g deg; %g m/s towards %g deg",
-              s->environment.current_speed, s->environment.current_direction_deg, s->environment.wind_speed,
-              s->environment.wind_direction_deg);
+    const scenario_environment *e = &s->environment;
+    bool drifts = s->domain.boundary == DOMAIN_FEEDING;
+    if (drifts && (s->domain.drift_file[0] || !is_automatic(s->domain.drift_speed)))
+        flow_fact(r, "drift of the ice", s->domain.drift_file, automatic_or(s->domain.drift_speed, 0),
+                  s->domain.drift_direction_deg);
+    else if (drifts)
+        html_fact(&r->page, "drift of the ice", "that of the current");
+    flow_fact(r, "current", e->current_file, e->current_speed, e->current_direction_deg);
+    if (e->current_profile_file[0])
+        html_fact(&r->page, "over depth", "with what %s adds", file_told(r, e->current_profile_file));
+    flow_fact(r, "wind", e->wind_file, e->wind_speed, e->wind_direction_deg);
     html_fact(&r->page, "run", "%g s in steps of %g s, seed %lld", s->run.duration, s->run.time_step,
               (long long)s->run.seed);
     html_table_end(&r->page);
@@ -166,7 +247,9 @@ static fram_status compose(report *r, fram_error *error)
     snprintf(subtitle, sizeof subtitle, "Run %s in %.1000s, %g s simulated; Fram %s", r->d.note.status, folder,
              r->d.note.time, r->d.note.version);
     html_begin(&r->page, r->d.s.title[0] ? r->d.s.title : "A run of Fram", subtitle);
-    fram_status status = key_figures(r, error);
+    fram_status status = report_verdict(r, error);
+    if (status == FRAM_OK)
+        status = key_figures(r, error);
     scenario_table(r);
     events(r);
     for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && status == FRAM_OK; v++) {

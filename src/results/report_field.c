@@ -29,13 +29,31 @@ static void field_table(report *r)
     field_row(r, "floes", a->areas.count, b->areas.count);
     field_row(r, "of these fixed", a->fixed, b->fixed);
     field_row(r, "ice area [m2]", a->area, b->area);
-    field_row(r, "ice area over the domain's", a->area / domain, b->area / domain);
+    field_row(r, "ice area over all of the domain", a->area / domain, b->area / domain);
     field_row(r, "ice mass [t]", a->mass * 1e-3, b->mass * 1e-3);
     field_row(r, "mean thickness [m]", a->thickness, b->thickness);
     field_row(r, "mean floe area [m2]", a->mean, b->mean);
     field_row(r, "median floe area [m2]", a->median, b->median);
     field_row(r, "largest floe [m2]", a->greatest, b->greatest);
     html_table_end(&r->page);
+}
+
+/* Why the cover of the window is not the concentration that was asked for. */
+static void tell_cover(report *r)
+{
+    const scenario *s = &r->d.s;
+    const scenario_domain *d = &s->domain;
+    if (s->ice.source != ICE_VORONOI && s->ice.source != ICE_PACKED)
+        return;
+    html_paragraph(
+        &r->page,
+        "%g %% was asked of the area that is free for ice: the domain less the vessel with %g m around it%s. "
+        "The table counts every floe of the run, also what reaches beyond the edge, over all of the domain%s.",
+        100 * s->ice.concentration, s->ice.keep_out_margin,
+        s->ice.open_water.count > 0 || s->ice.open_water_file[0] ? " and the open water" : "",
+        d->boundary == DOMAIN_FEEDING
+            ? "; of an endless field it is a window, which holds now more, now less than the whole tile"
+            : "");
 }
 
 /* Part of the floes that are larger, a step per floe. */
@@ -122,6 +140,7 @@ fram_status report_field(report *r, fram_error *error)
     const report_line floes[] = {{"floes", "floes"}};
     html_section(&r->page, "Ice field");
     field_table(r);
+    tell_cover(r);
     html_grid_begin(&r->page);
     fram_status status = maps(r, error);
     if (status == FRAM_OK)

@@ -2,6 +2,7 @@
 
 #include "base/channel_statistics.h"
 
+#include <math.h>
 #include <stdio.h>
 
 load_unit load_unit_for(double newton)
@@ -9,6 +10,15 @@ load_unit load_unit_for(double newton)
     if (newton >= 1e7)
         return (load_unit){"MN", 1e-6};
     return newton >= 1e4 ? (load_unit){"kN", 1e-3} : (load_unit){"N", 1};
+}
+
+void report_number(double value, char out[32])
+{
+    double size = fabs(value);
+    if (size >= 100 && size < 1e6)
+        snprintf(out, 32, "%.0f", size < 1000 ? value : floor(value / 10 + 0.5) * 10);
+    else
+        snprintf(out, 32, "%.3g", value);
 }
 
 fram_status report_choose_vessel(report *r, int32_t vessel, fram_error *error)

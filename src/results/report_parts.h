@@ -48,7 +48,11 @@ fram_status report_series(report *r, const char *title, const char *y_label, dou
 void report_statistics_heads(report *r, const char *first);
 void report_statistics(report *r, const char *channel, const char *name, double factor);
 
+/* A number as a person writes it: three digits, all those before the point, no exponent up to 1e6. */
+void report_number(double value, char out[32]);
+
 /* The sections, in files of their own. */
+fram_status report_verdict(report *r, fram_error *error);
 fram_status report_loads(report *r, fram_error *error);
 fram_status report_mechanisms(report *r, load_unit unit, fram_error *error);
 fram_status report_field(report *r, fram_error *error);

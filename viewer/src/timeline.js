@@ -43,7 +43,8 @@ export class Timeline {
         g.fillStyle = '#15222e';
         g.font = '11px system-ui, "DejaVu Sans", sans-serif';
         const events = this.events.length ? `; orange: ${this.events.length} floes that broke` : '';
-        g.fillText(`ice load on the vessel, averaged; largest ${forceText(this.most)}${events}`, 4, 11);
+        const most = `largest of them ${forceText(this.most)}`;
+        g.fillText(`ice load on the vessel, averaged, at the frames; ${most}${events}`, 4, 11);
         const end = `${(this.begin + this.span).toFixed(0)} s`;
         g.fillText(end, w - g.measureText(end).width - 4, 11);
         this.back = back;

@@ -1,0 +1,329 @@
+/* The report's verdict: what a reader must know before the numbers, and what to do about it. */
+#include "results/report_parts.h"
+
+#include "base/channel_statistics.h"
+#include "base/transcendental.h"
+#include "results/station_results.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { FINDINGS_MOST = 48, TEXT_SIZE = 320 };
+
+typedef struct finding {
+    verdict_grade grade;
+    char text[TEXT_SIZE], remedy[TEXT_SIZE];
+} finding;
+
+typedef struct verdict {
+    report *r;
+    finding *findings; /* FINDINGS_MOST */
+    int32_t count;
+    bool kept, lost; /* a limit of station is set: every vessel stayed within, or one did not */
+    int32_t lines, parted;
+    char load[128]; /* of a single vessel */
+} verdict;
+
+static void find(verdict *v, verdict_grade grade, const char *remedy, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+static void find(verdict *v, verdict_grade grade, const char *remedy, const char *format, ...)
+{
+    if (v->count >= FINDINGS_MOST)
+        return;
+    finding *f = &v->findings[v->count++];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(f->text, sizeof f->text, format, arguments);
+    va_end(arguments);
+    if (f->text[0] >= 'a' && f->text[0] <= 'z')
+        f->text[0] = (char)(f->text[0] - 'a' + 'A');
+    snprintf(f->remedy, sizeof f->remedy, "%s", remedy);
+    f->grade = grade;
+}
+
+/* "vessel tanker: " before what is said of one of several. */
+static const char *whose(const report *r, char out[48])
+{
+    const scenario *s = &r->d.s;
+    bool named = scenario_names_vessels(s);
+    snprintf(out, 48, "%s%.*s%s", named ? "vessel " : "", (int)VESSEL_NAME_MOST,
+             named ? scenario_vessel_entry(s, r->vessel).keys->name : "", named ? ": " : "");
+    return out;
+}
+
+static const char *force(double newton, char out[40])
+{
+    load_unit unit = load_unit_for(fabs(newton));
+    char number[32];
+    report_number(newton * unit.factor, number);
+    snprintf(out, 40, "%s %s", number, unit.name);
+    return out;
+}
+
+/* ---- the end of the run ---- */
+
+static void judge_end(verdict *v)
+{
+    const run_note *n = &v->r->d.note;
+    if (strcmp(n->status, "finished") == 0)
+        return;
+    bool failed = strcmp(n->status, "failed") == 0;
+    find(v, failed ? VERDICT_BAD : VERDICT_CAUTION,
+         failed ? "What is written above the failure is sound; the message says what went wrong."
+                : "fram resume goes on from the newest checkpoint.",
+         "The run %s at %.4g s of %.4g s%s%s.", failed ? "failed" : "stopped", n->time, v->r->d.s.run.duration,
+         n->message[0] ? ": " : "", n->message);
+}
+
+/* ---- keeping station ---- */
+
+typedef struct limit_use {
+    double most, part; /* largest value; part of the time beyond */
+    double first;      /* [s] when it was first passed */
+} limit_use;
+
+/* Of the size of one channel, or of a vector of two, after the transient. */
+static limit_use limit_of(const report *r, const char *x_name, const char *y_name, double limit)
+{
+    const double *time = run_channel(&r->d, "time"), *x = run_vessel_channel(&r->d, r->vessel, x_name);
+    const double *y = y_name ? run_vessel_channel(&r->d, r->vessel, y_name) : NULL;
+    limit_use u = {.first = HUGE_VAL};
+    int32_t first = run_first_row(&r->d), rows = r->d.series.rows, beyond = 0;
+    for (int32_t i = first; time && x && i < rows; i++) {
+        double size = y ? sqrt(x[i] * x[i] + y[i] * y[i]) : fabs(x[i]);
+        u.most = fmax(u.most, size);
+        beyond += size > limit;
+        if (size > limit)
+            u.first = fmin(u.first, time[i]);
+    }
+    u.part = rows > first ? (double)beyond / (rows - first) : 0;
+    return u;
+}
+
+static void judge_limit(verdict *v, const char *what, const char *unit, limit_use u, double limit, const char *key)
+{
+    char most[32], name[48];
+    report_number(u.most, most);
+    whose(v->r, name);
+    if (is_automatic(limit)) {
+        find(v, VERDICT_NOTE, "", "%slargest %s %s %s; no %s is set to judge it by.", name, what, most, unit, key);
+        return;
+    }
+    v->kept = true;
+    v->lost |= u.most > limit;
+    if (u.most > limit)
+        find(v, VERDICT_BAD,
+             "Look at the loads of that time (fram why), at more thrust or stiffer lines, at ice management.",
+             "%sthe %s passed its limit of %.4g %s, first at %.4g s: largest %s %s, beyond it %.3g %% of the time.",
+             name, what, limit, unit, u.first, most, unit, 100 * u.part);
+    else
+        find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what, most, unit,
+             limit, unit, 100 * u.most / limit);
+}
+
+/* The largest tension over the breaking load, and of which line. */
+static void judge_lines(verdict *v)
+{
+    const report *r = v->r;
+    const scenario_mooring *m = &scenario_vessel_entry(&r->d.s, r->vessel).keys->mooring;
+    const double *time = run_channel(&r->d, "time");
+    int32_t number = 0, worst = 0, rows = r->d.series.rows;
+    double use = 0, tension = 0;
+    for (int32_t i = 0; i < m->lines.count; i++)
+        for (int64_t k = 0; k < m->lines.data[i].count; k++) {
+            char channel[40];
+            snprintf(channel, sizeof channel, "line_%d_tension", ++number);
+            const double *t = run_vessel_channel(&r->d, r->vessel, channel);
+            double most = 0, breaks = automatic_or(m->lines.data[i].breaking_load, HUGE_VAL);
+            for (int32_t row = 0; t && row < rows; row++)
+                most = fmax(most, t[row]);
+            if (most / breaks > use || (use == 0 && most > tension)) {
+                use = most / breaks;
+                tension = most;
+                worst = number;
+            }
+        }
+    const double *parted = run_vessel_channel(&r->d, r->vessel, "lines_parted");
+    int32_t gone = parted && rows > 0 ? (int32_t)parted[rows - 1] : 0, at = 0;
+    while (gone > 0 && at < rows && parted[at] < 1)
+        at++;
+    char name[48], text[40];
+    whose(r, name);
+    v->lines += number;
+    v->parted += gone;
+    if (gone > 0)
+        find(v, VERDICT_BAD,
+             "Results after that are those of a damaged mooring; look at pretension, breaking load and drift.",
+             "%s%d of %d lines parted or were let go, the first at %.4g s.", name, (int)gone, (int)number,
+             time ? time[at] : 0);
+    if (number > 0 && use > 0)
+        find(v, use > 0.6 ? VERDICT_CAUTION : VERDICT_GOOD,
+             use > 0.6 ? "Codes ask for a factor of safety, commonly 1.67 of an intact mooring (API RP 2SK): 60 %."
+                       : "",
+             "%slargest tension %s in line %d, %.0f %% of its breaking load; %d lines%s.", name, force(tension, text),
+             (int)worst, 100 * use, (int)number, gone > 0 ? ", of which those that parted went beyond" : "");
+    else if (number > 0)
+        find(v, VERDICT_NOTE, "", "%slargest tension %s in line %d of %d; no breaking_load is set to judge it by.",
+             name, force(tension, text), (int)worst, (int)number);
+}
+
+static void judge_thrusters(verdict *v)
+{
+    const report *r = v->r;
+    const double *time = run_channel(&r->d, "time"),
+                 *full = run_vessel_channel(&r->d, r->vessel, "thrusters_saturated");
+    const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
+    if (!time || !full || keys->thrusters.count == 0 || !keys->positioning.active)
+        return;
+    char name[48];
+    double part = channel_statistics_of(time, full, r->d.series.rows, r->d.s.run.transient).mean;
+    find(v, part > 0.05 ? VERDICT_CAUTION : VERDICT_GOOD,
+         part > 0.05 ? "The vessel asked for more than its thrusters give: see fram capability." : "",
+         "%sthrusters at their limit %.3g %% of the time.", whose(r, name), 100 * part);
+}
+
+static void judge_station(verdict *v)
+{
+    const report *r = v->r;
+    const scenario_vessel *keys = scenario_vessel_entry(&r->d.s, r->vessel).keys;
+    if (!station_has_results(&r->d.s, r->vessel))
+        return;
+    limit_use offset = limit_of(r, "offset_x", "offset_y", automatic_or(keys->station.offset_limit, HUGE_VAL));
+    limit_use heading = limit_of(r, "heading_deviation", NULL, automatic_or(keys->station.heading_limit_deg, HUGE_VAL));
+    judge_limit(v, "offset", "m", offset, keys->station.offset_limit, "station.offset_limit");
+    if (!is_automatic(keys->station.heading_limit_deg))
+        judge_limit(v, "heading deviation", "deg", heading, keys->station.heading_limit_deg,
+                    "station.heading_limit_deg");
+    judge_lines(v);
+    judge_thrusters(v);
+}
+
+/* ---- loads, and how sure they are ---- */
+
+/* A mean within this part of itself, at 95 %, is enough for most uses. */
+#define ENOUGH 0.2
+
+static fram_status judge_load(verdict *v, fram_error *error)
+{
+    const report *r = v->r;
+    const double *time = run_channel(&r->d, "time");
+    int32_t first = run_first_row(&r->d), rows = r->d.series.rows - first;
+    if (!time || rows < 2 || first >= r->load.count)
+        return FRAM_OK;
+    channel_statistics s = channel_statistics_of(time, r->load.data, r->load.count, r->d.s.run.transient);
+    double span = time[first + rows - 1] - time[first];
+    char name[48], mean[40], most[40], remedy[TEXT_SIZE], needed[32];
+    whose(r, name);
+    force(s.mean, mean);
+    force(s.greatest, most);
+    if (!scenario_names_vessels(&r->d.s))
+        snprintf(v->load, sizeof v->load, " Ice load: mean %s, largest %s.", mean, most);
+    if (!(s.greatest > 0)) {
+        find(v, VERDICT_CAUTION, "Is the ice where the vessel is, and does either move?", "%sno ice load came.", name);
+        return FRAM_OK;
+    }
+    load_distribution d;
+    if (!load_distribution_of(r->ctx, r->load.data + first, rows, span / (rows - 1), &d)) {
+        load_distribution_free(r->ctx, &d);
+        return error_memory(error);
+    }
+    double part = s.mean > 0 ? 1.96 * s.deviation / s.mean / sqrt(d.independent) : HUGE_VAL;
+    bool enough = part <= ENOUGH && d.independent >= 10;
+    report_number(fmax(span * part * part / (ENOUGH * ENOUGH), span * 10 / d.independent), needed);
+    snprintf(
+        remedy, sizeof remedy,
+        "About %s s after the transient, or as much in several seeds (fram study), would give a mean within %.0f %%.",
+        needed, 100 * ENOUGH);
+    find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
+         "%smean ice load %s, known within %.0f %% at 95 %% (%.0f independent values in %.4g s): %s.", name, mean,
+         fmin(100 * part, 999), d.independent, span, enough ? "enough for a mean" : "too short for a mean");
+    find(v, VERDICT_NOTE,
+         "The largest value of one run is one draw: several seeds, or fram extremes, tell its scatter.",
+         "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, r->d.s.output.averaging_window,
+         r->d.s.run.transient);
+    load_distribution_free(r->ctx, &d);
+    return FRAM_OK;
+}
+
+/* ---- the numbers behind ---- */
+
+static double approach_speed(const scenario *s)
+{
+    double most = fmax(s->environment.current_speed, automatic_or(s->domain.drift_speed, 0));
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++)
+        most = fmax(most, scenario_vessel_entry(s, i).keys->speed);
+    return most;
+}
+
+/* docs/limits.md: a residual that stays at the size of the speeds at which bodies meet is no solution. */
+static void judge_solver(verdict *v)
+{
+    const report *r = v->r;
+    const double *time = run_channel(&r->d, "time"), *residual = run_channel(&r->d, "solver_residual");
+    double speed = approach_speed(&r->d.s);
+    if (!time || !residual || r->d.series.rows == 0)
+        return;
+    double mean = channel_statistics_of(time, residual, r->d.series.rows, r->d.s.run.transient).mean;
+    if (!(speed > 0)) {
+        find(v, VERDICT_NOTE, "It is small where it is a few hundredths of the speed at which bodies meet.",
+             "The mean residual of the contacts is %.2g m/s.", mean);
+        return;
+    }
+    bool good = mean <= 0.05 * speed;
+    find(v, good ? VERDICT_GOOD : VERDICT_CAUTION,
+         good ? "" : "Compare with half of run.time_step and twice run.solver.iterations before trusting peaks.",
+         "The contacts are %s: mean residual %.2g m/s, %s%.2g %% of the speed of %.3g m/s at which bodies meet.",
+         good ? "solved" : "not solved well", mean, mean < 1e-4 * speed ? "less than " : "",
+         fmax(100 * mean / speed, 0.01), speed);
+}
+
+/* ---- the box ---- */
+
+static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
+{
+    const report *r = v->r;
+    bool finished = strcmp(r->d.note.status, "finished") == 0;
+    char lines[80] = "";
+    if (v->parted > 0)
+        snprintf(lines, sizeof lines, " %d of %d lines parted or were let go.", (int)v->parted, (int)v->lines);
+    else if (v->lines > 0)
+        snprintf(lines, sizeof lines, " No line of %d parted.", (int)v->lines);
+    bool several = scenario_vessel_count(&r->d.s) > 1;
+    const char *who = several ? "Every vessel with a limit" : "The vessel";
+    snprintf(out, TEXT_SIZE, "%s%s%s%s",
+             v->lost   ? (several ? "A vessel did not hold its station." : "The vessel did not hold its station.")
+             : v->kept ? who
+                       : (finished ? "The run finished." : "The run did not finish."),
+             v->kept && !v->lost ? (finished ? " held its station." : " held its station as far as the run went.") : "",
+             lines, v->kept ? "" : v->load);
+    verdict_grade worst = VERDICT_GOOD;
+    for (int32_t i = 0; i < v->count; i++)
+        worst = v->findings[i].grade > worst ? v->findings[i].grade : worst;
+    return worst;
+}
+
+fram_status report_verdict(report *r, fram_error *error)
+{
+    char title[TEXT_SIZE];
+    verdict v = {.r = r, .findings = memory_array(r->ctx, FINDINGS_MOST, sizeof(finding))};
+    if (!v.findings)
+        return error_memory(error);
+    fram_status status = FRAM_OK;
+    judge_end(&v);
+    for (int32_t i = 0; i < scenario_vessel_count(&r->d.s) && status == FRAM_OK; i++) {
+        status = report_choose_vessel(r, i, error);
+        if (status == FRAM_OK)
+            judge_station(&v);
+        if (status == FRAM_OK && r->d.s.ice.source != ICE_NONE)
+            status = judge_load(&v, error);
+    }
+    judge_solver(&v);
+    verdict_grade grade = headline(&v, title);
+    html_verdict_begin(&r->page, grade, title);
+    for (int32_t i = 0; i < v.count; i++)
+        html_verdict_line(&r->page, v.findings[i].grade, v.findings[i].text, v.findings[i].remedy);
+    html_verdict_end(&r->page);
+    memory_free(r->ctx, v.findings);
+    return status;
+}

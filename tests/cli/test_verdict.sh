@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# The verdict on top of a report: held or not, lines, limits, enough time or not; and the scenario as it was computed.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+cat >ship.yaml <<'YAML'
+run: {duration: 16, time_step: 0.05, transient: 4}
+vessel:
+  mode: free
+  hull: {form: ship, length: 76, beam: 19, draught: 6.5, freeboard: 3.5, block_coefficient: 0.75}
+  mooring:
+    depth: 120
+    lines:
+      - {count: 4, spacing_deg: 90, distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8,
+         breaking_load: 8.0e6}
+      - {kind: spring, direction_deg: 0, distance: 300, pretension: 1.0e5, stiffness: 1.0e6, breaking_load: 5.0e6}
+  station: {offset_limit: 20}
+ice: {concentration: 0.7, mean_floe_area: 400, thickness: 0.7}
+domain: {x_min: -120, x_max: 120, y_min: -100, y_max: 100, boundary: walls}
+environment: {current_speed: 1.5, current_direction_deg: 180, wind_file: wind.csv}
+output: {averaging_window: 0.5}
+YAML
+printf 'time[s],x[m/s],y[m/s]\n0,-8,0\n20,-6,3\n' >wind.csv
+
+# verdict FOLDER: the text of the box, a finding a line.
+verdict() {
+    expect 0 "$FRAM" report "$1" --quiet
+    python3 - "$1/report.html" >verdict.txt <<'PY'
+import html, re, sys
+page = open(sys.argv[1]).read()
+box = re.search(r'<section class="verdict (\w+)">(.*?)</section>', page, re.S)
+print(box.group(1))
+print(html.unescape(re.sub(r"<[^>]+>", "", box.group(2))))
+PY
+}
+
+expect 0 "$FRAM" run ship.yaml -o held --quiet
+verdict held
+says "The vessel held its station. No line of 5 parted." verdict.txt
+says "within its limit of 20 m" verdict.txt
+says "% of its breaking load; 5 lines" verdict.txt
+says "too short for a mean" verdict.txt
+grep -q '^bad' verdict.txt && fail "a vessel that held is blamed"
+says "5 mooring lines in 120 m of water, no thrusters" held/report.html
+says "as wind.csv has it over time" held/report.html
+says "free in six degrees of freedom" held/report.html
+says "was asked of the area that is free for ice" held/report.html
+says "ship of full form" held/report.html
+
+# The largest load that the box tells is that of the series after the transient.
+python3 - <<'PY' || fail "the largest load of the box is not that of the series"
+import csv, re
+rows = list(csv.reader(open("held/series.csv")))
+name = [c.split("[")[0] for c in rows[0]]
+t, x, y = (name.index(n) for n in ("time", "ice_force_averaged_x", "ice_force_averaged_y"))
+most = max((float(r[x]) ** 2 + float(r[y]) ** 2) ** 0.5 for r in rows[1:] if float(r[t]) >= 4)
+told = re.search(r"largest ice load ([\d.e+]+) (k?M?)N", open("verdict.txt").read(), re.I)
+value = float(told[1]) * {"": 1, "k": 1e3, "M": 1e6}[told[2]]
+assert abs(value / most - 1) < 0.006, (value, most)
+PY
+
+# A limit that is passed and a line that parts are told with their time, and what to do.
+expect 0 "$FRAM" run ship.yaml -o lost --quiet --set vessel.station.offset_limit=0.01 \
+    --set "vessel.mooring.lines[1].breaking_load=90000"
+verdict lost
+says "bad" verdict.txt
+says "The vessel did not hold its station. 1 of 5 lines parted" verdict.txt
+says "passed its limit of 0.01 m, first at" verdict.txt
+says "damaged mooring" verdict.txt
+
+# A run that was stopped is no finished one.
+expect 0 "$FRAM" run ship.yaml -o half --quiet --until 8
+verdict half
+says "held its station as far as the run went" verdict.txt
+says "fram resume" verdict.txt
+
+# Open water, towed: nothing to hold, no ice to speak of.
+grep -v -e mooring -e depth -e lines -e count -e breaking -e spring -e station ship.yaml >tow.yaml
+expect 0 "$FRAM" run tow.yaml -o tow --quiet --set vessel.mode=towed --set vessel.speed=1 --set ice.source=none
+verdict tow
+says "The run finished." verdict.txt
+grep -q 'ice load' verdict.txt && fail "open water has an ice load"
+finish "a report begins with its verdict"
