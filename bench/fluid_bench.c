@@ -135,7 +135,7 @@ static timing measure(context *ctx, field *f, bool air, bool cold, int rounds)
         if (cold)
             cool(f);
         start = sc_cpu();
-        fluid_apply(ctx, &m, c, &f->bodies, &f->shapes, f->loads, &(fluid_details){.volume = f->volume}, &error);
+        fluid_apply(ctx, &m, c, &f->bodies, &f->shapes, NULL, f->loads, &(fluid_details){.volume = f->volume}, &error);
         fluid[i] = sc_cpu() - start;
     }
     return (timing){sc_q(peers, rounds, 0.5), sc_q(fluid, rounds, 0.5)};

@@ -10,6 +10,7 @@ typedef struct fluid_work {
     const drag_coefficients *coefficients;
     const body_table *bodies;
     const shape_store *shapes;
+    held_drag_table *held;
     wrench *loads;
     fluid_details details;
 } fluid_work;
@@ -63,7 +64,8 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
         end = w->bodies->count;
     double own[LEVEL_BLOCK];
     const level_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL};
-    int32_t left = level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, first, end, &out, rest);
+    int32_t left =
+        level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, w->held, first, end, &out, rest);
     for (int32_t i = 0; i < left; i++) {
         fluid_load load = load_of_body(w, rest[i]);
         int32_t at = rest[i] - first;
@@ -99,11 +101,12 @@ static void apply_solid(const fluid_work *w, int32_t slot, int32_t row)
 }
 
 fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                        const body_table *bodies, const shape_store *shapes, wrench *loads,
+                        const body_table *bodies, const shape_store *shapes, held_drag_table *held, wrench *loads,
                         const fluid_details *details, fram_error *error)
 {
-    (void)error;
-    fluid_work work = {ctx, m, coefficients, bodies, shapes, loads, {0}};
+    if (held && !table_resize(ctx, held, &held_drag_table_info, held_drag_rows(bodies->count)))
+        return error_memory(error);
+    fluid_work work = {ctx, m, coefficients, bodies, shapes, held, loads, {0}};
     if (details)
         work.details = *details;
     int32_t blocks = bodies->count / LEVEL_BLOCK + (bodies->count % LEVEL_BLOCK != 0);

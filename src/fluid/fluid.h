@@ -6,6 +6,7 @@
 
 #include "bodies/body.h"
 #include "bodies/shape.h"
+#include "fluid/held_drag.h"
 #include "fluid/media.h"
 
 /* Split by cause, for the books and the output. */
@@ -21,7 +22,7 @@ typedef struct fluid_load {
 typedef struct fluid_details {
     double *volume;     /* submerged, per body slot [m3]; zero for bodies that are not dynamic */
     fluid_load *solids; /* per row of the store's solids; rows without a dynamic body are left as they are */
-    fluid_load *all;    /* per body slot; zero for bodies that are not dynamic */
+    fluid_load *all;    /* per body slot; zero for bodies that are not dynamic; not with held drag */
 } fluid_details;
 
 typedef struct fluid_motion {
@@ -45,9 +46,11 @@ void fluid_load_prism(const media *m, const drag_coefficients *c, polygon outlin
                       const fluid_motion *state, fluid_load *load);
 
 /* Wrench of fluid and gravity on every dynamic body (gravity alone on one without a shape) and zero on every other
-   slot, written (not added) to loads[slot]; parallel over blocks of slots.  coefficients[material]. */
+   slot, written (not added) to loads[slot]; parallel over blocks of slots.  coefficients[material].  held: drag of
+   level floes from earlier steps with the same coefficients and densities, or {0}, used and brought up to date; NULL:
+   drag of all bodies is computed. */
 fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                        const body_table *bodies, const shape_store *shapes, wrench *loads,
+                        const body_table *bodies, const shape_store *shapes, held_drag_table *held, wrench *loads,
                         const fluid_details *details, fram_error *error);
 
 #endif

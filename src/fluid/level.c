@@ -2,7 +2,11 @@
 #include "fluid/level.h"
 
 #include "fluid/facet.h"
+#include "fluid/held_kernel.h"
 #include "fluid/level_kernel.h"
+
+#include <assert.h>
+#include <string.h>
 
 /* Outlines of few vertices have long edges, on which the quadrature of skin drag is coarse: they are cut in half. */
 enum { FEW_VERTICES = 4 };
@@ -17,6 +21,7 @@ typedef struct level_work {
     bool wet, dry;                          /* media whose drag is wanted by any material */
     const body_table *bodies;
     const shape_store *shapes;
+    held_drag_table *held; /* may be NULL */
 } level_work;
 
 static void set_lane(level_lane *to, int lane, vec3 v)
@@ -90,6 +95,80 @@ static void unpack(const level_batch *b, int lane, const level_output *out, int3
     load->wind_drag = b->dry ? unpack_wrench(&b->air_drag, lane) : none;
 }
 
+static void hold_vectors(held_vectors *to, int32_t at, const level_lane *from, int lane)
+{
+    to->x[at] = from[0][lane];
+    to->y[at] = from[1][lane];
+    to->z[at] = from[2][lane];
+}
+
+/* Keeps what a lane of the batch is for the steps to come. */
+static void hold(const level_work *w, const level_batch *b, int lane, int32_t slot)
+{
+    held_drag_table *h = w->held;
+    const level_state *s = &b->state;
+    int32_t row = slot / HELD_LANES, at = slot % HELD_LANES;
+    h->generation[row].lane[at] = w->bodies->generation[slot];
+    h->half[row].lane[at] = b->half[lane];
+    h->reach[row].lane[at] = w->shapes->shapes.plan_radius[w->bodies->shape[slot]];
+    held_moments *m = &h->moments[row];
+    double *const moments[6] = {m->area, m->x, m->y, m->xx, m->yy, m->xy};
+    for (int i = 0; i < 6; i++)
+        moments[i][at] = s->moments[i][lane];
+    hold_vectors(&h->line[row], at, s->line, lane);
+    hold_vectors(&h->spin[row], at, s->spin, lane);
+    hold_vectors(&h->through_water[row], at, s->through_water, lane);
+    hold_vectors(&h->through_air[row], at, s->through_air, lane);
+    hold_vectors(&h->water_force[row], at, s->water_drag.force, lane);
+    hold_vectors(&h->water_moment[row], at, s->water_drag.moment, lane);
+    hold_vectors(&h->air_force[row], at, s->air_drag.force, lane);
+    hold_vectors(&h->air_moment[row], at, s->air_drag.moment, lane);
+}
+
+static void forget(const level_work *w, int32_t slot)
+{
+    if (w->held)
+        w->held->generation[slot / HELD_LANES].lane[slot % HELD_LANES] = 0;
+}
+
+/* The current that each body of a row meets. */
+static held_vectors currents(const level_work *w, int32_t row)
+{
+    held_vectors current = {{0}, {0}, {0}};
+    for (int32_t i = 0; i < HELD_LANES; i++) {
+        int32_t slot = HELD_LANES * row + i, shape = slot < w->bodies->count ? w->bodies->shape[slot] : -1;
+        vec3 v = shape >= 0 ? prism_current(w->media, w->bodies, w->shapes, slot) : w->media->current;
+        current.x[i] = v.x;
+        current.y[i] = v.y;
+        current.z[i] = v.z;
+    }
+    return current;
+}
+
+/* Floes whose drag is held: bit i of out[k] for the slot first + 8 k + i. */
+static void serve_held(context *ctx, const level_work *w, int32_t first, int32_t end, const level_output *out,
+                       uint8_t served[LEVEL_BLOCK / HELD_LANES])
+{
+    memset(served, 0, LEVEL_BLOCK / HELD_LANES);
+    if (!w->held)
+        return;
+    held_media m = {.wind = w->media->wind,
+                    .wet = w->wet,
+                    .dry = w->dry,
+                    .weight = w->media->water_density * w->media->gravity,
+                    .gravity = w->media->gravity};
+    bool layered = w->media->profile.count > 0;
+    if (!layered)
+        m.current = currents(w, 0);
+    for (int32_t slot = first; slot < end; slot += HELD_LANES) {
+        int32_t row = slot / HELD_LANES, at = slot - first;
+        if (layered)
+            m.current = currents(w, row);
+        served[at / HELD_LANES] =
+            (uint8_t)KERNEL_PICK(ctx, held_loads)(&m, w->bodies, w->held, row, out->total + at, out->volume + at);
+    }
+}
+
 /* The floes of a block by their number of points, each number in ascending order of slots. */
 typedef struct level_list {
     int32_t count;
@@ -97,16 +176,18 @@ typedef struct level_list {
     uint8_t points[LEVEL_BLOCK];
 } level_list;
 
-/* Other dynamic bodies go to rest; returns how many they are. */
-static int32_t find_floes(const level_work *w, int32_t first, int32_t end, level_list *out, int32_t *rest)
+/* Those that are served have their loads.  Other dynamic bodies go to rest; returns how many they are. */
+static int32_t find_floes(const level_work *w, const uint8_t *served, int32_t first, int32_t end, level_list *out,
+                          int32_t *rest)
 {
     const body_table *t = w->bodies;
     const shape_table *s = &w->shapes->shapes;
     uint8_t points[LEVEL_BLOCK];
     int32_t begin[LEVEL_VERTICES + 2] = {0}, left = 0;
     for (int32_t slot = first; slot < end; slot++) {
-        int32_t shape = t->shape[slot], n = 0;
-        if (body_is_dynamic(t, slot)) {
+        int32_t shape = t->shape[slot], n = 0, at = slot - first;
+        bool has_load = served[at / HELD_LANES] >> at % HELD_LANES & 1;
+        if (!has_load && body_is_dynamic(t, slot)) {
             if (shape >= 0 && s->kind[shape] == SHAPE_PRISM && s->outline_count[shape] <= LEVEL_VERTICES) {
                 n = points_of(s->outline_count[shape]);
                 /* Outlines lie in the order in which floes were made: waiting for them took a tenth of the time. */
@@ -153,37 +234,45 @@ static void pack_batch(const level_work *w, const level_list *list, int32_t from
 }
 
 /* Floes that are not level go to rest. */
-static int32_t run_batch(context *ctx, const level_list *list, int32_t from, level_batch *b, int32_t first,
-                         const level_output *out, int32_t *rest, int32_t left)
+static int32_t run_batch(context *ctx, const level_work *w, const level_list *list, int32_t from, level_batch *b,
+                         int32_t first, const level_output *out, int32_t *rest, int32_t left)
 {
     KERNEL_PICK(ctx, level_loads)(b);
     for (int32_t k = from; k < list->count && k < from + LEVEL_LANES; k++) {
-        if (b->level >> (k - from) & 1)
-            unpack(b, (int)(k - from), out, list->slot[k] - first);
-        else
-            rest[left++] = list->slot[k];
+        int32_t slot = list->slot[k];
+        if (b->level >> (k - from) & 1) {
+            unpack(b, (int)(k - from), out, slot - first);
+            if (w->held)
+                hold(w, b, (int)(k - from), slot);
+        } else {
+            rest[left++] = slot;
+            forget(w, slot);
+        }
     }
     return left;
 }
 
 int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end,
-                    const level_output *out, int32_t rest[LEVEL_BLOCK])
+                    const body_table *bodies, const shape_store *shapes, held_drag_table *held, int32_t first,
+                    int32_t end, const level_output *out, int32_t rest[LEVEL_BLOCK])
 {
-    level_work w = {.media = m, .bodies = bodies, .shapes = shapes};
+    assert(!held || !out->load);
+    level_work w = {.media = m, .bodies = bodies, .shapes = shapes, .held = held};
     for (int i = 0; i < MATERIAL_COUNT; i++) {
         const drag_coefficients *c = &w.half[i];
         w.half[i] = half_of(m, &coefficients[i]);
         w.wet = w.wet || c->water_form > 0 || c->water_skin > 0;
         w.dry = w.dry || c->air_form > 0 || c->air_skin > 0;
     }
+    uint8_t served[LEVEL_BLOCK / HELD_LANES];
+    serve_held(ctx, &w, first, end, out, served);
     level_list list;
-    int32_t left = find_floes(&w, first, end, &list, rest);
+    int32_t left = find_floes(&w, served, first, end, &list, rest);
     level_batch batch;
     batch.weight = m->water_density * m->gravity;
     for (int32_t i = 0; i < list.count; i += LEVEL_LANES) {
         pack_batch(&w, &list, i, &batch);
-        left = run_batch(ctx, &list, i, &batch, first, out, rest, left);
+        left = run_batch(ctx, &w, &list, i, &batch, first, out, rest, left);
     }
     return left;
 }

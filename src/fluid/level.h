@@ -3,6 +3,7 @@
 #define FLUID_LEVEL_H
 
 #include "fluid/fluid.h"
+#include "fluid/held_drag.h"
 
 /* Body slots that are worked on together. */
 enum { LEVEL_BLOCK = 256 };
@@ -14,10 +15,12 @@ typedef struct level_output {
     fluid_load *load; /* may be NULL */
 } level_output;
 
-/* Loads of the floes that float level among the slots first..end-1, at most LEVEL_BLOCK of them.  The load of a floe
-   depends on that floe alone.  The other dynamic bodies' slots go to rest; returns how many they are. */
+/* Loads of the floes that float level among the slots first..end-1, at most LEVEL_BLOCK of them, first being a multiple
+   of that.  The load of a floe depends on that floe alone, and on what of its drag is held: held, with rows for all
+   slots, may be NULL, and must be where the split is wanted.  The other dynamic bodies' slots go to rest; returns how
+   many they are. */
 int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                    const body_table *bodies, const shape_store *shapes, int32_t first, int32_t end,
-                    const level_output *out, int32_t rest[LEVEL_BLOCK]);
+                    const body_table *bodies, const shape_store *shapes, held_drag_table *held, int32_t first,
+                    int32_t end, const level_output *out, int32_t rest[LEVEL_BLOCK]);
 
 #endif

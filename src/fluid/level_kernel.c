@@ -409,6 +409,34 @@ V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const le
     return sum;
 }
 
+V8_INLINE void store_vec(level_lane *out, int at, real3 v)
+{
+    store(out[0], at, v.x);
+    store(out[1], at, v.y);
+    store(out[2], at, v.z);
+}
+
+/* The drag of one medium that `sum` is, or none: as an answer, and as what may be held. */
+V8_INLINE void store_drag(const level_floes *f, const level_sum *sum, level_wrench *answer, level_wrench *held)
+{
+    store_global(f, answer->force, sum->force);
+    store_global(f, answer->moment, sum->moment);
+    store_vec(held->force, f->at, sum->force);
+    store_vec(held->moment, f->at, sum->moment);
+}
+
+V8_INLINE void store_state(const level_batch *b, const level_floes *f, const level_moments *m, level_state *out)
+{
+    const real moments[6] = {m->area, m->x, m->y, m->xx, m->yy, m->xy};
+    const real3 none = {zero(), zero(), zero()};
+    for (int i = 0; i < 6; i++)
+        store(out->moments[i], f->at, moments[i]);
+    store_vec(out->line, f->at, (real3){f->water0, f->waterx, f->watery});
+    store_vec(out->spin, f->at, f->spin);
+    store_vec(out->through_water, f->at, to_body(f, load_vec(b->water.velocity, f->at)));
+    store_vec(out->through_air, f->at, b->dry ? to_body(f, load_vec(b->air.velocity, f->at)) : none);
+}
+
 /* The floes of one part; bit i of the result: floe at + i is level. */
 static unsigned part_loads(level_batch *b, int at)
 {
@@ -421,16 +449,12 @@ static unsigned part_loads(level_batch *b, int at)
         return 0;
     level_moments m = outline_moments(b, &f);
     add_hydrostatics(b, &f, &m, b);
-    if (b->wet) {
-        level_sum water = drag_of(b, &f, &m, &b->water, line, -1);
-        store_global(&f, b->water_drag.force, water.force);
-        store_global(&f, b->water_drag.moment, water.moment);
-    }
-    if (b->dry) {
-        level_sum air = drag_of(b, &f, &m, &b->air, line, 1);
-        store_global(&f, b->air_drag.force, air.force);
-        store_global(&f, b->air_drag.moment, air.moment);
-    }
+    store_state(b, &f, &m, &b->state);
+    const level_sum none = {{zero(), zero(), zero()}, {zero(), zero(), zero()}};
+    level_sum water = b->wet ? drag_of(b, &f, &m, &b->water, line, -1) : none;
+    store_drag(&f, &water, &b->water_drag, &b->state.water_drag);
+    level_sum air = b->dry ? drag_of(b, &f, &m, &b->air, line, 1) : none;
+    store_drag(&f, &air, &b->air_drag, &b->state.air_drag);
     add_up(b, b, at);
     return level;
 }

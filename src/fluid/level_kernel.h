@@ -33,6 +33,15 @@ typedef struct level_wrench {
     level_lane force[3], moment[3];
 } level_wrench;
 
+/* The floes as their drag was computed, body axes: what held_drag.h keeps. */
+typedef struct level_state {
+    level_lane moments[6]; /* of the outline: 1, x, y, xx, yy, xy */
+    level_lane line[3];    /* waterline: height at the axis [m], slopes */
+    level_lane spin[3];
+    level_lane through_water[3], through_air[3]; /* velocity relative to the medium [m/s] */
+    level_wrench water_drag, air_drag;           /* zero where it is not wanted */
+} level_state;
+
 typedef struct level_batch {
     int32_t sides;      /* edges of the longest outline; shorter ones are padded with their last point */
     bool wet, dry;      /* whether drag of that medium is wanted */
@@ -49,6 +58,7 @@ typedef struct level_batch {
     level_lane volume;                              /* submerged [m3] */
     level_wrench hydrostatic, water_drag, air_drag; /* drag: only where it is wanted */
     level_wrench total;
+    level_state state;
 } level_batch;
 
 KERNEL_DECLARE(void, level_loads, (level_batch * batch));

@@ -57,6 +57,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(course, course),
         STATE(approach, approaches),
         STATE(edge_load, edge_loads),
+        STATE(held_drag, held_drag),
     };
     memcpy(out, list, sizeof list);
 }

@@ -54,8 +54,9 @@ static const column_rule column_rules[] = {
 
 /* Rows of a table: from least to most, or to as many as another has. */
 static const column_rule count_rules[] = {
-    {"clock", NULL, 1, 1, NULL},      {"feeding", NULL, 0, 1, NULL},     {"broad", NULL, 0, 0, "body"},
-    {"recorded", NULL, 0, 0, "body"}, {"station", NULL, 0, 0, "vessel"}, {"drift", NULL, 0, 1, NULL},
+    {"clock", NULL, 1, 1, NULL},       {"feeding", NULL, 0, 1, NULL},     {"broad", NULL, 0, 0, "body"},
+    {"recorded", NULL, 0, 0, "body"},  {"station", NULL, 0, 0, "vessel"}, {"drift", NULL, 0, 1, NULL},
+    {"held_drag", NULL, 0, 0, "body"},
 };
 
 static fram_status refuse(const char *table, int64_t row, const char *column, int64_t found, fram_error *error)

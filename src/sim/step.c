@@ -21,7 +21,7 @@ static fram_status water_and_air(context *ctx, const model *m, world *w, fram_er
     media now = media_now(m, &w->inputs, w->clock.time[0]);
     const fluid_details details = {.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data};
     fram_status status =
-        fluid_apply(ctx, &now, m->drag, &w->bodies, &w->shapes, w->scratch.loads.data, &details, error);
+        fluid_apply(ctx, &now, m->drag, &w->bodies, &w->shapes, &w->held_drag, w->scratch.loads.data, &details, error);
     for (int32_t v = 0; v < w->vessels.count && status == FRAM_OK; v++) {
         int32_t body = w->vessels.body[v];
         if (body_is_dynamic(&w->bodies, body))

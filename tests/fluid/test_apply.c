@@ -72,7 +72,7 @@ START_TEST(slots)
     memset(detail, 0xff, sizeof detail);
     media windy = still_water;
     windy.wind.x = 8;
-    assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, loads,
+    assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, NULL, loads,
                           &(fluid_details){volume, &hull, detail}, &error),
               error);
 
@@ -110,7 +110,7 @@ START_TEST(slots)
 
     /* Without detail the same loads. */
     wrench again[6];
-    assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, again, NULL, &error), error);
+    assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, NULL, again, NULL, &error), error);
     assert_array_bits(&again[0].force.x, &loads[0].force.x, 36);
     mesh_free(&ctx, &surface);
     scene_free(&ctx, &s);
@@ -130,12 +130,13 @@ START_TEST(threads_do_not_matter)
         add_body(&ctx, &s, MOTION_DYNAMIC, MATERIAL_ICE, shapes[i % 2], &r);
     static wrench alone[BODIES], together[BODIES];
     fram_error error = {0};
-    assert_ok(fluid_apply(&ctx, &still_water, coefficients, &s.bodies, &s.shapes, alone, NULL, &error), error);
+    assert_ok(fluid_apply(&ctx, &still_water, coefficients, &s.bodies, &s.shapes, NULL, alone, NULL, &error), error);
     for (int threads = 2; threads <= 5; threads += 3) {
         ctx.threads = pool_create(&ctx, threads);
         ck_assert_ptr_nonnull(ctx.threads);
         memset(together, 0, sizeof together);
-        assert_ok(fluid_apply(&ctx, &still_water, coefficients, &s.bodies, &s.shapes, together, NULL, &error), error);
+        assert_ok(fluid_apply(&ctx, &still_water, coefficients, &s.bodies, &s.shapes, NULL, together, NULL, &error),
+                  error);
         assert_array_bits(&together[0].force.x, &alone[0].force.x, 6 * BODIES);
         pool_free(&ctx, ctx.threads);
         ctx.threads = NULL;
@@ -150,7 +151,7 @@ START_TEST(no_bodies)
     context_init(&ctx);
     scene s = {0};
     fram_error error = {0};
-    assert_ok(fluid_apply(&ctx, &still_water, coefficients, &s.bodies, &s.shapes, NULL, NULL, &error), error);
+    assert_ok(fluid_apply(&ctx, &still_water, coefficients, &s.bodies, &s.shapes, NULL, NULL, NULL, &error), error);
 }
 END_TEST
 

@@ -69,7 +69,7 @@ static fluid_load *apply(field *f, const media *m, const drag_coefficients *c)
     wrench *loads = malloc((size_t)f->bodies.count * sizeof *loads);
     fluid_load *detail = malloc((size_t)f->bodies.count * sizeof *detail);
     fram_error error = {0};
-    assert_ok(fluid_apply(&f->ctx, m, c, &f->bodies, &f->shapes, loads, &(fluid_details){.all = detail}, &error),
+    assert_ok(fluid_apply(&f->ctx, m, c, &f->bodies, &f->shapes, NULL, loads, &(fluid_details){.all = detail}, &error),
               error);
     free(loads);
     return detail;

@@ -68,7 +68,8 @@ START_TEST(floe_in_a_profile)
         bodies.mass[slot] = 1;
         wrench load;
         fluid_load detail;
-        assert_ok(fluid_apply(&ctx, &m, c, &bodies, &shapes, &load, &(fluid_details){.all = &detail}, &error), error);
+        assert_ok(fluid_apply(&ctx, &m, c, &bodies, &shapes, NULL, &load, &(fluid_details){.all = &detail}, &error),
+                  error);
         assert_vec3_close(detail.water_drag.force, expected.water_drag.force, 1e-9);
         table_free(&ctx, &bodies, &body_table_info);
         shape_store_free(&ctx, &shapes);

@@ -354,8 +354,9 @@ static void step_floe(rig *k, const media *m, const prism_response *settings, do
     wrench load;
     double volume;
     fram_error error = {0};
-    assert_ok(fluid_apply(&k->ctx, m, drag, &k->bodies, &k->shapes, &load, &(fluid_details){.volume = &volume}, &error),
-              error);
+    assert_ok(
+        fluid_apply(&k->ctx, m, drag, &k->bodies, &k->shapes, NULL, &load, &(fluid_details){.volume = &volume}, &error),
+        error);
     prisms_respond(&k->ctx, m, drag, settings, dt, &k->bodies, &k->shapes, &volume, &load);
     step(&k->bodies, 0, &load, dt);
 }
@@ -461,9 +462,9 @@ START_TEST(strong_drag_is_right)
             wrench load;
             double volume;
             fram_error error = {0};
-            assert_ok(
-                fluid_apply(&k.ctx, &m, drag, &k.bodies, &k.shapes, &load, &(fluid_details){.volume = &volume}, &error),
-                error);
+            assert_ok(fluid_apply(&k.ctx, &m, drag, &k.bodies, &k.shapes, NULL, &load,
+                                  &(fluid_details){.volume = &volume}, &error),
+                      error);
             load.force.z -= push;
             prisms_respond(&k.ctx, &m, drag, &(prism_response){false, 0}, dt, &k.bodies, &k.shapes, &volume, &load);
             step(&k.bodies, slot, &load, dt);
@@ -507,7 +508,7 @@ START_TEST(floe_with_added_mass)
         wrench load;
         double volume;
         fram_error error = {0};
-        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load,
+        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, NULL, &load,
                               &(fluid_details){.volume = &volume}, &error),
                   error);
         prisms_respond(&k.ctx, &still_water, none, &(prism_response){true, 0}, dt, &k.bodies, &k.shapes, &volume,
@@ -541,7 +542,7 @@ START_TEST(floe_with_damping)
         wrench load;
         double volume;
         fram_error error = {0};
-        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, &load,
+        assert_ok(fluid_apply(&k.ctx, &still_water, none, &k.bodies, &k.shapes, NULL, &load,
                               &(fluid_details){.volume = &volume}, &error),
                   error);
         prisms_respond(&k.ctx, &still_water, none, &(prism_response){false, ratio}, dt, &k.bodies, &k.shapes, &volume,

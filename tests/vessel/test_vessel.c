@@ -139,7 +139,7 @@ static void step(context *ctx, scene *s, solver *solve, const media *m, double t
     contact_memory_table memory = {0};
     solver_report report;
     fram_error error = {0};
-    assert_ok(fluid_apply(ctx, m, drag, &s->bodies, &s->shapes, loads, NULL, &error), error);
+    assert_ok(fluid_apply(ctx, m, drag, &s->bodies, &s->shapes, NULL, loads, NULL, &error), error);
     vessel_drive(&s->vessels, &s->bodies, time);
     assert_ok(
         solver_solve(ctx, solve, &settings, dt, &s->bodies, loads, &s->joints, &contacts, &memory, &report, &error),
