@@ -11,18 +11,6 @@ fram_status arguments_check(const argument *arguments, size_t count, fram_error 
     return FRAM_OK;
 }
 
-fram_status definition_check(const void *definition, size_t wanted, const char *type, fram_error *error)
-{
-    size_t size = 0;
-    if (definition)
-        memcpy(&size, definition, sizeof size);
-    if (size == wanted)
-        return FRAM_OK;
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, type,
-                     "expected a definition that %s_default of this version has filled, found %s", type,
-                     definition ? "another size" : "NULL");
-}
-
 fram_status definition_take(void *filled, const void *given, size_t known, size_t least, const char *type,
                             fram_error *error)
 {

@@ -15,15 +15,13 @@ fram_status arguments_check(const argument *arguments, size_t count, fram_error 
 #define REFUSE_NULL(error, ...) \
     arguments_check((const argument[]){__VA_ARGS__}, sizeof(const argument[]){__VA_ARGS__} / sizeof(argument), (error))
 
-/* FRAM_ERROR_USAGE for a definition that its default function did not fill: `definition` is NULL, or its first member,
-   `size`, is not `wanted`. */
-fram_status definition_check(const void *definition, size_t wanted, const char *type, fram_error *error);
-
 /* A definition of an older program may be shorter: `filled`, which holds the defaults, becomes the given one as far as
    it goes.  FRAM_ERROR_USAGE for NULL, for a size beyond `known` or under `least`, that of the first version with it.
  */
 fram_status definition_take(void *filled, const void *given, size_t known, size_t least, const char *type,
                             fram_error *error);
+/* `size` and the member after it: definitions that have only grown at their ends since. */
+#define DEFINITION_LEAST (2 * sizeof(size_t))
 /* The same for a struct that is to be filled: *size is what may be written of it. */
 fram_status room_check(const void *given, size_t known, size_t *size, const char *type, fram_error *error);
 

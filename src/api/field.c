@@ -115,11 +115,9 @@ fram_status fram_field_load(fram_context *c, const char *path, const fram_field_
     fram_field_default(&d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"field", out});
     if (status == FRAM_OK && definition)
-        status = definition_check(definition, sizeof d, "fram_field", error);
+        status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_field", error);
     if (status != FRAM_OK)
         return status;
-    if (definition)
-        d = *definition;
     status = check(&d, error);
     if (status != FRAM_OK)
         return status;

@@ -30,7 +30,7 @@ fram_status fram_fmu(const fram_scenario *s, const fram_fmu_definition *definiti
     fram_fmu_default(&d);
     fram_status status = REFUSE_NULL(error, {"scenario", s});
     if (status == FRAM_OK)
-        status = definition_take(&d, definition, sizeof d, sizeof d, "fram_fmu", error);
+        status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_fmu", error);
     if (status == FRAM_OK)
         status = REFUSE_NULL(error, {"output", d.output}, {"binary", d.binary});
     if (status == FRAM_OK)

@@ -99,11 +99,9 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
     fram_hull_file_default(&d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"hull", out});
     if (status == FRAM_OK && definition)
-        status = definition_check(definition, sizeof d, "fram_hull_file", error);
+        status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_hull_file", error);
     if (status != FRAM_OK)
         return status;
-    if (definition)
-        d = *definition;
     const hull_file_options options = {d.scale, d.seal_width, d.repair, d.freeboard};
     fram_hull *h = hull_begin(c);
     if (!h)
@@ -263,13 +261,11 @@ static fram_status find_stability(const fram_hull *h, const fram_hull_condition 
 {
     vec3 centre;
     fram_status status = REFUSE_NULL(error, {"hull", h});
+    fram_hull_condition_default(c);
     if (status == FRAM_OK && condition)
-        status = definition_check(condition, sizeof *c, "fram_hull_condition", error);
+        status = definition_take(c, condition, sizeof *c, DEFINITION_LEAST, "fram_hull_condition", error);
     if (status != FRAM_OK)
         return status;
-    fram_hull_condition_default(c);
-    if (condition)
-        *c = *condition;
     status = find_attitude(h, c, a, &centre, error);
     return status == FRAM_OK ? hull_stability_of(&h->context->inner, &h->surface, a, centre, s, error) : status;
 }

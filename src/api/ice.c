@@ -102,11 +102,13 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
     return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
 }
 
-fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error)
+fram_status fram_ice_break(const fram_ice_edge *given, fram_ice_breaking *breaking, fram_error *error)
 {
+    fram_ice_edge taken, *load = &taken;
+    fram_ice_edge_default(load);
     fram_status status = REFUSE_NULL(error, {"breaking", breaking});
     if (status == FRAM_OK)
-        status = definition_check(load, sizeof *load, "fram_ice_edge", error);
+        status = definition_take(load, given, sizeof *load, DEFINITION_LEAST, "fram_ice_edge", error);
     if (status != FRAM_OK)
         return status;
     status = check_load(load, error);
@@ -160,11 +162,13 @@ static fram_status check_floe(const fram_ice_floe *f, fram_error *error)
                 f->place, error);
 }
 
-fram_status fram_ice_split(const fram_ice_floe *floe, fram_ice_splitting *splitting, fram_error *error)
+fram_status fram_ice_split(const fram_ice_floe *given, fram_ice_splitting *splitting, fram_error *error)
 {
+    fram_ice_floe taken, *floe = &taken;
+    fram_ice_floe_default(floe);
     fram_status status = REFUSE_NULL(error, {"splitting", splitting});
     if (status == FRAM_OK)
-        status = definition_check(floe, sizeof *floe, "fram_ice_floe", error);
+        status = definition_take(floe, given, sizeof *floe, DEFINITION_LEAST, "fram_ice_floe", error);
     if (status == FRAM_OK)
         status = check_floe(floe, error);
     if (status != FRAM_OK)

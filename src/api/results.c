@@ -176,12 +176,14 @@ static fram_status find_camera(const char *name, video_camera *camera, fram_erro
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "camera", "expected orbit, follow or plan");
 }
 
-fram_status fram_video(fram_context *c, const char *run, const fram_video_definition *d, fram_result *result,
+fram_status fram_video(fram_context *c, const char *run, const fram_video_definition *definition, fram_result *result,
                        fram_error *error)
 {
+    fram_video_definition taken, *d = &taken;
+    fram_video_default(d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
     if (status == FRAM_OK)
-        status = definition_check(d, sizeof *d, "fram_video", error);
+        status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_video", error);
     if (status == FRAM_OK)
         status = number_check("speed", d->speed, -SPEED_MOST, SPEED_MOST, error);
     if (status == FRAM_OK)
@@ -226,12 +228,14 @@ void fram_capability_default(fram_capability_definition *definition)
                                                .line_safety_damaged = 1.43};
 }
 
-fram_status fram_capability(const fram_scenario *from, const fram_capability_definition *d, fram_result *result,
-                            fram_error *error)
+fram_status fram_capability(const fram_scenario *from, const fram_capability_definition *definition,
+                            fram_result *result, fram_error *error)
 {
+    fram_capability_definition taken, *d = &taken;
+    fram_capability_default(d);
     fram_status status = REFUSE_NULL(error, {"scenario", from});
     if (status == FRAM_OK)
-        status = definition_check(d, sizeof *d, "fram_capability", error);
+        status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_capability", error);
     if (status != FRAM_OK)
         return status;
     if (!d->folder || !*d->folder)

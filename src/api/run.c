@@ -194,11 +194,13 @@ static bool times_are_good(const fram_bench_scene_definition *d)
            d->time <= BENCH_TIME_MOST && d->time / d->time_step <= BENCH_STEPS_MOST;
 }
 
-static fram_status scene_options(const fram_bench_scene_definition *d, bench_scene_options *out, fram_error *error)
+static fram_status scene_options(const fram_bench_scene_definition *given, bench_scene_options *out, fram_error *error)
 {
+    fram_bench_scene_definition taken, *d = &taken;
+    fram_bench_scene_default(d);
     static const char *const solvers[] = {
         [SOLVER_SEQUENTIAL] = "sequential", [SOLVER_FAST] = "fast", [SOLVER_ACCURATE] = "accurate"};
-    fram_status status = definition_check(d, sizeof *d, "fram_bench_scene", error);
+    fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_bench_scene", error);
     if (status != FRAM_OK)
         return status;
     if (!times_are_good(d))
@@ -247,12 +249,14 @@ void fram_playback_default(fram_playback_definition *definition)
         *definition = (fram_playback_definition){.size = sizeof *definition};
 }
 
-fram_status fram_playback(fram_context *c, const fram_playback_definition *d, fram_playback_result *result,
+fram_status fram_playback(fram_context *c, const fram_playback_definition *definition, fram_playback_result *result,
                           fram_error *error)
 {
+    fram_playback_definition taken, *d = &taken;
+    fram_playback_default(d);
     fram_status status = REFUSE_NULL(error, {"context", c});
     if (status == FRAM_OK)
-        status = definition_check(d, sizeof *d, "fram_playback", error);
+        status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_playback", error);
     if (status == FRAM_OK)
         status = REFUSE_NULL(error, {"folder", d->folder}, {"viewer_page", d->viewer_page}, {"output", d->output});
     if (status != FRAM_OK)

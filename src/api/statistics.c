@@ -75,9 +75,10 @@ void fram_extremes_default(fram_extremes_definition *definition)
     memcpy(definition->probability, r.probability, sizeof r.probability);
 }
 
-static fram_status check_extremes(const fram_extremes_definition *d, fram_error *error)
+static fram_status take_extremes(const fram_extremes_definition *given, fram_extremes_definition *d, fram_error *error)
 {
-    fram_status status = definition_check(d, sizeof *d, "fram_extremes_definition", error);
+    fram_extremes_default(d);
+    fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_extremes", error);
     if (status == FRAM_OK)
         status = check_source(&d->source, error);
     if (status == FRAM_OK)
@@ -160,14 +161,15 @@ static int methods_of(const fram_extremes_definition *d, extreme_method out[EXTR
     return count;
 }
 
-fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *d, fram_extremes *out,
+fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *definition, fram_extremes *out,
                                fram_error *error)
 {
+    fram_extremes_definition taken, *d = &taken;
     series_data data;
     extreme_method methods[EXTREME_METHODS];
     fram_status status = REFUSE_NULL(error, {"context", c}, {"result", out});
     if (status == FRAM_OK)
-        status = check_extremes(d, error);
+        status = take_extremes(definition, d, error);
     int count = status == FRAM_OK ? methods_of(d, methods, error) : 0;
     if (status != FRAM_OK || count == 0)
         return status == FRAM_OK ? FRAM_ERROR_USAGE : status;
@@ -204,9 +206,10 @@ void fram_fatigue_default(fram_fatigue_definition *definition)
             .size = sizeof *definition, .source = {.from = (double)NAN}, .slope = {3, 5}, .slopes = 2, .frequency = 1};
 }
 
-static fram_status check_fatigue(const fram_fatigue_definition *d, fram_error *error)
+static fram_status take_fatigue(const fram_fatigue_definition *given, fram_fatigue_definition *d, fram_error *error)
 {
-    fram_status status = definition_check(d, sizeof *d, "fram_fatigue_definition", error);
+    fram_fatigue_default(d);
+    fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_fatigue", error);
     if (status == FRAM_OK)
         status = check_source(&d->source, error);
     if (status == FRAM_OK)
@@ -232,13 +235,15 @@ static fram_status count_cycles(fram_context *c, const series_data *data, rain_c
     return good ? FRAM_OK : error_memory(error);
 }
 
-fram_status fram_fatigue_find(fram_context *c, const fram_fatigue_definition *d, fram_fatigue *out, fram_error *error)
+fram_status fram_fatigue_find(fram_context *c, const fram_fatigue_definition *definition, fram_fatigue *out,
+                              fram_error *error)
 {
+    fram_fatigue_definition taken, *d = &taken;
     series_data data;
     rain_cycles cycles = {0};
     fram_status status = REFUSE_NULL(error, {"context", c}, {"result", out});
     if (status == FRAM_OK)
-        status = check_fatigue(d, error);
+        status = take_fatigue(definition, d, error);
     if (status == FRAM_OK)
         status = read_source(c, &d->source, false, &data, error);
     if (status != FRAM_OK)

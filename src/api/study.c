@@ -1,6 +1,7 @@
 /* Studies of the public API. */
 #include "fram/study.h"
 
+#include "api/arguments.h"
 #include "api/handles.h"
 #include "sim/bench.h"
 #include "study/study_file.h"
@@ -166,11 +167,12 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
     return status;
 }
 
-static fram_status check_definition(const fram_study_definition *d, fram_error *error)
+static fram_status take_definition(const fram_study_definition *given, fram_study_definition *d, fram_error *error)
 {
-    if (!d || d->size != sizeof *d)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "fram_study_definition.size",
-                         "the definition was not filled by fram_study_default of this version");
+    fram_study_default(d);
+    fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_study", error);
+    if (status != FRAM_OK)
+        return status;
     if (!d->folder || !*d->folder)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
     if (!d->program || !*d->program)
@@ -182,12 +184,13 @@ static fram_status check_definition(const fram_study_definition *d, fram_error *
     return check_slurm(d, error);
 }
 
-fram_status fram_study_run(const fram_study *s, const fram_study_definition *d, fram_study_result *result,
+fram_status fram_study_run(const fram_study *s, const fram_study_definition *definition, fram_study_result *result,
                            fram_error *error)
 {
+    fram_study_definition taken, *d = &taken;
     if (!s)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study is needed");
-    fram_status status = check_definition(d, error);
+    fram_status status = take_definition(definition, d, error);
     if (status != FRAM_OK)
         return status;
     study_progress_bridge bridge = {d->progress, d->progress_user};

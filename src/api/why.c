@@ -16,9 +16,10 @@ void fram_why_default(fram_why_definition *definition)
         *definition = (fram_why_definition){.size = sizeof *definition, .vessel = 1, .rerun = true};
 }
 
-static fram_status check(const fram_why_definition *d, fram_error *error)
+static fram_status take(const fram_why_definition *given, fram_why_definition *d, fram_error *error)
 {
-    fram_status status = definition_check(d, sizeof *d, "fram_why", error);
+    fram_why_default(d);
+    fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_why", error);
     if (status == FRAM_OK && d->peak < 0)
         status =
             error_set(error, FRAM_ERROR_USAGE, NULL, 0, "peak", "expected 1, the largest, or more, found %d", d->peak);
@@ -82,11 +83,13 @@ static fram_status explain(context *ctx, const why *y, const fram_why_definition
     return status;
 }
 
-fram_status fram_why(fram_context *c, const char *run, const fram_why_definition *d, char **text, fram_error *error)
+fram_status fram_why(fram_context *c, const char *run, const fram_why_definition *definition, char **text,
+                     fram_error *error)
 {
+    fram_why_definition taken, *d = &taken;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"text", text});
     if (status == FRAM_OK)
-        status = check(d, error);
+        status = take(definition, d, error);
     if (status != FRAM_OK)
         return status;
     why y;
