@@ -100,6 +100,29 @@ FRAM_API void fram_why_default(fram_why_definition *definition);
 FRAM_API fram_status fram_why(fram_context *context, const char *run, const fram_why_definition *definition,
                               char **text, fram_error *error);
 
+/* ---- Pressure on the hull ---- */
+
+typedef struct fram_pressure_definition {
+    size_t size;                     /* of this struct, set by fram_pressure_default */
+    const char *output;              /* folder for the results; must be named */
+    double panel;                    /* 1: side of a panel [m] */
+    const double *frames;            /* x of frames, ascending, ship coordinates [m]; in place of every `panel` */
+    const double *stringers;         /* z of stringers, ascending [m] */
+    int frame_count, stringer_count; /* 0: none */
+    double from, to;                 /* 0: steps after `from`, up to `to` [s]; to <= 0: the run's end */
+    const char *vessel;              /* its name, where the run has several; NULL: the first */
+    bool force;                      /* write into a folder that is not empty */
+    const volatile int *stop;        /* non-zero: end with FRAM_INTERRUPTED, nothing written; may be NULL */
+} fram_pressure_definition;
+FRAM_API void fram_pressure_default(fram_pressure_definition *definition);
+/* Mean, largest and cumulative ice pressure by panel of the hull (panels.csv, hull.vtp, pressure.png) and the largest
+   pressure by area beside that of ISO 19906 (area.csv).  The run is computed again, every step, from its nearest
+   checkpoint before `from`, so that it takes as long as the run did; its folder is not changed.  FRAM_ERROR_INPUT for
+   a folder without a run, a vessel or times that it does not have, a panel longer than the hull or so small that it is
+   cut into more than half a million pieces, lines that do not ascend. */
+FRAM_API fram_status fram_pressure(fram_context *context, const char *run, const fram_pressure_definition *definition,
+                                   fram_error *error);
+
 /* ---- Capability ---- */
 
 typedef struct fram_capability_definition {

@@ -168,6 +168,7 @@ int command_report(const command_row *self, int argc, char **argv);
 int command_plot(const command_row *self, int argc, char **argv);
 int command_compare(const command_row *self, int argc, char **argv);
 int command_capability(const command_row *self, int argc, char **argv);
+int command_pressure(const command_row *self, int argc, char **argv);
 int command_why(const command_row *self, int argc, char **argv);
 int command_video(const command_row *self, int argc, char **argv);
 

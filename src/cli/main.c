@@ -78,6 +78,12 @@ static const command_row commands[] = {
      "  fram why out/demo --peak 3 -o peak3.png --no-rerun\n"
      "  fram why out/demo --time 12.5 --json\n",
      command_why},
+    {"pressure", "RUN -o DIR",
+     "ice pressure on the hull by panel (mean, largest, cumulative) and by area; computes the run again",
+     "  fram pressure out/demo -o out/demo-pressure\n"
+     "  fram pressure out/demo -o out/fine --panel 0.5 --from 20 --to 40\n"
+     "  fram pressure out/demo -o out/frames --frames -30:0.6:30 --stringers -4,-2.5,-1,0.5,2\n",
+     command_pressure},
     {"compare", "RUN RUN", "two runs beside each other, in numbers and plots",
      "  fram compare out/demo out/thick\n"
      "  fram compare out/demo out/thick -o both.html\n",

@@ -23,7 +23,7 @@ double mesh_winding(const mesh *m, vec3 point)
 }
 
 /* By the region of the plane that the point falls into: corners, edges, face (Ericson 2005, section 5.1.5). */
-static vec3 triangle_nearest(vec3 a, vec3 b, vec3 c, vec3 p)
+vec3 triangle_nearest_point(vec3 a, vec3 b, vec3 c, vec3 p)
 {
     vec3 ab = vec3_sub(b, a), ac = vec3_sub(c, a), ap = vec3_sub(p, a), bp = vec3_sub(p, b), cp = vec3_sub(p, c);
     double a1 = vec3_dot(ab, ap), a2 = vec3_dot(ac, ap);
@@ -53,7 +53,7 @@ vec3 mesh_nearest_point(const mesh *m, vec3 point, int32_t *face)
     vec3 nearest = point;
     double least = HUGE_VAL;
     for (int32_t f = 0; f < m->face.count; f++) {
-        vec3 q = triangle_nearest(face_vertex(m, f, 0), face_vertex(m, f, 1), face_vertex(m, f, 2), point);
+        vec3 q = triangle_nearest_point(face_vertex(m, f, 0), face_vertex(m, f, 1), face_vertex(m, f, 2), point);
         vec3 way = vec3_sub(q, point);
         double square = vec3_dot(way, way);
         if (square < least) {

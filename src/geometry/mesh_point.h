@@ -13,6 +13,9 @@ double triangle_solid_angle(vec3 a, vec3 b, vec3 c);
    solid angles of all triangles over 4 pi; right beside edges and vertices too. */
 double mesh_winding(const mesh *m, vec3 point);
 
+/* The point of the closed triangle abc that is nearest to p. */
+vec3 triangle_nearest_point(vec3 a, vec3 b, vec3 c, vec3 p);
+
 /* The point of the surface nearest to `point`, on the lowest such face (may be NULL).  The mesh has triangles. */
 vec3 mesh_nearest_point(const mesh *m, vec3 point, int32_t *face);
 

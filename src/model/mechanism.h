@@ -47,6 +47,7 @@ typedef enum chain_end {
 typedef struct ice_share {
     int32_t vessel, body; /* row of the vessel; slot of the body that it touches */
     int32_t floe;         /* running number of the floe, -1: no floe */
+    int32_t patch;        /* crushing patch of this step that it is a point of, -1: none */
     uint8_t mechanism;    /* enum ice_mechanism, of the normal part; the other part is friction */
     uint8_t zone;         /* enum hull_zone */
     vec3 point;           /* global [m] */

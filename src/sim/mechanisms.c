@@ -88,6 +88,7 @@ static fram_status add_share(context *ctx, const model *m, world *w, const conta
     vec3 all = vec3_scale(contact_impulse(c), scale), normal = vec3_scale(c->normal, scale * c->impulse[0]);
     ice_share share = {.vessel = vessel, .body = body, .floe = ice ? w->floes.number[w->bodies.owner[body]] : -1};
     share.point = c->point;
+    share.patch = c->patch;
     share.normal = normal;
     share.friction = vec3_sub(all, normal);
     share.zone =

@@ -118,35 +118,35 @@ static fram_status compare(const rerun *r, const model *m, world *w, fram_error 
     return status;
 }
 
-/* The state at or before `time`, into an empty world. */
-static fram_status start_from(const rerun *r, double time, const model *m, world *w, fram_error *error)
+fram_status rerun_start(context *ctx, const char *folder, const scenario *s, double time, const model *m, world *w,
+                        fram_error *error)
 {
     checkpoint_note note = {0};
     text_buffer inputs = {0};
     bool found = false;
-    fram_status status = scenario_hash(r->ctx, &r->s, note.scenario_hash, error);
+    fram_status status = scenario_hash(ctx, s, note.scenario_hash, error);
     if (status == FRAM_OK)
-        status = run_folder_inputs(r->ctx, &r->s, &inputs, error);
+        status = run_folder_inputs(ctx, s, &inputs, error);
     if (status == FRAM_OK)
-        status = world_init(r->ctx, m, w, error);
+        status = world_init(ctx, m, w, error);
     if (status == FRAM_OK) {
         note.inputs = inputs.data;
-        status = checkpoint_read_before(r->ctx, r->folder, time, m, w, &note, &found, error);
+        status = checkpoint_read_before(ctx, folder, time, m, w, &note, &found, error);
         if (status != FRAM_OK || !found)
-            world_free(r->ctx, w);
+            world_free(ctx, w);
     }
-    text_free(r->ctx, &inputs);
+    text_free(ctx, &inputs);
     if (status != FRAM_OK || found)
         return status;
     field_report report;
-    return build_world(r->ctx, &r->s, m, w, &report, error);
+    return build_world(ctx, s, m, w, &report, error);
 }
 
 static fram_status go_back(const rerun *r, const model *m, fram_error *error)
 {
     world w = {0};
     double fork = fmax(r->time - DIFFERS_FOR - r->s.output.averaging_window, 0);
-    fram_status status = start_from(r, fork, m, &w, error);
+    fram_status status = rerun_start(r->ctx, r->folder, &r->s, fork, m, &w, error);
     if (status != FRAM_OK)
         return status;
     r->out->start = w.clock.time[0];

@@ -5,6 +5,7 @@
 
 #include "io/peak_block.h"
 #include "model/scenario.h"
+#include "model/world.h"
 
 typedef struct rerun_result {
     peak_detail detail; /* of the vessel at that time, as peak_watch_explain */
@@ -14,6 +15,11 @@ typedef struct rerun_result {
     double accurate;    /* the same with the accurate solver [N] */
     double same;        /* the same as the run was made [N] */
 } rerun_result;
+
+/* The state of a run at or before a time, of its nearest checkpoint or as it was built, into an empty world.
+   FRAM_ERROR_INPUT for checkpoints whose inputs were changed since. */
+fram_status rerun_start(context *ctx, const char *folder, const scenario *s, double time, const model *m, world *w,
+                        fram_error *error);
 
 /* vessel: row.  FRAM_ERROR_INPUT for a folder that is not of a run, a time outside it, a vessel that is not there, and
    for inputs that were changed since.  FRAM_INTERRUPTED when the context's stop flag is set. */

@@ -330,6 +330,30 @@ START_TEST(results)
     asked.size = 0;
     REFUSED(fram_why(c, run, &asked, &text, &e));
 
+    fram_pressure_definition panels;
+    fram_pressure_default(NULL);
+    fram_pressure_default(&panels);
+    REFUSED(fram_pressure(c, run, &panels, &e));
+    panels.output = "nowhere";
+    REFUSED(fram_pressure(NULL, run, &panels, &e));
+    REFUSED(fram_pressure(c, NULL, &panels, &e));
+    REFUSED(fram_pressure(c, run, NULL, &e));
+    panels.panel = nan_value;
+    REFUSED(fram_pressure(c, run, &panels, &e));
+    panels.panel = 0;
+    REFUSED(fram_pressure(c, run, &panels, &e));
+    panels.panel = 1;
+    panels.from = infinite;
+    REFUSED(fram_pressure(c, run, &panels, &e));
+    panels.from = 0;
+    panels.frame_count = 2;
+    REFUSED(fram_pressure(c, run, &panels, &e));
+    panels.frame_count = -1;
+    REFUSED(fram_pressure(c, run, &panels, &e));
+    panels.frame_count = 0;
+    panels.stringer_count = INT_MAX;
+    REFUSED(fram_pressure(c, run, &panels, &e));
+
     fram_comparison comparison;
     REFUSED(fram_compare(NULL, run, run, NULL, &comparison, &e));
     REFUSED(fram_compare(c, NULL, run, NULL, &comparison, &e));

@@ -1,0 +1,122 @@
+/* fram pressure: ice pressure on a hull by panel. */
+#include "cli/cli.h"
+
+#include "fram/results.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Coordinates as "-4,-2,0.5" and "FIRST:SPACING:LAST", in any mixture. */
+enum { LINES_MOST = 10000 };
+typedef struct line_list {
+    double value[LINES_MOST];
+    int count;
+} line_list;
+
+static bool add_line(line_list *list, double value)
+{
+    if (list->count == LINES_MOST || !isfinite(value))
+        return false;
+    list->value[list->count++] = value;
+    return true;
+}
+
+/* One number or three, up to the comma or the end, where *text is left; false: no such thing. */
+static bool read_item(const char **text, line_list *list)
+{
+    double value[3];
+    int count = 0;
+    do {
+        char *end;
+        if (count == 3)
+            return false;
+        value[count++] = strtod(*text, &end);
+        if (end == *text)
+            return false;
+        *text = end;
+    } while (*(*text) == ':' && (*text)++);
+    if (count == 2 || (**text && **text != ','))
+        return false;
+    if (count == 1)
+        return add_line(list, value[0]);
+    double steps = floor((value[2] - value[0]) / value[1] * (1 + 1e-12) + 1e-9);
+    if (!(value[1] > 0 && steps >= 0 && steps < LINES_MOST))
+        return false;
+    bool good = true;
+    for (int i = 0; i <= (int)steps && good; i++)
+        good = add_line(list, value[0] + i * value[1]);
+    return good;
+}
+
+static bool read_lines(const char *text, line_list *list)
+{
+    while (text) {
+        if (!read_item(&text, list))
+            return false;
+        if (!*text)
+            return true;
+        text++;
+    }
+    return true;
+}
+
+static int compute(const common_options *common, const char *run, const fram_pressure_definition *d)
+{
+    fram_context *context = NULL;
+    fram_error error = {0};
+    int code = session_open(common, &context);
+    if (code >= 0)
+        return code;
+    code = fram_pressure(context, run, d, &error) == FRAM_OK ? EXIT_GOOD : answer_error(common, &error);
+    if (code == EXIT_GOOD && !common->quiet)
+        fprintf(stderr, "%s: panels.csv, area.csv, hull.vtp, pressure.png\n", d->output);
+    if (code == EXIT_GOOD && common->json) {
+        json j = json_begin();
+        json_text(&j, "folder", d->output);
+        json_end(&j);
+    }
+    fram_context_destroy(context);
+    return code;
+}
+
+int command_pressure(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run = NULL, *frames = NULL, *stringers = NULL;
+    fram_pressure_definition d;
+    fram_pressure_default(&d);
+    const option_row rows[] = {
+        {"--output", "-o", OPTION_TEXT, &d.output, "DIR", "folder for the results (required)"},
+        {"--panel", NULL, OPTION_REAL, &d.panel, "M", "side of a panel (1) [m]"},
+        {"--frames", NULL, OPTION_TEXT, &frames, "LIST",
+         "x of frames in place of every M: coordinates, FIRST:SPACING:LAST, or both, by commas [m]"},
+        {"--stringers", NULL, OPTION_TEXT, &stringers, "LIST", "z of stringers, likewise [m]"},
+        {"--from", NULL, OPTION_REAL, &d.from, "T", "steps after this time (0) [s]"},
+        {"--to", NULL, OPTION_REAL, &d.to, "T", "up to this time (the end) [s]"},
+        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "of several: whose hull (the first)"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    if (!d.output)
+        return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
+    static const char wanted[] = "expected coordinates like -4,-2,0.5 or FIRST:SPACING:LAST, ten thousand at most";
+    line_list *lines = calloc(2, sizeof *lines);
+    if (!lines)
+        return answer_usage(&common, "--frames", "no memory for them");
+    if (frames && !read_lines(frames, &lines[0]))
+        code = answer_usage(&common, "--frames", wanted);
+    else if (stringers && !read_lines(stringers, &lines[1]))
+        code = answer_usage(&common, "--stringers", wanted);
+    d.frames = lines[0].value;
+    d.frame_count = lines[0].count;
+    d.stringers = lines[1].value;
+    d.stringer_count = lines[1].count;
+    d.stop = session_stop_flag();
+    d.force = common.force;
+    if (code < 0)
+        code = compute(&common, run, &d);
+    free(lines);
+    return code;
+}

@@ -1,0 +1,145 @@
+#include "sim/hull_pressure_parts.h"
+
+#include "io/path.h"
+#include "io/scenario_file.h"
+#include "model/scenario_vessel.h"
+#include "sim/build.h"
+#include "sim/recording.h"
+#include "sim/rerun.h"
+#include "sim/run_folder.h"
+#include "sim/step.h"
+
+/* The pose in which the contacts of a step were found: the vessel has moved on when the step ends. */
+typedef struct hull_pose {
+    vec3 position, centre; /* of the centre of mass: global, ship coordinates */
+    mat3 rotation;
+} hull_pose;
+
+static hull_pose pose_of(const world *w, int32_t vessel)
+{
+    int32_t body = w->vessels.body[vessel];
+    return (hull_pose){w->bodies.position[body], w->vessels.centre[vessel], quat_matrix(w->bodies.orientation[body])};
+}
+
+static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose)
+{
+    enum { POINTS = 4 };
+    const ice_share *share = w->scratch.shares.data;
+    bool good = true;
+    for (int32_t i = 0; i < w->scratch.shares.count && good;) {
+        vec3 point[POINTS], normal[POINTS], friction[POINTS];
+        int32_t count = 0, patch = share[i].patch, vessel = share[i].vessel;
+        /* Points of a patch stand together. */
+        do {
+            point[count] =
+                vec3_add(mat3_tmul_vec(pose->rotation, vec3_sub(share[i].point, pose->position)), pose->centre);
+            normal[count] = mat3_tmul_vec(pose->rotation, share[i].normal);
+            friction[count++] = mat3_tmul_vec(pose->rotation, share[i].friction);
+            i++;
+        } while (patch >= 0 && count < POINTS && i < w->scratch.shares.count && share[i].patch == patch &&
+                 share[i].vessel == vessel);
+        if (vessel == p->vessel)
+            good = pressure_add(p, point, normal, friction, count);
+    }
+    return good;
+}
+
+static double end_of(const pressure_map *p)
+{
+    double until = p->o->to > 0 ? p->o->to : p->s.run.duration;
+    return fmin(until, p->s.run.duration);
+}
+
+static fram_status step_through(pressure_map *p, const model *m, world *w, fram_error *error)
+{
+    double slack = 1e-6 * m->time_step;
+    int64_t last = step_at(end_of(p), m->time_step);
+    fram_status status = FRAM_OK;
+    while (status == FRAM_OK && w->clock.step[0] < last) {
+        if (p->ctx->stop && *p->ctx->stop)
+            return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s; nothing was written",
+                             w->clock.time[0]);
+        hull_pose pose = pose_of(w, p->vessel);
+        status = world_step(p->ctx, m, w, error);
+        if (status != FRAM_OK || w->clock.time[0] <= p->o->from + slack)
+            continue;
+        if (!add_contacts(p, w, &pose))
+            return error_memory(error);
+        pressure_end_step(p, w->clock.time[0], m->time_step);
+    }
+    return status;
+}
+
+static fram_status make_panels(pressure_map *p, const model *m, fram_error *error)
+{
+    const vessel_model *v = &m->vessels.data[p->vessel];
+    mesh hull = {0};
+    if (!mesh_copy(p->ctx, &hull, &m->solids.data[v->solid].surface))
+        return error_memory(error);
+    mesh_translate(&hull, v->centre);
+    fram_status status = pressure_begin(p, &hull, error);
+    mesh_free(p->ctx, &hull);
+    return status;
+}
+
+static fram_status build_and_compute(pressure_map *p, fram_error *error)
+{
+    model m = {0};
+    world w = {0};
+    fram_status status = build_model(p->ctx, &p->s, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = make_panels(p, &m, error);
+    if (status == FRAM_OK)
+        status = rerun_start(p->ctx, p->o->folder, &p->s, p->o->from, &m, &w, error);
+    if (status == FRAM_OK) {
+        status = step_through(p, &m, &w, error);
+        world_free(p->ctx, &w);
+    }
+    model_free(p->ctx, &m);
+    return status;
+}
+
+/* ---- what is asked ---- */
+
+static fram_status find_vessel(pressure_map *p, fram_error *error)
+{
+    p->vessel = p->o->vessel ? scenario_find_vessel(&p->s, p->o->vessel) : 0;
+    if (p->vessel < 0)
+        return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "vessel",
+                         "the run has no vessel of the name \"%.60s\"", p->o->vessel);
+    if (p->vessel >= scenario_vessel_count(&p->s))
+        return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "vessel", "the run has no vessel");
+    return FRAM_OK;
+}
+
+static fram_status check_times(const pressure_map *p, fram_error *error)
+{
+    if ((double)step_at(end_of(p), p->s.run.time_step) * p->s.run.time_step > p->o->from * (1 + 1e-12))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "from", "no step ends after %g s and up to %g s",
+                     p->o->from, end_of(p));
+}
+
+fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_error *error)
+{
+    char path[PATH_ROOM];
+    pressure_map p = {.ctx = ctx, .o = o};
+    fram_status status = path_join(o->folder, "scenario.yaml", path, error);
+    if (status == FRAM_OK)
+        status = scenario_read(ctx, path, NULL, &p.s, error);
+    if (status != FRAM_OK)
+        return status;
+    status = find_vessel(&p, error);
+    if (status == FRAM_OK)
+        status = check_times(&p, error);
+    if (status == FRAM_OK)
+        status = run_folder_check(o->output, o->force, error);
+    if (status == FRAM_OK)
+        status = build_and_compute(&p, error);
+    if (status == FRAM_OK)
+        status = pressure_write_files(&p, error);
+    pressure_free(&p);
+    scenario_free(ctx, &p.s);
+    return status;
+}

@@ -1,0 +1,128 @@
+/* Panels as tables and for ParaView. */
+#include "sim/hull_pressure_parts.h"
+
+#include "base/transcendental.h"
+#include "io/atomic_file.h"
+#include "io/path.h"
+#include "io/vtk_file.h"
+#include "sim/run_folder.h"
+
+double iso_local_pressure(double area) { return area <= 10 ? 7.4e6 * real_pow(area, -0.7) : 1.48e6; }
+
+static fram_status write_text(pressure_map *p, const char *name, text_buffer *text, fram_error *error)
+{
+    char path[PATH_ROOM];
+    fram_status status = text->failed ? error_memory(error) : path_join(p->o->output, name, path, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(p->ctx, path, text->data, (size_t)text->count, error);
+    text_free(p->ctx, text);
+    return status;
+}
+
+static fram_status write_panels(pressure_map *p, fram_error *error)
+{
+    text_buffer text = {0};
+    text_add(
+        p->ctx, &text,
+        "panel,side,patch,column,row,x[m],y[m],z[m],normal_x,normal_y,normal_z,x_min[m],x_max[m],y_min[m],y_max[m],"
+        "z_min[m],z_max[m],area[m2],pressure_mean[Pa],pressure_largest[Pa],time_of_largest[s],"
+        "pressure_cumulative[Pa s],force_x[N],force_y[N],force_z[N]\n");
+    for (int32_t i = 0; i < p->panels.panel.count; i++) {
+        const hull_panel *q = &p->panels.panel.data[i];
+        const panel_load *l = &p->load[i];
+        vec3 f = vec3_scale(l->impulse, 1 / p->time);
+        text_format(p->ctx, &text, "%d,%s,%d,%d,%d,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,", (int)i + 1,
+                    hull_side_name((hull_side)q->side), (int)q->patch + 1, (int)q->column, (int)q->row, q->centre.x,
+                    q->centre.y, q->centre.z, q->normal.x, q->normal.y, q->normal.z);
+        text_format(p->ctx, &text, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.12g,", q->bounds.lo.x, q->bounds.hi.x,
+                    q->bounds.lo.y, q->bounds.hi.y, q->bounds.lo.z, q->bounds.hi.z, q->area);
+        text_format(p->ctx, &text, "%.12g,%.12g,%.9g,%.12g,%.12g,%.12g,%.12g\n", l->sum / q->area / p->time,
+                    l->most / q->area, l->when, l->sum / q->area, f.x, f.y, f.z);
+    }
+    return write_text(p, "panels.csv", &text, error);
+}
+
+static fram_status write_curve(pressure_map *p, fram_error *error)
+{
+    text_buffer text = {0};
+    text_add(p->ctx, &text, "columns,rows,area[m2],pressure_largest[Pa],time[s],iso_19906[Pa]\n");
+    for (int k = 0; k < WINDOW_SHAPES; k++) {
+        const window_most *m = &p->most[k];
+        if (m->area > 0)
+            text_format(p->ctx, &text, "%d,%d,%.12g,%.12g,%.9g,%.12g\n", (int)window_shapes[k].columns,
+                        (int)window_shapes[k].rows, m->area, m->pressure, m->time, iso_local_pressure(m->area));
+    }
+    return write_text(p, "area.csv", &text, error);
+}
+
+enum { FIELDS = 5 };
+
+static bool fill_hull(pressure_map *p, float_array *point, int32_array *link, int32_array *offset,
+                      float_array value[FIELDS])
+{
+    const hull_panels *h = &p->panels;
+    bool good = true;
+    for (int32_t i = 0; i < h->corner.count && good; i++) {
+        vec3 c = h->corner.data[i];
+        good = array_push(p->ctx, point, (float)c.x) && array_push(p->ctx, point, (float)c.y) &&
+               array_push(p->ctx, point, (float)c.z);
+    }
+    for (int32_t i = 0; i < h->facet.count && good; i++) {
+        const panel_facet *f = &h->facet.data[i];
+        double area = h->panel.data[f->panel].area;
+        const panel_load *l = &p->load[f->panel];
+        const double part[FIELDS] = {l->sum / p->time / area, l->most / area, l->sum / area, f->panel + 1.0, area};
+        for (int32_t k = 0; k < f->count && good; k++)
+            good = array_push(p->ctx, link, f->first + k);
+        good = good && array_push(p->ctx, offset, link->count);
+        for (int k = 0; k < FIELDS && good; k++)
+            good = array_push(p->ctx, &value[k], (float)part[k]);
+    }
+    return good;
+}
+
+static fram_status write_hull(pressure_map *p, fram_error *error)
+{
+    char path[PATH_ROOM];
+    float_array point = {0}, value[FIELDS] = {{0}, {0}, {0}, {0}, {0}};
+    int32_array link = {0}, offset = {0};
+    bool good = fill_hull(p, &point, &link, &offset, value);
+    const vtk_field fields[FIELDS] = {{"mean pressure [Pa]", 1, value[0].data},
+                                      {"largest pressure [Pa]", 1, value[1].data},
+                                      {"cumulative pressure [Pa s]", 1, value[2].data},
+                                      {"panel", 1, value[3].data},
+                                      {"panel area [m2]", 1, value[4].data}};
+    const vtk_data data = {.point = point.data,
+                           .point_count = point.count / 3,
+                           .kind = VTK_POLYGONS,
+                           .connectivity = link.data,
+                           .offset = offset.data,
+                           .cell_count = offset.count,
+                           .fields = fields,
+                           .field_count = FIELDS,
+                           .time = p->time};
+    fram_status status = good ? path_join(p->o->output, "hull.vtp", path, error) : error_memory(error);
+    if (status == FRAM_OK)
+        status = vtk_write(p->ctx, path, &data, error);
+    array_free(p->ctx, &point);
+    for (int k = 0; k < FIELDS; k++)
+        array_free(p->ctx, &value[k]);
+    array_free(p->ctx, &link);
+    array_free(p->ctx, &offset);
+    return status;
+}
+
+fram_status pressure_write_files(pressure_map *p, fram_error *error)
+{
+    char path[PATH_ROOM];
+    fram_status status = run_folder_make(p->o->output, error);
+    if (status == FRAM_OK)
+        status = write_panels(p, error);
+    if (status == FRAM_OK)
+        status = write_curve(p, error);
+    if (status == FRAM_OK)
+        status = write_hull(p, error);
+    if (status == FRAM_OK)
+        status = path_join(p->o->output, "pressure.png", path, error);
+    return status == FRAM_OK ? pressure_draw(p, path, error) : status;
+}
