@@ -230,8 +230,19 @@ END_TEST
 /* Every scene that comes with Fram, its first steps; FRAM_TEST_LONG: far enough that all of them meet their ice. */
 START_TEST(ready_scenes)
 {
-    static const char *const names[] = {"conical_unit", "demo",         "fixed_cone",  "free_vessel", "level_ice",
-                                        "managed_ice",  "packed_field", "supply_ship", "turret_ship", "uikku_303"};
+    static const char *const names[] = {"conical_unit",
+                                        "demo",
+                                        "fixed_cone",
+                                        "free_vessel",
+                                        "level_ice",
+                                        "managed_ice",
+                                        "drillship_one_icebreaker",
+                                        "drillship_two_icebreakers",
+                                        "escort",
+                                        "packed_field",
+                                        "supply_ship",
+                                        "turret_ship",
+                                        "uikku_303"};
     bool all = getenv("FRAM_TEST_LONG") != NULL;
     int met = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {

@@ -184,8 +184,9 @@ END_TEST
 
 /* ---- ice ---- */
 
-/* Lindqvist (1989): crushing at the stem, bending, submersion; with speed [N]. */
-static double lindqvist(double v, double h)
+/* Lindqvist (1989) [N]: crushing at the stem and bending, and submersion, which grows with the part of the hull that is
+   in the ice. */
+static double lindqvist(double v, double h, double part)
 {
     double phi = 25 * PI / 180, alpha = 30 * PI / 180, mu = 0.1, sigma = 5e5, e = 5e9, nu = 0.3, b = 14, t = 5, l = 60;
     double tan_phi = real_tan(phi), cos_phi = real_cos(phi), sin_phi = real_sin(phi);
@@ -198,50 +199,72 @@ static double lindqvist(double v, double h)
         (t * (b + t) / (b + 2 * t) +
          mu * (0.7 * l - t / tan_phi - b / (4 * real_tan(alpha)) +
                t * cos_phi * cos_psi * sqrt(1 / (sin_phi * sin_phi) + 1 / (real_tan(alpha) * real_tan(alpha)))));
-    return (crush + bend) * (1 + 1.4 * v / sqrt(9.81 * h)) + sink * (1 + 9.4 * v / sqrt(9.81 * l));
+    double breaking = part > 0 ? (crush + bend) * (1 + 1.4 * v / sqrt(9.81 * h)) : 0;
+    return breaking + part * sink * (1 + 9.4 * v / sqrt(9.81 * l));
 }
 
-/* Speed at which net thrust is Lindqvist's resistance; 0 when it never is. */
-static double lindqvist_speed(double pull, double h)
+/* A run into level ice: from a speed, the mean over the second half of its time. */
+typedef struct ice_run {
+    const char *thickness_key, *start_key;
+    double thickness, start;
+} ice_run;
+static int ice_steps(void) { return getenv("FRAM_TEST_SHORT") ? 400 : 1200; }
+#define ICE_STEP 0.02
+
+/* By the equation of motion, M dv/dt = T_net(v) - factor R(v), where R grows as the hull enters the ice, which begins 2
+   m before the bow. */
+static double expected_speed(const ice_run *r, double mass, double factor)
 {
-    double lo = 0, hi = 7;
-    for (int i = 0; i < 60; i++) {
-        double v = (lo + hi) / 2;
-        *(propulsion_net_thrust(pull, 7, v) > lindqvist(v, h) ? &lo : &hi) = v;
+    double v = r->start, way = 0, from = 0;
+    int steps = ice_steps();
+    for (int i = 0; i < steps; i++) {
+        double part = fmin(fmax((way - 2) / 60, 0), 1);
+        from = i == steps / 2 ? way : from;
+        v += ICE_STEP / mass * (propulsion_net_thrust(8e5, 7, v) - factor * lindqvist(v, r->thickness, part));
+        way += ICE_STEP * v;
     }
-    return lo;
+    return (way - from) / (ICE_STEP * (steps - steps / 2));
 }
 
-/* Mean speed in level ice over the second half of 24 s, from a start at a given speed; the ship is not beset. */
-static double speed_in(const char *thickness, const char *start)
+/* The same in a run, whose ship is not beset. */
+static double speed_in(const ice_run *r, double *mass)
 {
-    const char *ice[] = {"ice.source=level",   thickness,           "ice.breakable=true",
-                         "ice.level.x_min=32", "domain.x_min=-100", "domain.x_max=200",
-                         "domain.y_min=-40",   "domain.y_max=40",   start,
-                         "run.time_step=0.02"};
+    const char *ice[] = {"ice.source=level",  r->thickness_key,    "ice.breakable=true", "ice.level.x_min=32",
+                         "domain.x_min=-100", "domain.x_max=200",  "domain.y_min=-40",   "domain.y_max=40",
+                         r->start_key,        "run.time_step=0.02"};
     scene k;
     scene_open_with(&k, SHIP, ice, 10);
-    int steps = getenv("FRAM_TEST_SHORT") ? 400 : 1200;
+    int steps = ice_steps();
+    *mass = k.w.bodies.mass[k.w.vessels.body[0]];
     scene_steps(&k, steps / 2);
     double from = k.w.bodies.position[k.w.vessels.body[0]].x;
     scene_steps(&k, steps / 2);
     double way = k.w.bodies.position[k.w.vessels.body[0]].x - from;
     ck_assert_int_eq(k.w.propulsion.besets[0], 0);
     scene_close(&k);
-    return way / (0.02 * steps / 2);
+    return way / (ICE_STEP * steps / 2);
 }
 
-/* The thicker the ice the slower, near the speed at which the net thrust is Lindqvist's resistance: Fram's resistance
-   of such a ship is 0.58 to 0.79 of his (docs/validation/lindqvist.md), so that it is faster. */
+/* The thicker the ice the slower, and as fast as the equation of motion says for a resistance between Lindqvist's and
+   half of it: the factor of two that such formulas are held to (docs/validation/lindqvist.md, where Fram's resistance
+   of such a ship is 0.58 to 0.79 of his).  In ice of 3 m his ship does not move. */
 START_TEST(speed_falls_with_thickness)
 {
-    double v1 = speed_in("ice.thickness=0.4", "vessel.speed=5"), v2 = speed_in("ice.thickness=0.8", "vessel.speed=3");
-    double l1 = lindqvist_speed(8e5, 0.4), l2 = lindqvist_speed(8e5, 0.8);
-    printf("%g and %g m/s; Lindqvist %g and %g\n", v1, v2, l1, l2);
-    ck_assert_msg(v1 > v2, "%g and %g m/s; Lindqvist %g and %g", v1, v2, l1, l2);
-    ck_assert_msg(v1 > 0.9 * l1 && v1 < 1.5 * l1, "%g m/s, Lindqvist %g", v1, l1);
-    ck_assert_msg(v2 > 0.9 * l2 && v2 < 2.5 * l2, "%g m/s, Lindqvist %g", v2, l2);
-    ck_assert(lindqvist_speed(8e5, 3) < 1e-6);
+    static const ice_run runs[2] = {{"ice.thickness=0.4", "vessel.speed=5", 0.4, 5},
+                                    {"ice.thickness=0.8", "vessel.speed=3", 0.8, 3}};
+    double v[2];
+    for (int i = 0; i < 2; i++) {
+        double mass;
+        v[i] = speed_in(&runs[i], &mass);
+        double slow = expected_speed(&runs[i], mass, 1), fast = expected_speed(&runs[i], mass, 0.5);
+        printf("%g m of ice: %g m/s; expected %g to %g\n", runs[i].thickness, v[i], slow, fast);
+        /* The bow alone is in the ice at the end of a short scene, and breaks less than its whole width. */
+        bool entered = !getenv("FRAM_TEST_SHORT");
+        ck_assert_msg(v[i] > slow && (v[i] < fast || !entered), "%g m of ice: %g m/s, expected %g to %g",
+                      runs[i].thickness, v[i], slow, fast);
+    }
+    ck_assert(v[0] > v[1]);
+    ck_assert(propulsion_net_thrust(8e5, 7, 0) < lindqvist(0, 3, 1));
 }
 END_TEST
 
