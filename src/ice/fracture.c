@@ -324,7 +324,7 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
     fram_status status = fracture_loads(&j, patches);
     if (status != FRAM_OK)
         return own_fault(status, error);
-    bool trims = settings->crush_trims && patches->count > 0, trimmed = false;
+    bool trims = (settings->crush_trims || settings->crush_notches) && patches->count > 0, trimmed = false;
     if (scratch->load.all.count == 0 && !trims)
         return FRAM_OK;
     int32_t slots = state->bodies->count, had = events->count;

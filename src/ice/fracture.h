@@ -58,6 +58,7 @@ typedef struct fracture_settings {
     bool under_ice_contacts;    /* option: patches between floes break them too */
     tile_grid tiles;            /* level sheet, if there is one */
     strength_field strength;    /* how strengths vary over the ice */
+    bool crush_notches;         /* floes that float lose what a hull had crushed when it draws back */
     bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 

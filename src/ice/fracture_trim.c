@@ -4,14 +4,22 @@
 
    While the hull presses on, only what it fills over the whole thickness is cut away, less a rim of the edge threshold:
    the hull's surface inside the floe, and so patch and load, stay what they were.  When it has drawn back from its
-   patch by more than the edge threshold, all goes that its section had reached at the top or the bottom of the floe. */
+   patch by more than the edge threshold, all goes that its section had reached at the top or the bottom of the floe.
+
+   A floe that floats (crush_notches; docs/decisions/0177) keeps its ice while the hull presses on.  When the hull has
+   drawn back from a steep patch, what it filled over the whole thickness goes: a notch.  What a hull reaches at one
+   face only is no side that was crushed: a floe may lie under its bottom. */
 #include "ice/fracture_parts.h"
 
 #include <string.h>
 
-/* One hull against one static floe. */
+/* Patches less steep than this are no sides: the part of the normal along the floe's own vertical. */
+static const double STEEP_SIDE = 0.5;
+
+/* One hull against one floe. */
 typedef struct trim_pair {
     int32_t floe, surface;
+    bool floats;
     bool retreats; /* the hull has left */
     vec3 back;     /* from where it stands to where it was when it last pressed on, global [m] */
 } trim_pair;
@@ -84,7 +92,7 @@ static fram_status find_gone(const fracture_job *j, const trim_pair *p)
         status = mesh_section(j->ctx, &s->trim.hull, -half, &s->trim.bottom, j->error);
     if (status != FRAM_OK)
         return status;
-    if (p->retreats) {
+    if (p->retreats && !p->floats) {
         for (int k = 0; k < 2; k++) {
             const polygon_list *rings = k ? &s->trim.bottom : &s->trim.top;
             for (int32_t i = 0; i < polygon_list_count(rings); i++)
@@ -94,12 +102,13 @@ static fram_status find_gone(const fracture_job *j, const trim_pair *p)
         }
         return FRAM_OK;
     }
-    if (!inset(j, &s->trim.top, j->settings->edge_threshold, &s->trim.inner))
+    double rim = p->floats ? 0 : j->settings->edge_threshold;
+    if (!inset(j, &s->trim.top, rim, &s->trim.inner))
         return error_memory(j->error);
     polygon_list swap = s->trim.top;
     s->trim.top = s->trim.inner;
     s->trim.inner = swap;
-    if (!inset(j, &s->trim.bottom, j->settings->edge_threshold, &s->trim.inner))
+    if (!inset(j, &s->trim.bottom, rim, &s->trim.inner))
         return error_memory(j->error);
     for (int32_t i = 0; i < polygon_list_count(&s->trim.top); i++)
         for (int32_t k = 0; k < polygon_list_count(&s->trim.inner) && status == FRAM_OK; k++)
@@ -138,7 +147,7 @@ static fram_status take_off(const fracture_job *j, polygon gone)
     return FRAM_OK;
 }
 
-/* What is left becomes floes again, all of it static; the rest is crushed. */
+/* What is left becomes floes again, which move as before; the rest is crushed. */
 static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
 {
     fracture_scratch *s = j->scratch;
@@ -179,7 +188,7 @@ static fram_status trim_floe(const fracture_job *j, const trim_pair *p, bool *tr
     for (int32_t i = 0; i < polygon_list_count(&s->trim.gone); i++)
         overlap += polygon_overlap_area(ring, polygon_list_get(&s->trim.gone, i));
     /* Less than a floe is not worth a cut; the next one takes it. */
-    if (!(overlap > (p->retreats ? 0 : j->settings->smallest_floe_area)))
+    if (!(overlap > (p->retreats && !p->floats ? 0 : j->settings->smallest_floe_area)))
         return FRAM_OK;
     polygon_list_clear(&s->trim.left);
     if (!polygon_list_push(j->ctx, &s->trim.left, ring))
@@ -189,12 +198,26 @@ static fram_status trim_floe(const fracture_job *j, const trim_pair *p, bool *tr
     return status == FRAM_OK ? commit(j, p->floe, trimmed) : status;
 }
 
-/* Held or carried ice under a hull, not broken in this step. */
+static bool floats(const fracture_job *j, const crushing_patch *p)
+{
+    return j->state->bodies->motion[p->floe_body] == MOTION_DYNAMIC;
+}
+
+/* Whether a patch is on a side of its floe, not on its top or bottom. */
+static bool is_steep(const fracture_job *j, const crushing_patch *p)
+{
+    vec3 up = mat3_column(quat_matrix(j->state->bodies->orientation[p->floe_body]), 2);
+    return fabs(vec3_dot(up, p->normal)) < STEEP_SIDE;
+}
+
+/* Ice under a hull, not broken in this step. */
 static bool may_trim(const fracture_job *j, const crushing_patch *p)
 {
     const fracture_state *s = j->state;
     motion kind = (motion)s->bodies->motion[p->floe_body];
-    return (kind == MOTION_STATIC || kind == MOTION_CARRIED) && s->bodies->material[p->surface_body] == MATERIAL_HULL &&
+    bool held = kind == MOTION_STATIC || kind == MOTION_CARRIED;
+    bool goes = held ? j->settings->crush_trims : j->settings->crush_notches && floats(j, p) && is_steep(j, p);
+    return goes && s->bodies->material[p->surface_body] == MATERIAL_HULL &&
            s->shapes->shapes.kind[s->bodies->shape[p->surface_body]] == SHAPE_SOLID &&
            !j->scratch->broken.data[p->floe_body];
 }
@@ -210,7 +233,7 @@ static trim_pair pair_of(const fracture_job *j, const crushing_patch *p, bool fi
     else if (first)
         *retreat = vec3_mad(*retreat, v, j->settings->time_step);
     bool left = -vec3_dot(*retreat, p->normal) > j->settings->edge_threshold;
-    return (trim_pair){p->floe, p->surface_body, left, left ? vec3_neg(*retreat) : (vec3){0, 0, 0}};
+    return (trim_pair){p->floe, p->surface_body, floats(j, p), left, left ? vec3_neg(*retreat) : (vec3){0, 0, 0}};
 }
 
 fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *patches, bool *trimmed)
@@ -223,7 +246,7 @@ fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *pat
             continue;
         trim_pair pair = pair_of(j, p, p->floe != last);
         last = p->floe;
-        status = trim_floe(j, &pair, trimmed);
+        status = pair.floats && !pair.retreats ? FRAM_OK : trim_floe(j, &pair, trimmed);
         /* No sound cut: the ice stays as it is for this step. */
         if (status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT) {
             log_write(j->ctx, LOG_DEBUG, "crushed ice could not be cut away: %s", j->error ? j->error->message : "");

@@ -180,6 +180,9 @@
       "comparison switch: crushed overlap pushes a hull and unbreakable floes apart again")                           \
     X(crush_trims, BOOLEAN(true), "",                                                                                 \
       "level and fixed ice: where the hull has been there is no ice any more; what is cut away is booked as crushed") \
+    X(crush_notches, BOOLEAN(true), "",                                                                               \
+      "floes that float: when a hull draws back, what it had filled over the whole thickness is cut away; deeper "    \
+      "than edge_threshold; booked as crushed")                                                                       \
     X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")   \
     X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")              \
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")       \

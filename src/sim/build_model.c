@@ -48,6 +48,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,
                                .tiles = build_tiles(s),
                                .strength = strength_of(s),
+                               .crush_notches = s->ice.crush_notches,
                                .crush_trims = s->ice.crush_trims};
 }
 

@@ -1,16 +1,19 @@
-/* How far a hull has drawn back from static ice: what decides when the crushed ice goes. */
+/* How far a hull has drawn back from ice: what decides when the crushed ice goes; and that a floe which floats keeps
+   the notch of a ram (docs/decisions/0177). */
 #include "fracture_rig.h"
+
+#include "ice_rig.h"
 
 static const double SPEED = 0.5;
 
-/* A static plate, and a hull that stands clear of it and is said to touch it with two patches. */
-static int32_t start(fracture_rig *r, solid_array *solids)
+/* A plate, and a hull that stands clear of it and is said to touch it with two patches. */
+static int32_t start(fracture_rig *r, solid_array *solids, motion kind)
 {
     fram_error e = {0};
     fracture_rig_make(r);
     r->settings.crush_trims = true;
     const vec2 corner[4] = {{-20, -20}, {20, -20}, {20, 20}, {-20, 20}};
-    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, MOTION_STATIC), index, shape;
+    int32_t row = fracture_rig_floe(r, (polygon){corner, 4}, 1, kind), index, shape;
     mesh box = {0};
     ck_assert(mesh_make_box(&r->ctx, (vec3){-5, -5, -5}, (vec3){5, 5, 5}, &box));
     polyhedron_array pieces = {0};
@@ -41,7 +44,7 @@ START_TEST(retreat_is_the_way_of_the_hull)
 {
     fracture_rig r;
     solid_array solids = {0};
-    int32_t row = start(&r, &solids);
+    int32_t row = start(&r, &solids, MOTION_STATIC);
     for (int turn = 0; turn < 2; turn++) {
         for (int i = 1; i <= 10; i++)
             assert_vec3_close(step(&r, row, -SPEED), ((vec3){-SPEED * i * r.settings.time_step, 0, 0}), 1e-15);
@@ -53,4 +56,160 @@ START_TEST(retreat_is_the_way_of_the_hull)
 }
 END_TEST
 
-TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull)
+/* A hull that reaches into the top of a floating floe alone, as over a floe under its bottom, cuts nothing out of it.
+ */
+START_TEST(a_floe_under_a_hull_stays)
+{
+    fracture_rig r;
+    solid_array solids = {0};
+    int32_t row = start(&r, &solids, MOTION_DYNAMIC);
+    r.settings.crush_notches = true;
+    r.bodies.position[r.hull] = (vec3){-17, 0, 5.2};
+    for (int i = 0; i < 60; i++)
+        (void)step(&r, row, -SPEED);
+    ck_assert_int_eq(r.floes.number[row], 0);
+    ck_assert_double_eq(r.crushed, 0);
+    fracture_rig_free(&r);
+    solid_array_free(&r.ctx, &solids);
+}
+END_TEST
+
+/* ---- rams ---- */
+
+/* A box 4 m wide beside a floe of 200 m by 200 m, both free, without friction and water. */
+typedef struct ram {
+    ice_rig r;
+    fracture_scratch *scratch;
+    fracture_settings settings;
+    edge_load_table edge_loads;
+    int32_t hull;
+    double crushed;
+} ram;
+
+static const double DT = 0.005, HULL_WIDTH = 4, HULL_HALF = 10;
+
+static void ram_make(ram *t, bool breakable)
+{
+    *t = (ram){.settings = fracture_rig_settings()};
+    ice_rig_make(&t->r, DT);
+    int32_t row = ice_rig_plate(&t->r, 200, 200, 1, MOTION_DYNAMIC), ice = t->r.floes.body[row];
+    t->r.floes.breakable[row] = breakable;
+    vec3 lo = {-HULL_HALF, -HULL_WIDTH / 2, -3}, hi = {HULL_HALF, HULL_WIDTH / 2, 3};
+    t->hull = ice_rig_box(&t->r, lo, hi, MOTION_DYNAMIC, MATERIAL_HULL);
+    t->r.bodies.position[t->hull] = (vec3){-100 - HULL_HALF - 0.05, 0, 0};
+    ice_rig_pair(&t->r, ice, t->hull);
+    t->scratch = fracture_scratch_create(&t->r.ctx);
+    t->settings.time_step = DT;
+    t->settings.crush_trims = t->settings.crush_notches = true;
+}
+
+static void ram_free(ram *t)
+{
+    fracture_scratch_free(&t->r.ctx, t->scratch);
+    table_free(&t->r.ctx, &t->edge_loads, &edge_load_table_info);
+    ice_rig_free(&t->r);
+}
+
+/* The row of the only floe. */
+static int32_t floe_of(const ram *t)
+{
+    int32_t row = -1;
+    for (int32_t i = 0; i < t->r.floes.count; i++)
+        if (t->r.floes.body[i] >= 0) {
+            ck_assert_int_lt(row, 0);
+            row = i;
+        }
+    ck_assert_int_ge(row, 0);
+    return row;
+}
+
+/* One step; returns the force on the hull [N]. */
+static double ram_step(ram *t)
+{
+    ice_rig *r = &t->r;
+    fram_error e = {0};
+    fracture_event_array events = {0};
+    ice_rig_crush(r);
+    wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
+    ck_assert(loads);
+    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, DT, &r->bodies, loads, &r->joints, &r->contacts, &r->memory,
+                           &r->report, &e),
+              e);
+    memory_free(&r->ctx, loads);
+    double force = 0;
+    for (int32_t i = 0; i < r->contacts.count; i++)
+        force += r->contacts.data[i].impulse[0] / DT;
+    fracture_state state = {&r->bodies, &r->shapes,      &r->floes,   &r->contacts,
+                            &r->memory, &r->next_number, &t->crushed, &t->edge_loads};
+    assert_ok(fracture_run(&r->ctx, t->scratch, &t->settings, r->plane, &r->patches, &state, &events, &e), e);
+    array_free(&r->ctx, &events);
+    integrate_poses(&r->ctx, &r->bodies, DT);
+    r->pairs.a[0] = r->floes.body[floe_of(t)] < t->hull ? r->floes.body[floe_of(t)] : t->hull;
+    r->pairs.b[0] = r->floes.body[floe_of(t)] < t->hull ? t->hull : r->floes.body[floe_of(t)];
+    return force;
+}
+
+/* Where the hull's face stands in the ice, from the old edge [m]. */
+static double face(const ram *t)
+{
+    int32_t row = floe_of(t);
+    vec3 tip = {t->r.bodies.position[t->hull].x + HULL_HALF, 0, 0};
+    vec3 local = body_to_local(&t->r.bodies, t->r.floes.body[row], tip);
+    return strength_place(&t->r.floes, row, (vec2){local.x, local.y}).x + 100;
+}
+
+/* The hull goes at this speed until it has stopped in the ice; the deepest place of its face, and where it met ice. */
+static double ram_in(ram *t, double speed, double *met)
+{
+    double deepest = -HUGE_VAL;
+    *met = HUGE_VAL;
+    t->r.bodies.velocity[t->hull] = (vec3){speed, 0, 0};
+    t->r.bodies.velocity[t->r.floes.body[floe_of(t)]] = (vec3){0, 0, 0};
+    for (int i = 0; i < 300; i++) {
+        double at = face(t);
+        if (ram_step(t) > 1 && *met == HUGE_VAL)
+            *met = at;
+        deepest = fmax(deepest, face(t));
+    }
+    return deepest;
+}
+
+/* Out again, until clear of the old edge. */
+static void ram_out(ram *t)
+{
+    t->r.bodies.velocity[t->hull] = (vec3){-1, 0, 0};
+    t->r.bodies.velocity[t->r.floes.body[floe_of(t)]] = (vec3){0, 0, 0};
+    for (int i = 0; i < 1000 && face(t) > -0.1; i++)
+        ck_assert_double_lt(ram_step(t), 1);
+}
+
+/* Rams with the same energy at the same place: each crushes as far as it can from the notch of the one before, and
+   meets nothing before it; what is crushed is booked.  Without notches each ram is the first. */
+START_TEST(rams_meet_the_notch)
+{
+    for (int turn = 0; turn < 4; turn++) {
+        bool notches = turn % 2 == 0;
+        ram t;
+        ram_make(&t, turn >= 2);
+        t.settings.crush_notches = notches;
+        t.r.floes.material[0].flexural_strength = 1e12;
+        double mass = t.r.bodies.mass[t.r.floes.body[0]], own = 1e6, reduced = mass * own / (mass + own), speed = 2.5;
+        double way = 0.5 * reduced * speed * speed / (2e6 * HULL_WIDTH), before = 0, met;
+        ck_assert(way > 0.3);
+        for (int n = 1; n <= 3; n++) {
+            double deepest = ram_in(&t, speed, &met);
+            /* Ice is met within a step's way. */
+            ck_assert_msg(fabs(met - before) <= 1.5 * speed * DT, "ram %d meets ice at %g m, not %g", n, met, before);
+            ck_assert_msg(fabs(deepest - before - way) < 0.05 * way, "ram %d: from %g to %g m, energy says %g", n,
+                          before, deepest, way);
+            ram_out(&t);
+            before = notches ? deepest : 0;
+            assert_relative(t.crushed + (notches ? 0 : 1), notches ? 920 * deepest * HULL_WIDTH : 1, 0.02);
+        }
+        ck_assert_int_eq(t.r.floes.breakable[floe_of(&t)], turn >= 2);
+        ram_free(&t);
+    }
+}
+END_TEST
+
+TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, a_floe_under_a_hull_stays, rams_meet_the_notch)
