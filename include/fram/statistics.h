@@ -48,6 +48,7 @@ typedef struct fram_extremes_definition {
     bool moments;       /* fit by L-moments (Hosking 1990) with a bootstrap, not by likelihood with its profile */
     double probability[FRAM_EXTREME_LEVELS]; /* that the greatest value stays below a level; 0.5, 0.9, 0.99 */
     int levels;
+    const char *draw; /* write a probability plot of each method that answers to this file, .png or .svg; or NULL */
 } fram_extremes_definition;
 FRAM_API void fram_extremes_default(fram_extremes_definition *definition);
 

@@ -4,10 +4,12 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "study/extremes.h"
+#include "study/extremes_chart.h"
 #include "study/rainflow.h"
 #include "study/series_file.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 _Static_assert((int)FRAM_EXTREME_LEVELS == (int)EXTREME_LEVELS_MOST, "one number of levels");
@@ -161,6 +163,15 @@ static int methods_of(const fram_extremes_definition *d, extreme_method out[EXTR
     return count;
 }
 
+/* The probability plots of what was found. */
+static fram_status draw_extremes(context *ctx, const fram_extremes_definition *d, const char *unit,
+                                 const extreme_result *results, int count, fram_error *error)
+{
+    char quantity[200];
+    snprintf(quantity, sizeof quantity, "%.100s [%s]", d->source.channel ? d->source.channel : "load", unit);
+    return extremes_chart_write(ctx, results, count, quantity, d->duration, d->draw, error);
+}
+
 fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *definition, fram_extremes *out,
                                fram_error *error)
 {
@@ -185,13 +196,19 @@ fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *
     for (int32_t i = 0; d->maxima && status == FRAM_OK && i < data.count; i++)
         for (int32_t k = 0; k < data.values[i].count && status == FRAM_OK; k++)
             status = array_push(&c->inner, &all, data.values[i].data[k]) ? FRAM_OK : error_memory(error);
+    extreme_result *r = memory_array(&c->inner, EXTREME_METHODS, sizeof *r);
+    if (!r && status == FRAM_OK)
+        status = error_memory(error);
     for (int i = 0; i < count && status == FRAM_OK; i++) {
-        extreme_result r;
-        status = d->maxima ? extremes_of_maxima(&c->inner, all.data, all.count, d->block, methods[i], &ask, &r, error)
-                           : extremes_of_series(&c->inner, &data.set, methods[i], &ask, &r, error);
+        status = d->maxima
+                     ? extremes_of_maxima(&c->inner, all.data, all.count, d->block, methods[i], &ask, &r[i], error)
+                     : extremes_of_series(&c->inner, &data.set, methods[i], &ask, &r[i], error);
         if (status == FRAM_OK)
-            answer(&r, &out->method[out->methods++]);
+            answer(&r[i], &out->method[out->methods++]);
     }
+    if (status == FRAM_OK && d->draw)
+        status = draw_extremes(&c->inner, d, data.unit, r, out->methods, error);
+    memory_free(&c->inner, r);
     array_free(&c->inner, &all);
     series_free(&c->inner, &data);
     return status;

@@ -266,6 +266,7 @@ int command_extremes(const command_row *self, int argc, char **argv)
         {"--order", NULL, OPTION_INTEGER, &d.order, "K", "of acer, in values (as many as the separation takes)"},
         {"--fit", NULL, OPTION_TEXT, &fit, "NAME", "likelihood, or moments: L-moments with a bootstrap (likelihood)"},
         {"--maxima", NULL, OPTION_FLAG, &d.maxima, NULL, "the values are maxima of blocks of --block each, no series"},
+        {"--draw", NULL, OPTION_TEXT, &d.draw, "FILE", "a probability plot of each method, .png or .svg"},
     };
     series_rows(&words, rows);
     int code =
@@ -285,6 +286,10 @@ int command_extremes(const command_row *self, int argc, char **argv)
     if (code < 0 && d.maxima && !block)
         code = answer_usage(&common, "--block", "is missing: of how long a time is each of the maxima?");
     d.moments = fit && strcmp(fit, "moments") == 0;
+    for (int i = 0; i < d.source.file_count && code < 0; i++) {
+        const command_files touched = {.inputs = {files[i]}, .outputs = {{"--draw", d.draw, "png svg"}}};
+        code = refuse_outputs(&common, &touched);
+    }
     return code >= 0 ? code : answer_extremes(&common, &d);
 }
 

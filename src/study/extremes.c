@@ -92,6 +92,31 @@ static bool sample_level(context *ctx, const extreme_sample *s, const extreme_re
     return true;
 }
 
+/* The sample at its plotting positions: of n ascending values the i-th, from 1, has i/(n + 1) of all below it (Gumbel
+   1958).  The greatest half of the room is for the greatest values, the rest are thinned. */
+static void keep_points(const extreme_sample *s, const extreme_request *ask, extreme_result *out)
+{
+    int32_t n = s->value.count, most = EXTREME_POINTS_MOST, top = most / 2;
+    double unit = ask->duration / s->exposure; /* a block, or all the time of the peaks */
+    bool maxima = s->kind == LAW_GUMBEL || s->kind == LAW_GEV;
+    out->points = n < most ? n : most;
+    for (int32_t k = 0; k < out->points; k++) {
+        int32_t i = n <= most ? k : k >= top ? n - most + k : (int32_t)((int64_t)k * (n - top) / top);
+        double below = (i + 1) / (n + 1.0);
+        out->point[k].level = s->value.data[i];
+        out->point[k].period = maxima ? unit / -real_log(below) : unit / (n * (1 - below));
+    }
+}
+
+double extreme_level_of_period(const extreme_result *r, double period)
+{
+    if (r->method == EXTREME_ACER || r->method == EXTREME_UPCROSSING)
+        return acer_level(&r->tail, r->step, period, 1);
+    if (r->law.kind == LAW_GUMBEL || r->law.kind == LAW_GEV)
+        return extreme_law_level(&r->law, r->block / period);
+    return extreme_law_level(&r->law, real_log(fmax(period * r->sample / r->time, 1)));
+}
+
 /* Fit and levels of a sorted sample. */
 static fram_status answer_sample(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out,
                                  fram_error *error)
@@ -104,6 +129,7 @@ static fram_status answer_sample(context *ctx, const extreme_sample *s, const ex
     bool peaks = s->kind == LAW_PARETO || s->kind == LAW_WEIBULL;
     if (peaks && !(s->exposure * s->value.count > 1 / real_exp(1)))
         return extremes_refuse(out, "fewer than one peak is expected in the duration: ask for a longer one");
+    keep_points(s, ask, out);
     bool good = sample_level(ctx, s, ask, &out->law, real_exp(-1), &out->most_probable);
     for (int i = 0; good && i < ask->levels; i++)
         good = sample_level(ctx, s, ask, &out->law, ask->probability[i], &out->level[i]);
@@ -118,7 +144,8 @@ fram_status extremes_of_maxima(context *ctx, const double *maxima, int32_t count
 {
     extreme_sample s = {.kind = method == EXTREME_GEV ? LAW_GEV : LAW_GUMBEL, .exposure = ask->duration / block};
     extremes_begin(out, method, ask);
-    out->block = block;
+    out->block = out->step = block;
+    out->time = block * count;
     if (method != EXTREME_GEV && method != EXTREME_GUMBEL)
         return extremes_refuse(out, "maxima are answered by gumbel and gev alone: this method takes the series");
     if (!array_resize(ctx, &s.value, count))
@@ -128,7 +155,7 @@ fram_status extremes_of_maxima(context *ctx, const double *maxima, int32_t count
     values_sort(&s.value);
     fram_status status = answer_sample(ctx, &s, ask, out, error);
     if (status == FRAM_OK && out->answered)
-        extremes_doubt(out, ask, block * count);
+        extremes_doubt(out, ask, out->time);
     array_free(ctx, &s.value);
     return status;
 }
@@ -261,6 +288,12 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
         return extremes_refuse_few(out);
     if (!acer_fit(rates, &out->tail))
         return extremes_refuse(out, "no law of the tail fits: fewer than five levels are exceeded often enough");
+    for (int32_t i = 0; i < rates->levels && out->points < EXTREME_POINTS_MOST; i++) {
+        int64_t n = 0;
+        double rate = acer_rate(rates, i, &n);
+        if (n > 0)
+            out->point[out->points++] = (extreme_point){w->s->step / rate, rates->level[i]};
+    }
     double exponent[EXTREME_LEVELS_MOST + 1] = {1};
     level_interval level[EXTREME_LEVELS_MOST + 1];
     for (int i = 0; i < w->ask->levels; i++)
@@ -299,6 +332,8 @@ fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method
     series_work w = {ctx, s, ask, series_nature_of(s), 0, out, error};
     w.time = (double)w.nature.values * s->step;
     extremes_begin(out, method, ask);
+    out->time = w.time;
+    out->step = s->step;
     out->separation = ask->separation > 0 ? ask->separation : SCALES_APART * w.nature.time_scale;
     if (w.nature.values < LAW_VALUES_LEAST || !(w.nature.greatest > w.nature.least))
         return extremes_refuse(out, "the series is empty or constant");

@@ -29,6 +29,8 @@ const char *extreme_method_name(extreme_method m);
 extreme_method extreme_method_find(const char *name);
 
 enum { EXTREME_LEVELS_MOST = 12, EXTREME_NOTE = 600, STABILITY_MOST = 20, BOOTSTRAP_REPLICATES = 499 };
+/* Points of a probability plot: the greatest values, and as many of the others, evenly. */
+enum { EXTREME_POINTS_MOST = 96 };
 
 /* What is asked.  0 or NaN: chosen from the series, as extreme_request_default says. */
 typedef struct extreme_request {
@@ -51,6 +53,11 @@ typedef struct threshold_row {
     int32_t peaks;
 } threshold_row;
 
+/* What the data say: a level, and the mean time between exceedances of it [s]. */
+typedef struct extreme_point {
+    double period, level;
+} extreme_point;
+
 typedef struct extreme_result {
     extreme_method method;
     bool answered; /* otherwise the levels are NaN, and the note says why */
@@ -58,6 +65,9 @@ typedef struct extreme_result {
     acer_tail tail;
     int32_t order, sample; /* sample: maxima, peaks, or exceedances of the first level */
     double block, threshold, separation;
+    double time, step; /* of all data, between values [s] */
+    extreme_point point[EXTREME_POINTS_MOST];
+    int32_t points;
     level_interval most_probable; /* exceeded once on the average in the duration: probability exp(-1) */
     level_interval level[EXTREME_LEVELS_MOST];
     const char *interval;    /* how it was found */
@@ -72,5 +82,8 @@ fram_status extremes_of_series(context *ctx, const series_set *s, extreme_method
 /* Of maxima of blocks of equal length `block` [s]: gumbel or gev. */
 fram_status extremes_of_maxima(context *ctx, const double *maxima, int32_t count, double block, extreme_method method,
                                const extreme_request *ask, extreme_result *out, fram_error *error);
+
+/* The fitted law's level whose exceedances are a time [s] apart in the mean, of an answered result. */
+double extreme_level_of_period(const extreme_result *r, double period);
 
 #endif

@@ -124,6 +124,23 @@ class Statistics(unittest.TestCase):
                          "--method", "gumbel")["methods"][0]["note"]
         self.assertIn("times as long as the data", note)
 
+    def test_plots_are_drawn_where_there_is_an_answer(self):
+        self.maxima()
+        words = ("extremes", self.at / "series.csv", "--channel", "load", "--maxima", "--block", "10min", "--draw")
+        if "cairo" not in subprocess.run([FRAM, "--version"], capture_output=True, text=True).stdout:
+            self.fram(*words, self.at / "plot.png", code=1)
+            return
+        self.fram(*words, self.at / "plot.png")
+        self.assertEqual((self.at / "plot.png").read_bytes()[1:4], b"PNG")
+        self.fram(*words, self.at / "plot.svg", "--duration", "20a")
+        drawn = (self.at / "plot.svg").read_text()
+        self.assertIn("<svg", drawn)
+        file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))
+        self.refused(("extremes", file, "--channel", "x", "--method", "gev", "--draw", self.at / "none.png"),
+                     "none.png", "no method has an answer")
+        self.assertFalse((self.at / "none.png").exists())
+        self.refused(("extremes", file, "--channel", "x", "--draw", file), "--draw")
+
     def refused(self, words, *said):
         error = self.fram(*words, code=2)["error"]
         for word in said:
