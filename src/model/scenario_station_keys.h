@@ -71,6 +71,8 @@
 
 #define SCENARIO_POSITIONING_KEYS(X)                                                                                  \
     X(active, BOOLEAN(false), "", "dynamic positioning holds the vessel, or moves it along the way points")           \
+    X(control, CHOICE(positioning_control, CONTROL_PLACE_AND_HEADING, "all heading"), "",                             \
+      "all: position and heading; heading: the heading alone, as thrusters assist a mooring that holds the position") \
     X(interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between calls of the controller; at least a time step")           \
     X(sample_interval, SCALED(0.5, 30, 0.5, 0, 1e4), "s", "between measurements")                                     \
     X(noise_position, SCALED(0.05, 30, 1, 0, 1e3), "m", "standard deviation of the measured position")                \

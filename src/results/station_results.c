@@ -183,6 +183,33 @@ static void add_envelope(context *ctx, text_buffer *b, const station_data *d, do
     text_add(ctx, b, "],\n");
 }
 
+/* The event that ended a line of the vessel, by its place among the vessel's lines; -1: none did. */
+static int32_t end_of_line(const station_data *d, int32_t line)
+{
+    const event_table *e = d->outcome->events;
+    for (int32_t i = 0; i < e->count; i++)
+        if (e->vessel[i] == d->vessel && e->number[i] == line &&
+            (e->kind[i] == EVENT_LINE_BREAK || e->kind[i] == EVENT_LINE_RELEASE))
+            return i;
+    return -1;
+}
+
+static int32_t lines_gone(const station_data *d)
+{
+    int32_t gone = 0;
+    for (int32_t i = 0; i < d->lines; i++)
+        gone += d->outcome->lines->broken[d->line[i]] != 0;
+    return gone;
+}
+
+/* A line that parted was used up, whenever that was: its last tension counts, before the transient too. */
+static double line_use(const station_data *d, int32_t line, double peak)
+{
+    int32_t end = end_of_line(d, line);
+    double last = end >= 0 ? d->outcome->events->value[end] : 0;
+    return fmax(peak, last) / d->outcome->lines->breaking_load[d->line[line]];
+}
+
 static void add_lines(context *ctx, text_buffer *b, const station_data *d, double transient)
 {
     const station_outcome *o = d->outcome;
@@ -191,7 +218,10 @@ static void add_lines(context *ctx, text_buffer *b, const station_data *d, doubl
         channel_statistics s = statistics(d, &d->column[FIXED + i], transient);
         text_format(ctx, b, "%s\n    {\"number\": %d, \"parted\": %s, ", i ? "," : "", (int)i + 1,
                     o->lines->broken[d->line[i]] ? "true" : "false");
-        add_number(ctx, b, "utilisation", s.greatest / o->lines->breaking_load[d->line[i]], ", ");
+        int32_t end = end_of_line(d, i);
+        add_number(ctx, b, "parted_at_s", end >= 0 ? o->events->time[end] : HUGE_VAL, ", ");
+        add_number(ctx, b, "tension_then", end >= 0 ? o->events->value[end] : HUGE_VAL, ", ");
+        add_number(ctx, b, "utilisation", line_use(d, i, s.greatest), ", ");
         add_statistics(ctx, b, &s, "}");
     }
     text_add(ctx, b, "],\n  \"thrusters\": [");
@@ -336,6 +366,9 @@ static void describe(context *ctx, const station_data *d, text_buffer *b)
     if (d->lines > 0)
         text_format(ctx, b, "Largest line tension: mean %.4g kN, peak %.4g kN.\n", tension.mean * 1e-3,
                     tension.greatest * 1e-3);
+    if (lines_gone(d) > 0)
+        text_format(ctx, b, "%d of %d lines parted or were let go: tensions are those of the lines that were left.\n",
+                    (int)lines_gone(d), (int)d->lines);
     if (d->thrusters > 0)
         text_format(ctx, b,
                     "Power: mean %.4g MW, largest %.4g MW; energy %.4g GJ.\nThrusters saturated %.3g %% of the time.\n",

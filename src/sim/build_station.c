@@ -261,6 +261,7 @@ static station_definition definition_of(const scenario *s, const scenario_vessel
     station_definition d = {
         .positioning = p->active,
         .observer = p->observer,
+        .control = p->control,
         .feed = p->feed_forward,
         .heading = p->heading,
         .control_every = control_every,

@@ -261,6 +261,7 @@ static fram_status sweep(const scenario *s, world *w, capability *c, fram_error 
                       .position = w->bodies.position[body],
                       .heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z,
                       .watched = station->watched[VESSEL],
+                      .heading_alone = s->vessel.positioning.control == CONTROL_HEADING,
                       .heading_given = s->vessel.mooring.turret,
                       .line_safety = c->options.line_safety,
                       .offset_limit = station->offset_limit[VESSEL],

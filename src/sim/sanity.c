@@ -273,6 +273,8 @@ static void tell_station(const teller *t, const vessel_entry *e)
     }
     if (v->positioning.active && v->thrusters.count == 0)
         say(t, "%s.positioning: there are no thrusters to position with", e->path);
+    if (v->positioning.active && v->positioning.control == CONTROL_HEADING && v->mooring.lines.count == 0)
+        say(t, "%s.positioning.control: heading alone leaves the position to a mooring, and there is none", e->path);
 }
 
 void sanity_tell(const scenario *s, sanity_teller tell, const void *to)

@@ -154,8 +154,12 @@ holding holding_find(const holding_case *c, steady_load load, const void *user)
 {
     vec3 steady = load(user, c->heading), demand = plane_to_vessel(c->heading, vec3_neg(steady)), missed = demand;
     bool thrusters = has_thrusters(c);
+    if (c->heading_alone)
+        missed = demand = vec3_make(0, 0, demand.z);
     double use = thrusters ? use_of_thrusters(c, demand) : HUGE_VAL;
     int32_t busiest = nearest_to_limit(c);
+    if (!has_lines(c) && c->heading_alone)
+        return (holding){.use = HUGE_VAL, .item = HOLDING_NOTHING, .number = -1};
     if (!has_lines(c))
         return (holding){use, thrusters ? HOLDING_THRUSTER : HOLDING_NOTHING, busiest, use, 0, 0, 0};
     if (thrusters)

@@ -24,6 +24,7 @@ typedef struct holding_case {
     vec3 position; /* of the centre of mass, where the vessel shall be, global [m] */
     double heading;
     vec3 watched;                       /* the point whose offset counts, body frame [m] */
+    bool heading_alone;                 /* thrusters give no force, only moment */
     bool heading_given;                 /* the mooring does not turn the vessel (a turret): it lies at `heading` */
     double line_safety;                 /* a line may carry its breaking load over this */
     double offset_limit, heading_limit; /* [m], [rad]; infinity: none */

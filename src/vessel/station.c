@@ -28,6 +28,15 @@ static vec3 centre_place(vec3 centre, vec3 place)
     return vec3_make(place.x + off.x, place.y + off.y, place.z);
 }
 
+static vec3 yaw_of(vec3 v) { return vec3_make(0, 0, v.z); }
+
+static pid_gains of_heading_alone(pid_gains g)
+{
+    return (pid_gains){yaw_of(g.proportional), yaw_of(g.derivative), yaw_of(g.integral)};
+}
+
+static bool is_of_heading_alone(const pid_gains *g) { return !(g->proportional.x > 0 || g->proportional.y > 0); }
+
 bool station_is_kept(const station_table *stations, const vessel_table *vessels, int32_t vessel)
 {
     return vessel < stations->count && vessels->mode[vessel] == VESSEL_FREE;
@@ -55,6 +64,8 @@ fram_status station_add(context *ctx, const station_definition *d, int32_t vesse
     s->lever[row] = 0.5 * vessels->length[row];
     s->model[row] = d->model;
     s->gains[row] = pid_gains_for(d->model.mass, d->control_frequency, d->control_damping);
+    if (d->control == CONTROL_HEADING)
+        s->gains[row] = of_heading_alone(s->gains[row]);
     s->filter[row] = d->filter;
     s->passive[row] = d->passive;
     s->kalman[row] = d->kalman;
@@ -159,6 +170,8 @@ static void control(station_table *s, int32_t row, const station_moment *now, ve
     const motion_estimate *e = &s->estimate[row];
     vec3 feed = plane_to_vessel(e->place.z, vec3_scale(fed_load(s, row), -s->feed_gain[row]));
     const reference_state *r = &s->reference[row];
+    if (is_of_heading_alone(&s->gains[row]))
+        feed = yaw_of(feed); /* the mooring takes the forces, those of the ice too */
     s->demand[row] = pid_step(&s->gains[row], e->place, e->velocity, r->place, r->velocity, feed,
                               s->saturated[row] != 0, &s->integral[row], dt);
     bool reached;

@@ -16,6 +16,9 @@ typedef enum feed_source {
     FEED_MEASURED, /* the ice load itself, as strain gauges would tell it, smoothed */
     FEED_OBSERVED  /* the observer's bias: ice, wind and current together */
 } feed_source;
+/* What the controller orders of the thrusters.  The choice stands in the gains of the table: those of surge and sway
+   are zero where the heading alone is controlled. */
+typedef enum positioning_control { CONTROL_PLACE_AND_HEADING = 0, CONTROL_HEADING } positioning_control;
 typedef enum heading_rule { HEADING_FIXED = 0, HEADING_VANING } heading_rule;
 
 #define STATION_FIELDS(X)                                                                                      \
@@ -60,6 +63,7 @@ TABLE_DECLARE(station, STATION_FIELDS)
 typedef struct station_definition {
     bool positioning;
     observer_kind observer;
+    positioning_control control;
     feed_source feed;
     heading_rule heading;
     int64_t control_every, sample_every;

@@ -98,6 +98,11 @@ expect 0 "$FRAM" check hull.yaml --set environment.wind_speed=0 --set environmen
     --set vessel.mode=towed --set vessel.speed=1
 grep 'no load will come' err && fail "a towed vessel is told to rest"
 
+# Thrusters that hold the heading alone, and no mooring that holds the rest.
+grep -v -e mooring -e depth -e lines -e count -e breaking ship.yaml >adrift.yaml
+expect 0 "$FRAM" check adrift.yaml --set vessel.positioning.active=true --set vessel.positioning.control=heading
+says "positioning.control: heading alone leaves the position to a mooring" err
+
 # At another scale the bounds go along: a tank of 1:30 with ice of 23 mm, and the same numbers at full size.
 expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set ice.thickness=0.03 --set ice.flexural_strength=2e4
 grep '^warning: ice' err && fail "ice of a tank is told"

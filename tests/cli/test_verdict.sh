@@ -66,6 +66,14 @@ says "bad" verdict.txt
 says "The vessel did not hold its station. 1 of 5 lines parted" verdict.txt
 says "passed its limit of 0.01 m, first at" verdict.txt
 says "damaged mooring" verdict.txt
+python3 - <<'PY' || fail "station.json does not tell the line that parted"
+import json
+lines = json.load(open("lost/station.json"))["lines"]
+gone = [l for l in lines if l["parted"]]
+assert len(lines) == 5 and len(gone) == 1 and gone[0]["number"] == 5
+assert gone[0]["utilisation"] >= 1 and gone[0]["tension_then"] >= 9e4 and 4 < gone[0]["parted_at_s"] < 16
+assert all(l["parted_at_s"] is None and 0 < l["utilisation"] < 1 for l in lines if not l["parted"])
+PY
 
 # A run that was stopped is no finished one.
 expect 0 "$FRAM" run ship.yaml -o half --quiet --until 8

@@ -239,6 +239,59 @@ START_TEST(feed_forward_of_the_ice_load)
 }
 END_TEST
 
-TEST_MAIN("station", transit_at_a_given_thrust, sensors_and_controller_keep_their_own_time,
+/* A ship on a turret, pushed aside and turned; thrusters fore and aft. */
+static const char assisted[] =
+    "run:\n  time_step: 0.1\n"
+    "vessel:\n  mode: free\n  hull: {form: ship, length: 80, beam: 16, draught: 5, freeboard: 3}\n"
+    "  mooring:\n    turret: true\n    depth: 100\n"
+    "    lines:\n      - {kind: spring, count: 4, spacing_deg: 90, distance: 200,\n"
+    "         pretension: 2.0e5, stiffness: 2.0e4}\n"
+    "  thrusters:\n    - {kind: tunnel, x: 30, thrust: 1.5e5}\n    - {kind: tunnel, x: -30, thrust: 1.5e5}\n"
+    "  positioning:\n    active: true\n    feed_forward: observed\n    noise_position: 0\n    noise_heading_deg: 0\n"
+    "ice: {source: none}\ndomain: {boundary: open}\n";
+
+/* Offset, heading deviation, and force and moment of the thrusters after five minutes of a steady push. */
+static void push_assisted(const char *control, vec3 *offset, wrench *thrust)
+{
+    scene k;
+    fram_error error = {0};
+    vec3 sum = {0, 0, 0};
+    scene_open_with(&k, assisted, (const char *const[]){control}, 1);
+    for (int i = 0; i < 3000; i++) {
+        const wrench push = {{-10e3, 20e3, 0}, {0, 0, 2e6}};
+        assert_ok(world_add_wrench(&k.ctx, &k.w, k.w.vessels.body[0], push, &error), error);
+        scene_steps(&k, 1);
+        /* It swings about its place with little damping, for 70 s a time: the mean of the last four. */
+        if (i >= 3000 - 2800)
+            sum = vec3_add(sum, k.w.stations.offset[0]);
+    }
+    *offset = vec3_make(sum.x / 2800, sum.y / 2800, k.w.stations.offset[0].z);
+    *thrust = k.w.stations.thruster_load[0];
+    scene_close(&k);
+}
+
+/* Thrusters that assist a mooring: the heading is held, all force is left to the lines, and the ship lies where the
+   lines alone would have it. */
+START_TEST(heading_alone)
+{
+    vec3 free, turned, placed;
+    wrench none, couple, all;
+    push_assisted("vessel.positioning.active=false", &free, &none);
+    push_assisted("vessel.positioning.control=heading", &turned, &couple);
+    push_assisted("vessel.positioning.control=all", &placed, &all);
+    ck_assert_msg(fabs(degrees(free.z)) > 20, "without thrusters it turns by %g degrees only", degrees(free.z));
+    assert_absolute(degrees(turned.z), 0, 0.5);
+    assert_relative(couple.moment.z, -2e6, 0.02);
+    assert_absolute(couple.force.x, 0, 1);
+    assert_absolute(couple.force.y, 0, 500);
+    /* Of springs that lead down at an angle a each gives k cos^2 a along itself, and pretension over its way across. */
+    double way = sqrt(200 * 200 + 100 * 100), along = 200 / way;
+    double stiffness = 2 * 2.0e4 * along * along + 2 * 2.0e5 / way * (2 - along * along);
+    assert_relative(sqrt(turned.x * turned.x + turned.y * turned.y), sqrt(5) * 10e3 / stiffness, 0.2);
+    ck_assert(fabs(placed.y) < 0.3 * fabs(turned.y) && fabs(all.force.y) > 10e3);
+}
+END_TEST
+
+TEST_MAIN("station", heading_alone, transit_at_a_given_thrust, sensors_and_controller_keep_their_own_time,
           feed_forward_of_the_ice_load, forces_on_a_towed_hull_balance, a_ship_holds_its_place_until_its_thrusters_fail,
           a_moored_ship_begins_in_balance)
