@@ -15,7 +15,7 @@ prefix=$scratch/prefix
 cmake --install "$FRAM_BUILD" --prefix "$prefix" >"$scratch/install.log"
 consumer=$FRAM_SOURCE/tests/package/consumer
 # grep reads to the end: with -q it would end nm by a broken pipe, which counts as a failure here.
-if ! nm -D --defined-only "$FRAM_BUILD/libfram.so" | grep ' fram_version$' >/dev; then
+if ! nm -D --defined-only "$FRAM_BUILD/libfram.so" | grep ' fram_version$' >/dev/null; then
     echo "skipped: the library has no public calls yet"
     exit 77
 fi
@@ -32,7 +32,7 @@ cc -std=c17 -Wall -Wextra -Wpedantic -Werror -o "$scratch/shared" "$consumer/con
     $(pkg-config --cflags --libs fram)
 [ "$("$scratch/shared")" = "$version" ] || fail "the shared consumer failed"
 # objdump shows the soname that programs are bound to.
-objdump -p "$scratch/shared" | grep "NEEDED *libfram.so.${version%%.*}$" >/dev || fail "bound to another soname"
+objdump -p "$scratch/shared" | grep "NEEDED *libfram.so.${version%%.*}$" >/dev/null || fail "bound to another soname"
 
 echo "pkg-config, static"
 # shellcheck disable=SC2046
