@@ -263,6 +263,11 @@ typedef struct fram_bench_result {
     double kinetic_energy_J;
     double solver_residual; /* mean over the steps [m/s] */
     uint64_t state_hash;
+    /* CPU time of a step, all threads, and wall time: mean, and nearest ranks [ms] */
+    double ms_mean, ms_p99, ms_p999, ms_longest;
+    double ms_wall_p99, ms_wall_p999, ms_wall_longest;
+    /* Parts of the CPU time of all steps [1]; what is left is bookkeeping */
+    double share_forces, share_collision, share_crushing, share_solver, share_fracture;
 } fram_bench_result;
 
 /* Step a scenario's world for `time` seconds after `warm` seconds of warm-up, without output, and measure. */

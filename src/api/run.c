@@ -157,7 +157,19 @@ static fram_bench_result bench_answer(const bench_result *r)
                                .ship_force_kN = r->ship_force * 1e-3,
                                .kinetic_energy_J = r->kinetic_energy,
                                .solver_residual = r->residual,
-                               .state_hash = r->state_hash};
+                               .state_hash = r->state_hash,
+                               .ms_mean = r->cpu.mean * 1e3,
+                               .ms_p99 = r->cpu.p99 * 1e3,
+                               .ms_p999 = r->cpu.p999 * 1e3,
+                               .ms_longest = r->cpu.longest * 1e3,
+                               .ms_wall_p99 = r->wall.p99 * 1e3,
+                               .ms_wall_p999 = r->wall.p999 * 1e3,
+                               .ms_wall_longest = r->wall.longest * 1e3,
+                               .share_forces = r->share[STAGE_FORCES],
+                               .share_collision = r->share[STAGE_DETECTION],
+                               .share_crushing = r->share[STAGE_CRUSHING],
+                               .share_solver = r->share[STAGE_SOLVE] + r->share[STAGE_INTEGRATION],
+                               .share_fracture = r->share[STAGE_FRACTURE]};
 }
 
 fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_bench_result *result, fram_error *error)

@@ -19,6 +19,11 @@ static void print_text(const fram_bench_result *r)
             r->floes, (long long)r->steps, r->ms_per_step_median, r->ms_wall_median, r->us_per_floe_step);
     fprintf(stderr, "collision %.3f ms, solver and integration %.3f ms, forces %.3f ms; real-time factor %.2f\n",
             r->collide_ms, r->solve_ms, r->forces_ms, r->real_time_factor);
+    fprintf(stderr, "mean step %.3f ms CPU, 99 %% within %.3f, 99.9 %% within %.3f, longest %.3f (wall %.3f)\n",
+            r->ms_mean, r->ms_p99, r->ms_p999, r->ms_longest, r->ms_wall_longest);
+    fprintf(stderr, "of all: forces %.0f %%, collision %.0f %%, crushing %.0f %%, solver %.0f %%, fracture %.0f %%\n",
+            1e2 * r->share_forces, 1e2 * r->share_collision, 1e2 * r->share_crushing, 1e2 * r->share_solver,
+            1e2 * r->share_fracture);
     fprintf(stderr, "%.0f pairs press on one another; %.0f points in %.0f pairs overlap, mean %.3g m, largest %.3g m\n",
             r->loaded_pairs, r->contact_points, r->pairs, r->mean_penetration_m, r->max_penetration_m);
 }
@@ -42,6 +47,18 @@ static void json_result(json *j, const fram_bench_result *r)
     json_real(j, "ship_force_kN", r->ship_force_kN);
     json_real(j, "kinetic_energy_J", r->kinetic_energy_J);
     json_real(j, "solver_residual_m_per_s", r->solver_residual);
+    json_real(j, "ms_mean", r->ms_mean);
+    json_real(j, "ms_p99", r->ms_p99);
+    json_real(j, "ms_p999", r->ms_p999);
+    json_real(j, "ms_longest", r->ms_longest);
+    json_real(j, "ms_wall_p99", r->ms_wall_p99);
+    json_real(j, "ms_wall_p999", r->ms_wall_p999);
+    json_real(j, "ms_wall_longest", r->ms_wall_longest);
+    json_real(j, "share_forces", r->share_forces);
+    json_real(j, "share_collision", r->share_collision);
+    json_real(j, "share_crushing", r->share_crushing);
+    json_real(j, "share_solver", r->share_solver);
+    json_real(j, "share_fracture", r->share_fracture);
     json_hash(j, "state_hash", r->state_hash);
 }
 

@@ -25,6 +25,17 @@ static double median(double *value, int64_t count)
     return count % 2 ? value[count / 2] : (value[count / 2 - 1] + value[count / 2]) / 2;
 }
 
+/* Of ascending values. */
+static step_times times_of(const double *value, int64_t count)
+{
+    step_times t = {.longest = value[count - 1]};
+    for (int64_t k = 0; k < count; k++)
+        t.mean += value[k] / (double)count;
+    t.p99 = value[(99 * count + 99) / 100 - 1];
+    t.p999 = value[(999 * count + 999) / 1000 - 1];
+    return t;
+}
+
 int64_t bench_steps(double span, double time_step) { return (int64_t)floor(span / time_step + 0.5); }
 
 /* ---- what a step did ---- */
@@ -98,13 +109,15 @@ static void stage_done(void *user, step_stage stage)
 
 /* times: TIME_COUNT columns of `steps` rows. */
 static fram_status measure_step(context *ctx, const model *m, world *w, int64_t row, int64_t steps, double *times,
-                                fram_error *error)
+                                bench_result *r, fram_error *error)
 {
     stopwatch clock = {.last = seconds(CLOCK_PROCESS_CPUTIME_ID)};
     double wall = seconds(CLOCK_MONOTONIC), cpu = clock.last;
     fram_status status = world_step_watched(ctx, m, w, &(step_watch){stage_done, &clock}, error);
     times[TIME_CPU * steps + row] = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
     times[TIME_WALL * steps + row] = seconds(CLOCK_MONOTONIC) - wall;
+    for (int i = 0; i < STAGE_COUNT; i++)
+        r->share[i] += clock.part[i];
     times[TIME_FORCES * steps + row] = clock.part[STAGE_FORCES];
     times[TIME_COLLIDE * steps + row] = clock.part[STAGE_DETECTION] + clock.part[STAGE_CRUSHING];
     times[TIME_SOLVE * steps + row] = clock.part[STAGE_SOLVE] + clock.part[STAGE_INTEGRATION];
@@ -125,6 +138,10 @@ static void summarize(const model *m, const world *w, int64_t steps, double *tim
     r->forces_median = median(times + TIME_FORCES * steps, steps);
     r->collide_median = median(times + TIME_COLLIDE * steps, steps);
     r->solve_median = median(times + TIME_SOLVE * steps, steps);
+    r->cpu = times_of(times + TIME_CPU * steps, steps);
+    r->wall = times_of(times + TIME_WALL * steps, steps);
+    for (int i = 0; i < STAGE_COUNT; i++)
+        r->share[i] = r->cpu.mean > 0 ? r->share[i] / (n * r->cpu.mean) : 0;
     r->kinetic_energy = body_kinetic_energy(&w->bodies);
     r->state_hash = world_hash(w);
 }
@@ -147,7 +164,7 @@ fram_status bench_measure(context *ctx, const model *m, world *w, int32_t ship, 
         status = work_continue(ctx, "measuring", (double)(warm_steps + k), all, error);
         if (status != FRAM_OK)
             break;
-        status = measure_step(ctx, m, w, k, steps, times, error);
+        status = measure_step(ctx, m, w, k, steps, times, out, error);
         add_step(m, w, ship, out);
     }
     if (status == FRAM_OK)

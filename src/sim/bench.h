@@ -4,12 +4,20 @@
 
 #include "io/scene_file.h"
 #include "model/scenario.h"
+#include "sim/step.h"
+
+/* How long steps took [s]: nearest ranks, so that each is a step that there was. */
+typedef struct step_times {
+    double mean, p99, p999, longest;
+} step_times;
 
 typedef struct bench_result {
     int64_t steps;
     int32_t floes;
     double cpu_median, wall_median;                     /* of a step, process CPU time and wall time [s] */
     double forces_median, collide_median, solve_median; /* CPU time of the parts of a step [s] */
+    step_times cpu, wall;
+    double share[STAGE_COUNT]; /* of the stages in the CPU time of all steps; what they leave is bookkeeping */
     double real_time_factor;
     double contact_points, pairs; /* overlapping points and pairs of bodies with such points, mean per step */
     double loaded_pairs;          /* pairs of bodies with an impulse between them, mean per step */

@@ -12,9 +12,20 @@ bench() { "$FRAM" bench --scene "$scene" --warm 5 --time "${steps:-8}" --json --
 bench >"$scratch/plain"
 hash=$(key_of state_hash <"$scratch/plain")
 for key in ms_per_step_median ms_wall_median us_per_floe_step contact_points pairs mean_penetration_m \
-    max_penetration_m ship_force_kN kinetic_energy_J collide_ms solve_ms forces_ms; do
+    max_penetration_m ship_force_kN kinetic_energy_J collide_ms solve_ms forces_ms ms_wall_p99 ms_wall_p999 \
+    ms_wall_longest; do
     key_of $key <"$scratch/plain" >/dev/null || fail "no $key in the answer"
 done
+# Times in their order, and parts that are most of the whole.
+python3 - "$scratch/plain" <<'END' || fail "times of steps or shares: $(cat "$scratch/plain")"
+import json, sys
+r = json.load(open(sys.argv[1]))
+assert 0 < r["ms_per_step_median"] <= r["ms_p99"] <= r["ms_p999"] <= r["ms_longest"]
+assert r["ms_mean"] <= r["ms_longest"] <= r["ms_mean"] * r["steps"]
+assert r["ms_wall_median"] <= r["ms_wall_p99"] <= r["ms_wall_p999"] <= r["ms_wall_longest"]
+shares = [r["share_" + name] for name in ("forces", "collision", "crushing", "solver", "fracture")]
+assert all(0 <= share < 1 for share in shares) and 0.5 < sum(shares) <= 1.000001, shares
+END
 [ "$(key_of floes <"$scratch/plain")" = 150 ] || fail "wrong number of floes"
 
 same_state() {
