@@ -40,7 +40,8 @@ class ContextDefinition(ctypes.Structure):
 
     _fields_ = [("size", ctypes.c_size_t), ("memory", ctypes.c_void_p), ("memory_user", ctypes.c_void_p),
                 ("log", ctypes.c_void_p), ("log_user", ctypes.c_void_p), ("verbosity", ctypes.c_int),
-                ("threads", ctypes.c_int), ("isa", ctypes.c_char_p)]
+                ("threads", ctypes.c_int), ("isa", ctypes.c_char_p), ("stop", ctypes.c_void_p),
+                ("work", ctypes.c_void_p), ("work_user", ctypes.c_void_p)]
 
 
 def library():
