@@ -61,6 +61,9 @@ python: build/python/build.ninja | $(STAMPS)/python ## the wheel of the Python p
 	@cmake --build --preset python -j$(JOBS) --target fram_shared fram_fmu
 	@$(PYTHON) tools/python_wheel.py build/python build/python
 
+wasm: build/viewer/playback.html | $(STAMPS)/wasm ## one page that simulates in a browser, build/wasm/fram.html (20 minutes the first time)
+	@tools/wasm.sh
+
 bench-python: build | $(STAMPS)/python ## what reading poses and outlines from Python costs, against its bound
 	@$(PYTHON) bench/run_python.py
 
