@@ -116,7 +116,8 @@ typedef struct fram_pressure_definition {
 } fram_pressure_definition;
 FRAM_API void fram_pressure_default(fram_pressure_definition *definition);
 /* Mean, largest and cumulative ice pressure by panel of the hull (panels.csv, hull.vtp, pressure.png) and the largest
-   pressure by area beside that of ISO 19906 (area.csv).  The run is computed again, every step, from its nearest
+   pressure by area beside that of ISO 19906 (area.csv), and the mean force by zone and mechanism (zones.csv).  The run
+   is computed again, every step, from its nearest
    checkpoint before `from`, so that it takes as long as the run did; its folder is not changed.  FRAM_ERROR_INPUT for
    a folder without a run, a vessel or times that it does not have, a panel longer than the hull or so small that it is
    cut into more than half a million pieces, lines that do not ascend. */

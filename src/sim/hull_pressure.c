@@ -21,7 +21,15 @@ static hull_pose pose_of(const world *w, int32_t vessel)
     return (hull_pose){w->bodies.position[body], w->vessels.centre[vessel], quat_matrix(w->bodies.orientation[body])};
 }
 
-static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose)
+/* As the series does: the normal part by the contact's mechanism, the rest friction. */
+static void add_part(pressure_map *p, const ice_share *share, vec3 normal, vec3 friction, double time_step)
+{
+    vec3 *part = p->part[share->zone];
+    part[share->mechanism] = vec3_mad(part[share->mechanism], normal, time_step);
+    part[MECHANISM_FRICTION] = vec3_mad(part[MECHANISM_FRICTION], friction, time_step);
+}
+
+static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose, double time_step)
 {
     enum { POINTS = 4 };
     const ice_share *share = w->scratch.shares.data;
@@ -34,7 +42,10 @@ static bool add_contacts(pressure_map *p, const world *w, const hull_pose *pose)
             point[count] =
                 vec3_add(mat3_tmul_vec(pose->rotation, vec3_sub(share[i].point, pose->position)), pose->centre);
             normal[count] = mat3_tmul_vec(pose->rotation, share[i].normal);
-            friction[count++] = mat3_tmul_vec(pose->rotation, share[i].friction);
+            friction[count] = mat3_tmul_vec(pose->rotation, share[i].friction);
+            if (vessel == p->vessel)
+                add_part(p, &share[i], normal[count], friction[count], time_step);
+            count++;
             i++;
         } while (patch >= 0 && count < POINTS && i < w->scratch.shares.count && share[i].patch == patch &&
                  share[i].vessel == vessel);
@@ -63,7 +74,7 @@ static fram_status step_through(pressure_map *p, const model *m, world *w, fram_
         status = world_step(p->ctx, m, w, error);
         if (status != FRAM_OK || w->clock.time[0] <= p->o->from + slack)
             continue;
-        if (!add_contacts(p, w, &pose))
+        if (!add_contacts(p, w, &pose, m->time_step))
             return error_memory(error);
         pressure_end_step(p, w->clock.time[0], m->time_step);
     }

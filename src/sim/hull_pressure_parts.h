@@ -3,8 +3,10 @@
 #define SIM_HULL_PRESSURE_PARTS_H
 
 #include "io/text_buffer.h"
+#include "model/mechanism.h"
 #include "model/scenario.h"
 #include "sim/hull_pressure.h"
+#include "vessel/hull.h"
 
 /* Of one panel. */
 typedef struct panel_load {
@@ -46,7 +48,8 @@ typedef struct pressure_map {
     double *sum_cells;
     double *sum_force;
     window_most most[WINDOW_SHAPES];
-    double time; /* looked at [s] */
+    vec3 part[ZONE_COUNT][MECHANISM_COUNT]; /* impulse by zone and mechanism, ship axes [N s] */
+    double time;                            /* looked at [s] */
 } pressure_map;
 
 /* The panels of the hull, and room for their loads. */

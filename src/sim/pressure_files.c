@@ -42,6 +42,24 @@ static fram_status write_panels(pressure_map *p, fram_error *error)
     return write_text(p, "panels.csv", &text, error);
 }
 
+static fram_status write_zones(pressure_map *p, fram_error *error)
+{
+    static const char *const zones[ZONE_COUNT] = {"bow", "shoulder", "midbody", "stern", "bottom"};
+    static const char *const mechanisms[MECHANISM_COUNT] = {
+#define MECHANISM_NAME(id, name, text) [MECHANISM_##id] = (name),
+        ICE_MECHANISMS(MECHANISM_NAME)
+#undef MECHANISM_NAME
+    };
+    text_buffer text = {0};
+    text_add(p->ctx, &text, "zone,mechanism,force_x[N],force_y[N],force_z[N]\n");
+    for (int z = 0; z < ZONE_COUNT; z++)
+        for (int m = 0; m < MECHANISM_COUNT; m++) {
+            vec3 f = vec3_scale(p->part[z][m], 1 / p->time);
+            text_format(p->ctx, &text, "%s,%s,%.12g,%.12g,%.12g\n", zones[z], mechanisms[m], f.x, f.y, f.z);
+        }
+    return write_text(p, "zones.csv", &text, error);
+}
+
 static fram_status write_curve(pressure_map *p, fram_error *error)
 {
     text_buffer text = {0};
@@ -120,6 +138,8 @@ fram_status pressure_write_files(pressure_map *p, fram_error *error)
         status = write_panels(p, error);
     if (status == FRAM_OK)
         status = write_curve(p, error);
+    if (status == FRAM_OK)
+        status = write_zones(p, error);
     if (status == FRAM_OK)
         status = write_hull(p, error);
     if (status == FRAM_OK)

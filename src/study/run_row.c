@@ -3,6 +3,7 @@
 #include "base/channel_statistics.h"
 #include "base/number_text.h"
 #include "io/atomic_file.h"
+#include "model/mechanism.h"
 #include "model/scenario_vessel.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
@@ -73,6 +74,33 @@ static double mean_of(const run_data *d, int32_t vessel, const char *channel)
     return time && value ? channel_statistics_of(time, value, d->series.rows, d->s.run.transient).mean : (double)NAN;
 }
 
+/* Of the mean load after the transient; stays empty without a load, and for runs that did not split theirs. */
+static void add_shares(const run_data *d, int32_t vessel, run_row *out)
+{
+    static const char *const names[MECHANISM_COUNT] = {
+#define SHARE_NAME(id, name, text) [MECHANISM_##id] = (name),
+        ICE_MECHANISMS(SHARE_NAME)
+#undef SHARE_NAME
+    };
+    double x[MECHANISM_COUNT], y[MECHANISM_COUNT], all_x = 0, all_y = 0;
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        char channel[64];
+        snprintf(channel, sizeof channel, "mechanism_%s_x", names[m]);
+        x[m] = mean_of(d, vessel, channel);
+        channel[strlen(channel) - 1] = 'y';
+        y[m] = mean_of(d, vessel, channel);
+        all_x += x[m];
+        all_y += y[m];
+    }
+    double square = all_x * all_x + all_y * all_y;
+    for (int m = 0; m < MECHANISM_COUNT && square > 0; m++)
+        out->figure[ROW_share_splitting + m] = (x[m] * all_x + y[m] * all_y) / square;
+}
+
+_Static_assert(ROW_share_friction - ROW_share_splitting == (int)MECHANISM_FRICTION - (int)MECHANISM_SPLITTING &&
+                   ROW_FIGURES - ROW_share_splitting == (int)MECHANISM_COUNT,
+               "a share for each mechanism, in their order");
+
 static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
     channel_statistics load;
@@ -87,6 +115,7 @@ static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row
     out->figure[ROW_force_x_mean] = mean_of(d, vessel, "ice_force_averaged_x");
     out->figure[ROW_force_y_mean] = mean_of(d, vessel, "ice_force_averaged_y");
     out->figure[ROW_fractures] = d->fractures.rows;
+    add_shares(d, vessel, out);
     snprintf(out->state_hash, sizeof out->state_hash, "%s", d->note.state_hash);
     if (vessel < scenario_vessel_count(&d->s))
         snprintf(out->vessel, sizeof out->vessel, "%.*s", (int)VESSEL_NAME_MOST,
@@ -158,7 +187,7 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel)
 
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 2";
+static const char mark[] = "fram study row 3";
 
 static void number(context *ctx, text_buffer *out, double value)
 {

@@ -8,7 +8,8 @@
 
 /* Every column once: name, unit.  Loads are the magnitude of the horizontal ice force on a vessel, averaged over
    output.averaging_window; statistics are of the time after run.transient; what a run does not have is a NaN.
-   significant: mean of the highest third of the peaks. */
+   significant: mean of the highest third of the peaks.  share: part of the mean horizontal ice load, along it, that a
+   mechanism makes; the shares of a run add up to 1 (model/mechanism.h has their order). */
 #define RUN_ROW_FIGURES(X)              \
     X(time, "s")                        \
     X(load_mean, "N")                   \
@@ -24,7 +25,15 @@
     X(line_tension_largest, "N")        \
     X(lines_parted, "1")                \
     X(thruster_power_mean, "W")         \
-    X(fractures, "1")
+    X(fractures, "1")                   \
+    X(share_splitting, "1")             \
+    X(share_bending, "1")               \
+    X(share_crushing, "1")              \
+    X(share_chain, "1")                 \
+    X(share_accumulation, "1")          \
+    X(share_submersion, "1")            \
+    X(share_impact, "1")                \
+    X(share_friction, "1")
 
 #define RUN_ROW_NAME(name, unit) ROW_##name,
 typedef enum run_figure { RUN_ROW_FIGURES(RUN_ROW_NAME) ROW_FIGURES } run_figure;

@@ -1,6 +1,7 @@
 /* The tables of a study.  No wall-clock times and no order of ends: the same study leaves the same bytes. */
 #include "base/number_text.h"
 #include "io/atomic_file.h"
+#include "model/mechanism.h"
 #include "study/seeds.h"
 #include "study/study_answers.h"
 
@@ -59,13 +60,24 @@ static void add_number(context *ctx, text_buffer *b, double value)
 static fram_status summarise_conditions(const study_folder *f, const condition_rows *conditions, text_buffer *b,
                                         fram_error *error)
 {
-    static const run_figure of[] = {ROW_load_mean, ROW_load_significant, ROW_load_largest, ROW_offset_largest,
-                                    ROW_line_tension_largest};
+    static const run_figure of[] = {ROW_load_mean,
+                                    ROW_load_significant,
+                                    ROW_load_largest,
+                                    ROW_offset_largest,
+                                    ROW_line_tension_largest,
+#define SHARE_FIGURE(id, name, text) ROW_share_splitting + MECHANISM_##id,
+                                    ICE_MECHANISMS(SHARE_FIGURE)
+#undef SHARE_FIGURE
+    };
     add_condition_heads(f, b);
     text_add(f->ctx, b, ",seeds,failed");
     text_add(f->ctx, b, ",load_mean[N],load_mean_half[N],load_significant[N],load_significant_half[N]");
     text_add(f->ctx, b, ",load_largest[N],load_largest_half[N],offset_largest[m],offset_largest_half[m]");
-    text_add(f->ctx, b, ",line_tension_largest[N],line_tension_largest_half[N]\n");
+    text_add(f->ctx, b, ",line_tension_largest[N],line_tension_largest_half[N]");
+#define SHARE_HEAD(id, name, text) text_add(f->ctx, b, ",share_" name "[1],share_" name "_half[1]");
+    ICE_MECHANISMS(SHARE_HEAD)
+#undef SHARE_HEAD
+    text_add(f->ctx, b, "\n");
     ARRAY(double) value = {0};
     for (int32_t c = 0; c < f->s->conditions; c++) {
         int32_t failed = 0, n = conditions[c].rows.count;

@@ -129,7 +129,22 @@ python3 - <<'PYTHON' || fail "two vessels by name"
 import math
 from tables import balance, loads, table
 twin, other = table("twin/panels.csv"), table("other/panels.csv")
-balance(twin, loads("two", "twin.", 0)[0])
+wanted, rows = loads("two", "twin.", 0)
+balance(twin, wanted)
+parts = table("twin/zones.csv")
+balance(parts, wanted)
+assert len(parts) == 5 * 8, len(parts)
+size = max(map(abs, wanted))
+for key, column in (("zone", "twin.ice_{}_{}"), ("mechanism", "twin.mechanism_{}_{}")):
+    for name in {p[key] for p in parts}:
+        for axis in "xyz":
+            channel = column.format(name, axis)
+            if channel not in rows[0]:
+                assert key == "zone", channel
+                continue
+            mean = sum(r[channel] for r in rows) / len(rows)
+            found = sum(p[f"force_{axis}"] for p in parts if p[key] == name)
+            assert abs(found - mean) < 1e-6 * size, (channel, found, mean)
 balance(other, loads("two", "other.", 0, math.pi / 2)[0])
 # Inner sides are panels of their own.
 port = {p["patch"] for p in twin if p["side"] == "port"}

@@ -69,6 +69,24 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(float(means[3]["load_mean[N]"]), sum(pair) / 2, delta=1e-6)
         # Student's t of two values: 12.706 times the standard error.
         self.assertAlmostEqual(float(means[3]["load_mean_half[N]"]) / (abs(pair[0] - pair[1]) / 2), 12.7062, delta=1e-3)
+        # Shares of mechanisms: of the mean load vector, along it; they add up to all of it.
+        with open(self.at / "one" / "series.csv", newline="") as file:
+            late = [r for r in csv.DictReader(file) if float(r["time[s]"]) >= 1]
+        total = [sum(float(r[f"ice_force_{a}[N]"]) for r in late) for a in "xy"]
+        names = [n[6:-3] for n in rows[7] if n.startswith("share_") and n.endswith("[1]")]
+        self.assertEqual(len(names), 8)
+        for name in names:
+            part = [sum(float(r[f"mechanism_{name}_{a}[N]"]) for r in late) for a in "xy"]
+            along = (part[0] * total[0] + part[1] * total[1]) / (total[0] ** 2 + total[1] ** 2)
+            self.assertAlmostEqual(float(rows[7][f"share_{name}[1]"]), along, delta=1e-6)
+            pair = [float(r[f"share_{name}[1]"]) for r in rows[6:]]
+            self.assertAlmostEqual(float(means[3][f"share_{name}[1]"]), sum(pair) / 2, delta=1e-9)
+        for row in rows:
+            shares = [row[f"share_{n}[1]"] for n in names]
+            if float(row["load_mean[N]"]) > 0:
+                self.assertAlmostEqual(sum(map(float, shares)), 1, delta=1e-6)
+            else:
+                self.assertEqual(set(shares), {""})
         kept = list((self.at / "out" / "runs").glob("*/5/*"))
         self.assertEqual({p.name for p in kept}, {"scenario.yaml", "run.json", "series.csv", "fractures.csv"})
 
