@@ -99,3 +99,25 @@ void load_distribution_free(context *ctx, load_distribution *d)
     array_free(ctx, &d->bar);
     array_free(ctx, &d->density);
 }
+
+double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, bool *cut)
+{
+    double low = HUGE_VAL, high = -HUGE_VAL, largest = 0;
+    for (int32_t k = 0; k < lines; k++)
+        for (int32_t i = 0; i < count; i++)
+            if (isfinite(averaged[k][i])) {
+                low = fmin(low, averaged[k][i]);
+                high = fmax(high, averaged[k][i]);
+            }
+    double margin = 0.1 * (high - low);
+    *cut = false;
+    for (int32_t i = 0; i < count; i++) {
+        if (fabs(raw[i]) > fabs(largest))
+            largest = raw[i];
+        if (!(high > low))
+            continue;
+        *cut |= raw[i] < low - margin || raw[i] > high + margin;
+        raw[i] = fmin(fmax(raw[i], low - margin), high + margin);
+    }
+    return largest;
+}

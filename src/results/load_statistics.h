@@ -15,6 +15,11 @@ typedef struct load_distribution {
     double independent;               /* values, at least 1 */
 } load_distribution;
 
+/* Spikes of single steps go as far as the averaged values do, and a tenth of their range beyond, so that an axis shows
+   those.  averaged: `lines` arrays of `count` values.  Returns the value of largest size before that, 0 without any;
+   *cut: whether one went beyond. */
+double load_spikes_cut(double *raw, const double *const *averaged, int32_t lines, int32_t count, bool *cut);
+
 /* Values at equal distances `step` in time.  Without values all is empty.  false: no memory. */
 bool load_distribution_of(context *ctx, const double *value, int32_t count, double step, load_distribution *out);
 void load_distribution_free(context *ctx, load_distribution *d);

@@ -4,6 +4,7 @@
 #include "io/csv_read.h"
 #include "io/path.h"
 #include "model/scenario_vessel.h"
+#include "results/load_statistics.h"
 #include "results/station_results.h"
 
 #include <stdio.h>
@@ -60,6 +61,9 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
                 column[k].data[i] *= 1e-3;
         }
         int32_t rows = column[TIME].count;
+        const double *const averaged[] = {column[MEAN_X].data, column[MEAN_Y].data};
+        bool cut;
+        double spike = load_spikes_cut(column[RAW_X].data, averaged, 2, rows, &cut);
         const chart_line lines[] = {
             chart_line_make("along the vessel, each step", column[TIME].data, column[RAW_X].data, rows, false),
             chart_line_make("along X, averaged", column[TIME].data, column[MEAN_X].data, rows, true),
@@ -67,10 +71,10 @@ static fram_status draw_loads(context *ctx, const scenario *s, int32_t vessel, c
         };
         char title[80], subtitle[256];
         snprintf(title, sizeof title, "Ice load on %s", vessel_title_of(&entry).text);
-        snprintf(
-            subtitle, sizeof subtitle,
-            "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s; a resisting load is negative",
-            s->output.averaging_window, mean * 1e-3, s->run.transient);
+        snprintf(subtitle, sizeof subtitle,
+                 "averaged over %.3g s; mean along the vessel (x forward) %.4g kN after %g s, negative: it resists; "
+                 "single steps reach %.4g kN%s",
+                 s->output.averaging_window, mean * 1e-3, s->run.transient, spike, cut ? ", beyond the picture" : "");
         chart c = chart_make(title, subtitle, "time [s]", "force [kN]", lines, 3);
         status = chart_write(ctx, &c, to, CHART_WIDTH, CHART_HEIGHT, error);
     }

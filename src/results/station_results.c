@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "base/transcendental.h"
+#include "geometry/polygon.h"
 #include "io/atomic_file.h"
 #include "io/page.h"
 #include "io/path.h"
@@ -383,19 +384,21 @@ static void scale(double_array *values, double by)
         values->data[i] *= by;
 }
 
-/* The envelope as a line round the point, and its largest radius: each direction is the sector that it stands for, so
-   that offsets in one direction alone show as a wedge. */
-enum { EDGE_POINTS = 2 * ENVELOPE_DIRECTIONS + 1 };
-static double envelope_edge(const double envelope[ENVELOPE_DIRECTIONS], double x[EDGE_POINTS], double y[EDGE_POINTS])
+/* The track from its first row after the transient on, and round it the line that encloses it (its convex hull). */
+static fram_status enclose(context *ctx, const station_data *d, int32_t first, vec2_array *hull, double_array out[2],
+                           fram_error *error)
 {
-    double largest = 0;
-    for (int i = 0; i < EDGE_POINTS; i++) {
-        int k = i / 2 % ENVELOPE_DIRECTIONS;
-        double a = 2 * PI * (k + (i % 2 == 0 ? -0.5 : 0.5)) / ENVELOPE_DIRECTIONS, r = envelope[k];
-        x[i] = r * real_cos(a), y[i] = r * real_sin(a);
-        largest = fmax(largest, r);
+    vec2_array points = {0};
+    bool good = true;
+    for (int32_t i = first; i < d->rows && good; i++)
+        good = array_push(ctx, &points, vec2_make(d->column[OFFSET_X].data[i], d->column[OFFSET_Y].data[i]));
+    good = good && polygon_convex_hull(ctx, (polygon){points.data, points.count}, hull);
+    for (int32_t i = 0; good && hull->count > 0 && i <= hull->count; i++) {
+        vec2 corner = hull->data[i % hull->count];
+        good = array_push(ctx, &out[0], corner.x) && array_push(ctx, &out[1], corner.y);
     }
-    return largest;
+    array_free(ctx, &points);
+    return good ? FRAM_OK : error_memory(error);
 }
 
 static fram_status draw(context *ctx, const station_data *d, const char *text, const char *path, fram_error *error)
@@ -408,19 +411,26 @@ static fram_status draw(context *ctx, const station_data *d, const char *text, c
     }
     const double *time = d->column[TIME].data;
     int32_t n = d->rows;
-    double envelope[ENVELOPE_DIRECTIONS], edge_x[EDGE_POINTS], edge_y[EDGE_POINTS];
-    offset_envelope(time, d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, s->run.transient, envelope);
-    double largest = envelope_edge(envelope, edge_x, edge_y);
+    int32_t first = 0;
+    double largest = 0;
+    vec2_array hull = {0};
+    double_array edge[2] = {0};
+    while (first < n && time[first] < s->run.transient)
+        first++;
+    fram_status status = enclose(ctx, d, first, &hull, edge, error);
+    for (int32_t i = first; i < n; i++)
+        largest = fmax(largest, d->offset.data[i]);
     /* A limit that is far away would leave nothing of the track to be seen. */
     bool far = limit > FAR_LIMIT * largest;
     char note[96];
     snprintf(note, sizeof note,
              far ? "offset of the watched point; the limit, %.3g m, lies outside"
-                 : "offset of the watched point; envelope after the transient",
-             limit);
-    const chart_line footprint[3] = {
-        chart_line_make("track", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, n, false),
-        chart_line_make("envelope", edge_x, edge_y, EDGE_POINTS, false),
+                 : "offset of the watched point; envelope of its track after %.4g s",
+             far ? limit : s->run.transient);
+    chart_line footprint[4] = {
+        chart_line_make("", d->column[OFFSET_X].data, d->column[OFFSET_Y].data, first, false),
+        chart_line_make("track", d->column[OFFSET_X].data + first, d->column[OFFSET_Y].data + first, n - first, false),
+        chart_line_make("envelope", edge[0].data, edge[1].data, edge[0].count, false),
         chart_line_make("limit", round_x, round_y, CIRCLE, true)};
     const chart_line offsets[2] = {chart_line_make("along X", time, d->column[OFFSET_X].data, n, true),
                                    chart_line_make("along Y", time, d->column[OFFSET_Y].data, n, true)};
@@ -430,7 +440,7 @@ static fram_status draw(context *ctx, const station_data *d, const char *text, c
     const chart_line tension = chart_line_make("largest of all lines", time, d->column[TENSION].data, n, true);
     const chart_line power = chart_line_make("thruster power", time, d->column[POWER].data, n, true);
     const page_panel panels[5] = {
-        {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 3 : 2), 20, 60, 620, 560, true},
+        {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 4 : 3), 20, 60, 620, 560, true},
         {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},
         {chart_make("Heading", "deviation", "time [s]", "deviation [deg]", &heading, 1), 660, 320, 920, 270, false},
         {chart_make("Ice load", "averaged", "time [s]", "force [kN]", loads, 2), 660, 580, 920, 270, false},
@@ -444,7 +454,12 @@ static fram_status draw(context *ctx, const station_data *d, const char *text, c
     snprintf(title, sizeof title, "%s%s%.*s", s->title[0] ? s->title : "Fram", named ? ": vessel " : "",
              (int)VESSEL_NAME_MOST, named ? scenario_vessel_entry(s, d->vessel).keys->name : "");
     const page p = {title, panels, 5, text, 60, 660, PAGE_WIDTH, PAGE_HEIGHT};
-    return page_write(ctx, &p, path, error);
+    if (status == FRAM_OK)
+        status = page_write(ctx, &p, path, error);
+    array_free(ctx, &hull);
+    array_free(ctx, &edge[0]);
+    array_free(ctx, &edge[1]);
+    return status;
 }
 
 fram_status station_page_write(context *ctx, const scenario *s, int32_t vessel, const station_outcome *o,

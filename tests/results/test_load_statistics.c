@@ -113,5 +113,23 @@ START_TEST(bars_hold_their_own_values)
 }
 END_TEST
 
-TEST_MAIN("load statistics", bars_hold_their_own_values, a_series_is_worth_its_independent_values,
+/* The axis shows the averaged loads: spikes end a tenth of their range beyond, and the largest is told. */
+START_TEST(spikes)
+{
+    double raw[4] = {0, -700, 90, 400};
+    const double x[4] = {0, -100, -50, 0}, y[4] = {0, 40, 100, (double)NAN};
+    const double *const averaged[] = {x, y};
+    bool cut = false;
+    assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut), -700, 0);
+    ck_assert(cut);
+    assert_absolute(raw[0], 0, 0);
+    assert_absolute(raw[1], -120, 1e-12);
+    assert_absolute(raw[2], 90, 0);
+    assert_absolute(raw[3], 120, 1e-12);
+    assert_absolute(load_spikes_cut(raw, averaged, 2, 4, &cut), -120, 1e-12);
+    ck_assert(!cut);
+}
+END_TEST
+
+TEST_MAIN("load statistics", spikes, bars_hold_their_own_values, a_series_is_worth_its_independent_values,
           the_band_holds_the_truth_as_often_as_it_says, histogram_and_exceedance_count_every_value)
