@@ -13,10 +13,10 @@
 enum { HELD_LANES = 8 };
 
 /* Changes up to which drag is held.  Of a motion: its distance from a multiple of the held one, over its size, both
-   with angular velocities times the outline's radius.  Held drag is then within 1.5e-3 of the drag at the floe's
-   largest speed (tests/fluid/test_held_drag.c; no motion can exceed 2 sqrt(2) 1e-3, since a point's velocity is at most
-   sqrt(2) of it apart and drag goes with the square), which with the quadrature of a convex outline leaves 3e-3
-   (fluid.h). */
+   with angular velocities times the outline's radius; in air, which weighs a thousandth, over that of the faster of
+   both motions.  Held drag is then within 1.5e-3 of the drag at the floe's largest speed (tests/fluid/test_held_drag.c;
+   no motion can exceed 2 sqrt(2) 1e-3, since a point's velocity is at most sqrt(2) of it apart and drag goes with the
+   square), which with the quadrature of a convex outline leaves 3e-3 (fluid.h). */
 #define HELD_MOTION 1e-3
 /* Of the waterline's height anywhere on the sides, over half the floe's thickness: a thousandth of the sides' drag. */
 #define HELD_LINE 1e-3

@@ -50,8 +50,8 @@ typedef struct passage {
 
 V8_INLINE v8 size2(const passage *m) { return lanes3_dot(m->go, m->go) + lanes3_dot(m->turn, m->turn); }
 
-/* now is almost scale times held; false where a number is none. */
-V8_INLINE v8_mask motion_holds(const passage *now, const passage *held, v8 still2, v8 *scale)
+/* now is almost scale times held, measured by a speed, the square of which is given; false where a number is none. */
+V8_INLINE v8_mask motion_holds(const passage *now, const passage *held, v8 speed2, v8 still2, v8 *scale)
 {
     v8 held2 = size2(held), along = lanes3_dot(now->go, held->go) + lanes3_dot(now->turn, held->turn);
     v8_mask moves = v8_less(still2, held2);
@@ -59,7 +59,7 @@ V8_INLINE v8_mask motion_holds(const passage *now, const passage *held, v8 still
     s = v8_min(v8_max(s, v8_set(LEAST_SCALE)), v8_set(MOST_SCALE));
     passage apart = {lanes3_mad(now->go, held->go, -s), lanes3_mad(now->turn, held->turn, -s)};
     *scale = s;
-    return v8_less_equal(size2(&apart), v8_max(HELD_MOTION * HELD_MOTION * size2(now), still2));
+    return v8_less_equal(size2(&apart), v8_max(HELD_MOTION * HELD_MOTION * speed2, still2));
 }
 
 /* Adds held drag, in global axes. */
@@ -129,9 +129,9 @@ unsigned KERNEL(held_loads)(const held_media *media, const body_table *bodies, c
     passage held_water = {lanes3_of(&held->through_water[row]), held_turn};
     passage held_air = {lanes3_of(&held->through_air[row]), held_turn};
     if (media->wet)
-        holds &= motion_holds(&water, &held_water, still2, &water_scale);
+        holds &= motion_holds(&water, &held_water, size2(&water), still2, &water_scale);
     if (media->dry)
-        holds &= motion_holds(&air, &held_air, still2, &air_scale);
+        holds &= motion_holds(&air, &held_air, v8_max(size2(&air), size2(&water)), still2, &air_scale);
     lanes &= v8_bits(holds);
     if (lanes == 0)
         return 0;

@@ -137,8 +137,10 @@ START_TEST(within_its_bound)
             for (int i = 0; i < FLOES; i++) {
                 const body_table *b = &f.bodies;
                 double reach = f.shapes.shapes.plan_radius[b->shape[i]], area = f.shapes.shapes.area[b->shape[i]];
-                double speed =
-                    vec3_length(vec3_sub(b->velocity[i], medium)) + reach * vec3_length(b->angular_velocity[i]);
+                double through = vec3_length(vec3_sub(b->velocity[i], medium));
+                if (kind > 1) /* air: the faster of both motions counts */
+                    through = fmax(through, vec3_length(vec3_sub(b->velocity[i], f.media.current)));
+                double speed = through + reach * vec3_length(b->angular_velocity[i]);
                 double size = size_of[kind] * area * (speed * speed);
                 double force = vec3_length(vec3_sub(found[i].force, f.loads[i].force));
                 double moment = vec3_length(vec3_sub(found[i].moment, f.loads[i].moment)) / reach;
