@@ -121,6 +121,9 @@ mutate-check: ## whether each fault of tests/mutants still fits the code (second
 bench: build ## measure the speed of BENCH_SCENE (managed ice); BENCH_FLAGS go to `fram bench`
 	@build/release/fram bench $(BENCH_SCENE) $(BENCH_FLAGS)
 
+bench-users: build ## scenes of users, step by step; BENCH_FLAGS="--old FRAM" beside an older build
+	@$(PYTHON) bench/run_users.py $(BENCH_FLAGS)
+
 bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)
 
