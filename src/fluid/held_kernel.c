@@ -119,7 +119,8 @@ unsigned KERNEL(held_loads)(const held_media *media, const body_table *bodies, c
     v8_mask holds = line_holds(&r, &line, held, row);
 
     v8 reach = v8_load(held->reach[row].lane), half = v8_load(held->half[row].lane);
-    v8 still2 = (HELD_STILL * HELD_STILL * media->gravity) * half, water_scale, air_scale;
+    v8 still2 = (HELD_STILL * HELD_STILL * media->gravity) * half;
+    v8 water_scale = v8_set(1), air_scale = v8_set(1);
     lanes3 velocity = lanes3_pick(bodies->velocity + slot);
     lanes3 turn = lanes3_scale(lanes33_tmul(&r, lanes3_pick(bodies->angular_velocity + slot)), reach);
     lanes3 held_turn = lanes3_scale(lanes3_of(&held->spin[row]), reach);
