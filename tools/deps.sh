@@ -66,6 +66,7 @@ python python3-cffi     deb:python3-cffi
 python python3-pip      deb:python3-pip
 deb    debhelper        cmd:dh
 deb    dh-python        cmd:dh_python3
+deb    libmicrohttpd-dev pc:libmicrohttpd
 deb    lintian          cmd:lintian
 deb    fonts-dejavu-core file:/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
 trial  debootstrap      cmd:debootstrap
