@@ -148,22 +148,22 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
     bool asked =
         d->slurm_partition || d->slurm_time || d->slurm_option_count > 0 || d->slurm_runs_per_task > 0 || d->dry_run;
     if (!slurm && asked)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--on",
-                         "partition, time, runs a task, options of sbatch and a dry run belong to --on slurm");
-    fram_status status = check_slurm_word("--partition", d->slurm_partition, error);
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
+                         "partition, time, runs a task, options of sbatch and a dry run are for slurm alone");
+    fram_status status = check_slurm_word("slurm_partition", d->slurm_partition, error);
     if (status == FRAM_OK)
-        status = check_slurm_word("--time", d->slurm_time, error);
+        status = check_slurm_word("slurm_time", d->slurm_time, error);
     for (int i = 0; status == FRAM_OK && i < d->slurm_option_count; i++) {
-        status = check_slurm_word("--sbatch", d->slurm_options[i], error);
+        status = check_slurm_word("slurm_options", d->slurm_options[i], error);
         if (status == FRAM_OK && strncmp(d->slurm_options[i], "--", 2) != 0)
-            status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--sbatch",
+            status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_options",
                                "expected an option of sbatch, as --account=ice, found %.60s", d->slurm_options[i]);
     }
     if (status == FRAM_OK && (d->slurm_runs_per_task < 0 || d->slurm_runs_per_task > SLURM_RUNS_MOST))
-        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--runs-per-task", "expected 0 to %d, found %d",
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_runs_per_task", "expected 0 to %d, found %d",
                            SLURM_RUNS_MOST, d->slurm_runs_per_task);
     if (status == FRAM_OK && !(d->slurm_poll >= 0 && d->slurm_poll <= SLURM_POLL_MOST))
-        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--poll", "expected 0 to %d s", SLURM_POLL_MOST);
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "slurm_poll", "expected 0 to %d s", SLURM_POLL_MOST);
     return status;
 }
 
@@ -180,7 +180,7 @@ static fram_status take_definition(const fram_study_definition *given, fram_stud
     if (d->jobs < 0 || d->jobs > 4096)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "jobs", "expected 0 to 4096 processes, found %d", d->jobs);
     if (d->on && strcmp(d->on, "local") != 0 && strcmp(d->on, "slurm") != 0)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--on", "expected local or slurm, found %.60s", d->on);
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on", "expected local or slurm, found %.60s", d->on);
     return check_slurm(d, error);
 }
 

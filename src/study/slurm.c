@@ -109,7 +109,7 @@ static fram_status check_commands(slurm_pool *all, fram_error *error)
     text_free(all->ctx, &answer);
     if (status == FRAM_OK && code == 0)
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "--on",
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
                      "the command sbatch is not there or does not work: run this on a machine that submits to Slurm");
 }
 
@@ -173,7 +173,7 @@ static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *err
     fram_status status = script ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
     long long job = status == FRAM_OK && answer.data ? strtoll(answer.data, &end, 10) : 0;
     if (status == FRAM_OK && (code != 0 || job < 1))
-        status = error_set(error, FRAM_ERROR_USAGE, script, 0, "--on", "sbatch refuses the script: %.300s",
+        status = error_set(error, FRAM_ERROR_USAGE, script, 0, "on", "sbatch refuses the script: %.300s",
                            answer.data ? answer.data : "");
     if (status == FRAM_OK && !array_push(all->ctx, &all->jobs, job))
         status = error_memory(error);
