@@ -54,13 +54,13 @@ static double pattern_area(const world *w)
     return area;
 }
 
-/* What was there, entered and left is what is there now. */
+/* What was there, entered, was crushed and left is what is there now. */
 static void check_books(const scene *k, double mass_at_start)
 {
     const world *w = &k->w;
     double now = floes_mass(w);
-    double booked =
-        mass_at_start + w->feeding.entered[0] + w->clock.ice_gained[0] - w->clock.ice_left[0] - w->clock.ice_lost[0];
+    double booked = mass_at_start + w->feeding.entered[0] + w->clock.ice_gained[0] - w->clock.ice_left[0] -
+                    w->clock.ice_lost[0] - w->clock.ice_crushed[0];
     assert_relative(now, booked, 1e-11);
 }
 
@@ -156,13 +156,13 @@ static void outline_of(const world *w, int32_t body, vec2 out[64], polygon *p)
     *p = (polygon){out, own.count};
 }
 
-/* Floes that are new overlap nothing. */
+/* Floes that entered overlap nothing; what a notch left of a floe is new too, and stays where that had been crushed. */
 static void check_newcomers(const world *w, int32_t first_number)
 {
     vec2 one[64], two[64];
     polygon a, b;
     for (int32_t i = 0; i < w->floes.count; i++) {
-        if (w->floes.body[i] < 0 || w->floes.number[i] < first_number)
+        if (w->floes.body[i] < 0 || w->floes.number[i] < first_number || w->floes.parent[i] >= 0)
             continue;
         outline_of(w, w->floes.body[i], one, &a);
         for (int32_t j = 0; j < w->floes.count; j++) {
