@@ -3,7 +3,7 @@
 . "$FRAM_SOURCE/tests/cli/common.sh"
 
 cat >"$scratch/scene.yaml" <<'END'
-run: {duration: 60, time_step: 0.1}
+run: {duration: 60, time_step: 0.1, transient: 20}
 vessel:
   mode: free
   hull: {form: box, length: 40, beam: 12, draught: 4, freeboard: 2}
@@ -13,14 +13,14 @@ vessel:
       - {direction_deg: 0, distance: 400, pretension: 3.0e5, release_time: 5}
       - {direction_deg: 180, distance: 400, pretension: 3.0e5, breaking_load: 2.9e5}
       - kind: table
-        direction_deg: 90
+        direction_deg: 270
         table_file: line.csv
-      - {direction_deg: 270, distance: 400, pretension: 3.0e5}
+      - {direction_deg: 90, distance: 400, pretension: 3.0e5, breaking_load: 9.0e5}
   thrusters:
     - {x: 15, thrust: 40.0e3, failure_time: 10}
     - {x: -15, thrust: 40.0e3}
   positioning: {active: true}
-  station: {offset_limit: 0.5}
+  station: {offset_limit: 0.5, heading_limit_deg: 3}
 ice: {source: none}
 domain: {boundary: open}
 environment: {current_speed: 1.5, current_direction_deg: 20}
@@ -41,6 +41,16 @@ assert j["offset_m"]["exceedance"] > 0, "time beyond the limit"
 assert max(j["offset_envelope_m"]) <= j["offset_m"]["peak"] + 1e-9, "envelope"
 for key in ("mean", "significant", "peak"):
     assert key in j["line_tension_largest_N"] and key in j["ice_load_N"], key
+# Beside the series itself, from the end of the transient on.
+import csv
+rows = [r for r in csv.DictReader(open(sys.argv[1] + "/series.csv")) if float(r["time[s]"]) >= 20]
+turned = [float(r["heading_deviation[deg]"]) for r in rows]
+share = sum(abs(d) > 3 for d in turned) / len(turned)
+assert share > sum(d > 3 for d in turned) / len(turned), "nothing to tell the sides apart"
+assert abs(j["heading_deviation_deg"]["exceedance"] - share) < 1e-12, (j["heading_deviation_deg"], share)
+use = max(float(r["line_4_tension[N]"]) for r in rows) / 9.0e5
+assert abs(j["lines"][3]["utilisation"] - use) < 1e-9, (j["lines"][3], use)
+assert j["lines"][3]["mean"] < 0.99 * j["lines"][3]["peak"], "nothing to tell mean and peak apart"
 assert j["thruster_power_W"]["energy_J"] > 0 and len(j["lines"]) == 4 and len(j["thrusters"]) == 2
 END
 head -n 1 "$scratch/run/series.csv" | grep -q 'hydrodynamic_force_x' || fail "series.csv lacks hydrodynamic_force_x"
