@@ -3,7 +3,7 @@
 # bench/results/packages.md.  As root, with a network; MIRROR=http://... names another mirror of Debian.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-mirror=${MIRROR:-http://deb.debian.org/debian}
+mirror=$(tools/mirror.sh)
 here=build/trial
 page=bench/results/packages.md
 rows=$here/rows

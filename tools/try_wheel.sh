@@ -4,7 +4,7 @@
 # a tar file of debootstrap --variant=minbase, where there is one.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-mirror=${MIRROR:-http://deb.debian.org/debian}
+mirror=$(tools/mirror.sh)
 here=build/trial-wheel
 root=$here/root
 page=bench/results/wheel.md

@@ -27,7 +27,7 @@ fi
 fetch() {
     mkdir -p "$top/apt/lists/partial" "$top/sources"
     printf 'deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] %s %s main\n' \
-        "http://deb.debian.org/debian" "$release" >"$top/apt/sources.list"
+        "$("$here/mirror.sh" "$release")" "$release" >"$top/apt/sources.list"
     set -- -qq -o "Dir::Etc::sourcelist=$top/apt/sources.list" -o Dir::Etc::sourceparts=/dev/null \
         -o "Dir::State::lists=$top/apt/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache=
     apt-get "$@" update
