@@ -139,7 +139,7 @@ static int32_t add_shapes(const pressure_map *p, const patch_view *view, const s
             corners[used + k] = vec2_make(at.x + shift.x, at.y + shift.y);
         }
         shapes[count++] = (plan_shape){.outline = {&corners[used], f->count},
-                                       .style = PLAN_FLOE,
+                                       .style = PLAN_LEVEL_ICE, /* without lines between the facets of a panel */
                                        .has_value = value > 0,
                                        .value = (float)(most > 0 ? value / most : 0)};
         used += f->count;

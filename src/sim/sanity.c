@@ -237,16 +237,25 @@ static void tell_domain(const teller *t, const vessel_entry *e)
         say(t, "domain: %.4g m is less than two beams of %s, so that its edges carry the load", width, e->path);
 }
 
-static void tell_rest(const teller *t, const vessel_entry *e)
+static bool vessel_moves(const scenario_vessel *v)
 {
-    const scenario_vessel *v = e->keys;
+    bool driven = v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
+    return v->speed > 0 || v->path.count > 0 || (v->mode == VESSEL_FREE && driven);
+}
+
+/* Told of the scenario as a whole: a vessel at rest meets what another one pushes. */
+static void tell_rest(const teller *t)
+{
     const scenario_environment *n = &t->s->environment;
     const scenario_domain *d = &t->s->domain;
-    bool moves = v->speed > 0 || v->path.count > 0 || n->current_speed > 0 || n->wind_speed > 0 || n->current_file[0] ||
-                 n->wind_file[0] || d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
-    bool driven = v->mode == VESSEL_FREE && v->thrusters.count > 0;
-    if (!moves && !driven && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
-        say(t, "%s.speed: neither %s nor ice, water or wind moves: no load will come", e->path, e->path);
+    int32_t count = scenario_vessel_count(t->s);
+    bool moves = n->current_speed > 0 || n->wind_speed > 0 || n->current_file[0] || n->wind_file[0] ||
+                 d->drift_file[0] || automatic_or(d->drift_speed, 0) > 0;
+    for (int32_t i = 0; i < count; i++)
+        moves = moves || vessel_moves(scenario_vessel_entry(t->s, i).keys);
+    if (!moves && count > 0 && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
+        say(t, "%s.speed: neither vessel nor ice, water or wind moves: no load will come",
+            scenario_vessel_entry(t->s, 0).path);
 }
 
 static void tell_station(const teller *t, const vessel_entry *e)
@@ -285,11 +294,11 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
     tell_ice_shape(&t);
     tell_directions(&t);
     tell_times(&t);
+    tell_rest(&t);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_hull(&t, &e);
         tell_domain(&t, &e);
-        tell_rest(&t, &e);
         tell_station(&t, &e);
     }
 }

@@ -98,6 +98,21 @@ expect 0 "$FRAM" check hull.yaml --set environment.wind_speed=0 --set environmen
     --set vessel.mode=towed --set vessel.speed=1
 grep 'no load will come' err && fail "a towed vessel is told to rest"
 
+# One vessel of two that moves is enough, and so is one that drives itself.
+cat >two.yaml <<'END'
+run: {duration: 10, time_step: 0.005}
+vessels:
+  - {name: tug, mode: towed, x: -60, hull: {length: 40, beam: 10, draught: 4}}
+  - {name: barge, mode: free, x: 40, hull: {form: box, length: 60, beam: 16, draught: 4}}
+ice: {thickness: 0.5}
+END
+expect 0 "$FRAM" check two.yaml
+says "vessels[0].speed: neither vessel nor ice" err
+expect 0 "$FRAM" check two.yaml --set vessels.tug.speed=1
+grep 'no load will come' err && fail "a vessel that another one comes to is told to rest"
+expect 0 "$FRAM" check two.yaml --set vessels.barge.propulsion.bollard_pull=2e5
+grep 'no load will come' err && fail "a ship that drives itself is told to rest"
+
 # Thrusters that hold the heading alone, and no mooring that holds the rest.
 grep -v -e mooring -e depth -e lines -e count -e breaking ship.yaml >adrift.yaml
 expect 0 "$FRAM" check adrift.yaml --set vessel.positioning.active=true --set vessel.positioning.control=heading
