@@ -2,6 +2,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
+#include "base/clock.h"
 #include "fram/live.h"
 #include "results/run_results.h"
 
@@ -88,7 +89,7 @@ static void fill_result(const fram_world *w, fram_run_result *result)
 {
     const world *in = &w->inner;
     *result = (fram_run_result){.state_hash = world_hash(in), .steps = in->clock.step[0], .time = in->clock.time[0]};
-    result->wall = wall_seconds() - w->recording->started;
+    result->wall = clock_wall() - w->recording->started;
     result->real_time_factor = result->wall > 0 ? (result->time - w->recording->began_at) / result->wall : 0;
     for (int32_t i = 0; i < in->bodies.count; i++)
         result->bodies += body_is_alive(&in->bodies, i);

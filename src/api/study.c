@@ -3,13 +3,13 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "base/clock.h"
 #include "sim/bench.h"
 #include "study/study_file.h"
 #include "study/study_run.h"
 
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 struct fram_study {
     fram_context *context;
@@ -51,13 +51,6 @@ enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
 /* Columns of series.csv, about; and bytes of a floe in a frame. */
 enum { SERIES_COLUMNS = 120, POSE_BYTES = 18 };
 
-static double wall_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t floes)
 {
     double rows = s->output.csv_interval > 0 ? s->run.duration / s->output.csv_interval : steps;
@@ -79,11 +72,11 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
-    double steps = ceil(one.run.duration / one.run.time_step), began = wall_clock();
+    double steps = ceil(one.run.duration / one.run.time_step), began = clock_wall();
     double dt = one.run.time_step;
     status = bench_scenario(ctx, &one, START_SETTLES * dt, (START_SETTLES + START_MEASURES) * dt, &r, error);
     if (status == FRAM_OK) {
-        double build = wall_clock() - began - (START_SETTLES + START_MEASURES) * r.wall_median;
+        double build = clock_wall() - began - (START_SETTLES + START_MEASURES) * r.wall_median;
         out->run_seconds += fmax(build, 0) + steps * r.wall_median;
         out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
     }

@@ -2,6 +2,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 
+#include "base/clock.h"
 #include "fram/live.h"
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
@@ -133,10 +134,10 @@ fram_status fram_world_step(fram_world *w, fram_error *error)
         status = world_refuse_failed(w, error);
     if (status != FRAM_OK)
         return status;
-    double before = wall_seconds();
+    double before = clock_wall();
     world_changed(w);
     status = world_step(&w->scenario->context->inner, &w->base->model, &w->inner, &local);
-    w->step_wall = wall_seconds() - before;
+    w->step_wall = clock_wall() - before;
     w->failed = status != FRAM_OK;
     if (status == FRAM_OK && w->recording)
         status = recording_step(w->recording, w->step_wall, &local);

@@ -5,6 +5,9 @@
 
 #include <stdint.h>
 
+/* Deviations of a normal distribution that hold 95 % of it between them and their opposite. */
+#define NORMAL_95 1.959963984540054
+
 /* Statistics of one channel after the transient. */
 typedef struct channel_statistics {
     double mean, deviation, least, greatest;

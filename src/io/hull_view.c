@@ -1,5 +1,6 @@
 #include "io/hull_view.h"
 
+#include "base/transcendental.h"
 #include "io/image.h"
 
 #include <stdio.h>
@@ -158,7 +159,7 @@ static void label(const drawing *d, double x, double y, const char *text)
 static void dot(const drawing *d, const frame *f, vec2 p, const char *name)
 {
     double x = at_u(f, p.x), y = at_v(f, p.y);
-    cairo_arc(d->page, x, y, 3.2, 0, 6.2831853);
+    cairo_arc(d->page, x, y, 3.2, 0, 2 * PI);
     image_set_colour(d->page, mark);
     cairo_fill(d->page);
     image_text(d->page, x + 6, y - 5, 12, ALIGN_LEFT, true, name);

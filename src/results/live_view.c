@@ -2,6 +2,7 @@
 
 #ifdef FRAM_HAVE_LIBMICROHTTPD
 
+#include "base/clock.h"
 #include "io/path.h"
 #include "results/playback.h"
 
@@ -43,13 +44,6 @@ struct live_view {
     atomic_bool begun, ended;
     _Atomic double asked; /* when a page was last given less than the whole record [s]; 0: never */
 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- answers: from the daemon's thread ---- */
 
@@ -150,7 +144,7 @@ static enum MHD_Result give_record(live_view *v, struct MHD_Connection *connecti
     }
     bool whole = ended && from >= size;
     if (!whole)
-        atomic_store(&v->asked, now());
+        atomic_store(&v->asked, clock_wall());
     if (response) {
         MHD_add_response_header(response, "Content-Type", "application/octet-stream");
         MHD_add_response_header(response, "Fram-Run", whole ? "ended" : "running");
@@ -265,8 +259,8 @@ void live_view_end(live_view *v)
         return;
     atomic_store(&v->ended, true);
     const struct timespec moment = {.tv_nsec = 20000000};
-    double until = now() + WAIT_MOST;
-    while (now() < until && now() - atomic_load(&v->asked) < ABSENT)
+    double until = clock_wall() + WAIT_MOST;
+    while (clock_wall() < until && clock_wall() - atomic_load(&v->asked) < ABSENT)
         nanosleep(&moment, NULL);
     free_view(v);
 }

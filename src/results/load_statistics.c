@@ -1,11 +1,12 @@
 #include "results/load_statistics.h"
 
+#include "base/channel_statistics.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LEVELS = 120, BARS = 30, CORRELATED_MOST = 20000 };
-static const double score = 1.959963984540054; /* of the normal distribution, 95 % on both sides */
 
 static int ascending(const void *a, const void *b)
 {
@@ -37,8 +38,8 @@ static double integral_time_scale(const double *value, int32_t count, double ste
 
 static bool add_level(context *ctx, load_distribution *d, double level, double part)
 {
-    double n = d->independent, z2 = score * score, centre = (part + z2 / (2 * n)) / (1 + z2 / n);
-    double half = score / (1 + z2 / n) * sqrt(part * (1 - part) / n + z2 / (4 * n * n));
+    double n = d->independent, z2 = NORMAL_95 * NORMAL_95, centre = (part + z2 / (2 * n)) / (1 + z2 / n);
+    double half = NORMAL_95 / (1 + z2 / n) * sqrt(part * (1 - part) / n + z2 / (4 * n * n));
     return array_push(ctx, &d->level, level) && array_push(ctx, &d->exceeded, part) &&
            array_push(ctx, &d->low, fmax(0, centre - half)) && array_push(ctx, &d->high, fmin(1, centre + half));
 }

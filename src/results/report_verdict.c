@@ -122,6 +122,11 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
              limit, unit, 100 * u.most / limit);
 }
 
+/* Of the breaking load of a line: 1 / 1.67, the factor of safety of an intact mooring (API RP 2SK). */
+#define LINE_USE 0.6
+/* Of the time, at their limit. */
+#define THRUSTERS_FULL 0.05
+
 /* The largest tension over the breaking load, and of which line. */
 static void judge_lines(verdict *v)
 {
@@ -158,9 +163,9 @@ static void judge_lines(verdict *v)
              "%s%d of %d lines parted or were let go, the first at %.4g s.", name, (int)gone, (int)number,
              time ? time[at] : 0);
     if (number > 0 && use > 0)
-        find(v, use > 0.6 ? VERDICT_CAUTION : VERDICT_GOOD,
-             use > 0.6 ? "Codes ask for a factor of safety, commonly 1.67 of an intact mooring (API RP 2SK): 60 %."
-                       : "",
+        find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
+             use > LINE_USE ? "Codes ask for a factor of safety, commonly 1.67 of an intact mooring (API RP 2SK): 60 %."
+                            : "",
              "%slargest tension %s in line %d, %.0f %% of its breaking load; %d lines%s.", name, force(tension, text),
              (int)worst, 100 * use, (int)number, gone > 0 ? ", of which those that parted went beyond" : "");
     else if (number > 0)
@@ -178,8 +183,8 @@ static void judge_thrusters(verdict *v)
         return;
     char name[48];
     double part = channel_statistics_of(time, full, r->d.series.rows, r->d.s.run.transient).mean;
-    find(v, part > 0.05 ? VERDICT_CAUTION : VERDICT_GOOD,
-         part > 0.05 ? "The vessel asked for more than its thrusters give: see fram capability." : "",
+    find(v, part > THRUSTERS_FULL ? VERDICT_CAUTION : VERDICT_GOOD,
+         part > THRUSTERS_FULL ? "The vessel asked for more than its thrusters give: see fram capability." : "",
          "%sthrusters at their limit %.3g %% of the time.", whose(r, name), 100 * part);
 }
 
@@ -201,8 +206,9 @@ static void judge_station(verdict *v)
 
 /* ---- loads, and how sure they are ---- */
 
-/* A mean within this part of itself, at 95 %, is enough for most uses. */
+/* A mean within this part of itself, at 95 %, by so many independent values, is enough for most uses. */
 #define ENOUGH 0.2
+#define VALUES_ENOUGH 10
 
 static fram_status judge_load(verdict *v, fram_error *error)
 {
@@ -228,9 +234,9 @@ static fram_status judge_load(verdict *v, fram_error *error)
         load_distribution_free(r->ctx, &d);
         return error_memory(error);
     }
-    double part = s.mean > 0 ? 1.96 * s.deviation / s.mean / sqrt(d.independent) : HUGE_VAL;
-    bool enough = part <= ENOUGH && d.independent >= 10;
-    report_number(fmax(span * part * part / (ENOUGH * ENOUGH), span * 10 / d.independent), needed);
+    double part = s.mean > 0 ? NORMAL_95 * s.deviation / s.mean / sqrt(d.independent) : HUGE_VAL;
+    bool enough = part <= ENOUGH && d.independent >= VALUES_ENOUGH;
+    report_number(fmax(span * part * part / (ENOUGH * ENOUGH), span * VALUES_ENOUGH / d.independent), needed);
     snprintf(
         remedy, sizeof remedy,
         "About %s s after the transient, or as much in several seeds (fram study), would give a mean within %.0f %%.",
@@ -256,7 +262,10 @@ static double approach_speed(const scenario *s)
     return most;
 }
 
-/* docs/limits.md: a residual that stays at the size of the speeds at which bodies meet is no solution. */
+/* docs/limits.md: a residual that stays at the size of the speeds at which bodies meet is no solution; this part of
+   them is small. */
+#define RESIDUAL_SMALL 0.05
+
 static void judge_solver(verdict *v)
 {
     const report *r = v->r;
@@ -270,7 +279,7 @@ static void judge_solver(verdict *v)
              "The mean residual of the contacts is %.2g m/s.", mean);
         return;
     }
-    bool good = mean <= 0.05 * speed;
+    bool good = mean <= RESIDUAL_SMALL * speed;
     find(v, good ? VERDICT_GOOD : VERDICT_CAUTION,
          good ? "" : "Compare with half of run.time_step and twice run.solver.iterations before trusting peaks.",
          "The contacts are %s: mean residual %.2g m/s, %s%.2g %% of the speed of %.3g m/s at which bodies meet.",

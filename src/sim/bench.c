@@ -1,17 +1,10 @@
 #include "sim/bench.h"
 
+#include "base/clock.h"
 #include "sim/bench_measure.h"
 #include "sim/build.h"
 
 #include <stdlib.h>
-#include <time.h>
-
-static double seconds(clockid_t id)
-{
-    struct timespec t;
-    clock_gettime(id, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int ascending(const void *a, const void *b)
 {
@@ -102,7 +95,7 @@ typedef struct stopwatch {
 static void stage_done(void *user, step_stage stage)
 {
     stopwatch *s = user;
-    double now = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    double now = clock_processor();
     s->part[stage] = now - s->last;
     s->last = now;
 }
@@ -111,11 +104,11 @@ static void stage_done(void *user, step_stage stage)
 static fram_status measure_step(context *ctx, const model *m, world *w, int64_t row, int64_t steps, double *times,
                                 bench_result *r, fram_error *error)
 {
-    stopwatch clock = {.last = seconds(CLOCK_PROCESS_CPUTIME_ID)};
-    double wall = seconds(CLOCK_MONOTONIC), cpu = clock.last;
+    stopwatch clock = {.last = clock_processor()};
+    double wall = clock_wall(), cpu = clock.last;
     fram_status status = world_step_watched(ctx, m, w, &(step_watch){stage_done, &clock}, error);
-    times[TIME_CPU * steps + row] = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
-    times[TIME_WALL * steps + row] = seconds(CLOCK_MONOTONIC) - wall;
+    times[TIME_CPU * steps + row] = clock_processor() - cpu;
+    times[TIME_WALL * steps + row] = clock_wall() - wall;
     for (int i = 0; i < STAGE_COUNT; i++)
         r->share[i] += clock.part[i];
     times[TIME_FORCES * steps + row] = clock.part[STAGE_FORCES];

@@ -65,13 +65,19 @@ static void note_ice(const note_taker *n, const scenario *s)
               i->smallest_piece_area, i->edge_threshold, s->run.scale);
 }
 
+/* Most of the crushing that breaks an edge, and most of the ice thickness, that a vessel may go in one step. */
+#define BREAKING_STEP 0.2
+#define THICKNESS_STEP 0.1
+/* The smaller of the areas of contact that are shown, over the square of the thickness; the other is 1. */
+#define SMALL_CONTACT 0.1
+
 /* What breaks the ice at its edge, by the loads that fracture compares (docs/theory.md). */
 static void note_fracture(const note_taker *n, const scenario *s)
 {
     const scenario_ice *i = &s->ice;
     if (i->source == ICE_NONE || !i->breakable)
         return;
-    double h = i->thickness, sigma = i->crushing_strength, areas[2] = {0.1 * h * h, h * h};
+    double h = i->thickness, sigma = i->crushing_strength, areas[2] = {SMALL_CONTACT * h * h, h * h};
     ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
                       i->flexural_strength, i->crushing_strength, i->crushing_exponent};
     fracture_settings f = build_fracture_settings(s);
@@ -89,11 +95,11 @@ static void note_fracture(const note_taker *n, const scenario *s)
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
         double speed = entry.keys->speed, depth = speed * s->run.time_step;
-        if (depth > 0.2 * needed)
+        if (depth > BREAKING_STEP * needed)
             note_warning(n,
                          "%s moves %.3g m in a step, and ice as wide as it is thick breaks after about "
                          "%.3g m of crushing; take run.time_step under %.3g s",
-                         vessel_title_of(&entry).text, depth, needed, 0.2 * needed / speed);
+                         vessel_title_of(&entry).text, depth, needed, BREAKING_STEP * needed / speed);
     }
 }
 
@@ -104,11 +110,11 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     double way = v->speed * s->run.time_step;
     note_fact(n, "vessel%s%.*s: moves %.4g m in a step, %.4g m in the run", v->name[0] ? " " : "",
               (int)VESSEL_NAME_MOST, v->name, way, v->speed * s->run.duration);
-    if (s->ice.source != ICE_NONE && way > 0.1 * s->ice.thickness)
+    if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * s->ice.thickness)
         note_warning(n,
                      "%s moves %.2g of the ice thickness in a step; crushing patches grow in jumps. "
                      "Take run.time_step under %.3g s",
-                     title.text, way / s->ice.thickness, 0.1 * s->ice.thickness / v->speed);
+                     title.text, way / s->ice.thickness, THICKNESS_STEP * s->ice.thickness / v->speed);
     double x = v->x + v->speed * s->run.duration * real_cos(radians(automatic_or(v->course_deg, v->heading_deg)));
     double y = v->y + v->speed * s->run.duration * real_sin(radians(automatic_or(v->course_deg, v->heading_deg)));
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;

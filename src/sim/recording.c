@@ -1,5 +1,6 @@
 #include "sim/recording.h"
 
+#include "base/clock.h"
 #include "base/pool.h"
 #include "io/atomic_file.h"
 #include "io/scenario_file.h"
@@ -10,15 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
-
-double wall_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 int64_t step_at(double time, double time_step) { return (int64_t)floor(time / time_step + 0.5); }
 
@@ -52,7 +45,7 @@ static fram_status write_summary(recording *r, const char *state, const char *me
                            .message = message,
                            .inputs = r->inputs.data,
                            .threads = context_threads(r->ctx),
-                           .wall = wall_seconds() - r->started,
+                           .wall = clock_wall() - r->started,
                            .recording = r->record_time,
                            .recording_end = r->end_time,
                            .state_hash = world_hash(r->w)};
@@ -134,7 +127,7 @@ static void leave_state(recording *r)
 /* Checkpoint, pictures and figures of the end. */
 static fram_status write_end(recording *r, fram_error *error)
 {
-    double began = wall_seconds();
+    double began = clock_wall();
     fram_status status = write_checkpoint(r, error);
     if (status == FRAM_OK)
         status = draw(r, "plan.png", draw_plan, error);
@@ -144,7 +137,7 @@ static fram_status write_end(recording *r, fram_error *error)
         status = r->finish(r->ctx, r->s, &station, r->folder, error);
     if (status == FRAM_OK)
         status = end_checkpoint(r, error);
-    r->end_time = wall_seconds() - began;
+    r->end_time = clock_wall() - began;
     r->record_time += r->end_time;
     return status;
 }
@@ -227,7 +220,7 @@ static fram_status start_streams(recording *r, fram_error *error)
 fram_status recording_init(context *ctx, const scenario *s, const char *folder, recording *r, fram_error *error)
 {
     double dt = s->run.time_step;
-    *r = (recording){.ctx = ctx, .s = s, .started = wall_seconds(), .lock = -1};
+    *r = (recording){.ctx = ctx, .s = s, .started = clock_wall(), .lock = -1};
     if (snprintf(r->folder, sizeof r->folder, "%s", folder) >= PATH_ROOM)
         return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "the folder's name is too long");
     r->end_step = r->stop_step = step_at(s->run.duration, dt);
@@ -250,7 +243,7 @@ fram_status recording_prepare_again(recording *r, fram_error *error)
 
 fram_status recording_begin(recording *r, world *w, fram_error *error)
 {
-    double began = wall_seconds();
+    double began = clock_wall();
     r->w = w;
     r->began_at = w->clock.time[0];
     fram_status status = run_folder_prepare(r->ctx, r->folder, r->force, &r->lock, error);
@@ -258,7 +251,7 @@ fram_status recording_begin(recording *r, world *w, fram_error *error)
         status = write_scenario(r, error);
     if (status == FRAM_OK)
         status = start_streams(r, error);
-    r->record_time += wall_seconds() - began;
+    r->record_time += clock_wall() - began;
     return status;
 }
 
@@ -282,17 +275,17 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
 
 fram_status recording_step(recording *r, double step_wall, fram_error *error)
 {
-    double began = wall_seconds();
+    double began = clock_wall();
     fram_status status = as_failure(write_what_is_due(r, step_wall, error), error);
-    r->record_time += wall_seconds() - began;
+    r->record_time += clock_wall() - began;
     return status;
 }
 
 fram_status recording_checkpoint(recording *r, fram_error *error)
 {
-    double began = wall_seconds();
+    double began = clock_wall();
     fram_status status = as_failure(write_checkpoint(r, error), error);
-    r->record_time += wall_seconds() - began;
+    r->record_time += clock_wall() - began;
     return status;
 }
 

@@ -41,8 +41,6 @@ typedef struct recording {
     int lock; /* on the folder, -1 */
 } recording;
 
-/* Wall clock, from no moment in particular [s]. */
-double wall_seconds(void);
 /* The first step whose time is not before `time`, within rounding. */
 int64_t step_at(double time, double time_step);
 

@@ -1,5 +1,6 @@
 #include "sim/run.h"
 
+#include "base/clock.h"
 #include "base/pool.h"
 #include "io/scenario_file.h"
 #include "sim/build.h"
@@ -33,10 +34,13 @@ static fram_status run_init(context *ctx, const scenario *s, const run_options *
     return status;
 }
 
+/* Progress is told so seldom [s]. */
+#define PROGRESS_PERIOD 0.2
+
 static void show_progress(run *r, bool last)
 {
-    double now = wall_seconds();
-    if (!r->options->progress || (!last && now - r->drawn < 0.2))
+    double now = clock_wall();
+    if (!r->options->progress || (!last && now - r->drawn < PROGRESS_PERIOD))
         return;
     r->drawn = now;
     double time = r->world.clock.time[0], done = time - r->record.began_at, wall = now - r->record.started;
@@ -53,10 +57,10 @@ static fram_status step_loop(run *r, fram_error *error)
 {
     fram_status status = FRAM_OK;
     while (status == FRAM_OK && r->world.clock.step[0] < r->record.stop_step && !asked_to_stop(r)) {
-        double before = wall_seconds();
+        double before = clock_wall();
         status = world_step(r->ctx, &r->model, &r->world, error);
         if (status == FRAM_OK)
-            status = recording_step(&r->record, wall_seconds() - before, error);
+            status = recording_step(&r->record, clock_wall() - before, error);
         show_progress(r, false);
     }
     show_progress(r, true);
@@ -69,7 +73,7 @@ static void fill_result(run *r, run_result *result)
     result->state_hash = world_hash(w);
     result->steps = w->clock.step[0];
     result->time = w->clock.time[0];
-    result->wall = wall_seconds() - r->record.started;
+    result->wall = clock_wall() - r->record.started;
     result->real_time_factor = result->wall > 0 ? (result->time - r->record.began_at) / result->wall : 0;
     result->bodies = result->floes = 0;
     for (int32_t i = 0; i < w->bodies.count; i++)

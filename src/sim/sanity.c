@@ -75,12 +75,15 @@ static bool is_angle(const char *pattern)
     return n > 4 && strcmp(pattern + n - 4, "_deg") == 0;
 }
 
-/* Radians where degrees belong are multiples of pi / 12 to the digits that a person types. */
+/* Radians where degrees belong are multiples of pi / 12 to the digits that a person types, within a full turn. */
+#define TYPED_RADIANS 1e-3
+#define FULL_TURN 6.3
+
 static void tell_radians(const teller *t, const char *path, double value)
 {
     double part = fabs(value) / (PI / 12), off = fabs(part - floor(part + 0.5)) * (PI / 12);
     bool whole = fabs(value - floor(value + 0.5)) < 1e-9;
-    if (fabs(value) < 6.3 && part > 0.9 && off < 1e-3 && !whole)
+    if (fabs(value) < FULL_TURN && part > 0.9 && off < TYPED_RADIANS && !whole)
         say(t, "%s: %.6g degrees is %.4g of pi: give degrees, not radians", path, value, value / PI);
 }
 
@@ -149,6 +152,9 @@ static void tell_heave(const teller *t)
             t->s->run.time_step, h, frequency, 0.5 / frequency);
 }
 
+/* A concentration under this one was meant in tenths or per cent, or is hardly worth a run. */
+#define LEAST_CONCENTRATION 0.05
+
 static void tell_ice_shape(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
@@ -156,7 +162,7 @@ static void tell_ice_shape(const teller *t)
         say(t, "ice.mean_floe_area: floes of %.3g m2 are hardly wider than the ice is thick, %.3g m: is it the area?",
             i->mean_floe_area, i->thickness);
     if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
-        if (i->concentration < 0.05)
+        if (i->concentration < LEAST_CONCENTRATION)
             say(t, "ice.concentration: %.3g is next to open water: it is a part of 1, not of 10 or 100",
                 i->concentration);
 }
@@ -180,19 +186,24 @@ static void tell_directions(const teller *t)
             e->wind_direction_deg, own ? "the ice (domain.drift_direction_deg)" : "the current", drift);
 }
 
+/* Parts of a run from which times leave no sense to its statistics, and pictures that nobody looks at. */
+#define LONGEST_TRANSIENT 0.9
+#define LONGEST_WINDOW 0.5
+#define MOST_PICTURES 1e4
+
 static void tell_times(const teller *t)
 {
     const scenario_run *r = &t->s->run;
     const scenario_output *o = &t->s->output;
-    if (r->transient > 0.9 * r->duration)
+    if (r->transient > LONGEST_TRANSIENT * r->duration)
         say(t, "run.transient: statistics leave out %g s of %g s, so that next to nothing is left for them",
             r->transient, r->duration);
     if (o->frame_interval > r->duration)
         say(t, "output.frame_interval: %g s is longer than the run, so that pages show nothing that moves",
             o->frame_interval);
-    if (o->averaging_window > 0.5 * r->duration)
+    if (o->averaging_window > LONGEST_WINDOW * r->duration)
         say(t, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
-    if (o->picture_interval > 0 && r->duration / o->picture_interval > 1e4)
+    if (o->picture_interval > 0 && r->duration / o->picture_interval > MOST_PICTURES)
         say(t, "output.picture_interval: %.0f pictures will be written", r->duration / o->picture_interval);
 }
 

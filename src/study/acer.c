@@ -1,5 +1,6 @@
 #include "study/acer.h"
 
+#include "base/channel_statistics.h"
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/minimise.h"
@@ -138,7 +139,7 @@ static void add_point(tail_points *t, double level, int64_t exceedances, double 
     /* Of a Poisson number: relative half width of the 95 % interval of the rate, which fewer than four do not give. */
     if (exceedances < 4)
         return;
-    double half = 1.959963984540054 / sqrt((double)exceedances);
+    double half = NORMAL_95 / sqrt((double)exceedances);
     double width = real_log((1 + half) / (1 - half));
     t->level[t->count] = level;
     t->log_rate[t->count] = real_log((double)exceedances / values);

@@ -1,5 +1,6 @@
 #include "study/extremes.h"
 
+#include "base/channel_statistics.h"
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/extremes_notes.h"
@@ -219,7 +220,7 @@ static bool peaks_over(const series_work *w, double threshold, extreme_sample *s
 /* Fits over rising thresholds, from half the threshold's way to the greatest value on. */
 static bool add_stability(const series_work *w, double threshold, extreme_sample *s)
 {
-    double from = w->nature.mean + 0.5 * (threshold - w->nature.mean), z = 1.959963984540054;
+    double from = w->nature.mean + 0.5 * (threshold - w->nature.mean), z = NORMAL_95;
     for (int i = 0; i < STABILITY_MOST; i++) {
         extreme_law law;
         double u = from + (w->nature.greatest - from) * i / STABILITY_MOST;

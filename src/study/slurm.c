@@ -1,6 +1,7 @@
 #define _GNU_SOURCE
 #include "study/slurm.h"
 
+#include "base/clock.h"
 #include "io/atomic_file.h"
 #include "study/capture.h"
 
@@ -11,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 /* Tasks of an array, by Slurm's own default limit (MaxArraySize 1001); of all, when nothing else is asked. */
@@ -21,13 +21,6 @@ enum { TRIES_MOST = 4, MISSED_MOST = 2 };
 #define POLL_USUAL 30.0
 /* Exit code of a run that the cluster lost again and again: as if it had been killed. */
 enum { LOST = 137, SIGNAL_CODES = 128 };
-
-static double wall_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- names ---- */
 
@@ -116,7 +109,7 @@ static fram_status check_commands(slurm_pool *all, fram_error *error)
 fram_status slurm_begin(context *ctx, const slurm_options *options, const char *folder, const char *program,
                         slurm_pool *all, fram_error *error)
 {
-    *all = (slurm_pool){.ctx = ctx, .options = options, .program = program, .asked = wall_clock()};
+    *all = (slurm_pool){.ctx = ctx, .options = options, .program = program, .asked = clock_wall()};
     char *whole = realpath(folder, NULL);
     all->folder = whole ? memory_string(ctx, whole) : NULL;
     free(whole);
@@ -293,9 +286,9 @@ static bool has_task(const char *answer, long long job, int32_t place)
 void slurm_look(slurm_pool *all)
 {
     double poll = all->options->poll > 0 ? all->options->poll : POLL_USUAL;
-    if (wall_clock() - all->asked < poll || all->runs.count == 0)
+    if (clock_wall() - all->asked < poll || all->runs.count == 0)
         return;
-    all->asked = wall_clock();
+    all->asked = clock_wall();
     const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--name=fram-study", "--format=%i", NULL};
     text_buffer answer = {0};
     int code = 0;

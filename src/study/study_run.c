@@ -1,5 +1,6 @@
 #include "study/study_run.h"
 
+#include "base/clock.h"
 #include "sim/run_folder.h"
 #include "study/processes.h"
 #include "study/seeds.h"
@@ -46,13 +47,6 @@ typedef struct study_work {
     double started;
     int32_t made;
 } study_work;
-
-static double wall_clock(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* ---- what is there ---- */
 
@@ -235,7 +229,7 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
 
 static void show_progress(const study_work *w)
 {
-    study_progress p = {.wall = wall_clock() - w->started};
+    study_progress p = {.wall = clock_wall() - w->started};
     for (int32_t c = 0; c < w->s->conditions; c++) {
         const study_condition *of = &w->conditions[c];
         p.planned += of->wanted;
@@ -365,7 +359,7 @@ static fram_status write_tables(const study_work *w, study_result *result, fram_
 fram_status study_run(context *ctx, const study *s, const study_options *options, study_result *result,
                       fram_error *error)
 {
-    study_work w = {.ctx = ctx, .s = s, .options = options, .started = wall_clock()};
+    study_work w = {.ctx = ctx, .s = s, .options = options, .started = clock_wall()};
     w.jobs = options->jobs > 0 ? options->jobs : processes_cores();
     fram_status status = study_folder_open(ctx, s, options->folder, &w.folder, error);
     if (status != FRAM_OK)
