@@ -129,6 +129,27 @@ START_TEST(edges_are_led_over_what_is_in_reach)
 }
 END_TEST
 
+/* A corner between two edges, 0.5 under the one and 0.9 over the other: the nearer one is led over it first. */
+START_TEST(the_nearest_edge_is_led_over)
+{
+    for (int turned = 0; turned < 2; turned++) {
+        double side = turned ? -1 : 1;
+        rig r = rig_make();
+        triangle_of(&r, (vec3){-10, 0.9 * side, 0}, (vec3){10, 0.9 * side, 0}, (vec3){0, 20 * side, 0});
+        triangle_of(&r, (vec3){10, -0.5 * side, 0}, (vec3){-10, -0.5 * side, 0}, (vec3){0, -20 * side, 0});
+        triangle_of(&r, (vec3){0, 0, 0}, (vec3){-3, 0, 20}, (vec3){3, 0, 20});
+        seal(&r, 1);
+        ck_assert_int_eq(r.report.splits, 2);
+        ck_assert_int_eq(r.m.face.count, 5);
+        /* The first new triangle is of the nearer edge's, whose apex is vertex 5. */
+        const int32_t *v = r.m.face.data[3].v;
+        ck_assert(v[0] == 5 || v[1] == 5 || v[2] == 5);
+        assert_absolute(r.report.area, 0.5 * 20 * (0.5 + 0.9), 1e-12);
+        rig_free(&r);
+    }
+}
+END_TEST
+
 /* Welding takes out what has two corners in one place, whichever two these are. */
 START_TEST(welding_takes_out_closed_triangles)
 {
@@ -148,4 +169,5 @@ START_TEST(welding_takes_out_closed_triangles)
 END_TEST
 
 TEST_MAIN("mesh seal", corners_out_of_reach_stay_apart, the_nearest_join_first, a_small_hole_is_drawn_together,
-          a_fine_rim_stays_as_it_is, edges_are_led_over_what_is_in_reach, welding_takes_out_closed_triangles)
+          a_fine_rim_stays_as_it_is, edges_are_led_over_what_is_in_reach, the_nearest_edge_is_led_over,
+          welding_takes_out_closed_triangles)

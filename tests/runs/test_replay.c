@@ -1,6 +1,7 @@
 /* The record of a run read back: forces, births and deaths, velocities, damage. */
 #include "sim/scene.h"
 
+#include "base/transcendental.h"
 #include "results/replay_moment.h"
 #include "results/replay_plan.h"
 #include "sim/run.h"
@@ -172,6 +173,40 @@ START_TEST(a_moment_lies_between_its_frames)
 }
 END_TEST
 
+/* A floe that spins at 1 rad/s through 270 degrees, where the quaternion that is stored changes its sign: between
+   frames it turns the short way, at an even rate. */
+START_TEST(a_turn_between_frames_is_the_short_one)
+{
+    static const char spinning[] =
+        "run: {duration: 1.2, time_step: 0.02}\nvessel: {present: false}\n"
+        "ice:\n  source: floes\n  floes:\n    - {length: 40, width: 40, yaw_deg: 250, spin: 1}\n"
+        "output: {frame_interval: 0.2}\n";
+    context ctx;
+    char folder[PATH];
+    replay r;
+    replay_moment m = {0};
+    fram_error error = {0};
+    context_init(&ctx);
+    run_scene(&ctx, spinning, folder);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    double before = radians(250);
+    for (int i = 1; i < 12; i++) {
+        assert_ok(replay_moment_at(&r, 0.1 * i, &m, &error), error);
+        int32_t floe = 0;
+        while (r.bodies.data[m.poses.data[floe].body].material != MATERIAL_ICE)
+            floe++;
+        quat q = m.poses.data[floe].orientation;
+        /* In 0.1 s, while the water takes some of the spin. */
+        double yaw = 2 * real_atan2(q.z, q.w), turn = plane_angle(yaw - before);
+        ck_assert_msg(turn > 0.07 && turn < 0.102, "%g rad at %g s", turn, 0.1 * i);
+        before = yaw;
+    }
+    replay_moment_free(&ctx, &m);
+    replay_close(&r);
+    remove_folder(folder);
+}
+END_TEST
+
 static uint64_t record_size(const char *folder)
 {
     char path[PATH + 32];
@@ -276,4 +311,4 @@ START_TEST(records_that_lie_are_refused)
 END_TEST
 
 TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, a_moment_lies_between_its_frames,
-          frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
+          a_turn_between_frames_is_the_short_one, frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
