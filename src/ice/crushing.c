@@ -3,6 +3,7 @@
 
 #include "geometry/mesh_point.h"
 #include "ice/patch.h"
+#include "ice/prism_surfaces.h"
 
 #include <assert.h>
 
@@ -30,10 +31,7 @@ enum { MOST_POINTS = 4 };
 
 struct crushing_scratch {
     patch_scratch *patch;
-    mesh prism; /* the surface of a prism body, made for the shape row below, -1: none */
-    mesh_adjacency prism_adjacency;
-    mesh_bvh prism_tree;
-    int32_t prism_row;
+    prism_surfaces prisms;
 };
 
 crushing_scratch *crushing_scratch_create(context *ctx)
@@ -46,7 +44,6 @@ crushing_scratch *crushing_scratch_create(context *ctx)
         memory_free(ctx, s);
         return NULL;
     }
-    s->prism_row = -1;
     return s;
 }
 
@@ -55,9 +52,7 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s)
     if (!s)
         return;
     patch_scratch_free(ctx, s->patch);
-    mesh_free(ctx, &s->prism);
-    mesh_adjacency_free(ctx, &s->prism_adjacency);
-    mesh_bvh_free(ctx, &s->prism_tree);
+    prism_surfaces_free(ctx, &s->prisms);
     memory_free(ctx, s);
 }
 
@@ -86,25 +81,6 @@ typedef struct crushing_pair {
 
 /* ---- the surface of a body ---- */
 
-static fram_status prism_surface(const job *j, int32_t row)
-{
-    crushing_scratch *s = j->scratch;
-    if (s->prism_row == row)
-        return FRAM_OK;
-    s->prism_row = -1;
-    mesh_clear(&s->prism);
-    double half_height = j->shapes->shapes.half_height[row];
-    fram_status status =
-        mesh_make_prism(j->ctx, shape_outline(j->shapes, row), -half_height, half_height, &s->prism, j->error);
-    if (status != FRAM_OK)
-        return status;
-    if (mesh_adjacency_build(j->ctx, &s->prism, &s->prism_adjacency) != FRAM_OK ||
-        mesh_bvh_build(j->ctx, &s->prism, &s->prism_tree) != FRAM_OK)
-        return error_memory(j->error);
-    s->prism_row = row;
-    return FRAM_OK;
-}
-
 static fram_status set_surface(const job *j, crushing_pair *p)
 {
     int32_t row = j->bodies->shape[p->surface_body];
@@ -115,12 +91,13 @@ static fram_status set_surface(const job *j, crushing_pair *p)
         p->surface.tree = &body->tree;
         p->surface.prism = -1;
     } else {
-        fram_status status = prism_surface(j, row);
+        const prism_surface *prism;
+        fram_status status = prism_surfaces_get(j->ctx, &j->scratch->prisms, j->shapes, row, &prism, j->error);
         if (status != FRAM_OK)
             return status;
-        p->surface.surface = &j->scratch->prism;
-        p->surface.adjacency = &j->scratch->prism_adjacency;
-        p->surface.tree = &j->scratch->prism_tree;
+        p->surface.surface = &prism->surface;
+        p->surface.adjacency = &prism->adjacency;
+        p->surface.tree = prism->has_tree ? &prism->tree : NULL;
         p->surface.prism = row;
     }
     mat3 to_global = quat_matrix(j->bodies->orientation[p->surface_body]);
@@ -338,7 +315,10 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
                             .pressure = pair_pressure(j, p, inner, area, area),
                             .contact_first = j->contacts->count,
                             .contact_count = 1};
-    double depth = fmin(distance + patch_way_out(&p->prism, inner, vec3_neg(normal)), thickness);
+    double way_out;
+    if (!patch_way_out(j->ctx, j->scratch->patch, &p->prism, inner, vec3_neg(normal), &way_out))
+        return error_memory(j->error);
+    double depth = fmin(distance + way_out, thickness);
     if (!push_contact(j, p, &patch, 0, inner, depth, 1, true) || !array_push(j->ctx, j->patches, patch))
         return error_memory(j->error);
     return FRAM_OK;
@@ -366,7 +346,6 @@ fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const cru
                               crushing_patch_array *patches, contact_array *contacts, fram_error *error)
 {
     job j = {ctx, scratch, settings, bodies, shapes, floes, patches, contacts, error};
-    scratch->prism_row = -1; /* shapes may have changed since the last call */
     crushing_limit_sides(settings, bodies, shapes, floes, policies, contacts);
     for (int32_t i = 0; i < patch_pairs->count; i++) {
         int32_t row = patch_pairs->data[i];

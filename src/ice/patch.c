@@ -1,10 +1,6 @@
 /* The geometry of crushing patches; see patch.h. */
 #include "ice/patch_parts.h"
 
-/* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece, each of which adds
-   one; and one more that facet_clip may write. */
-enum { MOST_CORNERS = 3 + 2 + PIECE_MOST_VERTICES + 1 };
-
 patch_scratch *patch_scratch_create(context *ctx) { return memory_array(ctx, 1, sizeof(patch_scratch)); }
 
 void patch_scratch_free(context *ctx, patch_scratch *s)
@@ -12,150 +8,23 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
     if (!s)
         return;
     array_free(ctx, &s->faces);
+    array_free(ctx, &s->points);
+    array_free(ctx, &s->caps);
+    array_free(ctx, &s->near);
+    array_free(ctx, &s->codes);
+    array_free(ctx, &s->sides);
     array_free(ctx, &s->boxes);
     array_free(ctx, &s->parts);
     array_free(ctx, &s->corners);
     array_free(ctx, &s->components);
+    array_free(ctx, &s->lines);
+    array_free(ctx, &s->rays);
+    array_free(ctx, &s->ways);
     mesh_free(ctx, &s->turned);
     polygon_list_free(ctx, &s->section);
     array_free(ctx, &s->ring_a);
     array_free(ctx, &s->ring_b);
     memory_free(ctx, s);
-}
-
-/* ---- clipping ---- */
-
-typedef struct facet {
-    vec3 corner[2][MOST_CORNERS]; /* filled and spare, in turn */
-    int side, count;
-    vec3 normal; /* of the triangle it came from, any length */
-} facet;
-
-/* Cut by one half space.  A facet in the boundary plane belongs to the side that its outward normal points to: there is
-   the ice that it pushes. */
-static void facet_cut(facet *f, half_space h, double tolerance)
-{
-    const vec3 *v = f->corner[f->side];
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (int i = 0; i < f->count; i++) {
-        double distance = vec3_dot(h.n, v[i]) - h.d;
-        least = distance < least ? distance : least;
-        most = distance > most ? distance : most;
-    }
-    if (least >= -tolerance && most <= tolerance) {
-        if (vec3_dot(f->normal, h.n) >= 0)
-            f->count = 0;
-    } else if (least >= 0) {
-        f->count = 0;
-    } else if (most > 0) {
-        f->count = facet_clip(v, f->count, h.n, h.d, f->corner[1 - f->side]);
-        f->side = 1 - f->side;
-    }
-}
-
-/* Area vector, centroid and second moments of a plane convex part, by its triangles about the first corner. */
-static void part_measure(const vec3 *v, int32_t count, patch_part *part)
-{
-    vec3 area = {0, 0, 0}, first = {0, 0, 0};
-    double surface = 0;
-    for (int32_t i = 1; i + 1 < count; i++) {
-        vec3 n = vec3_scale(vec3_cross(vec3_sub(v[i], v[0]), vec3_sub(v[i + 1], v[0])), 0.5);
-        double a = vec3_length(n);
-        area = vec3_add(area, n);
-        surface += a;
-        first = vec3_mad(first, vec3_add(vec3_sub(v[i], v[0]), vec3_sub(v[i + 1], v[0])), a / 3);
-    }
-    part->area = area;
-    part->surface = surface;
-    part->centre = surface > 0 ? vec3_mad(v[0], first, 1 / surface) : v[0];
-    part->moment = (sym3){0};
-    /* Integral of r r^T over a triangle: A/12 (sum of v v^T + s s^T) with s the sum of its corners. */
-    for (int32_t i = 1; i + 1 < count; i++) {
-        vec3 p[3] = {vec3_sub(v[0], part->centre), vec3_sub(v[i], part->centre), vec3_sub(v[i + 1], part->centre)};
-        double a = vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]))) / 24;
-        vec3 term[4] = {p[0], p[1], p[2], vec3_add(vec3_add(p[0], p[1]), p[2])};
-        for (int k = 0; k < 4; k++) {
-            part->moment.xx += a * term[k].x * term[k].x;
-            part->moment.yy += a * term[k].y * term[k].y;
-            part->moment.zz += a * term[k].z * term[k].z;
-            part->moment.xy += a * term[k].x * term[k].y;
-            part->moment.xz += a * term[k].x * term[k].z;
-            part->moment.yz += a * term[k].y * term[k].z;
-        }
-    }
-}
-
-static bool push_part(context *ctx, patch_scratch *s, const facet *f, int32_t face, int32_t piece, double tolerance)
-{
-    const vec3 *v = f->corner[f->side];
-    patch_part part = {.face = face,
-                       .piece = piece,
-                       .first = s->corners.count,
-                       .count = f->count,
-                       .root = s->parts.count,
-                       .component = -1};
-    part_measure(v, f->count, &part);
-    if (!(part.surface > tolerance * tolerance))
-        return true;
-    for (int i = 0; i < f->count; i++)
-        if (!array_push(ctx, &s->corners, v[i]))
-            return false;
-    return array_push(ctx, &s->parts, part);
-}
-
-/* The parts of one triangle in all pieces. */
-static bool clip_face(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
-                      int32_t face)
-{
-    double tolerance = tolerance_of(floe), half_height = half_height_of(floe);
-    facet slab = {.count = 3};
-    for (int k = 0; k < 3; k++)
-        slab.corner[0][k] = to_floe(surface, surface->surface->vertex.data[surface->surface->face.data[face].v[k]]);
-    const vec3 *v = slab.corner[0];
-    slab.normal = vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0]));
-    facet_cut(&slab, prism_cap(half_height, 0), tolerance);
-    facet_cut(&slab, prism_cap(half_height, 1), tolerance);
-    if (slab.count < 3)
-        return true;
-    v = slab.corner[slab.side];
-    box2 reach = {{v[0].x, v[0].y}, {v[0].x, v[0].y}};
-    for (int i = 1; i < slab.count; i++) {
-        reach.lo = (vec2){fmin(reach.lo.x, v[i].x), fmin(reach.lo.y, v[i].y)};
-        reach.hi = (vec2){fmax(reach.hi.x, v[i].x), fmax(reach.hi.y, v[i].y)};
-    }
-    for (int32_t p = 0; p < piece_count_of(floe); p++) {
-        box2 box = s->boxes.data[p];
-        if (reach.lo.x > box.hi.x + tolerance || reach.hi.x < box.lo.x - tolerance ||
-            reach.lo.y > box.hi.y + tolerance || reach.hi.y < box.lo.y - tolerance)
-            continue;
-        piece_sides piece = sides_of(floe, p);
-        facet part = {.count = slab.count, .normal = slab.normal};
-        for (int i = 0; i < slab.count; i++)
-            part.corner[0][i] = v[i];
-        for (int32_t k = 0; k < piece.count && part.count >= 3; k++)
-            facet_cut(&part, piece_side(&piece, k), tolerance);
-        if (part.count >= 3 && !push_part(ctx, s, &part, face, p, tolerance))
-            return false;
-    }
-    return true;
-}
-
-/* The triangles near the floe: those that meet the box around its oriented box, between the planes of top and bottom.
- */
-static bool query_faces(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
-{
-    double tolerance = tolerance_of(floe), half_height = half_height_of(floe) + tolerance;
-    box2 plan = polygon_bounds(shape_outline(floe->shapes, floe->shape));
-    box3 box = box3_empty();
-    for (int i = 0; i < 8; i++) {
-        vec3 corner = {i & 1 ? plan.hi.x + tolerance : plan.lo.x - tolerance,
-                       i & 2 ? plan.hi.y + tolerance : plan.lo.y - tolerance, i & 4 ? half_height : -half_height};
-        box = box3_add(box, mat3_tmul_vec(surface->rotation, vec3_sub(corner, surface->offset)));
-    }
-    /* z of the floe's frame as a function of the surface's coordinates: its third row. */
-    vec3 z = {surface->rotation.m[2][0], surface->rotation.m[2][1], surface->rotation.m[2][2]};
-    return mesh_bvh_query_slab(ctx, surface->tree, box, z, -half_height - surface->offset.z,
-                               half_height - surface->offset.z, &s->faces);
 }
 
 /* ---- components ---- */
@@ -277,12 +146,6 @@ static void connect_parts(patch_scratch *s, const patch_surface *surface, const 
     }
 }
 
-static void box_take(box2 *b, vec3 r)
-{
-    b->lo = (vec2){fmin(b->lo.x, r.x), fmin(b->lo.y, r.y)};
-    b->hi = (vec2){fmax(b->hi.x, r.x), fmax(b->hi.y, r.y)};
-}
-
 /* Sums over the parts of each component: areas and first moments, then second moments about the centroid. */
 static bool sum_components(context *ctx, patch_scratch *s)
 {
@@ -291,8 +154,7 @@ static bool sum_components(context *ctx, patch_scratch *s)
         patch_part *part = &s->parts.data[i];
         if (root == i) {
             part->component = s->components.count;
-            const box2 nothing = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-            if (!array_push(ctx, &s->components, (patch_component){.plan = nothing}))
+            if (!array_push(ctx, &s->components, (patch_component){.plan = box_of_nothing()}))
                 return false;
         }
         part->component = s->parts.data[root].component;
@@ -331,20 +193,10 @@ bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surfa
     array_clear(&s->corners);
     array_clear(&s->components);
     *out = &s->components;
-    if (!query_faces(ctx, s, surface, floe))
+    if (!patch_clip(ctx, s, surface, floe))
         return false;
-    if (s->faces.count == 0)
+    if (s->parts.count == 0)
         return true;
-    if (!array_resize(ctx, &s->boxes, piece_count_of(floe)))
-        return false;
-    for (int32_t p = 0; p < piece_count_of(floe); p++)
-        s->boxes.data[p] = polygon_bounds(shape_piece(floe->shapes, floe->shape, p));
-    for (int32_t i = 0; i < s->faces.count; i++)
-        if (!clip_face(ctx, s, surface, floe, s->faces.data[i]))
-            return false;
     connect_parts(s, surface, floe);
-    if (!sum_components(ctx, s))
-        return false;
-    patch_measure_ways(s, surface, floe);
-    return true;
+    return sum_components(ctx, s) && patch_measure_ways(ctx, s, surface, floe);
 }

@@ -10,7 +10,7 @@
 typedef struct patch_surface {
     const mesh *surface;
     const mesh_adjacency *adjacency;
-    const mesh_bvh *tree;
+    const mesh_bvh *tree; /* may be NULL for a surface of few triangles: all of them are looked at */
     mat3 rotation;
     vec3 offset;
     int32_t prism; /* shape whose surface it is when that is a prism, of the floe's store; -1: any other */
@@ -54,8 +54,8 @@ bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surfa
                       const patch_component_array **out);
 
 /* Length of the way from `point` along the unit `direction` (floe frame) out of the floe, across seams; 0 for a point
-   outside [m]. */
-double patch_way_out(const patch_floe *floe, vec3 point, vec3 direction);
+   outside [m].  false: no memory. */
+bool patch_way_out(context *ctx, patch_scratch *s, const patch_floe *floe, vec3 point, vec3 direction, double *way);
 
 /* A point inside the floe, in its frame. */
 vec3 patch_inner_point(const patch_floe *floe);

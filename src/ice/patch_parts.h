@@ -1,8 +1,9 @@
-/* What patch.c, patch_way.c and patch_top.c share: one module with patch.h.  Not for others. */
+/* What patch.c, patch_clip.c, patch_way.c and patch_top.c share: one module with patch.h.  Not for others. */
 #ifndef ICE_PATCH_PARTS_H
 #define ICE_PATCH_PARTS_H
 
 #include "ice/patch.h"
+#include "ice/patch_kernel.h"
 
 /* What counts as the same place, as part of the floe's size: far over rounding, far under anything of interest. */
 #define PATCH_SAME_PLACE 1e-10
@@ -19,12 +20,27 @@ typedef struct patch_part {
     int32_t component;
 } patch_part;
 
+/* A line along which the way out is looked for, for a share of the volume of an overlap. */
+typedef struct patch_line {
+    vec3 start, direction;
+    double weight; /* area along the normal [m2] */
+    int32_t part;
+} patch_line;
+
 struct patch_scratch {
-    int32_array faces;
+    int32_array faces;  /* triangles near the floe, where not all are looked at */
+    ARRAY(vec3) points; /* their corners in the floe's frame: vertices of the surface, or three of each such triangle */
+    ARRAY(uint8_t) caps;   /* of each point: where it lies to top and bottom */
+    box2 reach;            /* of the points, plan view */
+    int32_array near;      /* pieces of the floe in reach of the points */
+    ARRAY(uint32_t) codes; /* of each such piece: of each point about its sides (patch_kernel.h) */
+    ARRAY(piece_sides) sides;
     ARRAY(box2) boxes; /* of the floe's pieces */
     ARRAY(patch_part) parts;
     ARRAY(vec3) corners;
     patch_component_array components;
+    ARRAY(patch_line) lines;
+    ARRAY(double) rays, ways;
     mesh turned; /* the surface in the floe's frame */
     polygon_list section;
     vec2_array ring_a, ring_b;
@@ -44,17 +60,11 @@ typedef struct half_space {
     double d;
 } half_space;
 
-/* A convex piece of the floe: its vertices, and the unit outward normals of the sides that start there. */
-typedef struct piece_sides {
-    const vec2 *vertex, *normal;
-    int32_t count;
-} piece_sides;
-
 static inline piece_sides sides_of(const patch_floe *f, int32_t piece)
 {
     int32_t at = f->shapes->shapes.piece_first[f->shape] + piece, first = f->shapes->pieces.first[at];
     return (piece_sides){f->shapes->vertices.point + first, f->shapes->vertices.side + first,
-                         f->shapes->pieces.size[at]};
+                         f->shapes->pieces.size[at], f->shapes->vertices.count - first};
 }
 
 static inline half_space piece_side(const piece_sides *piece, int32_t k)
@@ -69,7 +79,18 @@ static inline half_space prism_cap(double half_height, int k)
     return (half_space){{0, 0, k == 0 ? 1 : -1}, half_height};
 }
 
+static inline void box_take(box2 *b, vec3 r)
+{
+    b->lo = (vec2){r.x < b->lo.x ? r.x : b->lo.x, r.y < b->lo.y ? r.y : b->lo.y};
+    b->hi = (vec2){r.x > b->hi.x ? r.x : b->hi.x, r.y > b->hi.y ? r.y : b->hi.y};
+}
+
+static inline box2 box_of_nothing(void) { return (box2){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}}; }
+
+/* The parts of all triangles in all pieces of the floe, by triangle and piece. */
+bool patch_clip(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
+
 /* The mean way of the overlap of each component, from its parts. */
-void patch_measure_ways(patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
+bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
 
 #endif
