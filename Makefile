@@ -80,9 +80,10 @@ test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS)
 	@cd build/tsan && $$(../../tools/plain_memory.sh) $(CTEST) -L '^threads$$' -LE '^runs$$'
 
+# Other labels are of scripts around the program, which find nothing more in it.
 test-clang: build/clang/build.ninja ## run the tests of a build by clang: the same hashes, to the bit
 	@cmake --build --preset clang -j$(JOBS)
-	@cd build/clang && $(CTEST) -LE '^(package|tools)$$'
+	@cd build/clang && $(CTEST) -LE '^(package|tools|slurm|python|fmi|views)$$'
 
 test-bare: build/bare/build.ninja ## build without the optional libraries, and run the tests that meet them
 	@cmake --build --preset bare -j$(JOBS)

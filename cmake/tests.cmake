@@ -12,7 +12,8 @@ set(test_environment "CK_DEFAULT_TIMEOUT=300" "FRAM_BUILD=${CMAKE_BINARY_DIR}" "
 if(TARGET fram_command)
     list(APPEND test_environment "FRAM=${CMAKE_BINARY_DIR}/fram")
 endif()
-if(FRAM_SANITIZE OR FRAM_COVERAGE OR FRAM_FUZZ)
+option(FRAM_SHORT_TESTS "tests with long scenes shorten them" OFF)
+if(FRAM_SANITIZE OR FRAM_COVERAGE OR FRAM_FUZZ OR FRAM_SHORT_TESTS)
     # Tests with long scenes shorten them when this is set.
     list(APPEND test_environment "FRAM_TEST_SHORT=1")
 endif()

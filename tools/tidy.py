@@ -20,6 +20,10 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
+# Tests and fuzz targets are followed less far into what they call: a third of the time, for code that no user runs.
+SHALLOW = [f"--extra-arg={word}" for word in ("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow")]
+
+
 def output(*command):
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
@@ -77,8 +81,9 @@ def main():
     bad = 0
 
     def analyse(file):
-        done = subprocess.run(["clang-tidy", "--quiet", "-p", str(build), file], cwd=ROOT, capture_output=True,
-                              text=True)
+        depth = [] if file.startswith("src/") else SHALLOW
+        done = subprocess.run(["clang-tidy", "--quiet", *depth, "-p", str(build), file], cwd=ROOT,
+                              capture_output=True, text=True)
         return file, done.returncode, done.stdout
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:

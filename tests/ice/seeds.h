@@ -6,6 +6,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-static inline uint64_t seeds(void) { return getenv("FRAM_TEST_SHORT") ? 2 : getenv("FRAM_TEST_LONG") ? 20 : 5; }
+static inline uint64_t seeds(void) { return getenv("FRAM_TEST_SHORT") ? 1 : getenv("FRAM_TEST_LONG") ? 20 : 5; }
 
 #endif
