@@ -137,6 +137,10 @@ slurm-thousand: build | $(STAMPS)/slurm ## the same with 1,002 runs (SLURM_SEEDS
 extremes-coverage: build ## how often intervals of extremes hold the truth: 1,000 trials of each sample (an hour)
 	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_extremes_coverage
 
+acer-example: build/release/build.ninja ## the synthetic example of Naess, Gaidai and Karpa (2013), 100 samples (half a minute)
+	@cmake --build --preset release -j$(JOBS) --target test_study_acer_example
+	@FRAM_TEST_LONG=1 CK_FORK=no CK_DEFAULT_TIMEOUT=900 build/release/tests/test_study_acer_example
+
 bench-views: viewer build ## speed of the playback page with 10,000 floes, against its bounds
 	@$(PYTHON) bench/run_playback.py $(BENCH_FLAGS)
 
