@@ -2,8 +2,7 @@
    scenario, its files, and variables.txt: the guid, then "input NAME" or "output NAME" a line, whose number from 0 is
    the value reference.  Inputs are told to the world at the next step, and only when they changed, so that an importer
    that sets all of them in every step does not take orders from the vessel's own controller. */
-#include "fmi2.h"
-#include "fram/live.h"
+#include "unit.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -16,56 +15,37 @@ enum { PATH_ROOM = 4096, VARIABLES_MOST = 4096, LINE_ROOM = 256 };
 /* A communication step is a whole multiple of the time step within this share of one. */
 #define STEP_TOLERANCE 1e-6
 
-typedef struct variable {
-    bool is_input;
-    int index; /* of the world's input or channel */
-    double value;
-    double told; /* input: what the world holds */
-} variable;
-
-typedef struct unit {
-    char *name, *folder;
-    fmi2CallbackFunctions call;
-    bool logging, initialised;
-    fram_context *context;
-    fram_scenario *scenario;
-    fram_world *world;
-    variable *variables;
-    int count;
-    double start; /* time of the importer at the world's time 0 [s] */
-} unit;
-
 /* NOLINTBEGIN(readability-non-const-parameter): the standard has these signatures */
 
 /* ---- log ---- */
 
-static void tell(const unit *u, fmi2Status status, const char *category, const char *text)
+void unit_tell(const unit *u, fmi2Status status, const char *category, const char *text)
 {
     if (u->call.logger && (u->logging || status >= fmi2Warning))
         u->call.logger(u->call.componentEnvironment, u->name, status, category, "%s", text);
 }
 
-static fmi2Status fail(const unit *u, const char *text)
+fmi2Status unit_fail(const unit *u, const char *text)
 {
-    tell(u, fmi2Error, "logStatusError", text);
+    unit_tell(u, fmi2Error, "logStatusError", text);
     return fmi2Error;
 }
 
-static fmi2Status fail_by(const unit *u, const fram_error *e)
+fmi2Status unit_fail_by(const unit *u, const fram_error *e)
 {
     char text[sizeof *e + 40];
     snprintf(text, sizeof text, "%s%s%s%s%s", e->file, e->file[0] ? ": " : "", e->key, e->key[0] ? ": " : "",
              e->message);
-    return fail(u, text);
+    return unit_fail(u, text);
 }
 
 static void log_of_library(void *user, fram_log_level level, const char *text)
 {
     const unit *u = user;
     if (level == FRAM_LOG_WARNING)
-        tell(u, fmi2Warning, "logStatusWarning", text);
+        unit_tell(u, fmi2Warning, "logStatusWarning", text);
     else
-        tell(u, fmi2OK, "logAll", text);
+        unit_tell(u, fmi2OK, "logAll", text);
 }
 
 /* ---- life ---- */
@@ -116,13 +96,13 @@ static fmi2Status read_variables(unit *u, FILE *file, const char *guid)
 {
     char line[LINE_ROOM], kind[16], name[LINE_ROOM];
     if (!fgets(line, sizeof line, file))
-        return fail(u, "resources/variables.txt is empty");
+        return unit_fail(u, "resources/variables.txt is empty");
     line[strcspn(line, "\n")] = '\0';
     if (strcmp(line, guid) != 0)
-        return fail(u, "the guid of the importer's model description is not that of this unit");
+        return unit_fail(u, "the guid of the importer's model description is not that of this unit");
     while (fgets(line, sizeof line, file) && u->count < VARIABLES_MOST) {
         if (sscanf(line, "%15s %255s", kind, name) != 2 || !add_variable(u, kind, name))
-            return fail(u, "resources/variables.txt names what the scenario does not have");
+            return unit_fail(u, "resources/variables.txt names what the scenario does not have");
     }
     return fmi2OK;
 }
@@ -153,7 +133,7 @@ static fmi2Status make_world(unit *u)
     fram_error e;
     fram_world *made;
     if (fram_world_create(u->scenario, &made, &e) != FRAM_OK)
-        return fail_by(u, &e);
+        return unit_fail_by(u, &e);
     fram_world_destroy(u->world);
     u->world = made;
     u->initialised = false;
@@ -172,17 +152,17 @@ static fmi2Status open_unit(unit *u, const char *guid)
     d.log = log_of_library;
     d.log_user = u;
     if (fram_context_create(&d, &u->context, &e) != FRAM_OK)
-        return fail_by(u, &e);
+        return unit_fail_by(u, &e);
     snprintf(path, sizeof path, "%s/scenario.yaml", u->folder);
     if (fram_scenario_load(u->context, path, NULL, 0, &u->scenario, &e) != FRAM_OK)
-        return fail_by(u, &e);
+        return unit_fail_by(u, &e);
     fmi2Status status = make_world(u);
     if (status != fmi2OK)
         return status;
     snprintf(path, sizeof path, "%s/variables.txt", u->folder);
     FILE *file = fopen(path, "r");
     if (!file)
-        return fail(u, "resources/variables.txt cannot be read");
+        return unit_fail(u, "resources/variables.txt cannot be read");
     status = read_variables(u, file, guid);
     fclose(file);
     refresh(u);
@@ -195,6 +175,7 @@ void fmi2FreeInstance(fmi2Component c)
     unit *u = c;
     if (!u)
         return;
+    unit_free_states(u);
     fram_world_destroy(u->world);
     fram_scenario_destroy(u->scenario);
     fram_context_destroy(u->context);
@@ -222,7 +203,7 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
     u->folder = good ? copy_text(folder) : NULL;
     good = good && u->folder;
     if (good && type != fmi2CoSimulation) {
-        fail(u, "this unit is for co-simulation");
+        unit_fail(u, "this unit is for co-simulation");
         good = false;
     }
     if (good && open_unit(u, guid) == fmi2OK)
@@ -241,8 +222,10 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean tolerance_given, fmi
     (void)stop;
     if (!u)
         return fmi2Error;
+    if (u->initialised)
+        return unit_fail(u, "the experiment is set up before the unit is initialised");
     if (!isfinite(start))
-        return fail(u, "the start time is not finite");
+        return unit_fail(u, "the start time is not finite");
     u->start = start;
     return fmi2OK;
 }
@@ -258,7 +241,7 @@ static fmi2Status tell_inputs(unit *u)
         if (!v->is_input || v->value == v->told)
             continue;
         if (fram_world_set_input(u->world, v->index, v->value, &e) != FRAM_OK)
-            return fail_by(u, &e);
+            return unit_fail_by(u, &e);
         v->told = v->value; /* as the importer sees it: a limited order is not told again */
     }
     return fmi2OK;
@@ -288,7 +271,7 @@ static fmi2Status refuse_step(const unit *u, double step, double dt)
     char text[200];
     snprintf(text, sizeof text,
              "a communication step of %.17g s is no whole multiple of the scenario's time step, %.17g s", step, dt);
-    return fail(u, text);
+    return unit_fail(u, text);
 }
 
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real now, fmi2Real step, fmi2Boolean no_set_state_before)
@@ -299,20 +282,20 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real now, fmi2Real step, fmi2Boolean 
         return fmi2Error;
     double dt = fram_scenario_time_step(u->scenario), count = floor(step / dt + 0.5);
     if (!u->initialised)
-        return fail(u, "the unit is not initialised: its initialization mode was not left");
+        return unit_fail(u, "the unit is not initialised: its initialization mode was not left");
     if (!(count >= 1 && count < 1e9 && fabs(step - count * dt) <= STEP_TOLERANCE * dt * count))
         return refuse_step(u, step, dt);
     double own = u->start + fram_world_time(u->world);
     if (!(fabs(now - own) <= 0.01 * dt + 1e-12 * fabs(own))) {
         char text[200];
         snprintf(text, sizeof text, "the step begins at %.17g s, and the unit stands at %.17g s", now, own);
-        return fail(u, text);
+        return unit_fail(u, text);
     }
     fmi2Status status = tell_inputs(u);
     fram_error e;
     for (int64_t i = 0; status == fmi2OK && i < (int64_t)count; i++) {
         if (fram_world_step(u->world, &e) != FRAM_OK)
-            status = fail_by(u, &e);
+            status = unit_fail_by(u, &e);
     }
     for (int i = 0; i < u->count; i++) {
         if (!u->variables[i].is_input)
@@ -328,9 +311,11 @@ static bool is_variable(const unit *u, fmi2ValueReference reference) { return re
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference references[], size_t count, fmi2Real values[])
 {
     const unit *u = c;
+    if (u && count > 0 && (!references || !values))
+        return unit_fail(u, "value references or values are NULL");
     for (size_t i = 0; u && i < count; i++) {
         if (!is_variable(u, references[i]))
-            return fail(u, "a value reference names no variable");
+            return unit_fail(u, "a value reference names no variable");
         values[i] = u->variables[references[i]].value;
     }
     return u ? fmi2OK : fmi2Error;
@@ -339,11 +324,13 @@ fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference references[], s
 fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference references[], size_t count, const fmi2Real values[])
 {
     unit *u = c;
+    if (u && count > 0 && (!references || !values))
+        return unit_fail(u, "value references or values are NULL");
     for (size_t i = 0; u && i < count; i++) {
         if (!is_variable(u, references[i]) || !u->variables[references[i]].is_input)
-            return fail(u, "a value reference names no input");
+            return unit_fail(u, "a value reference names no input");
         if (!isfinite(values[i]))
-            return fail(u, "an input is not finite");
+            return unit_fail(u, "an input is not finite");
     }
     for (size_t i = 0; u && i < count; i++)
         u->variables[references[i]].value = values[i];
@@ -355,7 +342,7 @@ static fmi2Status none_of_type(const unit *u, size_t count)
 {
     if (!u)
         return fmi2Error;
-    return count == 0 ? fmi2OK : fail(u, "all variables of this unit are of type Real");
+    return count == 0 ? fmi2OK : unit_fail(u, "all variables of this unit are of type Real");
 }
 
 fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference r[], size_t n, fmi2Integer v[])
@@ -389,152 +376,6 @@ fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference r[], size_t n
     return none_of_type(c, n);
 }
 
-/* ---- states ---- */
-
-typedef struct kept_state {
-    fram_world *world;
-    double start;
-    bool initialised;
-    int count;
-    variable variables[]; /* so that outputs are as they were, also those of the last step */
-} kept_state;
-
-static size_t variables_size(const unit *u) { return (size_t)u->count * sizeof(variable); }
-
-static kept_state *keep(const unit *u, const fram_world *world)
-{
-    fram_error e;
-    kept_state *s = calloc(1, sizeof *s + variables_size(u));
-    if (!s)
-        return NULL;
-    if (fram_world_copy(world, &s->world, &e) != FRAM_OK) {
-        fail_by(u, &e);
-        free(s);
-        return NULL;
-    }
-    s->start = u->start;
-    s->initialised = u->initialised;
-    s->count = u->count;
-    memcpy(s->variables, u->variables, variables_size(u));
-    return s;
-}
-
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
-{
-    (void)c;
-    kept_state *s = state ? *state : NULL;
-    if (s) {
-        fram_world_destroy(s->world);
-        free(s);
-        *state = NULL;
-    }
-    return fmi2OK;
-}
-
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
-{
-    unit *u = c;
-    kept_state *s = u && state ? keep(u, u->world) : NULL;
-    if (!s)
-        return fmi2Error;
-    fmi2FreeFMUstate(c, state); /* a state that is handed in is used again */
-    *state = s;
-    return fmi2OK;
-}
-
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
-{
-    unit *u = c;
-    const kept_state *s = state;
-    fram_world *copy;
-    fram_error e;
-    if (!u || !s)
-        return fmi2Error;
-    if (s->count != u->count)
-        return fail(u, "the state is that of another unit");
-    if (fram_world_copy(s->world, &copy, &e) != FRAM_OK)
-        return fail_by(u, &e);
-    fram_world_destroy(u->world);
-    u->world = copy;
-    u->start = s->start;
-    u->initialised = s->initialised;
-    memcpy(u->variables, s->variables, variables_size(u));
-    return fmi2OK;
-}
-
-/* Bytes of a state: start, flag, variables, then the world. */
-static size_t head_size(const unit *u) { return sizeof(double) + sizeof(int) + variables_size(u); }
-
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
-{
-    unit *u = c;
-    const kept_state *s = state;
-    void *data;
-    size_t bytes;
-    fram_error e;
-    if (!u || !s || !size)
-        return fmi2Error;
-    if (fram_world_save_memory(s->world, &data, &bytes, &e) != FRAM_OK)
-        return fail_by(u, &e);
-    fram_data_free(u->context, data);
-    *size = head_size(u) + bytes;
-    return fmi2OK;
-}
-
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte out[], size_t size)
-{
-    unit *u = c;
-    const kept_state *s = state;
-    void *data;
-    size_t bytes;
-    fram_error e;
-    if (!u || !s || !out)
-        return fmi2Error;
-    if (fram_world_save_memory(s->world, &data, &bytes, &e) != FRAM_OK)
-        return fail_by(u, &e);
-    bool fits = size >= head_size(u) + bytes;
-    if (fits) {
-        int flag = s->initialised;
-        memcpy(out, &s->start, sizeof s->start);
-        memcpy(out + sizeof s->start, &flag, sizeof flag);
-        memcpy(out + sizeof s->start + sizeof flag, s->variables, variables_size(u));
-        memcpy(out + head_size(u), data, bytes);
-    }
-    fram_data_free(u->context, data);
-    return fits ? fmi2OK : fail(u, "there is less room than the serialized state needs");
-}
-
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte in[], size_t size, fmi2FMUstate *state)
-{
-    unit *u = c;
-    fram_error e;
-    if (!u || !in || !state)
-        return fmi2Error;
-    if (size < head_size(u))
-        return fail(u, "the serialized state is too short");
-    kept_state *s = keep(u, u->world);
-    if (!s)
-        return fmi2Error;
-    if (fram_world_load_memory(s->world, in + head_size(u), size - head_size(u), &e) != FRAM_OK) {
-        fram_world_destroy(s->world);
-        free(s);
-        return fail_by(u, &e);
-    }
-    int flag;
-    memcpy(&s->start, in, sizeof s->start);
-    memcpy(&flag, in + sizeof s->start, sizeof flag);
-    s->initialised = flag != 0;
-    for (int i = 0; i < u->count; i++) {
-        variable from;
-        memcpy(&from, in + sizeof s->start + sizeof flag + (size_t)i * sizeof from, sizeof from);
-        s->variables[i].value = from.value;
-        s->variables[i].told = from.told;
-    }
-    fmi2FreeFMUstate(c, state);
-    *state = s;
-    return fmi2OK;
-}
-
 /* ---- the rest ---- */
 
 const char *fmi2GetTypesPlatform(void) { return "default"; }
@@ -551,7 +392,7 @@ fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t count, co
     return fmi2OK;
 }
 
-static fmi2Status not_offered(const unit *u) { return u ? fail(u, "this unit does not offer that") : fmi2Error; }
+static fmi2Status not_offered(const unit *u) { return u ? unit_fail(u, "this unit does not offer that") : fmi2Error; }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference a[], size_t n,
                                         const fmi2ValueReference b[], size_t m, const fmi2Real d[], fmi2Real out[])

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """fram fmu: the unit holds what it must, steps as a world does, goes back to the bit, and refuses what it cannot do."""
 
+import ctypes as c
 import os
 import pathlib
 import random
@@ -152,12 +153,41 @@ class Units(unittest.TestCase):
         instance.from_bytes(b"0" * 100000, status=ERROR)
         instance.call("Reset")
         instance.initialise().step(0, dt)
+        instance.call("SetupExperiment", 0, c.c_double(0), c.c_double(9), 0, c.c_double(0), status=ERROR)
+        for name in ("GetReal", "SetReal"):
+            instance.call(name, None, c.c_size_t(1), (c.c_double * 1)(), status=ERROR)
+            instance.call(name, (c.c_uint * 1)(), c.c_size_t(1), None, status=ERROR)
+            instance.call(name, None, c.c_size_t(0), None)
         instance.free()
         self.assertFalse(self.unit.instance(guid="{of another}").c)
         self.assertFalse(self.unit.instance(where="file:///no/such/folder").c)
         early = self.unit.instance()
         early.step(0, dt, status=ERROR)
         early.free()
+
+    def test_a_handle_that_is_no_state_is_refused(self):
+        one, two = self.unit.instance(name="one").initialise(), self.unit.instance(name="two").initialise()
+        state, again = one.keep(), one.keep()
+        gone = c.c_void_p(again.value)
+        one.forget(again)
+        one.forget(c.c_void_p())
+        size, room = c.c_size_t(), (c.c_char * 8)()
+        for instance, handle in ((two, state), (one, gone), (one, c.c_void_p(1)), (one, c.c_void_p())):
+            instance.call("SetFMUstate", handle, status=ERROR)
+            instance.call("SerializedFMUstateSize", handle, c.byref(size), status=ERROR)
+            instance.call("SerializeFMUstate", handle, room, c.c_size_t(8), status=ERROR)
+            if handle.value:
+                instance.call("FreeFMUstate", c.byref(handle), status=ERROR)
+        one.call("SerializeFMUstate", state, room, c.c_size_t(8), status=ERROR)
+        self.assertIn("less room", one.told[-1][2])
+        one.call("GetFMUstate", c.byref(state))  # a state that is handed in is used again
+        one.back(state)
+        one.call("FreeFMUstate", state)  # the state for its address, as fmusim 0.0.39 does
+        self.assertIn("address", one.told[-1][2])
+        one.call("SetFMUstate", state, status=ERROR)
+        two.keep()  # and never forgotten: goes with the instance
+        one.free()
+        two.free()
 
     def test_the_command(self):
         told = self.fram("fmu", self.scene, "-o", self.folder / "few.fmu", "--in", "thruster_*", "--out", "ice_force_?",
