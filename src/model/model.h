@@ -24,6 +24,18 @@ typedef enum force_source {
     FORCES_COLUMNS   /* the water of the benchmark scenes, with weight */
 } force_source;
 
+/* The jets of a vessel's propellers, as fluid/jet.h means them. */
+enum { WASH_THRUSTERS = 32 };
+typedef struct wash_model {
+    bool active;
+    double spread;                   /* C [1] */
+    double reach;                    /* in diameters [1] */
+    double thruster[WASH_THRUSTERS]; /* diameter of each thruster, in their order [m] */
+    int32_t propellers;              /* of the propulsion */
+    double diameter, spacing;        /* of those [m] */
+    double z;                        /* of their axes, body frame about the centre of mass [m] */
+} wash_model;
+
 /* What is fixed of a vessel: its hull as it was made, and what the fluids do to it. */
 typedef struct vessel_model {
     int32_t solid;                   /* of the hull, in model.solids, about the centre of mass */
@@ -34,6 +46,7 @@ typedef struct vessel_model {
     double yielding;                 /* of its fenders: depth over force; 0: rigid [m/N] */
     char name[VESSEL_NAME_MOST + 1]; /* "" without */
     approach_settings approach;
+    wash_model wash;
     vec2_array plan; /* convex outline of the whole hull seen from above, about the centre of mass [m] */
     bool has_hydrodynamics;
     hydrodynamics hydrodynamics;

@@ -178,6 +178,20 @@ static fram_status check_hydrodynamics(const scenario *s, const vessel_entry *e,
     return status == FRAM_OK ? check_rows(s, e, "hydrodynamics.damping", h->damping.count, error) : status;
 }
 
+/* A jet needs water, and somebody who makes it. */
+static fram_status check_wash(const scenario *s, const vessel_entry *e, fram_error *error)
+{
+    const scenario_vessel *v = e->keys;
+    if (!v->wash.active)
+        return FRAM_OK;
+    if (!s->environment.water)
+        return vessel_fault(s, e, "wash.active", error, "expected false, since environment.water is false");
+    if (v->thrusters.count == 0 && is_automatic(v->propulsion.bollard_pull))
+        return vessel_fault(s, e, "wash.active", error,
+                            "expected false, since %s has neither thrusters nor propulsion.bollard_pull", e->path);
+    return FRAM_OK;
+}
+
 static fram_status check_vessel(const scenario *s, const vessel_entry *e, fram_error *error)
 {
     fram_status status = check_hull(s, e, error);
@@ -187,6 +201,8 @@ static fram_status check_vessel(const scenario *s, const vessel_entry *e, fram_e
         status = check_place(s, e, error);
     if (status == FRAM_OK)
         status = check_hydrodynamics(s, e, error);
+    if (status == FRAM_OK)
+        status = check_wash(s, e, error);
     return status == FRAM_OK ? check_speeds(s, e, error) : status;
 }
 

@@ -22,6 +22,7 @@
 
 #include "model/scenario_propulsion_keys.h"
 #include "model/scenario_station_keys.h"
+#include "model/scenario_wash_keys.h"
 
 #include "model/scenario_water_keys.h"
 
@@ -96,6 +97,7 @@
     X(station, SECTION(station), "", "what counts as being on station")                                              \
     X(propulsion, SECTION(propulsion), "", "mode free: a ship that drives itself through the ice")                   \
     X(approach, SECTION(approach), "", "when another vessel is going to come too close")                             \
+    X(wash, SECTION(wash), "", "what the water that its propellers throw back does to floes")                        \
     X(hydrodynamics, SECTION(hydrodynamics), "", "added mass and linear damping")                                    \
     X(current_coefficients, SECTION(flow), "", "force coefficients of the current over its direction")               \
     X(wind_coefficients, SECTION(flow), "", "force coefficients of the wind over its direction")
@@ -385,6 +387,7 @@
     S(hull, SCENARIO_HULL_KEYS)               \
     SCENARIO_STATION_SECTIONS(S)              \
     SCENARIO_PROPULSION_SECTIONS(S)           \
+    SCENARIO_WASH_SECTIONS(S)                 \
     SCENARIO_WATER_SECTIONS(S)                \
     S(vessel, SCENARIO_VESSEL_KEYS)           \
     S(friction, SCENARIO_FRICTION_KEYS)       \

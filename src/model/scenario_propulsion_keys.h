@@ -33,6 +33,10 @@
     X(beset_speed, REAL(0.1, 1e-6, 100), "m/s", "a ship that pushes and is slower in the ice ...")              \
     X(beset_time, REAL(20, 1e-3, 1e6), "s", "... for so long is beset: it backs, and rams")                     \
     X(ram_distance, AUTOMATIC(1e-3, 1e5), "m", "it backs so far; auto: its length")                             \
+    X(propellers, INTEGER(1, 1, 4), "1", "that share the thrust, for their wash")                               \
+    X(propeller_diameter, AUTOMATIC(1e-3, 100), "m", "of each; auto: 45 kPa of bollard pull on their discs")    \
+    X(propeller_spacing, AUTOMATIC(0, 1e3), "m", "between their axes; auto: 1.5 diameters")                     \
+    X(propeller_z, AUTOMATIC(-1e3, 0), "m", "of their axes above the design waterline; auto: -0.6 draughts")    \
     X(waypoints, LIST(course_point, 1000), "",                                                                  \
       "steered for one after the other; after the last the leg goes on; none: the heading is kept")             \
     X(pattern, SECTION(pattern), "", "of ice management, in place of way points; it turns with the drift")

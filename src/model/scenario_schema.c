@@ -68,6 +68,9 @@ SECTION_DEFINE(pattern, SCENARIO_PATTERN_KEYS)
 #define SELF scenario_approach
 SECTION_DEFINE(approach, SCENARIO_APPROACH_KEYS)
 #undef SELF
+#define SELF scenario_wash
+SECTION_DEFINE(wash, SCENARIO_WASH_KEYS)
+#undef SELF
 #define SELF scenario_propulsion
 SECTION_DEFINE(propulsion, SCENARIO_PROPULSION_KEYS)
 #undef SELF

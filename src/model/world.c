@@ -97,6 +97,8 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.web_first);
     array_free(ctx, &w->scratch.web_next);
     array_free(ctx, &w->scratch.responses);
+    array_free(ctx, &w->scratch.wash);
+    array_free(ctx, &w->scratch.wash_force);
     array_free(ctx, &w->scratch.fractures);
     if (w->scratch.collision)
         collision_scratch_free(ctx, w->scratch.collision);
@@ -130,6 +132,8 @@ void world_poison_scratch(world *w)
     POISON(web_first);
     POISON(web_next);
     POISON(responses);
+    POISON(wash);
+    POISON(wash_force);
     POISON(fractures);
 #undef POISON
     memset(&w->scratch.solver, 0xff, sizeof w->scratch.solver);
@@ -193,7 +197,7 @@ static bool copy_reports(context *ctx, const world *src, world *dst)
 {
     dst->scratch.solver = src->scratch.solver;
     return COPY_ARRAY(fluid) && COPY_ARRAY(contacts) && COPY_ARRAY(patches) && COPY_ARRAY(ice_loads) &&
-           COPY_ARRAY(responses) && COPY_ARRAY(fractures);
+           COPY_ARRAY(responses) && COPY_ARRAY(wash_force) && COPY_ARRAY(fractures);
 }
 
 fram_status world_copy(context *ctx, const world *src, world *dst, fram_error *error)

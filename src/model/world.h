@@ -72,6 +72,12 @@ typedef struct hull_response {
     vec3 velocity; /* of the centre of mass before the step [m/s] */
 } hull_response;
 
+/* What a jet does to a floe in a step.  Scratch. */
+typedef struct wash_push {
+    int32_t body;
+    wrench load;
+} wash_push;
+
 typedef struct world {
     /* State: everything that outlives a step; world_tables() lists the tables. */
     clock_table clock;
@@ -117,6 +123,8 @@ typedef struct world {
         int32_array web_first;          /* sim/force_chain.h: one per body slot */
         int32_array web_next;           /* two per contact */
         ARRAY(hull_response) responses; /* one per vessel */
+        ARRAY(wash_push) wash;          /* of one jet */
+        ARRAY(vec3) wash_force;         /* of each vessel on all floes; empty without wash [N] */
         fracture_event_array fractures;
         solver_report solver;
         collision_scratch *collision;

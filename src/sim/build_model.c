@@ -6,6 +6,7 @@
 #include "sim/build_hydrodynamics.h"
 #include "sim/build_ice.h"
 #include "sim/build_media.h"
+#include "sim/build_wash.h"
 
 static void set_pair(pair_policies *p, material a, material b, double mu_static, double mu_kinetic, bool patch)
 {
@@ -110,6 +111,7 @@ fram_status build_vessel_model(context *ctx, const scenario *s, const vessel_ent
         status = build_hydrodynamics(s, entry, &v, error);
     if (status == FRAM_OK)
         status = build_flows(ctx, s, entry, &v, error);
+    v.wash = build_wash(entry->keys, &v);
     if (status == FRAM_OK && !array_push(ctx, &m->vessels, v))
         status = error_memory(error);
     if (status != FRAM_OK)

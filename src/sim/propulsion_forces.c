@@ -3,8 +3,8 @@
 #include "sim/feed.h"
 #include "sim/media_now.h"
 
-/* What the water takes of the thrust: drag on the hull, and the linear damping of surge, which acts afterwards. */
-static double resistance_of(const model *m, const world *w, int32_t vessel, vec2 water)
+/* Damping acts afterwards. */
+double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec2 water)
 {
     int32_t body = w->vessels.body[vessel], row = w->shapes.shapes.solid[w->bodies.shape[body]];
     vec3 bow = mat3_mul_vec(quat_matrix(w->bodies.orientation[body]), vec3_make(1, 0, 0)), v = w->bodies.velocity[body];
@@ -30,7 +30,7 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
     for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
         int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
         propulsion_moment moment = {w->clock.time[0], m->time_step, water, drift,
-                                    m->forces == FORCES_FLUID ? resistance_of(m, w, vessel, water) : 0};
+                                    m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0};
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
                                  &w->scratch.loads.data[body], &w->events, error);
     }

@@ -19,6 +19,7 @@ typedef struct vessel_channels {
     vec3 offset, estimate, bias, demand;
     double thruster_power, line_tension_max;
     int32_t lines_parted, thrusters_failed, saturated;
+    vec3 wash;
     double net_thrust, steering_deg, besets, rams, rounds; /* of a ship that drives itself */
 } vessel_channels;
 
@@ -95,6 +96,8 @@ static vessel_channels vessel_channels_of(const world *w, int32_t v)
     }
     if (w->scratch.responses.count > v)
         c.response = w->scratch.responses.data[v].force;
+    if (w->scratch.wash_force.count > v)
+        c.wash = w->scratch.wash_force.data[v];
     add_station(w, v, &c);
     return c;
 }
@@ -193,6 +196,8 @@ static count_channels counts_of(const world *w)
     V("besets", "1", c.besets)                                        \
     V("rams", "1", c.rams)                                            \
     V("pattern_rounds", "1", c.rounds)                                \
+    V("wash_force_x", "N", c.wash.x)                                  \
+    V("wash_force_y", "N", c.wash.y)                                  \
     W("bodies", "1", n.bodies)                                        \
     W("floes", "1", n.floes)                                          \
     W("contacts", "1", w->scratch.contacts.count)                     \

@@ -10,6 +10,7 @@
 #include "sim/media_now.h"
 #include "sim/propulsion_forces.h"
 #include "sim/station_forces.h"
+#include "sim/wash.h"
 #include "vessel/path.h"
 
 #include <assert.h>
@@ -131,6 +132,8 @@ static fram_status external_forces(context *ctx, const model *m, world *w, fram_
     status = station_forces(ctx, m, w, error);
     if (status == FRAM_OK)
         status = propulsion_forces(ctx, m, w, error);
+    if (status == FRAM_OK)
+        status = wash_forces(ctx, m, w, error);
     if (status == FRAM_OK)
         status = approach_watch(ctx, m, w, error);
     events_tell(ctx, m, w, told);

@@ -205,8 +205,7 @@ static void follow(thruster_table *t, int32_t row, double dt)
     t->thrust[row] = (n >= 0 ? t->ahead[row] : t->astern[row]) * n * fabs(n);
 }
 
-/* The direction of the thrust, vessel frame; a rudder does nothing astern. */
-static double thrust_angle(const thruster_table *t, int32_t row)
+double thruster_push_angle(const thruster_table *t, int32_t row)
 {
     if (t->kind[row] == THRUSTER_MAIN && t->thrust[row] < 0)
         return 0;
@@ -234,7 +233,7 @@ fram_status thruster_step(context *ctx, thruster_table *t, const vessel_table *v
             continue;
         follow(t, i, dt);
         int32_t body = vessels->body[t->vessel[i]];
-        double angle = thrust_angle(t, i);
+        double angle = thruster_push_angle(t, i);
         mat3 r = quat_matrix(bodies->orientation[body]);
         vec3 push = vec3_make(t->thrust[i] * real_cos(angle), t->thrust[i] * real_sin(angle), 0);
         vec3 force = mat3_mul_vec(r, push), arm = mat3_mul_vec(r, t->place[i]);
@@ -249,6 +248,6 @@ vec3 thruster_effect(const thruster_table *t, int32_t vessel)
     vec3 sum = {0};
     for (int32_t i = 0; i < t->count; i++)
         if (t->vessel[i] == vessel && !t->failed[i])
-            sum = vec3_mad(sum, effect_along(t, i, thrust_angle(t, i)), t->thrust[i]);
+            sum = vec3_mad(sum, effect_along(t, i, thruster_push_angle(t, i)), t->thrust[i]);
     return sum;
 }

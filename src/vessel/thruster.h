@@ -53,6 +53,8 @@ typedef struct thruster_definition {
 /* FRAM_ERROR_INPUT names the member that does not fit. */
 fram_status thruster_add(context *ctx, const thruster_definition *d, const vessel_table *vessels,
                          thruster_table *thrusters, fram_error *error);
+/* Direction of a positive thrust, from the bow [rad]; a rudder does nothing astern. */
+double thruster_push_angle(const thruster_table *thrusters, int32_t row);
 /* Power drawn [W]: full power times (|T| / largest)^1.5. */
 double thruster_power(const thruster_table *thrusters, int32_t row);
 
