@@ -63,9 +63,10 @@ static bool read_lines(const char *text, line_list *list)
 
 static int compute(const common_options *common, const char *run, const fram_pressure_definition *d)
 {
+    work_view work;
     fram_context *context = NULL;
     fram_error error = {0};
-    int code = session_open(common, &context);
+    int code = session_open_reading(common, &work, &context);
     if (code >= 0)
         return code;
     code = fram_pressure(context, run, d, &error) == FRAM_OK ? EXIT_GOOD : answer_error(common, &error);

@@ -32,8 +32,9 @@ int command_report(const command_row *self, int argc, char **argv)
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};
@@ -110,8 +111,9 @@ int command_plot(const command_row *self, int argc, char **argv)
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_error error = {0};
@@ -177,8 +179,9 @@ int command_compare(const command_row *self, int argc, char **argv)
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_comparison comparison;
@@ -220,8 +223,9 @@ int command_video(const command_row *self, int argc, char **argv)
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_result result = {0};

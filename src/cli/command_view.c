@@ -75,8 +75,9 @@ int command_view(const command_row *self, int argc, char **argv)
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_playback_result result = {0};

@@ -34,8 +34,9 @@ int command_why(const command_row *self, int argc, char **argv)
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
+    work_view work;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     d.peak = peak;

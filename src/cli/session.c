@@ -72,6 +72,15 @@ static void work_show(void *user, const char *what, double done, double total)
     fflush(stderr);
 }
 
+int session_open_reading(const common_options *common, work_view *view, fram_context **context)
+{
+    fram_context_definition definition = session_definition(common);
+    *view = (work_view){.terminal = isatty(STDERR_FILENO) == 1};
+    definition.work = common->quiet ? NULL : work_show;
+    definition.work_user = view;
+    return create(common, &definition, context);
+}
+
 int session_open_making(const common_options *common, work_view *view, fram_context **context)
 {
     fram_context_definition definition = session_definition(common);

@@ -2,14 +2,18 @@
 
 #include <assert.h>
 
+void velocity_series_free(context *ctx, velocity_series *s)
+{
+    memory_free(ctx, s->time);
+    memory_free(ctx, s->velocity);
+    *s = (velocity_series){0};
+}
+
 void media_history_free(context *ctx, media_history *h)
 {
-    memory_free(ctx, h->current.time);
-    memory_free(ctx, h->current.velocity);
-    memory_free(ctx, h->wind.time);
-    memory_free(ctx, h->wind.velocity);
-    memory_free(ctx, h->drift.time);
-    memory_free(ctx, h->drift.velocity);
+    velocity_series_free(ctx, &h->current);
+    velocity_series_free(ctx, &h->wind);
+    velocity_series_free(ctx, &h->drift);
     *h = (media_history){0};
 }
 

@@ -31,6 +31,7 @@ typedef struct media_history {
     current_profile profile;
 } media_history;
 
+void velocity_series_free(context *ctx, velocity_series *s);
 void media_history_free(context *ctx, media_history *h);
 vec3 velocity_series_at(const velocity_series *s, double time);
 

@@ -358,7 +358,10 @@ fram_status replay_next(replay *r, bool *found, fram_error *error)
     replay_frame kept = r->frame;
     r->frame = r->next;
     r->next = kept;
-    fram_status status = read_ahead(r, error);
+    fram_status status =
+        work_continue(r->ctx, "reading the record", (double)r->reader.position, (double)r->reader.file_size, error);
+    if (status == FRAM_OK)
+        status = read_ahead(r, error);
     if (status == FRAM_OK && !find_velocities(r))
         status = error_memory(error);
     return status;

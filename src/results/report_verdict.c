@@ -76,6 +76,21 @@ static void judge_end(verdict *v)
          n->message[0] ? ": " : "", n->message);
 }
 
+/* A hull at a wall measures the wall: the run's own event, found by its kind in run.json. */
+static void judge_walls(verdict *v)
+{
+    const run_note *n = &v->r->d.note;
+    for (int32_t i = 0; i < n->events.count; i++) {
+        const run_event *e = &n->events.data[i];
+        if (strcmp(e->kind, "wall") == 0)
+            find(v, VERDICT_BAD,
+                 "Loads and motion after that are those of a wall, not of ice: enlarge the domain, shorten "
+                 "run.duration or give another course.",
+                 "%s%s ran into a wall of the domain at %.4g s.", e->vessel[0] ? "Vessel " : "The vessel", e->vessel,
+                 e->time);
+    }
+}
+
 /* ---- keeping station ---- */
 
 typedef struct limit_use {
@@ -320,6 +335,7 @@ fram_status report_verdict(report *r, fram_error *error)
         return error_memory(error);
     fram_status status = FRAM_OK;
     judge_end(&v);
+    judge_walls(&v);
     for (int32_t i = 0; i < scenario_vessel_count(&r->d.s) && status == FRAM_OK; i++) {
         status = report_choose_vessel(r, i, error);
         if (status == FRAM_OK)

@@ -32,6 +32,8 @@ static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
             break;
         if (strcmp(key, "time_s") == 0)
             status = json_walk_number(w, &e->time, error);
+        else if (strcmp(key, "kind") == 0)
+            status = json_walk_text(w, e->kind, sizeof e->kind, error);
         else if (strcmp(key, "vessel") == 0)
             status = json_walk_text(w, e->vessel, sizeof e->vessel, error);
         else if (strcmp(key, "text") == 0)

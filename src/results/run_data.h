@@ -11,7 +11,7 @@
 /* What befell a vessel, as run.json has it. */
 typedef struct run_event {
     double time; /* [s] */
-    char vessel[25], text[160];
+    char vessel[25], kind[24], text[160];
 } run_event;
 
 /* Texts of run.json; "" for those that are missing. */

@@ -241,9 +241,15 @@ static fram_status find_frames(video *v, fram_error *error)
 static fram_status write_pictures(video *v, const char *folder, video_file *file, int64_t *frames, fram_error *error)
 {
     double begin = v->time.data[0], end = v->time.data[v->time.count - 1];
-    fram_status status = replay_open(v->ctx, folder, &v->r, error);
+    /* Pictures are counted, not also what is read for them. */
+    context silent = *v->ctx;
+    silent.work = NULL;
+    fram_status status = replay_open(&silent, folder, &v->r, error);
     for (int64_t i = 0; i < v->count && status == FRAM_OK; i++) {
         cairo_t *page = NULL;
+        status = work_continue(v->ctx, "drawing frames", (double)i, (double)v->count, error);
+        if (status != FRAM_OK)
+            break;
         status = draw_picture(v, fmin(begin + (double)i * v->step, end), &page, error);
         if (status == FRAM_OK)
             status = keep_picture(v, file, page, i, error);

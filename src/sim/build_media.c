@@ -52,7 +52,7 @@ static fram_status read_rows(context *ctx, const scenario *s, const char *file, 
     return status == FRAM_OK ? check_rows(rows, path, first, error) : status;
 }
 
-static fram_status read_series(context *ctx, const scenario *s, const char *file, velocity_series *out,
+fram_status velocity_file_read(context *ctx, const scenario *s, const char *file, velocity_series *out,
                                fram_error *error)
 {
     if (!*file)
@@ -98,11 +98,11 @@ static fram_status read_profile(context *ctx, const scenario *s, const char *fil
 fram_status build_media(context *ctx, const scenario *s, media_history *out, fram_error *error)
 {
     const scenario_environment *e = &s->environment;
-    fram_status status = read_series(ctx, s, e->current_file, &out->current, error);
+    fram_status status = velocity_file_read(ctx, s, e->current_file, &out->current, error);
     if (status == FRAM_OK)
-        status = read_series(ctx, s, e->wind_file, &out->wind, error);
+        status = velocity_file_read(ctx, s, e->wind_file, &out->wind, error);
     if (status == FRAM_OK)
-        status = read_series(ctx, s, s->domain.drift_file, &out->drift, error);
+        status = velocity_file_read(ctx, s, s->domain.drift_file, &out->drift, error);
     if (status == FRAM_OK)
         status = read_profile(ctx, s, e->current_profile_file, &out->profile, error);
     return status;

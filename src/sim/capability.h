@@ -33,6 +33,7 @@ typedef struct capability_loads {
     vec3 *wind, *damping, *drag; /* by direction: all; times the speed; times its square */
     vec3 *ice; /* [direction * speeds + k] at the speed (k + 1) speed_step; constant below the first */
     bool measured;
+    double runs_done, runs; /* that measure the ice load, for who waits */
 } capability_loads;
 
 /* What is lost in a failure. */

@@ -135,6 +135,9 @@ static fram_status record(context *ctx, const scenario *s, const model *m, capab
     int64_t steps = (int64_t)ceil(c->options.measure / s->run.time_step);
     for (int64_t i = 0; i < steps && status == FRAM_OK; i++) {
         status = capability_go_on(c, error);
+        if (status == FRAM_OK)
+            status = work_continue(ctx, "measuring ice loads", c->loads.runs_done + (double)i / (double)steps,
+                                   c->loads.runs, error);
         if (status != FRAM_OK)
             break;
         status = world_step(ctx, m, &w, error);
@@ -210,6 +213,8 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
 {
     /* What a hull with equal sides meets from port is what it meets from starboard. */
     bool mirrored = s->vessel.hull.form != HULL_MESH;
+    c->loads.runs_done = 0;
+    c->loads.runs = (mirrored ? m->directions / 2 + 1 : m->directions) * m->speeds;
     for (int32_t i = 0; i < m->directions; i++) {
         double from = 2 * PI * i / m->directions;
         for (int32_t k = 0; k < m->speeds; k++) {
@@ -223,6 +228,7 @@ static fram_status measure_all(context *ctx, const scenario *s, capability *c, m
             fram_status status = measure(ctx, s, from, speed, c, load, error);
             if (status != FRAM_OK)
                 return status;
+            c->loads.runs_done++;
             log_write(ctx, LOG_INFO, "ice from %3.0f deg at %.2f m/s: surge %.4g kN, sway %.4g kN, yaw %.4g MN m",
                       degrees(from), speed, load->x * 1e-3, load->y * 1e-3, load->z * 1e-6);
         }

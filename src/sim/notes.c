@@ -5,8 +5,10 @@
 #include "ice/fracture.h"
 #include "model/scenario_vessel.h"
 #include "sim/build.h"
+#include "sim/effective.h"
 #include "sim/sanity.h"
 #include "sim/scene_size.h"
+#include "sim/wall_check.h"
 
 #include <stdio.h>
 
@@ -108,21 +110,22 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
     const scenario_vessel *v = entry->keys;
     vessel_title title = vessel_title_of(entry);
     double way = v->speed * s->run.time_step;
-    note_fact(n, "vessel%s%.*s: moves %.4g m in a step, %.4g m in the run", v->name[0] ? " " : "",
-              (int)VESSEL_NAME_MOST, v->name, way, v->speed * s->run.duration);
     if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * s->ice.thickness)
         note_warning(n,
                      "%s moves %.2g of the ice thickness in a step; crushing patches grow in jumps. "
                      "Take run.time_step under %.3g s",
                      title.text, way / s->ice.thickness, THICKNESS_STEP * s->ice.thickness / v->speed);
-    double x = v->x + v->speed * s->run.duration * real_cos(radians(automatic_or(v->course_deg, v->heading_deg)));
-    double y = v->y + v->speed * s->run.duration * real_sin(radians(automatic_or(v->course_deg, v->heading_deg)));
+    double far = vessel_fastest(v) * s->run.duration, course = radians(automatic_or(v->course_deg, v->heading_deg));
+    double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;
-    if (v->mode != VESSEL_FREE && s->domain.boundary != DOMAIN_WALLS && !inside)
-        note_warning(n, "%s leaves the domain before the end, at (%.4g, %.4g) m", title.text, x, y);
+    if (vessel_keeps_course(v) && s->domain.boundary != DOMAIN_WALLS && !inside)
+        note_warning(n, "%s %s the domain before the end, at (%.4g, %.4g) m", title.text,
+                     v->mode == VESSEL_FREE ? "can leave" : "leaves", x, y);
 }
 
 static void tell_warning(const void *to, const char *text) { note_warning(to, "%s", text); }
+
+static void tell_fact(const void *to, const char *text) { note_fact(to, "%s", text); }
 
 static void take_notes(const note_taker *n, const scenario *s)
 {
@@ -131,6 +134,8 @@ static void take_notes(const note_taker *n, const scenario *s)
     note_fact(n, "memory: about %.2g GB for about %.0f floes; run.memory_limit is %g GB", size.bytes * 1e-9, size.floes,
               s->run.memory_limit);
     note_fact(n, "disk: about %.2g MB for what the run leaves", size.disk * 1e-6);
+    if (n->out)
+        effective_tell(n->ctx, s, tell_fact, n);
     note_ice(n, s);
     note_fracture(n, s);
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {

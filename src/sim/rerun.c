@@ -32,6 +32,11 @@ static fram_status step_once(const rerun *r, const model *m, world *w, fram_erro
 {
     if (r->ctx->stop && *r->ctx->stop)
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s", w->clock.time[0]);
+    double since = r->out->start;
+    fram_status status =
+        work_continue(r->ctx, "computing again", w->clock.time[0] - since, fmax(r->time - since, 0), error);
+    if (status != FRAM_OK)
+        return status;
     return world_step(r->ctx, m, w, error);
 }
 

@@ -10,6 +10,7 @@
 #include "sim/media_now.h"
 #include "sim/propulsion_forces.h"
 #include "sim/station_forces.h"
+#include "sim/wall_check.h"
 #include "sim/wash.h"
 #include "vessel/path.h"
 
@@ -178,6 +179,7 @@ static fram_status solve_velocities(context *ctx, const model *m, world *w, fram
     if (status == FRAM_OK) {
         add_carried_mass(m, w);
         feed_load(m, w);
+        status = wall_watch(ctx, m, w) ? FRAM_OK : error_memory(error);
     }
     return status;
 }

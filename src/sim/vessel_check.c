@@ -2,6 +2,7 @@
 
 #include "base/transcendental.h"
 #include "sim/build_vessel.h"
+#include "sim/wall_check.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -232,47 +233,6 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
     warn_of_lines(ctx, s, e, w, row);
 }
 
-/* Reach of the hull from its centre of mass along global X or Y, at a heading. */
-static void reach_along(const mesh *surface, double heading, box2 *out)
-{
-    double c = real_cos(heading), d = real_sin(heading);
-    *out = (box2){{0, 0}, {0, 0}};
-    for (int32_t i = 0; i < surface->vertex.count; i++) {
-        vec3 v = surface->vertex.data[i];
-        double x = c * v.x - d * v.y, y = d * v.x + c * v.y;
-        out->lo.x = fmin(out->lo.x, x), out->hi.x = fmax(out->hi.x, x);
-        out->lo.y = fmin(out->lo.y, y), out->hi.y = fmax(out->hi.y, y);
-    }
-}
-
-/* Way that is left along one axis before the hull is at a wall. */
-static double way_left(double lo, double hi, double least, double most, double direction)
-{
-    if (direction > 0)
-        return (most - hi) / direction;
-    return direction < 0 ? (least - lo) / direction : HUGE_VAL;
-}
-
-static void warn_of_walls(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull,
-                          const world *w, int32_t row)
-{
-    const scenario_vessel *v = e->keys;
-    const scenario_domain *d = &s->domain;
-    if (d->boundary != DOMAIN_WALLS || v->mode == VESSEL_FREE || v->path.count > 0 || !(v->speed > 0))
-        return;
-    double course = radians(automatic_or(v->course_deg, v->heading_deg));
-    vec3 at = w->bodies.position[w->vessels.body[row]];
-    box2 reach;
-    reach_along(&w->shapes.solids->data[hull->solid].surface, radians(v->heading_deg), &reach);
-    double way = fmin(way_left(at.x + reach.lo.x, at.x + reach.hi.x, d->x_min, d->x_max, real_cos(course)),
-                      way_left(at.y + reach.lo.y, at.y + reach.hi.y, d->y_min, d->y_max, real_sin(course)));
-    /* A speed that grows evenly over the ramp. */
-    double ramp = v->ramp,
-           time = way < 0.5 * v->speed * ramp ? sqrt(2 * way * ramp / v->speed) : way / v->speed + 0.5 * ramp;
-    if (time < s->run.duration)
-        log_write(ctx, LOG_WARNING, "the hull reaches a wall of the domain at t = %.4g s, after %.4g m", time, way);
-}
-
 void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *m, const world *w,
                      int32_t row)
 {
@@ -280,5 +240,5 @@ void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, con
     warn_of_stability(ctx, s, e, hull);
     warn_of_damping(ctx, e, hull);
     warn_of_springs(ctx, s, e, hull, w, row);
-    warn_of_walls(ctx, s, e, hull, w, row);
+    wall_warnings(ctx, s, e, m, w, row);
 }

@@ -37,6 +37,7 @@ const char *event_name(station_event kind)
         "ram",
         "approach",
         "approach_over",
+        "wall",
     };
     return (int)kind >= 0 && kind < EVENT_COUNT ? names[kind] : "unknown";
 }
@@ -83,6 +84,9 @@ void event_text(const event_table *events, int32_t row, const char *other, char 
         return;
     case EVENT_APPROACH_OVER:
         snprintf(out, size, "vessel %s is clear again: it came as near as %.4g m", other ? other : name, value);
+        return;
+    case EVENT_WALL:
+        snprintf(out, size, "the hull runs into a wall of the domain, with %.4g kN", value * 1e-3);
         return;
     case EVENT_COUNT:
         break;

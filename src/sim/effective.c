@@ -1,0 +1,247 @@
+#include "sim/effective.h"
+
+#include "base/transcendental.h"
+#include "model/scenario_vessel.h"
+#include "sim/build_media.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct teller {
+    context *ctx;
+    const scenario *s;
+    sanity_teller tell;
+    const void *to;
+} teller;
+
+enum { SENTENCE_SIZE = 380, PART_SIZE = 96 };
+static void say(const teller *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+static void say(const teller *t, const char *format, ...)
+{
+    char text[SENTENCE_SIZE];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    t->tell(t->to, text);
+}
+
+static const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+/* ---- directions ---- */
+
+/* Which eighth of the circle an angle lies in, counter-clockwise from that about 0. */
+static int eighth_of(double degrees)
+{
+    double turned = degrees / 45 - 8 * floor(degrees / 360);
+    return (int)floor(turned + 0.5) & 7;
+}
+
+/* As on a plan with x to the right and y up. */
+static const char *arrow_of(double towards)
+{
+    static const char *const arrows[] = {"→", "↗", "↑", "↖", "←", "↙", "↓", "↘"};
+    return arrows[eighth_of(towards)];
+}
+
+/* From where a flow meets a vessel of that heading, both in degrees, towards. */
+static const char *meets_from(double towards, double heading)
+{
+    static const char *const sides[] = {"ahead",  "the port bow",          "the port beam",      "the port quarter",
+                                        "astern", "the starboard quarter", "the starboard beam", "the starboard bow"};
+    return sides[eighth_of(towards + 180 - heading)];
+}
+
+/* "0.4 m/s towards 180 deg ←", with where a single vessel is met. */
+static void motion_words(const teller *t, double speed, double towards, char out[PART_SIZE])
+{
+    int n = snprintf(out, PART_SIZE, "%.4g m/s towards %.4g deg %s", speed, towards, arrow_of(towards));
+    if (speed > 0 && scenario_vessel_count(t->s) == 1)
+        snprintf(out + n, PART_SIZE - (size_t)n, ", from %s",
+                 meets_from(towards, scenario_vessel_entry(t->s, 0).keys->heading_deg));
+    else if (!(speed > 0))
+        snprintf(out, PART_SIZE, "0");
+}
+
+static double speed_of(vec3 v) { return sqrt(v.x * v.x + v.y * v.y); }
+static double direction_of(vec3 v) { return degrees(real_atan2(v.y, v.x)); }
+
+/* ---- wind, current, drift ---- */
+
+/* A flow: how it is called, its file of a history, or what it is all the time. */
+typedef struct flow {
+    const char *name, *file;
+    double speed, towards;
+} flow;
+
+static void tell_history(const teller *t, const flow *f, const velocity_series *h)
+{
+    char first[PART_SIZE], range[PART_SIZE];
+    double end = t->s->run.duration, least = HUGE_VAL, most = 0, rows_end = h->time[h->count - 1];
+    for (int32_t i = 0; i < h->count; i++) {
+        least = fmin(least, speed_of(h->velocity[i]));
+        most = fmax(most, speed_of(h->velocity[i]));
+    }
+    vec3 begins = velocity_series_at(h, 0), ends = velocity_series_at(h, end);
+    motion_words(t, speed_of(begins), direction_of(begins), first);
+    snprintf(range, sizeof range, "%.4g to %.4g m/s", least, most);
+    if (most - least < 1e-3 * most)
+        snprintf(range, sizeof range, "%.4g m/s", most);
+    say(t, "%s: by %s, %s in %d row%s to %.6g s: %s at the start, %.4g m/s towards %.4g deg %s at the end of the run",
+        f->name, file_name(f->file), range, (int)h->count, h->count == 1 ? "" : "s", rows_end, first, speed_of(ends),
+        direction_of(ends), arrow_of(direction_of(ends)));
+    if (rows_end < end)
+        say(t, "%s: its last row, of %.6g s, holds until the end of the run at %.6g s", f->name, rows_end, end);
+}
+
+static void tell_flow(const teller *t, const flow *f)
+{
+    char words[PART_SIZE];
+    if (!f->file[0]) {
+        motion_words(t, f->speed, f->towards, words);
+        say(t, "%s: %s", f->name, f->speed > 0 ? words : "none");
+        return;
+    }
+    velocity_series h = {0};
+    fram_error error = {0};
+    if (velocity_file_read(t->ctx, t->s, f->file, &h, &error) == FRAM_OK && h.count > 0)
+        tell_history(t, f, &h);
+    else
+        say(t, "%s: by %s, which cannot be read here: %s", f->name, file_name(f->file), error.message);
+    velocity_series_free(t->ctx, &h);
+}
+
+/* Of two steady flows. */
+static void tell_angle_between(const teller *t, const flow *drift, const flow *wind)
+{
+    double apart = fmod(fabs(drift->towards - wind->towards), 360);
+    if (!drift->file[0] && !wind->file[0] && drift->speed > 0 && wind->speed > 0)
+        say(t, "%s %s and wind %s are %.4g deg apart", drift->name, arrow_of(drift->towards), arrow_of(wind->towards),
+            fmin(apart, 360 - apart));
+}
+
+static void tell_flows(const teller *t)
+{
+    const scenario_environment *e = &t->s->environment;
+    const scenario_domain *d = &t->s->domain;
+    const flow current = {"current", e->current_file, e->current_speed, e->current_direction_deg};
+    const flow wind = {"wind", e->wind_file, e->wind_speed, e->wind_direction_deg};
+    bool fed = t->s->ice.source != ICE_NONE && d->boundary == DOMAIN_FEEDING;
+    bool own = fed && (d->drift_file[0] || !is_automatic(d->drift_speed));
+    const flow drift = {"drift of the ice", d->drift_file, automatic_or(d->drift_speed, 0), d->drift_direction_deg};
+    if (own)
+        tell_flow(t, &drift);
+    else if (fed)
+        say(t, "drift of the ice: with the current");
+    tell_flow(t, &current);
+    tell_flow(t, &wind);
+    tell_angle_between(t, own ? &drift : &current, &wind);
+}
+
+/* ---- ice ---- */
+
+/* The law of a population's sizes, "diameters 5 to 20 m by the power 1.7". */
+static void size_words(const scenario_population *p, char out[PART_SIZE])
+{
+    switch (p->size) {
+    case SIZE_CONSTANT:
+        snprintf(out, PART_SIZE, "diameter %.4g m", p->diameter);
+        return;
+    case SIZE_UNIFORM:
+        snprintf(out, PART_SIZE, "diameters %.4g to %.4g m, uniform", p->diameter_min, p->diameter_max);
+        return;
+    case SIZE_LOGNORMAL:
+        snprintf(out, PART_SIZE, "diameters %.4g to %.4g m, lognormal about %.4g m", p->diameter_min, p->diameter_max,
+                 p->diameter);
+        return;
+    case SIZE_POWER:
+        snprintf(out, PART_SIZE, "diameters %.4g to %.4g m, N(>D) as D^-%.3g", p->diameter_min, p->diameter_max,
+                 p->exponent);
+        return;
+    case SIZE_HISTOGRAM:
+        snprintf(out, PART_SIZE, "diameters by %.60s", file_name(p->histogram));
+        return;
+    }
+    out[0] = '\0';
+}
+
+static void tell_populations(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    double shares = 0;
+    if (i->source != ICE_PACKED && i->source != ICE_VORONOI)
+        return;
+    for (int32_t k = 0; k < i->populations.count; k++)
+        shares += i->populations.data[k].share;
+    for (int32_t k = 0; k < i->populations.count; k++) {
+        const scenario_population *p = &i->populations.data[k];
+        char sizes[PART_SIZE];
+        size_words(p, sizes);
+        say(t, "ice: population %d of %d: %.3g %% of the ice area, %s; %.4g m thick, flexural strength %.4g kPa, %s",
+            (int)k + 1, (int)i->populations.count, 100 * p->share / shares, sizes,
+            automatic_or(p->thickness, i->thickness), automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
+            i->breakable && p->breakable ? "breaks" : "does not break");
+    }
+}
+
+/* ---- vessels ---- */
+
+/* "12 mooring lines on a turret in 100 m of water, 2 thrusters, dynamic positioning". */
+static void keeping_words(const scenario_vessel *v, char out[SENTENCE_SIZE / 2])
+{
+    int64_t lines = 0;
+    size_t room = SENTENCE_SIZE / 2, n = 0;
+    for (int32_t i = 0; i < v->mooring.lines.count; i++)
+        lines += v->mooring.lines.data[i].count;
+    out[0] = '\0';
+    if (lines > 0)
+        n = (size_t)snprintf(out, room, ", %lld mooring line%s%s in %.4g m of water", (long long)lines,
+                             lines > 1 ? "s" : "", v->mooring.turret ? " on a turret" : "", v->mooring.depth);
+    if (v->thrusters.count > 0)
+        n += (size_t)snprintf(out + n, room - n, ", %d thruster%s", (int)v->thrusters.count,
+                              v->thrusters.count > 1 ? "s" : "");
+    if (v->positioning.active)
+        n += (size_t)snprintf(out + n, room - n, ", dynamic positioning%s",
+                              v->positioning.control == CONTROL_HEADING ? " of the heading alone" : "");
+    if (!is_automatic(v->propulsion.bollard_pull))
+        snprintf(out + n, room - n, ", own propulsion");
+    else if (n == 0)
+        snprintf(out, room, ", held by nothing");
+}
+
+static void tell_vessel(const teller *t, const vessel_entry *e)
+{
+    const scenario_vessel *v = e->keys;
+    char kept[SENTENCE_SIZE / 2], name[64];
+    snprintf(name, sizeof name, "vessel%s%.*s", v->name[0] ? " " : "", (int)VESSEL_NAME_MOST, v->name);
+    if (v->path.count > 0) {
+        say(t, "%s: goes along a path of %d points, the last at %.6g s", name, (int)v->path.count,
+            v->path.data[v->path.count - 1].time);
+    } else if (v->mode == VESSEL_FREE) {
+        keeping_words(v, kept);
+        say(t, "%s: free, bow towards %.4g deg %s, %.4g m/s at the start%s", name, v->heading_deg,
+            arrow_of(v->heading_deg), v->speed, kept);
+    } else {
+        double course = automatic_or(v->course_deg, v->heading_deg);
+        say(t, "%s: moves %.4g m in a step, %.4g m in the run, towards %.4g deg %s, bow towards %.4g deg %s", name,
+            v->speed * t->s->run.time_step, v->speed * t->s->run.duration, course, arrow_of(course), v->heading_deg,
+            arrow_of(v->heading_deg));
+    }
+}
+
+void effective_tell(context *ctx, const scenario *s, sanity_teller tell, const void *to)
+{
+    const teller t = {ctx, s, tell, to};
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
+        vessel_entry e = scenario_vessel_entry(s, i);
+        tell_vessel(&t, &e);
+    }
+    tell_populations(&t);
+    tell_flows(&t);
+}

@@ -1,0 +1,23 @@
+/* Whether vessels are going to meet a wall of the domain: told before a run, and noted as an event when it happens. One
+   module with vessel_check and step, which ask. */
+#ifndef SIM_WALL_CHECK_H
+#define SIM_WALL_CHECK_H
+
+#include "model/scenario_vessel.h"
+#include "model/world.h"
+
+/* Warnings to the log: a vessel on a carriage that reaches a wall, one under its own power that can, and way points in
+   a wall.  w holds the vessel. */
+void wall_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
+                   int32_t row);
+
+/* Which vessels have met a wall for the first time, by the solved contacts: events, told to the log.  false: no
+   memory. */
+bool wall_watch(context *ctx, const model *m, world *w);
+
+/* The fastest that a vessel goes by itself or on its carriage [m/s]: an upper bound for one under its own power. */
+double vessel_fastest(const scenario_vessel *v);
+/* Whether it goes on along its course: on a carriage, or under its own power where nothing says otherwise. */
+bool vessel_keeps_course(const scenario_vessel *v);
+
+#endif

@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# `fram check` and the report tell the scenario as it is computed: who keeps a vessel, histories, populations, arrows.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+cat >ship.yaml <<'YAML'
+run: {duration: 600, time_step: 0.05, transient: 60}
+vessel:
+  mode: free
+  heading_deg: 90
+  hull: {form: ship, length: 76, beam: 19, draught: 6.5, freeboard: 3.5, block_coefficient: 0.75}
+  mooring:
+    depth: 120
+    turret: true
+    lines:
+      - {count: 4, spacing_deg: 90, distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8}
+      - {kind: spring, direction_deg: 0, distance: 300, pretension: 1.0e5, stiffness: 1.0e6}
+  thrusters: [{x: 30, thrust: 2.0e5}]
+  positioning: {active: true, control: heading}
+ice:
+  source: packed
+  concentration: 0.7
+  thickness: 0.7
+  breakable: true
+  populations:
+    - {share: 3, size: constant, diameter: 20}
+    - {share: 1, size: power, diameter_min: 5, diameter_max: 12, thickness: 0.4, flexural_strength: 3.0e5,
+       breakable: false}
+domain:
+  {x_min: -200, x_max: 200, y_min: -200, y_max: 200, boundary: feeding, drift_speed: 0.3, drift_direction_deg: 45}
+environment: {current_file: current.csv, wind_speed: 9, wind_direction_deg: -80}
+YAML
+# 0.3 m/s to the left at first, downward at the end; halfway between the rows at 300 s.
+printf 'time[s],x[m/s],y[m/s]\n0,-0.3,0\n400,0,-0.5\n' >current.csv
+
+told() { says "$1" err; }
+expect 0 "$FRAM" check ship.yaml
+told "vessel: free, bow towards 90 deg ↑, 0 m/s at the start, 5 mooring lines on a turret in 120 m of water, \
+1 thruster, dynamic positioning of the heading alone"
+told "ice: population 1 of 2: 75 % of the ice area, diameter 20 m; 0.7 m thick, flexural strength 500 kPa, breaks"
+told "ice: population 2 of 2: 25 % of the ice area, diameters 5 to 12 m, N(>D) as D^-1.7; 0.4 m thick, flexural \
+strength 300 kPa, does not break"
+# The bow points up: what goes up and to the right comes from the lower left, which is the port quarter.
+told "drift of the ice: 0.3 m/s towards 45 deg ↗, from the port quarter"
+told "current: by current.csv, 0.3 to 0.5 m/s in 2 rows to 400 s: 0.3 m/s towards 180 deg ←, from the starboard beam \
+at the start, 0.5 m/s towards -90 deg ↓ at the end of the run"
+told "current: its last row, of 400 s, holds until the end of the run at 600 s"
+told "wind: 9 m/s towards -80 deg ↓, from ahead"
+told "drift of the ice ↗ and wind ↓ are 125 deg apart"
+
+# All eight arrows, and the sides from which a ship with its bow to the right is met.
+side() {
+    expect 0 "$FRAM" check ship.yaml --set vessel.heading_deg=0 --set "domain.drift_direction_deg=$1"
+    told "drift of the ice: 0.3 m/s towards $1 deg $2, from $3"
+}
+side 0 → astern
+side 45 ↗ "the starboard quarter"
+side 90 ↑ "the starboard beam"
+side 135 ↖ "the starboard bow"
+side 180 ← ahead
+side 225 ↙ "the port bow"
+side 270 ↓ "the port beam"
+side 315 ↘ "the port quarter"
+side -45 ↘ "the port quarter"
+
+# No ice, nothing that drifts.
+sed '/^ice:/,/^environment:/d' ship.yaml >open.yaml
+printf 'ice: {source: none}\ndomain: {boundary: open}\nenvironment: {wind_speed: 9}\n' >>open.yaml
+expect 0 "$FRAM" check open.yaml
+grep -q 'drift of the ice' err && fail "open water drifts as ice"
+told "wind: 9 m/s"
+
+# On a carriage.
+cat >tow.yaml <<'YAML'
+run: {duration: 60, time_step: 0.02}
+vessel: {mode: towed, speed: 1.5, course_deg: 180, hull: {length: 60, beam: 14, draught: 5}}
+ice: {source: none}
+domain: {boundary: open}
+YAML
+expect 0 "$FRAM" check tow.yaml
+told "vessel: moves 0.03 m in a step, 90 m in the run, towards 180 deg ←, bow towards 0 deg →"
+told "wind: none"
+
+# The report says the same, and that a history is not what it was where it is not.
+expect 0 "$FRAM" run tow.yaml -o towed --quiet --set run.duration=2 --set environment.current_file=current.csv
+echo nothing >current.csv
+expect 0 "$FRAM" report towed --quiet
+says "current: by current.csv, which cannot be read here" towed/report.html
+says "bow towards 0 deg →" towed/report.html
+
+# A wall that a ship under its own power drives into: said before, when it happens, and first in the report.
+cat >wall.yaml <<'YAML'
+run: {duration: 40, time_step: 0.02}
+vessel:
+  mode: free
+  speed: 3
+  hull: {form: ship, length: 80, beam: 18, draught: 6}
+  propulsion: {bollard_pull: 8.0e5, open_water_speed: 6, speed: 4}
+ice: {source: none}
+domain: {x_min: -60, x_max: 100, y_min: -60, y_max: 60, boundary: walls}
+YAML
+expect 0 "$FRAM" check wall.yaml --build
+# 100 - 40 m to the stem at 4 m/s; the freeboard of the raked stem takes a little of it.
+python3 - err <<'PY' || fail "the wall ahead is not told: $(grep wall err)"
+import re, sys
+way, time = map(float, re.search(r"can reach a wall of the domain, ([\d.]+) m ahead of the hull, at t = ([\d.]+) s",
+                                 open(sys.argv[1]).read()).groups())
+assert 55 < way <= 60 and abs(time - way / 4) < 0.01 * time, (way, time)
+PY
+expect 0 "$FRAM" check wall.yaml --build --set run.duration=10
+grep -q 'wall' err && fail "a wall out of reach is told: $(grep wall err)"
+expect 0 "$FRAM" check wall.yaml --build --set domain.boundary=open
+told "the vessel can leave the domain before the end"
+expect 0 "$FRAM" run wall.yaml -o hit
+same "$(grep -c 'the hull runs into a wall of the domain' err)" 1 "walls are told once"
+expect 0 "$FRAM" report hit --quiet
+says "The vessel ran into a wall of the domain at" hit/report.html
+python3 - <<'PY' || fail "the run does not name the wall"
+import json, re
+at = [e["time_s"] for e in json.load(open("hit/run.json"))["events"] if e["kind"] == "wall"]
+# It begins at 3 m/s and never exceeds 4: 55 to 60 m take 13.7 to 20 s.
+assert len(at) == 1 and 13.7 < at[0] < 20, at
+PY
+expect 0 "$FRAM" run wall.yaml -o clear --quiet --set run.duration=10
+expect 0 "$FRAM" report clear --quiet
+grep -q 'a wall of the domain at' clear/report.html && fail "a ship that is clear is said to be at a wall"
+
+# Way points in a wall.
+cp wall.yaml course.yaml
+sed -i 's/speed: 4}/speed: 4, waypoints: [{x: 50, y: 0}, {x: 50, y: 70}]}/' course.yaml
+expect 0 "$FRAM" check course.yaml --build
+told "vessel.propulsion.waypoints[1]: at (50, 70) m the hull stands in a wall of the domain"
+finish "the scenario is told as it is computed"
