@@ -220,10 +220,21 @@ typedef struct pair_case {
     prism p, q;
     const pair_policy *policy;
     nearness near;
+    bool whether; /* whether the two touch is all that is asked: the contacts are those of a patch */
+    bool touches; /* out */
     /* In and out: the remembered axis, and how far apart the two are along it, when that is more than the slack. */
     vec3 axis;
     double gap;
 } pair_case;
+
+/* The two touch, and nothing is remembered of them. */
+static bool touch_of_patch(pair_case *c)
+{
+    c->touches = true;
+    c->axis = vec3_make(0, 0, 0);
+    c->gap = 0;
+    return true;
+}
 
 /* Any two bodies, piece by piece. */
 static bool touch_compounds(context *ctx, narrow_room *room, const body_table *bodies, pair_case *c,
@@ -252,10 +263,13 @@ static bool touch_compounds(context *ctx, narrow_room *room, const body_table *b
             if (count < 0 ||
                 !add_contacts(ctx, bodies, a, b, piece_a, piece_b, normal, point, count, c->policy, contacts))
                 return false;
+            if (c->whether && count > 0)
+                return touch_of_patch(c);
             if (vec3_dot(axis, axis) > 0)
                 last = axis;
         }
     }
+    c->touches = contacts->count > first;
     contact_keys_part(contacts->data + first, contacts->count - first);
     c->gap = contacts->count == first ? axis_gap(a, b, last) : 0;
     bool remember = contacts->count == first && (!compound || c->gap > c->near.slack);
@@ -283,6 +297,7 @@ static bool touch_prisms(context *ctx, narrow_room *room, const body_table *bodi
     int32_t first = contacts->count;
     if (!add_contacts(ctx, bodies, &c->a, &c->b, 0, 0, normal, point, count, c->policy, contacts))
         return false;
+    c->touches = count > 0;
     contact_keys_part(contacts->data + first, count);
     c->gap = vec3_dot(c->axis, c->axis) > 0 ? axis_gap(&c->a, &c->b, c->axis) : 0;
     return true;
@@ -335,14 +350,18 @@ static void case_make(const narrow_work *w, int32_t row, const pair_policy *poli
     }
 }
 
+/* Two level plain prisms. */
+static bool may_meet_at_sides(const pair_case *c)
+{
+    return c->plain && c->a.rotation.m[2][2] >= NEARLY_LEVEL && c->b.rotation.m[2][2] >= NEARLY_LEVEL;
+}
+
 /* Whether contacts from `first` on are those of two level plain prisms side to side. */
 static bool meet_at_sides(const pair_case *c, const contact_array *contacts, int32_t first)
 {
-    if (!c->plain)
+    if (!may_meet_at_sides(c))
         return false;
     vec3 up_a = mat3_column(c->a.rotation, 2), up_b = mat3_column(c->b.rotation, 2);
-    if (up_a.z < NEARLY_LEVEL || up_b.z < NEARLY_LEVEL)
-        return false;
     double deepest = SHALLOW_SHARE * 2 * fmin(c->p.half_height, c->q.half_height);
     for (int32_t i = first; i < contacts->count; i++) {
         const contact *t = &contacts->data[i];
@@ -365,9 +384,11 @@ static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow
             continue;
         }
         int32_t first = contacts->count;
+        c->touches = false;
+        c->whether = c->policy->sides && !may_meet_at_sides(c);
         if (!(c->plain ? touch_prisms : touch_compounds)(w->ctx, room, w->bodies, c, contacts))
             return false;
-        if (c->policy->sides && contacts->count > first && !meet_at_sides(c, contacts, first)) {
+        if (c->policy->sides && c->touches && !meet_at_sides(c, contacts, first)) {
             contacts->count = first;
             if (!array_push(w->ctx, patch_pairs, c->row))
                 return false;
