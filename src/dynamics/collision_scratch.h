@@ -13,6 +13,14 @@ typedef struct grid_entry {
 /* What the broad phase found of a slot in this update. */
 enum { BOX_KEPT = 0, BOX_MOVED, BOX_NEW };
 
+/* A box around a fat box and what it was made for. */
+typedef struct wide_box {
+    box3 box;
+    uint32_t generation; /* 0: none */
+    uint8_t fixed;
+    bool renewed; /* in this update */
+} wide_box;
+
 /* What a block of bodies or pairs found; every block writes its own. */
 typedef struct box_block {
     bool changed; /* some body left its box, appeared or disappeared */
@@ -33,11 +41,13 @@ typedef struct narrow_room {
 
 struct collision_scratch {
     ARRAY(uint8_t) change;     /* of each slot, BOX_... */
-    ARRAY(grid_entry) filed;   /* of each slot */
+    ARRAY(grid_entry) filed;   /* of each slot with a wide box */
     ARRAY(grid_entry) entries; /* in the order of their buckets */
     int32_array bucket;        /* of each slot */
     int32_array bucket_start;
-    ARRAY(uint64_t) fresh; /* new pairs, a << 32 | b */
+    ARRAY(uint64_t) fresh;      /* pairs that were found, a << 32 | b */
+    ARRAY(wide_box) wide;       /* of each slot */
+    ARRAY(uint64_t) candidates; /* pairs whose wide boxes met when the later one was made, ascending */
     pair_table merged;
     ARRAY(box_block) box_blocks;
     ARRAY(pair_block) pair_blocks; /* beyond count: empty, but with their memory */
@@ -53,6 +63,13 @@ struct collision_scratch {
 fram_status broad_boxes_update(context *ctx, const body_table *bodies, const shape_store *shapes,
                                const collision_settings *settings, broad_table *boxes, collision_scratch *s, bool *any,
                                fram_error *error);
+
+/* ---- broad_candidates.c ---- */
+
+/* Brings wide boxes and the pairs of them up to date with fat boxes, after broad_boxes_update said that some changed:
+   every two bodies whose fat boxes meet, not both fixed, are a candidate.  false: no memory. */
+bool broad_candidates_update(context *ctx, const collision_settings *settings, const broad_table *boxes,
+                             collision_scratch *s);
 
 static inline box3 fat_box(const broad_table *boxes, int32_t slot) { return (box3){boxes->lo[slot], boxes->hi[slot]}; }
 
