@@ -185,6 +185,44 @@ static void draw_marks(cairo_t *page, const map *m, const plan_view *view)
     cairo_stroke(page);
 }
 
+static const image_colour chain = {0.20, 0.20, 0.22};
+
+/* Over floes and hull, so that the fairleads are seen too; anchors outside the window are cut off with it. */
+static void draw_lines(cairo_t *page, const map *m, const plan_view *view)
+{
+    const double anchor = 4;
+    image_set_colour(page, chain);
+    cairo_set_line_width(page, 1.6);
+    for (int32_t i = 0; i < view->line_count; i++) {
+        const plan_line *l = &view->lines[i];
+        cairo_move_to(page, map_x(m, l->upper), map_y(m, l->upper));
+        line_to(page, m, l->anchor);
+        cairo_stroke(page);
+        cairo_rectangle(page, map_x(m, l->anchor) - anchor, map_y(m, l->anchor) - anchor, 2 * anchor, 2 * anchor);
+        cairo_fill(page);
+    }
+}
+
+/* From the right to the left, on the line of the caption: an arrow of fixed length, and what it is of. */
+static void draw_flows(cairo_t *page, const plan_view *view, double right, double y)
+{
+    const double half = 13;
+    for (int32_t i = view->flow_count - 1; i >= 0; i--) {
+        const plan_flow *f = &view->flows[i];
+        char text[64];
+        double speed = vec2_length(f->velocity), x = right - half;
+        if (!(speed > 0))
+            continue;
+        snprintf(text, sizeof text, "%s %.3g m/s", f->name, speed);
+        vec2 way = vec2_scale(f->velocity, half / speed);
+        cairo_set_source_rgb(page, 0.10, 0.35, 0.60);
+        image_arrow(page, x - way.x, y - 4 + way.y, x + way.x, y - 4 - way.y, 2.2, 9);
+        image_set_colour(page, ink);
+        image_text(page, right - 2 * half - 6, y, 12, ALIGN_RIGHT, false, text);
+        right -= 2 * half + 24 + image_text_width(page, 12, false, text);
+    }
+}
+
 static void draw_arrows(cairo_t *page, const map *m, const plan_view *view)
 {
     cairo_set_source_rgb(page, 0.75, 0.05, 0.25);
@@ -249,8 +287,20 @@ static void draw_axes(cairo_t *page, double x, double y)
     image_text(page, x - 4, y - 29, 12, ALIGN_LEFT, true, "Y");
 }
 
-static void draw_legend(cairo_t *page, const bool used[PLAN_STYLE_COUNT], double right, double y)
+static void draw_legend(cairo_t *page, const plan_view *view, const bool used[PLAN_STYLE_COUNT], double right, double y)
 {
+    if (view->line_count > 0) {
+        static const char name[] = "mooring line";
+        right -= image_text_width(page, 12, false, name);
+        image_set_colour(page, ink);
+        image_text(page, right, y, 12, ALIGN_LEFT, false, name);
+        image_set_colour(page, chain);
+        cairo_set_line_width(page, 1.6);
+        cairo_move_to(page, right - 20, y - 5);
+        cairo_line_to(page, right - 6, y - 5);
+        cairo_stroke(page);
+        right -= 36;
+    }
     for (int s = PLAN_STYLE_COUNT - 1; s >= 0; s--) {
         if (!used[s])
             continue;
@@ -283,6 +333,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     cairo_paint(page);
     cairo_set_antialias(page, CAIRO_ANTIALIAS_FAST);
     draw_shapes(page, &m, view, used);
+    draw_lines(page, &m, view);
     draw_marks(page, &m, view);
     draw_arrows(page, &m, view);
     cairo_restore(page);
@@ -293,10 +344,11 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     image_text(page, m.left, 48, 12.5, ALIGN_LEFT, false, view->caption);
     draw_scale_bar(page, &m, view->arrow_scale, m.left, below);
     draw_axes(page, width - 60, 44);
+    draw_flows(page, view, width - 84, 50);
     if (view->scale_name)
         plan_view_colour_scale(page, view->scale_name, view->scale_lo, view->scale_hi, m.left + w * m.scale, below);
     else
-        draw_legend(page, used, m.left + w * m.scale, below);
+        draw_legend(page, view, used, m.left + w * m.scale, below);
 }
 
 static fram_status draw_page(const plan_view *view, int longest, cairo_t **page, fram_error *error)

@@ -36,6 +36,17 @@ typedef struct plan_arrow {
     vec2 from, to;
 } plan_arrow;
 
+/* A mooring line: from its upper end to its anchor [m]. */
+typedef struct plan_line {
+    vec2 upper, anchor;
+} plan_line;
+
+/* What moves over the whole of a plan: an arrow beside the title, with its name and speed. */
+typedef struct plan_flow {
+    const char *name;
+    vec2 velocity; /* [m/s] */
+} plan_flow;
+
 typedef struct plan_view {
     box2 window; /* shown part [m] */
     const char *title;
@@ -48,6 +59,10 @@ typedef struct plan_view {
     int32_t mark_count;
     const plan_arrow *arrows; /* of forces [m] */
     int32_t arrow_count;
+    const plan_line *lines; /* of a mooring */
+    int32_t line_count;
+    const plan_flow *flows;
+    int32_t flow_count;
     double arrow_scale;     /* of the arrows, told beside the scale bar [m/N]; 0: not told */
     const char *scale_name; /* of the shapes' values, with unit; NULL: none */
     double scale_lo, scale_hi;

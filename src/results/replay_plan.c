@@ -1,5 +1,9 @@
 #include "results/replay_plan.h"
 
+#include "model/scenario_vessel.h"
+
+#include <math.h>
+
 static const struct {
     const char *name, *title;
 } looks[PLAN_COLOUR_COUNT] = {
@@ -90,9 +94,42 @@ fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colou
     return good ? FRAM_OK : error_memory(error);
 }
 
+/* Horizontal distance of a line's anchor at the start, by its number among all lines of all vessels, from 1 [m]. */
+static double anchor_distance(const scenario *s, int32_t number)
+{
+    int64_t before = 0;
+    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
+        const scenario_mooring *m = &scenario_vessel_entry(s, v).keys->mooring;
+        for (int32_t i = 0; i < m->lines.count; i++) {
+            before += m->lines.data[i].count;
+            if (number <= before)
+                return m->lines.data[i].distance;
+        }
+    }
+    return 0;
+}
+
+fram_status replay_plan_lines(const replay *r, const scenario *s, replay_plan *out, fram_error *error)
+{
+    array_clear(&out->lines);
+    for (int32_t i = 0; i < r->frame.forces.count; i++) {
+        const replay_force *f = &r->frame.forces.data[i];
+        double level = sqrt(f->force.x * f->force.x + f->force.y * f->force.y);
+        if (f->kind != RECORD_FORCE_LINE || !(level > 0))
+            continue;
+        double way = anchor_distance(s, f->which) / level;
+        vec2 upper = vec2_make(f->point.x, f->point.y);
+        plan_line line = {upper, vec2_add(upper, vec2_make(f->force.x * way, f->force.y * way))};
+        if (!array_push(r->ctx, &out->lines, line))
+            return error_memory(error);
+    }
+    return FRAM_OK;
+}
+
 void replay_plan_free(context *ctx, replay_plan *p)
 {
     array_free(ctx, &p->shapes);
     array_free(ctx, &p->arrows);
+    array_free(ctx, &p->lines);
     array_free(ctx, &p->marks);
 }

@@ -3,6 +3,7 @@
 #define RESULTS_REPLAY_PLAN_H
 
 #include "io/plan_view.h"
+#include "model/scenario.h"
 #include "results/replay_moment.h"
 
 typedef enum plan_colour {
@@ -23,6 +24,7 @@ double plan_colour_value(plan_colour colour, const replay_body *b, const replay_
 typedef struct replay_plan {
     ARRAY(plan_shape) shapes; /* point into the moment */
     ARRAY(plan_arrow) arrows;
+    ARRAY(plan_line) lines; /* of moorings, by replay_plan_lines */
     vec2_array marks;
     vec2 vessel; /* centre of the first vessel [m] */
     bool has_vessel;
@@ -32,6 +34,9 @@ typedef struct replay_plan {
    last `mark_time` seconds. */
 fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colour colour, double lo, double hi,
                              double arrow, double mark_time, replay_plan *out, fram_error *error);
+/* Mooring lines of the current frame: from where they pull towards their anchors, as far off as the scenario says; none
+   where the record has no forces.  The run's time interpolates bodies, not forces: lines are those of the frame. */
+fram_status replay_plan_lines(const replay *r, const scenario *s, replay_plan *out, fram_error *error);
 void replay_plan_free(context *ctx, replay_plan *p);
 
 #endif

@@ -1,6 +1,7 @@
 /* The report's sections on the ice field and on what broke. */
 #include "results/report_parts.h"
 
+#include "io/plan_flows.h"
 #include "results/replay_plan.h"
 
 #include <stdio.h>
@@ -90,14 +91,21 @@ static fram_status draw_map(report *r, const replay *from, const replay_moment *
     char caption[96];
     const scenario_domain *s = &r->d.s.domain;
     snprintf(caption, sizeof caption, "t = %g s%s", m->time, mark_time > 0 ? "; crosses: where floes broke" : "");
+    plan_flows flows = plan_flows_at(r->ctx, &r->d.s, m->time);
     fram_status status = replay_plan_make(from, m, PLAN_COLOUR_PLAIN, 0, 1, 0, mark_time, &plan, error);
+    if (status == FRAM_OK)
+        status = replay_plan_lines(from, &r->d.s, &plan, error);
     plan_view view = {.window = {{s->x_min, s->y_min}, {s->x_max, s->y_max}},
                       .title = mark_time > 0 ? "The field at the end" : "The field at the start",
                       .caption = caption,
                       .shapes = plan.shapes.data,
                       .shape_count = plan.shapes.count,
                       .marks = plan.marks.data,
-                      .mark_count = plan.marks.count};
+                      .mark_count = plan.marks.count,
+                      .lines = plan.lines.data,
+                      .line_count = plan.lines.count,
+                      .flows = flows.flow,
+                      .flow_count = flows.count};
     if (status == FRAM_OK)
         status = plan_view_png(r->ctx, &view, MAP_PIXELS, &png, error);
     if (status == FRAM_OK)

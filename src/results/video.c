@@ -4,6 +4,7 @@
 #include "io/csv_read.h"
 #include "io/image.h"
 #include "io/path.h"
+#include "io/plan_flows.h"
 #include "io/scenario_file.h"
 #include "io/video_file.h"
 #include "model/scenario_vessel.h"
@@ -180,9 +181,12 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
         status =
             replay_plan_make(&v->r, &v->moment, v->options->colour, v->lo, v->hi, v->arrow, MARKED, &v->plan, error);
     if (status == FRAM_OK)
+        status = replay_plan_lines(&v->r, &v->s, &v->plan, error);
+    if (status == FRAM_OK)
         status = image_begin(width, v->options->height, page, error);
     if (status != FRAM_OK)
         return status;
+    plan_flows flows = plan_flows_at(v->ctx, &v->s, time);
     plan_view view = {.window = window_of(v, width - 28, height - 108),
                       .title = v->s.title[0] ? v->s.title : "Fram",
                       .caption = caption,
@@ -193,6 +197,10 @@ static fram_status draw_picture(video *v, double time, cairo_t **page, fram_erro
                       .arrows = v->plan.arrows.data,
                       .arrow_count = v->plan.arrows.count,
                       .arrow_scale = v->arrow,
+                      .lines = v->plan.lines.data,
+                      .line_count = v->plan.lines.count,
+                      .flows = flows.flow,
+                      .flow_count = flows.count,
                       .scale_name = plan_colour_title(v->options->colour),
                       .scale_lo = v->lo,
                       .scale_hi = v->hi};

@@ -9,8 +9,4 @@
    ascending; the velocity is along X and Y, towards.  environment.current_profile_file: columns depth [m], x, y; 1 to
    CURRENT_LEVELS rows, depths from 0 on ascending.  FRAM_ERROR_INPUT with file, and line or what is wrong. */
 fram_status build_media(context *ctx, const scenario *s, media_history *out, fram_error *error);
-/* One of those histories; "": none.  What was read until an error is in `out`, to be freed by the caller. */
-fram_status velocity_file_read(context *ctx, const scenario *s, const char *file, velocity_series *out,
-                               fram_error *error);
-
 #endif

@@ -1,8 +1,8 @@
 #include "sim/effective.h"
 
 #include "base/transcendental.h"
+#include "io/velocity_file.h"
 #include "model/scenario_vessel.h"
-#include "sim/build_media.h"
 
 #include <math.h>
 #include <stdio.h>

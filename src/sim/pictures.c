@@ -1,5 +1,6 @@
 #include "sim/pictures.h"
 
+#include "io/plan_flows.h"
 #include "io/plan_view.h"
 #include "sim/build_ice.h"
 
@@ -92,10 +93,29 @@ static fram_status collect(context *ctx, plan_store *p, const world *w, fram_err
     return FRAM_OK;
 }
 
+typedef ARRAY(plan_line) plan_line_array;
+
+/* Lines that still hold. */
+static bool collect_lines(context *ctx, const world *w, plan_line_array *out)
+{
+    for (int32_t i = 0; i < w->lines.count; i++) {
+        vec3 upper = body_to_global(&w->bodies, w->vessels.body[w->lines.vessel[i]], w->lines.fairlead[i]);
+        upper = vec3_add(upper, w->lines.arm[i]);
+        vec3 anchor = w->lines.anchor[i];
+        if (!w->lines.broken[i] && !array_push(ctx, out, ((plan_line){{upper.x, upper.y}, {anchor.x, anchor.y}})))
+            return false;
+    }
+    return true;
+}
+
 fram_status picture_plan(context *ctx, const scenario *s, const world *w, const char *path, fram_error *error)
 {
     plan_store p = {0};
+    plan_line_array lines = {0};
     fram_status status = collect(ctx, &p, w, error);
+    if (status == FRAM_OK && !collect_lines(ctx, w, &lines))
+        status = error_memory(error);
+    plan_flows flows = plan_flows_at(ctx, s, w->clock.time[0]);
     char caption[256];
     int32_t floes = 0;
     for (int32_t i = 0; i < w->floes.count; i++)
@@ -107,9 +127,14 @@ fram_status picture_plan(context *ctx, const scenario *s, const world *w, const 
                       .title = s->title[0] ? s->title : "Fram",
                       .caption = caption,
                       .shapes = p.shape.data,
-                      .shape_count = p.shape.count};
+                      .shape_count = p.shape.count,
+                      .lines = lines.data,
+                      .line_count = lines.count,
+                      .flows = flows.flow,
+                      .flow_count = flows.count};
     if (status == FRAM_OK)
         status = plan_view_write(ctx, &view, path, PLAN_PIXELS, error);
+    array_free(ctx, &lines);
     plan_store_free(ctx, &p);
     return status;
 }

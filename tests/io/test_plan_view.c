@@ -1,7 +1,9 @@
 /* Plan views: tilted prisms stand with their sides, and what lies under other ice is covered. */
+#include "io/plan_flows.h"
 #include "io/plan_view.h"
 
 #include "base/transcendental.h"
+#include "io/scenario_file.h"
 #include "testing.h"
 
 START_TEST(level_prism)
@@ -42,6 +44,52 @@ START_TEST(sorted)
     for (int i = 0; i < 4; i++)
         ck_assert_ptr_eq(s[i].outline.vertex, corner + expected[i]);
     plan_shapes_sort(s, 0);
+}
+END_TEST
+
+static plan_flows flows_of(const char *text, double time)
+{
+    context ctx;
+    scenario s;
+    fram_error error;
+    context_init(&ctx);
+    ck_assert_msg(scenario_parse(&ctx, "flows.yaml", text, strlen(text), NULL, &s, &error) == FRAM_OK, "%s",
+                  error.message);
+    plan_flows flows = plan_flows_at(&ctx, &s, time);
+    scenario_free(&ctx, &s);
+    return flows;
+}
+
+/* Drift of its own, current and wind towards 90, 180 and -30 degrees; what stands still is not there. */
+START_TEST(flows_that_move)
+{
+    plan_flows f = flows_of("domain: {boundary: feeding, drift_speed: 0.5, drift_direction_deg: 90}\n"
+                            "environment: {current_speed: 0.4, current_direction_deg: 180, wind_speed: 10,\n"
+                            "              wind_direction_deg: -30}\n",
+                            0);
+    ck_assert_int_eq(f.count, 3);
+    ck_assert_str_eq(f.flow[0].name, "drift");
+    assert_absolute(f.flow[0].velocity.y, 0.5, 1e-12);
+    ck_assert_str_eq(f.flow[1].name, "current");
+    assert_absolute(f.flow[1].velocity.x, -0.4, 1e-12);
+    ck_assert_str_eq(f.flow[2].name, "wind");
+    assert_absolute(f.flow[2].velocity.x, 10 * sqrt(0.75), 1e-12);
+    assert_absolute(f.flow[2].velocity.y, -5, 1e-12);
+    f = flows_of("ice: {source: none}\nenvironment: {wind_speed: 3}\n", 0);
+    ck_assert_int_eq(f.count, 1);
+    ck_assert_str_eq(f.flow[0].name, "wind");
+}
+END_TEST
+
+/* scenes/drift_reversal.csv: 0.3 m/s towards -X until 240 s, (0.3, 0.06) from 480 s on. */
+START_TEST(flows_of_a_history)
+{
+    const char *text = "environment: {current_file: scenes/drift_reversal.csv}\n";
+    plan_flows before = flows_of(text, 0), after = flows_of(text, 1700);
+    ck_assert_int_eq(before.count, 1);
+    assert_absolute(before.flow[0].velocity.x, -0.3, 1e-12);
+    assert_absolute(after.flow[0].velocity.x, 0.3, 1e-12);
+    assert_absolute(after.flow[0].velocity.y, 0.06, 1e-12);
 }
 END_TEST
 
@@ -141,10 +189,72 @@ START_TEST(level_ice_has_no_seams)
 }
 END_TEST
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, pieces_on_edge_and_under_the_sheet, level_ice_has_no_seams)
+/* A mooring line runs over the ice from its upper end to its anchor, and no further. */
+START_TEST(mooring_lines)
+{
+    enum { LONGEST = 800 };
+    const vec2 ring[4] = {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
+    plan_shape s = {.outline = {ring, 4}, .style = PLAN_FLOE};
+    const plan_line line = {{-5, 1}, {5, 1}};
+    for (int32_t count = 0; count < 2; count++) {
+        const plan_view view = {.window = {{-10, -10}, {10, 10}},
+                                .title = "",
+                                .caption = "",
+                                .shapes = &s,
+                                .shape_count = 1,
+                                .lines = &line,
+                                .line_count = count};
+        cairo_surface_t *page = drawn(&view, LONGEST);
+        for (double x = -4.9; x < 4.9; x += 0.1)
+            ck_assert_int_eq(is_floe(page, LONGEST, (vec2){x, 1}), !count);
+        ck_assert(is_floe(page, LONGEST, (vec2){-6, 1}) && is_floe(page, LONGEST, (vec2){6, 1}));
+        cairo_surface_destroy(page);
+    }
+}
+END_TEST
+
+/* Pixels of ink and colour over the plan, and the mean of their places. */
+static double header_middle(cairo_surface_t *page, int width, int *count)
+{
+    double sum = 0;
+    *count = 0;
+    for (int y = 0; y < 64; y++) {
+        const unsigned char *row = cairo_image_surface_get_data(page) + y * cairo_image_surface_get_stride(page);
+        for (int x = 0; x < width - 80; x++)
+            if (row[4 * x] > row[4 * x + 2] + 60) { /* blue, as no letter is */
+                sum += x;
+                ++*count;
+            }
+    }
+    return *count > 0 ? sum / *count : 0;
+}
+
+/* The arrow of a flow is as long whatever the speed, and heavier at its head. */
+START_TEST(flows_are_drawn)
+{
+    enum { LONGEST = 800 };
+    double middle[2];
+    for (int way = 0; way < 3; way++) {
+        const plan_flow flow = {"wind", {way == 0 ? 12 : way == 1 ? -0.1 : 0, 0}};
+        const plan_view view = {
+            .window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .flows = &flow, .flow_count = 1};
+        cairo_surface_t *page = drawn(&view, LONGEST);
+        int count;
+        double at = header_middle(page, LONGEST, &count);
+        if (way < 2)
+            middle[way] = at;
+        ck_assert_msg(way == 2 ? count == 0 : count > 40, "%d pixels", count);
+        cairo_surface_destroy(page);
+    }
+    ck_assert_msg(middle[0] > middle[1] + 2, "%g and %g", middle[0], middle[1]);
+}
+END_TEST
+
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history,
+          pieces_on_edge_and_under_the_sheet, level_ice_has_no_seams, mooring_lines, flows_are_drawn)
 
 #else
 
-TEST_MAIN("plan_view", level_prism, tilted_prism, sorted)
+TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history)
 
 #endif

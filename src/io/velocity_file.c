@@ -1,0 +1,66 @@
+#include "io/velocity_file.h"
+
+#include <math.h>
+
+/* As environment.wind_speed: more is a mistake in the units. */
+enum { SPEED_MOST = 200 };
+
+void velocity_rows_free(context *ctx, velocity_rows *rows)
+{
+    for (int i = 0; i < VELOCITY_COLUMNS; i++)
+        array_free(ctx, &rows->column[i]);
+}
+
+/* Line 1 is the header. */
+static fram_status check_rows(const velocity_rows *rows, const char *path, const char *first, fram_error *error)
+{
+    const double *at = rows->column[VELOCITY_AT].data;
+    int32_t count = rows->column[VELOCITY_AT].count;
+    if (count == 0)
+        return error_set(error, FRAM_ERROR_INPUT, path, 2, first, "expected at least one row of numbers, found none");
+    for (int32_t i = 0; i < count; i++) {
+        double x = rows->column[VELOCITY_X].data[i], y = rows->column[VELOCITY_Y].data[i];
+        if (!isfinite(at[i]) || !isfinite(x) || !isfinite(y))
+            return error_set(error, FRAM_ERROR_INPUT, path, i + 2, first, "expected finite numbers");
+        if (!(fabs(x) <= SPEED_MOST && fabs(y) <= SPEED_MOST))
+            return error_set(error, FRAM_ERROR_INPUT, path, i + 2, first, "expected at most %d m/s, found %g and %g",
+                             (int)SPEED_MOST, x, y);
+        if (i > 0 && !(at[i] > at[i - 1]))
+            return error_set(error, FRAM_ERROR_INPUT, path, i + 2, first,
+                             "expected more than %g, that of the row before, found %g", at[i - 1], at[i]);
+    }
+    return FRAM_OK;
+}
+
+fram_status velocity_rows_read(context *ctx, const scenario *s, const char *file, const char *first,
+                               velocity_rows *rows, fram_error *error)
+{
+    const char *const names[VELOCITY_COLUMNS] = {first, "x[m/s]", "y[m/s]"};
+    char path[2 * SCENARIO_TEXT_SIZE];
+    if (!scenario_resolve_path(s, file, path, sizeof path))
+        return error_set(error, FRAM_ERROR_INPUT, file, 0, NULL, "the path is too long");
+    fram_status status = csv_read(ctx, path, names, VELOCITY_COLUMNS, rows->column, error);
+    return status == FRAM_OK ? check_rows(rows, path, first, error) : status;
+}
+
+fram_status velocity_file_read(context *ctx, const scenario *s, const char *file, velocity_series *out,
+                               fram_error *error)
+{
+    if (!*file)
+        return FRAM_OK;
+    velocity_rows rows = {0};
+    fram_status status = velocity_rows_read(ctx, s, file, "time[s]", &rows, error);
+    if (status == FRAM_OK) {
+        int32_t count = rows.column[VELOCITY_AT].count;
+        out->time = memory_array(ctx, (size_t)count, sizeof *out->time);
+        out->velocity = memory_array(ctx, (size_t)count, sizeof *out->velocity);
+        status = out->time && out->velocity ? FRAM_OK : error_memory(error);
+        for (int32_t i = 0; i < count && status == FRAM_OK; i++) {
+            out->time[i] = rows.column[VELOCITY_AT].data[i];
+            out->velocity[i] = vec3_make(rows.column[VELOCITY_X].data[i], rows.column[VELOCITY_Y].data[i], 0);
+            out->count = count;
+        }
+    }
+    velocity_rows_free(ctx, &rows);
+    return status;
+}
