@@ -55,12 +55,22 @@ typedef struct fram_context fram_context;
 
 typedef enum fram_log_level { FRAM_LOG_ERROR, FRAM_LOG_WARNING, FRAM_LOG_INFO, FRAM_LOG_DEBUG } fram_log_level;
 
-/* realloc's contract: ptr NULL allocates, size 0 frees and returns NULL; NULL otherwise means no memory. */
+/* realloc's contract: ptr NULL allocates, size 0 frees and returns NULL; NULL otherwise means no memory.  A context of
+   more than one thread calls it from several at once. */
 typedef void *(*fram_memory_function)(void *user, void *ptr, size_t size);
 typedef void (*fram_log_function)(void *user, fram_log_level level, const char *text);
 /* How far the making of a world or a field is: `done` of `total`; total 0: rounds that are done, of nobody knows how
    many.  what: "packing the ice", valid during the call.  Called often: look at the clock before you draw. */
 typedef void (*fram_work_function)(void *user, const char *what, double done, double total);
+
+/* A part of Fram's work: the block, from 0, of a job that a fram_parallel_function was given.  worker: from 0 to the
+   context's threads - 1, no two calls at a time with the same. */
+typedef void (*fram_task_function)(void *task, int block, int worker);
+/* A task system of the program's own.  Calls run(task, b, worker) once for each b from 0 to blocks - 1, in any order,
+   on any threads, and returns when all these calls have returned.  Called from the thread that called the library, a
+   few to some hundred times a step, with blocks of some microseconds each; never nested, nor for two jobs of a context
+   at once. Of the program's functions, tasks call `memory` alone. */
+typedef void (*fram_parallel_function)(void *user, int blocks, fram_task_function run, void *task);
 
 typedef struct fram_context_definition {
     size_t size;                 /* of this struct, set by fram_context_default */
@@ -74,6 +84,10 @@ typedef struct fram_context_definition {
     const volatile int *stop; /* non-zero: making a world or a field ends with FRAM_INTERRUPTED; may be NULL */
     fram_work_function work;  /* NULL: silent */
     void *work_user;
+    fram_parallel_function parallel; /* in place of threads of Fram's own, of which there are none then; `threads` says
+                                        how many workers it has.  NULL: Fram's own.  A call that breaks the contract is
+                                        not let in, and steps fail from then on: FRAM_ERROR_USAGE, key "parallel" */
+    void *parallel_user;
 } fram_context_definition;
 
 FRAM_API void fram_context_default(fram_context_definition *definition);

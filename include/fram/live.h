@@ -10,8 +10,8 @@
 
    Memory.  Arrays that a call fills belong to the caller and need no alignment beyond that of their type; a count that
    is larger than the room says that the rest was left out.  Pointers of a view (fram_world_view) belong to the world.
-   Callbacks are called from the thread that called the library, never from one of its own, and during that call alone;
-   their user pointer is handed back as it is.  They must not call functions on the same world or context.
+   Callbacks but `memory` are called from the thread that called the library, never from one of its own, and during that
+   call alone; their user pointer is handed back as it is.  They must not call functions on the same world or context.
 
    Threads.  One world from one thread at a time.  Worlds of one context may be used from different threads at once when
    the context has one thread (the default) and its memory and log functions can be called so; the C library's can.

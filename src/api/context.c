@@ -3,6 +3,7 @@
 #include "api/handles.h"
 
 #include "base/build.h"
+#include "base/lent_threads.h"
 #include "base/pool.h"
 #include "fram/version.h"
 
@@ -66,6 +67,21 @@ static fram_status choose_isa(context *inner, const char *name, fram_error *erro
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "isa", "expected baseline, avx2 or avx512, found \"%s\"", name);
 }
 
+/* Those of the program, or as many of Fram's own. */
+static fram_status start_threads(context *inner, const fram_context_definition *d, fram_error *error)
+{
+    if (d->parallel) {
+        inner->lent = lent_threads_create(inner, d->threads, d->parallel, d->parallel_user);
+        return inner->lent ? FRAM_OK : error_memory(error);
+    }
+    if (d->threads == 1)
+        return FRAM_OK;
+    inner->threads = pool_create(inner, d->threads);
+    if (!inner->threads)
+        return error_set(error, FRAM_ERROR_MEMORY, NULL, 0, "threads", "%d threads could not be started", d->threads);
+    return FRAM_OK;
+}
+
 fram_status fram_context_create(const fram_context_definition *definition, fram_context **out, fram_error *error)
 {
     fram_context_definition d;
@@ -99,13 +115,10 @@ fram_status fram_context_create(const fram_context_definition *definition, fram_
         made->inner.log = forward_log;
         made->inner.log_user = made;
     }
-    if (d.threads > 1) {
-        made->inner.threads = pool_create(&made->inner, d.threads);
-        if (!made->inner.threads) {
-            memory_free(&inner, made);
-            return error_set(error, FRAM_ERROR_MEMORY, NULL, 0, "threads", "%d threads could not be started",
-                             d.threads);
-        }
+    status = start_threads(&made->inner, &d, error);
+    if (status != FRAM_OK) {
+        memory_free(&inner, made);
+        return status;
     }
     *out = made;
     return FRAM_OK;
@@ -119,6 +132,8 @@ void fram_context_destroy(fram_context *c)
     c->inner.threads = NULL;
     if (threads)
         pool_free(&c->inner, threads);
+    lent_threads_free(&c->inner, c->inner.lent);
+    c->inner.lent = NULL;
     context inner = c->inner;
     memory_free(&inner, c);
 }

@@ -11,6 +11,7 @@
 #include <stdint.h>
 
 typedef struct pool pool;
+typedef struct lent_threads lent_threads;
 
 typedef enum log_level { LOG_ERROR, LOG_WARNING, LOG_INFO, LOG_DEBUG } log_level;
 
@@ -32,8 +33,9 @@ typedef struct context {
     const volatile int *stop; /* non-zero: work that asks work_continue ends; may be NULL */
     work_function work;       /* NULL: silent */
     void *work_user;
-    pool *threads; /* NULL: everything runs on the calling thread */
-    isa isa;       /* which kernels to run; results are the same to the bit */
+    pool *threads;      /* NULL: everything runs on the calling thread, or on those of `lent` */
+    lent_threads *lent; /* threads of the program, in place of a pool; NULL: none */
+    isa isa;            /* which kernels to run; results are the same to the bit */
 } context;
 
 /* Defaults: the C library's memory, no log, no threads, the best instruction set of this processor. */

@@ -12,6 +12,7 @@
 #define _GNU_SOURCE /* sched_getaffinity */
 #endif
 #include "base/pool.h"
+#include "base/lent_threads.h"
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
@@ -176,7 +177,12 @@ void pool_free(context *ctx, pool *p)
 
 int pool_threads(const pool *p) { return p->threads; }
 
-int context_threads(const context *ctx) { return ctx->threads ? pool_threads(ctx->threads) : 1; }
+int context_threads(const context *ctx)
+{
+    if (ctx->lent)
+        return lent_threads_count(ctx->lent);
+    return ctx->threads ? pool_threads(ctx->threads) : 1;
+}
 
 /* Lets workers know of a published job of `blocks` blocks: no more than it can feed, and none that is awake. */
 static void workers_wake(pool *p, int32_t blocks)
@@ -211,6 +217,10 @@ static void job_await(pool *p)
 
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
 {
+    if (ctx->lent) {
+        lent_threads_run(ctx, fn, arg, blocks);
+        return;
+    }
     pool *p = ctx->threads;
     if (!p || p->threads == 1 || blocks <= 1) {
         for (int32_t block = 0; block < blocks; block++)

@@ -14,10 +14,11 @@ pool *pool_create(context *ctx, int threads);
 /* No job may be running; p may be NULL. */
 void pool_free(context *ctx, pool *p);
 int pool_threads(const pool *p);
-/* Run fn for block 0..blocks-1 and wait.  thread is 0..pool_threads-1 (for per-thread scratch).  With
-   ctx->threads NULL or a single block, runs on the caller.  Not re-entrant. */
+/* Run fn for block 0..blocks-1 and wait.  thread is 0..context_threads-1 (for per-thread scratch).  On the program's
+   threads where it lent some; with neither these nor ctx->threads, or a single block, on the caller.  Not re-entrant.
+ */
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
-/* pool_threads, or 1 without a pool. */
+/* Of the pool or the program; 1 without both. */
 int context_threads(const context *ctx);
 
 #endif

@@ -1,5 +1,6 @@
 #include "sim/step.h"
 
+#include "base/lent_threads.h"
 #include "model/world_invariants.h"
 #include "sim/approach_watch.h"
 #include "sim/events_tell.h"
@@ -376,7 +377,8 @@ fram_status world_step_watched(context *ctx, const model *m, world *w, const ste
     }
     w->clock.step[0]++;
     w->clock.time[0] = (double)w->clock.step[0] * m->time_step;
-    return check_state(m, w, error);
+    fram_status status = check_state(m, w, error);
+    return status == FRAM_OK ? lent_threads_check(ctx, error) : status;
 }
 
 fram_status world_step(context *ctx, const model *m, world *w, fram_error *error)
