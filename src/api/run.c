@@ -273,7 +273,7 @@ fram_status fram_playback(fram_context *c, const fram_playback_definition *defin
         status = REFUSE_NULL(error, {"folder", d->folder}, {"viewer_page", d->viewer_page}, {"output", d->output});
     if (status != FRAM_OK)
         return status;
-    const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit};
+    const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit, d->pressure};
     playback_report report = {0};
     status = playback_write(&c->inner, d->folder, &options, &report, error);
     if (result)

@@ -45,6 +45,8 @@ int command_view(const command_row *self, int argc, char **argv)
     fram_playback_default(&definition);
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &definition.output, "FILE", "the page (RUN/playback.html)"},
+        {"--pressure", NULL, OPTION_TEXT, &definition.pressure, "DIR",
+         "also the pressure on the hull, from a folder that fram pressure made of this run"},
         {"--page", NULL, OPTION_TEXT, &definition.viewer_page, "FILE",
          "the viewer's page, if it is not beside the command"},
         {"--page-limit", NULL, OPTION_REAL, &page_mb, "MB",

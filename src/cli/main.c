@@ -57,7 +57,8 @@ static const command_row commands[] = {
      command_fmu},
     {"view", "RUN", "make a page that plays a run in a browser, from disk",
      "  fram view out/demo                      writes out/demo/playback.html\n"
-     "  fram view out/demo -o demo.html\n",
+     "  fram view out/demo -o demo.html\n"
+     "  fram view out/demo --pressure out/demo-pressure\n",
      command_view},
     {"export", "RUN --vtk | --netcdf | --geojson", "write a run's results in the formats of other programs",
      "  fram export out/demo --vtk                       for ParaView: out/demo/vtk/run.pvd\n"

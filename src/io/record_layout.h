@@ -21,6 +21,12 @@
     12 peak      only in peaks.fram: what carried a large ice load on a vessel, io/peak_block.h
     10 beside    only in playback pages: i32 number of the file beside the page, i32 offset in its blocks, then a
    frame's first 48 bytes; the frame itself and its forces stand there
+    13 loads     only in playback pages: JSON, the load of each vessel by mechanism, its peaks explained
+                 (results/playback_explained.c)
+    14 pressure  only in pressure.fram and playback pages: ice pressure on a hull: hash of the scenario (64 characters),
+                 f64 from, f64 to [s], i32 number of the vessel (from 0), i32 panels, i32 triangles, i32 0; per panel
+                 f32 mean and largest pressure [Pa], time of that [s]; per triangle i32 panel; per triangle f32 x y z
+                 of its corners (ship coordinates less the centre of mass: the frame of block 2)
 
    Types 3, 5 and 8 were births and frames of earlier layouts and are not written any more. Solids are announced by
    block 2 and take part in frames when they move. */
@@ -41,11 +47,15 @@ enum {
     BLOCK_FORCES = 9,
     BLOCK_FRAME_BESIDE = 10,
     BLOCK_FRAME = 11,
-    BLOCK_PEAK = 12
+    BLOCK_PEAK = 12,
+    BLOCK_LOADS = 13,
+    BLOCK_PRESSURE = 14
 };
 
 /* Bytes of a frame before its poses. */
 enum { FRAME_HEAD_SIZE = 48 };
+/* Of a pressure block: the hash, and all before its panels. */
+enum { PRESSURE_HASH_SIZE = 64, PRESSURE_HEAD_SIZE = 96 };
 
 /* Kinds of a force on a vessel. */
 typedef enum record_force_kind {

@@ -30,7 +30,7 @@ typedef enum ice_mechanism {
     X(INERTIA, "inertia", "held by its inertia")                 \
     X(WATER, "water", "held by water and weight")                \
     X(SHEET, "sheet", "it is fixed ice")                         \
-    X(DRIVEN, "driven", "it is driven ice: the edge of a field") \
+    X(DRIVEN, "driven", "it is driven ice: the edge of a field, or a sheet that drifts") \
     X(WALL, "wall", "it is a wall")                              \
     X(VESSEL, "vessel", "it is a vessel")                        \
     X(LOOP, "loop", "the chain comes back to a floe of its own, or is too long")

@@ -3,6 +3,7 @@
 #include "io/record.h"
 #include "io/record_layout.h"
 #include "results/playback_chunks.h"
+#include "results/playback_explained.h"
 
 #include <errno.h>
 #include <string.h>
@@ -31,6 +32,8 @@ static fram_status measure(record_reader *r, record_measure *m, fram_error *erro
         fram_status status = record_next(r, &block, &found, error);
         if (status == FRAM_OK && !found)
             record_tell_damage(r, "what comes before it is played");
+        if (status == FRAM_OK && found)
+            status = record_check_block(r->path, block.type, error);
         if (status != FRAM_OK || !found)
             return status;
         m->frames += block.type == BLOCK_FRAME;
@@ -85,6 +88,7 @@ typedef struct page_writer {
     playback_layout layout;
     int64_t count;              /* frames that are kept in all */
     uint64_t forces, forces_to; /* forces that belong to the next frame: where they begin and end; 0: none */
+    text_buffer explained;      /* blocks that stand in the page only */
     base64_writer page;
     chunk_writer chunks;
     playback_report *report;
@@ -168,6 +172,8 @@ static fram_status copy_record(page_writer *w, fram_error *error)
             status = copy_bytes(w, block.offset, w->r->position, &w->page, error);
         }
     }
+    if (status == FRAM_OK && w->explained.count > 0)
+        status = base64_write(&w->page, w->explained.data, (size_t)w->explained.count, error);
     return status == FRAM_OK ? base64_end(&w->page, error) : status;
 }
 
@@ -261,7 +267,7 @@ static fram_status write_all(context *ctx, page_writer *w, const playback_option
 }
 
 static fram_status write_record(context *ctx, record_reader *r, const char *path, const playback_options *options,
-                                playback_report *report, fram_error *error)
+                                page_writer *w, fram_error *error)
 {
     uint64_t first = r->position;
     record_measure m;
@@ -275,13 +281,14 @@ static fram_status write_record(context *ctx, record_reader *r, const char *path
         status = read_viewer(ctx, options->viewer, &page, &size, error);
     if (status != FRAM_OK)
         return status;
-    page_writer w = {.r = r, .path = path, .layout = lay_out(&m, options, size), .report = report};
-    w.count = (m.frames + w.layout.stride - 1) / w.layout.stride;
-    w.from = fopen(path, "rb");
+    m.other_bytes += (uint64_t)w->explained.count;
+    w->layout = lay_out(&m, options, size);
+    w->count = (m.frames + w->layout.stride - 1) / w->layout.stride;
+    w->from = fopen(path, "rb");
     record_seek(r, first);
-    status = w.from ? write_all(ctx, &w, options, page, size, error) : file_error(error, path, "open", errno);
-    if (w.from)
-        fclose(w.from);
+    status = w->from ? write_all(ctx, w, options, page, size, error) : file_error(error, path, "open", errno);
+    if (w->from)
+        fclose(w->from);
     memory_free(ctx, page);
     return status;
 }
@@ -297,7 +304,11 @@ fram_status playback_write(context *ctx, const char *folder, const playback_opti
     fram_status status = record_open(ctx, path, &r, error);
     if (status != FRAM_OK)
         return status;
-    status = write_record(ctx, &r, path, options, report, error);
+    page_writer w = {.r = &r, .path = path, .report = report};
+    status = playback_explain(ctx, folder, options->pressure, &w.explained, error);
+    if (status == FRAM_OK)
+        status = write_record(ctx, &r, path, options, &w, error);
+    text_free(ctx, &w.explained);
     record_reader_close(&r);
     return status;
 }

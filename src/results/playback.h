@@ -10,6 +10,7 @@ typedef struct playback_options {
     const char *output;   /* the page to write */
     uint64_t page_limit;  /* largest single page [bytes]; 0: 50 MB */
     uint64_t total_limit; /* page and files beside it [bytes]; above, only every n-th frame is kept; 0: 500 MB */
+    const char *pressure; /* folder of fram pressure on this run; NULL: none */
 } playback_options;
 
 typedef struct playback_report {
@@ -17,7 +18,8 @@ typedef struct playback_report {
     int64_t files;            /* beside the page */
 } playback_report;
 
-/* Put FOLDER/record.fram into a page.  FRAM_ERROR_INPUT when the record has no frame or the viewer's page is none. */
+/* Put FOLDER/record.fram into a page.  FRAM_ERROR_INPUT when the record has no frame, the viewer's page is none, or
+   the pressure is not of this run. */
 fram_status playback_write(context *ctx, const char *folder, const playback_options *options, playback_report *report,
                            fram_error *error);
 /* The viewer's page that follows a record at a relative address, in memory of ctx. */

@@ -1,6 +1,7 @@
 /* The report's section on what makes the load: mechanisms over time, stacked, and the ten largest peaks in words. */
 #include "results/report_parts.h"
 
+#include "results/mechanism_curve.h"
 #include "results/peaks.h"
 
 #include <stdio.h>
@@ -42,23 +43,17 @@ static bool make_room(report *r, stacked *s)
 /* The bins begin at the first row; each has the same number of rows but the last. */
 static bool find_parts(const report *r, int32_t every, stacked *s)
 {
-    const double *time = run_channel(&r->d, "time"), *x[MECHANISM_COUNT], *y[MECHANISM_COUNT];
-    for (int m = 0; m < MECHANISM_COUNT; m++) {
-        char name[64];
-        snprintf(name, sizeof name, "mechanism_%s_x", mechanism_name((ice_mechanism)m));
-        x[m] = run_vessel_channel(&r->d, r->vessel, name);
-        name[strlen(name) - 1] = 'y';
-        y[m] = run_vessel_channel(&r->d, r->vessel, name);
-        if (!x[m] || !y[m])
-            return false;
-    }
+    const double *time = run_channel(&r->d, "time");
+    mechanism_columns c;
+    if (!mechanism_columns_find(&r->d, r->vessel, &c))
+        return false;
     for (int32_t b = 0; b < s->bins; b++) {
         double fx[MECHANISM_COUNT] = {0}, fy[MECHANISM_COUNT] = {0}, all_x = 0, all_y = 0;
         int32_t first = b * every, end = first + every < r->d.series.rows ? first + every : r->d.series.rows;
         for (int m = 0; m < MECHANISM_COUNT; m++) {
             for (int32_t i = first; i < end; i++) {
-                fx[m] += x[m][i] / (end - first);
-                fy[m] += y[m][i] / (end - first);
+                fx[m] += c.x[m][i] / (end - first);
+                fy[m] += c.y[m][i] / (end - first);
             }
             all_x += fx[m];
             all_y += fy[m];

@@ -46,14 +46,23 @@ static int32_t next_neighbour(const world *w, int32_t *entry, vec3 *sum)
     return other;
 }
 
-static vec3 push_of(const world *w, double per_time, int32_t from, int32_t body)
+/* A link with what pushes it. */
+static chain_link link_of(const world *w, double per_time, int32_t from, int32_t body)
 {
-    vec3 sum = {0, 0, 0}, part;
-    for (int32_t entry = w->scratch.web_first.data[body]; entry >= 0;) {
-        if (next_neighbour(w, &entry, &part) == from)
-            sum = vec3_add(sum, part);
+    chain_link l = {.body = body, .point = w->bodies.position[body]};
+    vec3 place = {0, 0, 0};
+    double size = 0;
+    for (int32_t entry = w->scratch.web_first.data[body]; entry >= 0; entry = w->scratch.web_next.data[entry]) {
+        vec3 impulse;
+        if (web_read(w, entry, &impulse) != from)
+            continue;
+        l.push = vec3_mad(l.push, impulse, per_time);
+        place = vec3_mad(place, w->scratch.contacts.data[entry / 2].point, vec3_length(impulse));
+        size += vec3_length(impulse);
     }
-    return vec3_scale(sum, per_time);
+    if (size > 0)
+        l.point = vec3_scale(place, 1 / size);
+    return l;
 }
 
 /* What holds a body that moves against the push of `from`; the one that does most is the answer, -1: none. */
@@ -96,6 +105,7 @@ static chain_end end_at(const world *w, int32_t body)
     case MOTION_STATIC:
         return CHAIN_SHEET;
     case MOTION_PRESCRIBED:
+    case MOTION_CARRIED:
         return CHAIN_DRIVEN;
     default: /* free, or gone since the contacts were solved */
         return CHAIN_LOOP;
@@ -116,7 +126,7 @@ void force_chain_follow(const world *w, double time_step, int32_t from, int32_t 
     chain->end = CHAIN_LOOP;
     while (chain->count < CHAIN_MOST_LINKS && !is_in(chain, body)) {
         chain_link *l = &chain->link[chain->count++];
-        *l = (chain_link){.body = body, .push = push_of(w, 1 / time_step, from, body)};
+        *l = link_of(w, 1 / time_step, from, body);
         chain->end = end_at(w, body);
         if (chain->end != CHAIN_LOOP)
             return;

@@ -13,6 +13,7 @@ enum { CHAIN_MOST_LINKS = 256 };
 typedef struct chain_link {
     int32_t body;  /* slot */
     vec3 push;     /* on it, from the body before, mean over the step, global frame [N] */
+    vec3 point;    /* where that acts, weighted by the sizes of the impulses; of the body without a push [m] */
     double others; /* held back by its other contacts [N] */
     double water;  /* by water, air and weight [N] */
     double inertia;

@@ -88,6 +88,7 @@ static fram_status make_panels(pressure_map *p, const model *m, fram_error *erro
     if (!mesh_copy(p->ctx, &hull, &m->solids.data[v->solid].surface))
         return error_memory(error);
     mesh_translate(&hull, v->centre);
+    p->centre = v->centre;
     fram_status status = pressure_begin(p, &hull, error);
     mesh_free(p->ctx, &hull);
     return status;

@@ -14,12 +14,12 @@ typedef struct pressure_options {
     bool force;         /* write into a folder that is not empty */
 } pressure_options;
 
-/* Writes panels.csv, area.csv, hull.vtp, and pressure.png in a build with cairo.  The force of a crushing patch is
-   spread over the rectangle that has its second moments, each part to the nearest panel that faces it.  Pressure is the
-   normal force on a panel over its area [Pa], in a step; cumulative is the integral over time [Pa s].  The forces of
-   all panels, friction included, add up to the ice load on the vessel in its own axes.  FRAM_ERROR_INPUT: no run, no
-   such vessel, panels that hull_panels_make refuses, no step between the times, inputs that were changed since.
-   FRAM_INTERRUPTED when the context's stop flag is set; nothing is written then. */
+/* Writes panels.csv, area.csv, zones.csv, hull.vtp, pressure.fram, and pressure.png in a build with cairo.  The force
+   of a crushing patch is spread over the rectangle that has its second moments, each part to the nearest panel that
+   faces it.  Pressure is the normal force on a panel over its area [Pa], in a step; cumulative is the integral over
+   time [Pa s].  The forces of all panels, friction included, add up to the ice load on the vessel in its own axes.
+   FRAM_ERROR_INPUT: no run, no such vessel, panels that hull_panels_make refuses, no step between the times, inputs
+   that were changed since. FRAM_INTERRUPTED when the context's stop flag is set; nothing is written then. */
 fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_error *error);
 
 #endif

@@ -40,6 +40,7 @@ typedef struct pressure_map {
     const pressure_options *o;
     scenario s;
     int32_t vessel; /* row */
+    vec3 centre;    /* of its mass, ship coordinates */
     hull_panels panels;
     panel_load *load;    /* by panel */
     int32_array touched; /* panels of this step */

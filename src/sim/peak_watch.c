@@ -171,8 +171,10 @@ static void add_chain(const world *w, double time_step, int32_t hull, force_chai
     f->end = (uint8_t)(count < chain->count ? CHAIN_LOOP : chain->end);
     for (int32_t i = 0; i < count; i++) {
         const chain_link *l = &chain->link[i];
-        d->link[d->link_count++] = (peak_link){
-            l->body, number_at(w, l->body), w->bodies.position[l->body], l->push, l->others, l->water, l->inertia};
+        /* The middle of a sheet or a wall may be far away. */
+        vec3 place = w->bodies.motion[l->body] == MOTION_DYNAMIC ? w->bodies.position[l->body] : l->point;
+        d->link[d->link_count++] =
+            (peak_link){l->body, number_at(w, l->body), place, l->push, l->others, l->water, l->inertia};
     }
 }
 

@@ -1,11 +1,17 @@
-/* Panels as tables and for ParaView. */
+/* Panels as tables, for ParaView and for the playback page. */
 #include "sim/hull_pressure_parts.h"
 
 #include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/path.h"
+#include "io/record_layout.h"
+#include "io/scenario_file.h"
 #include "io/vtk_file.h"
 #include "sim/run_folder.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <unistd.h>
 
 double iso_local_pressure(double area) { return area <= 10 ? 7.4e6 * real_pow(area, -0.7) : 1.48e6; }
 
@@ -130,6 +136,84 @@ static fram_status write_hull(pressure_map *p, fram_error *error)
     return status;
 }
 
+/* ---- for the playback page: io/record_layout.h, block 14 ---- */
+
+static void add_int(context *ctx, text_buffer *out, int32_t value)
+{
+    text_add_bytes(ctx, out, (const char *)&value, sizeof value);
+}
+
+static void add_float(context *ctx, text_buffer *out, double value)
+{
+    float f = (float)value;
+    text_add_bytes(ctx, out, (const char *)&f, sizeof f);
+}
+
+static void add_triangles(pressure_map *p, text_buffer *out)
+{
+    const mesh *t = &p->panels.triangle;
+    for (int32_t i = 0; i < t->face.count; i++)
+        add_int(p->ctx, out, p->panels.triangle_panel.data[i]);
+    for (int32_t i = 0; i < t->face.count; i++)
+        for (int k = 0; k < 3; k++) {
+            vec3 c = vec3_sub(t->vertex.data[t->face.data[i].v[k]], p->centre);
+            add_float(p->ctx, out, c.x);
+            add_float(p->ctx, out, c.y);
+            add_float(p->ctx, out, c.z);
+        }
+}
+
+static void fill_block(pressure_map *p, const char *hash, text_buffer *out)
+{
+    const double times[2] = {p->o->from, p->o->from + p->time};
+    text_add_bytes(p->ctx, out, hash, PRESSURE_HASH_SIZE);
+    text_add_bytes(p->ctx, out, (const char *)times, sizeof times);
+    add_int(p->ctx, out, p->vessel);
+    add_int(p->ctx, out, p->panels.panel.count);
+    add_int(p->ctx, out, p->panels.triangle.face.count);
+    add_int(p->ctx, out, 0);
+    for (int32_t i = 0; i < p->panels.panel.count; i++) {
+        double area = p->panels.panel.data[i].area;
+        add_float(p->ctx, out, p->load[i].sum / p->time / area);
+        add_float(p->ctx, out, p->load[i].most / area);
+        add_float(p->ctx, out, p->load[i].when);
+    }
+    add_triangles(p, out);
+}
+
+static fram_status write_block(pressure_map *p, const char *path, const text_buffer *block, fram_error *error)
+{
+    record_writer file;
+    fram_status status = record_create(p->ctx, path, &file, error);
+    if (status != FRAM_OK)
+        return status;
+    record_part part = {block->data, (size_t)block->count};
+    status = record_append(&file, BLOCK_PRESSURE, &part, 1, error);
+    fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
+    return status == FRAM_OK ? closed : status;
+}
+
+static fram_status write_for_page(pressure_map *p, fram_error *error)
+{
+    char path[PATH_ROOM], fresh[PATH_ROOM], hash[SHA256_TEXT_SIZE];
+    text_buffer block = {0};
+    fram_status status = path_join(p->o->output, "pressure.fram", path, error);
+    if (status == FRAM_OK)
+        status = path_join(p->o->output, "pressure.fram.new", fresh, error);
+    if (status == FRAM_OK)
+        status = scenario_hash(p->ctx, &p->s, hash, error);
+    if (status != FRAM_OK)
+        return status;
+    fill_block(p, hash, &block);
+    status = block.failed ? error_memory(error) : write_block(p, fresh, &block, error);
+    text_free(p->ctx, &block);
+    if (status == FRAM_OK && rename(fresh, path) != 0)
+        status = file_error(error, path, "replace the file", errno);
+    if (status != FRAM_OK)
+        (void)unlink(fresh);
+    return status;
+}
+
 fram_status pressure_write_files(pressure_map *p, fram_error *error)
 {
     char path[PATH_ROOM];
@@ -142,6 +226,8 @@ fram_status pressure_write_files(pressure_map *p, fram_error *error)
         status = write_zones(p, error);
     if (status == FRAM_OK)
         status = write_hull(p, error);
+    if (status == FRAM_OK)
+        status = write_for_page(p, error);
     if (status == FRAM_OK)
         status = path_join(p->o->output, "pressure.png", path, error);
     return status == FRAM_OK ? pressure_draw(p, path, error) : status;

@@ -369,6 +369,7 @@ static fram_status gather(panel_work *w, hull_panels *out, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "panel",
                          "panels of %g m are %d on this hull, expected %d at most: take larger ones", w->rules->size,
                          (int)out->panel.count, (int)PANEL_MOST);
+    out->bounds = mesh_bounds(&out->triangle);
     return mesh_bvh_build(w->ctx, &out->triangle, &out->tree) == FRAM_OK ? FRAM_OK : error_memory(error);
 }
 

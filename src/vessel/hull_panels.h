@@ -64,6 +64,7 @@ typedef struct hull_panels {
     mesh triangle;
     int32_array triangle_panel;
     mesh_bvh tree;
+    box3 bounds;       /* of the triangles */
     int32_array found; /* scratch of a search */
 } hull_panels;
 

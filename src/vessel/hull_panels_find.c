@@ -36,7 +36,7 @@ static bool search(context *ctx, hull_panels *p, vec3 point, vec3 outward, doubl
 
 bool hull_panel_at(context *ctx, hull_panels *p, vec3 point, vec3 outward, int32_t *panel)
 {
-    box3 box = mesh_bounds(&p->triangle);
+    box3 box = p->bounds;
     double whole = vec3_length(vec3_sub(box.hi, box.lo)) + vec3_length(vec3_sub(point, box.lo));
     int32_t face = -1;
     bool good = true;

@@ -5,6 +5,8 @@ const INK = '#15222e', PAPER = '#ffffffd8', FONT = '"DejaVu Sans", system-ui, sa
 const WIDTH = 204, EDGE = 12, LINE = 18;
 export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3fb5', hull: '#8c5c1a' };
 const MARK = '#d9730d';
+/** Of the chains of a peak, and of floes that stand in one without touching the vessel. */
+export const CHAIN = '#111111', BEHIND = '#7a7f3a';
 
 /** A number with its unit, kilo or mega as fits. */
 export function forceText(kilonewton) {
@@ -13,7 +15,8 @@ export function forceText(kilonewton) {
 
 export class Legend {
     /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
-     *  forces: kinds that are shown; marked: seconds that a mark stays, or 0}. */
+     *  forces: kinds that are shown; hull: {unit, ends} of the pressure on it or null; peak: whether
+     *  one is shown; marked: seconds that a mark stays, or 0}. */
     set(content) {
         this.content = content;
         this.drawn = '';
@@ -21,8 +24,9 @@ export class Legend {
 
     get width() { return WIDTH; }
     get height() {
-        const { unit, forces, marked } = this.content;
-        return 2 * EDGE + (unit ? 44 : LINE) + (forces.length ? 2 * LINE : 0) + (marked ? LINE : 0) + 48;
+        const { unit, forces, marked, hull, peak } = this.content;
+        return 2 * EDGE + (unit ? 44 : LINE) + (hull ? 44 : 0) + (peak ? LINE : 0) + (forces.length ? 2 * LINE : 0) +
+            (marked ? LINE : 0) + 48;
     }
 
     /** view: {length: of the bar [m], pixels: of the bar, force: that an arrow of this length stands for, angle: of Y
@@ -43,7 +47,7 @@ export class Legend {
     }
 
     draw(g, view) {
-        const { unit, ends, ramp, keys, forces, marked } = this.content;
+        const { unit, ends, ramp, keys, forces, marked, hull, peak } = this.content;
         paper(g, this.width, this.height);
         g.font = `12px ${FONT}`;
         let y = EDGE + 11;
@@ -53,6 +57,15 @@ export class Legend {
             y += 44;
         } else {
             swatches(g, y, keys);
+            y += LINE;
+        }
+        if (hull) {
+            g.fillText(hull.unit, EDGE, y);
+            this.bar(g, y + 6, ramp, hull.ends);
+            y += 44;
+        }
+        if (peak) {
+            swatches(g, y, [[CHAIN, 'chain'], [BEHIND, 'floe behind']]);
             y += LINE;
         }
         if (forces.length) {

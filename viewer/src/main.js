@@ -4,6 +4,8 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { History } from './history.js';
 import { drawHeader, Legend } from './legend.js';
 import { Poses } from './poses.js';
+import { Loads } from './loads.js';
+import { PeakPanel } from './peaks.js';
 import { follow } from './live.js';
 import { bytesOf, Chunks, FrameStore, readRecord, titleOf } from './record.js';
 import { own, Scene } from './scene.js';
@@ -44,7 +46,9 @@ class Player {
         this.scene = new Scene($('view'), record, this.poses, first);
         this.controls = new OrbitControls(this.scene.camera, $('view'));
         this.legend = new Legend();
-        this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t));
+        this.peakShown = false;
+        this.timeline = new Timeline($('timeline'), record, (t) => this.seek(t), (p) => this.peaks.open(p));
+        this.tellLoads();
         this.history = new History($('history'), record, this.store);
         this.hull = record.bodies.find((b) => b.material === 'hull');
         this.drawn = { bodies: record.bodies.length, fractures: record.fractures.length };
@@ -53,10 +57,57 @@ class Player {
         this.findRanges();
         this.connect();
         this.placeCamera();
+        this.showPressure();
         this.resize();
-        this.setLegend();
         this.ready = true;
         requestAnimationFrame((now) => this.tick(now));
+    }
+
+    /** Curve and peaks of the vessel that is chosen; a page without them shows the load at the frames. */
+    tellLoads() {
+        const { record } = this;
+        $('timeline').className = record.loads ? '' : 'plain';
+        $('hulls').hidden = !this.scene.pressure;
+        if (!record.loads) return;
+        this.loads = new Loads(record.loads);
+        this.peaks = new PeakPanel($('peak'), record, this.loads, (t) => this.seek(t), () => this.changePeak());
+        this.loads.vessels.forEach((v, i) => $('vessel').add(new Option(v.name, i)));
+        $('vessels').hidden = this.loads.vessels.length < 2;
+        $('vessel').onchange = () => this.chooseVessel();
+        this.chooseVessel();
+    }
+
+    chooseVessel() {
+        const vessel = this.loads.vessels[$('vessel').value];
+        this.peaks.setVessel(vessel);
+        this.timeline.show(this.loads, vessel);
+    }
+
+    changePeak() {
+        if (this.peaks.peak) {
+            this.pick(null);
+            this.scene.lit.set(this.peaks.bodies);
+        }
+        if (this.ready) this.setLegend();
+        this.dirty = true;
+    }
+
+    /** Floes of the peak and what they press with, as long as the moment is near. */
+    showPeak(time) {
+        const near = this.peaks?.isNear(time) ?? false, { scene } = this;
+        scene.lit.place(this.poses, near);
+        if (near === this.peakShown) return;
+        this.peakShown = near;
+        const width = this.scene.arrowWidth, scale = this.arrowScale;
+        scene.peakArrows.show(near ? this.peaks.lines(scale, 0.05 * width) : []);
+    }
+
+    showPressure() {
+        const { scene } = this, which = scene.pressure ? $('hull').value : 'none';
+        const high = scene.pressure?.colour(which, RAMP) ?? 0;
+        this.hullScale = which === 'none' ? null : { unit: `${which} pressure [kPa]`, ends: [0, high / 1000] };
+        scene.veil(which !== 'none');
+        this.setLegend();
     }
 
     /** The record has grown.  A view that stood at its end goes on with it. */
@@ -94,6 +145,7 @@ class Player {
         $('camera').onchange = () => this.placeCamera();
         $('colour').onchange = () => { this.setLegend(); this.dirty = true; };
         $('forces').onchange = () => { this.setLegend(); this.dirty = true; };
+        $('hull').onchange = () => this.showPressure();
         $('still').onclick = () => this.still();
         $('film').onclick = () => this.film();
         this.controls.addEventListener('change', () => { this.dirty = true; });
@@ -180,8 +232,10 @@ class Player {
         const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
         const mode = $('camera').value, camera = this.scene.camera;
         this.poses.show(this.frameAt(this.time));
-        const target = mode === 'follow' ? this.centre() : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
+        const target = mode === 'follow' || mode === 'below' ? this.centre()
+            : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
         const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
+            : mode === 'below' ? [-0.12 * wide, -0.24 * wide, -0.14 * wide]
             : mode === 'follow' ? [-0.28 * wide, -0.3 * wide, 0.2 * wide]
             : [-0.55 * wide, -0.75 * wide, 0.6 * wide];
         camera.position.copy(target).add(new THREE.Vector3(...offset));
@@ -243,8 +297,9 @@ class Player {
             unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
             keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
             forces: $('forces').checked ? this.kinds : [],
-            marked: this.record.fractures.length ? MARKED : 0,
+            marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
         });
+        $('peak').style.top = `${this.legend.height + 24}px`;
         this.dirty = true;
     }
 
@@ -331,7 +386,9 @@ class Player {
     // ---- the loop ----
 
     resize() {
-        this.scene.resize(window.innerWidth, window.innerHeight - document.querySelector('footer').offsetHeight);
+        const height = window.innerHeight - document.querySelector('footer').offsetHeight;
+        this.scene.resize(window.innerWidth, height);
+        $('peak').style.maxHeight = `${Math.max(60, height - this.legend.height - 56)}px`;
         this.dirty = true;
     }
 
@@ -364,14 +421,17 @@ class Player {
         this.waiting = !state;
         $('waiting').hidden = !this.waiting;
         if (!state) return false;
-        if ($('camera').value === 'follow' && before) {
+        if (['follow', 'below'].includes($('camera').value) && before) {
             const moved = this.centre().sub(before);
             this.scene.camera.position.add(moved);
             this.controls.target.add(moved);
         }
         this.colourBodies(state.time);
         this.scene.update(this.rgb);
-        this.scene.showForces($('forces').checked ? this.poses.forces : [], this.arrowScale);
+        this.showPeak(state.time);
+        this.scene.pressure?.place(this.poses);
+        const forces = $('forces').checked ? this.poses.forces : [];
+        this.scene.showForces(this.peakShown ? forces.filter((f) => f.kind !== 'ice') : forces, this.arrowScale);
         this.scene.showMarkers(state.time, MARKED);
         if (this.picked) this.scene.placeRing(this.picked);
         this.history.draw(state.time);

@@ -4,6 +4,7 @@
 
 const MAGIC = 'FRAMREC\n', BLOCK_MAGIC = 0x0a4b4c42; // 'BLK\n', little-endian
 const SCENARIO = 1, SOLID = 2, DEATHS = 4, FRACTURES = 6, BIRTHS = 7, FORCES = 9, FRAME_BESIDE = 10, FRAME = 11;
+const LOADS = 13, PRESSURE = 14;
 const EARLIER = [3, 5, 8];
 const MATERIALS = ['ice', 'hull', 'wall'];
 const HEAD = 24, POSE = 16, FRAME_HEAD = 48;
@@ -57,7 +58,8 @@ class Cursor {
  *  triangles of a solid, pose of a body that does not move}.
  *  Frame: {time, step, force: [x, y, z], order: bodies that move, view and at of its poses or chunk and offset of a
  *  file beside the page}.
- *  Fracture: {time, kind, floe, place, load}. */
+ *  Fracture: {time, kind, floe, place, load}.
+ *  loads (told of vessels, src/results/playback_explained.c) and pressure (on a hull) of pages that have them. */
 export function readRecord(buffer) {
     const reader = new RecordReader();
     reader.append(buffer);
@@ -131,6 +133,8 @@ function readBlock(state, type, c, buffer, size) {
     case FRACTURES: for (let n = c.i32(), k = c.i32(); k < n; k++) record.fractures.push(readFracture(c)); break;
     case FORCES: state.forces = c.at; break;
     case FRAME: addFrame(state, c, { view: c.view, forces: state.forces ?? -1 }); break;
+    case LOADS: record.loads = JSON.parse(text(buffer, c.at, size)); break;
+    case PRESSURE: record.pressure = readPressure(c); break;
     case FRAME_BESIDE: addFrame(state, c, { chunk: c.i32(), offset: c.i32() }); break;
     case EARLIER[0]:
     case EARLIER[1]:
@@ -186,6 +190,19 @@ function readFracture(c) {
     const f = { time: c.f64(), kind: c.i32() === 1 ? 'split' : 'bending', floe: c.i32(), pieces: c.i32() };
     c.i32();
     return { ...f, place: c.vec3(), load: c.f32(), crack: c.f32(), area: c.f32() };
+}
+
+function readPressure(c) {
+    c.at += 64; // the hash of the scenario
+    const told = { from: c.f64(), to: c.f64(), vessel: c.i32() }, panels = c.i32(), triangles = c.i32();
+    c.i32();
+    told.mean = new Float32Array(panels);
+    told.largest = new Float32Array(panels);
+    told.when = new Float32Array(panels);
+    for (let i = 0; i < panels; i++) { told.mean[i] = c.f32(); told.largest[i] = c.f32(); told.when[i] = c.f32(); }
+    told.panel = Uint32Array.from({ length: triangles }, () => c.i32());
+    told.corner = Float32Array.from({ length: 9 * triangles }, () => c.f32());
+    return told;
 }
 
 /** Poses come by ascending slot of the bodies that move; frames with no birth or death between share

@@ -3,6 +3,7 @@
 // Frame: X, Y horizontal, Z up, metres, as in Fram.
 import * as THREE from 'three';
 import { FORCE_COLOURS } from './legend.js';
+import { Arrows, HullPressure, LitFloes } from './overlay.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 const WATER = 0x2f6690, SKY = 0xdfe8ef, HULL = 0xb5402a, WALL = 0x7a726c, ICE = 0xf1f6fa;
@@ -25,11 +26,15 @@ export class Scene {
         this.addArrows();
         this.addMarkers();
         this.addRing();
+        this.lit = new LitFloes(this.scene);
+        this.peakArrows = new Arrows(this.scene);
+        const hulls = record.bodies.filter((b) => b.material === 'hull'), told = record.pressure;
+        if (told && hulls[told.vessel]) this.pressure = new HullPressure(this.scene, told, hulls[told.vessel]);
     }
 
     addWaterAndLight() {
         const size = this.box.getSize(new THREE.Vector3()), centre = this.box.getCenter(new THREE.Vector3());
-        const water = new THREE.Mesh(new THREE.PlaneGeometry(6 * size.x, 6 * size.y),
+        const water = this.water = new THREE.Mesh(new THREE.PlaneGeometry(6 * size.x, 6 * size.y),
             new THREE.MeshLambertMaterial({ color: WATER, transparent: true, opacity: 0.86 }));
         water.position.set(centre.x, centre.y, 0);
         water.renderOrder = 1;
@@ -55,6 +60,13 @@ export class Scene {
         this.edges = new THREE.LineSegments(edgeGeometry(bodies), lines);
         this.edges.frustumCulled = false;
         this.scene.add(this.edges);
+    }
+
+    /** Water and bodies like glass, to see what of the hull meets ice. */
+    veil(on) {
+        const { material } = this.mesh;
+        this.water.material.opacity = on ? 0.3 : 0.86;
+        Object.assign(material, { transparent: on, depthWrite: !on, opacity: on ? 0.25 : 1, needsUpdate: true });
     }
 
     /** Bodies, fractures or both are more than they were. */

@@ -1,16 +1,36 @@
-// The timeline: the averaged ice load over time, marks where floes broke, and a cursor that can be dragged.
+// The timeline: the averaged ice load over time, stacked by mechanism where the page knows them, its largest peaks,
+// marks where floes broke, and a cursor that can be dragged.
 
+import { MECHANISM_COLOURS } from './loads.js';
 import { forceText } from './legend.js';
 
+const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
+const GRASP = 6; // a click so near to a peak's time is meant for it [px]
+
 export class Timeline {
-    constructor(canvas, record, seek) {
+    /** seek(time); open(peak) when a peak is clicked. */
+    constructor(canvas, record, seek, open) {
         this.canvas = canvas;
         this.record = record;
         this.frames = record.frames;
+        this.loads = null;
         this.grow();
         const drag = (e) => { if (e.buttons & 1) seek(this.timeAt(e.offsetX)); };
-        canvas.addEventListener('pointerdown', (e) => { canvas.setPointerCapture(e.pointerId); drag(e); });
-        canvas.addEventListener('pointermove', drag);
+        canvas.addEventListener('pointerdown', (e) => {
+            const peak = e.button === 0 ? this.peakAt(e.offsetX) : null;
+            if (peak) { open(peak); return; }
+            canvas.setPointerCapture(e.pointerId);
+            drag(e);
+        });
+        canvas.addEventListener('pointermove', (e) => {
+            if (e.buttons & 1) {
+                if (canvas.hasPointerCapture(e.pointerId)) drag(e);
+                return;
+            }
+            const peak = this.peakAt(e.offsetX);
+            canvas.style.cursor = peak ? 'help' : 'pointer';
+            canvas.title = peak ? `Peak ${peak.rank}: ${peak.sentence}` : '';
+        });
     }
 
     /** What follows from all frames that there are now. */
@@ -23,8 +43,46 @@ export class Timeline {
         this.back = null;
     }
 
+    /** Bands of a vessel instead of the first vessel's load at the frames. */
+    show(loads, vessel) {
+        this.loads = loads;
+        this.vessel = vessel;
+        this.kinds = loads.shown(vessel);
+        this.stack();
+        this.back = null;
+    }
+
+    /** What pushes with the load goes up from zero, what pushes against it down. */
+    stack() {
+        const { vessel } = this, n = vessel.time.length;
+        this.up = new Float64Array(n);
+        this.down = new Float64Array(n);
+        this.bands = this.loads.names.map((_, m) => {
+            const low = new Float64Array(n), high = new Float64Array(n);
+            for (let k = 0; k < n; k++) {
+                const part = vessel.parts[m][k], from = part > 0 ? this.up : this.down;
+                low[k] = from[k];
+                from[k] += part;
+                high[k] = from[k];
+            }
+            return { low, high };
+        });
+        this.top = this.up.reduce((a, b) => Math.max(a, b), 1e-6);
+        this.bottom = this.down.reduce((a, b) => Math.min(a, b), 0);
+    }
+
     timeAt(x) { return this.begin + Math.min(1, Math.max(0, x / this.canvas.clientWidth)) * this.span; }
     x(time) { return (time - this.begin) / this.span * this.canvas.clientWidth; }
+
+    peakAt(x) {
+        if (!this.loads) return null;
+        let best = null, nearest = GRASP;
+        for (const p of this.vessel.peaks) {
+            const far = Math.abs(this.x(p.time) - x);
+            if (far < nearest) { best = p; nearest = far; }
+        }
+        return best;
+    }
 
     /** The curve is drawn once for a size; each frame adds the cursor. */
     drawCurve(w, h, ratio) {
@@ -32,27 +90,98 @@ export class Timeline {
         back.width = Math.round(w * ratio); back.height = Math.round(h * ratio);
         const g = back.getContext('2d');
         g.scale(ratio, ratio);
+        g.font = `11px ${FONT}`;
+        const head = this.loads ? this.drawHeads(g, w) : 18;
+        if (this.loads) this.drawBands(g, h, head);
+        else this.drawPlain(g, w, h);
+        g.fillStyle = '#d9730d';
+        for (const t of this.events) g.fillRect(this.x(t) - 0.5, h - 7, 1.5, 7);
+        if (this.loads) this.drawPeaks(g, w, h, head);
+        this.back = back;
+    }
+
+    drawPlain(g, w, h) {
         g.fillStyle = '#c9d6e2';
         g.beginPath();
         g.moveTo(0, h);
         this.frames.forEach((f, i) => g.lineTo(this.x(f.time), h - 2 - this.load[i] / this.most * (h - 20)));
         g.lineTo(w, h);
         g.fill();
-        g.fillStyle = '#d9730d';
-        for (const t of this.events) g.fillRect(this.x(t) - 0.5, h - 7, 1.5, 7);
-        g.fillStyle = '#15222e';
-        g.font = '11px system-ui, "DejaVu Sans", sans-serif';
-        const events = this.events.length ? `; orange: ${this.events.length} floes that broke` : '';
+        g.fillStyle = INK;
         const most = `largest of them ${forceText(this.most)}`;
-        g.fillText(`ice load on the vessel, averaged, at the frames; ${most}${events}`, 4, 11);
+        g.fillText(`ice load on the vessel, averaged, at the frames; ${most}${this.eventText()}`, 4, 11);
+        this.drawEnd(g, w);
+    }
+
+    eventText() { return this.events.length ? `; orange: ${this.events.length} floes that broke` : ''; }
+
+    drawEnd(g, w) {
         const end = `${(this.begin + this.span).toFixed(0)} s`;
+        g.clearRect(w - g.measureText(end).width - 10, 0, 200, LINE + 1);
         g.fillText(end, w - g.measureText(end).width - 4, 11);
-        this.back = back;
+    }
+
+    /** Title and the mechanisms' colours, in as many lines as the width asks for; returns their height. */
+    drawHeads(g, w) {
+        const { vessel, loads } = this, of = vessel.name ? ` on ${vessel.name}` : ' on the vessel';
+        const most = vessel.load.reduce((a, b) => Math.max(a, b), 0) / 1000;
+        g.fillStyle = INK;
+        const what = most > 0 ? `largest ${forceText(most)}` : 'none in this run';
+        g.fillText(`ice load${of}, averaged over ${Number(vessel.window.toPrecision(3))} s: ${what}${
+            vessel.peaks.length ? '; numbers: peaks, click one' : ''}${this.eventText()}`, 4, 11);
+        this.drawEnd(g, w);
+        let x = 4, y = 11 + LINE;
+        for (const m of this.kinds) {
+            const wide = 14 + g.measureText(loads.names[m]).width + 12;
+            if (x + wide > w - 4 && x > 4) { x = 4; y += LINE; }
+            g.fillStyle = MECHANISM_COLOURS[m];
+            g.fillRect(x, y - 9, 10, 10);
+            g.fillStyle = INK;
+            g.fillText(loads.names[m], x + 14, y);
+            x += wide;
+        }
+        return (this.kinds.length ? y : 11) + 16;
+    }
+
+    /** Height of a load on the canvas. */
+    y(load, h, head) { return h - 9 - (load - this.bottom) / (this.top - this.bottom) * (h - 9 - head); }
+
+    drawBands(g, h, head) {
+        const { time, load } = this.vessel, n = time.length;
+        this.bands.forEach(({ low, high }, m) => {
+            g.fillStyle = MECHANISM_COLOURS[m];
+            g.beginPath();
+            for (let k = 0; k < n; k++) g.lineTo(this.x(time[k]), this.y(high[k], h, head));
+            for (let k = n - 1; k >= 0; k--) g.lineTo(this.x(time[k]), this.y(low[k], h, head));
+            g.fill();
+        });
+        g.strokeStyle = INK;
+        g.lineWidth = 0.8;
+        g.beginPath();
+        for (let k = 0; k < n; k++) g.lineTo(this.x(time[k]), this.y(load[k], h, head));
+        g.stroke();
+    }
+
+    drawPeaks(g, w, h, head) {
+        g.font = `bold 11px ${FONT}`;
+        g.textAlign = 'center';
+        for (const p of this.vessel.peaks) {
+            const x = this.x(p.time), y = this.y(p.load, h, head);
+            g.fillStyle = '#b03020';
+            g.beginPath();
+            g.arc(x, y, 3, 0, 7);
+            g.fill();
+            g.strokeStyle = '#ffffff';
+            g.lineWidth = 3;
+            g.strokeText(p.rank, Math.min(w - 8, Math.max(8, x)), y - 5);
+            g.fillText(p.rank, Math.min(w - 8, Math.max(8, x)), y - 5);
+        }
+        g.textAlign = 'left';
     }
 
     draw(time) {
         const c = this.canvas, ratio = window.devicePixelRatio, w = c.clientWidth, h = c.clientHeight;
-        if (!this.back || c.width !== Math.round(w * ratio)) {
+        if (!this.back || c.width !== Math.round(w * ratio) || c.height !== Math.round(h * ratio)) {
             c.width = Math.round(w * ratio); c.height = Math.round(h * ratio);
             this.drawCurve(w, h, ratio);
         }

@@ -1,0 +1,99 @@
+#include "results/mechanism_curve.h"
+
+#include "results/peaks.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+bool mechanism_columns_find(const run_data *run, int32_t vessel, mechanism_columns *c)
+{
+    bool there = true;
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        char name[64];
+        snprintf(name, sizeof name, "mechanism_%s_x", mechanism_name((ice_mechanism)m));
+        c->x[m] = run_vessel_channel(run, vessel, name);
+        name[strlen(name) - 1] = 'y';
+        c->y[m] = run_vessel_channel(run, vessel, name);
+        there = there && c->x[m] && c->y[m];
+    }
+    return there;
+}
+
+/* The parts of the load averaged over the `steps` rows up to this one, along it; returns the load [N]. */
+static double parts_at(const mechanism_columns *c, int32_t row, int32_t steps, double part[MECHANISM_COUNT])
+{
+    double fx[MECHANISM_COUNT], fy[MECHANISM_COUNT], all_x = 0, all_y = 0;
+    int32_t first = row + 1 > steps ? row + 1 - steps : 0;
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        fx[m] = fy[m] = 0;
+        for (int32_t i = first; i <= row; i++) {
+            fx[m] += c->x[m][i];
+            fy[m] += c->y[m][i];
+        }
+        all_x += fx[m];
+        all_y += fy[m];
+    }
+    double sum = sqrt(all_x * all_x + all_y * all_y), rows = row + 1 - first;
+    for (int m = 0; m < MECHANISM_COUNT; m++)
+        part[m] = sum > 0 ? (fx[m] * all_x + fy[m] * all_y) / sum / rows : 0;
+    return sum / rows;
+}
+
+static bool make_room(context *ctx, mechanism_curve *curve)
+{
+    bool good = true;
+    curve->time = memory_array(ctx, (size_t)curve->count, sizeof *curve->time);
+    curve->load = memory_array(ctx, (size_t)curve->count, sizeof *curve->load);
+    for (int m = 0; m < MECHANISM_COUNT; m++) {
+        curve->part[m] = memory_array(ctx, (size_t)curve->count, sizeof *curve->part[m]);
+        good = good && curve->part[m];
+    }
+    return good && curve->time && curve->load;
+}
+
+/* The row of the largest averaged load among those of a stretch. */
+static int32_t largest_row(const double *x, const double *y, int32_t first, int32_t end)
+{
+    int32_t best = first;
+    for (int32_t i = first; i < end; i++)
+        best = x[i] * x[i] + y[i] * y[i] > x[best] * x[best] + y[best] * y[best] ? i : best;
+    return best;
+}
+
+fram_status mechanism_curve_make(context *ctx, const run_data *run, int32_t vessel, mechanism_curve *curve,
+                                 fram_error *error)
+{
+    int32_t rows = run->series.rows, every = (rows + MECHANISM_CURVE_MOST - 1) / MECHANISM_CURVE_MOST;
+    const double *time = run_channel(run, "time"), *x = run_vessel_channel(run, vessel, "ice_force_averaged_x");
+    const double *y = run_vessel_channel(run, vessel, "ice_force_averaged_y");
+    mechanism_columns columns;
+    *curve = (mechanism_curve){0};
+    if (rows == 0 || !time || !x || !y || !mechanism_columns_find(run, vessel, &columns))
+        return FRAM_OK;
+    double window = floor(run->s.output.averaging_window / run->s.run.time_step + 0.5);
+    int32_t steps = window < 1 ? 1 : window > rows ? rows : (int32_t)window;
+    curve->count = (rows + every - 1) / every;
+    if (!make_room(ctx, curve)) {
+        mechanism_curve_free(ctx, curve);
+        return error_memory(error);
+    }
+    for (int32_t k = 0; k < curve->count; k++) {
+        int32_t end = (k + 1) * every < rows ? (k + 1) * every : rows, row = largest_row(x, y, k * every, end);
+        double part[MECHANISM_COUNT];
+        curve->time[k] = time[row];
+        curve->load[k] = parts_at(&columns, row, steps, part);
+        for (int m = 0; m < MECHANISM_COUNT; m++)
+            curve->part[m][k] = part[m];
+    }
+    return FRAM_OK;
+}
+
+void mechanism_curve_free(context *ctx, mechanism_curve *curve)
+{
+    memory_free(ctx, curve->time);
+    memory_free(ctx, curve->load);
+    for (int m = 0; m < MECHANISM_COUNT; m++)
+        memory_free(ctx, curve->part[m]);
+    *curve = (mechanism_curve){0};
+}

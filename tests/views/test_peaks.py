@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+"""Loads in the playback page, in headless Chromium: the curve by mechanism, a click on a peak, pressure on the hull.
+
+What the page shows is held against series.csv, fram why and fram pressure, and looked for in the pixels.  Also a run
+with two vessels, one that meets no ice, and a record of an earlier layout.  Skipped (77) without Chromium or without
+the viewer's page.
+"""
+import csv
+import json
+import math
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import zlib
+
+import chromium
+
+FRAM = os.environ["FRAM"]
+PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
+TOWED = """
+title: Peaks
+run: {duration: 8, time_step: 0.02, transient: 0.5}
+vessel:
+  mode: towed
+  x: -20
+  speed: 4
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+ice: {mean_floe_area: 64, concentration: 0.8}
+domain: {x_min: -64, x_max: 96, y_min: -30, y_max: 30}
+output: {frame_interval: 0.5}
+"""
+TWO = """
+title: Two
+run: {duration: 4, time_step: 0.02}
+vessels:
+  - {name: first, mode: towed, x: -20, y: -15, speed: 4, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+  - {name: second, mode: towed, x: -60, y: 20, speed: 3, hull: {length: 36, beam: 10, draught: 3, freeboard: 2}}
+ice: {mean_floe_area: 64, concentration: 0.7}
+domain: {x_min: -84, x_max: 64, y_min: -45, y_max: 45}
+"""
+OPEN_WATER = """
+title: No ice to meet
+run: {duration: 2, time_step: 0.02}
+vessel: {mode: towed, x: -20, speed: 0.1, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {mean_floe_area: 64, concentration: 0.3}
+domain: {x_min: -64, x_max: 96, y_min: -40, y_max: 40}
+"""
+
+
+def fram(*arguments, check=True):
+    return subprocess.run([FRAM, *arguments], check=check, capture_output=True, text=True)
+
+
+def make_run(folder, name, scene):
+    (folder / f"{name}.yaml").write_text(scene)
+    fram("run", folder / f"{name}.yaml", "-o", folder / name, "--quiet")
+    fram("view", folder / name, "--page", PAGE, "--quiet")
+    with open(folder / name / "series.csv", newline="") as file:
+        return folder / name, [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+
+def check_curve(browser, rows, prefix="", vessel=0):
+    """Every point is a moment of the series, its parts add up to the averaged load there, and no peak is lost."""
+    told = browser.run(f"fram.record.loads.vessels[{vessel}]")
+    x, y = (f"{prefix}ice_force_averaged_{c}[N]" for c in "xy")
+    load = {round(r["time[s]"], 6): math.hypot(r[x], r[y]) for r in rows}
+    most = max(load.values())
+    assert most > 1e4 and abs(max(told["load"]) - most) < 1e-4 * most, (max(told["load"]), most)
+    for k, time in enumerate(told["time"]):
+        assert abs(told["load"][k] - load[round(time, 6)]) < 2e-4 * most, (time, told["load"][k])
+        assert abs(sum(p[k] for p in told["parts"]) - told["load"][k]) < 2e-4 * most, time
+
+
+def click_peak(browser, rank):
+    """As a user does, on the number over the curve."""
+    left, top, _, height = browser.box("timeline")
+    x = browser.run(f"fram.timeline.x(fram.peaks.vessel.peaks[{rank - 1}].time)")
+    browser.click(left + x, top + height / 2)
+    browser.run("fram.draw()")
+
+
+def check_click(browser, run):
+    why = json.loads(fram("why", run, "--peak", "2", "--no-rerun", "--json").stdout.splitlines()[-1])
+    sentence = fram("why", run, "--peak", "2", "--no-rerun").stdout.splitlines()[2]
+    pixel = """((n) => { const b = fram.record.bodies.find((b) => b.number === n), k = 7 * b.index;
+        const p = fram.scene.camera.position.clone().set(...fram.poses.pose.subarray(k, k + 3));
+        p.project(fram.scene.camera); fram.scene.render();
+        const gl = fram.scene.renderer.getContext(), out = new Uint8Array(4);
+        gl.readPixels((p.x + 1) / 2 * gl.drawingBufferWidth, (p.y + 1) / 2 * gl.drawingBufferHeight, 1, 1, gl.RGBA,
+                      gl.UNSIGNED_BYTE, out);
+        return [...out].slice(0, 3); })"""
+    browser.choose("camera", "top")
+    browser.run(f"(fram.seek({why['time']}), fram.draw())")
+    floe = why["floes"][0]["floe"]
+    before = browser.run(f"{pixel}({floe})")
+    browser.run("(fram.seek(0), fram.draw())")
+    click_peak(browser, 2)
+    assert abs(browser.run("fram.time") - why["time"]) < 1e-9, "a click on a peak does not lead there"
+    text = browser.run("document.getElementById('peak').innerText")
+    assert "Peak 2 of " in text and sentence in text, (text, sentence)
+    known = {f["floe"] for f in why["floes"]} | {link["floe"] for f in why["floes"] for link in f["chain"]}
+    lit = browser.run("fram.peaks.bodies.map(([b]) => b.number)")
+    assert set(lit) == {n for n in known if n >= 0} and lit, (lit, known)
+    after = browser.run(f"{pixel}({floe})")
+    assert sum(abs(a - b) for a, b in zip(before, after)) > 40, f"floe {floe} is not lit: {before}, {after}"
+    links = sum(max(len(f["chain"]) - 1, 0) for f in why["floes"])
+    assert browser.run("fram.scene.peakArrows.shafts.count") == links + len(why["floes"])
+    assert not browser.run("fram.poses.forces.filter((f) => f.kind === 'ice').length && fram.scene.arrows.count")
+    calls = browser.run("fram.scene.renderer.info.render.calls")
+    assert calls <= 20, calls
+
+
+def check_odd_clicks(browser):
+    """Round all peaks, away from one and back, twice on the same, beside the curve, let go."""
+    count = browser.run("fram.peaks.vessel.peaks.length")
+    seen = set()
+    for _ in range(count):
+        browser.click_on("smaller")
+        seen.add(browser.run("fram.peaks.peak.rank"))
+    assert len(seen) == count > 1, seen
+    click_peak(browser, 1)
+    click_peak(browser, 1)
+    assert browser.run("fram.peaks.peak.rank === 1 && fram.peakShown")
+    browser.run("(fram.seek(fram.peaks.peak.time < 4 ? 8 : 0), fram.draw())")
+    assert browser.run("!fram.peakShown && !fram.scene.lit.fill.visible && fram.scene.peakArrows.shafts.count === 0 && "
+                       "!document.getElementById('peak').hidden"), "what was a peak stays lit when time goes on"
+    browser.click_on("gotopeak")
+    browser.run("fram.draw()")
+    assert browser.run("fram.peakShown")
+    left, top, width, height = browser.box("timeline")
+    browser.click(left + width - 1, top + height - 1)
+    browser.click(left + 1, top + 1)
+    browser.click_on("letgo")
+    browser.run("fram.draw()")
+    assert browser.run("document.getElementById('peak').hidden && fram.peaks.peak === null && !fram.peakShown")
+
+
+def check_pressure(browser, run):
+    folder = run.parent / "pressure"
+    fram("pressure", run, "-o", folder, "--panel", "3", "--quiet")
+    fram("view", run, "--page", PAGE, "--pressure", folder, "--quiet")
+    with open(folder / "panels.csv", newline="") as file:
+        panels = list(csv.DictReader(file))
+    browser.open(run / "playback.html")
+    told = browser.run("({ ...fram.record.pressure, mean: [...fram.record.pressure.mean], "
+                       "largest: [...fram.record.pressure.largest] })")
+    for key, column in (("mean", "pressure_mean[Pa]"), ("largest", "pressure_largest[Pa]")):
+        expected = [float(p[column]) for p in panels]
+        assert all(abs(a - b) <= 1e-6 * max(expected) for a, b in zip(told[key], expected)) and max(expected) > 0
+    # The panels lie on the hull: its box is theirs.
+    boxes = browser.run("""(() => { const box = (c, n) => { const lo = [9e9, 9e9, 9e9], hi = [-9e9, -9e9, -9e9];
+        for (let i = 0; i < n; i++) { lo[i % 3] = Math.min(lo[i % 3], c[i]); hi[i % 3] = Math.max(hi[i % 3], c[i]); }
+        return [...lo, ...hi]; };
+        const { corner } = fram.record.pressure, { vertices } = fram.hull;
+        return [box(corner, corner.length), box(vertices, vertices.length)]; })()""")
+    assert all(abs(a - b) < 1e-3 for a, b in zip(*boxes)), boxes
+    for which, column in (("largest", "pressure_largest[Pa]"), ("mean", "pressure_mean[Pa]")):
+        browser.choose("hull", which)
+        browser.run("fram.draw()")
+        met = sorted(float(p[column]) for p in panels if float(p[column]) > 0)
+        ends = browser.run("fram.legend.content.hull.ends")
+        assert abs(ends[1] - met[int(0.99 * (len(met) - 1))] / 1000) < 1e-3 * ends[1], ends
+        assert browser.run("fram.scene.pressure.mesh.visible")
+    browser.choose("hull", "none")
+    assert browser.run("!fram.scene.pressure.mesh.visible && fram.legend.content.hull === null")
+    return folder
+
+
+def check_two(browser, folder, pressure):
+    run, rows = make_run(folder, "two", TWO)
+    answer = fram("view", run, "--page", PAGE, "--pressure", pressure, check=False)
+    assert answer.returncode == 2 and "another scenario" in answer.stderr, answer
+    browser.open(run / "playback.html")
+    for v, name in enumerate(("first", "second")):
+        browser.choose("vessel", str(v))
+        check_curve(browser, rows, f"{name}.", v)
+        assert browser.run("fram.timeline.vessel.name") == name
+        click_peak(browser, 1)
+        assert browser.run("fram.peaks.peak.detail.floes.length > 0 && fram.peakShown"), name
+    assert not browser.run("document.getElementById('vessels').hidden")
+
+
+def check_no_ice(browser, folder):
+    run, rows = make_run(folder, "water", OPEN_WATER)
+    assert all(r["ice_force_x[N]"] == 0 for r in rows)
+    browser.open(run / "playback.html")
+    left, top, width, height = browser.box("timeline")
+    browser.click(left + width / 2, top + height / 2)
+    browser.run("fram.draw()")
+    assert browser.run("fram.peaks.vessel.peaks.length === 0 && document.getElementById('peak').hidden")
+    assert abs(browser.run("fram.time") - 1) < 0.02
+
+
+def check_earlier_layout(run):
+    """The type of the first block of bodies becomes that of an earlier layout."""
+    path = run / "record.fram"
+    data = bytearray(path.read_bytes())
+    at = 24
+    while struct.unpack_from("<I", data, at + 4)[0] != 7:
+        at += 24 + (struct.unpack_from("<Q", data, at + 8)[0] + 7) // 8 * 8
+    struct.pack_into("<I", data, at + 4, 3)
+    struct.pack_into("<I", data, at + 20, zlib.crc32(data[at:at + 20]))
+    path.write_bytes(data)
+    answer = fram("view", run, "--page", PAGE, check=False)
+    assert answer.returncode == 2 and "earlier" in answer.stderr and "record.fram" in answer.stderr, answer
+
+
+def main():
+    if not chromium.path() or not PAGE.exists():
+        print("skipped: Chromium is not installed, or the viewer's page is not built (make viewer)")
+        sys.exit(77)
+    with tempfile.TemporaryDirectory() as temporary, chromium.Browser() as browser:
+        folder = pathlib.Path(temporary)
+        run, rows = make_run(folder, "towed", TOWED)
+        browser.open(run / "playback.html")
+        check_curve(browser, rows)
+        check_click(browser, run)
+        check_odd_clicks(browser)
+        pressure = check_pressure(browser, run)
+        check_two(browser, folder, pressure)
+        check_no_ice(browser, folder)
+        check_earlier_layout(run)
+        assert not browser.complaints, browser.complaints
+    print("curves, peaks and pressure in the playback page are those of the run")
+
+
+main()

@@ -1,0 +1,74 @@
+// What the page tells of loads beside the record (src/results/playback_explained.c): curves by mechanism and explained
+// peaks of each vessel.  Knows no drawing.
+
+import { BEHIND, CHAIN } from './legend.js';
+
+/** Of the mechanisms, in their order: those of the report's chart (Okabe and Ito 2008). */
+export const MECHANISM_COLOURS = ['#99b3cc', '#00458c', '#d65e00', '#009e73', '#cc78a6', '#e69e00', '#57b5e8',
+                                  '#73594d'];
+
+/** Of one vessel: {name, window, transient, time, load, parts: one array for each mechanism, peaks}; a peak:
+ *  {rank, time, load, sentence, detail: what fram why --json tells}. Times [s], forces [N]. */
+export class Loads {
+    constructor(told) {
+        this.names = told.mechanisms.map(([name]) => name);
+        this.texts = told.mechanisms.map(([, text]) => text);
+        this.vessels = told.vessels.map((v) => ({
+            ...v,
+            peaks: v.peaks.map(({ sentence, detail }, i) => ({
+                rank: i + 1, time: detail.time, load: detail.load, sentence, detail,
+            })),
+        }));
+    }
+
+    colour(mechanism) { return MECHANISM_COLOURS[this.names.indexOf(mechanism)] ?? BEHIND; }
+
+    /** Mechanisms that have a part of the curve that is seen, by their place. */
+    shown(vessel) {
+        const most = vessel.load.reduce((a, b) => Math.max(a, b), 0);
+        return this.names.map((_, m) => m).filter((m) => vessel.parts[m].some((p) => Math.abs(p) > 0.005 * most));
+    }
+}
+
+/** The bodies of a peak by number of the floe: {number, colour, share of the load}; those of a chain that do not touch
+ *  the vessel have no share. */
+export function floesOf(loads, peak) {
+    const out = new Map(), sum = (parts) => Object.values(parts).reduce((a, b) => a + b, 0);
+    for (const f of peak.detail.floes) {
+        if (f.floe < 0) continue;
+        const before = out.get(f.floe)?.share ?? 0;
+        const share = before + sum(f.parts) / peak.load;
+        out.set(f.floe, { number: f.floe, colour: loads.colour(f.mechanism), share });
+    }
+    for (const f of peak.detail.floes)
+        for (const link of f.chain)
+            if (link.floe >= 0 && !out.has(link.floe)) out.set(link.floe, { number: link.floe, colour: BEHIND });
+    return out;
+}
+
+/** Segments of a peak, {from, to, colour}: forces on the hull, as long as `length` metres a newton, and chains from
+ *  body to body. */
+export function linesOf(loads, peak, length) {
+    const out = [];
+    for (const f of peak.detail.floes) {
+        const colour = loads.colour(f.mechanism);
+        out.push({ to: f.point, from: f.point.map((p, i) => p - f.force[i] * length), colour });
+        for (let k = 1; k < f.chain.length; k++)
+            out.push({ from: f.chain[k - 1].place, to: f.chain[k].place, colour: CHAIN });
+    }
+    return out;
+}
+
+const ENDS = {
+    inertia: 'held by its inertia', water: 'held by water and weight', sheet: 'fixed ice', driven: 'driven ice',
+    wall: 'a wall', vessel: 'a vessel', loop: 'back to a floe of its own',
+};
+
+/** The longest chain of a peak in words: "hull, floe 3 (12 kN), floe 5 (9 kN): held by its inertia"; '' without one. */
+export function chainText(peak, forceText) {
+    const longest = peak.detail.floes.reduce((a, b) => (b.chain.length > a.chain.length ? b : a), { chain: [] });
+    if (longest.chain.length < 2) return '';
+    const links = longest.chain.map((l) => `${l.floe >= 0 ? `floe ${l.floe}` : 'a body'} (${
+        forceText(Math.hypot(...l.push) / 1000)})`);
+    return `Longest chain: hull, ${links.join(', ')}: ${ENDS[longest.end]}.`;
+}
