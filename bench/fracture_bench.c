@@ -135,7 +135,8 @@ static void add_load(rig *r, int32_t row, vec2 place, double load, double area)
 static double break_once(rig *r)
 {
     fram_error e = {0};
-    fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number, NULL, NULL};
+    fracture_state state = {&r->bodies,      &r->shapes, &r->floes, &r->contacts, &r->memory,
+                            &r->next_number, NULL,       NULL,      NULL};
     array_clear(&r->events);
     double begin = now();
     if (fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, &e) != FRAM_OK)

@@ -24,6 +24,14 @@ static const double STEEP_NORMAL = 0.9;
 /* A winding number of a closed surface about a point is 1 inside and 0 outside, to rounding. */
 static const double INSIDE_WINDING = 0.5;
 
+/* The theory of plates of small deflection ends at this part of the thickness (Timoshenko and Woinowsky-Krieger 1959);
+   an edge gives no further. */
+static const double SMALL_DEFLECTION = 0.5;
+
+/* How well the way is found that an edge gives, as part of the largest; and in how many turns at most. */
+static const double GIVE_PRECISION = 1e-13;
+enum { MOST_GIVE_TURNS = 100 };
+
 enum { MOST_POINTS = 4 };
 
 /* What debug builds grant to rounding where a length should be 1. */
@@ -64,6 +72,7 @@ typedef struct job {
     const body_table *bodies;
     const shape_store *shapes;
     const floe_table *floes;
+    const edge_support_table *supports;
     crushing_patch_array *patches;
     contact_array *contacts;
     fram_error *error;
@@ -215,7 +224,88 @@ static bool push_contact(const job *j, const crushing_pair *p, const crushing_pa
 
 /* ---- patches ---- */
 
-static bool push_patch(const job *j, const crushing_pair *p, const patch_component *c, int32_t number, double area)
+/* The pressure on a component of this area. */
+static double component_pressure(const job *j, const crushing_pair *p, const patch_component *c, double area)
+{
+    double z = vec3_unit(c->area).z;
+    return pair_pressure(j, p, c->centre, area, sqrt(fmax(1 - z * z, 0)) * area);
+}
+
+/* ---- edges that give ---- */
+
+/* Ice that can break and does not move freely, under a hull; areas by the paper's rule are not those of the patch. */
+static bool edge_gives(const job *j, const crushing_pair *p)
+{
+    return j->settings->edges.gives && j->floes->breakable[p->floe] && !j->settings->top_plane_area &&
+           !body_is_dynamic(j->bodies, p->floe_body) && j->bodies->material[p->surface_body] == MATERIAL_HULL;
+}
+
+/* An edge under one component. */
+typedef struct loaded_edge {
+    const patch_component *whole;
+    int32_t number;
+    edge_stand stand;
+    double sign; /* of the way that it gives, along the floe's z */
+} loaded_edge;
+
+/* What bears the edge after it has given by this much, less what crushes on it then [N]; of the whole load, with what
+ * seams divide off. */
+static double excess(const job *j, const crushing_pair *p, const loaded_edge *e, double give, double *stiffness)
+{
+    vec3 left = patch_area_left(j->scratch->patch, &p->prism, e->number, e->sign * give);
+    double area = vec3_length(left), level = fabs(left.z) + e->stand.beside;
+    *stiffness = edge_stiffness(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], level,
+                                e->stand);
+    return *stiffness * give - (area > 0 ? component_pressure(j, p, e->whole, area) * level : 0);
+}
+
+/* The largest way that is not more than balance, and whether there is balance before theory ends: by secants between
+   two ways with both signs, every third time by halves, so that a patch that leaves the edge all at once ends the
+   search too. */
+static double find_give(const job *j, const crushing_pair *p, const loaded_edge *e, bool *balance)
+{
+    double lo = 0, hi = SMALL_DEFLECTION * j->floes->thickness[p->floe], stiffness;
+    double below = excess(j, p, e, lo, &stiffness), above = excess(j, p, e, hi, &stiffness);
+    *balance = above > 0;
+    if (!*balance)
+        return hi;
+    for (int i = 0; i < MOST_GIVE_TURNS && hi - lo > GIVE_PRECISION * hi; i++) {
+        double at = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * below / (below - above);
+        at = at > lo && at < hi ? at : 0.5 * (lo + hi);
+        double now = excess(j, p, e, at, &stiffness);
+        if (now > 0) {
+            hi = at;
+            above = now;
+        } else {
+            lo = at;
+            below = now;
+        }
+    }
+    return lo;
+}
+
+/* What is left of a component when its edge has given, and the pressure there: no more than bends the edge so far. */
+static patch_component give_way(const job *j, const crushing_pair *p, const patch_component *c, int32_t number,
+                                double *pressure)
+{
+    double reach =
+        edge_reach(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], fabs(c->area.z));
+    vec3 centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre));
+    loaded_edge e = {.whole = c, .number = number, .sign = c->area.z < 0 ? -1 : 1};
+    e.stand =
+        j->supports ? edge_stand_find(j->supports, j->bodies, p->surface_body, centre, reach) : EDGE_STAND_STRAIGHT;
+    bool balance;
+    double give = find_give(j, p, &e, &balance), stiffness;
+    patch_component left = patch_left(j->scratch->patch, &p->prism, number, e.sign * give);
+    excess(j, p, &e, give, &stiffness);
+    *pressure = component_pressure(j, p, c, vec3_length(left.area));
+    if (balance && give > 0 && left.area.z != 0)
+        *pressure = fmin(*pressure, stiffness * give / (fabs(left.area.z) + e.stand.beside));
+    return left;
+}
+
+static bool push_patch(const job *j, const crushing_pair *p, const patch_component *c, int32_t number, double area,
+                       double pressure)
 {
     vec3 normal = vec3_unit(c->area), point[MOST_POINTS];
     crushing_patch patch = {.floe = p->floe,
@@ -226,8 +316,7 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .area = area,
                             .horizontal_area = fabs(c->area.z),
                             .surface_area = c->surface,
-                            .pressure =
-                                pair_pressure(j, p, c->centre, area, sqrt(fmax(1 - normal.z * normal.z, 0)) * area),
+                            .pressure = pressure,
                             .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
@@ -259,13 +348,20 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
             horizontal_sum += fabs(found->data[i].area.z);
     }
     for (int32_t i = 0; i < found->count; i++) {
-        const patch_component *c = &found->data[i];
-        double area = vec3_length(c->area);
-        if (!(area > CLOSED_PATCH * c->surface))
+        patch_component c = found->data[i];
+        double area = vec3_length(c.area), pressure = 0;
+        if (!(area > CLOSED_PATCH * c.surface))
             continue;
+        bool gives = edge_gives(j, p) && c.area.z != 0;
+        if (gives) {
+            c = give_way(j, p, &found->data[i], i, &pressure);
+            area = vec3_length(c.area);
+        }
         if (j->settings->top_plane_area)
-            area = top_plane_share(c, section_area, horizontal_sum);
-        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, c, i, area))
+            area = top_plane_share(&c, section_area, horizontal_sum);
+        if (!gives)
+            pressure = component_pressure(j, p, &c, area);
+        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, &c, i, area, pressure))
             return error_memory(j->error);
     }
     return FRAM_OK;
@@ -342,10 +438,11 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, const pair_pol
 
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
-                              const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,
+                              const edge_support_table *supports, const pair_table *pairs,
+                              const index_array *patch_pairs, const pair_policies *policies,
                               crushing_patch_array *patches, contact_array *contacts, fram_error *error)
 {
-    job j = {ctx, scratch, settings, bodies, shapes, floes, patches, contacts, error};
+    job j = {ctx, scratch, settings, bodies, shapes, floes, supports, patches, contacts, error};
     crushing_limit_sides(settings, bodies, shapes, floes, policies, contacts);
     for (int32_t i = 0; i < patch_pairs->count; i++) {
         int32_t row = patch_pairs->data[i];

@@ -17,9 +17,10 @@
 
 #include "dynamics/collision.h"
 #include "geometry/mesh_bvh.h"
+#include "ice/edge_give.h"
 #include "ice/strength.h"
 
-/* Scratch row, made anew each step. */
+/* Scratch row, made anew each step.  Where the edge gives, all but plan is of what is left of the overlap then. */
 typedef struct crushing_patch {
     int32_t floe; /* row of the floe table */
     int32_t floe_body, surface_body;
@@ -28,7 +29,7 @@ typedef struct crushing_patch {
     double area;            /* A_c [m2] */
     double horizontal_area; /* A_h [m2], in the floe's plane */
     double surface_area;    /* sum of the areas whose vectors sum to A_c: what cancels counts here [m2] */
-    double pressure;        /* sigma_c(A_c) [Pa] */
+    double pressure;        /* sigma_c(A_c), less where the edge gives before it crushes [Pa] */
     box2 plan;              /* bounds of the patch in the floe's own plane [m] */
     int32_t contact_first, contact_count; /* rows of the contact array */
     int32_t component;                    /* number of the component inside its pair, by least triangle */
@@ -41,6 +42,7 @@ typedef struct crushing_settings {
     double skin;              /* bodies nearer than this touch: run.solver.contact_skin [m] */
     double ridging;           /* R of the ridge-building line load between floes, 0: none (ice/material.h) */
     strength_field strength;  /* how strengths vary over the ice */
+    edge_compliance edges;    /* how far edges of level and fixed ice give */
     bool correct_unbreakable; /* comparison switch: a hull pushes unbreakable floes out of itself */
     bool top_plane_area;      /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
 } crushing_settings;
@@ -55,12 +57,15 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s);
    patch; each capped by weight * sigma_c A_c dt.  Between two floes the higher slot counts as the floe, and the weaker
    one's pressure holds.  depth of the points = mean way of the overlap along the normal (ice/patch.h), continuous in
    the pose.  correct is false between hull and floe and between floes: their overlap is ice that is crushed or about to
-   break.  The contacts that the array holds already are given their limits by crushing_limit_sides.  Independent of how
-   hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for a pair without ice; without memory the
-   arrays may hold a part of the patches. */
+   break.  With `edges`, breakable ice that does not move freely gives under a hull: the edge is where the load that
+   crushes on what is left of the patch bends it, found by the ice that the patch stood on in the last step (supports,
+   may be NULL: straight edges).  The contacts that the array holds already are given their limits by
+   crushing_limit_sides.  Independent of how hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for
+   a pair without ice; without memory the arrays may hold a part of the patches. */
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
-                              const pair_table *pairs, const index_array *patch_pairs, const pair_policies *policies,
+                              const edge_support_table *supports, const pair_table *pairs,
+                              const index_array *patch_pairs, const pair_policies *policies,
                               crushing_patch_array *patches, contact_array *contacts, fram_error *error);
 
 /* The limits of contacts that the narrow phase made where the policy says `sides` (level floes side to side): per pair

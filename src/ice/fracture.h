@@ -59,6 +59,7 @@ typedef struct fracture_settings {
     tile_grid tiles;            /* level sheet, if there is one */
     strength_field strength;    /* how strengths vary over the ice */
     bool crush_notches;         /* floes that float lose what a hull had crushed when it draws back */
+    bool edges_give;            /* edges of level and fixed ice give before they break: supports are kept */
     bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 
@@ -93,8 +94,9 @@ typedef struct fracture_state {
     contact_array *contacts;
     contact_memory_table *memory;
     int32_t *next_number;
-    double *crushed;             /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
-    edge_load_table *edge_loads; /* what floes feel; may be NULL with EDGE_LOAD_STEP */
+    double *crushed;              /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
+    edge_load_table *edge_loads;  /* what floes feel; may be NULL with EDGE_LOAD_STEP */
+    edge_support_table *supports; /* what patches stand on; may be NULL without edges_give */
 } fracture_state;
 
 /* All fracture of one step.  Children keep the parent's orientation, material, thickness and motion of their material
@@ -107,12 +109,6 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
                          fram_error *error);
 
 /* --- the formulas, one load at a time --- */
-
-/* b0 of a wedge of angle pi/N: 2 tan(pi/(2 N)). */
-double fracture_wedge_width(int32_t wedges);
-/* Radius of a load of this area [m2]: the area as a part of a disc, area = share a^2; where a < 1.724 h and thick is
-   set, a_eff = sqrt(1.6 a^2 + h^2) - 0.675 h (Westergaard 1926) [m]. */
-double fracture_loaded_radius(double area, double share, double thickness, bool thick);
 
 /* Time in which an edge under a load on this area [m2] responds [s]: 1/omega of the waves of an ice sheet on deep
    water, omega^2 = (D k^4 + rho_w g)/(rho_i h + rho_w/k) (Greenhill 1887), of the wave number k = pi/(4 R_bending),

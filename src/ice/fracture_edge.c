@@ -2,8 +2,6 @@
    R_bending, or to where the floe ends along the first crack if that is nearer. */
 #include "ice/fracture_parts.h"
 
-#include "ice/wedge.h"
-
 /* The sectors of a straight edge's N wedges around a start, one after the other, and the strip between them. */
 typedef struct sectors {
     vec2 corner[3 * MOST_STENCIL + 4];
@@ -109,10 +107,8 @@ break_size fracture_break_size(const fracture_load *l)
 
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area)
 {
-    double length = ice_characteristic_length(ice, thickness, f->water_density, f->gravity);
-    double share = f->wedges * fracture_wedge_width(f->wedges) / 2;
-    double radius = fracture_loaded_radius(area, share, thickness, f->thick_plate_radius);
-    return length * wedge_breaking_estimate(radius / length);
+    const edge_compliance e = {false, f->water_density, f->gravity, f->wedges, f->thick_plate_radius};
+    return edge_reach(&e, ice, thickness, area);
 }
 
 fram_status fracture_find_ice(const fracture_job *j, fracture_load *l, edge_ice *edge)

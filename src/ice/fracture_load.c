@@ -8,26 +8,12 @@
 
 #include <stdlib.h>
 
-/* Westergaard's thick-plate radius holds below this many thicknesses. */
-static const double THICK_PLATE_LIMIT = 1.724;
 /* A load that is a point makes infinite stress in a thin plate; this a/l is a point. */
 static const double POINT_LOAD = 1e-3;
 
 /* Patches nearer than this part of a cell to one another meet on its side. */
 static const double SAME_LINE = 1e-7;
 
-double fracture_wedge_width(int32_t wedges) { return 2 * real_tan(PI / (2.0 * wedges)); }
-
-double fracture_loaded_radius(double area, double share, double thickness, bool thick)
-{
-    double a = sqrt(area / share);
-    if (thick && a < THICK_PLATE_LIMIT * thickness)
-        return sqrt(1.6 * a * a + thickness * thickness) - 0.675 * thickness;
-    return a;
-}
-
-/* Less ice than this part of a straight edge's is rounding. */
-static const double LEAST_ICE = 1e-6;
 /* Turns in which the area under wedges and strip is shared by what each carries: C changes little with the area. */
 enum { SHARING_TURNS = 4 };
 
@@ -36,7 +22,7 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
 {
     double h = thickness, width = settings->wedges * fracture_wedge_width(settings->wedges);
     edge_stress s = {.length = ice_characteristic_length(ice, h, settings->water_density, settings->gravity)};
-    width *= fmax(edge.wedges, LEAST_ICE);
+    width *= fmax(edge.wedges, EDGE_LEAST_ICE);
     s.radial_radius = fracture_loaded_radius(horizontal_area, PI / 2, h, settings->thick_plate_radius);
     double radial = sheet_stress(fmax(s.radial_radius / s.length, POINT_LOAD), ice->poisson_ratio);
     s.radial_stress = radial * load / (h * h);
@@ -226,9 +212,13 @@ static vec2 place_on_floe(const fracture_state *state, const fracture_load *l)
 static fram_status keep_failing(const fracture_job *j)
 {
     fracture_load_array *all = &j->scratch->load.all;
+    load_work *w = &j->scratch->load;
     int32_t kept = 0;
+    if (!array_resize(j->ctx, &w->edges, all->count))
+        return error_memory(j->error);
     for (int32_t i = 0; i < all->count; i++) {
         fracture_load l = all->data[i];
+        w->edges.data[i] = EDGE_STRAIGHT;
         l.force = fabs(l.vector.z);
         l.ice = strength_flexural_at(&j->settings->strength, j->state->floes, l.floe, place_on_floe(j->state, &l));
         l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
@@ -239,6 +229,7 @@ static fram_status keep_failing(const fracture_job *j)
         fram_status status = fracture_find_ice(j, &l, &edge);
         if (status != FRAM_OK)
             return status;
+        w->edges.data[i] = edge;
         if (l.split_ratio < 1 && !fails(j->settings, &l, edge))
             continue;
         l.stress = fracture_edge_stress(j->settings, &l.ice, l.thickness, l.force, l.horizontal_area, edge);
@@ -279,11 +270,13 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
             (other == MATERIAL_ICE && !add_load(ctx, s, j->settings, patches, i, j->state, p->surface_body)))
             return error_memory(j->error);
     }
-    if (!merge_seams(ctx, s, &j->settings->tiles))
+    if (!fracture_note_parts(j, patches) || !merge_seams(ctx, s, &j->settings->tiles))
         return error_memory(j->error);
     fram_status status = fracture_respond(j);
     if (status == FRAM_OK)
         status = keep_failing(j);
+    if (status == FRAM_OK)
+        status = fracture_keep_supports(j);
     if (status == FRAM_OK && s->load.all.count > 1)
         qsort(s->load.all.data, (size_t)s->load.all.count, sizeof *s->load.all.data, compare_loads);
     return status;

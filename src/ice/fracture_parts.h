@@ -64,11 +64,25 @@ typedef struct load_pair {
     int32_t load;    /* row */
 } load_pair;
 
+/* A patch on ice that is held, before seams were merged. */
+typedef struct load_part {
+    bool held;       /* under a hull; all other parts are of ice that gives in no way */
+    int32_t root;    /* the first part of the same load */
+    int32_t load;    /* of a root: row of the load */
+    int32_t floe;    /* row */
+    int32_t surface; /* slot */
+    vec3 place;      /* frame of the surface's body [m] */
+    double level;    /* horizontal area [m2] */
+    double sum;      /* of a root: of all parts [m2] */
+} load_part;
+
 /* The loads at hand. */
 typedef struct load_work {
     fracture_load_array all;
     ARRAY(load_pair) pairs; /* those of floes that float, sorted */
     ARRAY(vec3) felt;       /* one per load: what was felt there before this step */
+    ARRAY(load_part) parts; /* one per load that there was before seams were merged */
+    ARRAY(edge_ice) edges;  /* one per load since: the ice that it stands on, a straight edge where it is too small */
     int32_array root;       /* the least load that is one with each, across seams */
 } load_work;
 
@@ -140,6 +154,10 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
 
 /* By EDGE_LOAD_RESPONSE, the loads on floes that float become what these feel, which is remembered. */
 fram_status fracture_respond(const fracture_job *j);
+
+/* Loads of hulls on level and fixed ice, before seams are merged; and what they stood on, for the next step. */
+bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches);
+fram_status fracture_keep_supports(const fracture_job *j);
 
 /* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);

@@ -53,6 +53,14 @@ void patch_scratch_free(context *ctx, patch_scratch *s);
 bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
                       const patch_component_array **out);
 
+/* Area vector of what is left of a component of the last patch_components when the floe's edge gives by this much along
+   the floe's z, < 0: down [m]: an edge that goes down leaves the surface above it first, one that goes up the surface
+   below it.  What comes in at the other face instead is left out. */
+vec3 patch_area_left(const patch_scratch *s, const patch_floe *floe, int32_t component, double give);
+/* The same component with the area, surface, centre and spread of what is left, which may be nothing; way and plan stay
+   those of the whole. */
+patch_component patch_left(const patch_scratch *s, const patch_floe *floe, int32_t component, double give);
+
 /* Length of the way from `point` along the unit `direction` (floe frame) out of the floe, across seams; 0 for a point
    outside [m].  false: no memory. */
 bool patch_way_out(context *ctx, patch_scratch *s, const patch_floe *floe, vec3 point, vec3 direction, double *way);

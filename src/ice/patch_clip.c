@@ -6,10 +6,6 @@
    all. */
 #include "ice/patch_parts.h"
 
-/* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece, each of which adds
-   one; and one more that facet_clip may write. */
-enum { MOST_CORNERS = 3 + 2 + PIECE_MOST_VERTICES + 1 };
-
 /* A surface of up to so many vertices is looked at as a whole; of others the triangles near the floe are asked for. */
 enum { WHOLE_VERTICES = 64 };
 
@@ -24,7 +20,7 @@ _Static_assert((int)PIECE_MOST_VERTICES <= (int)PATCH_INSIDE, "a code has a bit 
 /* ---- cutting ---- */
 
 typedef struct facet {
-    vec3 corner[2][MOST_CORNERS]; /* filled and spare, in turn */
+    vec3 corner[2][PATCH_MOST_CORNERS]; /* filled and spare, in turn */
     int side, count;
     vec3 normal; /* of the triangle it came from, any length */
 } facet;
@@ -51,8 +47,7 @@ static void facet_cut(facet *f, half_space h, double tolerance)
     }
 }
 
-/* Area vector, centroid and second moments of a plane convex part, by its triangles about the first corner. */
-static void part_measure(const vec3 *v, int32_t count, patch_part *part)
+void patch_part_measure(const vec3 *v, int32_t count, patch_part *part)
 {
     vec3 area = {0, 0, 0}, first = {0, 0, 0};
     double surface = 0;
@@ -92,7 +87,7 @@ static bool push_part(context *ctx, patch_scratch *s, const facet *f, int32_t fa
                        .count = f->count,
                        .root = s->parts.count,
                        .component = -1};
-    part_measure(v, f->count, &part);
+    patch_part_measure(v, f->count, &part);
     if (!(part.surface > tolerance * tolerance))
         return true;
     if (!array_reserve(ctx, &s->corners, s->corners.count + f->count))
@@ -228,7 +223,7 @@ static bool make_slab(const patch_scratch *s, const int32_t v[3], unsigned caps,
 /* The slab's codes about a piece: those of the triangle, or of what is left of it. */
 static uint32_t slab_code(context *ctx, const facet *slab, const piece_sides *piece, double margin)
 {
-    uint32_t code[MOST_CORNERS], all = ~0u;
+    uint32_t code[PATCH_MOST_CORNERS], all = ~0u;
     KERNEL_PICK(ctx, patch_codes)(piece, margin, slab->corner[slab->side], slab->count, code);
     for (int i = 0; i < slab->count; i++)
         all &= code[i];

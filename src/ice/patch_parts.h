@@ -1,4 +1,5 @@
-/* What patch.c, patch_clip.c, patch_way.c and patch_top.c share: one module with patch.h.  Not for others. */
+/* What patch.c, patch_clip.c, patch_left.c, patch_way.c and patch_top.c share: one module with patch.h.  Not for
+ * others. */
 #ifndef ICE_PATCH_PARTS_H
 #define ICE_PATCH_PARTS_H
 
@@ -7,6 +8,10 @@
 
 /* What counts as the same place, as part of the floe's size: far over rounding, far under anything of interest. */
 #define PATCH_SAME_PLACE 1e-10
+
+/* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece, each of which adds
+   one; and one more that facet_clip may write. */
+enum { PATCH_MOST_CORNERS = 3 + 2 + PIECE_MOST_VERTICES + 1 };
 
 /* What one triangle has inside one piece. */
 typedef struct patch_part {
@@ -89,6 +94,9 @@ static inline box2 box_of_nothing(void) { return (box2){{HUGE_VAL, HUGE_VAL}, {-
 
 /* The parts of all triangles in all pieces of the floe, by triangle and piece. */
 bool patch_clip(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
+
+/* Area vector, centroid and second moments of a plane convex part, by its triangles about the first corner. */
+void patch_part_measure(const vec3 *v, int32_t count, patch_part *part);
 
 /* The mean way of the overlap of each component, from its parts. */
 bool patch_measure_ways(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);

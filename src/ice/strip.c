@@ -1,5 +1,6 @@
 /* The free beam on an elastic foundation under a force at one end (Hetenyi 1946), with b = 1/(sqrt(2) l), s = b x,
    t = b (L - x):
+       w(0) = 2 p b/k (sinh(bL) cosh(bL) - sin(bL) cos(bL)) / (sinh^2(bL) - sin^2(bL)),
        M = p/b (sinh(bL) sin(s) sinh(t) - sin(bL) sinh(s) sin(t)) / (sinh^2(bL) - sin^2(bL)). */
 #include "ice/strip.h"
 
@@ -27,9 +28,9 @@ strip strip_solve(double length_over_l)
 {
     double root = sqrt(2.0), end = length_over_l / root;
     if (!(end < INFINITE))
-        return (strip){PI / 4 * root, real_exp(-PI / 4)};
+        return (strip){PI / 4 * root, real_exp(-PI / 4), 1 / root};
     if (end < RIGID)
-        return (strip){length_over_l / 3, 4.0 / 27 * length_over_l};
+        return (strip){length_over_l / 3, 4.0 / 27 * length_over_l, length_over_l / 4};
     double low = 0, high = fmin(end / 2, 1.1);
     for (int i = 0; i < 50; i++) {
         double middle = (low + high) / 2;
@@ -40,5 +41,6 @@ strip strip_solve(double length_over_l)
     }
     double s = (low + high) / 2, a = hyperbolic_sine(end), c = real_sin(end);
     double above = a * real_sin(s) * hyperbolic_sine(end - s) - c * hyperbolic_sine(s) * real_sin(end - s);
-    return (strip){s * root, root * above / (a * a - c * c)};
+    double stiffness = (a * a - c * c) / (a * hyperbolic_cosine(end) - c * real_cos(end)) / root;
+    return (strip){s * root, root * above / (a * a - c * c), stiffness};
 }

@@ -8,8 +8,9 @@
 #define ICE_STRIP_H
 
 typedef struct strip {
-    double x_max;  /* place of the largest moment, over l */
-    double moment; /* largest moment over p l */
+    double x_max;     /* place of the largest moment, over l */
+    double moment;    /* largest moment over p l */
+    double stiffness; /* p over k w l, w the deflection of the loaded end: semi-infinite 1/sqrt(2), short L/(4 l) */
 } strip;
 
 /* The strip of this length over l, which may be infinite; to about 1e-9. */

@@ -161,11 +161,19 @@ static double largest_curvature_at(const wedge *w)
     return x;
 }
 
-wedge wedge_solve(double a_over_l)
+static wedge wedge_begin(double a_over_l)
 {
     wedge w = {.load_length = fmin(fmax(a_over_l, WEDGE_LEAST_LOAD), WEDGE_MOST_LOAD)};
     set_coefficients(&w);
     w.tip_deflection = pressure(&w) + w.inner[0];
+    return w;
+}
+
+double wedge_tip_deflection(double a_over_l) { return wedge_begin(a_over_l).tip_deflection; }
+
+wedge wedge_solve(double a_over_l)
+{
+    wedge w = wedge_begin(a_over_l);
     w.x_max = largest_curvature_at(&w);
     double eta[DERIVATIVES];
     wedge_profile(&w, w.x_max, eta);

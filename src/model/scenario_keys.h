@@ -218,6 +218,9 @@
     X(load_over, CHOICE(edge_load_rule, EDGE_LOAD_RESPONSE, "step response"), "",                                     \
       "what breaks floes that float: step: the impulse of a time step over the step; response: the load as a mean "   \
       "over the time in which the edge responds; level and fixed ice: always step")                                   \
+    X(edge_compliance, BOOLEAN(true), "",                                                                             \
+      "level and fixed ice: a loaded edge goes down or up under its load before it breaks, as Nevel's wedges do on "  \
+      "water; false: it is rigid until it breaks")                                                                    \
     X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                               \
       "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than "       \
       "splitting_factor R; toughness: fracture mechanics, by the load in the floe's plane; none: floes do not split") \

@@ -58,6 +58,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(approach, approaches),
         STATE(edge_load, edge_loads),
         STATE(held_drag, held_drag),
+        STATE(edge_support, edge_supports),
     };
     memcpy(out, list, sizeof list);
 }

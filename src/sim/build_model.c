@@ -49,8 +49,18 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,
                                .tiles = build_tiles(s),
                                .strength = strength_of(s),
+                               .edges_give = s->ice.fracture.edge_compliance,
                                .crush_notches = s->ice.crush_notches,
                                .crush_trims = s->ice.crush_trims};
+}
+
+static edge_compliance compliance_of(const scenario *s)
+{
+    return (edge_compliance){.gives = s->ice.fracture.edge_compliance,
+                             .water_density = s->environment.water_density,
+                             .gravity = s->environment.gravity,
+                             .wedges = (int32_t)s->ice.fracture.wedges,
+                             .thick_plate_radius = s->ice.fracture.thick_plate_radius};
 }
 
 static model settings_of(const scenario *s)
@@ -72,6 +82,7 @@ static model settings_of(const scenario *s)
                      .skin = v->contact_skin,
                      .ridging = s->ice.ridging_resistance,
                      .strength = strength_of(s),
+                     .edges = compliance_of(s),
                      .correct_unbreakable = s->ice.correct_unbreakable,
                      .top_plane_area = s->ice.top_plane_area},
         .fracture = build_fracture_settings(s),

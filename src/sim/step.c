@@ -167,8 +167,9 @@ static fram_status limit_crushing(context *ctx, const model *m, world *w, fram_e
 {
     array_clear(&w->scratch.patches);
     fenders_limit(m, w);
-    return crushing_contacts(ctx, w->scratch.crushing, &m->crushing, &w->bodies, &w->shapes, &w->floes, &w->pairs,
-                             &w->scratch.patch_pairs, &m->policies, &w->scratch.patches, &w->scratch.contacts, error);
+    return crushing_contacts(ctx, w->scratch.crushing, &m->crushing, &w->bodies, &w->shapes, &w->floes,
+                             &w->edge_supports, &w->pairs, &w->scratch.patch_pairs, &m->policies, &w->scratch.patches,
+                             &w->scratch.contacts, error);
 }
 
 /* 4. New velocities. */
@@ -188,8 +189,8 @@ static fram_status solve_velocities(context *ctx, const model *m, world *w, fram
 /* 5. Fracture of breakable floes, from the solved impulses. */
 static fram_status break_floes(context *ctx, const model *m, world *w, fram_error *error)
 {
-    fracture_state state = {&w->bodies,         &w->shapes,           &w->floes,     &w->scratch.contacts, &w->memory,
-                            w->clock.next_floe, w->clock.ice_crushed, &w->edge_loads};
+    fracture_state state = {&w->bodies,         &w->shapes,           &w->floes,      &w->scratch.contacts, &w->memory,
+                            w->clock.next_floe, w->clock.ice_crushed, &w->edge_loads, &w->edge_supports};
     fracture_settings settings = m->fracture;
     settings.tiles = feed_grid(m, w);
     array_clear(&w->scratch.fractures);

@@ -16,6 +16,7 @@ typedef struct ice_rig {
     floe_table floes;
     joint_table joints;
     contact_memory_table memory;
+    edge_support_table supports;
     pair_table pairs; /* kept by hand: see ice_rig_pair */
     index_array patch_pairs;
     pair_policies policies;
@@ -68,6 +69,7 @@ static inline void ice_rig_free(ice_rig *r)
     solid_array_free(c, &r->solids);
     table_free(c, &r->floes, &floe_table_info);
     table_free(c, &r->joints, &joint_table_info);
+    table_free(c, &r->supports, &edge_support_table_info);
     table_free(c, &r->memory, &contact_memory_table_info);
     table_free(c, &r->pairs, &pair_table_info);
     array_free(c, &r->patch_pairs);
@@ -222,8 +224,8 @@ static inline fram_status ice_rig_try(ice_rig *r, fram_error *e)
 {
     array_clear(&r->patches);
     array_clear(&r->contacts);
-    return crushing_contacts(&r->ctx, r->scratch, &r->settings, &r->bodies, &r->shapes, &r->floes, &r->pairs,
-                             &r->patch_pairs, &r->policies, &r->patches, &r->contacts, e);
+    return crushing_contacts(&r->ctx, r->scratch, &r->settings, &r->bodies, &r->shapes, &r->floes, &r->supports,
+                             &r->pairs, &r->patch_pairs, &r->policies, &r->patches, &r->contacts, e);
 }
 
 /* Patches and contacts of all pairs. */

@@ -517,7 +517,7 @@ START_TEST(flags)
     ck_assert(r.contacts.data[0].correct);
     /* Patches are appended. */
     fram_error e = {0};
-    assert_ok(crushing_contacts(&r.ctx, r.scratch, &r.settings, &r.bodies, &r.shapes, &r.floes, &r.pairs,
+    assert_ok(crushing_contacts(&r.ctx, r.scratch, &r.settings, &r.bodies, &r.shapes, &r.floes, NULL, &r.pairs,
                                 &r.patch_pairs, &r.policies, &r.patches, &r.contacts, &e),
               e);
     ck_assert_int_eq(r.patches.count, 2);

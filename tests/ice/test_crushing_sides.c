@@ -39,7 +39,7 @@ static void sides_find(sides_rig *s)
     assert_ok(narrow_phase_run(&r->ctx, &r->bodies, &r->shapes, &r->policies, &s->boxes, &r->pairs, &r->contacts,
                                &r->patch_pairs, s->collision, &e),
               e);
-    assert_ok(crushing_contacts(&r->ctx, r->scratch, &r->settings, &r->bodies, &r->shapes, &r->floes, &r->pairs,
+    assert_ok(crushing_contacts(&r->ctx, r->scratch, &r->settings, &r->bodies, &r->shapes, &r->floes, NULL, &r->pairs,
                                 &r->patch_pairs, &r->policies, &r->patches, &r->contacts, &e),
               e);
 }

@@ -29,10 +29,11 @@ static void ramp_scene(ice_rig *r, double dt, double slope)
     ice_rig_pair(r, ice, hull);
 }
 
-static breaking run_until_broken(double dt, double slope)
+static breaking run_until_broken(double dt, double slope, bool gives)
 {
     ice_rig r;
     ramp_scene(&r, dt, slope);
+    r.settings.edges = (edge_compliance){gives, 1025, 9.81, 3, false};
     fracture_scratch *scratch = fracture_scratch_create(&r.ctx);
     fracture_settings settings = {.time_step = dt,
                                   .water_density = 1025,
@@ -42,10 +43,11 @@ static breaking run_until_broken(double dt, double slope)
                                   .narrowness = 4,
                                   .smallest_floe_area = 0.18,
                                   .smallest_piece_area = 0.009,
-                                  .edge_threshold = 0.15};
+                                  .edge_threshold = 0.15,
+                                  .edges_give = gives};
     fracture_event_array events = {0};
     breaking b = {0};
-    for (int step = 0; step * dt < 2 && events.count == 0; step++) {
+    for (int step = 0; step * dt < 3 && events.count == 0; step++) {
         fram_error e = {0};
         ice_rig_crush(&r);
         wrench *loads = memory_array(&r.ctx, (size_t)r.bodies.count, sizeof *loads);
@@ -56,7 +58,8 @@ static breaking run_until_broken(double dt, double slope)
         memory_free(&r.ctx, loads);
         b.force = ice_rig_force(&r);
         b.time = step * dt;
-        fracture_state state = {&r.bodies, &r.shapes, &r.floes, &r.contacts, &r.memory, &r.next_number, NULL, NULL};
+        fracture_state state = {&r.bodies,      &r.shapes, &r.floes, &r.contacts, &r.memory,
+                                &r.next_number, NULL,      NULL,     NULL};
         assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
         integrate_poses(&r.ctx, &r.bodies, dt);
     }
@@ -72,7 +75,7 @@ static breaking run_until_broken(double dt, double slope)
    first step at which it is large enough. */
 static void check_break(double dt, double slope)
 {
-    breaking b = run_until_broken(dt, slope);
+    breaking b = run_until_broken(dt, slope, false);
     double time = dt * ceil(TIME / dt), area = 2 * 0.1 * time;
     ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
     assert_absolute(b.time, time, 1e-9);
@@ -104,6 +107,36 @@ START_TEST(upward)
 }
 END_TEST
 
+/* The same break where the edge gives: at the same load, after the way of the crushing and that of the tip, which
+   Nevel's solution puts at P eta(0)/(k sum(b0) l^2) = 0.0907 m with eta(0) = 2.1632 at a/l = 0.020536 (Nevel 1961). */
+static const double TIP = 0.090725, LATER = 1.686608;
+
+static void check_give(double dt, double slope)
+{
+    breaking b = run_until_broken(dt, slope, true);
+    ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
+    ck_assert_msg(b.time >= LATER * (1 - 1e-4) && b.time < LATER * (1 + 1e-4) + dt, "broke after %.6f s, not %.6f",
+                  b.time, LATER);
+    /* First order in the time step: dt of loading more at most, by a stiffness that is nearly constant. */
+    double more = 1.02 * dt / LATER + 1e-4;
+    ck_assert(b.event.load > FORCE * (1 - 1e-4) && b.event.load < FORCE * (1 + more));
+    assert_relative(b.event.loaded_radius, LOADED, more);
+    assert_relative(b.event.crack_length, RADIUS, more);
+    assert_relative(b.force.x, fabs(b.force.z), 1e-9);
+    ck_assert((b.force.z < 0) == (slope > 0));
+    ck_assert_int_eq(b.event.pieces, 5);
+}
+
+START_TEST(edge_that_gives)
+{
+    for (double dt = 0.02; dt > 1e-3; dt /= 4) {
+        check_give(dt, 1);
+        check_give(dt, -1);
+    }
+    assert_relative(LATER * 0.1 - TIP, AREA / 2, 1e-4);
+}
+END_TEST
+
 /* Exactly the oracle's state, between two time steps. */
 START_TEST(critical_state)
 {
@@ -118,4 +151,4 @@ START_TEST(critical_state)
 }
 END_TEST
 
-TEST_MAIN("fracture_oracles", downward, upward, critical_state)
+TEST_MAIN("fracture_oracles", downward, upward, edge_that_gives, critical_state)

@@ -8,6 +8,8 @@ START_TEST(semi_infinite)
 {
     assert_relative(strip_solve(HUGE_VAL).moment, 0.455938127766, 1e-11);
     assert_relative(strip_solve(HUGE_VAL).x_max, 1.110720734540, 1e-11);
+    assert_relative(strip_solve(HUGE_VAL).stiffness, sqrt(0.5), 1e-11);
+    assert_relative(strip_solve(25).stiffness, sqrt(0.5), 1e-11);
     assert_relative(strip_solve(25).moment, 0.455938127766, 1e-11);
     assert_relative(strip_solve(29).x_max, strip_solve(27).x_max, 1e-11);
 }
@@ -21,14 +23,16 @@ START_TEST(rigid)
         assert_relative(s.moment, 4.0 / 27 * length, 1e-5);
         assert_relative(s.x_max, length / 3, 1e-5);
     }
+    assert_relative(strip_solve(0.0424).stiffness, strip_solve(0.0425).stiffness * 0.0424 / 0.0425, 1e-7);
     assert_relative(strip_solve(0.0424).moment / 0.0424, strip_solve(0.0425).moment / 0.0425, 1e-7);
 }
 END_TEST
 
 enum { NODES = 800 };
 
-/* Largest moment |w''| by integrating the beam's equation step by step (k = D = 1, so that l = 1). */
-static double by_steps(double length, double *place)
+/* Largest moment |w''|, and the deflection of the loaded end for a unit load, by integrating the beam's equation step
+ * by step (k = D = 1, so that l = 1). */
+static double by_steps(double length, double *place, double *tip)
 {
     static double m[NODES + 1];
     double step = length / NODES, best = 0;
@@ -46,6 +50,7 @@ static double by_steps(double length, double *place)
             y[0] = (-end[0][0] * d + end[0][1] * b) / det;
             y[1] = (-end[0][1] * a + end[0][0] * c) / det;
         }
+        *tip = y[0];
         for (int i = 0; i <= NODES; i++) {
             m[i] = y[2];
             double k[4][4], at[4];
@@ -78,9 +83,10 @@ START_TEST(lengths_between)
     static const double LENGTHS[] = {0.1, 0.5, 1, 2, 3, 4, 6};
     double last = 0;
     for (size_t i = 0; i < sizeof LENGTHS / sizeof *LENGTHS; i++) {
-        double place = 0, moment = by_steps(LENGTHS[i], &place);
+        double place = 0, tip = 0, moment = by_steps(LENGTHS[i], &place, &tip);
         strip s = strip_solve(LENGTHS[i]);
         assert_relative(s.moment, moment, 1e-5);
+        assert_relative(s.stiffness, 1 / fabs(tip), 1e-5);
         assert_absolute(s.x_max, place, 1.5 * LENGTHS[i] / NODES);
         ck_assert(s.moment < 4.0 / 27 * LENGTHS[i] + 1e-12);
         ck_assert(s.moment > last || LENGTHS[i] > 3);

@@ -1,0 +1,60 @@
+/* The stiffness of a loaded edge, and what it stood on; see edge_give.h. */
+#include "ice/edge_give.h"
+
+#include "base/transcendental.h"
+#include "ice/wedge.h"
+
+#define TABLE_SELF edge_support_table
+TABLE_DEFINE(edge_support, EDGE_SUPPORT_FIELDS)
+#undef TABLE_SELF
+
+/* Westergaard's thick-plate radius holds below this many thicknesses. */
+static const double THICK_PLATE_LIMIT = 1.724;
+
+double fracture_wedge_width(int32_t wedges) { return 2 * real_tan(PI / (2.0 * wedges)); }
+
+double fracture_loaded_radius(double area, double share, double thickness, bool thick)
+{
+    double a = sqrt(area / share);
+    if (thick && a < THICK_PLATE_LIMIT * thickness)
+        return sqrt(1.6 * a * a + thickness * thickness) - 0.675 * thickness;
+    return a;
+}
+
+edge_stand edge_stand_find(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,
+                           double reach)
+{
+    vec3 at = body_to_local(bodies, surface, place);
+    double least = reach;
+    int32_t best = -1;
+    for (int32_t i = 0; i < supports->count; i++) {
+        if (supports->surface[i] != surface || supports->generation[i] != bodies->generation[surface])
+            continue;
+        double way = vec3_length(vec3_sub(supports->place[i], at));
+        if (way < least) {
+            least = way;
+            best = i;
+        }
+    }
+    if (best < 0)
+        return EDGE_STAND_STRAIGHT;
+    return (edge_stand){supports->wedges[best], supports->beside[best], supports->strip[best]};
+}
+
+double edge_reach(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area)
+{
+    double length = ice_characteristic_length(ice, thickness, e->water_density, e->gravity);
+    double share = e->wedges * fracture_wedge_width(e->wedges) / 2;
+    double radius = fracture_loaded_radius(horizontal_area, share, thickness, e->thick_plate_radius);
+    return length * wedge_breaking_estimate(radius / length);
+}
+
+double edge_stiffness(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,
+                      edge_stand stand)
+{
+    double length = ice_characteristic_length(ice, thickness, e->water_density, e->gravity);
+    double width = fmax(stand.wedges, EDGE_LEAST_ICE) * e->wedges * fracture_wedge_width(e->wedges);
+    double radius = fracture_loaded_radius(horizontal_area, width / 2, thickness, e->thick_plate_radius);
+    double tip = wedge_tip_deflection(radius / length);
+    return e->water_density * e->gravity * (length * length * width / tip + stand.strip);
+}

@@ -1,0 +1,60 @@
+/* How far the edge of level or fixed ice gives under a load before it breaks (docs/decisions/0220): Nevel's wedges, and
+   the strip under a wide contact, have one tip deflection in common,
+       P = k (l^2 sum b0 / eta(0) + strip) w,   k = rho_w g,
+   with eta(0) of ice/wedge.h and the strip of ice/strip.h.  Knows loads and ice, not whose surface pushes. */
+#ifndef ICE_EDGE_GIVE_H
+#define ICE_EDGE_GIVE_H
+
+#include "base/table.h"
+#include "base/vec.h"
+#include "bodies/body.h"
+#include "ice/material.h"
+
+/* What a patch on level or fixed ice stood on in the last step; rows are made anew in each, and found again by the
+   nearest place on the surface.  State. */
+#define EDGE_SUPPORT_FIELDS(X)                                                                   \
+    X(surface, int32_t, FIELD_I32, 1, "1", "slot of the body that pushes")                       \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")                                   \
+    X(place, vec3, FIELD_F64, 3, "m", "middle of the patch, frame of that body")                 \
+    X(wedges, double, FIELD_F64, 1, "1", "ice of the wedges over that of N whole ones")          \
+    X(beside, double, FIELD_F64, 1, "m2", "horizontal area of what the load has in other tiles") \
+    X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g")
+TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)
+
+typedef struct edge_compliance {
+    bool gives;           /* false: an edge is rigid until it breaks */
+    double water_density; /* [kg/m3] */
+    double gravity;       /* [m/s2] */
+    int32_t wedges;       /* N_wedges */
+    bool thick_plate_radius;
+} edge_compliance;
+
+/* One row of the table, without its place. */
+typedef struct edge_stand {
+    double wedges, beside, strip;
+} edge_stand;
+/* Less ice than this part of a straight edge's is rounding. */
+#define EDGE_LEAST_ICE 1e-6
+
+/* A straight edge under a narrow load that no seam divides. */
+#define EDGE_STAND_STRAIGHT ((edge_stand){1, 0, 0})
+
+/* What stands under a patch with this middle (global [m]) of the surface's body: the nearest row within `reach` [m], a
+   straight edge without one. */
+edge_stand edge_stand_find(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,
+                           double reach);
+
+/* b0 of a wedge of angle pi/N: 2 tan(pi/(2 N)). */
+double fracture_wedge_width(int32_t wedges);
+/* Radius of a load of this area [m2]: the area as a part of a disc, area = share a^2; where a < 1.724 h and thick is
+   set, a_eff = sqrt(1.6 a^2 + h^2) - 0.675 h (Westergaard 1926) [m]. */
+double fracture_loaded_radius(double area, double share, double thickness, bool thick);
+
+/* R_bending of a straight edge under a narrow load on a horizontal area [m2], within 5 % [m]. */
+double edge_reach(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area);
+
+/* Load over deflection of the edge under a load on a horizontal area [m2], of the whole load [N/m]. */
+double edge_stiffness(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,
+                      edge_stand stand);
+
+#endif

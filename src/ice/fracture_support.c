@@ -1,0 +1,76 @@
+/* What patches on level and fixed ice stand on, kept for the step to come; see ice/edge_give.h. */
+#include "ice/fracture_parts.h"
+#include "ice/strip.h"
+
+bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches)
+{
+    load_work *w = &j->scratch->load;
+    const body_table *bodies = j->state->bodies;
+    array_clear(&w->parts);
+    if (!j->settings->edges_give)
+        return true;
+    for (int32_t i = 0; i < w->all.count; i++) {
+        const fracture_load *l = &w->all.data[i];
+        bool held = !body_is_dynamic(bodies, l->body) && bodies->material[l->surface] == MATERIAL_HULL;
+        load_part p = {.held = held,
+                       .floe = l->floe,
+                       .surface = l->surface,
+                       .place = body_to_local(bodies, l->surface, patches->data[l->patch].centre),
+                       .level = l->horizontal_area};
+        if (!array_push(j->ctx, &w->parts, p))
+            return false;
+    }
+    return true;
+}
+
+/* Loads were kept in the order of their least parts, which are their roots. */
+static void find_roots(load_work *w)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < w->parts.count; i++) {
+        load_part *p = &w->parts.data[i];
+        p->root = i;
+        while (w->root.data[p->root] != p->root)
+            p->root = w->root.data[p->root];
+        if (p->root == i)
+            p->load = kept++;
+        w->parts.data[p->root].sum += p->level;
+    }
+}
+
+/* Load over deflection of the strip under a wide contact, over rho_w g [m2]. */
+static double strip_stiffness(const fracture_job *j, const load_part *p, const edge_ice *edge)
+{
+    const fracture_settings *f = j->settings;
+    const floe_table *floes = j->state->floes;
+    if (!(edge->strip > 0))
+        return 0;
+    double length =
+        ice_characteristic_length(&floes->material[p->floe], floes->thickness[p->floe], f->water_density, f->gravity);
+    return edge->strip * length * strip_solve(edge->length / length).stiffness;
+}
+
+fram_status fracture_keep_supports(const fracture_job *j)
+{
+    load_work *w = &j->scratch->load;
+    edge_support_table *e = j->state->supports;
+    if (!j->settings->edges_give || !e)
+        return FRAM_OK;
+    if (!table_resize(j->ctx, e, &edge_support_table_info, w->parts.count))
+        return error_memory(j->error);
+    find_roots(w);
+    int32_t row = 0;
+    for (int32_t i = 0; i < w->parts.count; i++) {
+        const load_part *p = &w->parts.data[i], *root = &w->parts.data[p->root];
+        if (!p->held)
+            continue;
+        const edge_ice *edge = &w->edges.data[root->load];
+        e->surface[row] = p->surface;
+        e->generation[row] = j->state->bodies->generation[p->surface];
+        e->place[row] = p->place;
+        e->wedges[row] = edge->wedges;
+        e->beside[row] = root->sum - p->level;
+        e->strip[row++] = strip_stiffness(j, p, edge);
+    }
+    return table_resize(j->ctx, e, &edge_support_table_info, row) ? FRAM_OK : error_memory(j->error);
+}

@@ -1,0 +1,243 @@
+/* Edges that give before they break (docs/decisions/0220): the deflection of a loaded tip, what of a patch is left
+   then, and what it stands on. */
+#include "base/transcendental.h"
+#include "ice/edge_give.h"
+#include "ice/fracture.h"
+#include "ice/wedge.h"
+#include "ice_rig.h"
+#include "sheet_rig.h"
+
+static const edge_compliance GIVES = {true, 1025, 9.81, 3, false};
+static const double FOUNDATION = 1025 * 9.81;
+
+/* A plate 2 m wide that leans by `slope` (x over z), `way` beyond the first touch with ice that begins at x = 0; the
+   ice is one fixed floe of 1 m, or two with a seam at y = `seam`. */
+static void ramp_make(ice_rig *r, double slope, double way, double seam)
+{
+    ice_rig_make(r, 0.01);
+    r->settings.edges = GIVES;
+    bool two = seam < 40;
+    double width[2] = {seam + 40, 40 - seam}, middle[2] = {(seam - 40) / 2, (seam + 40) / 2};
+    mesh plate = {0};
+    ck_assert(mesh_make_box(&r->ctx, (vec3){-10, -1, -6}, (vec3){0, 1, 6}, &plate));
+    for (int32_t i = 0; i < plate.vertex.count; i++)
+        plate.vertex.data[i].x += slope * plate.vertex.data[i].z;
+    int32_t hull = ice_rig_hull(r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
+    r->bodies.position[hull] = (vec3){way - 0.5 * fabs(slope), 0, 0};
+    r->bodies.velocity[hull] = (vec3){0.1, 0, 0};
+    for (int i = 0; i < (two ? 2 : 1); i++) {
+        int32_t row = ice_rig_plate(r, 60, two ? width[i] : 80, 1, MOTION_STATIC), ice = r->floes.body[row];
+        r->bodies.position[ice] = (vec3){30, two ? middle[i] : 0, 0};
+        ice_rig_pair(r, ice, hull);
+    }
+}
+
+/* Load over deflection of a straight edge with Nevel's solution written out [N/m]. */
+static double nevel(double area)
+{
+    double length = pow(5e9 / (12 * (1 - 0.09)) / FOUNDATION, 0.25), width = 6 * tan(PI / 6);
+    return FOUNDATION * length * length * width / wedge_solve(sqrt(2 * area / width) / length).tip_deflection;
+}
+
+/* What crushes on the plate is what bends the edge, at any way, downward and upward: the contact is that of the plate
+   in ice that has gone down by w = P/K. */
+START_TEST(balance)
+{
+    static const double WAYS[] = {1e-4, 0.01, 0.05, 0.1, 0.3};
+    for (int i = 0; i < 10; i++) {
+        double slope = i < 5 ? 1 : -1, way = WAYS[i % 5];
+        ice_rig r;
+        ramp_make(&r, slope, way, 40);
+        ice_rig_crush(&r);
+        ck_assert_int_eq(r.patches.count, 1);
+        const crushing_patch *p = &r.patches.data[0];
+        double area = p->horizontal_area, give = 2e6 * area / nevel(area);
+        assert_relative(2 * (way - give), area, 1e-8);
+        assert_relative(p->area, area * sqrt(2.0), 1e-9);
+        assert_relative(p->pressure, 2e6, 1e-9);
+        double limit = 0;
+        for (int32_t k = 0; k < r.contacts.count; k++)
+            limit += r.contacts.data[k].impulse_limit;
+        assert_relative(limit, 2e6 * p->area * 0.01, 1e-9);
+        /* The middle of what is left: of a face of 2 m and the triangles of both sides, whose pushes cancel. */
+        double c = way - give, face = 2 * sqrt(2.0), middle = (face * c / 2 + c * c / 3) / (face + c);
+        assert_absolute(p->centre.x, middle, 1e-8);
+        assert_absolute(fabs(p->centre.z), 0.5 - give - middle, 1e-8);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+/* 362 kN on a wedge tip of 0.1 l put it down by 0.101 m (1 m, 5 GPa). */
+START_TEST(stiffness_of_an_edge)
+{
+    ice_material m = ICE_RIG_MATERIAL;
+    double length = 14.6079, width = 6 * tan(PI / 6), area = width * 0.01 * length * length / 2;
+    double k = edge_stiffness(&GIVES, &m, 1, area, EDGE_STAND_STRAIGHT);
+    assert_relative(k, FOUNDATION * length * length * width / 2.067333645437, 1e-5);
+    assert_relative(362e3 / k, 0.101, 5e-3);
+    /* Half the ice on a tip of the same length is half as stiff; a strip of 10 m adds k l w / sqrt(2). */
+    edge_stand half = {0.5, 0, 0}, wide = {1, 0, 10 * length * sqrt(0.5)};
+    assert_relative(edge_stiffness(&GIVES, &m, 1, area / 2, half), k / 2, 1e-12);
+    assert_relative(edge_stiffness(&GIVES, &m, 1, area, wide), k + FOUNDATION * 10 * length * sqrt(0.5), 1e-9);
+}
+END_TEST
+
+/* Switched off, under a free floe, one that cannot break, or another floe, nothing gives. */
+START_TEST(what_does_not_give)
+{
+    for (int i = 0; i < 4; i++) {
+        ice_rig r;
+        ramp_make(&r, 1, 0.1, 40);
+        int32_t ice = r.floes.body[0];
+        r.settings.edges.gives = i != 0;
+        if (i == 1)
+            r.bodies.motion[ice] = MOTION_DYNAMIC;
+        if (i == 2)
+            r.floes.breakable[0] = false;
+        if (i == 3)
+            r.settings.top_plane_area = true;
+        ice_rig_crush(&r);
+        assert_relative(r.patches.data[0].area, 0.2 * sqrt(2.0), 1e-9);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+/* A flat face on the top of the edge, 10 mm in it: the edge goes down by 10 mm and bears K w, far less than crushes. */
+START_TEST(flat_face)
+{
+    ice_rig r;
+    ice_rig_make(&r, 0.01);
+    r.settings.edges = GIVES;
+    int32_t row = ice_rig_plate(&r, 60, 80, 1, MOTION_STATIC), ice = r.floes.body[row];
+    r.bodies.position[ice] = (vec3){30, 0, 0};
+    int32_t hull = ice_rig_box(&r, (vec3){-1, -1, 0.49}, (vec3){1, 1, 3}, MOTION_PRESCRIBED, MATERIAL_HULL);
+    r.bodies.velocity[hull] = (vec3){0, 0, -0.1};
+    ice_rig_pair(&r, ice, hull);
+    ice_rig_crush(&r);
+    ck_assert_int_eq(r.patches.count, 1);
+    const crushing_patch *p = &r.patches.data[0];
+    assert_relative(p->horizontal_area, 2, 1e-9);
+    assert_relative(p->pressure * p->horizontal_area, nevel(2) * 0.01, 1e-6);
+    ck_assert(p->pressure < 0.1 * 2e6);
+    ice_rig_free(&r);
+}
+END_TEST
+
+/* An edge gives by half its thickness at most; then it is crushed at full pressure. */
+START_TEST(small_deflections)
+{
+    ice_rig r;
+    ramp_make(&r, 1, 0.9, 40);
+    r.floes.material[0].elastic_modulus = 1e7;
+    ice_rig_crush(&r);
+    assert_relative(r.patches.data[0].horizontal_area, 2 * 0.4, 1e-9);
+    assert_relative(r.patches.data[0].pressure, 2e6, 1e-12);
+    ice_rig_free(&r);
+}
+END_TEST
+
+/* What fracture would note for the patches at hand. */
+static void support_by_hand(ice_rig *r, double wedges)
+{
+    double sum = 0;
+    for (int32_t i = 0; i < r->patches.count; i++)
+        sum += r->patches.data[i].horizontal_area;
+    ck_assert(table_resize(&r->ctx, &r->supports, &edge_support_table_info, r->patches.count));
+    for (int32_t i = 0; i < r->patches.count; i++) {
+        const crushing_patch *p = &r->patches.data[i];
+        r->supports.surface[i] = p->surface_body;
+        r->supports.generation[i] = r->bodies.generation[p->surface_body];
+        r->supports.place[i] = body_to_local(&r->bodies, p->surface_body, p->centre);
+        r->supports.wedges[i] = wedges;
+        r->supports.beside[i] = sum - p->horizontal_area;
+        r->supports.strip[i] = 0;
+    }
+}
+
+/* A seam does not make an edge stiffer: after some steps of the same way both parts give as the whole. */
+START_TEST(seams)
+{
+    static const double SEAMS[] = {0, 0.3, 0.95};
+    ice_rig whole;
+    ramp_make(&whole, 1, 0.15, 40);
+    ice_rig_crush(&whole);
+    for (int i = 0; i < 3; i++) {
+        ice_rig r;
+        ramp_make(&r, 1, 0.15, SEAMS[i]);
+        for (int step = 0; step < 60; step++) {
+            ice_rig_crush(&r);
+            ck_assert_int_eq(r.patches.count, 2);
+            support_by_hand(&r, 1);
+        }
+        double sum = r.patches.data[0].horizontal_area + r.patches.data[1].horizontal_area;
+        assert_relative(sum, whole.patches.data[0].horizontal_area, 1e-6);
+        assert_relative(r.patches.data[1].horizontal_area / sum, (1 - SEAMS[i]) / 2, 1e-6);
+        ice_rig_free(&r);
+    }
+    ice_rig_free(&whole);
+}
+END_TEST
+
+/* Less ice under the load gives more; a row of another body, of one that is gone, or of far away is not its own. */
+START_TEST(less_ice)
+{
+    for (int i = 0; i < 4; i++) {
+        ice_rig r;
+        ramp_make(&r, 1, 0.15, 40);
+        ice_rig_crush(&r);
+        double straight = r.patches.data[0].horizontal_area;
+        support_by_hand(&r, 0.5);
+        if (i == 1)
+            r.supports.surface[0]++;
+        if (i == 2)
+            r.supports.generation[0]++;
+        if (i == 3)
+            r.supports.place[0].y += 10;
+        ice_rig_crush(&r);
+        double area = r.patches.data[0].horizontal_area;
+        if (i > 0)
+            assert_relative(area, straight, 1e-12);
+        else
+            assert_relative(2 * (0.15 - 2e6 * area / (nevel(2 * area) / 2)), area, 1e-8);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+/* What a sheet's loads stand on is kept: a corner's ice, the parts at a seam, nothing of loads between floes. */
+START_TEST(kept_by_fracture)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.edges_give = true;
+    sheet_make(&r, (box2){{0, 0}, {60, 60}}, 30, NULL);
+    /* At the corner of the sheet and on a straight edge, strong enough to look at the ice and too weak to break it. */
+    ck_assert(sheet_load(&r, (vec2){0, 0}, 2e4, 0.2));
+    ck_assert(sheet_load(&r, (vec2){15, 0}, 2e4, 0.3));
+    /* Both sides of the seam at x = 30. */
+    ck_assert(sheet_load(&r, (vec2){29.9999999999, 60}, 2e4, 0.4));
+    ck_assert(sheet_load(&r, (vec2){30.0000000001, 60}, 2e4, 0.1));
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    const edge_support_table *e = &r.supports;
+    ck_assert_int_eq(e->count, 4);
+    static const double WEDGES[] = {0.5, 1, 1, 1}, BESIDE[] = {0, 0, 0.1, 0.4};
+    for (int i = 0; i < 4; i++) {
+        ck_assert_int_eq(e->surface[i], r.hull);
+        assert_relative(e->wedges[i], WEDGES[i], i == 0 ? 0.1 : 1e-6);
+        assert_absolute(e->beside[i], BESIDE[i], 1e-12);
+        ck_assert(e->strip[i] == 0);
+    }
+    ck_assert_int_eq(fracture_rig_break(&r), 0);
+    ck_assert_int_eq(e->count, 0);
+    r.settings.edges_give = false;
+    ck_assert(sheet_load(&r, (vec2){15, 0}, 2e4, 0.3));
+    fracture_rig_break(&r);
+    ck_assert_int_eq(e->count, 0);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+TEST_MAIN("edge_give", balance, stiffness_of_an_edge, what_does_not_give, flat_face, small_deflections, seams, less_ice,
+          kept_by_fracture)
