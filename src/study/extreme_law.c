@@ -139,15 +139,32 @@ static bool fit_moments(law_kind kind, const double *sorted, int32_t n, double l
 
 /* ---- maximum likelihood ---- */
 
-/* Root of an increasing function between lo and hi, to neighbouring numbers. */
+/* Root of an increasing function between lo and hi, to neighbouring numbers or nearly: false position by the Illinois
+   rule (Dowell and Jarratt 1971), with a halving every third time. */
+#define ROOT_NEAR 4e-16
 typedef double (*rising_function)(const double *value, int32_t n, double origin, double x);
 static double root_of(rising_function f, const double *value, int32_t n, double origin, double lo, double hi)
 {
-    for (double mid = 0.5 * (lo + hi); mid > lo && mid < hi; mid = 0.5 * (lo + hi)) {
-        if (f(value, n, origin, mid) < 0)
-            lo = mid;
-        else
-            hi = mid;
+    double below = f(value, n, origin, lo), above = f(value, n, origin, hi);
+    int side = 0;
+    for (int i = 0; hi - lo > ROOT_NEAR * fabs(hi); i++) {
+        double part = i % 3 == 2 ? 0.5 : below / (below - above), x = lo + part * (hi - lo);
+        if (!(x > lo && x < hi))
+            x = lo + 0.5 * (hi - lo);
+        if (!(x > lo && x < hi))
+            break;
+        double here = f(value, n, origin, x);
+        if (here < 0) {
+            lo = x;
+            below = here;
+            above *= side < 0 ? 0.5 : 1;
+            side = -1;
+        } else {
+            hi = x;
+            above = here;
+            below *= side > 0 ? 0.5 : 1;
+            side = 1;
+        }
     }
     return hi;
 }

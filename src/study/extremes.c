@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/extremes_notes.h"
+#include "study/pivot.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -34,7 +35,8 @@ extreme_method extreme_method_find(const char *name)
 
 void extreme_request_default(extreme_request *r)
 {
-    *r = (extreme_request){.duration = 10800, .confidence = 0.95, .threshold = (double)NAN, .levels = 3};
+    *r = (extreme_request){
+        .duration = 10800, .confidence = 0.95, .threshold = (double)NAN, .levels = 3, .stability = true};
     const double usual[3] = {0.5, 0.9, 0.99};
     memcpy(r->probability, usual, sizeof usual);
 }
@@ -83,14 +85,31 @@ static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_reque
 }
 
 static bool sample_level(context *ctx, const extreme_sample *s, const extreme_request *ask, const extreme_law *law,
-                         double probability, level_interval *out)
+                         const gumbel_pivot *pivot, double probability, level_interval *out)
 {
     double exponent = -real_log(probability);
-    if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
-        return bootstrap(ctx, s, ask, exponent, law, out);
     const profile_question q = {law, s->value.data, s->value.count, s->exposure, exponent, ask->confidence};
-    *out = profile_interval(&q);
+    if (pivot)
+        *out = gumbel_pivot_interval(pivot, exponent / s->exposure, ask->confidence);
+    else if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
+        return bootstrap(ctx, s, ask, exponent, law, out);
+    else
+        *out = profile_interval(&q);
     return true;
+}
+
+static bool sample_levels(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out)
+{
+    gumbel_pivot pivot, *exact = s->kind == LAW_GUMBEL ? &pivot : NULL;
+    if (exact)
+        gumbel_pivot_make(s->value.data, s->value.count, &out->law, exact);
+    bool good = sample_level(ctx, s, ask, &out->law, exact, real_exp(-1), &out->most_probable);
+    for (int i = 0; good && i < ask->levels; i++)
+        good = sample_level(ctx, s, ask, &out->law, exact, ask->probability[i], &out->level[i]);
+    out->interval = exact                                               ? "exact, conditional on the sample"
+                    : ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL ? "bootstrap of the sample, percentiles"
+                                                                        : "profile likelihood";
+    return good;
 }
 
 /* The sample at its plotting positions: of n ascending values the i-th, from 1, has i/(n + 1) of all below it (Gumbel
@@ -131,11 +150,9 @@ static fram_status answer_sample(context *ctx, const extreme_sample *s, const ex
     if (peaks && !(s->exposure * s->value.count > 1 / real_exp(1)))
         return extremes_refuse(out, "fewer than one peak is expected in the duration: ask for a longer one");
     keep_points(s, ask, out);
-    bool good = sample_level(ctx, s, ask, &out->law, real_exp(-1), &out->most_probable);
-    for (int i = 0; good && i < ask->levels; i++)
-        good = sample_level(ctx, s, ask, &out->law, ask->probability[i], &out->level[i]);
-    out->interval = ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL ? "bootstrap of the sample, percentiles"
-                                                                      : "profile likelihood";
+    bool good = sample_levels(ctx, s, ask, out);
+    if (s->kind == LAW_GUMBEL)
+        extremes_doubt_gumbel(out, s->value.data, s->value.count);
     out->answered = good;
     return good ? FRAM_OK : error_memory(error);
 }
@@ -253,7 +270,7 @@ static fram_status answer_peaks(const series_work *w)
     extreme_sample s = {.kind = LAW_PARETO, .exposure = w->ask->duration / w->time};
     double threshold = w->ask->threshold;
     bool good = !isnan(threshold) || choose_threshold(w, &s, &threshold);
-    good = good && add_stability(w, threshold, &s) && peaks_over(w, threshold, &s);
+    good = good && (!w->ask->stability || add_stability(w, threshold, &s)) && peaks_over(w, threshold, &s);
     w->out->threshold = threshold;
     fram_status status = good ? answer_sample(w->ctx, &s, w->ask, w->out, w->error) : error_memory(w->error);
     array_free(w->ctx, &s.value);

@@ -4,8 +4,8 @@
 
      acer        average conditional exceedance rates (Naess and Gaidai 2009), interval by bootstrap over batches
      upcrossing  the same of crossings upwards, order 2 (Naess and Gaidai 2008)
-     gumbel      block maxima, Gumbel's law, interval by profile likelihood
-     gev         block maxima, generalized extreme value law (Coles 2001), the same
+     gumbel      block maxima, Gumbel's law, the exact interval conditional on the sample (Lawless 1978)
+     gev         block maxima, generalized extreme value law (Coles 2001), profile likelihood
      pot         declustered peaks over a threshold, generalized Pareto law (Davison and Smith 1990), the same
      weibull     all peaks between crossings of the mean, from the mean on, Weibull's law: for comparison; its interval
                  holds only if all peaks follow one law and are independent */
@@ -44,6 +44,7 @@ typedef struct extreme_request {
     law_fit fit;                             /* of gumbel, gev, pot; with moments the interval is a bootstrap's */
     double probability[EXTREME_LEVELS_MOST]; /* that the greatest value stays below the level */
     int levels;
+    bool stability; /* fits at twenty thresholds too, which take most of the time of pot */
 } extreme_request;
 void extreme_request_default(extreme_request *r);
 

@@ -10,6 +10,9 @@
 #define FAR 20.0
 #define WIDE 0.25
 #define UNSTEADY 4.0
+/* Twice the logarithm of a ratio of likelihoods: of chi-squared with one degree of freedom exceeded once in 20 times.
+ */
+#define RATIO 3.841458820694124
 
 void extremes_begin(extreme_result *out, extreme_method method, const extreme_request *ask)
 {
@@ -76,6 +79,18 @@ void extremes_doubt(extreme_result *out, const extreme_request *ask, double time
         say(out, "The tail is so heavy (shape %.2g) that its variance is infinite.", out->law.shape);
     if (out->sample < 2 * LAW_VALUES_LEAST)
         say(out, "The sample is small (%d): its interval is a guess of the right size.", (int)out->sample);
+}
+
+void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t count)
+{
+    extreme_law gumbel, any;
+    if (!extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, sorted, count, 0, &gumbel) ||
+        !extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, sorted, count, 0, &any))
+        return;
+    if (2 * (extreme_law_cost(&gumbel, sorted, count) - extreme_law_cost(&any, sorted, count)) > RATIO)
+        say(out,
+            "The maxima speak against Gumbel's law (shape %.2g by gev, likelihood ratio at 5 %%): its levels are %s.",
+            any.shape, any.shape < 0 ? "too high" : "too low");
 }
 
 /* Mean and sum of squares about it of the means of the batches of one half of every part. */

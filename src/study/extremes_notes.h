@@ -11,6 +11,8 @@ fram_status extremes_refuse(extreme_result *out, const char *why);
 fram_status extremes_refuse_few(extreme_result *out);
 /* What speaks against an answer that was found, of data that are `time` long [s]. */
 void extremes_doubt(extreme_result *out, const extreme_request *ask, double time);
+/* Where the sample (ascending) speaks for another tail than Gumbel's: the ratio of likelihoods (Coles 2001, 3.3). */
+void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t count);
 /* The same of the series: halves that differ. */
 void extremes_doubt_series(extreme_result *out, const series_set *s);
 

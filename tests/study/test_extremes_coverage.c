@@ -1,5 +1,5 @@
-/* How often intervals of extremes hold the true value: samples of known laws, again and again.  12 trials each; with
-   FRAM_TEST_LONG 1,000, and a table of them (`make extremes-coverage`, bench/results/extremes.md). */
+/* How often intervals of extremes hold the true value: samples of known laws, again and again.  12 trials of ten cases;
+   with FRAM_TEST_LONG 1,000 of all, and a table of them (`make extremes-coverage`, bench/results/extremes.md). */
 #include "testing.h"
 
 #include "base/random.h"
@@ -89,6 +89,7 @@ typedef struct coverage_case {
     law_fit fit;
     double threshold; /* NaN: its default */
     int order;
+    bool measured; /* with FRAM_TEST_LONG alone: what is known to fall short, and what only adds cases */
 } coverage_case;
 
 /* FRAM_TEST_LONG may be another number of trials. */
@@ -105,6 +106,7 @@ static bool answer(context *ctx, const coverage_case *c, const trial *t, extreme
     extreme_request_default(&ask);
     ask.duration = 3.0 * c->count;
     ask.levels = 1;
+    ask.stability = false;
     ask.probability[0] = real_exp(-exponents[1]);
     ask.fit = c->fit;
     ask.threshold = c->threshold;
@@ -143,17 +145,30 @@ static void cover(const coverage_case *c, double held[LEVELS], double bias[LEVEL
     free(r);
 }
 
+#define USUAL FIT_LIKELIHOOD, (double)NAN, 0
 static const coverage_case cases[] = {
-    {"Gumbel maxima", draw_gumbel, gumbel_truth, 50, true, EXTREME_GUMBEL, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"Gumbel maxima", draw_gumbel, gumbel_truth, 100, true, EXTREME_GEV, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_POT, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_ACER, FIT_LIKELIHOOD, (double)NAN, 1},
-    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_ACER, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_UPCROSSING, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_POT, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_GEV, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 2000, false, EXTREME_WEIBULL, FIT_LIKELIHOOD, (double)NAN, 0},
-    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_UPCROSSING, FIT_LIKELIHOOD, (double)NAN, 0},
+    {"Gumbel maxima", draw_gumbel, gumbel_truth, 50, true, EXTREME_GUMBEL, USUAL, false},
+    {"Gumbel maxima", draw_gumbel, gumbel_truth, 100, true, EXTREME_GEV, USUAL, false},
+    {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_POT, USUAL, false},
+    {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_ACER, FIT_LIKELIHOOD, (double)NAN, 1, false},
+    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_ACER, USUAL, false},
+    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_UPCROSSING, USUAL, false},
+    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_POT, USUAL, false},
+    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_GEV, USUAL, false},
+    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 2000, false, EXTREME_WEIBULL, USUAL, false},
+    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_UPCROSSING, USUAL, false},
+    {"Gumbel maxima", draw_gumbel, gumbel_truth, 20, true, EXTREME_GUMBEL, USUAL, true},
+    {"Gumbel maxima", draw_gumbel, gumbel_truth, 10, true, EXTREME_GUMBEL, USUAL, true},
+    {"Gumbel maxima", draw_gumbel, gumbel_truth, 20, true, EXTREME_GEV, USUAL, true},
+    {"Gumbel maxima, L-moments", draw_gumbel, gumbel_truth, 50, true, EXTREME_GUMBEL, FIT_MOMENTS, (double)NAN, 0,
+     true},
+    {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_GUMBEL, USUAL, true},
+    {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_GEV, USUAL, true},
+    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_GUMBEL, USUAL, true},
+    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_GUMBEL, USUAL, true},
+    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_GEV, USUAL, true},
+    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_POT, USUAL, true},
+    {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_ACER, USUAL, true},
 };
 
 START_TEST(intervals_hold_the_truth_as_often_as_they_say)
@@ -163,11 +178,11 @@ START_TEST(intervals_hold_the_truth_as_often_as_they_say)
         double held[LEVELS], bias[LEVELS];
         /* One case alone, by its number from 1. */
         const char *only = getenv("FRAM_TEST_CASE");
-        if (only && atoi(only) != (int)i + 1)
+        if ((only && atoi(only) != (int)i + 1) || (cases[i].measured && !getenv("FRAM_TEST_LONG")))
             continue;
         cover(&cases[i], held, bias);
         /* Of 12 trials fewer than 9 once in 450 times where 95 % hold. */
-        ck_assert_msg(held[0] >= 75 && held[1] >= 75, "%s by %s: %g %% and %g %%", cases[i].name,
+        ck_assert_msg(cases[i].measured || (held[0] >= 75 && held[1] >= 75), "%s by %s: %g %% and %g %%", cases[i].name,
                       extreme_method_name(cases[i].method), held[0], held[1]);
     }
 }
