@@ -142,6 +142,12 @@ static void origin(report *r)
     html_fact(&r->page, "steps", "%.0f of %g s", n->steps, r->d.s.run.time_step);
     html_fact(&r->page, "computing time", "%.1f s in the last call, %.2g %% of it for what the run wrote", n->wall,
               n->wall > 0 ? 100 * n->recording / n->wall : 0);
+    if (n->step_longest > 0)
+        html_fact(
+            &r->page, "computing time of a step",
+            "median %.3g ms, 99 %% under %.3g ms, 99.9 %% under %.3g ms, the longest %.3g ms; by the clock, in the "
+            "last call, recording apart",
+            n->step_median, n->step_p99, n->step_p999, n->step_longest);
     html_table_end(&r->page);
 }
 

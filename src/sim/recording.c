@@ -48,6 +48,7 @@ static fram_status write_summary(recording *r, const char *state, const char *me
                            .wall = clock_wall() - r->started,
                            .recording = r->record_time,
                            .recording_end = r->end_time,
+                           .step_times = &r->steps,
                            .state_hash = world_hash(r->w)};
     memcpy(summary.scenario_hash, r->hash, sizeof summary.scenario_hash);
     return run_folder_write_summary(r->ctx, r->folder, r->s, r->w, &summary, error);
@@ -276,6 +277,7 @@ fram_status recording_continue(recording *r, const recorder_lengths *lengths, fr
 fram_status recording_step(recording *r, double step_wall, fram_error *error)
 {
     double began = clock_wall();
+    time_ranks_add(&r->steps, step_wall);
     fram_status status = as_failure(write_what_is_due(r, step_wall, error), error);
     r->record_time += clock_wall() - began;
     return status;

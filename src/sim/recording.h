@@ -5,6 +5,7 @@
 #define SIM_RECORDING_H
 
 #include "base/hash.h"
+#include "base/time_ranks.h"
 #include "io/late_commit.h"
 #include "io/path.h"
 #include "io/text_buffer.h"
@@ -34,6 +35,7 @@ typedef struct recording {
     double began_at;    /* simulated time at which this call began [s] */
     double record_time; /* for all that was written so far [s] */
     double end_time;    /* of it at the end [s] */
+    time_ranks steps;   /* wall times of the steps of this call, recording apart */
     int64_t end_step;   /* of the scenario */
     int64_t stop_step;  /* of this call: a checkpoint that is due then is that of the end */
     int64_t checkpoint_every, picture_every;

@@ -305,6 +305,17 @@ static void add_events(context *ctx, text_buffer *b, const scenario *s, const ev
     text_format(ctx, b, "],\n  \"events_left_out\": %d,\n", (int)(events->count - shown));
 }
 
+/* Wall times of steps, to the digits that their bins have. */
+static void add_step_times(context *ctx, text_buffer *b, const time_ranks *t)
+{
+    if (t->count > 0)
+        text_format(ctx, b,
+                    "  \"step_median_ms\": %.3g,\n  \"step_p99_ms\": %.3g,\n  \"step_p999_ms\": %.3g,\n"
+                    "  \"step_longest_ms\": %.3g,\n",
+                    1e3 * time_ranks_at(t, 500), 1e3 * time_ranks_at(t, 990), 1e3 * time_ranks_at(t, 999),
+                    1e3 * t->longest);
+}
+
 fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,
                                      const run_summary *summary, fram_error *error)
 {
@@ -329,6 +340,7 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
     add_events(ctx, &b, s, &w->events);
     text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"recording_s\": %.4f,\n  \"recording_end_s\": %.4f,\n", summary->wall,
                 summary->recording, summary->recording_end);
+    add_step_times(ctx, &b, summary->step_times);
     text_format(ctx, &b, "  \"state_hash\": \"%016" PRIx64 "\"\n}\n", summary->state_hash);
     fram_status status = b.failed ? error_memory(error) : atomic_file_put(ctx, path, b.data, (size_t)b.count, error);
     text_free(ctx, &b);

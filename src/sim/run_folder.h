@@ -4,6 +4,7 @@
 #define SIM_RUN_FOLDER_H
 
 #include "base/hash.h"
+#include "base/time_ranks.h"
 #include "io/text_buffer.h"
 #include "model/scenario.h"
 #include "model/world.h"
@@ -35,6 +36,7 @@ typedef struct run_summary {
     double wall;          /* of the last call [s] */
     double recording;     /* of it for what the run writes: series, frames, checkpoints, pictures, results [s] */
     double recording_end; /* of that at the end: the last checkpoint, pictures, results [s] */
+    const time_ranks *step_times; /* of the last call */
     uint64_t state_hash;
 } run_summary;
 fram_status run_folder_write_summary(context *ctx, const char *folder, const scenario *s, const world *w,

@@ -121,6 +121,13 @@ for file in scenario.yaml run.json series.csv record.fram; do [ -s "straight/$fi
 same "$(wc -l <straight/series.csv)" 101 "rows of the time series"
 head -n 1 straight/series.csv | grep -q '^time\[s\],position_x\[m\],' || fail "header of the time series"
 python3 -c 'import json; json.load(open("straight/run.json"))' || fail "run.json is no JSON"
+python3 - <<'PYTHON' || fail "run.json does not tell how long steps took"
+import json
+note = json.load(open("straight/run.json"))
+times = [note[f"step_{rank}_ms"] for rank in ("median", "p99", "p999", "longest")]
+assert times == sorted(times) and times[0] > 0, times
+assert times[-1] / 1e3 <= note["wall_s"], (times, note["wall_s"])
+PYTHON
 expect 0 "$FRAM" check straight/scenario.yaml
 
 # A folder that is not empty.

@@ -108,6 +108,9 @@ def check(name, run, pictures):
     assert before > 0 and after == float(last["floes[1]"]), (name, before, after, last["floes[1]"])
     for row in ("residual of the contact problem [m/s]", "largest overlap [m]", "computing time of a step [ms]"):
         assert all(number(v) >= 0 for v in rows[row]), (name, row, rows[row])
+    times = re.fullmatch(r"median (\S+) ms, 99 % under (\S+) ms, 99.9 % under (\S+) ms, the longest (\S+) ms; .*",
+                         rows["computing time of a step"][0])
+    assert times and sorted(times.groups(), key=float) == list(times.groups()), rows["computing time of a step"]
     for row in ("Fram", "scenario", "state at the end"):
         assert row in rows, (name, row)
     return number(rows["of the mass at the start"][0])
