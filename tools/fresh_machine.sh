@@ -39,10 +39,10 @@ timed() { # NAME COMMAND
 minutes() { awk -v s="$1" 'BEGIN { printf "%d min %02d s", s / 60, s % 60 }'; }
 took() { echo "$(minutes "$(cat "$here/$1.wall")"), of which $(minutes "$(cat "$here/$1.cpu")") of processor time"; }
 indented() { sed -e 's/\x1b\[[0-9;]*[A-Za-z]//g' -e 's/[[:space:]]*$//' -e 's/^/    /' | cut -c 1-116; }
-size_of() { du -s --block-size=1M "$1" | cut -f1; }
+size_of() { du -s -x --block-size=1M "$1" | cut -f1; }
 
 leave
-rm -rf "$root"
+rm -rf --one-file-system "$root"
 mkdir -p "$root"
 if [ ! -f "$here/base.tar" ]; then
     debootstrap --variant=minbase --include=ca-certificates,make,git bookworm "$here/base" "$mirror" \

@@ -117,8 +117,8 @@ class Browser:
             self.saved[p["guid"]][1] = True
 
     def open(self, page):
-        """Load a file and wait until its playback is ready."""
-        self.call("Page.navigate", url=pathlib.Path(page).as_uri())
+        """Load a file and wait until its playback is ready; it does not play by itself."""
+        self.call("Page.navigate", url=pathlib.Path(page).as_uri() + "#still")
         self.until("window.fram?.ready === true", "the page does not get ready")
 
     def run(self, script):

@@ -78,8 +78,8 @@ def skip(reason):
     sys.exit(77)
 
 
-def is_red(p):
-    return p[0] > 1.5 * p[2] and p[0] > 60
+def is_deck(p):
+    return p[0] > 1.2 * p[2] and p[0] > p[1] and p[0] > 60
 
 
 def is_white(p):
@@ -108,7 +108,7 @@ def go(browser, time):
 def check_places(browser, expected_x):
     view = browser.run(LOOK)
     assert abs(view["hull"][0] - expected_x) < 0.05, (view["hull"], expected_x)
-    assert is_red(view["hullPixel"]), f"no hull at its place: {view['hullPixel']}"
+    assert is_deck(view["hullPixel"]), f"no hull at its place: {view['hullPixel']}"
     assert is_blue(view["waterPixel"]), f"no water beside the field: {view['waterPixel']}"
     floes = len(view["floePixels"])
     white = sum(is_white(p) for p in view["floePixels"])
@@ -117,9 +117,31 @@ def check_places(browser, expected_x):
     return view
 
 
+def check_opening(browser, page):
+    """The page plays by itself, looks at the vessel and colours by contact force; a narrow window hides nothing."""
+    browser.call("Page.navigate", url=page.as_uri())
+    browser.until("window.fram?.ready && fram.time > 0.5", "the page does not play when it is opened")
+    assert browser.run("[camera.value, colour.value]") == ["follow", "force"]
+    off = browser.run("""(() => { const at = fram.centre().clone().project(fram.scene.camera);
+        return Math.hypot(at.x, at.y); })()""")
+    assert off < 0.1, f"the vessel is {off} of the window off its middle"
+    browser.call("Emulation.setDeviceMetricsOverride", width=420, height=720, deviceScaleFactor=1, mobile=False)
+    browser.run("new Promise((done) => setTimeout(done, 300))")
+    inside, apart = browser.run("""(() => {
+        const box = (q) => document.querySelector(q).getBoundingClientRect();
+        const all = ["header", "#legend", "#timeline", ...[...document.querySelectorAll("#buttons > *")]
+            .filter((b) => !b.hidden).map((b) => "#" + (b.id || b.querySelector("[id]").id))].map(box);
+        const [head, legend] = all;
+        return [all.every((b) => b.left >= 0 && b.right <= 420 && b.bottom <= 720), head.bottom <= legend.top]; })()""")
+    assert inside, "something lies outside a window of 420 pixels"
+    assert apart, "the legend covers the title in a window of 420 pixels"
+    browser.call("Emulation.clearDeviceMetricsOverride")
+
+
 def check_towed(browser, run, rows):
     browser.open(run / "playback.html")
     browser.choose("camera", "top")
+    browser.choose("colour", "plain")
     go(browser, 0)
     check_places(browser, rows[0]["position_x[m]"] - 0.08)
     go(browser, "fram.end")
@@ -286,6 +308,7 @@ def check_files_beside(browser, run):
     assert told["frames"] == len(browser.run("fram.record.frames.map((f) => f.time)"))
     assert page.stat().st_size < PAGE.stat().st_size + 120000, page.stat().st_size
     browser.open(page)
+    browser.choose("colour", "plain")
     assert browser.run(POSES + f"({times})") == whole, "frames from beside the page are not those of the run"
     assert browser.run("fram.chunks.kept.size") <= 4, "all files are kept at once"
     go(browser, 0)
@@ -327,6 +350,8 @@ def main():
         moored, _ = make_run(pathlib.Path(folder), "moored", MOORED)
         check_towed(browser, towed, rows)
         browser.open(moored / "playback.html")
+        browser.choose("camera", "orbit")
+        browser.choose("colour", "plain")
         assert browser.run("document.getElementById('title').textContent") == "Moored <b>ship</b>"
         for check in (check_blank, check_play, check_seek, check_pick, check_colours, check_arrows_and_marks,
                       check_cameras, check_still, check_video):
@@ -334,6 +359,7 @@ def main():
         calls = browser.run("(fram.draw(), fram.scene.renderer.info.render.calls)")
         assert calls <= 20, calls
         check_files_beside(browser, moored)
+        check_opening(browser, towed / "playback.html")
         assert not browser.complaints, browser.complaints
     print(f"the playback page loads, plays, seeks, picks and exports in {calls} draw calls")
 

@@ -228,15 +228,27 @@ class Player {
         return this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
     }
 
+    /** Of the hull [m]. */
+    length() {
+        let [stern, stem] = [Infinity, -Infinity];
+        for (let i = 0; i < (this.hull?.vertices?.length ?? 0); i += 3) {
+            stern = Math.min(stern, this.hull.vertices[i]);
+            stem = Math.max(stem, this.hull.vertices[i]);
+        }
+        return Math.max(0, stem - stern);
+    }
+
     placeCamera() {
         const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
         const mode = $('camera').value, camera = this.scene.camera;
+        // A ship is seen whole, however small the domain is beside it.
+        const near = Math.max(wide, 3.5 * this.length());
         this.poses.show(this.frameAt(this.time));
         const target = mode === 'follow' || mode === 'below' ? this.centre()
             : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);
         const offset = mode === 'top' ? [0, -0.001, 1.35 * wide]
             : mode === 'below' ? [-0.12 * wide, -0.24 * wide, -0.14 * wide]
-            : mode === 'follow' ? [-0.28 * wide, -0.3 * wide, 0.2 * wide]
+            : mode === 'follow' ? [-0.28 * near, -0.3 * near, 0.2 * near]
             : [-0.55 * wide, -0.75 * wide, 0.6 * wide];
         camera.position.copy(target).add(new THREE.Vector3(...offset));
         this.controls.target.copy(target);
@@ -449,6 +461,12 @@ class Player {
     }
 }
 
+/** A page is opened to see the run; with #still at its end it waits for the button. */
+function playWhenReady(player) {
+    if (!player.ready) setTimeout(() => playWhenReady(player), 20);
+    else if (!player.playing && player.record.frames.length > 1) player.toggle();
+}
+
 function download(blob, name) {
     const link = document.createElement('a');
     link.href = URL.createObjectURL(blob);
@@ -472,7 +490,10 @@ const RAMP = Float32Array.from({ length: 768 }, (_, i) => ramp(Math.floor(i / 3)
 try {
     const record = $('record').textContent.trim();
     // A page without a record follows one that is being written.
-    if (record) window.fram = new Player(readRecord(bytesOf(record)));
+    if (record) {
+        window.fram = new Player(readRecord(bytesOf(record)));
+        if (location.hash !== '#still') playWhenReady(window.fram);
+    }
     else follow($('record').dataset.beside, (grown) => { window.fram = new Player(grown); return window.fram; }, tell);
 } catch (e) {
     $('note').textContent = `The record cannot be played: ${e.message}`;

@@ -90,19 +90,26 @@ export class Scene {
             .replace('#include <common>', `#include <common>
                 uniform sampler2D poses;
                 attribute float body;
+                attribute vec2 ship;
                 varying vec3 bodyColour;
+                varying vec3 onShip;
                 vec3 turned(vec3 v, vec4 q) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }`)
             .replace('#include <beginnormal_vertex>', `#include <beginnormal_vertex>
                 objectNormal = turned(objectNormal, ${fetch(1)});`)
             .replace('#include <begin_vertex>', `vec4 place = ${fetch(0)};
                 vec3 transformed = place.w > 0.5 ? turned(position, ${fetch(1)}) + place.xyz : vec3(0.0, 0.0, -1.0e6);
+                onShip = vec3(ship, transformed.z);
                 bodyColour = ${fetch(2)}.rgb;`);
         shader.fragmentShader = shader.fragmentShader
             .replace('#include <common>', `#include <common>
-                varying vec3 bodyColour;`);
+                varying vec3 bodyColour;
+                varying vec3 onShip;`);
         if (shader.fragmentShader.includes('lambert') || shader.fragmentShader.includes('reflectedLight'))
             shader.fragmentShader = shader.fragmentShader
-                .replace('#include <color_fragment>', 'diffuseColor.rgb *= bodyColour;');
+                .replace('#include <color_fragment>', `vec3 paint = bodyColour;
+                    if (onShip.x > 1.5) paint = onShip.y > 0.94 ? ${glsl(BOW)} : ${glsl(DECK)};
+                    else if (onShip.x > 0.5 && abs(onShip.z) < 0.3) paint = ${glsl(BOW)};
+                    diffuseColor.rgb *= paint;`);
     }
 
     /** Poses and colours to the texture. rgb: three numbers a body. */
@@ -252,14 +259,20 @@ const OWN = { ice: new THREE.Color(ICE), hull: new THREE.Color(HULL), wall: new 
 /** The colour that a body has by itself. */
 export function own(body) { return OWN[body.material]; }
 
+/** A hull is painted as a ship is: deck, a white bow on it, a white line at the water. */
+const DECK = new THREE.Color(0xc9b58c), BOW = new THREE.Color(0xf4f4f0);
+function glsl(c) { return `vec3(${c.r.toFixed(4)}, ${c.g.toFixed(4)}, ${c.b.toFixed(4)})`; }
+
 /** All prisms and solids with their own normals, tagged by body. */
 function mergedGeometry(bodies) {
-    const position = [], normal = [], body = [];
-    const add = (b, points, n) => {
+    const position = [], normal = [], body = [], ship = [];
+    // ship: 0 no hull, 1 its side, 2 its deck; and the part of its length from the stern.
+    const add = (b, points, n, paint = 0, along = () => 0) => {
         for (const p of points) {
             position.push(p[0], p[1], p[2]);
             normal.push(n[0], n[1], n[2]);
             body.push(b.index);
+            ship.push(paint, along(p));
         }
     };
     for (const b of bodies) {
@@ -270,6 +283,7 @@ function mergedGeometry(bodies) {
     geometry.setAttribute('position', new THREE.Float32BufferAttribute(position, 3));
     geometry.setAttribute('normal', new THREE.Float32BufferAttribute(normal, 3));
     geometry.setAttribute('body', new THREE.Float32BufferAttribute(body, 1));
+    geometry.setAttribute('ship', new THREE.Float32BufferAttribute(ship, 2));
     return geometry;
 }
 
@@ -290,10 +304,19 @@ function addPrism(b, add) {
 
 function addSolid(b, add) {
     const v = (i) => new THREE.Vector3(...b.vertices.subarray(3 * i, 3 * i + 3));
+    let [stern, stem, top, keel] = [Infinity, -Infinity, -Infinity, Infinity];
+    for (let i = 0; i < b.vertices.length; i += 3) {
+        stern = Math.min(stern, b.vertices[i]);
+        stem = Math.max(stem, b.vertices[i]);
+        keel = Math.min(keel, b.vertices[i + 2]);
+        top = Math.max(top, b.vertices[i + 2]);
+    }
+    const along = (p) => (p[0] - stern) / (stem - stern), hull = b.material === 'hull';
     for (let t = 0; t < b.triangles.length; t += 3) {
         const p = [0, 1, 2].map((k) => v(b.triangles[t + k]));
         const n = p[1].clone().sub(p[0]).cross(p[2].clone().sub(p[0])).normalize();
-        add(b, p.map((q) => q.toArray()), n.toArray());
+        const deck = n.z > 0.9 && p.every((q) => q.z > keel + 0.6 * (top - keel));
+        add(b, p.map((q) => q.toArray()), n.toArray(), hull ? 1 + deck : 0, along);
     }
 }
 
