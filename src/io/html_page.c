@@ -162,18 +162,33 @@ void html_table_begin(html_page *p, const char *const *heads, int32_t count)
     add(p, "<table>\n");
     if (count > 0)
         add(p, "<thead><tr>");
+    p->heads = count < HTML_HEADS_MOST ? count : HTML_HEADS_MOST;
     for (int32_t i = 0; i < count; i++) {
-        add(p, i > 0 ? "<th class=\"n\">" : "<th>");
+        add(p, "<th class=\"w\">");
+        if (i < p->heads)
+            p->head[i] = p->text.count - 3;
         html_escaped(p, heads[i]);
         add(p, "</th>");
     }
     add(p, count > 0 ? "</tr></thead>\n<tbody>\n" : "<tbody>\n");
 }
 
-void html_row_begin(html_page *p) { add(p, "<tr>"); }
+/* The first row tells what a column holds. */
+static void head_of_number(html_page *p)
+{
+    if (p->column < p->heads && !p->text.failed)
+        p->text.data[p->head[p->column]] = 'n';
+}
+
+void html_row_begin(html_page *p)
+{
+    p->column = 0;
+    add(p, "<tr>");
+}
 
 void html_cell(html_page *p, const char *text)
 {
+    p->column++;
     add(p, "<td>");
     html_escaped(p, text);
     add(p, "</td>");
@@ -196,12 +211,18 @@ void html_number(html_page *p, double value)
 {
     char text[HTML_NUMBER_SIZE];
     html_number_text(value, text);
+    head_of_number(p);
+    p->column++;
     add(p, "<td class=\"n\">");
     add(p, text);
     add(p, "</td>");
 }
 
-void html_row_end(html_page *p) { add(p, "</tr>\n"); }
+void html_row_end(html_page *p)
+{
+    p->heads = 0;
+    add(p, "</tr>\n");
+}
 
 void html_table_end(html_page *p) { add(p, "</tbody>\n</table>\n"); }
 
@@ -210,6 +231,7 @@ void html_fact(html_page *p, const char *name, const char *format, ...)
     va_list arguments;
     html_row_begin(p);
     html_cell(p, name);
+    p->column++;
     add(p, "<td>");
     va_start(arguments, format);
     add_formatted(p, format, arguments);

@@ -6,9 +6,13 @@
 
 #include "io/chart.h"
 
+/* Heads of a table stand over their columns as these do: right over numbers, left over words. */
+enum { HTML_HEADS_MOST = 24 };
 typedef struct html_page {
     context *ctx;
     text_buffer text;
+    int32_t head[HTML_HEADS_MOST]; /* of the open table's heads: where the letter of its class stands in the text */
+    int32_t heads, column;         /* heads that wait for the first row; cells of the row so far */
 } html_page;
 
 /* The head and the heading; subtitle may be "". */
@@ -32,7 +36,8 @@ void html_figures_begin(html_page *p);
 void html_figure(html_page *p, const char *name, const char *value, const char *unit);
 void html_figures_end(html_page *p);
 
-/* A table: begin with the columns' heads; cells row by row; numbers stand right. */
+/* A table: begin with the columns' heads; cells row by row; numbers stand right, and heads as the cells of the first
+   row. */
 void html_table_begin(html_page *p, const char *const *heads, int32_t count);
 void html_row_begin(html_page *p);
 void html_cell(html_page *p, const char *text);

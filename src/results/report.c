@@ -138,6 +138,18 @@ static void population_facts(report *r, const scenario_ice *i)
     }
 }
 
+/* Strengths that vary from place to place. */
+static void strength_fact(report *r, const scenario_strength *s)
+{
+    if (!(s->flexural_variation > 0 || s->crushing_variation > 0))
+        return;
+    html_fact(&r->page, "strength varies",
+              "coefficient of variation %g of the flexural, %g of the crushing strength, over a correlation length of "
+              "%g m; correlation of the two %g; drawn by seed %lld",
+              s->flexural_variation, s->crushing_variation, s->correlation_length, s->common,
+              (long long)r->d.s.run.seed);
+}
+
 static void ice_facts(report *r)
 {
     static const char *const sources[] = {
@@ -146,6 +158,7 @@ static void ice_facts(report *r)
     html_fact(&r->page, "ice", "%s, %g m thick, %g kg/m3; crushing %g kPa, flexural strength %g kPa; %s",
               sources[i->source], i->thickness, i->density, i->crushing_strength * 1e-3, i->flexural_strength * 1e-3,
               i->breakable ? "breaks" : "does not break");
+    strength_fact(r, &i->strength);
     if (i->source == ICE_FILE)
         html_fact(&r->page, "field", "from %s", file_told(r, i->file));
     if (i->source == ICE_VORONOI && i->populations.count == 0)

@@ -119,6 +119,57 @@ static void share_table(report *r, const stacked *s)
     html_table_end(&r->page);
 }
 
+/* The same parts by zone of the hull: along the load of each stretch of time. */
+static bool zone_parts(const report *r, const stacked *s, int32_t every, double part[PEAK_ZONES])
+{
+    const double *x[PEAK_ZONES], *y[PEAK_ZONES];
+    for (int32_t z = 0; z < PEAK_ZONES; z++) {
+        char name[64];
+        snprintf(name, sizeof name, "ice_force_%s_x", peak_zone_name(z));
+        x[z] = run_vessel_channel(&r->d, r->vessel, name);
+        name[strlen(name) - 1] = 'y';
+        y[z] = run_vessel_channel(&r->d, r->vessel, name);
+        part[z] = 0;
+        if (!x[z] || !y[z])
+            return false;
+    }
+    for (int32_t b = 0; b < s->bins; b++) {
+        double fx[PEAK_ZONES] = {0}, fy[PEAK_ZONES] = {0}, all_x = 0, all_y = 0;
+        int32_t first = b * every, end = first + every < r->d.series.rows ? first + every : r->d.series.rows;
+        for (int32_t z = 0; z < PEAK_ZONES; z++) {
+            for (int32_t i = first; i < end; i++) {
+                fx[z] += x[z][i] / (end - first);
+                fy[z] += y[z][i] / (end - first);
+            }
+            all_x += fx[z];
+            all_y += fy[z];
+        }
+        double load = sqrt(all_x * all_x + all_y * all_y);
+        for (int32_t z = 0; z < PEAK_ZONES && load > 0 && s->time[b] >= r->d.s.run.transient; z++)
+            part[z] += (fx[z] * all_x + fy[z] * all_y) / load;
+    }
+    return true;
+}
+
+static void zone_table(report *r, const stacked *s, int32_t every)
+{
+    const char *const heads[] = {"zone of the hull", "part of the mean load after the transient [%]"};
+    double part[PEAK_ZONES] = {0}, all = 0;
+    bool there = zone_parts(r, s, every, part);
+    for (int32_t z = 0; z < PEAK_ZONES && there; z++)
+        all += part[z];
+    if (!(all > 0))
+        return;
+    html_table_begin(&r->page, heads, 2);
+    for (int32_t z = 0; z < PEAK_ZONES; z++) {
+        html_row_begin(&r->page);
+        html_cell(&r->page, peak_zone_name(z));
+        html_number(&r->page, 100 * part[z] / all);
+        html_row_end(&r->page);
+    }
+    html_table_end(&r->page);
+}
+
 static fram_status peak_table(report *r, fram_error *error)
 {
     const char *const heads[] = {"peak", "time [s]", "what it was"};
@@ -171,5 +222,6 @@ fram_status report_mechanisms(report *r, load_unit unit, fram_error *error)
     if (status != FRAM_OK)
         return status;
     share_table(r, &s);
+    zone_table(r, &s, size);
     return peak_table(r, error);
 }

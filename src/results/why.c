@@ -160,10 +160,9 @@ static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
                 (int)b.splits);
     if (isfinite(b.last))
         text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
-    const double *capped = run_channel(&y->run, "mechanism_crushing_x"), *time = run_channel(&y->run, "time");
-    const double *residual = run_channel(&y->run, "solver_residual");
+    const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");
     double most = 0;
-    for (int32_t i = 0; capped && time && residual && i < y->run.series.rows; i++)
+    for (int32_t i = 0; time && residual && i < y->run.series.rows; i++)
         if (time[i] > d->time - BEFORE && time[i] <= d->time)
             most = fmax(most, residual[i]);
     text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);

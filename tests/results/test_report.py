@@ -27,7 +27,9 @@ domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: feeding, drift
     "level": f"""
 run: {{duration: 12, time_step: 0.02, seed: 1, transient: 1}}
 vessel: {{mode: towed, x: -28, speed: 3, ramp: 0.5, {VESSEL}}}
-ice: {{source: level, thickness: 0.4, breakable: true, crush_trims: true, level: {{x_min: 0}}}}
+ice:
+  {{source: level, thickness: 0.4, breakable: true, crush_trims: true, level: {{x_min: 0}},
+   strength: {{flexural_variation: 0.2, correlation_length: 7}}}}
 domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
 }
@@ -39,6 +41,21 @@ MECHANISMS = ("splitting of a floe", "bending of ice that has not broken", "crus
               "a chain of floes against fixed or driven ice, a wall or a vessel", "floes that other floes hold back",
               "turning and submerging of floes", "impact of floes that give way freely",
               "sliding friction along the hull")
+
+
+ZONES = ("bow", "shoulder", "midbody", "stern", "bottom")
+
+
+def check_heads(page):
+    """A head stands over its column: right over numbers, left over words."""
+    tables = re.findall(r"<thead><tr>(.*?)</tr></thead>\s*<tbody>\s*<tr>(.*?)</tr>", page, re.S)
+    seen = set()
+    for head, row in tables:
+        heads, cells = ([kind == "n" for kind in re.findall(rf'<{tag}(?: class="(.)")?>', text)]
+                        for tag, text in (("th", head), ("td", row)))
+        assert heads == cells, (head, row)
+        seen |= set(heads)
+    assert len(tables) > 4 and seen == {True, False}, tables
 
 
 class Tables(html.parser.HTMLParser):
@@ -100,6 +117,12 @@ def check(name, run, pictures):
     shares = [number(rows[m][0]) for m in MECHANISMS]
     assert abs(sum(shares) - 100) < 0.1 and max(shares) > 10, shares
     assert re.search(r"[0-9.]+ k?N, \d+ % of it by .*, from \d+ bod(y|ies).*\.$", rows["1"][1]), rows["1"]
+    zones = [number(rows[z][0]) for z in ZONES]
+    assert abs(sum(zones) - 100) < 0.1 and zones[0] > 10, zones
+    check_heads(page)
+    assert ("strength varies" in rows) == (name == "level"), rows.get("strength varies")
+    if name == "level":
+        assert all(word in rows["strength varies"][0] for word in ("0.2", "7 m")), rows["strength varies"]
     for row in ("kinetic energy", "crushing work"):
         assert row in rows, (name, row)
     kinetic = float(last["kinetic_energy[J]"]) * 1e-3
