@@ -100,6 +100,26 @@ FRAM_API void fram_why_default(fram_why_definition *definition);
 FRAM_API fram_status fram_why(fram_context *context, const char *run, const fram_why_definition *definition,
                               char **text, fram_error *error);
 
+/* ---- Ice management ---- */
+
+typedef struct fram_manage_definition {
+    size_t size;        /* of this struct, set by fram_manage_default */
+    const char *output; /* the page; NULL: RUN/manage.html */
+    const char *vessel; /* the protected one; NULL: the only one that does not drive itself */
+    const char *beside; /* folder of another run, without management say; NULL: none */
+    double limit;       /* largest size of a floe that counts as managed [m]; 0: the vessel's beam */
+    double depth;       /* of the windows of ice along the drift [m]; 0: as the corridor is wide */
+    bool json;          /* the text is one JSON object in SI units */
+} fram_manage_definition;
+FRAM_API void fram_manage_default(fram_manage_definition *definition);
+/* What ice came to a vessel: sizes and concentration in windows that drift along, upstream, behind the icebreakers and
+   at the vessel; the largest floe that reached it, the managed share, the time until unmanaged ice comes, loads beside
+   those of another run.  Writes the page and two tables beside it (manage.csv by time, manage-sizes.csv).
+   FRAM_ERROR_INPUT for a folder without a run or a record, a vessel that is not there or not to be told from others.
+   The caller frees the text with fram_text_free. */
+FRAM_API fram_status fram_manage(fram_context *context, const char *run, const fram_manage_definition *definition,
+                                 fram_result *result, char **text, fram_error *error);
+
 /* ---- Pressure on the hull ---- */
 
 typedef struct fram_pressure_definition {

@@ -169,6 +169,7 @@ int command_field(const command_row *self, int argc, char **argv);
 int command_export(const command_row *self, int argc, char **argv);
 int command_report(const command_row *self, int argc, char **argv);
 int command_plot(const command_row *self, int argc, char **argv);
+int command_manage(const command_row *self, int argc, char **argv);
 int command_compare(const command_row *self, int argc, char **argv);
 int command_capability(const command_row *self, int argc, char **argv);
 int command_pressure(const command_row *self, int argc, char **argv);

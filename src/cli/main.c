@@ -89,6 +89,12 @@ static const command_row commands[] = {
      "  fram compare out/demo out/thick\n"
      "  fram compare out/demo out/thick -o both.html\n",
      command_compare},
+    {"manage", "RUN",
+     "what ice management brought a vessel: floe sizes upstream, behind the icebreakers and at it, warnings, loads",
+     "  fram manage out/managed\n"
+     "  fram manage out/managed --beside out/alone\n"
+     "  fram manage out/escort --vessel tanker --limit 20 --json\n",
+     command_manage},
     {"video", "RUN", "make an MP4 of a run, in space or from above; needs ffmpeg, but no screen",
      "  fram video out/demo\n"
      "  fram video out/demo --camera plan --span 200 --colour force -o bow.mp4\n"

@@ -66,6 +66,7 @@ CALL(fram_playback, ctx, d, NULL, &e)
 CALL(fram_video, ctx, nowhere, d, NULL, &e)
 CALL(fram_capability, s, d, NULL, &e)
 CALL(fram_why, ctx, nowhere, d, &words, &e)
+CALL(fram_manage, ctx, nowhere, d, NULL, &words, &e)
 CALL(fram_pressure, ctx, nowhere, d, &e)
 CALL(fram_extremes_find, ctx, d, &extremes, &e)
 CALL(fram_fatigue_find, ctx, d, &fatigue, &e)
@@ -101,6 +102,7 @@ START_TEST(shorter_is_taken_and_longer_refused)
     TRY(fram_video_definition, fram_video_default, fram_video, "fram_video");
     TRY(fram_capability_definition, fram_capability_default, fram_capability, "fram_capability");
     TRY(fram_why_definition, fram_why_default, fram_why, "fram_why");
+    TRY(fram_manage_definition, fram_manage_default, fram_manage, "fram_manage");
     TRY(fram_pressure_definition, fram_pressure_default, fram_pressure, "fram_pressure");
     TRY(fram_extremes_definition, fram_extremes_default, fram_extremes_find, "fram_extremes");
     TRY(fram_fmu_definition, fram_fmu_default, fram_fmu, "fram_fmu");

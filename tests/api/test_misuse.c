@@ -307,6 +307,17 @@ START_TEST(results)
     fram_text_free(c, text);
 
     fram_why_definition asked;
+    fram_manage_definition ice;
+    fram_manage_default(NULL);
+    fram_manage_default(&ice);
+    REFUSED(fram_manage(NULL, run, &ice, NULL, &text, &e));
+    REFUSED(fram_manage(c, NULL, &ice, NULL, &text, &e));
+    REFUSED(fram_manage(c, run, NULL, NULL, &text, &e));
+    REFUSED(fram_manage(c, run, &ice, NULL, NULL, &e));
+    ice.limit = -1;
+    REFUSED(fram_manage(c, run, &ice, NULL, &text, &e));
+    ice.limit = 0, ice.vessel = "nobody";
+    REFUSED(fram_manage(c, run, &ice, NULL, &text, &e));
     fram_why_default(NULL);
     fram_why_default(&asked);
     asked.rerun = false;

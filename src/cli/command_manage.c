@@ -1,0 +1,46 @@
+/* fram manage: what ice management brought. */
+#include "cli/cli.h"
+
+#include "fram/results.h"
+
+int command_manage(const command_row *self, int argc, char **argv)
+{
+    common_options common;
+    const char *run = NULL;
+    fram_manage_definition d;
+    fram_manage_default(&d);
+    const option_row rows[] = {
+        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "the protected vessel (the one that does not drive itself)"},
+        {"--beside", NULL, OPTION_TEXT, &d.beside, "RUN", "another run to stand beside, without icebreakers say"},
+        {"--limit", NULL, OPTION_REAL, &d.limit, "M", "largest size of a managed floe [m] (the vessel's beam)"},
+        {"--depth", NULL, OPTION_REAL, &d.depth, "M",
+         "of the windows of ice along the drift [m] (the corridor's width)"},
+        {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the page (RUN/manage.html); tables go beside it"},
+    };
+    int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
+    if (code >= 0)
+        return code;
+    const command_files files = {.runs = {run, d.beside}, .outputs = {{"--output", d.output, "html htm"}}};
+    code = refuse_outputs(&common, &files);
+    if (code >= 0)
+        return code;
+    fram_context *context = NULL;
+    code = session_open(&common, &context);
+    if (code >= 0)
+        return code;
+    char *text = NULL;
+    fram_result result = {0};
+    fram_error error = {0};
+    d.json = common.json;
+    if (fram_manage(context, run, &d, &result, &text, &error) != FRAM_OK) {
+        code = answer_error(&common, &error);
+    } else {
+        code = EXIT_GOOD;
+        fputs(text, stdout);
+        if (!common.quiet)
+            fprintf(stderr, "%s: open it in a browser, or print it\n", result.path);
+    }
+    fram_text_free(context, text);
+    fram_context_destroy(context);
+    return code;
+}

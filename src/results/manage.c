@@ -1,0 +1,245 @@
+#include "results/manage.h"
+
+#include "base/channel_statistics.h"
+#include "io/csv.h"
+#include "model/scenario_vessel.h"
+#include "results/manage_parts.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+double manage_alarm(const manage_moment *at, bool largest)
+{
+    double way = largest ? at->threat.largest : at->threat.nearest;
+    return at->speed > 0 ? way / at->speed : HUGE_VAL;
+}
+
+/* ---- sums ---- */
+
+static bool counts(const manage_run *m, const manage_moment *at, int place)
+{
+    return at->looked[place] >= 0 && at->time >= m->d.s.run.transient;
+}
+
+/* Means over the windows of a place; a place that no window came to has no numbers. */
+static void sum_place(const manage_run *m, int place, manage_summary *out)
+{
+    double ice = 0, managed = 0, sheet = 0, floes = 0, area[MANAGE_CLASSES + 1] = {0};
+    int32_t n = 0;
+    for (int32_t i = 0; i < m->moments.count; i++) {
+        const manage_moment *at = &m->moments.data[i];
+        const manage_cover *c = &at->cover[place];
+        if (!counts(m, at, place))
+            continue;
+        n++;
+        ice += c->ice;
+        managed += c->managed;
+        sheet += c->sheet;
+        floes += c->size_area;
+        for (int k = 0; k <= MANAGE_CLASSES; k++)
+            area[k] += c->of_class[k];
+        if (c->largest > out->place[place].largest) {
+            out->place[place].largest = c->largest;
+            if (place == MANAGE_AT)
+                out->largest_time = at->time;
+        }
+    }
+    out->place[place].windows = n;
+    out->place[place].concentration = n > 0 ? ice / n : (double)NAN;
+    out->place[place].managed = ice > 0 ? managed / ice : (double)NAN;
+    out->place[place].sheet = ice > 0 ? sheet / ice : (double)NAN;
+    out->place[place].mean = ice > sheet ? floes / (ice - sheet) : (double)NAN;
+    for (int k = 0; k <= MANAGE_CLASSES; k++)
+        out->place[place].share[k] = ice > 0 ? area[k] / ice : (double)NAN;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void sum_alarms(const manage_run *m, bool largest, double *least, double *median)
+{
+    double_array times = {0};
+    bool good = true;
+    *least = *median = (double)NAN;
+    for (int32_t i = 0; i < m->moments.count && good; i++) {
+        if (counts(m, &m->moments.data[i], MANAGE_AT))
+            good = array_push(m->ctx, &times, manage_alarm(&m->moments.data[i], largest));
+    }
+    if (good && times.count > 0) {
+        qsort(times.data, (size_t)times.count, sizeof *times.data, ascending);
+        *least = times.data[0];
+        *median = times.data[times.count / 2];
+    }
+    array_free(m->ctx, &times);
+}
+
+/* Mean and largest size of two channels taken as components; NaN without them. */
+static void magnitude(const manage_run *m, const char *x_name, const char *y_name, double *mean, double *most)
+{
+    const double *t = run_channel(&m->d, "time"), *x = run_vessel_channel(&m->d, m->vessel, x_name);
+    const double *y = run_vessel_channel(&m->d, m->vessel, y_name);
+    double sum = 0;
+    int32_t n = 0;
+    *mean = *most = (double)NAN;
+    for (int32_t i = 0; i < m->d.series.rows && t && x && y; i++) {
+        double size = sqrt(x[i] * x[i] + y[i] * y[i]);
+        if (t[i] < m->d.s.run.transient)
+            continue;
+        sum += size;
+        *most = n++ > 0 ? fmax(*most, size) : size;
+    }
+    if (n > 0)
+        *mean = sum / n;
+}
+
+void manage_sum_up(const manage_run *m, manage_summary *out)
+{
+    double unused;
+    *out = (manage_summary){.limit = m->limit, .largest_time = (double)NAN};
+    for (int p = 0; p < MANAGE_PLACES; p++)
+        sum_place(m, p, out);
+    sum_alarms(m, false, &out->alarm_least, &out->alarm_median);
+    sum_alarms(m, true, &out->warning_least, &out->warning_median);
+    magnitude(m, "ice_force_averaged_x", "ice_force_averaged_y", &out->load_mean, &out->load_most);
+    magnitude(m, "offset_x", "offset_y", &unused, &out->offset_most);
+    magnitude(m, "line_tension_max", "line_tension_max", &unused, &out->tension_most);
+    out->tension_most *= sqrt(0.5);
+    const scenario_vessel *keys = scenario_vessel_entry(&m->d.s, m->vessel).keys;
+    if (keys->mooring.lines.count == 0)
+        out->tension_most = (double)NAN;
+    if (keys->mooring.lines.count == 0 && !keys->positioning.active)
+        out->offset_most = (double)NAN;
+}
+
+/* ---- tables ---- */
+
+/* PAGE without its ending, and another one. */
+static fram_status beside_page(const char *page, const char *ending, char out[PATH_ROOM], fram_error *error)
+{
+    const char *slash = strrchr(page, '/'), *dot = strrchr(page, '.');
+    size_t stem = dot && (!slash || dot > slash + 1) ? (size_t)(dot - page) : strlen(page);
+    if (stem + strlen(ending) >= PATH_ROOM)
+        return error_set(error, FRAM_ERROR_INPUT, page, 0, NULL, "the path is too long");
+    memcpy(out, page, stem);
+    memcpy(out + stem, ending, strlen(ending) + 1);
+    return FRAM_OK;
+}
+
+#define PLACE_COLUMNS(name)                                                                          \
+    {name "_time", "s"}, {name "_concentration", "1"}, {name "_managed", "1"}, {name "_sheet", "1"}, \
+    {                                                                                                \
+        name "_largest", "m"                                                                         \
+    }
+enum { PLACE_COLUMN_COUNT = 5, MOMENT_COLUMNS = 4 + PLACE_COLUMN_COUNT * MANAGE_PLACES };
+
+static void moment_row(const manage_run *m, const manage_moment *at, double row[MOMENT_COLUMNS])
+{
+    bool comes = at->looked[MANAGE_AT] >= 0;
+    double alarm = manage_alarm(at, false), warning = manage_alarm(at, true);
+    int n = 0;
+    row[n++] = at->time;
+    for (int p = 0; p < MANAGE_PLACES; p++) {
+        bool known = at->looked[p] >= 0;
+        const manage_cover *c = &at->cover[p];
+        row[n++] = known ? m->moments.data[at->looked[p]].time : (double)NAN;
+        row[n++] = known ? c->ice : (double)NAN;
+        row[n++] = known && c->ice > 0 ? c->managed / c->ice : (double)NAN;
+        row[n++] = known && c->ice > 0 ? c->sheet / c->ice : (double)NAN;
+        row[n++] = known ? c->largest : (double)NAN;
+    }
+    row[n++] = comes && isfinite(alarm) ? alarm : (double)NAN;
+    row[n++] = comes && isfinite(warning) ? warning : (double)NAN;
+    row[n++] = comes && isfinite(at->threat.size) ? at->threat.size : (double)NAN;
+}
+
+static fram_status write_moments(const manage_run *m, const char *path, fram_error *error)
+{
+    static const csv_column columns[MOMENT_COLUMNS] = {{"time", "s"},
+                                                       PLACE_COLUMNS("upstream"),
+                                                       PLACE_COLUMNS("behind"),
+                                                       PLACE_COLUMNS("at_vessel"),
+                                                       {"unmanaged_comes_in", "s"},
+                                                       {"largest_unmanaged_comes_in", "s"},
+                                                       {"largest_unmanaged", "m"}};
+    csv_writer w;
+    fram_status status = csv_create(m->ctx, path, columns, MOMENT_COLUMNS, &w, error);
+    if (status != FRAM_OK)
+        return status;
+    for (int32_t i = 0; i < m->moments.count && status == FRAM_OK; i++) {
+        double row[MOMENT_COLUMNS];
+        moment_row(m, &m->moments.data[i], row);
+        status = csv_append(&w, row, error);
+    }
+    fram_status closed = csv_close(&w, status == FRAM_OK ? error : NULL);
+    return status == FRAM_OK ? closed : status;
+}
+
+/* A row a class of size, the last two without an upper end: floes beyond the last class, and unbroken ice. */
+static fram_status write_sizes(const manage_run *m, const manage_summary *s, const char *path, fram_error *error)
+{
+    static const csv_column columns[] = {{"size_over", "m"}, {"size_up_to", "m"}, {"upstream", "1"},
+                                         {"behind", "1"},    {"at_vessel", "1"},  {"sheet", "1"}};
+    csv_writer w;
+    fram_status status = csv_create(m->ctx, path, columns, 6, &w, error);
+    if (status != FRAM_OK)
+        return status;
+    for (int k = 0; k <= MANAGE_CLASSES + 1 && status == FRAM_OK; k++) {
+        bool sheet = k > MANAGE_CLASSES;
+        double row[6] = {k > 0 && !sheet ? manage_class_size[k - 1] : 0,
+                         k < MANAGE_CLASSES ? manage_class_size[k] : HUGE_VAL};
+        for (int p = 0; p < MANAGE_PLACES; p++)
+            row[2 + p] = sheet ? s->place[p].sheet : s->place[p].share[k];
+        row[5] = sheet;
+        status = csv_append(&w, row, error);
+    }
+    fram_status closed = csv_close(&w, status == FRAM_OK ? error : NULL);
+    return status == FRAM_OK ? closed : status;
+}
+
+fram_status manage_tables(const manage_run *m, const manage_summary *s, fram_error *error)
+{
+    char path[PATH_ROOM];
+    fram_status status = beside_page(s->page, ".csv", path, error);
+    if (status == FRAM_OK)
+        status = write_moments(m, path, error);
+    if (status == FRAM_OK)
+        status = beside_page(s->page, "-sizes.csv", path, error);
+    return status == FRAM_OK ? write_sizes(m, s, path, error) : status;
+}
+
+/* ---- all ---- */
+
+fram_status manage_write(context *ctx, const char *folder, const manage_options *options, manage_summary *summary,
+                         manage_summary *beside, fram_error *error)
+{
+    manage_run run, other;
+    manage_summary other_summary = {.limit = 0};
+    fram_status status = manage_read(ctx, folder, options, &run, error);
+    if (status != FRAM_OK)
+        return status;
+    manage_sum_up(&run, summary);
+    status = path_given_or(options->output, folder, "manage.html", summary->page, error);
+    bool both = options->beside != NULL && status == FRAM_OK;
+    if (both) {
+        manage_options same = *options;
+        same.limit = run.limit;
+        status = manage_read(ctx, options->beside, &same, &other, error);
+        both = status == FRAM_OK;
+    }
+    if (both)
+        manage_sum_up(&other, &other_summary);
+    if (status == FRAM_OK)
+        status = manage_page(&run, summary, both ? &other : NULL, both ? &other_summary : NULL, error);
+    if (status == FRAM_OK)
+        status = manage_tables(&run, summary, error);
+    if (beside)
+        *beside = other_summary;
+    if (both)
+        manage_free(&other);
+    manage_free(&run);
+    return status;
+}

@@ -1,0 +1,273 @@
+/* The page of ice management: what a client asks first, then figures, tables, charts and the plan. */
+#include "results/manage_parts.h"
+
+#include "io/atomic_file.h"
+#include "io/html_page.h"
+#include "model/scenario_vessel.h"
+#include "results/replay_plan.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PLAN_PIXELS = 900 };
+
+static const char *const place_name[MANAGE_PLACES] = {"upstream", "behind the icebreakers", "at the vessel"};
+
+typedef struct page {
+    const manage_run *m, *other;
+    const manage_summary *s, *os;
+    html_page html;
+    double_array column[8]; /* of charts */
+} page;
+
+static void duration_text(double seconds, char out[32])
+{
+    if (isnan(seconds))
+        snprintf(out, 32, "-");
+    else if (isinf(seconds))
+        snprintf(out, 32, "none in sight");
+    else
+        snprintf(out, 32, seconds < 100 ? "%.0f s" : "%.0f min", seconds < 100 ? seconds : seconds / 60);
+}
+
+/* ---- the first words ---- */
+
+static void verdict(page *p)
+{
+    const manage_summary *s = p->s;
+    char text[240], time[32];
+    double managed = s->place[MANAGE_AT].managed, sheet = s->place[MANAGE_AT].sheet;
+    html_verdict_begin(&p->html,
+                       managed >= 0.95  ? VERDICT_GOOD
+                       : managed >= 0.5 ? VERDICT_NOTE
+                                        : VERDICT_CAUTION,
+                       "What came to the vessel");
+    if (isnan(managed)) {
+        html_verdict_line(&p->html, VERDICT_CAUTION, "No ice came to the vessel after the transient.",
+                          "Run longer, or shorten run.transient.");
+        html_verdict_end(&p->html);
+        return;
+    }
+    snprintf(
+        text, sizeof text,
+        "%.0f %% of the ice that came was managed, that is in floes of at most %.3g m; %.0f %% was unbroken sheet.",
+        100 * managed, s->limit, 100 * sheet);
+    html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+    snprintf(text, sizeof text, "The largest floe that reached it was %.3g m across, at %.0f s.",
+             s->place[MANAGE_AT].largest, s->largest_time);
+    html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+    duration_text(s->alarm_least, time);
+    snprintf(text, sizeof text, "Unmanaged ice was never farther away than this at its nearest: %s.", time);
+    html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+    if (p->os && p->os->load_most > 0) {
+        snprintf(
+            text, sizeof text,
+            "Largest ice load %.0f %% of that of the run beside, mean %.0f %%: of one run each; a study over seeds "
+            "tells how sure that is.",
+            100 * s->load_most / p->os->load_most, 100 * s->load_mean / p->os->load_mean);
+        html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+    }
+    html_verdict_end(&p->html);
+}
+
+/* ---- tables ---- */
+
+static void place_table(page *p, const manage_summary *s, const char *title)
+{
+    const char *const heads[] = {title,          "windows",       "concentration", "managed [%]",
+                                 "unbroken [%]", "mean size [m]", "largest [m]"};
+    html_table_begin(&p->html, heads, 7);
+    for (int k = 0; k < MANAGE_PLACES; k++) {
+        bool any = s->place[k].windows > 0;
+        html_row_begin(&p->html);
+        html_cell(&p->html, place_name[k]);
+        html_number(&p->html, s->place[k].windows);
+        html_number(&p->html, s->place[k].concentration);
+        html_number(&p->html, 100 * s->place[k].managed);
+        html_number(&p->html, 100 * s->place[k].sheet);
+        html_number(&p->html, s->place[k].mean);
+        html_number(&p->html, any ? s->place[k].largest : (double)NAN);
+        html_row_end(&p->html);
+    }
+    html_table_end(&p->html);
+}
+
+static void load_row(page *p, const char *name, double own, double beside)
+{
+    html_row_begin(&p->html);
+    html_cell(&p->html, name);
+    html_number(&p->html, own);
+    if (p->os) {
+        html_number(&p->html, beside);
+        html_number(&p->html, beside > 0 ? own / beside : (double)NAN);
+    }
+    html_row_end(&p->html);
+}
+
+static void load_table(page *p)
+{
+    const char *const heads[] = {"after the transient", "this run", "run beside", "this / beside"};
+    const manage_summary none = {.limit = 0}, *a = p->s, *b = p->os ? p->os : &none;
+    html_table_begin(&p->html, heads, p->os ? 4 : 2);
+    load_row(p, "mean horizontal ice load [kN]", 1e-3 * a->load_mean, 1e-3 * b->load_mean);
+    load_row(p, "largest horizontal ice load, averaged [kN]", 1e-3 * a->load_most, 1e-3 * b->load_most);
+    load_row(p, "largest offset [m]", a->offset_most, b->offset_most);
+    load_row(p, "largest line tension [kN]", 1e-3 * a->tension_most, 1e-3 * b->tension_most);
+    html_table_end(&p->html);
+}
+
+static void alarm_table(page *p)
+{
+    const double value[] = {p->s->alarm_least, p->s->alarm_median, p->s->warning_least, p->s->warning_median};
+    static const char *const name[] = {"nearest unmanaged ice, least", "nearest unmanaged ice, median",
+                                       "largest unmanaged ice, least", "largest unmanaged ice, median"};
+    static const char *const heads[] = {"time until it comes", "this run"};
+    html_table_begin(&p->html, heads, 2);
+    for (int i = 0; i < 4; i++) {
+        char text[32];
+        duration_text(value[i], text);
+        html_row_begin(&p->html);
+        html_cell(&p->html, name[i]);
+        html_cell(&p->html, text);
+        html_row_end(&p->html);
+    }
+    html_table_end(&p->html);
+}
+
+/* ---- charts ---- */
+
+static bool fill_series(const manage_run *m, bool alarm, double_array *time, double_array *value)
+{
+    bool good = true;
+    for (int32_t i = 0; i < m->moments.count && good; i++) {
+        const manage_moment *at = &m->moments.data[i];
+        const manage_cover *c = &at->cover[MANAGE_AT];
+        double v = alarm ? manage_alarm(at, true) / 60 : c->ice > 0 ? 100 * c->managed / c->ice : (double)NAN;
+        bool known = at->looked[MANAGE_AT] >= 0 && isfinite(v);
+        good = array_push(m->ctx, time, at->time) && array_push(m->ctx, value, known ? v : (double)NAN);
+    }
+    return good;
+}
+
+static fram_status series_chart(page *p, bool alarm, const char *title, const char *label, fram_error *error)
+{
+    chart_line lines[2];
+    int32_t n = 0;
+    for (int k = 0; k < (p->other ? 2 : 1); k++) {
+        double_array *time = &p->column[4 * alarm + 2 * k], *value = &p->column[4 * alarm + 2 * k + 1];
+        const manage_run *m = k ? p->other : p->m;
+        if (!fill_series(m, alarm, time, value))
+            return error_memory(error);
+        lines[n] = chart_line_make(k ? "run beside" : "this run", time->data, value->data, time->count, k == 0);
+        lines[n++].colour = k + 2;
+    }
+    chart c = chart_make(title, "", "time [s]", label, lines, n);
+    return html_chart(&p->html, &c, false, error);
+}
+
+/* Part of the ice in floes no larger than a size; what is missing at the end is larger, or unbroken. */
+static fram_status size_chart(page *p, fram_error *error)
+{
+    double sum[MANAGE_PLACES][MANAGE_CLASSES];
+    chart_line lines[MANAGE_PLACES];
+    int32_t n = 0;
+    for (int k = 0; k < MANAGE_PLACES; k++) {
+        double so_far = 0;
+        for (int i = 0; i < MANAGE_CLASSES; i++)
+            sum[k][i] = so_far += 100 * p->s->place[k].share[i];
+        if (!(p->s->place[k].windows > 0))
+            continue;
+        lines[n] = chart_line_make(place_name[k], manage_class_size, sum[k], MANAGE_CLASSES, k == MANAGE_AT);
+        lines[n++].colour = k + 1;
+    }
+    if (n == 0)
+        return FRAM_OK;
+    chart c = chart_make("Floe sizes", "part of the ice in floes up to this size", "floe size [m]",
+                         "part of the ice [%]", lines, n);
+    c.log_x = true;
+    return html_chart(&p->html, &c, false, error);
+}
+
+/* The field at the end. */
+static fram_status plan(page *p, fram_error *error)
+{
+    const manage_run *m = p->m;
+    const scenario_domain *d = &m->d.s.domain;
+    replay r;
+    replay_moment now = {0};
+    replay_plan shapes = {0};
+    text_buffer png = {0};
+    char caption[64];
+    fram_status status = replay_open(m->ctx, m->d.folder, &r, error);
+    if (status != FRAM_OK)
+        return status;
+    status = replay_moment_at(&r, m->moments.data[m->moments.count - 1].time, &now, error);
+    if (status == FRAM_OK)
+        status = replay_plan_make(&r, &now, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &shapes, error);
+    snprintf(caption, sizeof caption, "t = %g s", now.time);
+    plan_view view = {.window = {{d->x_min, d->y_min}, {d->x_max, d->y_max}},
+                      .title = "The field at the end",
+                      .caption = caption,
+                      .shapes = shapes.shapes.data,
+                      .shape_count = shapes.shapes.count};
+    if (status == FRAM_OK)
+        status = plan_view_png(m->ctx, &view, PLAN_PIXELS, &png, error);
+    if (status == FRAM_OK)
+        html_picture(&p->html, png.data, (size_t)png.count, caption);
+    text_free(m->ctx, &png);
+    replay_plan_free(m->ctx, &shapes);
+    replay_moment_free(m->ctx, &now);
+    replay_close(&r);
+    return status == FRAM_ERROR_UNSUPPORTED ? FRAM_OK : status;
+}
+
+/* ---- all ---- */
+
+static fram_status compose(page *p, fram_error *error)
+{
+    const manage_run *m = p->m;
+    const char *name = scenario_vessel_name(&m->d.s, m->vessel);
+    char title[120];
+    snprintf(title, sizeof title, "Ice management for %s", name ? name : "the vessel");
+    html_begin(&p->html, title, m->d.s.title);
+    verdict(p);
+    html_section(&p->html, "The ice that came to the vessel");
+    html_paragraph(
+        &p->html,
+        "A window as wide as the hull across the drift is followed back with the ice from where it meets the "
+        "hull: upstream is the same ice before an icebreaker came near it, behind the same ice after the last "
+        "has left. Sizes are diameters of discs of the floe's area, means are by area; managed: at most %.3g m.",
+        m->limit);
+    place_table(p, p->s, "this run");
+    if (p->os)
+        place_table(p, p->os, "run beside");
+    html_section(&p->html, "Loads");
+    load_table(p);
+    html_section(&p->html, "Warning");
+    html_paragraph(&p->html, "Along the drift of each moment, as if it lasted; in the record's domain.");
+    alarm_table(p);
+    html_grid_begin(&p->html);
+    fram_status status = size_chart(p, error);
+    if (status == FRAM_OK)
+        status = series_chart(p, false, "Managed ice at the vessel", "part of the ice [%]", error);
+    if (status == FRAM_OK)
+        status = series_chart(p, true, "Until the largest unmanaged ice comes", "time [min]", error);
+    if (status == FRAM_OK)
+        status = plan(p, error);
+    html_grid_end(&p->html);
+    html_end(&p->html);
+    return status == FRAM_OK && p->html.text.failed ? error_memory(error) : status;
+}
+
+fram_status manage_page(const manage_run *m, const manage_summary *s, const manage_run *other,
+                        const manage_summary *other_summary, fram_error *error)
+{
+    page p = {.m = m, .other = other, .s = s, .os = other_summary, .html = {.ctx = m->ctx}};
+    fram_status status = compose(&p, error);
+    if (status == FRAM_OK)
+        status = atomic_file_write(m->ctx, s->page, p.html.text.data, (size_t)p.html.text.count, error);
+    for (size_t i = 0; i < sizeof p.column / sizeof *p.column; i++)
+        array_free(m->ctx, &p.column[i]);
+    html_free(&p.html);
+    return status;
+}

@@ -1,0 +1,95 @@
+/* Results of ice management in a few lines, or as JSON. */
+#include "results/manage.h"
+
+#include "base/number_text.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const char *const words[MANAGE_PLACES] = {"upstream", "behind the icebreakers", "at the vessel"};
+static const char *const keys[MANAGE_PLACES] = {"upstream", "behind", "at_vessel"};
+
+static void tell_time(context *ctx, const char *name, double least, double median, text_buffer *out)
+{
+    text_format(ctx, out, "%-46s", name);
+    for (int i = 0; i < 2; i++) {
+        double t = i ? median : least;
+        if (isinf(t))
+            text_add(ctx, out, "  none in sight");
+        else
+            text_format(ctx, out, " %12.4g s", t);
+    }
+    text_add(ctx, out, "\n");
+}
+
+static void tell(context *ctx, const manage_summary *s, const manage_summary *beside, text_buffer *out)
+{
+    const manage_summary *all[2] = {s, beside};
+    for (int k = 0; k < (beside ? 2 : 1); k++) {
+        const manage_summary *a = all[k];
+        text_format(ctx, out, "%-24s %8s %14s %10s %11s %11s %12s\n", k ? "run beside" : "this run", "windows",
+                    "concentration", "managed", "unbroken", "mean [m]", "largest [m]");
+        for (int p = 0; p < MANAGE_PLACES; p++)
+            text_format(ctx, out, "%-24s %8.0f %14.3f %9.1f%% %10.1f%% %11.3g %12.3g\n", words[p], a->place[p].windows,
+                        a->place[p].concentration, 100 * a->place[p].managed, 100 * a->place[p].sheet, a->place[p].mean,
+                        a->place[p].windows > 0 ? a->place[p].largest : (double)NAN);
+        text_format(ctx, out, "ice load %.4g kN mean, %.4g kN at most\n", 1e-3 * a->load_mean, 1e-3 * a->load_most);
+        if (!isnan(a->offset_most))
+            text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
+        if (!isnan(a->tension_most))
+            text_format(ctx, out, "line tension %.4g kN at most\n", 1e-3 * a->tension_most);
+    }
+    text_format(ctx, out, "managed: floes of at most %.3g m; the largest that came, at %.4g s\n", s->limit,
+                s->largest_time);
+    tell_time(ctx, "nearest unmanaged ice comes in, least, median", s->alarm_least, s->alarm_median, out);
+    tell_time(ctx, "largest unmanaged ice comes in, least, median", s->warning_least, s->warning_median, out);
+}
+
+static void real(context *ctx, text_buffer *out, const char *name, double value, const char *after)
+{
+    char number[NUMBER_TEXT_SIZE] = "null";
+    if (isfinite(value))
+        real_to_text(value, number);
+    text_format(ctx, out, "\"%s\": %s%s", name, number, after);
+}
+
+static void summary_json(context *ctx, const manage_summary *s, text_buffer *out)
+{
+    text_add(ctx, out, "{");
+    real(ctx, out, "limit", s->limit, ", ");
+    for (int p = 0; p < MANAGE_PLACES; p++) {
+        text_format(ctx, out, "\"%s\": {", keys[p]);
+        real(ctx, out, "windows", s->place[p].windows, ", ");
+        real(ctx, out, "concentration", s->place[p].concentration, ", ");
+        real(ctx, out, "managed", s->place[p].managed, ", ");
+        real(ctx, out, "unbroken", s->place[p].sheet, ", ");
+        real(ctx, out, "mean_size", s->place[p].mean, ", ");
+        real(ctx, out, "largest", s->place[p].windows > 0 ? s->place[p].largest : (double)NAN, "}, ");
+    }
+    real(ctx, out, "largest_at_time", s->largest_time, ", ");
+    real(ctx, out, "unmanaged_comes_in_least", s->alarm_least, ", ");
+    real(ctx, out, "unmanaged_comes_in_median", s->alarm_median, ", ");
+    real(ctx, out, "largest_unmanaged_comes_in_least", s->warning_least, ", ");
+    real(ctx, out, "largest_unmanaged_comes_in_median", s->warning_median, ", ");
+    real(ctx, out, "load_mean", s->load_mean, ", ");
+    real(ctx, out, "load_most", s->load_most, ", ");
+    real(ctx, out, "offset_most", s->offset_most, ", ");
+    real(ctx, out, "tension_most", s->tension_most, "}");
+}
+
+fram_status manage_text(context *ctx, const manage_summary *s, const manage_summary *beside, bool json,
+                        text_buffer *out, fram_error *error)
+{
+    if (!json) {
+        tell(ctx, s, beside, out);
+    } else {
+        text_add(ctx, out, "{\"run\": ");
+        summary_json(ctx, s, out);
+        if (beside) {
+            text_add(ctx, out, ", \"beside\": ");
+            summary_json(ctx, beside, out);
+        }
+        text_add(ctx, out, "}\n");
+    }
+    return out->failed ? error_memory(error) : FRAM_OK;
+}

@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# fram manage on ice of known sizes that drifts past known places.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+# A ship of 40 x 10 m at the origin; ice comes from +x at 0.5 m/s: floes of 3 x 3 and 8 x 8 m near it, one of 30 x 8 m
+# far off, one aside that counts nowhere.  A tender lies beside the corridor and touches nothing.
+cat >scene.yaml <<'YAML'
+title: Known ice
+run: {duration: 8, time_step: 0.02}
+vessels:
+  - name: ship
+    mode: towed
+    hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}
+  - name: tender
+    mode: towed
+    x: 48
+    y: 14
+    hull: {form: box, length: 20, beam: 4, draught: 2, freeboard: 2}
+    propulsion: {bollard_pull: auto}
+ice:
+  source: floes
+  thickness: 1
+  floes:
+    - {length: 3, width: 3, x: 26, velocity_x: -0.5}
+    - {length: 8, width: 8, x: 38, velocity_x: -0.5}
+    - {length: 30, width: 8, x: 150, velocity_x: -0.5}
+    - {length: 50, width: 50, x: 100, y: 60, velocity_x: -0.5}
+domain: {x_min: -100, x_max: 300, y_min: -100, y_max: 100, boundary: open}
+environment: {water: false}
+output: {frame_interval: 1}
+YAML
+"$FRAM" run scene.yaml -o both -q
+"$FRAM" run scene.yaml -o alone -q --set vessels.tender.present=false
+
+# number EXPRESSION WANTED: of the JSON object in out, to 1e-6.
+number() {
+    python3 - "$1" "$2" <<'PY' || fail "fram manage: a number is wrong"
+import json, sys
+
+j = json.load(open("out"))
+found, wanted = eval(sys.argv[1]), float(sys.argv[2])
+sys.exit(0 if abs(found - wanted) <= 1e-6 * abs(wanted) else f"{sys.argv[1]} is {found}, expected {wanted}")
+PY
+}
+
+# At t the 8 m floe has 6 + t/2 of its 8 m, at most all, in the window of 20 x 10 m before the bow; the 3 m floe is all
+# in it: 9 + 536/9 m2 of 200 on average of nine frames.
+expect 0 "$FRAM" manage alone --limit 5 --depth 20 --json -q
+number "j['run']['at_vessel']['windows']" 9
+number "j['run']['at_vessel']['concentration']" "$(python3 -c 'print((9 + 536 / 9) / 200)')"
+number "j['run']['at_vessel']['managed']" "$(python3 -c 'print(9 / (9 + 536 / 9))')"
+number "j['run']['at_vessel']['largest']" "$(python3 -c 'from math import *; print(sqrt(256 / pi))')"
+number "j['run']['unmanaged_comes_in_least']" 20
+number "j['run']['unmanaged_comes_in_median']" 24
+number "j['run']['largest_unmanaged_comes_in_least']" 222
+# Nobody worked on it: upstream is the same ice at the start, where it had all that it has at the vessel.
+number "j['run']['upstream']['windows']" 8
+number "j['run']['behind']['windows']" 0
+number "j['run']['upstream']['concentration']" "$(python3 -c 'print((9 + (52 + 56 + 60 + 5 * 64) / 8) / 200)')"
+
+# The tender is within reach of the ice until its window's middle is 2.1 m before its place at the bow (a half diagonal
+# and half a length, 21.2 m, from it): ice that comes in the first 4 s it never reaches, the rest has been behind it.
+expect 0 "$FRAM" manage both --vessel ship --limit 5 --depth 20 --json -q
+number "j['run']['upstream']['windows']" 4
+number "j['run']['behind']['windows']" 4
+number "j['run']['behind']['concentration']" "$(python3 -c 'print(73 / 200)')"
+
+# The page and its tables, also of two runs beside each other.
+expect 0 "$FRAM" manage both --vessel ship --beside alone --limit 5 --depth 20 -o page.html
+says "run beside" out
+for file in page.html page.csv page-sizes.csv; do [ -s "$file" ] || fail "$file is missing"; done
+grep -q "Ice management for ship" page.html || fail "the page has another title"
+head -1 page.csv | grep -q "at_vessel_managed\[1\],.*unmanaged_comes_in\[s\]" || fail "page.csv has other columns"
+[ "$(wc -l <page-sizes.csv)" -eq 13 ] || fail "page-sizes.csv has not a row a class"
+
+# The whole of what came is in its classes.
+python3 - <<'PY' || fail "shares of the classes do not add up"
+import csv
+rows = list(csv.reader(open("page-sizes.csv")))[1:]
+assert abs(sum(float(r[4]) for r in rows) - 1) < 1e-9
+PY
+
+# What cannot be told is refused.
+expect 2 "$FRAM" manage
+expect 2 "$FRAM" manage nowhere
+expect 2 "$FRAM" manage both
+says "--vessel NAME" err
+expect 2 "$FRAM" manage both --vessel nobody
+says "nobody" err
+expect 2 "$FRAM" manage both --vessel ship --limit -1
+expect 2 "$FRAM" manage both --vessel ship --beside nowhere
+expect 2 "$FRAM" manage both --vessel ship -o both/run.json
+expect 0 "$FRAM" manage --help
+says "Examples:" out
+finish "ice management: known floes, windows and times"
