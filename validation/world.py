@@ -67,7 +67,7 @@ class World:
         array = (ctypes.c_char_p * max(1, len(sets)))(*sets)
         self.context, self.scenario, self.world = (ctypes.c_void_p() for _ in range(3))
         definition = ContextDefinition()
-        self.lib.fram_context_default(ctypes.byref(definition))
+        self.lib.fram_context_default(ctypes.byref(definition), ctypes.c_size_t(ctypes.sizeof(definition)))
         definition.threads, definition.isa = threads, isa.encode() if isa else None
         self._ok(self.lib.fram_context_create(ctypes.byref(definition), ctypes.byref(self.context), self._e()))
         self._ok(self.lib.fram_scenario_load(self.context, str(scenario).encode(), array, len(sets),

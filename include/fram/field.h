@@ -46,7 +46,8 @@ typedef struct fram_field_definition {
     bool degrees;         /* the file holds longitudes and latitudes (WGS 84), which are laid flat about the centre of
                              all rings; that goes to `offset`, with y to the north; scale must be 1; default false */
 } fram_field_definition;
-FRAM_API void fram_field_default(fram_field_definition *definition);
+FRAM_API void fram_field_default(fram_field_definition *definition, size_t size);
+#define fram_field_default(definition) fram_field_default((definition), sizeof *(definition))
 /* From GeoJSON, WKT (POLYGON and MULTIPOLYGON) or plain lines of x and y with a blank line after each outline, told
    apart by the first character.  definition NULL: the defaults.  FRAM_ERROR_INPUT, with line, column and ring ("feature
    17, polygon 1, ring 1") as key, when the file cannot be read or a ring is refused; with the member's name as key when

@@ -90,7 +90,8 @@ typedef struct fram_context_definition {
     void *parallel_user;
 } fram_context_definition;
 
-FRAM_API void fram_context_default(fram_context_definition *definition);
+FRAM_API void fram_context_default(fram_context_definition *definition, size_t size);
+#define fram_context_default(definition) fram_context_default((definition), sizeof *(definition))
 /* definition NULL: the defaults (one thread, no log). */
 FRAM_API fram_status fram_context_create(const fram_context_definition *definition, fram_context **context,
                                          fram_error *error);
@@ -229,7 +230,8 @@ typedef struct fram_run_result {
     bool finished; /* the scenario's end was reached */
 } fram_run_result;
 
-FRAM_API void fram_run_default(fram_run_definition *definition);
+FRAM_API void fram_run_default(fram_run_definition *definition, size_t size);
+#define fram_run_default(definition) fram_run_default((definition), sizeof *(definition))
 /* Run a scenario from its start and write time series, record, pictures and checkpoints to definition->folder. */
 FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_definition *definition,
                               fram_run_result *result, fram_error *error);
@@ -255,7 +257,8 @@ typedef struct fram_playback_result {
     int64_t files;            /* beside the page */
 } fram_playback_result;
 
-FRAM_API void fram_playback_default(fram_playback_definition *definition);
+FRAM_API void fram_playback_default(fram_playback_definition *definition, size_t size);
+#define fram_playback_default(definition) fram_playback_default((definition), sizeof *(definition))
 /* A page that plays a run in a browser, from disk, without a network.  result may be NULL. */
 FRAM_API fram_status fram_playback(fram_context *context, const fram_playback_definition *definition,
                                    fram_playback_result *result, fram_error *error);
@@ -300,7 +303,8 @@ typedef struct fram_bench_scene_definition {
     const char *dump;   /* file for the final poses, NULL: none */
     int exact_water;    /* not 0: Fram's own water, with the scene's coefficients */
 } fram_bench_scene_definition;
-FRAM_API void fram_bench_scene_default(fram_bench_scene_definition *definition);
+FRAM_API void fram_bench_scene_default(fram_bench_scene_definition *definition, size_t size);
+#define fram_bench_scene_default(definition) fram_bench_scene_default((definition), sizeof *(definition))
 /* FRAM_ERROR_INPUT with file and line for a scene that cannot be read. */
 FRAM_API fram_status fram_bench_scene(fram_context *context, const char *path,
                                       const fram_bench_scene_definition *definition, fram_bench_result *result,

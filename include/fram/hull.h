@@ -34,7 +34,8 @@ typedef struct fram_hull_file_definition {
     double freeboard;  /* a level open top is raised by this and closed by a deck [m]; NaN: a third of the depth for GDF
                           files, which end at the waterline; others are then refused */
 } fram_hull_file_definition;
-FRAM_API void fram_hull_file_default(fram_hull_file_definition *definition);
+FRAM_API void fram_hull_file_default(fram_hull_file_definition *definition, size_t size);
+#define fram_hull_file_default(definition) fram_hull_file_default((definition), sizeof *(definition))
 /* STL (text, binary), Wavefront OBJ or WAMIT GDF (mirrored in its symmetry planes, given topsides), by ending or
    content. definition NULL: the defaults.  FRAM_ERROR_INPUT, with line and element ("panel 12"), when the surface
    cannot be read or is no sound solid: open, inside out, crossing itself; the message says what would help. */
@@ -61,7 +62,8 @@ typedef struct fram_hull_particulars {
     double bilge_radius;      /* of a ship [m]; NaN, default: as beam and draught have it */
     double transom; /* of a ship: breadth of the transom over the beam, 0 a pointed stern; NaN, default: 0.5 */
 } fram_hull_particulars;
-FRAM_API void fram_hull_particulars_default(fram_hull_particulars *particulars);
+FRAM_API void fram_hull_particulars_default(fram_hull_particulars *particulars, size_t size);
+#define fram_hull_particulars_default(particulars) fram_hull_particulars_default((particulars), sizeof *(particulars))
 /* FRAM_ERROR_INPUT, with the member's name as key, when the particulars do not go together; a block coefficient out of
    reach is refused with the range that can be reached. */
 FRAM_API fram_status fram_hull_make(fram_context *context, const fram_hull_particulars *particulars, fram_hull **hull,
@@ -108,7 +110,8 @@ typedef struct fram_hull_condition {
     double water_density; /* [kg/m3], default 1025 */
     double gravity;       /* [m/s2], default 9.81 */
 } fram_hull_condition;
-FRAM_API void fram_hull_condition_default(fram_hull_condition *condition);
+FRAM_API void fram_hull_condition_default(fram_hull_condition *condition, size_t size);
+#define fram_hull_condition_default(condition) fram_hull_condition_default((condition), sizeof *(condition))
 
 /* Places are in the hull's frame.  Second moments, lengths of the waterline and stiffness are in the water plane, with
    x and y along the hull's own. */

@@ -59,7 +59,8 @@ typedef struct fram_ice_edge {
     double contact_width;  /* along the edge: a strip breaks off between the end wedges [m]; default 0: wedges alone */
     double ice_length;     /* of the ice behind a wide contact [m]; default 0: so long that its end does not matter */
 } fram_ice_edge;
-FRAM_API void fram_ice_edge_default(fram_ice_edge *load);
+FRAM_API void fram_ice_edge_default(fram_ice_edge *load, size_t size);
+#define fram_ice_edge_default(load) fram_ice_edge_default((load), sizeof *(load))
 
 typedef struct fram_ice_breaking {
     double characteristic_length; /* l [m] */
@@ -88,7 +89,8 @@ typedef struct fram_ice_floe {
     double width;     /* across it [m]; default 50 */
     double place;     /* of the load along the side, from its middle: -width/2 to width/2 [m]; default 0 */
 } fram_ice_floe;
-FRAM_API void fram_ice_floe_default(fram_ice_floe *floe);
+FRAM_API void fram_ice_floe_default(fram_ice_floe *floe, size_t size);
+#define fram_ice_floe_default(floe) fram_ice_floe_default((floe), sizeof *(floe))
 
 typedef struct fram_ice_splitting {
     double smaller_side, larger_side; /* of the floe, to both sides of the crack [m] */

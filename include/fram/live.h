@@ -21,7 +21,8 @@
    says so.
 
    Older programs.  A struct that begins with `size` may be shorter than the library's: what it lacks has its default,
-   or is not written.  It may not be longer. */
+   or is not written.  It may not be longer.  Default functions are told the size of the program's struct by a macro of
+   their name; a language that calls them without the headers says it as second argument. */
 #ifndef FRAM_LIVE_H
 #define FRAM_LIVE_H
 
@@ -203,7 +204,8 @@ typedef struct fram_record_definition {
     fram_live_function live;
     void *live_user;
 } fram_record_definition;
-FRAM_API void fram_record_default(fram_record_definition *definition);
+FRAM_API void fram_record_default(fram_record_definition *definition, size_t size);
+#define fram_record_default(definition) fram_record_default((definition), sizeof *(definition))
 /* From now on each step is recorded: time series, record, pictures and checkpoints come when the scenario's `output`
    says.  A world that is recorded from its start leaves what fram_run leaves, but for wall times.  One recording a
    world. */

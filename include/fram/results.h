@@ -74,7 +74,8 @@ typedef struct fram_video_definition {
     int width, height;     /* 1280 x 720, even [pixels] */
     bool pictures;         /* numbered PNG files instead of a video: needs no ffmpeg */
 } fram_video_definition;
-FRAM_API void fram_video_default(fram_video_definition *definition);
+FRAM_API void fram_video_default(fram_video_definition *definition, size_t size);
+#define fram_video_default(definition) fram_video_default((definition), sizeof *(definition))
 /* The run as MP4, drawn without a screen.  FRAM_ERROR_UNSUPPORTED when ffmpeg is not installed. */
 FRAM_API fram_status fram_video(fram_context *context, const char *run, const fram_video_definition *definition,
                                 fram_result *result, fram_error *error);
@@ -92,7 +93,8 @@ typedef struct fram_why_definition {
     const char *picture; /* a PNG of the plan; NULL: none */
     const volatile int *stop; /* non-zero: end with FRAM_INTERRUPTED; may be NULL */
 } fram_why_definition;
-FRAM_API void fram_why_default(fram_why_definition *definition);
+FRAM_API void fram_why_default(fram_why_definition *definition, size_t size);
+#define fram_why_default(definition) fram_why_default((definition), sizeof *(definition))
 /* Explains a peak of the ice load: mechanisms, floes, the chains of contacts behind them, what broke before, and
    whether time step and solver matter.  The run's folder is not changed.  A moment that is no recorded peak needs
    `rerun`. FRAM_ERROR_INPUT for a folder without a run, a peak or time that it does not have.  The caller frees the
@@ -111,7 +113,8 @@ typedef struct fram_manage_definition {
     double depth;       /* of the windows of ice along the drift [m]; 0: as the corridor is wide */
     bool json;          /* the text is one JSON object in SI units */
 } fram_manage_definition;
-FRAM_API void fram_manage_default(fram_manage_definition *definition);
+FRAM_API void fram_manage_default(fram_manage_definition *definition, size_t size);
+#define fram_manage_default(definition) fram_manage_default((definition), sizeof *(definition))
 /* What ice came to a vessel: sizes and concentration in windows that drift along, upstream, behind the icebreakers and
    at the vessel; the largest floe that reached it, the managed share, the time until unmanaged ice comes, loads beside
    those of another run.  Writes the page and two tables beside it (manage.csv by time, manage-sizes.csv).
@@ -134,7 +137,8 @@ typedef struct fram_pressure_definition {
     bool force;                      /* write into a folder that is not empty */
     const volatile int *stop;        /* non-zero: end with FRAM_INTERRUPTED, nothing written; may be NULL */
 } fram_pressure_definition;
-FRAM_API void fram_pressure_default(fram_pressure_definition *definition);
+FRAM_API void fram_pressure_default(fram_pressure_definition *definition, size_t size);
+#define fram_pressure_default(definition) fram_pressure_default((definition), sizeof *(definition))
 /* Mean, largest and cumulative ice pressure by panel of the hull (panels.csv, hull.vtp, pressure.png) and the largest
    pressure by area beside that of ISO 19906 (area.csv), and the mean force by zone and mechanism (zones.csv).  The run
    is computed again, every step, from its nearest
@@ -161,7 +165,8 @@ typedef struct fram_capability_definition {
     const volatile int *stop;   /* non-zero: end with FRAM_INTERRUPTED, nothing written; may be NULL */
     const char *vessel;         /* its name, where the scenario has several, which are left out; otherwise NULL */
 } fram_capability_definition;
-FRAM_API void fram_capability_default(fram_capability_definition *definition);
+FRAM_API void fram_capability_default(fram_capability_definition *definition, size_t size);
+#define fram_capability_default(definition) fram_capability_default((definition), sizeof *(definition))
 /* From which direction and up to which drift speed the scenario's thrusters and mooring hold its vessel, in a static
    balance, intact and after the worst single failure: capability.csv, capability_use.csv, capability.json,
    capability.png and capability.svg (with pictures) in the folder.  Nothing is written before all is found. */

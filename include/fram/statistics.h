@@ -50,7 +50,8 @@ typedef struct fram_extremes_definition {
     int levels;
     const char *draw; /* write a probability plot of each method that answers to this file, .png or .svg; or NULL */
 } fram_extremes_definition;
-FRAM_API void fram_extremes_default(fram_extremes_definition *definition);
+FRAM_API void fram_extremes_default(fram_extremes_definition *definition, size_t size);
+#define fram_extremes_default(definition) fram_extremes_default((definition), sizeof *(definition))
 
 typedef struct fram_level {
     double level, low, high; /* low and high: its interval; high may be infinite */
@@ -96,7 +97,8 @@ typedef struct fram_fatigue_definition {
     int slopes;
     double frequency; /* of the equivalent cycles, 1 [Hz] */
 } fram_fatigue_definition;
-FRAM_API void fram_fatigue_default(fram_fatigue_definition *definition);
+FRAM_API void fram_fatigue_default(fram_fatigue_definition *definition, size_t size);
+#define fram_fatigue_default(definition) fram_fatigue_default((definition), sizeof *(definition))
 
 typedef struct fram_cycle {
     double range, mean, count; /* count: 1, or 0.5 of a half cycle */

@@ -50,7 +50,8 @@ typedef struct fram_study_definition {
     double slurm_poll;       /* between questions to the scheduler [s], 0: 30 */
     bool dry_run;            /* print the script of the array on standard output, and run nothing */
 } fram_study_definition;
-FRAM_API void fram_study_default(fram_study_definition *definition);
+FRAM_API void fram_study_default(fram_study_definition *definition, size_t size);
+#define fram_study_default(definition) fram_study_default((definition), sizeof *(definition))
 
 typedef struct fram_study_result {
     int64_t conditions, runs, failed, made; /* made: runs of this call, the others were there */

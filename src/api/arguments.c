@@ -25,6 +25,15 @@ fram_status definition_take(void *filled, const void *given, size_t known, size_
     return FRAM_OK;
 }
 
+void definition_give(void *definition, size_t size, const void *full, size_t known)
+{
+    if (!definition || size < sizeof size)
+        return;
+    memset(definition, 0, size);
+    memcpy(definition, full, size < known ? size : known);
+    memcpy(definition, &size, sizeof size);
+}
+
 fram_status room_check(const void *given, size_t known, size_t *size, const char *type, fram_error *error)
 {
     *size = 0;

@@ -20,6 +20,18 @@ fram_status arguments_check(const argument *arguments, size_t count, fram_error 
  */
 fram_status definition_take(void *filled, const void *given, size_t known, size_t least, const char *type,
                             fram_error *error);
+/* What a default function writes: of the defaults, as much as the program's struct holds, with its own size in it;
+   zeros behind them in one that is longer, which is refused when it is handed over.  NULL, or no room for the size:
+   nothing. */
+void definition_give(void *definition, size_t size, const void *full, size_t known);
+/* The public default function of a definition, which `name`_fill fills whole. */
+#define DEFINITION_DEFAULT(name, type)                         \
+    void(name##_default)(type * definition, size_t size)       \
+    {                                                          \
+        type full;                                             \
+        name##_fill(&full);                                    \
+        definition_give(definition, size, &full, sizeof full); \
+    }
 /* `size` and the member after it: definitions that have only grown at their ends since. */
 #define DEFINITION_LEAST (2 * sizeof(size_t))
 /* The same for a struct that is to be filled: *size is what may be written of it. */

@@ -38,12 +38,11 @@ const char *fram_status_name(fram_status status)
     return "unknown";
 }
 
-void fram_context_default(fram_context_definition *definition)
+static void fram_context_fill(fram_context_definition *definition)
 {
-    if (!definition)
-        return;
     *definition = (fram_context_definition){.size = sizeof *definition, .verbosity = FRAM_LOG_INFO, .threads = 1};
 }
+DEFINITION_DEFAULT(fram_context, fram_context_definition)
 
 static void forward_log(void *user, log_level level, const char *text)
 {
@@ -85,7 +84,7 @@ static fram_status start_threads(context *inner, const fram_context_definition *
 fram_status fram_context_create(const fram_context_definition *definition, fram_context **out, fram_error *error)
 {
     fram_context_definition d;
-    fram_context_default(&d);
+    fram_context_fill(&d);
     fram_status status = REFUSE_NULL(error, {"context", out});
     if (status == FRAM_OK && definition)
         status =

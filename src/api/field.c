@@ -11,11 +11,8 @@
 _Static_assert((int)FRAM_FIELD_BINS == (int)IMPORT_HISTOGRAM_BINS, "one number of bins");
 _Static_assert((int)FRAM_FIELD_REPAIR == (int)IMPORT_REPAIR, "the same order of choices");
 
-void fram_field_default(fram_field_definition *d)
-{
-    if (d)
-        *d = (fram_field_definition){.size = sizeof *d, .scale = 1};
-}
+static void fram_field_fill(fram_field_definition *d) { *d = (fram_field_definition){.size = sizeof *d, .scale = 1}; }
+DEFINITION_DEFAULT(fram_field, fram_field_definition)
 
 /* ---- making ---- */
 
@@ -112,7 +109,7 @@ fram_status fram_field_load(fram_context *c, const char *path, const fram_field_
                             fram_field **out, fram_error *error)
 {
     fram_field_definition d;
-    fram_field_default(&d);
+    fram_field_fill(&d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"field", out});
     if (status == FRAM_OK && definition)
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_field", error);

@@ -6,11 +6,11 @@
 
 #include "sim/fmu.h"
 
-void fram_fmu_default(fram_fmu_definition *definition)
+static void fram_fmu_fill(fram_fmu_definition *definition)
 {
-    if (definition)
-        *definition = (fram_fmu_definition){.size = sizeof *definition};
+    *definition = (fram_fmu_definition){.size = sizeof *definition};
 }
+DEFINITION_DEFAULT(fram_fmu, fram_fmu_definition)
 
 static fram_status check_names(const char *name, const char *const *names, int count, fram_error *error)
 {
@@ -27,7 +27,7 @@ fram_status fram_fmu(const fram_scenario *s, const fram_fmu_definition *definiti
                      fram_error *error)
 {
     fram_fmu_definition d;
-    fram_fmu_default(&d);
+    fram_fmu_fill(&d);
     fram_status status = REFUSE_NULL(error, {"scenario", s});
     if (status == FRAM_OK)
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_fmu", error);

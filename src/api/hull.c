@@ -85,18 +85,18 @@ static fram_status hull_end(fram_hull *h, fram_status status, fram_hull **out)
     return FRAM_OK;
 }
 
-void fram_hull_file_default(fram_hull_file_definition *d)
+static void fram_hull_file_fill(fram_hull_file_definition *d)
 {
     hull_file_options o = hull_file_defaults();
-    if (d)
-        *d = (fram_hull_file_definition){sizeof *d, o.scale, o.seal_width, o.repair, o.freeboard};
+    *d = (fram_hull_file_definition){sizeof *d, o.scale, o.seal_width, o.repair, o.freeboard};
 }
+DEFINITION_DEFAULT(fram_hull_file, fram_hull_file_definition)
 
 fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_file_definition *definition,
                            fram_hull **out, fram_error *error)
 {
     fram_hull_file_definition d;
-    fram_hull_file_default(&d);
+    fram_hull_file_fill(&d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"hull", out});
     if (status == FRAM_OK && definition)
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_hull_file", error);
@@ -113,10 +113,8 @@ fram_status fram_hull_load(fram_context *c, const char *path, const fram_hull_fi
     return hull_end(h, status, out);
 }
 
-void fram_hull_particulars_default(fram_hull_particulars *p)
+static void fram_hull_particulars_fill(fram_hull_particulars *p)
 {
-    if (!p)
-        return;
     *p = (fram_hull_particulars){.size = sizeof *p,
                                  .length = 100,
                                  .beam = 20,
@@ -130,11 +128,12 @@ void fram_hull_particulars_default(fram_hull_particulars *p)
                                  .bilge_radius = (double)NAN,
                                  .transom = (double)NAN};
 }
+DEFINITION_DEFAULT(fram_hull_particulars, fram_hull_particulars)
 
 static fram_status particulars_of(const fram_hull_particulars *given, hull_particulars *out, fram_error *error)
 {
     fram_hull_particulars p;
-    fram_hull_particulars_default(&p);
+    fram_hull_particulars_fill(&p);
     fram_status status =
         definition_take(&p, given, sizeof p, offsetof(fram_hull_particulars, ship), "fram_hull_particulars", error);
     if (status != FRAM_OK)
@@ -207,13 +206,12 @@ void fram_hull_triangles(const fram_hull *h, double *vertices, int vertex_room, 
 
 /* ---- floating ---- */
 
-void fram_hull_condition_default(fram_hull_condition *c)
+static void fram_hull_condition_fill(fram_hull_condition *c)
 {
-    if (!c)
-        return;
     *c =
         (fram_hull_condition){sizeof *c, (double)NAN, (double)NAN, {(double)NAN, (double)NAN, (double)NAN}, 1025, 9.81};
 }
+DEFINITION_DEFAULT(fram_hull_condition, fram_hull_condition)
 
 static fram_status check_condition(const fram_hull_condition *c, fram_error *error)
 {
@@ -261,7 +259,7 @@ static fram_status find_stability(const fram_hull *h, const fram_hull_condition 
 {
     vec3 centre;
     fram_status status = REFUSE_NULL(error, {"hull", h});
-    fram_hull_condition_default(c);
+    fram_hull_condition_fill(c);
     if (status == FRAM_OK && condition)
         status = definition_take(c, condition, sizeof *c, DEFINITION_LEAST, "fram_hull_condition", error);
     if (status != FRAM_OK)

@@ -54,10 +54,8 @@ fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet
     return FRAM_OK;
 }
 
-void fram_ice_edge_default(fram_ice_edge *load)
+static void fram_ice_edge_fill(fram_ice_edge *load)
 {
-    if (!load)
-        return;
     *load = (fram_ice_edge){.size = sizeof *load,
                             .thickness = 1,
                             .elastic_modulus = 5e9,
@@ -70,6 +68,7 @@ void fram_ice_edge_default(fram_ice_edge *load)
                             .thick_plate_radius = true,
                             .included_angle = PI};
 }
+DEFINITION_DEFAULT(fram_ice_edge, fram_ice_edge)
 
 static fram_status check_load(const fram_ice_edge *l, fram_error *error)
 {
@@ -105,7 +104,7 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
 fram_status fram_ice_break(const fram_ice_edge *given, fram_ice_breaking *breaking, fram_error *error)
 {
     fram_ice_edge taken, *load = &taken;
-    fram_ice_edge_default(load);
+    fram_ice_edge_fill(load);
     fram_status status = REFUSE_NULL(error, {"breaking", breaking});
     if (status == FRAM_OK)
         status = definition_take(load, given, sizeof *load, DEFINITION_LEAST, "fram_ice_edge", error);
@@ -139,12 +138,11 @@ fram_status fram_ice_break(const fram_ice_edge *given, fram_ice_breaking *breaki
     return FRAM_OK;
 }
 
-void fram_ice_floe_default(fram_ice_floe *floe)
+static void fram_ice_floe_fill(fram_ice_floe *floe)
 {
-    if (!floe)
-        return;
     *floe = (fram_ice_floe){.size = sizeof *floe, .thickness = 1, .toughness = 150e3, .length = 50, .width = 50};
 }
+DEFINITION_DEFAULT(fram_ice_floe, fram_ice_floe)
 
 static fram_status check_floe(const fram_ice_floe *f, fram_error *error)
 {
@@ -165,7 +163,7 @@ static fram_status check_floe(const fram_ice_floe *f, fram_error *error)
 fram_status fram_ice_split(const fram_ice_floe *given, fram_ice_splitting *splitting, fram_error *error)
 {
     fram_ice_floe taken, *floe = &taken;
-    fram_ice_floe_default(floe);
+    fram_ice_floe_fill(floe);
     fram_status status = REFUSE_NULL(error, {"splitting", splitting});
     if (status == FRAM_OK)
         status = definition_take(floe, given, sizeof *floe, DEFINITION_LEAST, "fram_ice_floe", error);

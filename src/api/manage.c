@@ -10,11 +10,11 @@
 /* Far beyond every floe [m]. */
 #define SIZE_MOST 1e7
 
-void fram_manage_default(fram_manage_definition *definition)
+static void fram_manage_fill(fram_manage_definition *definition)
 {
-    if (definition)
-        *definition = (fram_manage_definition){.size = sizeof *definition};
+    *definition = (fram_manage_definition){.size = sizeof *definition};
 }
+DEFINITION_DEFAULT(fram_manage, fram_manage_definition)
 
 fram_status fram_manage(fram_context *c, const char *run, const fram_manage_definition *definition, fram_result *result,
                         char **text, fram_error *error)
@@ -22,7 +22,7 @@ fram_status fram_manage(fram_context *c, const char *run, const fram_manage_defi
     fram_manage_definition d;
     manage_summary own, beside;
     text_buffer out = {0};
-    fram_manage_default(&d);
+    fram_manage_fill(&d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"text", text});
     if (status == FRAM_OK)
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_manage", error);

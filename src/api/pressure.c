@@ -9,11 +9,11 @@
 #define TIME_MOST 1e12
 enum { LINES_MOST = 10000 };
 
-void fram_pressure_default(fram_pressure_definition *definition)
+static void fram_pressure_fill(fram_pressure_definition *definition)
 {
-    if (definition)
-        *definition = (fram_pressure_definition){.size = sizeof *definition, .panel = 1};
+    *definition = (fram_pressure_definition){.size = sizeof *definition, .panel = 1};
 }
+DEFINITION_DEFAULT(fram_pressure, fram_pressure_definition)
 
 static fram_status check_lines(const char *name, const double *line, int count, fram_error *error)
 {
@@ -25,7 +25,7 @@ static fram_status check_lines(const char *name, const double *line, int count, 
 
 static fram_status take(const fram_pressure_definition *given, fram_pressure_definition *d, fram_error *error)
 {
-    fram_pressure_default(d);
+    fram_pressure_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_pressure", error);
     if (status == FRAM_OK && (!d->output || !*d->output))
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "output", "a folder for the results must be named");

@@ -6,11 +6,11 @@
 #include "fram/live.h"
 #include "results/run_results.h"
 
-void fram_record_default(fram_record_definition *definition)
+static void fram_record_fill(fram_record_definition *definition)
 {
-    if (definition)
-        *definition = (fram_record_definition){.size = sizeof *definition};
+    *definition = (fram_record_definition){.size = sizeof *definition};
 }
+DEFINITION_DEFAULT(fram_record, fram_record_definition)
 
 static void forget(fram_world *w)
 {
@@ -35,7 +35,7 @@ static fram_status begin(fram_world *w, recording *r, fram_error *error)
 fram_status fram_world_record(fram_world *w, const fram_record_definition *definition, fram_error *error)
 {
     fram_record_definition d;
-    fram_record_default(&d);
+    fram_record_fill(&d);
     fram_status status = REFUSE_NULL(error, {"world", w});
     if (status == FRAM_OK)
         status =

@@ -142,10 +142,8 @@ void fram_comparison_free(fram_context *c, fram_comparison *comparison)
 
 /* ---- video ---- */
 
-void fram_video_default(fram_video_definition *definition)
+static void fram_video_fill(fram_video_definition *definition)
 {
-    if (!definition)
-        return;
     *definition = (fram_video_definition){.size = sizeof *definition,
                                           .colour = "speed",
                                           .camera = "orbit",
@@ -153,6 +151,7 @@ void fram_video_default(fram_video_definition *definition)
                                           .width = 1280,
                                           .height = 720};
 }
+DEFINITION_DEFAULT(fram_video, fram_video_definition)
 
 static fram_status find_colour(const char *name, plan_colour *colour, fram_error *error)
 {
@@ -180,7 +179,7 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
                        fram_error *error)
 {
     fram_video_definition taken, *d = &taken;
-    fram_video_default(d);
+    fram_video_fill(d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_video", error);
@@ -214,10 +213,8 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
 
 /* ---- capability ---- */
 
-void fram_capability_default(fram_capability_definition *definition)
+static void fram_capability_fill(fram_capability_definition *definition)
 {
-    if (!definition)
-        return;
     *definition = (fram_capability_definition){.size = sizeof *definition,
                                                .measure = 120,
                                                .directions = 36,
@@ -227,12 +224,13 @@ void fram_capability_default(fram_capability_definition *definition)
                                                .line_safety = 2,
                                                .line_safety_damaged = 1.43};
 }
+DEFINITION_DEFAULT(fram_capability, fram_capability_definition)
 
 fram_status fram_capability(const fram_scenario *from, const fram_capability_definition *definition,
                             fram_result *result, fram_error *error)
 {
     fram_capability_definition taken, *d = &taken;
-    fram_capability_default(d);
+    fram_capability_fill(d);
     fram_status status = REFUSE_NULL(error, {"scenario", from});
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_capability", error);

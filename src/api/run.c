@@ -9,11 +9,11 @@
 
 #include <string.h>
 
-void fram_run_default(fram_run_definition *definition)
+static void fram_run_fill(fram_run_definition *definition)
 {
-    if (definition)
-        *definition = (fram_run_definition){.size = sizeof *definition};
+    *definition = (fram_run_definition){.size = sizeof *definition};
 }
+DEFINITION_DEFAULT(fram_run, fram_run_definition)
 
 fram_status live_open(context *ctx, const char *folder, const char *page, fram_live_function live, void *user,
                       live_view **view, fram_error *error)
@@ -47,7 +47,7 @@ static void forward_progress(void *user, const run_progress *p)
 
 static fram_status take_definition(const fram_run_definition *given, fram_run_definition *d, fram_error *error)
 {
-    fram_run_default(d);
+    fram_run_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, offsetof(fram_run_definition, force), "fram_run", error);
     if (status != FRAM_OK)
         return status;
@@ -191,13 +191,12 @@ fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_be
     return status;
 }
 
-void fram_bench_scene_default(fram_bench_scene_definition *definition)
+static void fram_bench_scene_fill(fram_bench_scene_definition *definition)
 {
-    if (!definition)
-        return;
     *definition = (fram_bench_scene_definition){
         .size = sizeof *definition, .time_step = 0.02, .warm = 5, .time = 20, .iterations = 10, .solver = "fast"};
 }
+DEFINITION_DEFAULT(fram_bench_scene, fram_bench_scene_definition)
 
 /* Times so that the number of steps is an ordinary one. */
 static bool times_are_good(const fram_bench_scene_definition *d)
@@ -209,7 +208,7 @@ static bool times_are_good(const fram_bench_scene_definition *d)
 static fram_status scene_options(const fram_bench_scene_definition *given, bench_scene_options *out, fram_error *error)
 {
     fram_bench_scene_definition taken, *d = &taken;
-    fram_bench_scene_default(d);
+    fram_bench_scene_fill(d);
     static const char *const solvers[] = {
         [SOLVER_SEQUENTIAL] = "sequential", [SOLVER_FAST] = "fast", [SOLVER_ACCURATE] = "accurate"};
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_bench_scene", error);
@@ -255,17 +254,17 @@ fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench
     return status;
 }
 
-void fram_playback_default(fram_playback_definition *definition)
+static void fram_playback_fill(fram_playback_definition *definition)
 {
-    if (definition)
-        *definition = (fram_playback_definition){.size = sizeof *definition};
+    *definition = (fram_playback_definition){.size = sizeof *definition};
 }
+DEFINITION_DEFAULT(fram_playback, fram_playback_definition)
 
 fram_status fram_playback(fram_context *c, const fram_playback_definition *definition, fram_playback_result *result,
                           fram_error *error)
 {
     fram_playback_definition taken, *d = &taken;
-    fram_playback_default(d);
+    fram_playback_fill(d);
     fram_status status = REFUSE_NULL(error, {"context", c});
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_playback", error);

@@ -62,11 +62,9 @@ static fram_series_facts facts_of(const series_data *d)
 
 /* ---- extremes ---- */
 
-void fram_extremes_default(fram_extremes_definition *definition)
+static void fram_extremes_fill(fram_extremes_definition *definition)
 {
     extreme_request r;
-    if (!definition)
-        return;
     extreme_request_default(&r);
     *definition = (fram_extremes_definition){.size = sizeof *definition,
                                              .source = {.from = (double)NAN},
@@ -76,10 +74,11 @@ void fram_extremes_default(fram_extremes_definition *definition)
                                              .levels = r.levels};
     memcpy(definition->probability, r.probability, sizeof r.probability);
 }
+DEFINITION_DEFAULT(fram_extremes, fram_extremes_definition)
 
 static fram_status take_extremes(const fram_extremes_definition *given, fram_extremes_definition *d, fram_error *error)
 {
-    fram_extremes_default(d);
+    fram_extremes_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_extremes", error);
     if (status == FRAM_OK)
         status = check_source(&d->source, error);
@@ -216,16 +215,16 @@ fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *
 
 /* ---- fatigue ---- */
 
-void fram_fatigue_default(fram_fatigue_definition *definition)
+static void fram_fatigue_fill(fram_fatigue_definition *definition)
 {
-    if (definition)
-        *definition = (fram_fatigue_definition){
-            .size = sizeof *definition, .source = {.from = (double)NAN}, .slope = {3, 5}, .slopes = 2, .frequency = 1};
+    *definition = (fram_fatigue_definition){
+        .size = sizeof *definition, .source = {.from = (double)NAN}, .slope = {3, 5}, .slopes = 2, .frequency = 1};
 }
+DEFINITION_DEFAULT(fram_fatigue, fram_fatigue_definition)
 
 static fram_status take_fatigue(const fram_fatigue_definition *given, fram_fatigue_definition *d, fram_error *error)
 {
-    fram_fatigue_default(d);
+    fram_fatigue_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_fatigue", error);
     if (status == FRAM_OK)
         status = check_source(&d->source, error);

@@ -106,11 +106,11 @@ fram_status fram_study_measure(const fram_study *s, fram_study_extent *out, fram
 
 /* ---- run ---- */
 
-void fram_study_default(fram_study_definition *definition)
+static void fram_study_fill(fram_study_definition *definition)
 {
-    if (definition)
-        *definition = (fram_study_definition){.size = sizeof *definition};
+    *definition = (fram_study_definition){.size = sizeof *definition};
 }
+DEFINITION_DEFAULT(fram_study, fram_study_definition)
 
 typedef struct study_progress_bridge {
     fram_study_progress_function function;
@@ -162,7 +162,7 @@ static fram_status check_slurm(const fram_study_definition *d, fram_error *error
 
 static fram_status take_definition(const fram_study_definition *given, fram_study_definition *d, fram_error *error)
 {
-    fram_study_default(d);
+    fram_study_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_study", error);
     if (status != FRAM_OK)
         return status;

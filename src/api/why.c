@@ -10,15 +10,15 @@
 #define TIME_MOST 1e12
 enum { VESSELS_MOST = 1000000 };
 
-void fram_why_default(fram_why_definition *definition)
+static void fram_why_fill(fram_why_definition *definition)
 {
-    if (definition)
-        *definition = (fram_why_definition){.size = sizeof *definition, .vessel = 1, .rerun = true};
+    *definition = (fram_why_definition){.size = sizeof *definition, .vessel = 1, .rerun = true};
 }
+DEFINITION_DEFAULT(fram_why, fram_why_definition)
 
 static fram_status take(const fram_why_definition *given, fram_why_definition *d, fram_error *error)
 {
-    fram_why_default(d);
+    fram_why_fill(d);
     fram_status status = definition_take(d, given, sizeof *d, DEFINITION_LEAST, "fram_why", error);
     if (status == FRAM_OK && d->peak < 0)
         status =

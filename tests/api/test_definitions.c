@@ -7,6 +7,7 @@
 #include "fram/live.h"
 #include "fram/results.h"
 #include "fram/statistics.h"
+#include "fram/study.h"
 #include "testing.h"
 
 static fram_error e;
@@ -113,4 +114,87 @@ START_TEST(shorter_is_taken_and_longer_refused)
 }
 END_TEST
 
-TEST_MAIN("definitions", shorter_is_taken_and_longer_refused)
+/* ---- defaults ---- */
+
+/* What each default function writes of a struct of `size` bytes. */
+typedef void (*default_function)(void *definition, size_t size);
+#define DEFAULT(name, type) \
+    static void give_##name(void *definition, size_t size) { (name##_default)((type *)definition, size); }
+DEFAULT(fram_field, fram_field_definition)
+DEFAULT(fram_fmu, fram_fmu_definition)
+DEFAULT(fram_context, fram_context_definition)
+DEFAULT(fram_run, fram_run_definition)
+DEFAULT(fram_playback, fram_playback_definition)
+DEFAULT(fram_bench_scene, fram_bench_scene_definition)
+DEFAULT(fram_hull_file, fram_hull_file_definition)
+DEFAULT(fram_hull_particulars, fram_hull_particulars)
+DEFAULT(fram_hull_condition, fram_hull_condition)
+DEFAULT(fram_ice_edge, fram_ice_edge)
+DEFAULT(fram_ice_floe, fram_ice_floe)
+DEFAULT(fram_record, fram_record_definition)
+DEFAULT(fram_video, fram_video_definition)
+DEFAULT(fram_manage, fram_manage_definition)
+DEFAULT(fram_why, fram_why_definition)
+DEFAULT(fram_pressure, fram_pressure_definition)
+DEFAULT(fram_capability, fram_capability_definition)
+DEFAULT(fram_extremes, fram_extremes_definition)
+DEFAULT(fram_fatigue, fram_fatigue_definition)
+DEFAULT(fram_study, fram_study_definition)
+
+static const struct {
+    const char *name;
+    default_function give;
+    size_t size;
+} all_defaults[] = {
+    {"fram_field", give_fram_field, sizeof(fram_field_definition)},
+    {"fram_fmu", give_fram_fmu, sizeof(fram_fmu_definition)},
+    {"fram_context", give_fram_context, sizeof(fram_context_definition)},
+    {"fram_run", give_fram_run, sizeof(fram_run_definition)},
+    {"fram_playback", give_fram_playback, sizeof(fram_playback_definition)},
+    {"fram_bench_scene", give_fram_bench_scene, sizeof(fram_bench_scene_definition)},
+    {"fram_hull_file", give_fram_hull_file, sizeof(fram_hull_file_definition)},
+    {"fram_hull_particulars", give_fram_hull_particulars, sizeof(fram_hull_particulars)},
+    {"fram_hull_condition", give_fram_hull_condition, sizeof(fram_hull_condition)},
+    {"fram_ice_edge", give_fram_ice_edge, sizeof(fram_ice_edge)},
+    {"fram_ice_floe", give_fram_ice_floe, sizeof(fram_ice_floe)},
+    {"fram_record", give_fram_record, sizeof(fram_record_definition)},
+    {"fram_video", give_fram_video, sizeof(fram_video_definition)},
+    {"fram_manage", give_fram_manage, sizeof(fram_manage_definition)},
+    {"fram_why", give_fram_why, sizeof(fram_why_definition)},
+    {"fram_pressure", give_fram_pressure, sizeof(fram_pressure_definition)},
+    {"fram_capability", give_fram_capability, sizeof(fram_capability_definition)},
+    {"fram_extremes", give_fram_extremes, sizeof(fram_extremes_definition)},
+    {"fram_fatigue", give_fram_fatigue, sizeof(fram_fatigue_definition)},
+    {"fram_study", give_fram_study, sizeof(fram_study_definition)},
+};
+
+/* A program whose struct is shorter, or longer, than the library's: nothing is written beyond its end. */
+START_TEST(defaults_are_written_as_far_as_the_program_s_struct_goes)
+{
+    for (size_t i = 0; i < sizeof all_defaults / sizeof *all_defaults; i++) {
+        const char *name = all_defaults[i].name;
+        size_t full = all_defaults[i].size, found, sizes[] = {sizeof(size_t), SHORT, full - 8, full, full + 24};
+        _Alignas(max_align_t) unsigned char whole[1024], own[1024];
+        ck_assert_uint_le(full + 64, sizeof whole);
+        all_defaults[i].give(whole, full);
+        for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+            size_t size = sizes[k], same = size < full ? size : full;
+            memset(own, 0x5a, sizeof own);
+            all_defaults[i].give(own, size);
+            memcpy(&found, own, sizeof found);
+            ck_assert_uint_eq(found, size);
+            ck_assert_msg(memcmp(own + sizeof size, whole + sizeof size, same - sizeof size) == 0, "%s", name);
+            for (size_t at = same; at < size; at++)
+                ck_assert_msg(own[at] == 0, "%s: rubbish behind what the library knows", name);
+            for (size_t at = size; at < size + 32; at++)
+                ck_assert_msg(own[at] == 0x5a, "%s: byte %zu of a struct of %zu was written", name, at, size);
+        }
+        all_defaults[i].give(NULL, full);
+        memset(own, 0x5a, sizeof own);
+        all_defaults[i].give(own, sizeof(size_t) - 1);
+        ck_assert_int_eq(own[0], 0x5a);
+    }
+}
+END_TEST
+
+TEST_MAIN("definitions", defaults_are_written_as_far_as_the_program_s_struct_goes, shorter_is_taken_and_longer_refused)

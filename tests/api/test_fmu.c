@@ -25,7 +25,7 @@ START_TEST(units_are_written_and_mistakes_refused)
     assert_ok(fram_context_create(NULL, &ctx, &e), e);
     assert_ok(fram_scenario_parse(ctx, text, NULL, NULL, 0, &s, &e), e);
     fram_fmu_definition d = {0};
-    fram_fmu_default(NULL);
+    (fram_fmu_default)(NULL, sizeof(size_t));
     ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
     fram_fmu_default(&d);
     ck_assert_int_eq(fram_fmu(s, NULL, NULL, &e), FRAM_ERROR_USAGE);

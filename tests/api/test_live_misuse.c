@@ -152,7 +152,7 @@ START_TEST(recordings)
 {
     open_all();
     fram_record_definition d = {0};
-    fram_record_default(NULL);
+    (fram_record_default)(NULL, sizeof(size_t));
     REFUSED(fram_world_record(w, NULL, &e));
     REFUSED(fram_world_record(w, &d, &e));
     fram_record_default(&d);

@@ -79,7 +79,7 @@ START_TEST(words_and_contexts)
     ck_assert_ptr_nonnull(fram_features());
     ck_assert_str_eq(fram_status_name((fram_status)-1), "unknown");
     ck_assert_str_eq(fram_status_name((fram_status)INT_MAX), "unknown");
-    fram_context_default(NULL);
+    (fram_context_default)(NULL, sizeof(size_t));
     REFUSED_NULL(fram_context_create(NULL, NULL, &e), fram_context_create(NULL, NULL, NULL));
     fram_context *made;
     fram_context_definition d = {0};
@@ -201,7 +201,7 @@ START_TEST(runs_and_benchmarks)
     fram_context *c = context_of_test;
     fram_run_definition d = {0};
     fram_run_result result;
-    fram_run_default(NULL);
+    (fram_run_default)(NULL, sizeof(size_t));
     REFUSED_NULL(fram_run(scenario_of_test, NULL, &result, &e), fram_run(scenario_of_test, NULL, NULL, NULL));
     REFUSED(fram_run(scenario_of_test, &d, &result, &e));
     REFUSED(fram_resume(c, &d, &result, &e));
@@ -230,7 +230,7 @@ START_TEST(runs_and_benchmarks)
         REFUSED(fram_bench(scenario_of_test, 0, wild[i], &bench, &e));
     }
     fram_bench_scene_definition s = {0};
-    fram_bench_scene_default(NULL);
+    (fram_bench_scene_default)(NULL, sizeof(size_t));
     REFUSED(fram_bench_scene(c, scene, NULL, &bench, &e));
     REFUSED(fram_bench_scene(c, scene, &s, &bench, &e));
     fram_bench_scene_default(&s);
@@ -308,7 +308,7 @@ START_TEST(results)
 
     fram_why_definition asked;
     fram_manage_definition ice;
-    fram_manage_default(NULL);
+    (fram_manage_default)(NULL, sizeof(size_t));
     fram_manage_default(&ice);
     REFUSED(fram_manage(NULL, run, &ice, NULL, &text, &e));
     REFUSED(fram_manage(c, NULL, &ice, NULL, &text, &e));
@@ -318,7 +318,7 @@ START_TEST(results)
     REFUSED(fram_manage(c, run, &ice, NULL, &text, &e));
     ice.limit = 0, ice.vessel = "nobody";
     REFUSED(fram_manage(c, run, &ice, NULL, &text, &e));
-    fram_why_default(NULL);
+    (fram_why_default)(NULL, sizeof(size_t));
     fram_why_default(&asked);
     asked.rerun = false;
     asked.peak = 1;
@@ -342,7 +342,7 @@ START_TEST(results)
     REFUSED(fram_why(c, run, &asked, &text, &e));
 
     fram_pressure_definition panels;
-    fram_pressure_default(NULL);
+    (fram_pressure_default)(NULL, sizeof(size_t));
     fram_pressure_default(&panels);
     REFUSED(fram_pressure(c, run, &panels, &e));
     panels.output = "nowhere";
@@ -387,7 +387,7 @@ START_TEST(videos_pages_and_capability)
     fram_context *c = context_of_test;
     fram_result result;
     fram_video_definition v = {0};
-    fram_video_default(NULL);
+    (fram_video_default)(NULL, sizeof(size_t));
     REFUSED(fram_video(c, run, NULL, &result, &e));
     REFUSED(fram_video(c, run, &v, &result, &e));
     fram_video_default(&v);
@@ -423,7 +423,7 @@ START_TEST(videos_pages_and_capability)
 
     fram_playback_definition p = {0};
     fram_playback_result report;
-    fram_playback_default(NULL);
+    (fram_playback_default)(NULL, sizeof(size_t));
     REFUSED(fram_playback(c, NULL, &report, &e));
     REFUSED(fram_playback(c, &p, &report, &e));
     fram_playback_default(&p);
@@ -439,7 +439,7 @@ START_TEST(videos_pages_and_capability)
     REFUSED(fram_playback(NULL, &p, &report, &e));
 
     fram_capability_definition k = {0};
-    fram_capability_default(NULL);
+    (fram_capability_default)(NULL, sizeof(size_t));
     REFUSED(fram_capability(scenario_of_test, NULL, &result, &e));
     REFUSED(fram_capability(scenario_of_test, &k, &result, &e));
     fram_capability_default(&k);
@@ -479,7 +479,7 @@ START_TEST(fields)
     fram_field_definition d = {0};
     fram_field_summary summary;
     write_text(output, "0 0\n10 0\n10 10\n0 10\n");
-    fram_field_default(NULL);
+    (fram_field_default)(NULL, sizeof(size_t));
     REFUSED_NULL(fram_field_load(NULL, output, NULL, &f, &e), fram_field_load(NULL, output, NULL, &f, NULL));
     REFUSED(fram_field_load(c, NULL, NULL, &f, &e));
     REFUSED(fram_field_load(c, output, NULL, NULL, &e));
@@ -573,9 +573,9 @@ START_TEST(hulls)
     fram_hull_surface surface;
     fram_hull_floating floating;
     fram_hull_pieces pieces;
-    fram_hull_file_default(NULL);
-    fram_hull_particulars_default(NULL);
-    fram_hull_condition_default(NULL);
+    (fram_hull_file_default)(NULL, sizeof(size_t));
+    (fram_hull_particulars_default)(NULL, sizeof(size_t));
+    (fram_hull_condition_default)(NULL, sizeof(size_t));
     REFUSED(fram_hull_load(NULL, scene, NULL, &h, &e));
     REFUSED(fram_hull_load(c, NULL, NULL, &h, &e));
     REFUSED(fram_hull_load(c, scene, NULL, NULL, &e));
@@ -658,7 +658,7 @@ START_TEST(ice)
         REFUSED(fram_ice_sheet(wild[i], 0.3, &sheet, &e));
         REFUSED(fram_ice_sheet(0.1, wild[i], &sheet, &e));
     }
-    fram_ice_edge_default(NULL);
+    (fram_ice_edge_default)(NULL, sizeof(size_t));
     REFUSED(fram_ice_break(NULL, &breaking, &e));
     REFUSED(fram_ice_break(&load, &breaking, &e));
     fram_ice_edge_default(&load);
@@ -679,7 +679,7 @@ START_TEST(ice)
     REFUSED(fram_ice_break(&load, &breaking, &e));
     fram_ice_floe floe = {0};
     fram_ice_splitting splitting;
-    fram_ice_floe_default(NULL);
+    (fram_ice_floe_default)(NULL, sizeof(size_t));
     REFUSED(fram_ice_split(NULL, &splitting, &e));
     REFUSED(fram_ice_split(&floe, &splitting, &e));
     fram_ice_floe_default(&floe);

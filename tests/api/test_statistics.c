@@ -50,8 +50,8 @@ START_TEST(misuse_is_refused_and_a_file_is_answered)
     fram_fatigue_free(c, &cycles);
     fram_fatigue_free(c, &cycles);
     fram_fatigue_free(NULL, NULL);
-    fram_extremes_default(NULL);
-    fram_fatigue_default(NULL);
+    (fram_extremes_default)(NULL, sizeof(size_t));
+    (fram_fatigue_default)(NULL, sizeof(size_t));
     f.slope[1] = 0;
     ck_assert_int_eq(fram_fatigue_find(c, &f, &cycles, &error), FRAM_ERROR_INPUT);
     ck_assert_str_eq(error.key, "slope");

@@ -49,7 +49,7 @@ START_TEST(misuse_is_refused)
     ck_assert_int_eq(fram_study_measure(NULL, &extent, &error), FRAM_ERROR_USAGE);
     ck_assert_int_eq(fram_study_measure(s, NULL, &error), FRAM_ERROR_USAGE);
     fram_study_definition d;
-    fram_study_default(NULL);
+    (fram_study_default)(NULL, sizeof(size_t));
     fram_study_default(&d);
     ck_assert_int_eq(fram_study_run(NULL, &d, NULL, &error), FRAM_ERROR_USAGE);
     ck_assert_int_eq(fram_study_run(s, NULL, NULL, &error), FRAM_ERROR_USAGE);

@@ -19,7 +19,7 @@ class Context:
 
     def __init__(self, threads: int = 1, log: Optional[Callable[[str, str], None]] = None, isa: Optional[str] = None):
         definition = ffi.new("fram_context_definition *")
-        lib.fram_context_default(definition)
+        lib.fram_context_default(definition, ffi.sizeof("fram_context_definition"))
         self._stop = ffi.new("int *")
         self._keep = [self._stop]
         raised: list[BaseException] = []

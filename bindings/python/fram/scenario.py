@@ -124,7 +124,7 @@ class Scenario:
         """
         from .runs import open_run
         definition = ffi.new("fram_run_definition *")
-        lib.fram_run_default(definition)
+        lib.fram_run_default(definition, ffi.sizeof("fram_run_definition"))
         name = ffi.new("char[]", bytes_of(folder))
         definition.folder, definition.force, definition.stop = name, force, self._context._stop
         definition.until = 0 if until is None else until

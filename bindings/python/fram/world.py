@@ -403,7 +403,7 @@ class World:
         recording ends: ``live(address)`` is told where.
         """
         definition = ffi.new("fram_record_definition *")
-        lib.fram_record_default(definition)
+        lib.fram_record_default(definition, ffi.sizeof("fram_record_definition"))
         name = ffi.new("char[]", bytes_of(folder))
         definition.folder, definition.force, definition.with_paths = name, force, with_paths
         page = ffi.NULL if live_page is None else ffi.new("char[]", bytes_of(live_page))
