@@ -7,6 +7,7 @@
 #include "model/scenario_vessel.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
+#include "study/rainflow.h"
 
 #include <errno.h>
 #include <math.h>
@@ -44,6 +45,35 @@ static fram_status statistics(context *ctx, const run_data *d, int32_t vessel, c
     return FRAM_OK;
 }
 
+/* Damage-equivalent range of a channel, or of the magnitude of two, of the time after the transient. */
+static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, const char *x, const char *y, double *out,
+                           fram_error *error)
+{
+    const double *time = run_channel(d, "time"), *a = run_vessel_channel(d, vessel, x),
+                 *b = y ? run_vessel_channel(d, vessel, y) : NULL;
+    if (!time || !a || (y && !b))
+        return FRAM_OK;
+    double_array value = {0};
+    double from = (double)NAN, to = (double)NAN;
+    bool good = true;
+    for (int32_t i = 0; i < d->series.rows && good; i++) {
+        if (time[i] < d->s.run.transient)
+            continue;
+        from = value.count > 0 ? from : time[i];
+        to = time[i];
+        good = array_push(ctx, &value, b ? sqrt(a[i] * a[i] + b[i] * b[i]) : a[i]);
+    }
+    /* Each value stands for a step, the last one too. */
+    double seconds = value.count > 1 ? (to - from) * value.count / (value.count - 1) : 0;
+    rain_cycles cycles = {0};
+    good = good && rainflow(ctx, value.data, value.count, &cycles);
+    if (good && seconds > 0)
+        *out = equivalent_range(&cycles, ROW_FATIGUE_SLOPE, seconds);
+    rainflow_free(ctx, &cycles);
+    array_free(ctx, &value);
+    return good ? FRAM_OK : error_memory(error);
+}
+
 static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
     channel_statistics offset, heading, tension, power, parted;
@@ -56,6 +86,9 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
         status = statistics(ctx, d, vessel, "thruster_power", NULL, &power, error);
     if (status == FRAM_OK)
         status = statistics(ctx, d, vessel, "lines_parted", NULL, &parted, error);
+    if (status == FRAM_OK)
+        status =
+            fatigue(ctx, d, vessel, "line_tension_max", NULL, &out->figure[ROW_line_tension_range_equivalent], error);
     if (status != FRAM_OK)
         return status;
     out->figure[ROW_offset_mean] = offset.mean;
@@ -105,6 +138,9 @@ static fram_status fill(context *ctx, const run_data *d, int32_t vessel, run_row
 {
     channel_statistics load;
     fram_status status = statistics(ctx, d, vessel, "ice_force_averaged_x", "ice_force_averaged_y", &load, error);
+    if (status == FRAM_OK)
+        status = fatigue(ctx, d, vessel, "ice_force_averaged_x", "ice_force_averaged_y",
+                         &out->figure[ROW_load_range_equivalent], error);
     if (status == FRAM_OK && station_has_results(&d->s, vessel))
         status = add_station(ctx, d, vessel, out, error);
     out->figure[ROW_time] = d->note.time;
@@ -187,7 +223,7 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel)
 
 /* ---- as a file ---- */
 
-static const char mark[] = "fram study row 3";
+static const char mark[] = "fram study row 4";
 
 static void number(context *ctx, text_buffer *out, double value)
 {

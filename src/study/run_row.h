@@ -9,30 +9,35 @@
 /* Every column once: name, unit.  Loads are the magnitude of the horizontal ice force on a vessel, averaged over
    output.averaging_window; statistics are of the time after run.transient; what a run does not have is a NaN.
    significant: mean of the highest third of the peaks.  share: part of the mean horizontal ice load, along it, that a
-   mechanism makes; the shares of a run add up to 1 (model/mechanism.h has their order). */
-#define RUN_ROW_FIGURES(X)              \
-    X(time, "s")                        \
-    X(load_mean, "N")                   \
-    X(load_deviation, "N")              \
-    X(load_significant, "N")            \
-    X(load_largest, "N")                \
-    X(force_x_mean, "N")                \
-    X(force_y_mean, "N")                \
-    X(offset_mean, "m")                 \
-    X(offset_largest, "m")              \
-    X(heading_deviation_largest, "deg") \
-    X(line_tension_significant, "N")    \
-    X(line_tension_largest, "N")        \
-    X(lines_parted, "1")                \
-    X(thruster_power_mean, "W")         \
-    X(fractures, "1")                   \
-    X(share_splitting, "1")             \
-    X(share_bending, "1")               \
-    X(share_crushing, "1")              \
-    X(share_chain, "1")                 \
-    X(share_accumulation, "1")          \
-    X(share_submersion, "1")            \
-    X(share_impact, "1")                \
+   mechanism makes; the shares of a run add up to 1 (model/mechanism.h has their order).  range_equivalent: of the
+   largest tension of a line and of the load, the range that does the damage of all rainflow cycles with one cycle a
+   second and the slope ROW_FATIGUE_SLOPE (study/rainflow.h). */
+#define ROW_FATIGUE_SLOPE 3.0
+#define RUN_ROW_FIGURES(X)                \
+    X(time, "s")                          \
+    X(load_mean, "N")                     \
+    X(load_deviation, "N")                \
+    X(load_significant, "N")              \
+    X(load_largest, "N")                  \
+    X(force_x_mean, "N")                  \
+    X(force_y_mean, "N")                  \
+    X(offset_mean, "m")                   \
+    X(offset_largest, "m")                \
+    X(heading_deviation_largest, "deg")   \
+    X(line_tension_significant, "N")      \
+    X(line_tension_largest, "N")          \
+    X(lines_parted, "1")                  \
+    X(thruster_power_mean, "W")           \
+    X(fractures, "1")                     \
+    X(load_range_equivalent, "N")         \
+    X(line_tension_range_equivalent, "N") \
+    X(share_splitting, "1")               \
+    X(share_bending, "1")                 \
+    X(share_crushing, "1")                \
+    X(share_chain, "1")                   \
+    X(share_accumulation, "1")            \
+    X(share_submersion, "1")              \
+    X(share_impact, "1")                  \
     X(share_friction, "1")
 
 #define RUN_ROW_NAME(name, unit) ROW_##name,

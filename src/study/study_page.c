@@ -2,6 +2,7 @@
 #include "io/atomic_file.h"
 #include "io/csv_read.h"
 #include "io/html_page.h"
+#include "model/mechanism.h"
 #include "study/seeds.h"
 #include "study/study_answers.h"
 
@@ -20,6 +21,7 @@ static const page_figure shown[] = {{ROW_load_mean, "Mean load", "kN", 1e-3},
                                     {ROW_load_largest, "Largest load", "kN", 1e-3},
                                     {ROW_offset_largest, "Largest offset", "m", 1},
                                     {ROW_line_tension_largest, "Largest line tension", "kN", 1e-3},
+                                    {ROW_line_tension_range_equivalent, "Equivalent tension range", "kN", 1e-3},
                                     {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
 enum { SHOWN = sizeof shown / sizeof *shown, WORST = 10, CONDITIONS_OF_TABLE = 500 };
 /* More dots than that nobody tells apart, and the page grows by hundreds of bytes with each. */
@@ -145,6 +147,52 @@ static void add_table(study_page *p, const bool *has)
                    100 * WIDE);
     if (p->f->s->conditions > CONDITIONS_OF_TABLE)
         html_paragraph(&p->page, "The first %d conditions; conditions.csv has all.", CONDITIONS_OF_TABLE);
+}
+
+/* ---- mechanisms ---- */
+
+#define SHARE_FIGURE(id, name, text) {ROW_share_splitting + (int)MECHANISM_##id, name, "%", 100},
+static const page_figure shares[MECHANISM_COUNT] = {ICE_MECHANISMS(SHARE_FIGURE)};
+#undef SHARE_FIGURE
+
+static void add_share_row(study_page *p, int32_t condition)
+{
+    char text[32];
+    html_row_begin(&p->page);
+    snprintf(text, sizeof text, "%d", (int)condition + 1);
+    html_cell(&p->page, text);
+    for (int32_t k = 0; k < p->f->s->keys.count; k++)
+        html_cell(&p->page, study_value(p->f->s, condition, k));
+    for (int m = 0; m < (int)MECHANISM_COUNT; m++) {
+        seed_interval of = interval_of(p, condition, &shares[m]);
+        if (isfinite(of.half))
+            snprintf(text, sizeof text, "%.1f ± %.1f", of.mean, of.half);
+        else
+            snprintf(text, sizeof text, "%.1f", of.mean);
+        html_cell(&p->page, isfinite(of.mean) ? text : "–");
+    }
+    html_row_end(&p->page);
+}
+
+/* Which mechanism makes how much of the load, of studies whose runs met ice. */
+static void add_shares(study_page *p)
+{
+    const char *heads[128] = {"no."};
+    int32_t count = 1, rows = p->f->s->conditions < CONDITIONS_OF_TABLE ? p->f->s->conditions : CONDITIONS_OF_TABLE;
+    if (!has_figure(p, &shares[0]))
+        return;
+    html_section(&p->page, "Mechanisms of the load");
+    for (int32_t k = 0; k < p->f->s->keys.count && count < 100; k++)
+        heads[count++] = p->f->s->keys.data[k];
+    for (int m = 0; m < (int)MECHANISM_COUNT; m++)
+        heads[count++] = shares[m].name;
+    html_table_begin(&p->page, heads, count);
+    for (int32_t c = 0; c < rows; c++)
+        add_share_row(p, c);
+    html_table_end(&p->page);
+    html_paragraph(&p->page,
+                   "Parts of the mean load vector along it [%%], mean over the seeds: those of a condition add "
+                   "up to 100. A part may be negative, and says nothing where loads from all sides cancel.");
 }
 
 /* ---- charts: seeds as points, means with their bands ---- */
@@ -312,11 +360,14 @@ static void add_worst(study_page *p)
     worst_run worst[WORST];
     int32_t count = find_worst(p, worst);
     html_section(&p->page, "Worst runs");
-    html_paragraph(&p->page, "%s",
-                   p->f->s->keep == KEEP_SUMMARY
-                       ? "Their folders were not kept (keep: summary): to look at one, run its "
-                         "condition's scenario again with its seed."
-                       : "fram view FOLDER plays a run whose record was kept (keep: all).");
+    html_paragraph(
+        &p->page, "%s",
+        p->f->s->keep == KEEP_SUMMARY ? "Their folders were not kept (keep: summary): to look at one, run its "
+                                        "condition's scenario again with its seed."
+        : p->f->s->keep == KEEP_SERIES
+            ? "Their records were not kept (keep: series): to see one, run its condition's scenario again with "
+              "its seed."
+            : "fram view FOLDER plays a run.");
     html_table_begin(&p->page, heads, 5);
     for (int32_t i = 0; i < count; i++) {
         const run_row *row = &p->conditions[worst[i].condition].rows.data[worst[i].index];
@@ -349,6 +400,7 @@ static fram_status make_page(study_page *p, fram_error *error)
         has[i] = has_figure(p, &shown[i]);
     add_head(p);
     add_table(p, has);
+    add_shares(p);
     fram_status status = add_charts(p, has, error);
     if (status == FRAM_OK) {
         add_heats(p, has);

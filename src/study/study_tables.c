@@ -65,6 +65,8 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
                                     ROW_load_largest,
                                     ROW_offset_largest,
                                     ROW_line_tension_largest,
+                                    ROW_load_range_equivalent,
+                                    ROW_line_tension_range_equivalent,
 #define SHARE_FIGURE(id, name, text) ROW_share_splitting + MECHANISM_##id,
                                     ICE_MECHANISMS(SHARE_FIGURE)
 #undef SHARE_FIGURE
@@ -74,6 +76,8 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
     text_add(f->ctx, b, ",load_mean[N],load_mean_half[N],load_significant[N],load_significant_half[N]");
     text_add(f->ctx, b, ",load_largest[N],load_largest_half[N],offset_largest[m],offset_largest_half[m]");
     text_add(f->ctx, b, ",line_tension_largest[N],line_tension_largest_half[N]");
+    text_add(f->ctx, b, ",load_range_equivalent[N],load_range_equivalent_half[N]");
+    text_add(f->ctx, b, ",line_tension_range_equivalent[N],line_tension_range_equivalent_half[N]");
 #define SHARE_HEAD(id, name, text) text_add(f->ctx, b, ",share_" name "[1],share_" name "_half[1]");
     ICE_MECHANISMS(SHARE_HEAD)
 #undef SHARE_HEAD

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -87,6 +88,15 @@ class Studies(unittest.TestCase):
                 self.assertAlmostEqual(sum(map(float, shares)), 1, delta=1e-6)
             else:
                 self.assertEqual(set(shares), {""})
+        # Damage-equivalent ranges are those of `fram fatigue`.
+        (folder,) = [p for p in (self.at / "out" / "runs").glob("*/6")
+                     if json.loads((p / "run.json").read_text())["state_hash"] == rows[7]["state_hash"]]
+        done = subprocess.run([FRAM, "fatigue", folder, "--channel", "load", "--slope", "3", "--json"],
+                              capture_output=True, text=True, check=True)
+        said = json.loads(done.stdout.splitlines()[-1])["equivalent"][0]["range"]
+        self.assertGreater(said, 0)
+        self.assertAlmostEqual(float(rows[7]["load_range_equivalent[N]"]) / said, 1, delta=1e-9)
+        self.assertEqual(rows[7]["line_tension_range_equivalent[N]"], "")
         kept = list((self.at / "out" / "runs").glob("*/5/*"))
         self.assertEqual({p.name for p in kept}, {"scenario.yaml", "run.json", "series.csv", "fractures.csv"})
 
@@ -117,6 +127,10 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             load = [math.hypot(float(r[f"{name}.ice_force_averaged_x[N]"]), float(r[f"{name}.ice_force_averaged_y[N]"]))
                     for r in lines]
             self.assertAlmostEqual(float(rows[name]["load_mean[N]"]), sum(load) / len(load), delta=1e-9 * max(load))
+        done = subprocess.run([FRAM, "fatigue", series.parent, "--channel", "moored.line_tension_max", "--slope", "3",
+                               "--json"], capture_output=True, text=True, check=True)
+        said = json.loads(done.stdout.splitlines()[-1])["equivalent"][0]["range"]
+        self.assertAlmostEqual(float(rows["moored"]["line_tension_range_equivalent[N]"]) / said, 1, delta=1e-9)
         tension = max(float(r["moored.line_tension_max[N]"]) for r in lines)
         self.assertAlmostEqual(float(rows["moored"]["line_tension_largest[N]"]), tension, delta=1e-6 * tension)
         self.assertEqual(rows["east"]["line_tension_largest[N]"], "")
@@ -215,7 +229,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         rows = self.rows("out")
         page = (self.at / "out" / "study.html").read_text()
         worst = max(rows, key=lambda r: float(r["load_largest[N]"]))
-        for words in ("Heat maps", "Worst runs", "<b>8", "Largest load", "image/svg", f"/{worst['seed']}/\">runs/"):
+        # Shares of mechanisms in the order of their heads, of the last condition.
+        names = re.findall("<th[^>]*>([a-z]+)</th>", page[page.index("Mechanisms of the load"):])[:8]
+        last = self.rows("out", "conditions.csv")[3]
+        cells = [f"{100 * float(last[f'share_{n}[1]']):.1f} ± {100 * float(last[f'share_{n}_half[1]']):.1f}"
+                 for n in names]
+        for words in ("Heat maps", "Worst runs", "</td><td>".join(cells), "<b>8", "Largest load", "image/svg",
+                      f"/{worst['seed']}/\">runs/"):
             self.assertTrue(words in page, words)
         if not (self.at / "out" / "study.nc").exists():
             self.skipTest("this build has no NetCDF")
