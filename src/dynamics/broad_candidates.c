@@ -202,7 +202,8 @@ static void keep_candidates(collision_scratch *s)
 /* Both lists have no pair in common. */
 static bool merge_candidates(context *ctx, collision_scratch *s)
 {
-    qsort(s->fresh.data, (size_t)s->fresh.count, sizeof *s->fresh.data, compare_keys);
+    if (s->fresh.count > 0) /* qsort takes no NULL */
+        qsort(s->fresh.data, (size_t)s->fresh.count, sizeof *s->fresh.data, compare_keys);
     int32_t old = s->candidates.count, fresh = s->fresh.count;
     if (old > INT32_MAX - fresh || !array_resize(ctx, &s->candidates, old + fresh))
         return false;
