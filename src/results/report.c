@@ -217,7 +217,7 @@ static void events(report *r)
     const run_note *n = &r->d.note;
     if (n->events.count == 0)
         return;
-    const char *const heads[] = {"time [s]", "vessel", "what befell it"};
+    const char *const heads[] = {"time [s]", "vessel", "event"};
     html_section(&r->page, "Events");
     html_table_begin(&r->page, heads, 3);
     for (int32_t i = 0; i < n->events.count && i < SHOWN; i++) {

@@ -241,8 +241,10 @@ class Player {
     placeCamera() {
         const size = this.scene.box.getSize(new THREE.Vector3()), wide = Math.max(size.x, size.y);
         const mode = $('camera').value, camera = this.scene.camera;
-        // A ship is seen whole, however small the domain is beside it.
-        const near = Math.max(wide, 3.5 * this.length());
+        // A ship is seen whole, however small the domain is beside it and however narrow the window.
+        const foot = document.querySelector('footer').offsetHeight;
+        const upright = Math.max(1, (window.innerHeight - foot) / window.innerWidth);
+        const near = Math.max(wide, 3.5 * this.length()) * upright;
         this.poses.show(this.frameAt(this.time));
         const target = mode === 'follow' || mode === 'below' ? this.centre()
             : this.scene.box.getCenter(new THREE.Vector3()).setZ(0);

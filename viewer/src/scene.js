@@ -108,7 +108,7 @@ export class Scene {
             shader.fragmentShader = shader.fragmentShader
                 .replace('#include <color_fragment>', `vec3 paint = bodyColour;
                     if (onShip.x > 1.5) paint = onShip.y > 0.94 ? ${glsl(BOW)} : ${glsl(DECK)};
-                    else if (onShip.x > 0.5 && abs(onShip.z) < 0.3) paint = ${glsl(BOW)};
+                    else if (onShip.x > 0.5 && abs(onShip.z) < 0.3) paint = ${glsl(LINE)};
                     diffuseColor.rgb *= paint;`);
     }
 
@@ -259,8 +259,8 @@ const OWN = { ice: new THREE.Color(ICE), hull: new THREE.Color(HULL), wall: new 
 /** The colour that a body has by itself. */
 export function own(body) { return OWN[body.material]; }
 
-/** A hull is painted as a ship is: deck, a white bow on it, a white line at the water. */
-const DECK = new THREE.Color(0xc9b58c), BOW = new THREE.Color(0xf4f4f0);
+/** A hull is painted as a ship is: deck, its bow marked, a white line at the water. */
+const DECK = new THREE.Color(0xc9b58c), BOW = new THREE.Color(0x1d3557), LINE = new THREE.Color(0xf4f4f0);
 function glsl(c) { return `vec3(${c.r.toFixed(4)}, ${c.g.toFixed(4)}, ${c.b.toFixed(4)})`; }
 
 /** All prisms and solids with their own normals, tagged by body. */
