@@ -8,6 +8,8 @@ static void free_room(context *ctx, narrow_room *room)
 {
     polyhedron_free(ctx, &room->piece_a);
     polyhedron_free(ctx, &room->piece_b);
+    array_free(ctx, &room->box_a);
+    array_free(ctx, &room->box_b);
     array_free(ctx, &room->near_a);
     array_free(ctx, &room->near_b);
 }

@@ -33,9 +33,12 @@ typedef struct pair_block {
     bool memory_failed;
 } pair_block;
 
+typedef ARRAY(box3) box3_array;
+
 /* Of each thread. */
 typedef struct narrow_room {
     polyhedron piece_a, piece_b; /* convex pieces in the global axes, about body a's centre of mass */
+    box3_array box_a, box_b;     /* of the pieces of two bodies */
     int32_array near_a, near_b;  /* pieces that reach into the common part of two boxes */
 } narrow_room;
 

@@ -124,12 +124,10 @@ static bool touch_compounds(context *ctx, narrow_room *room, const body_table *b
     if (c->gap > c->near.slack)
         return true;
     bool compound = piece_count(a) > 1 || piece_count(b) > 1;
-    box3 box_a = box3_empty(), box_b = box3_empty();
-    if (compound) {
-        box_a = box3_grown(party_box(a), c->near.slack);
-        box_b = box3_grown(party_box(b), c->near.slack);
-    }
-    if (!gather_pieces(ctx, a, box_b, &room->near_a) || !gather_pieces(ctx, b, box_a, &room->near_b))
+    box3 box_a, box_b;
+    if (!party_boxes(ctx, a, &room->box_a, &box_a) || !party_boxes(ctx, b, &room->box_b, &box_b) ||
+        !gather_pieces(ctx, &room->box_a, box3_grown(box_b, c->near.slack), &room->near_a) ||
+        !gather_pieces(ctx, &room->box_b, box3_grown(box_a, c->near.slack), &room->near_b))
         return false;
     int32_t first = contacts->count;
     vec3 last = {0, 0, 0};

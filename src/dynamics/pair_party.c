@@ -87,20 +87,24 @@ static box3 piece_box(const party *p, int32_t piece)
     return box;
 }
 
-box3 party_box(const party *p)
+bool party_boxes(context *ctx, const party *p, box3_array *boxes, box3 *whole)
 {
-    box3 box = box3_empty();
-    for (int32_t i = 0; i < piece_count(p); i++)
-        box = box3_union(box, piece_box(p, i));
-    return box;
+    int32_t count = piece_count(p);
+    if (!array_resize(ctx, boxes, count))
+        return false;
+    *whole = box3_empty();
+    for (int32_t i = 0; i < count; i++) {
+        boxes->data[i] = piece_box(p, i);
+        *whole = box3_union(*whole, boxes->data[i]);
+    }
+    return true;
 }
 
-bool gather_pieces(context *ctx, const party *p, box3 box, int32_array *near)
+bool gather_pieces(context *ctx, const box3_array *boxes, box3 box, int32_array *near)
 {
     array_clear(near);
-    int32_t count = piece_count(p);
-    for (int32_t i = 0; i < count; i++)
-        if ((count == 1 || box3_meet(piece_box(p, i), box)) && !array_push(ctx, near, i))
+    for (int32_t i = 0; i < boxes->count; i++)
+        if ((boxes->count == 1 || box3_meet(boxes->data[i], box)) && !array_push(ctx, near, i))
             return false;
     return true;
 }

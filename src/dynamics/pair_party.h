@@ -3,7 +3,7 @@
 #ifndef DYNAMICS_PAIR_PARTY_H
 #define DYNAMICS_PAIR_PARTY_H
 
-#include "dynamics/collision.h"
+#include "dynamics/collision_scratch.h"
 #include "dynamics/prism_contact.h"
 
 /* One body of a pair. */
@@ -30,10 +30,10 @@ prism prism_piece(const party *p, int32_t piece);
 /* How far apart two bodies are along an axis from b to a; -infinity without an axis. */
 double axis_gap(const party *a, const party *b, vec3 axis);
 
-/* Around all pieces. */
-box3 party_box(const party *p);
+/* A box around each piece, and around all.  false: no memory. */
+bool party_boxes(context *ctx, const party *p, box3_array *boxes, box3 *whole);
 
-/* The pieces of p that reach into the box.  false: no memory. */
-bool gather_pieces(context *ctx, const party *p, box3 box, int32_array *near);
+/* The pieces whose boxes reach into the box, and the only one wherever it is.  false: no memory. */
+bool gather_pieces(context *ctx, const box3_array *boxes, box3 box, int32_array *near);
 
 #endif
