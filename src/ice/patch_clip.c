@@ -6,9 +6,6 @@
    all. */
 #include "ice/patch_parts.h"
 
-/* A surface of up to so many vertices is looked at as a whole; of others the triangles near the floe are asked for. */
-enum { WHOLE_VERTICES = 64 };
-
 /* The margin of points that count as outside or inside, in tolerances. */
 #define SURE_MARGIN 4.0
 
@@ -131,10 +128,8 @@ static void take_point(patch_scratch *s, const patch_surface *surface, vec3 r, d
     box_take(&s->reach, p);
 }
 
-static bool is_whole(const patch_surface *surface)
-{
-    return !surface->tree || surface->surface->vertex.count <= WHOLE_VERTICES;
-}
+/* A surface without a tree is looked at as a whole; of others the triangles near the floe are asked for. */
+static bool is_whole(const patch_surface *surface) { return !surface->tree; }
 
 /* All vertices of the surface, or three for each triangle near the floe. */
 static bool take_points(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
