@@ -20,11 +20,14 @@ bool mechanism_columns_find(const run_data *run, int32_t vessel, mechanism_colum
     return there;
 }
 
-/* The parts of the load averaged over the `steps` rows up to this one, along it; returns the load [N]. */
-static double parts_at(const mechanism_columns *c, int32_t row, int32_t steps, double part[MECHANISM_COUNT])
+/* Shares of the load that the rows of the window up to this one tell, along it; nothing without a load in them. */
+static void parts_at(const mechanism_columns *c, const double *time, int32_t row, double window, double load,
+                     double part[MECHANISM_COUNT])
 {
-    double fx[MECHANISM_COUNT], fy[MECHANISM_COUNT], all_x = 0, all_y = 0;
-    int32_t first = row + 1 > steps ? row + 1 - steps : 0;
+    double fx[MECHANISM_COUNT], fy[MECHANISM_COUNT], all_x = 0, all_y = 0, slack = 1e-6 * window;
+    int32_t first = row;
+    while (first > 0 && time[first - 1] > time[row] - window + slack)
+        first--;
     for (int m = 0; m < MECHANISM_COUNT; m++) {
         fx[m] = fy[m] = 0;
         for (int32_t i = first; i <= row; i++) {
@@ -34,19 +37,19 @@ static double parts_at(const mechanism_columns *c, int32_t row, int32_t steps, d
         all_x += fx[m];
         all_y += fy[m];
     }
-    double sum = sqrt(all_x * all_x + all_y * all_y), rows = row + 1 - first;
+    double square = all_x * all_x + all_y * all_y;
     for (int m = 0; m < MECHANISM_COUNT; m++)
-        part[m] = sum > 0 ? (fx[m] * all_x + fy[m] * all_y) / sum / rows : 0;
-    return sum / rows;
+        part[m] = square > 0 ? load * (fx[m] * all_x + fy[m] * all_y) / square : 0;
 }
 
 static bool make_room(context *ctx, mechanism_curve *curve)
 {
+    size_t most = (size_t)curve->count + PEAKS_KEPT;
     bool good = true;
-    curve->time = memory_array(ctx, (size_t)curve->count, sizeof *curve->time);
-    curve->load = memory_array(ctx, (size_t)curve->count, sizeof *curve->load);
+    curve->time = memory_array(ctx, most, sizeof *curve->time);
+    curve->load = memory_array(ctx, most, sizeof *curve->load);
     for (int m = 0; m < MECHANISM_COUNT; m++) {
-        curve->part[m] = memory_array(ctx, (size_t)curve->count, sizeof *curve->part[m]);
+        curve->part[m] = memory_array(ctx, most, sizeof *curve->part[m]);
         good = good && curve->part[m];
     }
     return good && curve->time && curve->load;
@@ -71,8 +74,7 @@ fram_status mechanism_curve_make(context *ctx, const run_data *run, int32_t vess
     *curve = (mechanism_curve){0};
     if (rows == 0 || !time || !x || !y || !mechanism_columns_find(run, vessel, &columns))
         return FRAM_OK;
-    double window = floor(run->s.output.averaging_window / run->s.run.time_step + 0.5);
-    int32_t steps = window < 1 ? 1 : window > rows ? rows : (int32_t)window;
+    double window = fmax(run->s.output.averaging_window, run->s.run.time_step);
     curve->count = (rows + every - 1) / every;
     if (!make_room(ctx, curve)) {
         mechanism_curve_free(ctx, curve);
@@ -82,11 +84,30 @@ fram_status mechanism_curve_make(context *ctx, const run_data *run, int32_t vess
         int32_t end = (k + 1) * every < rows ? (k + 1) * every : rows, row = largest_row(x, y, k * every, end);
         double part[MECHANISM_COUNT];
         curve->time[k] = time[row];
-        curve->load[k] = parts_at(&columns, row, steps, part);
+        curve->load[k] = sqrt(x[row] * x[row] + y[row] * y[row]);
+        parts_at(&columns, time, row, window, curve->load[k], part);
         for (int m = 0; m < MECHANISM_COUNT; m++)
             curve->part[m][k] = part[m];
     }
     return FRAM_OK;
+}
+
+void mechanism_curve_add(mechanism_curve *curve, double time, double load, const double part[MECHANISM_COUNT])
+{
+    int32_t at = 0;
+    while (at < curve->count && curve->time[at] < time - 1e-9 * fabs(time))
+        at++;
+    bool new = at == curve->count || curve->time[at] > time + 1e-9 * fabs(time);
+    for (int32_t k = new ? curve->count++ : at; k > at; k--) {
+        curve->time[k] = curve->time[k - 1];
+        curve->load[k] = curve->load[k - 1];
+        for (int m = 0; m < MECHANISM_COUNT; m++)
+            curve->part[m][k] = curve->part[m][k - 1];
+    }
+    curve->time[at] = time;
+    curve->load[at] = load;
+    for (int m = 0; m < MECHANISM_COUNT; m++)
+        curve->part[m][at] = part[m];
 }
 
 void mechanism_curve_free(context *ctx, mechanism_curve *curve)

@@ -21,9 +21,13 @@ typedef struct mechanism_curve {
 } mechanism_curve;
 
 enum { MECHANISM_CURVE_MOST = 1200 };
-/* The load is averaged over output.averaging_window as the column ice_force_averaged is. */
+/* The load is that of the column ice_force_averaged.  A series that leaves out steps (output.csv_interval) has the
+   parts of its rows only: their shares are taken for those of the load. */
 fram_status mechanism_curve_make(context *ctx, const run_data *run, int32_t vessel, mechanism_curve *curve,
                                  fram_error *error);
+/* A peak of the run, which such a series may not have: into its place by time.  At most PEAKS_KEPT of them, on a curve
+   that is not empty. */
+void mechanism_curve_add(mechanism_curve *curve, double time, double load, const double part[MECHANISM_COUNT]);
 void mechanism_curve_free(context *ctx, mechanism_curve *curve);
 
 #endif

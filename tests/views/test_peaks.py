@@ -141,10 +141,10 @@ def check_odd_clicks(browser):
 def check_pressure(browser, run):
     folder = run.parent / "pressure"
     fram("pressure", run, "-o", folder, "--panel", "3", "--quiet")
-    fram("view", run, "--page", PAGE, "--pressure", folder, "--quiet")
+    fram("view", run, "--page", PAGE, "--pressure", folder, "-o", run / "pressure.html", "--quiet")
     with open(folder / "panels.csv", newline="") as file:
         panels = list(csv.DictReader(file))
-    browser.open(run / "playback.html")
+    browser.open(run / "pressure.html")
     told = browser.run("({ ...fram.record.pressure, mean: [...fram.record.pressure.mean], "
                        "largest: [...fram.record.pressure.largest] })")
     for key, column in (("mean", "pressure_mean[Pa]"), ("largest", "pressure_largest[Pa]")):
@@ -181,6 +181,24 @@ def check_two(browser, folder, pressure):
         click_peak(browser, 1)
         assert browser.run("fram.peaks.peak.detail.floes.length > 0 && fram.peakShown"), name
     assert not browser.run("document.getElementById('vessels').hidden")
+
+
+def check_few_rows(browser, folder):
+    """A series that leaves out steps: the curve still has every peak, whole and on the canvas."""
+    run, rows = make_run(folder, "rows", TOWED.replace("interval: 0.5}", "interval: 0.5, csv_interval: 0.3}"))
+    browser.open(run / "playback.html")
+    told = browser.run("fram.record.loads.vessels[0]")
+    most = max(p["detail"]["load"] for p in told["peaks"])
+    assert len(rows) < 30 and abs(max(told["load"]) - most) < 1e-4 * most, (len(rows), max(told["load"]), most)
+    for peak in told["peaks"]:
+        k = min(range(len(told["time"])), key=lambda k: abs(told["time"][k] - peak["detail"]["time"]))
+        assert abs(told["time"][k] - peak["detail"]["time"]) < 1e-6
+        assert abs(told["load"][k] - peak["detail"]["load"]) < 1e-4 * most
+    for k, load in enumerate(told["load"]):
+        assert abs(sum(p[k] for p in told["parts"]) - load) < 2e-4 * most, told["time"][k]
+    assert told["time"] == sorted(told["time"])
+    assert browser.run("fram.timeline.vessel.peaks.every((p) => { const y = fram.timeline.y(p.load, 132, 40);"
+                       "return y >= 39.9 && y <= 132; })")
 
 
 def check_no_ice(browser, folder):
@@ -221,6 +239,7 @@ def main():
         check_odd_clicks(browser)
         pressure = check_pressure(browser, run)
         check_two(browser, folder, pressure)
+        check_few_rows(browser, folder)
         check_no_ice(browser, folder)
         check_earlier_layout(run)
         assert not browser.complaints, browser.complaints

@@ -67,7 +67,7 @@ export class Timeline {
             }
             return { low, high };
         });
-        this.top = this.up.reduce((a, b) => Math.max(a, b), 1e-6);
+        this.top = vessel.load.reduce((a, b) => Math.max(a, b), this.up.reduce((a, b) => Math.max(a, b), 1e-6));
         this.bottom = this.down.reduce((a, b) => Math.min(a, b), 0);
     }
 
