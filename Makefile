@@ -144,6 +144,10 @@ acer-example: build/release/build.ninja ## the synthetic example of Naess, Gaida
 	@cmake --build --preset release -j$(JOBS) --target test_study_acer_example
 	@FRAM_TEST_LONG=1 CK_FORK=no CK_DEFAULT_TIMEOUT=900 build/release/tests/test_study_acer_example
 
+extremes-hours: build/release/build.ninja ## 100 long runs against what sets of 20 short ones say of them (half a minute)
+	@cmake --build --preset release -j$(JOBS) --target test_study_three_hours
+	@FRAM_TEST_LONG=1 CK_FORK=no CK_DEFAULT_TIMEOUT=900 build/release/tests/test_study_three_hours
+
 bench-views: viewer build ## speed of the playback page with 10,000 floes, against its bounds
 	@$(PYTHON) bench/run_playback.py $(BENCH_FLAGS)
 
