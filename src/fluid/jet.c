@@ -6,6 +6,8 @@
 
 /* The jet is looked at up to so many widths C x from its core's edge: U^2 is 0.2 % of that on the axis there. */
 static const double EDGE = 2.5;
+/* A mean speed under this counts as none [m/s]: close to a propeller the edges of its jet fall below all numbers. */
+static const double STILL = 1e-6;
 
 void jet_set_thrust(jet *j, double thrust, double diameter, double advance, double density)
 {
@@ -98,7 +100,7 @@ jet_share jet_over(const jet *j, polygon outline, vec3 centre, mat3 rotation, do
         edge = next;
     }
     double area = polygon_area(outline);
-    if (!(sum.square > 0) || !(area > 0))
+    if (!(sum.square > STILL * STILL * area))
         return (jet_share){0, {0, 0, 0}};
     return (jet_share){sqrt(sum.square / area), vec3_scale(sum.first, 1 / sum.square)};
 }

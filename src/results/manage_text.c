@@ -9,12 +9,27 @@
 static const char *const words[MANAGE_PLACES] = {"upstream", "behind the icebreakers", "at the vessel"};
 static const char *const keys[MANAGE_PLACES] = {"upstream", "behind", "at_vessel"};
 
+/* A dash where no window of a place was seen, or where it held no floe. */
+static void tell_place(context *ctx, const manage_summary *s, int place, text_buffer *out)
+{
+    bool floes = s->place[place].largest > 0;
+    text_format(ctx, out, "%-24s %8.0f", words[place], s->place[place].windows);
+    if (s->place[place].windows > 0)
+        text_format(ctx, out, " %14.3f %9.1f%% %10.1f%%", s->place[place].concentration, 100 * s->place[place].managed,
+                    100 * s->place[place].sheet);
+    if (floes)
+        text_format(ctx, out, " %11.3g %12.3g", s->place[place].mean, s->place[place].largest);
+    text_add(ctx, out, floes ? "\n" : " -\n");
+}
+
 static void tell_time(context *ctx, const char *name, double least, double median, text_buffer *out)
 {
     text_format(ctx, out, "%-46s", name);
     for (int i = 0; i < 2; i++) {
         double t = i ? median : least;
-        if (isinf(t))
+        if (isnan(t))
+            text_add(ctx, out, "              -");
+        else if (isinf(t))
             text_add(ctx, out, "  none in sight");
         else
             text_format(ctx, out, " %12.4g s", t);
@@ -30,17 +45,17 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
         text_format(ctx, out, "%-24s %8s %14s %10s %11s %11s %12s\n", k ? "run beside" : "this run", "windows",
                     "concentration", "managed", "unbroken", "mean [m]", "largest [m]");
         for (int p = 0; p < MANAGE_PLACES; p++)
-            text_format(ctx, out, "%-24s %8.0f %14.3f %9.1f%% %10.1f%% %11.3g %12.3g\n", words[p], a->place[p].windows,
-                        a->place[p].concentration, 100 * a->place[p].managed, 100 * a->place[p].sheet, a->place[p].mean,
-                        a->place[p].windows > 0 ? a->place[p].largest : (double)NAN);
+            tell_place(ctx, a, p, out);
         text_format(ctx, out, "ice load %.4g kN mean, %.4g kN at most\n", 1e-3 * a->load_mean, 1e-3 * a->load_most);
         if (!isnan(a->offset_most))
             text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
         if (!isnan(a->tension_most))
             text_format(ctx, out, "line tension %.4g kN at most\n", 1e-3 * a->tension_most);
     }
-    text_format(ctx, out, "managed: floes of at most %.3g m; the largest that came, at %.4g s\n", s->limit,
-                s->largest_time);
+    text_format(ctx, out, "managed: floes of at most %.3g m", s->limit);
+    if (!isnan(s->largest_time))
+        text_format(ctx, out, "; the largest that came, at %.4g s", s->largest_time);
+    text_add(ctx, out, "\n");
     tell_time(ctx, "nearest unmanaged ice comes in, least, median", s->alarm_least, s->alarm_median, out);
     tell_time(ctx, "largest unmanaged ice comes in, least, median", s->warning_least, s->warning_median, out);
 }

@@ -115,6 +115,22 @@ START_TEST(mean_over_a_floe_is_that_of_many_points)
 }
 END_TEST
 
+/* At a jet's edge close to a wide propeller U^2 is too small for a number to be divided by: it counts as nothing. */
+START_TEST(edges_of_a_jet_are_finite)
+{
+    jet j = jet_make(1e5, 20, 0.18);
+    for (int i = 4; i < 20; i++)
+        for (int k = 0; k < 25; k++) {
+            double x = 0.05 * i, y = 5 + 0.1 * k;
+            jet_share share = over_rectangle(&j, x, y, 0.02, 0.2, 0.5 * j.diameter);
+            ck_assert_msg(isfinite(share.speed) && isfinite(share.arm.x) && isfinite(share.arm.y), "%g %g: %g %g %g", x,
+                          y, share.speed, share.arm.x, share.arm.y);
+            ck_assert(share.speed >= 0 && share.speed <= j.speed);
+            ck_assert(fabs(share.arm.y) <= 0.1 && fabs(share.arm.x) <= 0.01);
+        }
+}
+END_TEST
+
 /* A floe beside the axis meets the jet on its inner side; one that turned with the jet meets the same. */
 START_TEST(acts_where_it_meets_the_floe)
 {
@@ -132,4 +148,5 @@ START_TEST(acts_where_it_meets_the_floe)
 END_TEST
 
 TEST_MAIN("jet", slipstream_is_that_of_momentum_theory, slows_down_as_published, spreads_as_published,
-          carries_the_thrust_at_any_distance, mean_over_a_floe_is_that_of_many_points, acts_where_it_meets_the_floe)
+          carries_the_thrust_at_any_distance, mean_over_a_floe_is_that_of_many_points, edges_of_a_jet_are_finite,
+          acts_where_it_meets_the_floe)
