@@ -9,15 +9,36 @@
 /* Dense copies leave the world as it is; only fram_world_view hands out its own memory. */
 _Static_assert(sizeof(vec3) == 3 * sizeof(double) && sizeof(quat) == 4 * sizeof(double), "rows of a view");
 
-static bool is_selected(const body_table *b, int32_t slot, unsigned selection)
+static inline fram_body_kind kind_of(const body_table *b, int32_t slot)
 {
-    return body_is_alive(b, slot) && (selection == 0 || (selection >> world_body_kind(b, slot) & 1) != 0);
+    static const fram_body_kind kinds[MATERIAL_COUNT] = {
+        [MATERIAL_ICE] = FRAM_BODY_FLOE, [MATERIAL_HULL] = FRAM_BODY_VESSEL, [MATERIAL_WALL] = FRAM_BODY_WALL};
+    return b->shape[slot] >= 0 && b->material[slot] < MATERIAL_COUNT ? kinds[b->material[slot]] : FRAM_BODY_OTHER;
 }
 
-static void put3(double *array, int row, vec3 v)
+static inline bool is_selected(const body_table *b, int32_t slot, unsigned selection)
 {
-    if (array)
-        array[3 * row] = v.x, array[3 * row + 1] = v.y, array[3 * row + 2] = v.z;
+    return body_is_alive(b, slot) && (selection == 0 || (selection >> kind_of(b, slot) & 1) != 0);
+}
+
+/* Bodies are copied in runs of so many, a column after the other: reading 10,000 in every step costs what memory costs.
+ */
+enum { RUN = 256 };
+
+static void put3(double *array, int row, const vec3 *v, const int32_t *slot, int count)
+{
+    for (int i = 0; array && i < count; i++) {
+        double *out = &array[3 * (row + i)];
+        out[0] = v[slot[i]].x, out[1] = v[slot[i]].y, out[2] = v[slot[i]].z;
+    }
+}
+
+static void put4(double *array, int row, const quat *q, const int32_t *slot, int count)
+{
+    for (int i = 0; array && i < count; i++) {
+        double *out = &array[4 * (row + i)];
+        out[0] = q[slot[i]].w, out[1] = q[slot[i]].x, out[2] = q[slot[i]].y, out[3] = q[slot[i]].z;
+    }
 }
 
 static double thickness_of(const world *w, int32_t slot)
@@ -27,35 +48,35 @@ static double thickness_of(const world *w, int32_t slot)
 }
 
 /* Row of the floe table, -1. */
-static int32_t floe_of(const world *w, int32_t slot)
+static inline int32_t floe_of(const world *w, int32_t slot)
 {
-    return world_body_kind(&w->bodies, slot) == FRAM_BODY_FLOE ? w->bodies.owner[slot] : -1;
+    return kind_of(&w->bodies, slot) == FRAM_BODY_FLOE ? w->bodies.owner[slot] : -1;
 }
 
-static void put_body(const world *w, int32_t slot, int row, const fram_body_arrays *a)
+/* Bodies of these slots as rows from `row`. */
+static void put_bodies(const world *w, const int32_t *slot, int count, int row, const fram_body_arrays *a)
 {
     const body_table *b = &w->bodies;
-    int32_t floe = floe_of(w, slot);
-    quat q = b->orientation[slot];
-    if (a->id)
-        a->id[row] = (fram_body_id){slot, b->generation[slot]};
-    if (a->kind)
-        a->kind[row] = (int32_t)world_body_kind(b, slot);
-    if (a->number)
-        a->number[row] = floe >= 0 ? w->floes.number[floe] : -1;
-    if (a->parent)
-        a->parent[row] = floe >= 0 ? w->floes.parent[floe] : -1;
-    if (a->mass)
-        a->mass[row] = b->mass[slot];
-    if (a->thickness)
-        a->thickness[row] = thickness_of(w, slot);
-    put3(a->position, row, b->position[slot]);
-    put3(a->velocity, row, b->velocity[slot]);
-    put3(a->angular_velocity, row, b->angular_velocity[slot]);
-    if (a->orientation) {
-        double *out = &a->orientation[4 * row];
-        out[0] = q.w, out[1] = q.x, out[2] = q.y, out[3] = q.z;
+    for (int i = 0; a->id && i < count; i++)
+        a->id[row + i] = (fram_body_id){slot[i], b->generation[slot[i]]};
+    for (int i = 0; a->kind && i < count; i++)
+        a->kind[row + i] = (int32_t)kind_of(b, slot[i]);
+    for (int i = 0; a->number && i < count; i++) {
+        int32_t floe = floe_of(w, slot[i]);
+        a->number[row + i] = floe >= 0 ? w->floes.number[floe] : -1;
     }
+    for (int i = 0; a->parent && i < count; i++) {
+        int32_t floe = floe_of(w, slot[i]);
+        a->parent[row + i] = floe >= 0 ? w->floes.parent[floe] : -1;
+    }
+    for (int i = 0; a->mass && i < count; i++)
+        a->mass[row + i] = b->mass[slot[i]];
+    for (int i = 0; a->thickness && i < count; i++)
+        a->thickness[row + i] = thickness_of(w, slot[i]);
+    put3(a->position, row, b->position, slot, count);
+    put4(a->orientation, row, b->orientation, slot, count);
+    put3(a->velocity, row, b->velocity, slot, count);
+    put3(a->angular_velocity, row, b->angular_velocity, slot, count);
 }
 
 int fram_world_bodies(const fram_world *w, unsigned selection, const fram_body_arrays *arrays)
@@ -66,14 +87,20 @@ int fram_world_bodies(const fram_world *w, unsigned selection, const fram_body_a
     size_t size;
     if (arrays && room_check(arrays, sizeof a, &size, "fram_body_arrays", NULL) == FRAM_OK)
         memcpy(&a, arrays, size);
-    int count = 0;
+    int32_t slot[RUN];
+    int count = 0, waiting = 0, put = 0;
     for (int32_t i = 0; i < w->inner.bodies.count; i++) {
         if (!is_selected(&w->inner.bodies, i, selection))
             continue;
-        if (count < a.room)
-            put_body(&w->inner, i, count, &a);
-        count++;
+        if (count++ < a.room)
+            slot[waiting++] = i;
+        if (waiting == RUN) {
+            put_bodies(&w->inner, slot, waiting, put, &a);
+            put += waiting;
+            waiting = 0;
+        }
     }
+    put_bodies(&w->inner, slot, waiting, put, &a);
     return count;
 }
 

@@ -370,6 +370,29 @@ class Package(unittest.TestCase):
             copy.step()
         self.assertIn("closed", repr(copy))
 
+    def test_what_the_collector_meets_in_a_circle_is_destroyed_in_order(self):
+        # In a process of its own: a wrong order is a crash. The world, its scenario and context are in one circle with
+        # the functions of the script; a recording goes on when Python ends.
+        text = ("import fram, gc, sys\n"
+                "class Circle: pass\n"
+                "def make():\n"
+                "    c = Circle(); c.self = c\n"
+                "    c.context = fram.Context(log=lambda level, text: c)\n"
+                "    c.scenario = fram.Scenario.from_text(sys.argv[1], context=c.context)\n"
+                "    c.world = c.scenario.world(); c.other = c.world.copy(); c.world.step(2)\n"
+                "    return c\n"
+                "for _ in range(5): make()\n"
+                "gc.collect()\n"
+                "kept = make()\n"
+                "keep = lambda: kept\n"
+                "kept.recording = kept.world.record(sys.argv[2])\n"
+                "kept.world.step(3)\n")
+        folder = self.folder / "at the end"
+        done = subprocess.run([sys.executable, "-c", text, TOWED, folder], capture_output=True, text=True, check=False,
+                              env={**os.environ, "PYTHONPATH": str(pathlib.Path(fram.__file__).parents[1])})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(fram.open_run(folder).info["steps"], 5)
+
     def test_environment(self):
         environment = fram.StationKeeping(fram.Scenario.from_text(FREE), interval=0.2, horizon=1)
         self.assertEqual(environment.action_space.shape, (len(environment.actions),))

@@ -6,6 +6,7 @@ the system's ``libfram.so.0``.
 
 from __future__ import annotations
 
+import atexit
 import ctypes.util
 import os
 import pathlib
@@ -126,12 +127,56 @@ def new_error():
     return ffi.new("fram_error *")
 
 
-def owned(pointer, destroy, *needs):
-    """A pointer that is destroyed when Python has no more use of it, and before what it needs is."""
-    def end(dead, _needs=needs):
-        destroy(dead)
+# What the library made for Python: address -> (how it is destroyed, addresses of what it needs, Python objects that it
+# uses), and how many need each.
+# Python's collector destroys the members of a cycle in any order, a world after its context too; hence nothing is
+# destroyed before what needs it, whatever the order in which it is asked for.
+_made: dict[int, tuple] = {}
+_users: dict[int, int] = {}
+_unwanted: dict[int, object] = {}
+_gone: list = []  # at the end of Python: what the library may still call
 
-    return ffi.gc(pointer, end)
+
+def _address(pointer) -> int:
+    return int(ffi.cast("intptr_t", pointer))
+
+
+def _end(pointer) -> None:
+    address = _address(pointer)
+    if address not in _made:
+        return
+    if _users.get(address, 0) > 0:
+        _unwanted[address] = pointer
+        return
+    destroy, needs, _used = _made.pop(address)
+    _unwanted.pop(address, None)
+    destroy(pointer)
+    for need in needs:
+        _users[need] -= 1
+        if _users[need] == 0 and need in _unwanted:
+            _end(_unwanted[need])
+
+
+def owned(pointer, destroy, *needs, uses=None):
+    """A pointer that is destroyed when Python has no more use of it, and before what it needs and uses is."""
+    addresses = tuple(_address(need) for need in needs)
+    for address in addresses:
+        _users[address] = _users.get(address, 0) + 1
+    _made[_address(pointer)] = (destroy, addresses, uses)
+    return ffi.gc(pointer, _end)
+
+
+def _leave() -> None:
+    """At the end of Python recordings are ended; memory goes with the process, in no order that could be wrong."""
+    for address, (destroy, _, _) in list(_made.items()):
+        world = ffi.cast("fram_world *", address)
+        if destroy == lib.fram_world_destroy and lib.fram_world_is_recorded(world):
+            lib.fram_world_record_end(world, ffi.NULL, ffi.NULL)
+    _gone.extend(_made.values())
+    _made.clear()
+
+
+atexit.register(_leave)
 
 
 def version() -> str:

@@ -45,7 +45,7 @@ class Context:
             definition.log = forward
         error, out = new_error(), ffi.new("fram_context **")
         check(lib.fram_context_create(definition, out, error), error)
-        self._pointer = owned(out[0], lib.fram_context_destroy, self._keep)
+        self._pointer = owned(out[0], lib.fram_context_destroy, uses=self._keep)
 
     def _check(self, status: int, error) -> None:
         lib.fram_stop_set(self._stop, 0)
