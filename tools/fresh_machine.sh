@@ -30,15 +30,21 @@ timed() { # NAME COMMAND
     ( # A shell of its own, whose children are this command's alone.
         status=0
         inside "$2" >"$here/$1.log" 2>&1 || status=$?
-        times | tail -n 1 | awk -F '[ms ]+' '{ printf "%.0f\n", 60 * ($1 + $3) + $2 + $4 }' >"$here/$1.cpu"
+        times >"$here/$1.times"
+        tail -n 1 "$here/$1.times" | awk -F '[ms ]+' '{ printf "%.0f\n", 60 * ($1 + $3) + $2 + $4 }' >"$here/$1.cpu"
         exit "$status"
     ) || { tail -n 30 "$here/$1.log" >&2; echo "fresh_machine: $1 failed; see $here/$1.log" >&2; exit 1; }
     echo $((SECONDS - began)) >"$here/$1.wall"
 }
 
 minutes() { awk -v s="$1" 'BEGIN { printf "%d min %02d s", s / 60, s % 60 }'; }
-took() { echo "$(minutes "$(cat "$here/$1.wall")"), of which $(minutes "$(cat "$here/$1.cpu")") of processor time"; }
-indented() { sed -e 's/\x1b\[[0-9;]*[A-Za-z]//g' -e 's/[[:space:]]*$//' -e 's/^/    /' | cut -c 1-116; }
+took() {
+    local cpu
+    cpu=$(cat "$here/$1.cpu")
+    [ "$cpu" -eq 0 ] || cpu=", of which $(minutes "$cpu") of processor time"
+    echo "$(minutes "$(cat "$here/$1.wall")")${cpu#0}"
+}
+indented() { sed -e 's/\x1b\[[0-9;]*[A-Za-z]//g' | fold -s -w 112 | sed -e 's/[[:space:]]*$//' -e 's/^/    /'; }
 size_of() { du -s -x --block-size=1M "$1" | cut -f1; }
 
 leave
@@ -76,7 +82,7 @@ after=$(size_of "$root")
 Written by \`tools/fresh_machine.sh\` on $(date -u +%F), Fram $commit: the README's commands in an empty Debian 12 root
 (\`debootstrap --variant=minbase --include=ca-certificates,make,git\`, $packages packages: no compiler, no CMake, no
 Python), as root in a \`chroot\`, with an environment of nothing but \`PATH\`, \`HOME\` and \`LANG\`. The machine had
-$(nproc) cores, which other work kept busy: times of the clock say little, those of the processor what it costs.
+$(nproc) cores, which other work kept busy, so that times of the clock are upper bounds.
 
 | what | size or time |
 |---|---|
