@@ -412,7 +412,7 @@ static fram_status make_page(study_page *p, fram_error *error)
 
 fram_status study_page_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
 {
-    study_page p = {.f = f, .conditions = conditions, .page = {f->ctx, {0}}};
+    study_page p = {.f = f, .conditions = conditions, .page = {.ctx = f->ctx}};
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/study.html", f->path);
     fram_status status = make_page(&p, error);
