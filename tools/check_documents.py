@@ -7,8 +7,8 @@ Rules:
     there; * stands for any letters, <words> and upper-case names for what the reader fills in;
   - a comment or text of any other file, tests apart, that names a page docs/*.md or a scene names one that is there.
 
-What a build makes (build/, out/) is not looked for.  Prints file:line: message for each breach; exit code 1 when there
-is one."""
+What a build makes (build/, out/, node_modules/) is not looked for.  Prints file:line: message for each breach; exit
+code 1 when there is one."""
 
 import pathlib
 import re
@@ -49,7 +49,10 @@ def anchors(path):
 
 
 def is_there(name):
-    """A file or folder of the repository; * as in a shell; a C file may be named without its ending."""
+    """A file or folder of the repository, or one that a build makes; * as in a shell; a C file may be named without its
+    ending."""
+    if "node_modules" in name.split("/"):
+        return True
     if "*" in name:
         return any(ROOT.glob(name))
     return any((ROOT / (name + end)).exists() for end in ("", ".c", ".h", ".py", ".sh"))

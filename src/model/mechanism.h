@@ -26,13 +26,13 @@ typedef enum ice_mechanism {
 } ice_mechanism;
 
 /* What holds the last body of a chain of contacts. */
-#define CHAIN_ENDS(X)                                            \
-    X(INERTIA, "inertia", "held by its inertia")                 \
-    X(WATER, "water", "held by water and weight")                \
-    X(SHEET, "sheet", "it is fixed ice")                         \
+#define CHAIN_ENDS(X)                                                                    \
+    X(INERTIA, "inertia", "held by its inertia")                                         \
+    X(WATER, "water", "held by water and weight")                                        \
+    X(SHEET, "sheet", "it is fixed ice")                                                 \
     X(DRIVEN, "driven", "it is driven ice: the edge of a field, or a sheet that drifts") \
-    X(WALL, "wall", "it is a wall")                              \
-    X(VESSEL, "vessel", "it is a vessel")                        \
+    X(WALL, "wall", "it is a wall")                                                      \
+    X(VESSEL, "vessel", "it is a vessel")                                                \
     X(LOOP, "loop", "the chain comes back to a floe of its own, or is too long")
 
 typedef enum chain_end {
