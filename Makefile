@@ -77,7 +77,7 @@ test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and thos
 
 test-asan: build/asan/build.ninja
 	@cmake --build --preset asan -j$(JOBS)
-	@cd build/asan && $(CTEST) -LE '^(package|tools)$$'
+	@cd build/asan && $(CTEST) -LE '^(package|tools|slurm)$$'
 
 test-tsan: build/tsan/build.ninja
 	@cmake --build --preset tsan -j$(JOBS)
