@@ -78,10 +78,10 @@ static fram_status read_member(context *ctx, json_walk *w, const char *key, run_
         {"time_s", NULL, 0, &n->time},
         {"wall_s", NULL, 0, &n->wall},
         {"recording_s", NULL, 0, &n->recording},
-        {"step_median_ms", NULL, 0, &n->step_median},
-        {"step_p99_ms", NULL, 0, &n->step_p99},
-        {"step_p999_ms", NULL, 0, &n->step_p999},
-        {"step_longest_ms", NULL, 0, &n->step_longest},
+        {"step_wall_median_ms", NULL, 0, &n->step_median},
+        {"step_wall_p99_ms", NULL, 0, &n->step_p99},
+        {"step_wall_p999_ms", NULL, 0, &n->step_p999},
+        {"step_wall_longest_ms", NULL, 0, &n->step_longest},
         {"events_left_out", NULL, 0, &n->events_left_out},
     };
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {

@@ -310,8 +310,8 @@ static void add_step_times(context *ctx, text_buffer *b, const time_ranks *t)
 {
     if (t->count > 0)
         text_format(ctx, b,
-                    "  \"step_median_ms\": %.3g,\n  \"step_p99_ms\": %.3g,\n  \"step_p999_ms\": %.3g,\n"
-                    "  \"step_longest_ms\": %.3g,\n",
+                    "  \"step_wall_median_ms\": %.3g,\n  \"step_wall_p99_ms\": %.3g,\n  \"step_wall_p999_ms\": %.3g,\n"
+                    "  \"step_wall_longest_ms\": %.3g,\n",
                     1e3 * time_ranks_at(t, 500), 1e3 * time_ranks_at(t, 990), 1e3 * time_ranks_at(t, 999),
                     1e3 * t->longest);
 }
