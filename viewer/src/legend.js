@@ -7,6 +7,8 @@ export const FORCE_COLOURS = { ice: '#c2185b', line: '#1b7f3b', thruster: '#6a3f
 const MARK = '#d9730d';
 /** Of the chains of a peak, and of floes that stand in one without touching the vessel. */
 export const CHAIN = '#111111', BEHIND = '#7a7f3a';
+/** Of a line that parted, a thruster that failed. */
+export const GONE = '#d62728';
 
 /** A number with its unit, kilo or mega as fits. */
 export function forceText(kilonewton) {
@@ -15,8 +17,8 @@ export function forceText(kilonewton) {
 
 export class Legend {
     /** content: {ramp: [colour, ...] and unit, ends: [low, high] or none; keys: [[colour, name], ...] of the bodies;
-     *  forces: kinds that are shown; hull: {unit, ends} of the pressure on it or null; peak: whether
-     *  one is shown; marked: seconds that a mark stays, or 0}. */
+     *  forces: kinds that are shown; station: rows of such keys, of lines and thrusters; hull: {unit, ends} of the
+     *  pressure on it or null; peak: whether one is shown; marked: seconds that a mark stays, or 0}. */
     set(content) {
         this.content = content;
         this.drawn = '';
@@ -24,9 +26,9 @@ export class Legend {
 
     get width() { return WIDTH; }
     get height() {
-        const { unit, forces, marked, hull, peak } = this.content;
+        const { unit, forces, station, marked, hull, peak } = this.content;
         return 2 * EDGE + (unit ? 44 : LINE) + (hull ? 44 : 0) + (peak ? LINE : 0) + (forces.length ? 2 * LINE : 0) +
-            (marked ? LINE : 0) + 48;
+            station.length * LINE + (marked ? LINE : 0) + 48;
     }
 
     /** view: {length: of the bar [m], pixels: of the bar, force: that an arrow of this length stands for, angle: of Y
@@ -47,7 +49,7 @@ export class Legend {
     }
 
     draw(g, view) {
-        const { unit, ends, ramp, keys, forces, marked, hull, peak } = this.content;
+        const { unit, ends, ramp, keys, forces, station, marked, hull, peak } = this.content;
         paper(g, this.width, this.height);
         g.font = `12px ${FONT}`;
         let y = EDGE + 11;
@@ -72,6 +74,10 @@ export class Legend {
             g.fillText('forces on the vessel', EDGE, y);
             swatches(g, y + LINE, forces.map((kind) => [FORCE_COLOURS[kind], kind]));
             y += 2 * LINE;
+        }
+        for (const row of station) {
+            swatches(g, y, row);
+            y += LINE;
         }
         if (marked) {
             swatches(g, y, [[MARK, `broke in the last ${marked} s`]]);

@@ -102,6 +102,12 @@ class Player {
         scene.peakArrows.show(near ? this.peaks.lines(scale, 0.05 * width) : []);
     }
 
+    showStation() {
+        const { station } = this.scene, before = station.gone;
+        station.show(this.poses);
+        if (station.gone > 0 !== before > 0) this.setLegend();
+    }
+
     showPressure() {
         const { scene } = this, which = scene.pressure ? $('hull').value : 'none';
         const high = scene.pressure?.colour(which, RAMP) ?? 0;
@@ -310,7 +316,7 @@ class Player {
         this.legend.set({
             unit, ends, ramp: [0, 0.25, 0.5, 0.75, 1].map((t) => `#${ramp(t).getHexString()}`),
             keys: keys.filter(([there]) => there).map(([, colour, name]) => [`#${colour.getHexString()}`, name]),
-            forces: $('forces').checked ? this.kinds : [],
+            forces: $('forces').checked ? this.kinds : [], station: this.scene.station.keys(),
             marked: this.record.fractures.length ? MARKED : 0, hull: this.hullScale, peak: Boolean(this.peaks?.peak),
         });
         $('peak').style.top = `${this.legend.height + 24}px`;
@@ -446,6 +452,7 @@ class Player {
         this.scene.pressure?.place(this.poses);
         const forces = $('forces').checked ? this.poses.forces : [];
         this.scene.showForces(this.peakShown ? forces.filter((f) => f.kind !== 'ice') : forces, this.arrowScale);
+        this.showStation();
         this.scene.showMarkers(state.time, MARKED);
         if (this.picked) this.scene.placeRing(this.picked);
         this.history.draw(state.time);

@@ -16,6 +16,7 @@ export class Poses {
         this.speed = new Float32Array(n);
         this.contact = new Float32Array(n);
         this.forces = [];
+        this.forcesAt = null; // poses and order of the frame that they are of
         this.place = new Int32Array(n).fill(-1); // of each body in the order of the later frame
         this.placedOrder = null;
         this.frame = -1;
@@ -57,8 +58,15 @@ export class Poses {
             this.contact[k] = one.contact[i];
         }
         this.forces = part < 0.5 ? one.forces : two.forces;
+        this.forcesAt = part < 0.5 ? [P, a.order] : [Q, b.order];
         const force = a.force.map((v, i) => v + part * (b.force[i] - v));
         return { time: a.time + part * (b.time - a.time), force, frame: f };
+    }
+
+    /** Of a body that moves, at the frame of the forces. */
+    poseAtForces(index) {
+        const [poses, order] = this.forcesAt, i = 7 * order.indexOf(index);
+        return i < 0 ? this.pose.subarray(7 * index, 7 * index + 7) : poses.subarray(i, i + 7);
     }
 }
 

@@ -4,6 +4,7 @@
 import * as THREE from 'three';
 import { FORCE_COLOURS } from './legend.js';
 import { Arrows, HullPressure, LitFloes } from './overlay.js';
+import { Station } from './station.js';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
 const WATER = 0x2f6690, SKY = 0xdfe8ef, HULL = 0xb5402a, WALL = 0x7a726c, ICE = 0xf1f6fa;
@@ -26,6 +27,7 @@ export class Scene {
         this.addArrows();
         this.addMarkers();
         this.addRing();
+        this.station = new Station(this.scene, record, this.water);
         this.lit = new LitFloes(this.scene);
         this.peakArrows = new Arrows(this.scene);
         const hulls = record.bodies.filter((b) => b.material === 'hull'), told = record.pressure;

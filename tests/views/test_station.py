@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""Mooring lines and thrusters in the playback page, in headless Chromium.
+
+Lines must lead from the fairlead, which the run's own forces tell, to the anchor, which follows from the scenario, and
+hang as a catenary does; what parted or failed is told.  Skipped (77) without Chromium or without the viewer's page.
+"""
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import chromium
+
+FRAM = os.environ["FRAM"]
+PAGE = pathlib.Path(os.environ["FRAM_SOURCE"]) / "build" / "viewer" / "playback.html"
+# Numbers of lines count within a vessel: both have a first and a second one.  Those of the other ship end far outside
+# what is drawn; hers is a turret.
+SCENE = """
+title: Two moored ships
+run: {duration: 6, time_step: 0.02, seed: 3}
+vessels:
+  - name: near
+    mode: free
+    x: -10
+    y: 6
+    heading_deg: 30
+    hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+    mooring:
+      depth: 60
+      x: 4
+      z: -3
+      lines:
+        - {count: 2, spacing_deg: 120, direction_deg: 45, fairlead_distance: 3, distance: 150, pretension: 2.0e5}
+        - {direction_deg: 290, distance: 140, pretension: 2.0e5, release_time: 3}
+        - {kind: spring, direction_deg: 200, distance: 140, pretension: 2.0e5, stiffness: 1.0e5}
+    thrusters:
+      - {x: 18, z: -3, setting: 0.5, direction_deg: 60, thrust: 4.0e5}
+      - {kind: tunnel, x: -18, z: -3, setting: 0.5, failure_time: 2}
+  - name: far
+    mode: free
+    x: 0
+    y: -70
+    hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+    mooring:
+      depth: 60
+      turret: true
+      lines: [{count: 2, spacing_deg: 180, fairlead_distance: 5, distance: 2000, pretension: 9.0e5}]
+ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
+domain: {x_min: -64, x_max: 64, y_min: -110, y_max: 50, boundary: open}
+environment: {current_speed: 0.5, current_direction_deg: 180}
+output: {frame_interval: 0.5}
+"""
+# Number of a vessel, of its line, fairleads at the start about the vessel's place, direction, distance of the anchor.
+LINES = [(0, 1, 3, 45, 150), (0, 2, 3, 165, 150), (0, 3, 0, 290, 140), (0, 4, 0, 200, 140),
+         (1, 1, 5, 0, 2000), (1, 2, 5, 180, 2000)]
+WEIGHT = 1000  # of the lines, as the scenario's keys have it by themselves [N/m]
+DEPTH = 60
+STATE = """(() => {
+    const { station, water } = fram.scene, xyz = (p) => p && [p.x, p.y, p.z];
+    return { lines: station.lines.map((l) => ({ held: l.held, number: l.number, points: l.points.map(xyz) })),
+        thrusters: station.thrusters.map((t) => ({ works: t.works, at: xyz(t.at), axis: xyz(t.axis), disc: t.disc })),
+        forces: fram.poses.forces, gone: station.gone, edge: station.edge.map(xyz),
+        drawn: [station.drawnLines.geometry.instanceCount, station.discs.count],
+        legend: fram.legend.content.station.flat().map(([, name]) => name),
+        calls: fram.scene.renderer.info.render.calls };
+})()"""
+# How many pixels about a point of the scene have the lines' green.
+GREEN = """((x, y, z) => {
+    fram.scene.render();
+    const gl = fram.scene.renderer.getContext(), p = fram.scene.camera.position.clone().set(x, y, z);
+    p.project(fram.scene.camera);
+    const out = new Uint8Array(4 * 81);
+    gl.readPixels((p.x + 1) / 2 * gl.drawingBufferWidth - 4, (p.y + 1) / 2 * gl.drawingBufferHeight - 4, 9, 9, gl.RGBA,
+                  gl.UNSIGNED_BYTE, out);
+    let n = 0;
+    for (let i = 0; i < out.length; i += 4) n += out[i + 1] > 1.5 * out[i] && out[i + 1] > 1.5 * out[i + 2];
+    return n;
+})"""
+
+
+def skip(reason):
+    print(f"skipped: {reason}")
+    sys.exit(77)
+
+
+def start_of(vessel, along, direction):
+    """The place of a line's upper end, seen from above, or further along it, as the vessel is put [m]."""
+    heading, x, y, centre = ((math.radians(30), -10, 6, 4), (0, 0, -70, 0))[vessel]
+    angle = math.radians(direction)
+    return (x + centre * math.cos(heading) + along * math.cos(angle),
+            y + centre * math.sin(heading) + along * math.sin(angle))
+
+
+def go(browser, time):
+    browser.run(f"(fram.seek({time}), fram.draw())")
+    if browser.run("fram.dirty"):
+        browser.run("fram.draw()")
+    return browser.run(STATE)
+
+
+def near(a, b, tolerance):
+    return math.dist(a, b) <= tolerance
+
+
+def pulls_of(state):
+    """Forces of lines by vessel: they come vessel by vessel."""
+    forces = [f for f in state["forces"] if f["kind"] == "line"]
+    turn = next(i for i in range(1, len(forces)) if forces[i]["which"] <= forces[i - 1]["which"])
+    return {(v, f["which"]): f for v, part in enumerate((forces[:turn], forces[turn:])) for f in part}
+
+
+def check_line(told, line, pull, edge):
+    vessel, _, off, direction, distance = line
+    points = told["points"]
+    assert near(points[0], pull["point"], 0.01), f"{line}: begins at {points[0]}, fairlead {pull['point']}"
+    anchor = (*start_of(vessel, off + distance, direction), -DEPTH)
+    if vessel == 0:
+        assert near(points[-1], anchor, 0.01), f"{line}: ends at {points[-1]}, anchor {anchor}"
+    else:
+        assert abs(points[-1][0] - (edge[1] if direction == 0 else edge[0])[0]) < 0.01, (line, points[-1], edge)
+    first = [b - a for a, b in zip(points[0], points[1])]
+    dot = sum(a * b for a, b in zip(first, pull["force"])) / math.hypot(*first) / math.hypot(*pull["force"])
+    assert dot > 0.995, f"{line}: leads off by {math.degrees(math.acos(dot))} degrees from its pull"
+    assert all(a[2] >= b[2] - 1e-6 for a, b in zip(points, points[1:])), f"{line}: goes up: {points}"
+
+
+def check_catenary(told, pull):
+    """Tension falls by the weight times the depth along a catenary, up to what it stretches (Faltinsen 1990): its slope
+    half way down is that of this tension."""
+    points, level = told["points"], math.hypot(*pull["force"][:2])
+    for a, b in zip(points[2:8], points[3:9]):
+        deep = points[0][2] - (a[2] + b[2]) / 2
+        tension = math.hypot(*pull["force"]) - WEIGHT * deep
+        slope = (a[2] - b[2]) / math.dist(a[:2], b[:2])
+        expected = math.sqrt(max(0, (tension / level) ** 2 - 1))
+        assert abs(slope - expected) < 0.03, (slope, expected)
+
+
+def check_start(browser):
+    state = go(browser, 1)
+    assert state["drawn"] == [17 * 6, 2] and [t["number"] for t in state["lines"]] == [1, 2, 3, 4, 1, 2], state
+    assert state["gone"] == 0 and state["legend"] == ["mooring line", "thruster"], state["legend"]
+    pulls = pulls_of(state)
+    for told, line in zip(state["lines"], LINES):
+        assert told["held"], line
+        check_line(told, line, pulls[line[:2]], state["edge"])
+    for k in (0, 1):
+        check_catenary(state["lines"][k], pulls[(0, k + 1)])
+    assert len(state["lines"][3]["points"]) == 2, "a spring is straight"
+    for told, force in zip(state["thrusters"], [f for f in state["forces"] if f["kind"] == "thruster"]):
+        size = math.hypot(*force["force"])
+        assert size > 100 and near(told["at"], force["point"], 0.01), (told, force)
+        assert near(told["axis"], [f / size for f in force["force"]], 1e-3), (told, force)
+    # 45 kPa on the disc.
+    assert abs(state["thrusters"][0]["disc"] - math.sqrt(4 * 4e5 / math.pi / 45e3)) < 1e-6
+    assert state["calls"] <= 20, state["calls"]
+    return state["calls"]
+
+
+def check_pixels(browser):
+    """A line is seen, forces or not."""
+    browser.choose("camera", "top")
+    browser.click_on("forces")
+    state = go(browser, 1)
+    place = state["lines"][1]["points"][6]
+    assert browser.run(f"{GREEN}({place[0]}, {place[1]}, {place[2]})") > 3, "no line at its place"
+    assert browser.run(f"{GREEN}({place[0] + 12}, {place[1] + 12}, {place[2]})") == 0, "green beside the line"
+    browser.click_on("forces")
+
+
+def check_between(browser):
+    """Between two frames a line keeps to its vessel, whose pose lies between theirs."""
+    for time in (1.2, 1.3):
+        state = go(browser, time)
+        local = browser.run("""(() => { const { lines } = fram.scene.station, l = lines[0], k = 7 * l.hull.index;
+            const p = fram.poses.pose.subarray(k, k + 7), q = l.points[0].clone();
+            q.set(q.x - p[0], q.y - p[1], q.z - p[2]);
+            return [...q.applyQuaternion(fram.scene.camera.quaternion.clone().set(p[3], p[4], p[5], p[6]).invert())];
+        })()""")
+        if time == 1.2:
+            first = local
+        assert near(local, first, 0.01), (local, first)
+        assert near(state["lines"][0]["points"][-1], (*start_of(0, 153, 45), -DEPTH), 0.01)
+
+
+def check_end(browser):
+    """One line is let go at 3 s and lies on the bottom; a thruster failed at 2 s and stays where it was."""
+    before = go(browser, 1)["thrusters"][1]
+    state = go(browser, 6)
+    assert [t["held"] for t in state["lines"]] == [True, True, False, True, True, True], state["lines"]
+    assert all(abs(p[2] + DEPTH) < 1e-6 for p in state["lines"][2]["points"]), state["lines"][2]
+    assert near(state["lines"][2]["points"][-1][:2], start_of(0, 140, 290), 0.01)
+    assert [t["works"] for t in state["thrusters"]] == [True, False] and state["gone"] == 2
+    assert near(state["thrusters"][1]["at"], before["at"], 3), (state["thrusters"][1], before)
+    assert state["legend"] == ["mooring line", "thruster", "parted or failed"], state["legend"]
+    pulls = pulls_of(state)
+    for told, line in zip(state["lines"], LINES):
+        if told["held"]:
+            check_line(told, line, pulls[line[:2]], state["edge"])
+    # Back again nothing is gone.
+    assert go(browser, 1)["gone"] == 0
+
+
+def main():
+    if not chromium.path():
+        skip("Chromium is not installed")
+    if not PAGE.exists():
+        skip("the viewer's page is not built (make viewer)")
+    with tempfile.TemporaryDirectory() as folder, chromium.Browser() as browser:
+        scene, run = pathlib.Path(folder) / "moored.yaml", pathlib.Path(folder) / "moored"
+        scene.write_text(SCENE)
+        subprocess.run([FRAM, "run", scene, "-o", run, "--quiet"], check=True)
+        subprocess.run([FRAM, "view", run, "--page", PAGE, "--quiet"], check=True)
+        browser.open(run / "playback.html")
+        browser.choose("colour", "plain")
+        calls = check_start(browser)
+        for check in (check_pixels, check_between, check_end):
+            check(browser)
+        assert not browser.complaints, browser.complaints
+    print(f"six lines and two thrusters stand where the run has them, in {calls} draw calls")
+
+
+main()
