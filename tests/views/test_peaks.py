@@ -201,6 +201,25 @@ def check_few_rows(browser, folder):
                        "return y >= 39.9 && y <= 132; })")
 
 
+def check_narrow(browser, run):
+    """In a window of 420 pixels the whole caption is there, and no text of the timeline lies on another."""
+    browser.call("Emulation.setDeviceMetricsOverride", width=420, height=720, deviceScaleFactor=1, mobile=False)
+    browser.open(run / "playback.html")
+    browser.run("fram.draw()")
+    width, written, numbers = browser.run(
+        "[document.getElementById('timeline').clientWidth, fram.timeline.written, fram.timeline.numbers]")
+    assert width < 420 and len(numbers) > 1, (width, numbers)
+    words = " ".join(text for text, *_ in written)
+    assert "averaged over" in words and "click one" in words and "8 s" in words, words
+    assert len({top for text, _, top, *_ in written}) > 2, f"the caption takes no second line: {written}"
+    for text, left, _, right, _ in written:
+        assert left >= 0 and right <= width, f"{text!r} is cut off: {left} to {right} of {width}"
+    for i, (text, left, top, right, bottom) in enumerate([*written, *numbers]):
+        for other, l, t, r, b in written[:i]:
+            assert right <= l or left >= r or bottom <= t or top >= b, f"{text!r} lies on {other!r}"
+    browser.call("Emulation.clearDeviceMetricsOverride")
+
+
 def check_no_ice(browser, folder):
     run, rows = make_run(folder, "water", OPEN_WATER)
     assert all(r["ice_force_x[N]"] == 0 for r in rows)
@@ -240,6 +259,7 @@ def main():
         pressure = check_pressure(browser, run)
         check_two(browser, folder, pressure)
         check_few_rows(browser, folder)
+        check_narrow(browser, run)
         check_no_ice(browser, folder)
         check_earlier_layout(run)
         assert not browser.complaints, browser.complaints

@@ -5,6 +5,7 @@ import { MECHANISM_COLOURS } from './loads.js';
 import { forceText } from './legend.js';
 
 const FONT = 'system-ui, "DejaVu Sans", sans-serif', INK = '#15222e', LINE = 13;
+const NUMBER = 16; // from a peak's point to above its number [px]
 const GRASP = 6; // a click so near to a peak's time is meant for it [px]
 
 export class Timeline {
@@ -67,7 +68,8 @@ export class Timeline {
             }
             return { low, high };
         });
-        this.top = vessel.load.reduce((a, b) => Math.max(a, b), this.up.reduce((a, b) => Math.max(a, b), 1e-6));
+        const most = (list) => list.reduce((a, b) => Math.max(a, b), 1e-6);
+        this.top = Math.max(most(vessel.load), most(this.up), most(vessel.peaks.map((p) => p.load)));
         this.bottom = this.down.reduce((a, b) => Math.min(a, b), 0);
     }
 
@@ -84,6 +86,23 @@ export class Timeline {
         return best;
     }
 
+    /** Text from the top left corner in as many lines as it takes, the end of the time in the corner right of the
+     *  first; returns the height of the last line's foot. */
+    drawCaption(g, w, text) {
+        const end = `${(this.begin + this.span).toFixed(0)} s`, wide = g.measureText(end).width;
+        const lines = wrapped(g, text, (line) => w - 8 - (line === 0 ? wide + 10 : 0));
+        g.fillStyle = INK;
+        lines.forEach((line, i) => this.write(g, line, 4, 11 + LINE * i));
+        this.write(g, end, w - wide - 4, 11);
+        return 11 + LINE * (lines.length - 1);
+    }
+
+    /** Keeps where it wrote: [text, left, top, right, bottom]. */
+    write(g, text, x, y) {
+        g.fillText(text, x, y);
+        this.written.push([text, x, y - 9, x + g.measureText(text).width, y + 3]);
+    }
+
     /** The curve is drawn once for a size; each frame adds the cursor. */
     drawCurve(w, h, ratio) {
         const back = document.createElement('canvas');
@@ -91,6 +110,7 @@ export class Timeline {
         const g = back.getContext('2d');
         g.scale(ratio, ratio);
         g.font = `11px ${FONT}`;
+        this.written = [];
         const head = this.loads ? this.drawHeads(g, w) : 18;
         if (this.loads) this.drawBands(g, h, head);
         else this.drawPlain(g, w, h);
@@ -101,46 +121,38 @@ export class Timeline {
     }
 
     drawPlain(g, w, h) {
+        const most = `largest of them ${forceText(this.most)}`;
+        const head = this.drawCaption(g, w,
+            `ice load on the vessel, averaged, at the frames; ${most}${this.eventText()}`) + 7;
         g.fillStyle = '#c9d6e2';
         g.beginPath();
         g.moveTo(0, h);
-        this.frames.forEach((f, i) => g.lineTo(this.x(f.time), h - 2 - this.load[i] / this.most * (h - 20)));
+        this.frames.forEach((f, i) => g.lineTo(this.x(f.time), h - 2 - this.load[i] / this.most * (h - 2 - head)));
         g.lineTo(w, h);
         g.fill();
-        g.fillStyle = INK;
-        const most = `largest of them ${forceText(this.most)}`;
-        g.fillText(`ice load on the vessel, averaged, at the frames; ${most}${this.eventText()}`, 4, 11);
-        this.drawEnd(g, w);
     }
 
     eventText() { return this.events.length ? `; orange: ${this.events.length} floes that broke` : ''; }
-
-    drawEnd(g, w) {
-        const end = `${(this.begin + this.span).toFixed(0)} s`;
-        g.clearRect(w - g.measureText(end).width - 10, 0, 200, LINE + 1);
-        g.fillText(end, w - g.measureText(end).width - 4, 11);
-    }
 
     /** Title and the mechanisms' colours, in as many lines as the width asks for; returns their height. */
     drawHeads(g, w) {
         const { vessel, loads } = this, of = vessel.name ? ` on ${vessel.name}` : ' on the vessel';
         const most = vessel.load.reduce((a, b) => Math.max(a, b), 0) / 1000;
-        g.fillStyle = INK;
         const what = most > 0 ? `largest ${forceText(most)}` : 'none in this run';
-        g.fillText(`ice load${of}, averaged over ${Number(vessel.window.toPrecision(3))} s: ${what}${
-            vessel.peaks.length ? '; numbers: peaks, click one' : ''}${this.eventText()}`, 4, 11);
-        this.drawEnd(g, w);
-        let x = 4, y = 11 + LINE;
+        const foot = this.drawCaption(g, w, `ice load${of}, averaged over ${
+            Number(vessel.window.toPrecision(3))} s: ${what}${
+            vessel.peaks.length ? '; numbers: peaks, click one' : ''}${this.eventText()}`);
+        let x = 4, y = foot + LINE;
         for (const m of this.kinds) {
             const wide = 14 + g.measureText(loads.names[m]).width + 12;
             if (x + wide > w - 4 && x > 4) { x = 4; y += LINE; }
             g.fillStyle = MECHANISM_COLOURS[m];
             g.fillRect(x, y - 9, 10, 10);
             g.fillStyle = INK;
-            g.fillText(loads.names[m], x + 14, y);
+            this.write(g, loads.names[m], x + 14, y);
             x += wide;
         }
-        return (this.kinds.length ? y : 11) + 16;
+        return (this.kinds.length ? y : foot) + 3 + NUMBER;
     }
 
     /** Height of a load on the canvas. */
@@ -165,6 +177,7 @@ export class Timeline {
     drawPeaks(g, w, h, head) {
         g.font = `bold 11px ${FONT}`;
         g.textAlign = 'center';
+        this.numbers = [];
         for (const p of this.vessel.peaks) {
             const x = this.x(p.time), y = this.y(p.load, h, head);
             g.fillStyle = '#b03020';
@@ -173,8 +186,10 @@ export class Timeline {
             g.fill();
             g.strokeStyle = '#ffffff';
             g.lineWidth = 3;
-            g.strokeText(p.rank, Math.min(w - 8, Math.max(8, x)), y - 5);
-            g.fillText(p.rank, Math.min(w - 8, Math.max(8, x)), y - 5);
+            const middle = Math.min(w - 8, Math.max(8, x)), half = g.measureText(p.rank).width / 2;
+            g.strokeText(p.rank, middle, y - 5);
+            g.fillText(p.rank, middle, y - 5);
+            this.numbers.push([p.rank, middle - half, y - 5 - 9, middle + half, y - 5]);
         }
         g.textAlign = 'left';
     }
@@ -192,4 +207,15 @@ export class Timeline {
         g.fillStyle = '#b03020';
         g.fillRect((this.x(time) - 1) * ratio, 0, 2 * ratio, h * ratio);
     }
+}
+
+/** Words in lines no wider than room(number of the line) [px]. */
+function wrapped(g, text, room) {
+    const lines = [''];
+    for (const word of text.split(' ')) {
+        const last = lines.length - 1, longer = lines[last] ? `${lines[last]} ${word}` : word;
+        if (lines[last] && g.measureText(longer).width > room(last)) lines.push(word);
+        else lines[last] = longer;
+    }
+    return lines;
 }
