@@ -49,6 +49,9 @@ pictures: viewer build | $(STAMPS)/views ## screenshots of the playback page and
 scenes: build ## run the ready scenes of vessels on station for ten minutes each, results under out/
 	@tools/scenes.sh
 
+readme-picture: viewer build | $(STAMPS)/views ## the moving picture of the README, docs/pictures/demo.webp (a minute)
+	@$(PYTHON) tools/readme_picture.py
+
 test-views: viewer build | $(STAMPS)/views ## the playback page in headless Chromium
 	@cd build/release && $(CTEST) -L '^views$$'
 
