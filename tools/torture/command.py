@@ -1,5 +1,6 @@
 """Calls of the command under a watchdog, and what every call must keep: it ends, by itself, and says why it failed."""
 
+import contextlib
 import json
 import os
 import resource
@@ -78,12 +79,18 @@ class Fram:
             process = self.start(words, environment, stdout=out, stderr=err, cwd=folder)
             expired = threading.Event()
 
+            def send(number):
+                # Popen's own looks whether the process has ended, and so takes its status away from the wait below.
+                if process.returncode is None:
+                    with contextlib.suppress(ProcessLookupError):
+                        os.kill(process.pid, number)
+
             def kill():
                 expired.set()
-                process.kill()
+                send(signal.SIGKILL)
 
             timers = [threading.Timer(WALL_LIMIT_S, kill)]
-            timers += [threading.Timer(after, process.send_signal, (number,)) for after, number in signals]
+            timers += [threading.Timer(after, send, (number,)) for after, number in signals]
             for timer in timers:
                 timer.start()
             _, status, usage = os.wait4(process.pid, 0)
