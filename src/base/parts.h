@@ -4,6 +4,7 @@
 #define BASE_PARTS_H
 
 #include "base/simd.h"
+#include "base/vec.h"
 
 typedef v8_part real;
 typedef v8_part_mask mask;
@@ -21,6 +22,32 @@ V8_INLINE real load(const double *p)
 }
 
 V8_INLINE void store(double *p, real x) { memcpy(p, &x, sizeof x); }
+
+/* 0, 1, 2 ... */
+#if V8_PART_LANES == 8
+#define PART_NUMBERS ((v8_part){0, 1, 2, 3, 4, 5, 6, 7})
+#elif V8_PART_LANES == 4
+#define PART_NUMBERS ((v8_part){0, 1, 2, 3})
+#else
+#define PART_NUMBERS ((v8_part){0, 1})
+#endif
+
+/* Points from ring[first] on, of `count` of which memory up to `readable` may be read; what stands beyond `count` has
+   no meaning. */
+V8_INLINE void load_points(const vec2 *ring, int32_t count, int32_t readable, int32_t first, real *x, real *y)
+{
+    if (first + V8_PART_LANES <= readable) {
+        v8_part_load_pairs(&ring[first].x, x, y);
+        return;
+    }
+    double room[2 * V8_PART_LANES];
+    for (int32_t i = 0; i < V8_PART_LANES; i++) {
+        vec2 v = ring[first + i < count ? first + i : 0];
+        room[2 * i] = v.x;
+        room[2 * i + 1] = v.y;
+    }
+    v8_part_load_pairs(room, x, y);
+}
 
 V8_INLINE real choose(mask m, real a, real b) { return v8_part_select(m, a, b); }
 V8_INLINE real3 choose3(mask m, real3 a, real3 b)

@@ -1,39 +1,15 @@
 #include "dynamics/prism_pair_kernel.h"
 
-#include "base/simd.h"
+#include "base/parts.h"
 
 /* Vertices and sides are taken one register at a time (V8_PART_LANES of them), whatever its width: what is asked of
    each is the same, and least and largest do not depend on the grouping. */
 enum { LANES = V8_PART_LANES, EIGHT = 8 };
 
-#if V8_PART_LANES == 8
-#define LANE_NUMBERS ((v8_part){0, 1, 2, 3, 4, 5, 6, 7})
-#elif V8_PART_LANES == 4
-#define LANE_NUMBERS ((v8_part){0, 1, 2, 3})
-#else
-#define LANE_NUMBERS ((v8_part){0, 1})
-#endif
-
-/* Points from ring[first] on; what stands beyond `count` has no meaning. */
-V8_INLINE void load_points(const prism *p, const vec2 *ring, int32_t first, v8_part *x, v8_part *y)
-{
-    if (first + LANES <= p->readable) {
-        v8_part_load_pairs(&ring[first].x, x, y);
-        return;
-    }
-    double room[2 * LANES];
-    for (int32_t i = 0; i < LANES; i++) {
-        vec2 v = ring[first + i < p->count ? first + i : 0];
-        room[2 * i] = v.x;
-        room[2 * i + 1] = v.y;
-    }
-    v8_part_load_pairs(room, x, y);
-}
-
 /* Which lanes from `first` on are vertices. */
 V8_INLINE v8_part_mask real_lanes(const prism *p, int32_t first)
 {
-    return (v8_part_mask)(LANE_NUMBERS < v8_part_set(p->count - first));
+    return (v8_part_mask)(PART_NUMBERS < v8_part_set(p->count - first));
 }
 
 /* ---- extents ---- */
@@ -44,7 +20,7 @@ V8_INLINE double plan_least(const prism *p, double nx, double ny)
     v8_part least = v8_part_set(HUGE_VAL);
     for (int32_t first = 0; first < p->count; first += LANES) {
         v8_part x, y;
-        load_points(p, p->vertex, first, &x, &y);
+        load_points(p->vertex, p->count, p->readable, first, &x, &y);
         least = v8_part_min(v8_part_select(real_lanes(p, first), nx * x + ny * y, least), least);
     }
     return v8_part_least(least);
@@ -88,8 +64,8 @@ V8_INLINE best_of_sides search_all_sides(const prism *p, const prism *other, con
     best_of_sides best = {HUGE_VAL, 0};
     for (int32_t first = 0; first < p->count; first += LANES) {
         v8_part x, y, nx, ny, low = v8_part_set(HUGE_VAL);
-        load_points(p, p->vertex, first, &x, &y);
-        load_points(p, p->side, first, &nx, &ny);
+        load_points(p->vertex, p->count, p->readable, first, &x, &y);
+        load_points(p->side, p->count, p->readable, first, &nx, &ny);
         v8_part mx = f->r[0][0] * nx + f->r[1][0] * ny, my = f->r[0][1] * nx + f->r[1][1] * ny;
         v8_part mz = f->r[0][2] * nx + f->r[1][2] * ny;
         for (int32_t i = 0; i < other->count; i += EIGHT)
@@ -109,7 +85,7 @@ V8_INLINE int32_t most_opposed_side(const prism *p, double dx, double dy)
     best_of_sides best = {HUGE_VAL, 0};
     for (int32_t first = 0; first < p->count; first += LANES) {
         v8_part nx, ny;
-        load_points(p, p->side, first, &nx, &ny);
+        load_points(p->side, p->count, p->readable, first, &nx, &ny);
         take_least(v8_part_select(real_lanes(p, first), nx * dx + ny * dy, v8_part_set(HUGE_VAL)), first, &best);
     }
     return best.side;

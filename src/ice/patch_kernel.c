@@ -6,31 +6,7 @@
 
 enum { LANES = V8_PART_LANES, KEPT_PIECES = 16 };
 
-#if V8_PART_LANES == 8
-#define LANE_NUMBERS ((real){0, 1, 2, 3, 4, 5, 6, 7})
-#elif V8_PART_LANES == 4
-#define LANE_NUMBERS ((real){0, 1, 2, 3})
-#else
-#define LANE_NUMBERS ((real){0, 1})
-#endif
-
 /* ---- sides ---- */
-
-/* Points from ring[first] on; what stands beyond `count` has no meaning. */
-V8_INLINE void load_points(const piece_sides *p, const vec2 *ring, int32_t first, real *x, real *y)
-{
-    if (first + LANES <= p->readable) {
-        v8_part_load_pairs(&ring[first].x, x, y);
-        return;
-    }
-    double room[2 * LANES];
-    for (int32_t i = 0; i < LANES; i++) {
-        vec2 v = ring[first + i < p->count ? first + i : 0];
-        room[2 * i] = v.x;
-        room[2 * i + 1] = v.y;
-    }
-    v8_part_load_pairs(room, x, y);
-}
 
 void KERNEL(patch_codes)(const piece_sides *piece, double margin, const vec3 *point, int32_t count, uint32_t *code)
 {
@@ -40,10 +16,10 @@ void KERNEL(patch_codes)(const piece_sides *piece, double margin, const vec3 *po
     const real outside = v8_part_set(margin), inside = v8_part_set(-margin);
     for (int32_t first = 0; first < piece->count; first += LANES) {
         real x, y, nx, ny;
-        load_points(piece, piece->vertex, first, &x, &y);
-        load_points(piece, piece->normal, first, &nx, &ny);
+        load_points(piece->vertex, piece->count, piece->readable, first, &x, &y);
+        load_points(piece->normal, piece->count, piece->readable, first, &nx, &ny);
         const real offset = nx * x + ny * y;
-        const unsigned real_sides = v8_part_bits((mask)(LANE_NUMBERS < v8_part_set(piece->count - first)));
+        const unsigned real_sides = v8_part_bits((mask)(PART_NUMBERS < v8_part_set(piece->count - first)));
         for (int32_t i = 0; i < count; i++) {
             real d = (nx * point[i].x + ny * point[i].y) - offset;
             unsigned out = v8_part_bits((mask)(d > outside)), in = v8_part_bits((mask)(d < inside));

@@ -94,19 +94,38 @@ fram_status replay_plan_make(const replay *r, const replay_moment *m, plan_colou
     return good ? FRAM_OK : error_memory(error);
 }
 
-/* Horizontal distance of a line's anchor at the start, by its number among all lines of all vessels, from 1 [m]. */
-static double anchor_distance(const scenario *s, int32_t number)
+/* Horizontal distance of the anchor at the start of a vessel's line, by its number among those of the vessel, from 1
+   [m]; 0: it has not so many. */
+static double anchor_distance(const scenario *s, int32_t vessel, int32_t number)
 {
+    const scenario_mooring *m = &scenario_vessel_entry(s, vessel).keys->mooring;
     int64_t before = 0;
-    for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
-        const scenario_mooring *m = &scenario_vessel_entry(s, v).keys->mooring;
-        for (int32_t i = 0; i < m->lines.count; i++) {
-            before += m->lines.data[i].count;
-            if (number <= before)
-                return m->lines.data[i].distance;
-        }
+    for (int32_t i = 0; i < m->lines.count; i++) {
+        before += m->lines.data[i].count;
+        if (number <= before)
+            return m->lines.data[i].distance;
     }
     return 0;
+}
+
+/* Of the nearest vessel that has such a line: a record numbers the lines of each vessel by themselves. */
+static double anchor_distance_at(const replay *r, const scenario *s, const replay_force *f)
+{
+    double nearest = HUGE_VAL, distance = 0;
+    for (int32_t i = 0, vessel = 0; i < r->bodies.count && vessel < scenario_vessel_count(s); i++) {
+        if (r->bodies.data[i].material != MATERIAL_HULL)
+            continue;
+        double there = anchor_distance(s, vessel++, f->which);
+        for (int32_t k = 0; k < r->frame.poses.count && there > 0; k++) {
+            const replay_pose *p = &r->frame.poses.data[k];
+            double off = vec3_length(vec3_sub(p->position, f->point));
+            if (p->body == i && off < nearest) {
+                nearest = off;
+                distance = there;
+            }
+        }
+    }
+    return distance;
 }
 
 fram_status replay_plan_lines(const replay *r, const scenario *s, replay_plan *out, fram_error *error)
@@ -117,7 +136,7 @@ fram_status replay_plan_lines(const replay *r, const scenario *s, replay_plan *o
         double level = sqrt(f->force.x * f->force.x + f->force.y * f->force.y);
         if (f->kind != RECORD_FORCE_LINE || !(level > 0))
             continue;
-        double way = anchor_distance(s, f->which) / level;
+        double way = anchor_distance_at(r, s, f) / level;
         vec2 upper = vec2_make(f->point.x, f->point.y);
         plan_line line = {upper, vec2_add(upper, vec2_make(f->force.x * way, f->force.y * way))};
         if (!array_push(r->ctx, &out->lines, line))

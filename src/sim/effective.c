@@ -15,19 +15,7 @@ typedef struct teller {
     const void *to;
 } teller;
 
-enum { SENTENCE_SIZE = 380, PART_SIZE = 96 };
-static void say(const teller *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void say(const teller *t, const char *format, ...)
-{
-    char text[SENTENCE_SIZE];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    t->tell(t->to, text);
-}
-
+enum { PART_SIZE = 96 };
 static const char *file_name(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -93,11 +81,14 @@ static void tell_history(const teller *t, const flow *f, const velocity_series *
     snprintf(range, sizeof range, "%.4g to %.4g m/s", least, most);
     if (most - least < 1e-3 * most)
         snprintf(range, sizeof range, "%.4g m/s", most);
-    say(t, "%s: by %s, %s in %d row%s to %.6g s: %s at the start, %.4g m/s towards %.4g deg %s at the end of the run",
+    sanity_say(
+        t->tell, t->to,
+        "%s: by %s, %s in %d row%s to %.6g s: %s at the start, %.4g m/s towards %.4g deg %s at the end of the run",
         f->name, file_name(f->file), range, (int)h->count, h->count == 1 ? "" : "s", rows_end, first, speed_of(ends),
         direction_of(ends), arrow_of(direction_of(ends)));
     if (rows_end < end)
-        say(t, "%s: its last row, of %.6g s, holds until the end of the run at %.6g s", f->name, rows_end, end);
+        sanity_say(t->tell, t->to, "%s: its last row, of %.6g s, holds until the end of the run at %.6g s", f->name,
+                   rows_end, end);
 }
 
 static void tell_flow(const teller *t, const flow *f)
@@ -105,7 +96,7 @@ static void tell_flow(const teller *t, const flow *f)
     char words[PART_SIZE];
     if (!f->file[0]) {
         motion_words(t, f->speed, f->towards, words);
-        say(t, "%s: %s", f->name, f->speed > 0 ? words : "none");
+        sanity_say(t->tell, t->to, "%s: %s", f->name, f->speed > 0 ? words : "none");
         return;
     }
     velocity_series h = {0};
@@ -113,7 +104,8 @@ static void tell_flow(const teller *t, const flow *f)
     if (velocity_file_read(t->ctx, t->s, f->file, &h, &error) == FRAM_OK && h.count > 0)
         tell_history(t, f, &h);
     else
-        say(t, "%s: by %s, which cannot be read here: %s", f->name, file_name(f->file), error.message);
+        sanity_say(t->tell, t->to, "%s: by %s, which cannot be read here: %s", f->name, file_name(f->file),
+                   error.message);
     velocity_series_free(t->ctx, &h);
 }
 
@@ -122,8 +114,8 @@ static void tell_angle_between(const teller *t, const flow *drift, const flow *w
 {
     double apart = fmod(fabs(drift->towards - wind->towards), 360);
     if (!drift->file[0] && !wind->file[0] && drift->speed > 0 && wind->speed > 0)
-        say(t, "%s %s and wind %s are %.4g deg apart", drift->name, arrow_of(drift->towards), arrow_of(wind->towards),
-            fmin(apart, 360 - apart));
+        sanity_say(t->tell, t->to, "%s %s and wind %s are %.4g deg apart", drift->name, arrow_of(drift->towards),
+                   arrow_of(wind->towards), fmin(apart, 360 - apart));
 }
 
 static void tell_flows(const teller *t)
@@ -138,7 +130,7 @@ static void tell_flows(const teller *t)
     if (own)
         tell_flow(t, &drift);
     else if (fed)
-        say(t, "drift of the ice: with the current");
+        sanity_say(t->tell, t->to, "drift of the ice: with the current");
     tell_flow(t, &current);
     tell_flow(t, &wind);
     tell_angle_between(t, own ? &drift : &current, &wind);
@@ -183,7 +175,9 @@ static void tell_populations(const teller *t)
         const scenario_population *p = &i->populations.data[k];
         char sizes[PART_SIZE];
         size_words(p, sizes);
-        say(t, "ice: population %d of %d: %.3g %% of the ice area, %s; %.4g m thick, flexural strength %.4g kPa, %s",
+        sanity_say(
+            t->tell, t->to,
+            "ice: population %d of %d: %.3g %% of the ice area, %s; %.4g m thick, flexural strength %.4g kPa, %s",
             (int)k + 1, (int)i->populations.count, 100 * p->share / shares, sizes,
             automatic_or(p->thickness, i->thickness), automatic_or(p->flexural_strength, i->flexural_strength) * 1e-3,
             i->breakable && p->breakable ? "breaks" : "does not break");
@@ -193,10 +187,10 @@ static void tell_populations(const teller *t)
 /* ---- vessels ---- */
 
 /* "12 mooring lines on a turret in 100 m of water, 2 thrusters, dynamic positioning". */
-static void keeping_words(const scenario_vessel *v, char out[SENTENCE_SIZE / 2])
+static void keeping_words(const scenario_vessel *v, char out[SANITY_SENTENCE / 2])
 {
     int64_t lines = 0;
-    size_t room = SENTENCE_SIZE / 2, n = 0;
+    size_t room = SANITY_SENTENCE / 2, n = 0;
     for (int32_t i = 0; i < v->mooring.lines.count; i++)
         lines += v->mooring.lines.data[i].count;
     out[0] = '\0';
@@ -218,20 +212,21 @@ static void keeping_words(const scenario_vessel *v, char out[SENTENCE_SIZE / 2])
 static void tell_vessel(const teller *t, const vessel_entry *e)
 {
     const scenario_vessel *v = e->keys;
-    char kept[SENTENCE_SIZE / 2], name[64];
+    char kept[SANITY_SENTENCE / 2], name[64];
     snprintf(name, sizeof name, "vessel%s%.*s", v->name[0] ? " " : "", (int)VESSEL_NAME_MOST, v->name);
     if (v->path.count > 0) {
-        say(t, "%s: goes along a path of %d points, the last at %.6g s", name, (int)v->path.count,
-            v->path.data[v->path.count - 1].time);
+        sanity_say(t->tell, t->to, "%s: goes along a path of %d points, the last at %.6g s", name, (int)v->path.count,
+                   v->path.data[v->path.count - 1].time);
     } else if (v->mode == VESSEL_FREE) {
         keeping_words(v, kept);
-        say(t, "%s: free, bow towards %.4g deg %s, %.4g m/s at the start%s", name, v->heading_deg,
-            arrow_of(v->heading_deg), v->speed, kept);
+        sanity_say(t->tell, t->to, "%s: free, bow towards %.4g deg %s, %.4g m/s at the start%s", name, v->heading_deg,
+                   arrow_of(v->heading_deg), v->speed, kept);
     } else {
         double course = automatic_or(v->course_deg, v->heading_deg);
-        say(t, "%s: moves %.4g m in a step, %.4g m in the run, towards %.4g deg %s, bow towards %.4g deg %s", name,
-            v->speed * t->s->run.time_step, v->speed * t->s->run.duration, course, arrow_of(course), v->heading_deg,
-            arrow_of(v->heading_deg));
+        sanity_say(t->tell, t->to,
+                   "%s: moves %.4g m in a step, %.4g m in the run, towards %.4g deg %s, bow towards %.4g deg %s", name,
+                   v->speed * t->s->run.time_step, v->speed * t->s->run.duration, course, arrow_of(course),
+                   v->heading_deg, arrow_of(v->heading_deg));
     }
 }
 

@@ -14,17 +14,15 @@ typedef struct teller {
     const scenario *s;
 } teller;
 
-enum { SENTENCE_SIZE = 360, PATTERN_SIZE = 96 };
-static void say(const teller *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-static void say(const teller *t, const char *format, ...)
+enum { PATTERN_SIZE = 96 };
+void sanity_say(sanity_teller tell, const void *to, const char *format, ...)
 {
-    char text[SENTENCE_SIZE];
+    char text[SANITY_SENTENCE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    t->tell(t->to, text);
+    tell(to, text);
 }
 
 /* ---- one number at a time ---- */
@@ -84,7 +82,8 @@ static void tell_radians(const teller *t, const char *path, double value)
     double part = fabs(value) / (PI / 12), off = fabs(part - floor(part + 0.5)) * (PI / 12);
     bool whole = fabs(value - floor(value + 0.5)) < 1e-9;
     if (fabs(value) < FULL_TURN && part > 0.9 && off < TYPED_RADIANS && !whole)
-        say(t, "%s: %.6g degrees is %.4g of pi: give degrees, not radians", path, value, value / PI);
+        sanity_say(t->tell, t->to, "%s: %.6g degrees is %.4g of pi: give degrees, not radians", path, value,
+                   value / PI);
 }
 
 /* A path without its indices, and with vessels in a list read as the one vessel. */
@@ -121,8 +120,8 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
         double least = u->least * fmin(1, factor), most = u->most * fmax(1, factor);
         if (strcmp(u->key, pattern) != 0 || (value >= least && value <= most) || (u->least > 0 && value == 0))
             continue;
-        say(t, "%s: %.6g%s%s is outside of %.3g to %.3g, %s: %s", path, value, *key->unit ? " " : "", key->unit, least,
-            most, u->why, u->remedy);
+        sanity_say(t->tell, t->to, "%s: %.6g%s%s is outside of %.3g to %.3g, %s: %s", path, value,
+                   *key->unit ? " " : "", key->unit, least, most, u->why, u->remedy);
     }
     return FRAM_OK;
 }
@@ -148,7 +147,9 @@ static void tell_heave(const teller *t)
         return;
     double h = thinnest(i), frequency = sqrt(e->water_density * e->gravity / (i->density * h));
     if (frequency * t->s->run.time_step > 1)
-        say(t, "run.time_step: %.4g s is too long for ice of %.3g m, which heaves at %.3g rad/s; take less than %.2g s",
+        sanity_say(
+            t->tell, t->to,
+            "run.time_step: %.4g s is too long for ice of %.3g m, which heaves at %.3g rad/s; take less than %.2g s",
             t->s->run.time_step, h, frequency, 0.5 / frequency);
 }
 
@@ -159,12 +160,15 @@ static void tell_ice_shape(const teller *t)
 {
     const scenario_ice *i = &t->s->ice;
     if (i->source == ICE_VORONOI && i->populations.count == 0 && sqrt(i->mean_floe_area) < 2 * i->thickness)
-        say(t, "ice.mean_floe_area: floes of %.3g m2 are hardly wider than the ice is thick, %.3g m: is it the area?",
+        sanity_say(
+            t->tell, t->to,
+            "ice.mean_floe_area: floes of %.3g m2 are hardly wider than the ice is thick, %.3g m: is it the area?",
             i->mean_floe_area, i->thickness);
     if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
         if (i->concentration < LEAST_CONCENTRATION)
-            say(t, "ice.concentration: %.3g is next to open water: it is a part of 1, not of 10 or 100",
-                i->concentration);
+            sanity_say(t->tell, t->to,
+                       "ice.concentration: %.3g is next to open water: it is a part of 1, not of 10 or 100",
+                       i->concentration);
 }
 
 /* Directions are where wind and ice go to; most drift goes within a right angle of the wind. */
@@ -180,7 +184,8 @@ static void tell_directions(const teller *t)
         return;
     double apart = fabs(fmod(fabs(drift - e->wind_direction_deg), 360));
     if (fmin(apart, 360 - apart) > 90)
-        say(t,
+        sanity_say(
+            t->tell, t->to,
             "environment.wind_direction_deg: the wind blows towards %g degrees and %s goes towards %g, against it; "
             "directions are where it goes to, not where it comes from",
             e->wind_direction_deg, own ? "the ice (domain.drift_direction_deg)" : "the current", drift);
@@ -196,15 +201,18 @@ static void tell_times(const teller *t)
     const scenario_run *r = &t->s->run;
     const scenario_output *o = &t->s->output;
     if (r->transient > LONGEST_TRANSIENT * r->duration)
-        say(t, "run.transient: statistics leave out %g s of %g s, so that next to nothing is left for them",
-            r->transient, r->duration);
+        sanity_say(t->tell, t->to,
+                   "run.transient: statistics leave out %g s of %g s, so that next to nothing is left for them",
+                   r->transient, r->duration);
     if (o->frame_interval > r->duration)
-        say(t, "output.frame_interval: %g s is longer than the run, so that pages show nothing that moves",
-            o->frame_interval);
+        sanity_say(t->tell, t->to,
+                   "output.frame_interval: %g s is longer than the run, so that pages show nothing that moves",
+                   o->frame_interval);
     if (o->averaging_window > LONGEST_WINDOW * r->duration)
-        say(t, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
+        sanity_say(t->tell, t->to, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
     if (o->picture_interval > 0 && r->duration / o->picture_interval > MOST_PICTURES)
-        say(t, "output.picture_interval: %.0f pictures will be written", r->duration / o->picture_interval);
+        sanity_say(t->tell, t->to, "output.picture_interval: %.0f pictures will be written",
+                   r->duration / o->picture_interval);
 }
 
 /* ---- vessels, from their keys ---- */
@@ -217,14 +225,17 @@ static void tell_hull(const teller *t, const vessel_entry *e)
     if (!is_own_hull(e->keys))
         return;
     if (h->beam > h->length)
-        say(t, "%s.hull.beam: the hull is wider, %.4g m, than it is long, %.4g m", e->path, h->beam, h->length);
+        sanity_say(t->tell, t->to, "%s.hull.beam: the hull is wider, %.4g m, than it is long, %.4g m", e->path, h->beam,
+                   h->length);
     if (h->draught > h->beam)
-        say(t, "%s.hull.draught: %.4g m is more than the beam, %.4g m", e->path, h->draught, h->beam);
+        sanity_say(t->tell, t->to, "%s.hull.draught: %.4g m is more than the beam, %.4g m", e->path, h->draught,
+                   h->beam);
     if (t->s->ice.source != ICE_NONE && t->s->ice.thickness > h->draught)
-        say(t, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m", t->s->ice.thickness, h->draught);
+        sanity_say(t->tell, t->to, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m",
+                   t->s->ice.thickness, h->draught);
     if (e->keys->mooring.lines.count > 0 && e->keys->mooring.depth < h->draught)
-        say(t, "%s.mooring.depth: the hull of draught %.4g m lies on the bottom at %.4g m", e->path, h->draught,
-            e->keys->mooring.depth);
+        sanity_say(t->tell, t->to, "%s.mooring.depth: the hull of draught %.4g m lies on the bottom at %.4g m", e->path,
+                   h->draught, e->keys->mooring.depth);
 }
 
 /* Nearest edge of a fed domain within the reach of the vessel, turned any way: the band moves floes through the hull.
@@ -239,13 +250,15 @@ static void tell_domain(const teller *t, const vessel_entry *e)
     double band = d->boundary == DOMAIN_FEEDING ? automatic_or(d->band, 0) : 0;
     double edge = fmin(fmin(v->x - d->x_min, d->x_max - v->x), fmin(v->y - d->y_min, d->y_max - v->y));
     if (d->boundary == DOMAIN_FEEDING && edge - band < reach)
-        say(t,
+        sanity_say(
+            t->tell, t->to,
             "domain: its edge%s is %.4g m from %s, which reaches %.4g m as it turns; enlarge the domain by %.3g m or "
             "more on that side",
             band > 0 ? " with the band" : "", edge - band, e->path, reach, reach - edge + band);
     double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
     if (d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
-        say(t, "domain: %.4g m is less than two beams of %s, so that its edges carry the load", width, e->path);
+        sanity_say(t->tell, t->to, "domain: %.4g m is less than two beams of %s, so that its edges carry the load",
+                   width, e->path);
 }
 
 static bool vessel_moves(const scenario_vessel *v)
@@ -265,8 +278,8 @@ static void tell_rest(const teller *t)
     for (int32_t i = 0; i < count; i++)
         moves = moves || vessel_moves(scenario_vessel_entry(t->s, i).keys);
     if (!moves && count > 0 && t->s->ice.source != ICE_NONE && t->s->ice.floes.count == 0)
-        say(t, "%s.speed: neither vessel nor ice, water or wind moves: no load will come",
-            scenario_vessel_entry(t->s, 0).path);
+        sanity_say(t->tell, t->to, "%s.speed: neither vessel nor ice, water or wind moves: no load will come",
+                   scenario_vessel_entry(t->s, 0).path);
 }
 
 static void tell_station(const teller *t, const vessel_entry *e)
@@ -276,25 +289,29 @@ static void tell_station(const teller *t, const vessel_entry *e)
         const scenario_mooring_line *l = &v->mooring.lines.data[i];
         double most = automatic_or(l->breaking_load, HUGE_VAL);
         if (is_automatic(l->length) && l->kind == LINE_CATENARY && l->pretension > 0.5 * most)
-            say(t, "%s.mooring.lines[%d].pretension: %.4g N is %s the breaking load of %.4g N", e->path, (int)i,
-                l->pretension, l->pretension >= most ? "over" : "more than half of", most);
+            sanity_say(t->tell, t->to, "%s.mooring.lines[%d].pretension: %.4g N is %s the breaking load of %.4g N",
+                       e->path, (int)i, l->pretension, l->pretension >= most ? "over" : "more than half of", most);
         double down = v->mooring.depth + v->mooring.z, straight = sqrt(l->distance * l->distance + down * down);
         if (!is_automatic(l->length) && l->length > l->distance + v->mooring.depth)
-            say(t,
+            sanity_say(
+                t->tell, t->to,
                 "%s.mooring.lines[%d].length: %.5g m reaches down and along the bottom to its anchor: it never pulls",
                 e->path, (int)i, l->length);
         else if (!is_automatic(l->length) && l->kind == LINE_CATENARY &&
                  (straight / l->length - 1) * l->stiffness > 0.5 * most)
-            say(t,
+            sanity_say(
+                t->tell, t->to,
                 "%s.mooring.lines[%d].length: %.5g m over a straight way of %.5g m strains it to about %.3g N from the "
                 "start, %s its breaking load",
                 e->path, (int)i, l->length, straight, (straight / l->length - 1) * l->stiffness,
                 (straight / l->length - 1) * l->stiffness >= most ? "over" : "more than half of");
     }
     if (v->positioning.active && v->thrusters.count == 0)
-        say(t, "%s.positioning: there are no thrusters to position with", e->path);
+        sanity_say(t->tell, t->to, "%s.positioning: there are no thrusters to position with", e->path);
     if (v->positioning.active && v->positioning.control == CONTROL_HEADING && v->mooring.lines.count == 0)
-        say(t, "%s.positioning.control: heading alone leaves the position to a mooring, and there is none", e->path);
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.control: heading alone leaves the position to a mooring, and there is none",
+                   e->path);
 }
 
 void sanity_tell(const scenario *s, sanity_teller tell, const void *to)

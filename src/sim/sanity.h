@@ -7,6 +7,9 @@
 
 /* Takes one sentence that names the key, what was found and what is usual. */
 typedef void (*sanity_teller)(const void *to, const char *text);
+/* One sentence, as printf makes it; what goes beyond SANITY_SENTENCE bytes is cut off. */
+enum { SANITY_SENTENCE = 380 };
+void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __attribute__((format(printf, 3, 4)));
 /* From the keys alone, nothing is built. */
 void sanity_tell(const scenario *s, sanity_teller tell, const void *to);
 

@@ -173,6 +173,44 @@ START_TEST(a_moment_lies_between_its_frames)
 }
 END_TEST
 
+/* Two moored vessels, whose lines each begin with number 1: a plan draws them as far as their own anchors. */
+START_TEST(lines_reach_their_own_anchors)
+{
+    static const char moored[] =
+        "run: {duration: 0.2, time_step: 0.02}\nice: {source: none}\n"
+        "domain: {x_min: -400, x_max: 400, y_min: -400, y_max: 400, boundary: open}\n"
+        "vessels:\n"
+        "  - {name: near, mode: free, y: -150, hull: {length: 48, beam: 12, draught: 4, freeboard: 2},\n"
+        "     mooring: {depth: 60, lines: [{count: 3, spacing_deg: 120, distance: 300, pretension: 2.0e5}]}}\n"
+        "  - {name: far, mode: free, y: 150, hull: {length: 48, beam: 12, draught: 4, freeboard: 2},\n"
+        "     mooring: {depth: 60, lines: [{count: 3, spacing_deg: 120, distance: 700, pretension: 2.0e5}]}}\n"
+        "output: {frame_interval: 0.1}\n";
+    context ctx;
+    char folder[PATH];
+    replay r;
+    replay_moment m = {0};
+    replay_plan plan = {0};
+    scenario s = {0};
+    fram_error error = {0};
+    context_init(&ctx);
+    run_scene(&ctx, moored, folder);
+    assert_ok(scenario_parse(&ctx, "scene.yaml", moored, strlen(moored), NULL, &s, &error), error);
+    assert_ok(replay_open(&ctx, folder, &r, &error), error);
+    assert_ok(replay_moment_at(&r, 0.1, &m, &error), error);
+    assert_ok(replay_plan_lines(&r, &s, &plan, &error), error);
+    ck_assert_int_eq(plan.lines.count, 6);
+    for (int32_t i = 0; i < 6; i++) {
+        const plan_line *line = &plan.lines.data[i];
+        assert_absolute(vec2_length(vec2_sub(line->anchor, line->upper)), line->upper.y < 0 ? 300 : 700, 1e-3);
+    }
+    replay_plan_free(&ctx, &plan);
+    replay_moment_free(&ctx, &m);
+    replay_close(&r);
+    scenario_free(&ctx, &s);
+    remove_folder(folder);
+}
+END_TEST
+
 /* A floe that spins at 1 rad/s through 270 degrees, where the quaternion that is stored changes its sign: between
    frames it turns the short way, at an even rate. */
 START_TEST(a_turn_between_frames_is_the_short_one)
@@ -311,4 +349,5 @@ START_TEST(records_that_lie_are_refused)
 END_TEST
 
 TEST_MAIN("replay", a_run_is_read_back, level_ice_is_known, a_moment_lies_between_its_frames,
-          a_turn_between_frames_is_the_short_one, frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
+          a_turn_between_frames_is_the_short_one, lines_reach_their_own_anchors,
+          frames_come_rarely_enough_for_the_limit, records_that_lie_are_refused)
