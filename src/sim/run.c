@@ -9,6 +9,7 @@
 #include "sim/recording.h"
 #include "sim/run_folder.h"
 #include "sim/step.h"
+#include "sim/wall_check.h"
 
 /* Everything a running simulation holds. */
 typedef struct run {
@@ -91,6 +92,7 @@ static fram_status drive(run *r, run_result *result, fram_error *error)
     r->pace = (pace){0};
     fram_error local = {0};
     fram_status status = step_loop(r, &local);
+    wall_remind(r->ctx, &r->model, &r->world);
     /* A flag that is set from here on comes too late to be the reason for the end. */
     bool interrupted = status == FRAM_OK && r->world.clock.step[0] < r->record.stop_step;
     if (status == FRAM_OK) {

@@ -8,17 +8,23 @@
 /* ---- before a run ---- */
 
 /* Reach of the hull from its centre of mass along global X and Y, at a heading. */
-static box2 reach_of(const mesh *surface, double heading)
+static box2 reach_of(const vessel_model *hull, double heading)
 {
     double c = real_cos(heading), d = real_sin(heading);
     box2 out = {{0, 0}, {0, 0}};
-    for (int32_t i = 0; i < surface->vertex.count; i++) {
-        vec3 v = surface->vertex.data[i];
+    for (int32_t i = 0; i < hull->plan.count; i++) {
+        vec2 v = hull->plan.data[i];
         double x = c * v.x - d * v.y, y = d * v.x + c * v.y;
         out.lo.x = fmin(out.lo.x, x), out.hi.x = fmax(out.hi.x, x);
         out.lo.y = fmin(out.lo.y, y), out.hi.y = fmax(out.hi.y, y);
     }
     return out;
+}
+
+static bool is_clear(box2 domain, vec2 centre, box2 reach)
+{
+    return centre.x + reach.lo.x >= domain.lo.x && centre.x + reach.hi.x <= domain.hi.x &&
+           centre.y + reach.lo.y >= domain.lo.y && centre.y + reach.hi.y <= domain.hi.y;
 }
 
 /* Way that is left along one axis before the hull is at a wall. */
@@ -48,7 +54,12 @@ bool vessel_keeps_course(const scenario_vessel *v)
            (!is_automatic(p->bollard_pull) && p->waypoints.count == 0 && p->pattern.kind == PATTERN_NONE);
 }
 
-static void warn_of_course(context *ctx, const scenario *s, const vessel_entry *e, vec3 at, const mesh *surface)
+/* For a vessel whose motion is given: what to do about it. */
+#define DRIVEN_ON                                                                                                  \
+    "; no wall stops a vessel whose motion is given, and loads are then those of the wall: shorten run.duration, " \
+    "enlarge the domain, or give another course"
+
+static void warn_of_course(context *ctx, const scenario *s, const vessel_entry *e, vec3 at, const vessel_model *hull)
 {
     const scenario_vessel *v = e->keys;
     const scenario_domain *d = &s->domain;
@@ -57,7 +68,7 @@ static void warn_of_course(context *ctx, const scenario *s, const vessel_entry *
     if (!vessel_keeps_course(v) || !(speed > 0))
         return;
     double course = radians(is_free ? v->heading_deg : automatic_or(v->course_deg, v->heading_deg));
-    box2 reach = reach_of(surface, radians(v->heading_deg));
+    box2 reach = reach_of(hull, radians(v->heading_deg));
     double way = fmin(way_left(at.x + reach.lo.x, at.x + reach.hi.x, d->x_min, d->x_max, real_cos(course)),
                       way_left(at.y + reach.lo.y, at.y + reach.hi.y, d->y_min, d->y_max, real_sin(course)));
     /* A speed that grows evenly over the ramp. */
@@ -71,8 +82,67 @@ static void warn_of_course(context *ctx, const scenario *s, const vessel_entry *
                   "shorten run.duration, enlarge the domain, or give propulsion.waypoints",
                   vessel_title_of(e).text, way, time, speed);
     else
-        log_write(ctx, LOG_WARNING, "the hull reaches a wall of the domain at t = %.4g s, after %.4g m", time, way);
+        log_write(ctx, LOG_WARNING,
+                  "%s.speed: the hull reaches a wall of the domain at t = %.4g s, after %.4g m" DRIVEN_ON, e->path,
+                  time, way);
 }
+
+/* ---- a path ---- */
+
+/* Steps of a leg at which it is asked where the hull is; halvings of the one in which it reaches a wall. */
+enum { LEG_STEPS = 64, LEG_HALVINGS = 40 };
+
+static bool is_clear_on(const scenario *s, const vessel_model *hull, const scenario_path_point *from,
+                        const scenario_path_point *to, double share)
+{
+    const scenario_domain *d = &s->domain;
+    double heading = radians(from->heading_deg + share * (to->heading_deg - from->heading_deg));
+    double c = real_cos(heading), r = real_sin(heading);
+    vec2 centre = {from->x + share * (to->x - from->x) + c * hull->centre.x - r * hull->centre.y,
+                   from->y + share * (to->y - from->y) + r * hull->centre.x + c * hull->centre.y};
+    return is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, centre, reach_of(hull, heading));
+}
+
+/* Share of a leg at which the hull reaches a wall; over 1: it does not. */
+static double leg_reaches(const scenario *s, const vessel_model *hull, const scenario_path_point *from,
+                          const scenario_path_point *to)
+{
+    for (int k = 0; k <= LEG_STEPS; k++) {
+        double high = (double)k / LEG_STEPS, low = (double)(k > 0 ? k - 1 : 0) / LEG_STEPS;
+        if (is_clear_on(s, hull, from, to, high))
+            continue;
+        for (int i = 0; i < LEG_HALVINGS; i++) {
+            double middle = 0.5 * (low + high);
+            if (is_clear_on(s, hull, from, to, middle))
+                low = middle;
+            else
+                high = middle;
+        }
+        return high;
+    }
+    return 2;
+}
+
+/* Motion that is given by points: the first moment at which the hull reaches a wall on its way between them. */
+static void warn_of_path(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
+{
+    const scenario_vessel *v = e->keys;
+    for (int32_t i = 0; v->mode != VESSEL_FREE && i < v->path.count; i++) {
+        const scenario_path_point *to = &v->path.data[i], *from = i > 0 ? to - 1 : to;
+        double share = leg_reaches(s, hull, from, to), time = from->time + share * (to->time - from->time);
+        if (from->time >= s->run.duration)
+            return;
+        if (share > 1 || time >= s->run.duration)
+            continue;
+        log_write(
+            ctx, LOG_WARNING,
+            "%s.path[%d]: the hull reaches a wall of the domain at t = %.4g s, on its way to (%.5g, %.5g) m" DRIVEN_ON,
+            e->path, (int)i, time, to->x, to->y);
+        return;
+    }
+}
+
+/* ---- points to steer for ---- */
 
 /* The first of some points where the hull, with its bow that way, would stand in a wall. */
 typedef struct place_list {
@@ -81,39 +151,32 @@ typedef struct place_list {
 } place_list;
 
 static bool told_of_place(context *ctx, const scenario *s, const vessel_entry *e, const place_list *list, int32_t i,
-                          vec3 place, const box2 *reach)
+                          vec2 place, box2 reach)
 {
     const scenario_domain *d = &s->domain;
-    bool clear = place.x + reach->lo.x >= d->x_min && place.x + reach->hi.x <= d->x_max &&
-                 place.y + reach->lo.y >= d->y_min && place.y + reach->hi.y <= d->y_max;
+    bool clear = is_clear((box2){{d->x_min, d->y_min}, {d->x_max, d->y_max}}, place, reach);
     if (!clear)
         log_write(ctx, LOG_WARNING, "%s.%s[%d]: at (%.5g, %.5g) m the hull stands in a wall of the domain", e->path,
                   list->key, (int)i, place.x, place.y);
     return !clear;
 }
 
-static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *e, const mesh *surface)
+static void warn_of_places(context *ctx, const scenario *s, const vessel_entry *e, const vessel_model *hull)
 {
     const scenario_vessel *v = e->keys;
-    place_list path = {"path", v->path.count}, stations = {"positioning.waypoints", v->positioning.waypoints.count};
+    place_list stations = {"positioning.waypoints", v->positioning.waypoints.count};
     place_list course = {"propulsion.waypoints", v->propulsion.waypoints.count};
-    for (int32_t i = 0; v->mode != VESSEL_FREE && i < path.count; i++) {
-        box2 reach = reach_of(surface, radians(v->path.data[i].heading_deg));
-        bool late = i > 0 && v->path.data[i - 1].time >= s->run.duration;
-        if (!late && told_of_place(ctx, s, e, &path, i, vec3_make(v->path.data[i].x, v->path.data[i].y, 0), &reach))
-            return;
-    }
     for (int32_t i = 0; v->positioning.active && i < stations.count; i++) {
         const scenario_waypoint *p = &v->positioning.waypoints.data[i];
-        box2 reach = reach_of(surface, radians(p->heading_deg));
-        if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, vec3_make(p->x, p->y, 0), &reach))
+        box2 reach = reach_of(hull, radians(p->heading_deg));
+        if (p->time < s->run.duration && told_of_place(ctx, s, e, &stations, i, (vec2){p->x, p->y}, reach))
             return;
     }
     /* A ship that steers for a point turns before it stands there: the point itself lies in the basin. */
     const box2 none = {{0, 0}, {0, 0}};
     for (int32_t i = 0; !is_automatic(v->propulsion.bollard_pull) && i < course.count; i++) {
         const scenario_course_point *p = &v->propulsion.waypoints.data[i];
-        if (told_of_place(ctx, s, e, &course, i, vec3_make(p->x, p->y, 0), &none))
+        if (told_of_place(ctx, s, e, &course, i, (vec2){p->x, p->y}, none))
             return;
     }
 }
@@ -123,9 +186,10 @@ void wall_warnings(context *ctx, const scenario *s, const vessel_entry *entry, c
 {
     if (s->domain.boundary != DOMAIN_WALLS)
         return;
-    const mesh *surface = &w->shapes.solids->data[m->vessels.data[row].solid].surface;
-    warn_of_course(ctx, s, entry, w->bodies.position[w->vessels.body[row]], surface);
-    warn_of_places(ctx, s, entry, surface);
+    const vessel_model *hull = &m->vessels.data[row];
+    warn_of_course(ctx, s, entry, w->bodies.position[w->vessels.body[row]], hull);
+    warn_of_path(ctx, s, entry, hull);
+    warn_of_places(ctx, s, entry, hull);
 }
 
 /* ---- while it runs ---- */
@@ -151,16 +215,42 @@ static double force_of_walls(const model *m, const world *w, int32_t body)
     return impulse / m->time_step;
 }
 
+/* A hull whose motion is given stands in a wall without a force that could tell: where it is tells. */
+static bool is_driven_into_wall(const model *m, const world *w, int32_t vessel)
+{
+    int32_t body = w->vessels.body[vessel];
+    if (w->vessels.mode[vessel] == VESSEL_FREE)
+        return false;
+    vec2 centre = {w->bodies.position[body].x, w->bodies.position[body].y};
+    double heading = quat_roll_pitch_yaw(w->bodies.orientation[body]).z;
+    return !is_clear(m->domain, centre, reach_of(&m->vessels.data[vessel], heading));
+}
+
 bool wall_watch(context *ctx, const model *m, world *w)
 {
     for (int32_t v = 0; v < w->vessels.count && m->boundary == DOMAIN_WALLS; v++) {
-        double force = is_told(&w->events, v) ? 0 : force_of_walls(m, w, w->vessels.body[v]);
+        if (is_told(&w->events, v))
+            continue;
+        bool is_free = w->vessels.mode[v] == VESSEL_FREE;
+        double force = is_free ? force_of_walls(m, w, w->vessels.body[v]) : 0;
         int32_t told = w->events.count;
-        if (!(force > 0))
+        if (!(force > 0) && !is_driven_into_wall(m, w, v))
             continue;
         if (!event_add(ctx, &w->events, EVENT_WALL, w->clock.time[0], v, -1, force))
             return false;
         events_tell(ctx, m, w, told);
     }
     return true;
+}
+
+void wall_remind(context *ctx, const model *m, const world *w)
+{
+    for (int32_t i = 0; i < w->events.count; i++) {
+        if (w->events.kind[i] != EVENT_WALL)
+            continue;
+        const char *name = m->vessels.data[w->events.vessel[i]].name;
+        log_write(ctx, LOG_WARNING,
+                  "%s%s reached a wall of the domain at t = %.4g s: loads and motion after that are not those of ice",
+                  name[0] ? "vessel " : "the vessel", name, w->events.time[i]);
+    }
 }

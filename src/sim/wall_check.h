@@ -6,14 +6,16 @@
 #include "model/scenario_vessel.h"
 #include "model/world.h"
 
-/* Warnings to the log: a vessel on a carriage that reaches a wall, one under its own power that can, and way points in
+/* Warnings to the log: a vessel of given motion that reaches a wall, one under its own power that can, and waypoints in
    a wall.  w holds the vessel. */
 void wall_warnings(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
                    int32_t row);
 
-/* Which vessels have met a wall for the first time, by the solved contacts: events, told to the log.  false: no
-   memory. */
+/* Which vessels have met a wall for the first time: free ones by the solved contacts, those of given motion by where
+   they are.  Events, told to the log.  false: no memory. */
 bool wall_watch(context *ctx, const model *m, world *w);
+/* At the end of a run, to the log: which vessels met a wall, and when. */
+void wall_remind(context *ctx, const model *m, const world *w);
 
 /* The fastest that a vessel goes by itself or on its carriage [m/s]: an upper bound for one under its own power. */
 double vessel_fastest(const scenario_vessel *v);

@@ -86,7 +86,10 @@ void event_text(const event_table *events, int32_t row, const char *other, char 
         snprintf(out, size, "vessel %s is clear again: it came as near as %.4g m", other ? other : name, value);
         return;
     case EVENT_WALL:
-        snprintf(out, size, "the hull runs into a wall of the domain, with %.4g kN", value * 1e-3);
+        if (value > 0)
+            snprintf(out, size, "the hull runs into a wall of the domain, with %.4g kN", value * 1e-3);
+        else
+            snprintf(out, size, "the hull is driven into a wall of the domain by the motion that is given to it");
         return;
     case EVENT_COUNT:
         break;

@@ -16,7 +16,7 @@ typedef enum station_event {
     EVENT_RAM,           /* it has backed and comes again; value: how far it backed [m] */
     EVENT_APPROACH,      /* another vessel is going to pass closer than the limit; value: predicted distance [m] */
     EVENT_APPROACH_OVER, /* value: least distance that there was [m] */
-    EVENT_WALL,          /* the hull met a wall of the domain, for the first time; value: normal force [N] */
+    EVENT_WALL, /* the hull met a wall, for the first time; value: normal force [N], 0 where its motion is given */
     EVENT_COUNT
 } station_event;
 

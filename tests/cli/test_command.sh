@@ -237,7 +237,7 @@ same "$(cat how) $(value 'j["state_hash"]')" "good $hash" "a run whose log is cl
 
 # What check warns of, a run warns of too.
 expect 0 "$FRAM" run scene.yaml -o warned --set run.duration=60 --until 0.1
-says "warning: the hull reaches a wall of the domain" err
+says "warning: vessel.speed: the hull reaches a wall of the domain" err
 
 # A run that goes wrong says so, and leaves its state.
 expect 1 "$FRAM" run scene.yaml -o broken --set run.speed_limit=0.05 --set vessel.mode=free --set vessel.speed=0 \

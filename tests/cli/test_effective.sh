@@ -124,7 +124,36 @@ expect 0 "$FRAM" run wall.yaml -o clear --quiet --set run.duration=10
 expect 0 "$FRAM" report clear --quiet
 grep -q 'a wall of the domain at' clear/report.html && fail "a ship that is clear is said to be at a wall"
 
-# Way points in a wall.
+# Motion that is given goes on through a wall: said before with the time, by whatever way it is given, when it happens,
+# at the end and first in the report.  The bow of 80 m reaches x = 100 after 60 m less the rake of the stem.
+driven() { # MODE EDITS WORDS LEAST MOST
+    local mode=$1 edits=$2 words=$3 least=$4 most=$5
+    sed "/propulsion:/d; s/mode: free/mode: $mode/; $edits" wall.yaml >driven.yaml
+    expect 0 "$FRAM" check driven.yaml
+    told "$words"
+    cp err said
+    expect 0 "$FRAM" run driven.yaml -o driven --force
+    says "the hull is driven into a wall of the domain by the motion that is given to it" err
+    grep -v '%' err | tail -n 3 | grep -q 'the vessel reached a wall of the domain at t = ' ||
+        fail "the end of a $mode run does not name the wall"
+    expect 0 "$FRAM" report driven --quiet
+    says "The vessel ran into a wall of the domain at" driven/report.html
+    python3 - "$least" "$most" <<'PY' || fail "a $mode vessel meets the wall at another time than was said"
+import json, re, sys
+at = [e["time_s"] for e in json.load(open("driven/run.json"))["events"] if e["kind"] == "wall"]
+said = float(re.search(r"reaches a wall of the domain at t = ([\d.]+) s", open("said").read()).group(1))
+assert len(at) == 1 and float(sys.argv[1]) < at[0] <= float(sys.argv[2]), at
+assert abs(at[0] - said) < 0.05, (at, said)
+PY
+}
+for mode in towed prescribed; do
+    driven $mode "" "vessel.speed: the hull reaches a wall of the domain at t = " 18 20.02
+    # 30 m in ten seconds, the other 30 at 9 m/s.
+    driven $mode 's/^  speed: 3/  path: [{time: 0}, {time: 10, x: 30}, {time: 20, x: 120}, {time: 30, x: 0}]/' \
+        "vessel.path[2]: the hull reaches a wall of the domain at t = " 12.5 13.36
+done
+
+# Waypoints in a wall.
 cp wall.yaml course.yaml
 sed -i 's/speed: 4}/speed: 4, waypoints: [{x: 50, y: 0}, {x: 50, y: 70}]}/' course.yaml
 expect 0 "$FRAM" check course.yaml --build
