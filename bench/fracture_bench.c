@@ -136,7 +136,7 @@ static double break_once(rig *r)
 {
     fram_error e = {0};
     fracture_state state = {&r->bodies,      &r->shapes, &r->floes, &r->contacts, &r->memory,
-                            &r->next_number, NULL,       NULL,      NULL};
+                            &r->next_number, NULL,       NULL,      NULL,         NULL};
     array_clear(&r->events);
     double begin = now();
     if (fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, &e) != FRAM_OK)

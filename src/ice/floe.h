@@ -8,17 +8,17 @@
 #include "bodies/shape.h"
 #include "ice/material.h"
 
-#define FLOE_FIELDS(X)                                                                                 \
-    X(body, int32_t, FIELD_I32, 1, "1", "body slot, -1: free row")                                     \
-    X(thickness, double, FIELD_F64, 1, "m", "thickness h")                                             \
-    X(area, double, FIELD_F64, 1, "m2", "area of the outline")                                         \
-    X(material, ice_material, FIELD_F64, 6, "SI", "density, E, nu, sigma_f, sigma_c, exponent")        \
-    X(breakable, uint8_t, FIELD_U8, 1, "1", "1: may break in bending and splitting")                   \
-    X(parent, int32_t, FIELD_I32, 1, "1", "number of the floe it broke from, -1: original")            \
-    X(number, int32_t, FIELD_I32, 1, "1", "running number, never used twice")                          \
-    X(tile, int32_t, FIELD_I32, 1, "1", "cell of the level sheet it is a part of, plus 1; 0: of none") \
-    X(retreat, vec3, FIELD_F64, 3, "m", "static: way of the hull in it since it last pressed on")      \
-    X(ice_origin, vec2, FIELD_F64, 2, "m", "where the ice at the body's origin stood at the start")    \
+#define FLOE_FIELDS(X)                                                                                          \
+    X(body, int32_t, FIELD_I32, 1, "1", "body slot, -1: free row")                                              \
+    X(thickness, double, FIELD_F64, 1, "m", "thickness h")                                                      \
+    X(area, double, FIELD_F64, 1, "m2", "area of the outline")                                                  \
+    X(material, ice_material, FIELD_F64, 6, "SI", "density, E, nu, sigma_f, sigma_c, exponent")                 \
+    X(breakable, uint8_t, FIELD_U8, 1, "1", "1: may break in bending and splitting")                            \
+    X(parent, int32_t, FIELD_I32, 1, "1", "number of the floe it broke from, -1: original")                     \
+    X(number, int32_t, FIELD_I32, 1, "1", "running number, never used twice")                                   \
+    X(tile, int32_t, FIELD_I32, 1, "1", "cell of the level sheet it is a part of, plus 1; 0: of none")          \
+    X(retreat, vec3, FIELD_F64, 3, "m", "way of the first hull in it since it last pressed on (ice/retreat.h)") \
+    X(ice_origin, vec2, FIELD_F64, 2, "m", "where the ice at the body's origin stood at the start")             \
     X(ice_yaw, double, FIELD_F64, 1, "rad", "how the body's frame is turned in the ice of the start")
 TABLE_DECLARE(floe, FLOE_FIELDS)
 

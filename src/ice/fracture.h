@@ -17,6 +17,7 @@
 
 #include "ice/crushing.h"
 #include "ice/edge_load.h"
+#include "ice/retreat.h"
 #include "ice/tiles.h"
 
 typedef enum fracture_kind {
@@ -97,6 +98,7 @@ typedef struct fracture_state {
     double *crushed;              /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
     edge_load_table *edge_loads;  /* what floes feel; may be NULL with EDGE_LOAD_STEP */
     edge_support_table *supports; /* what patches stand on; may be NULL without edges_give */
+    hull_retreat_table *retreats; /* of further hulls; may be NULL without crush_trims and crush_notches */
 } fracture_state;
 
 /* All fracture of one step.  Children keep the parent's orientation, material, thickness and motion of their material

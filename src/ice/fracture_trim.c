@@ -222,30 +222,36 @@ static bool may_trim(const fracture_job *j, const crushing_patch *p)
            !j->scratch->broken.data[p->floe_body];
 }
 
-/* The way that the hull has gone in the floe since it last pressed on; each floe's first patch in a step counts. */
-static trim_pair pair_of(const fracture_job *j, const crushing_patch *p, bool first)
+/* The way that the hull has gone in the floe since it last pressed on; the first patch of the two in a step counts.
+   false: no memory. */
+static bool find_pair(const fracture_job *j, const crushing_patch *p, bool first, trim_pair *pair)
 {
-    vec3 v = vec3_sub(body_point_velocity(j->state->bodies, p->surface_body, p->centre),
-                      body_point_velocity(j->state->bodies, p->floe_body, p->centre));
-    vec3 *retreat = &j->state->floes->retreat[p->floe];
+    const fracture_state *s = j->state;
+    vec3 v = vec3_sub(body_point_velocity(s->bodies, p->surface_body, p->centre),
+                      body_point_velocity(s->bodies, p->floe_body, p->centre));
+    vec3 way = retreat_find(s->retreats, s->bodies, s->floes, p->floe, p->surface_body);
     if (vec3_dot(v, p->normal) >= 0)
-        *retreat = (vec3){0, 0, 0};
+        way = (vec3){0, 0, 0};
     else if (first)
-        *retreat = vec3_mad(*retreat, v, j->settings->time_step);
-    bool left = -vec3_dot(*retreat, p->normal) > j->settings->edge_threshold;
-    return (trim_pair){p->floe, p->surface_body, floats(j, p), left, left ? vec3_neg(*retreat) : (vec3){0, 0, 0}};
+        way = vec3_mad(way, v, j->settings->time_step);
+    bool left = -vec3_dot(way, p->normal) > j->settings->edge_threshold;
+    *pair = (trim_pair){p->floe, p->surface_body, floats(j, p), left, left ? vec3_neg(way) : (vec3){0, 0, 0}};
+    return retreat_keep(j->ctx, s->retreats, s->bodies, s->floes, p->floe, p->surface_body, way);
 }
 
 fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *patches, bool *trimmed)
 {
-    fram_status status = FRAM_OK;
-    int32_t last = -1;
+    fram_status status = retreat_sweep(j->ctx, j->state->retreats, j->state->floes) ? FRAM_OK : error_memory(j->error);
+    int32_t last = -1, last_surface = -1;
     for (int32_t i = 0; i < patches->count && status == FRAM_OK; i++) {
         const crushing_patch *p = &patches->data[i];
         if (!may_trim(j, p))
             continue;
-        trim_pair pair = pair_of(j, p, p->floe != last);
+        trim_pair pair;
+        if (!find_pair(j, p, p->floe != last || p->surface_body != last_surface, &pair))
+            return error_memory(j->error);
         last = p->floe;
+        last_surface = p->surface_body;
         status = pair.floats && !pair.retreats ? FRAM_OK : trim_floe(j, &pair, trimmed);
         /* No sound cut: the ice stays as it is for this step. */
         if (status == FRAM_ERROR_INTERNAL || status == FRAM_ERROR_INPUT) {

@@ -59,6 +59,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(edge_load, edge_loads),
         STATE(held_drag, held_drag),
         STATE(edge_support, edge_supports),
+        STATE(hull_retreat, hull_retreats),
     };
     memcpy(out, list, sizeof list);
 }

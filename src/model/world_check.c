@@ -48,6 +48,8 @@ static const column_rule column_rules[] = {
     {"pattern", "state", PATTERN_OUTSIDE, PATTERN_HELD_BACK, NULL},
     {"pattern", "body", -1, 0, "body"},
     {"input", "kind", 0, INPUT_KIND_COUNT - 1, NULL},
+    {"hull_retreat", "floe", 0, 0, "floe"},
+    {"hull_retreat", "surface", 0, 0, "body"},
     {"clock", "step", 0, INT64_MAX, NULL},
     {"clock", "next_floe", 0, INT32_MAX, NULL},
 };

@@ -18,6 +18,7 @@ typedef struct fracture_rig {
     contact_memory_table memory;
     edge_load_table edge_loads;
     edge_support_table supports;
+    hull_retreat_table retreats;
     crushing_patch_array patches;
     fracture_event_array events;
     fracture_settings settings;
@@ -72,6 +73,7 @@ static inline void fracture_rig_free(fracture_rig *r)
     table_free(c, &r->floes, &floe_table_info);
     table_free(c, &r->memory, &contact_memory_table_info);
     table_free(c, &r->supports, &edge_support_table_info);
+    table_free(c, &r->retreats, &hull_retreat_table_info);
     table_free(c, &r->edge_loads, &edge_load_table_info);
     array_free(c, &r->contacts);
     array_free(c, &r->patches);
@@ -143,7 +145,7 @@ static inline bool fracture_rig_widen(fracture_rig *r, vec2 half)
 static inline fram_status fracture_rig_try(fracture_rig *r, fram_error *e)
 {
     fracture_state state = {&r->bodies,      &r->shapes,  &r->floes,      &r->contacts, &r->memory,
-                            &r->next_number, &r->crushed, &r->edge_loads, &r->supports};
+                            &r->next_number, &r->crushed, &r->edge_loads, &r->supports, &r->retreats};
     array_clear(&r->events);
     return fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, e);
 }

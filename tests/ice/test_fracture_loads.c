@@ -93,7 +93,7 @@ START_TEST(without_a_radial_crack_no_floe_splits)
     fracture_rig r;
     fracture_rig_make(&r);
     fracture_state state = {&r.bodies,      &r.shapes,  &r.floes, &r.contacts, &r.memory,
-                            &r.next_number, &r.crushed, NULL,     NULL};
+                            &r.next_number, &r.crushed, NULL,     NULL,        &r.retreats};
     fram_error error = {0};
     fracture_job j = {&r.ctx, r.scratch, &r.settings, r.plane, &state, &r.events, &error};
     for (int turn = 0; turn < 2; turn++) {

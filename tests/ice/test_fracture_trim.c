@@ -74,6 +74,81 @@ START_TEST(a_floe_under_a_hull_stays)
 }
 END_TEST
 
+/* ---- several hulls on one floe ---- */
+
+enum { HULLS = 3, ROWS = 2 };
+
+/* One step in which each hull moves at its speed along x and has two patches on each floe. */
+static void step_all(fracture_rig *r, const int32_t *hull, const int32_t *row, const double *speed)
+{
+    for (int f = 0; f < ROWS; f++)
+        for (int h = 0; h < HULLS; h++) {
+            r->bodies.velocity[hull[h]] = (vec3){speed[h], 0, 0};
+            for (int i = 0; i < 2; i++) {
+                ck_assert(fracture_rig_load(r, row[f], (vec2){-20, i ? 4 : -4}, 0, 0.5));
+                crushing_patch *p = &r->patches.data[r->patches.count - 1];
+                p->normal = (vec3){1, 0, 0};
+                p->surface_body = r->contacts.data[r->contacts.count - 1].b = hull[h];
+            }
+        }
+    ck_assert_int_eq(fracture_rig_break(r), 0);
+}
+
+static void start_all(fracture_rig *r, solid_array *solids, int32_t *hull, int32_t *row)
+{
+    row[0] = start(r, solids, MOTION_STATIC);
+    const vec2 corner[4] = {{-20, 100}, {20, 100}, {20, 140}, {-20, 140}};
+    row[1] = fracture_rig_floe(r, (polygon){corner, 4}, 1, MOTION_STATIC);
+    hull[0] = r->hull;
+    for (int32_t h = 1; h < HULLS; h++) {
+        hull[h] = body_create(&r->ctx, &r->bodies, MOTION_PRESCRIBED, MATERIAL_HULL);
+        r->bodies.shape[hull[h]] = r->bodies.shape[r->hull];
+        r->bodies.position[hull[h]] = r->bodies.position[r->hull];
+    }
+    for (int32_t h = 0; h < HULLS; h++)
+        r->bodies.owner[hull[h]] = h;
+}
+
+/* A hull that draws back has its own way in each floe, though others press on there or draw back at another speed;
+   where it stands in the list of vessels does not matter.  What is kept goes when it is zero, and with its floe. */
+START_TEST(each_hull_draws_back_by_itself)
+{
+    for (int first = 0; first < HULLS; first++) {
+        fracture_rig r;
+        solid_array solids = {0};
+        int32_t hull[HULLS], row[ROWS];
+        start_all(&r, &solids, hull, row);
+        double speed[HULLS];
+        for (int h = 0; h < HULLS; h++) /* one presses on, two draw back */
+            speed[(first + h) % HULLS] = h == 0 ? SPEED : -h * SPEED;
+        for (int i = 1; i <= 10; i++) {
+            step_all(&r, hull, row, speed);
+            for (int f = 0; f < ROWS; f++)
+                for (int h = 0; h < HULLS; h++) {
+                    vec3 way = {fmin(speed[h], 0) * i * r.settings.time_step, 0, 0};
+                    assert_vec3_close(retreat_find(&r.retreats, &r.bodies, &r.floes, row[f], hull[h]), way, 1e-15);
+                }
+        }
+        ck_assert_int_eq(r.retreats.count, ROWS * (first == 0 ? HULLS - 1 : HULLS - 2));
+        floe_remove(&r.bodies, &r.shapes, &r.floes, row[1]);
+        /* Another floe in the same row begins without. */
+        const vec2 corner[4] = {{-20, 100}, {20, 100}, {20, 140}, {-20, 140}};
+        ck_assert_int_eq(fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_STATIC), row[1]);
+        for (int h = 0; h < HULLS; h++)
+            assert_vec3_close(retreat_find(&r.retreats, &r.bodies, &r.floes, row[1], hull[h]), ((vec3){0, 0, 0}), 0);
+        ck_assert(retreat_sweep(&r.ctx, &r.retreats, &r.floes));
+        ck_assert_int_eq(r.retreats.count, first == 0 ? HULLS - 1 : HULLS - 2);
+        for (int h = 0; h < HULLS; h++)
+            speed[h] = SPEED;
+        step_all(&r, hull, row, speed);
+        ck_assert(retreat_sweep(&r.ctx, &r.retreats, &r.floes));
+        ck_assert_int_eq(r.retreats.count, 0);
+        fracture_rig_free(&r);
+        solid_array_free(&r.ctx, &solids);
+    }
+}
+END_TEST
+
 /* ---- rams ---- */
 
 /* A box 4 m wide beside a floe of 200 m by 200 m, both free, without friction and water. */
@@ -82,6 +157,7 @@ typedef struct ram {
     fracture_scratch *scratch;
     fracture_settings settings;
     edge_load_table edge_loads;
+    hull_retreat_table retreats;
     int32_t hull;
     double crushed;
 } ram;
@@ -107,6 +183,7 @@ static void ram_free(ram *t)
 {
     fracture_scratch_free(&t->r.ctx, t->scratch);
     table_free(&t->r.ctx, &t->edge_loads, &edge_load_table_info);
+    table_free(&t->r.ctx, &t->retreats, &hull_retreat_table_info);
     ice_rig_free(&t->r);
 }
 
@@ -140,7 +217,7 @@ static double ram_step(ram *t)
     for (int32_t i = 0; i < r->contacts.count; i++)
         force += r->contacts.data[i].impulse[0] / DT;
     fracture_state state = {&r->bodies,      &r->shapes,  &r->floes,      &r->contacts, &r->memory,
-                            &r->next_number, &t->crushed, &t->edge_loads, NULL};
+                            &r->next_number, &t->crushed, &t->edge_loads, NULL,         &t->retreats};
     assert_ok(fracture_run(&r->ctx, t->scratch, &t->settings, r->plane, &r->patches, &state, &events, &e), e);
     array_free(&r->ctx, &events);
     integrate_poses(&r->ctx, &r->bodies, DT);
@@ -212,4 +289,5 @@ START_TEST(rams_meet_the_notch)
 }
 END_TEST
 
-TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, a_floe_under_a_hull_stays, rams_meet_the_notch)
+TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays,
+          rams_meet_the_notch)

@@ -45,7 +45,7 @@ static breaking plate_breaks(double width, double dt)
                   e);
         memory_free(&r.ctx, loads);
         fracture_state state = {&r.bodies,      &r.shapes, &r.floes, &r.contacts, &r.memory,
-                                &r.next_number, NULL,      NULL,     NULL};
+                                &r.next_number, NULL,      NULL,     NULL,        NULL};
         assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
         integrate_poses(&r.ctx, &r.bodies, dt);
     }

@@ -32,7 +32,7 @@ START_TEST(every_table_of_the_state_is_listed_once)
         "joint",    "pair",         "broad",     "contact_memory", "load_window",  "recorded",   "line",
         "thruster", "waypoint",     "station",   "event",          "feeding",      "pattern",    "pattern_vertex",
         "input",    "hull_contact", "drift",     "drift_cell",     "drift_vertex", "propulsion", "course",
-        "approach", "edge_load",    "held_drag", "edge_support"};
+        "approach", "edge_load",    "held_drag", "edge_support",   "hull_retreat"};
     ck_assert_int_eq(sizeof names / sizeof *names, WORLD_TABLE_COUNT);
     world w;
     world_table tables[WORLD_TABLE_COUNT];
