@@ -73,8 +73,11 @@ int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, in
     X(a, int32_t, FIELD_I32, 1, "1", "lower body slot")                                             \
     X(b, int32_t, FIELD_I32, 1, "1", "higher body slot")                                            \
     X(axis, vec3, FIELD_F64, 3, "1", "separating axis remembered from the last test; zero without") \
-    X(clear, double, FIELD_F64, 1, "m", "the two cannot meet while their travels sum to less than this")
+    X(clear, double, FIELD_F64, 1, "m", "the two cannot meet while their travels sum to less; PAIR_HAS_PATCH")
 TABLE_DECLARE(pair, PAIR_FIELDS)
+/* pair_table.clear of two bodies whose contacts were those of a patch: they are listed for it without being tested,
+   until whoever looks for the patch finds none and writes 0. */
+#define PAIR_HAS_PATCH (-1.0)
 
 /* What the broad phase remembers of each body slot: the box it was last paired with. */
 #define BROAD_FIELDS(X)                                                                                          \

@@ -211,6 +211,8 @@ static void case_make(const narrow_work *w, int32_t row, const pair_policy *poli
     vec3 origin = w->bodies->position[slot_a];
     c->row = row;
     c->policy = policy;
+    if (policy->patch && !policy->sides)
+        return;
     c->a = party_of(w->bodies, w->shapes, slot_a, origin);
     c->b = party_of(w->bodies, w->shapes, slot_b, origin);
     c->axis = w->pairs->axis[row];
@@ -249,13 +251,22 @@ static bool meet_at_sides(const pair_case *c, const contact_array *contacts, int
     return true;
 }
 
+/* Whether the contacts are those of a patch, without a look at the pair: always, or because a patch was found there in
+   the last step, which tells sooner than any axis whether the two still touch. */
+static bool is_of_patch(const narrow_work *w, const pair_case *c)
+{
+    if (!c->policy->patch)
+        return false;
+    return !c->policy->sides || (w->pairs->clear[c->row] == PAIR_HAS_PATCH && !may_meet_at_sides(c));
+}
+
 /* The contacts of some pairs, and what is remembered of them. */
 static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow_room *room, contact_array *contacts,
                        index_array *patch_pairs)
 {
     for (int k = 0; k < count; k++) {
         pair_case *c = &cases[k];
-        if (c->policy->patch && !c->policy->sides) {
+        if (is_of_patch(w, c)) {
             if (!array_push(w->ctx, patch_pairs, c->row))
                 return false;
             continue;
@@ -265,14 +276,17 @@ static bool cases_test(const narrow_work *w, pair_case *cases, int count, narrow
         c->whether = c->policy->sides && !may_meet_at_sides(c);
         if (!(c->plain ? touch_prisms : touch_compounds)(w->ctx, room, w->bodies, c, contacts))
             return false;
-        if (c->policy->sides && c->touches && !meet_at_sides(c, contacts, first)) {
+        bool patch = c->policy->sides && c->touches && !meet_at_sides(c, contacts, first);
+        if (patch) {
             contacts->count = first;
             if (!array_push(w->ctx, patch_pairs, c->row))
                 return false;
         }
         double travel = w->boxes->travel[c->a.slot] + w->boxes->travel[c->b.slot];
         w->pairs->axis[c->row] = c->axis;
-        w->pairs->clear[c->row] = c->gap > c->near.slack ? travel + SURE * (c->gap - c->near.slack) : 0;
+        w->pairs->clear[c->row] = patch                    ? PAIR_HAS_PATCH
+                                  : c->gap > c->near.slack ? travel + SURE * (c->gap - c->near.slack)
+                                                           : 0;
     }
     return true;
 }

@@ -420,7 +420,8 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
     return FRAM_OK;
 }
 
-static fram_status crush_pair(const job *j, int32_t a, int32_t b, const pair_policies *policies)
+/* clear: of the pair; without a patch the narrow phase has to look at it again. */
+static fram_status crush_pair(const job *j, int32_t a, int32_t b, double *clear, const pair_policies *policies)
 {
     crushing_pair p;
     fram_status status = set_pair(j, a, b, policies, &p);
@@ -429,6 +430,8 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, const pair_pol
     const patch_component_array *found;
     if (!patch_components(j->ctx, j->scratch->patch, &p.surface, &p.prism, &found))
         return error_memory(j->error);
+    if (found->count == 0 && *clear == PAIR_HAS_PATCH)
+        *clear = 0;
     int32_t first = j->contacts->count;
     status = found->count > 0 ? push_patches(j, &p, found) : push_buried(j, &p);
     if (j->contacts->count > first)
@@ -438,15 +441,15 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, const pair_pol
 
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
-                              const edge_support_table *supports, const pair_table *pairs,
-                              const index_array *patch_pairs, const pair_policies *policies,
-                              crushing_patch_array *patches, contact_array *contacts, fram_error *error)
+                              const edge_support_table *supports, pair_table *pairs, const index_array *patch_pairs,
+                              const pair_policies *policies, crushing_patch_array *patches, contact_array *contacts,
+                              fram_error *error)
 {
     job j = {ctx, scratch, settings, bodies, shapes, floes, supports, patches, contacts, error};
     crushing_limit_sides(settings, bodies, shapes, floes, policies, contacts);
     for (int32_t i = 0; i < patch_pairs->count; i++) {
         int32_t row = patch_pairs->data[i];
-        fram_status status = crush_pair(&j, pairs->a[row], pairs->b[row], policies);
+        fram_status status = crush_pair(&j, pairs->a[row], pairs->b[row], &pairs->clear[row], policies);
         if (status != FRAM_OK)
             return status;
     }

@@ -64,9 +64,9 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s);
    a pair without ice; without memory the arrays may hold a part of the patches. */
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
-                              const edge_support_table *supports, const pair_table *pairs,
-                              const index_array *patch_pairs, const pair_policies *policies,
-                              crushing_patch_array *patches, contact_array *contacts, fram_error *error);
+                              const edge_support_table *supports, pair_table *pairs, const index_array *patch_pairs,
+                              const pair_policies *policies, crushing_patch_array *patches, contact_array *contacts,
+                              fram_error *error);
 
 /* The limits of contacts that the narrow phase made where the policy says `sides` (level floes side to side): per pair
    the pressure of the weaker floe on A_c, the width of the reference side's section through the other floe (within the

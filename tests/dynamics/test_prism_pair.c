@@ -226,5 +226,37 @@ START_TEST(a_jump_is_seen_whatever_the_velocity)
 }
 END_TEST
 
+/* Two tilted floes that touch are listed for their patch, and from then on without a look at them until somebody finds
+   no patch and says so; level ones keep the contacts of their sides whatever is remembered. */
+START_TEST(a_patch_is_expected_where_one_was)
+{
+    rig r = rig_make(0.02);
+    rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 1), 900, vec3_make(0, 0, 0));
+    rig_box(&r, MOTION_DYNAMIC, vec3_make(2, 2, 1), 900, vec3_make(1.95, 0, 0));
+    pair_policy *ice = &r.policies.of[MATERIAL_ICE][MATERIAL_ICE];
+    ice->patch = ice->sides = true;
+    r.bodies.orientation[0] = quat_from_roll_pitch_yaw(0, 0.5, 0);
+    rig_detect(&r);
+    ck_assert_int_eq(r.patch_pairs.count, 1);
+    ck_assert_int_eq(r.contacts.count, 0);
+    assert_bits(r.pairs.clear[0], PAIR_HAS_PATCH);
+    r.bodies.position[1].x = 2.5; /* apart: nobody looked */
+    rig_detect(&r);
+    ck_assert_int_eq(r.patch_pairs.count, 1);
+    r.pairs.clear[0] = 0;
+    rig_detect(&r);
+    ck_assert_int_eq(r.patch_pairs.count, 0);
+    ck_assert(r.pairs.clear[0] > 0 && vec3_length(r.pairs.axis[0]) > 0.99);
+    r.bodies.position[1].x = 1.95;
+    r.bodies.orientation[0] = quat_from_roll_pitch_yaw(0, 0, 0);
+    r.pairs.clear[0] = PAIR_HAS_PATCH;
+    rig_detect(&r);
+    ck_assert_int_eq(r.patch_pairs.count, 0);
+    ck_assert_int_eq(r.contacts.count, 4);
+    assert_bits(r.pairs.clear[0], 0);
+    rig_free(&r);
+}
+END_TEST
+
 TEST_MAIN("prism_pair", kernel_equals_the_plain_loops, every_isa_gives_the_same_bits, skipped_pairs_have_no_contacts,
-          a_jump_is_seen_whatever_the_velocity)
+          a_jump_is_seen_whatever_the_velocity, a_patch_is_expected_where_one_was)

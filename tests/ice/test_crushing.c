@@ -534,6 +534,27 @@ START_TEST(flags)
 }
 END_TEST
 
+/* Where a patch was expected and there is none, the narrow phase has to look again. */
+START_TEST(a_patch_that_is_gone)
+{
+    ice_rig r;
+    wall_scene(&r, 0.2, 0, 0);
+    r.pairs.clear[0] = PAIR_HAS_PATCH;
+    ice_rig_crush(&r);
+    ck_assert_int_eq(r.patches.count, 1);
+    assert_bits(r.pairs.clear[0], PAIR_HAS_PATCH);
+    r.bodies.position[1].x += 5;
+    r.bodies.position[0].x -= 5;
+    ice_rig_crush(&r);
+    ck_assert_int_eq(r.patches.count, 0);
+    assert_bits(r.pairs.clear[0], 0);
+    r.pairs.clear[0] = 3; /* what else is remembered stays */
+    ice_rig_crush(&r);
+    assert_bits(r.pairs.clear[0], 3);
+    ice_rig_free(&r);
+}
+END_TEST
+
 /* Keys stay with the points while the wall moves on, and name other contacts after the floe's slot was used again. */
 START_TEST(keys)
 {
@@ -759,4 +780,4 @@ END_TEST
 TEST_MAIN("crushing", vertical_wall, overlap_over_the_thickness, inclined_plate, corner, tilted_floe, flat_bottom,
           independent_of_cuts, random_poses, surface_on_a_seam, closed_patches, several_patches, slipped_inside, flags,
           keys, two_points, horizontal_area_over_a_seam, pressure_area_law, top_plane_area, floe_against_floe,
-          large_and_small, memory_runs_out)
+          large_and_small, a_patch_that_is_gone, memory_runs_out)
