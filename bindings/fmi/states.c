@@ -2,10 +2,19 @@
    of it.  Handles are looked up in the instance's list, so that a handle that is none is refused. */
 #include "unit.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* NOLINTBEGIN(readability-non-const-parameter): the standard has these signatures */
+/* A copy of an instance; the importer's handle of one is looked up before anything is read of it. */
+struct kept_state {
+    kept_state *next;
+    fram_world *world;
+    double start;
+    unit_phase phase;
+    int count;
+    variable variables[]; /* so that outputs are as they were, also those of the last step */
+};
 
 static void free_state(kept_state *s)
 {
@@ -24,19 +33,21 @@ void unit_free_states(unit *u)
 
 static size_t variables_size(const unit *u) { return (size_t)u->count * sizeof(variable); }
 
-static kept_state *keep(const unit *u, const fram_world *world)
+static kept_state *keep(unit *u)
 {
     fram_error e;
     kept_state *s = calloc(1, sizeof *s + variables_size(u));
-    if (!s)
+    if (!s) {
+        unit_fail(u, "there is no memory left for a state");
         return NULL;
-    if (fram_world_copy(world, &s->world, &e) != FRAM_OK) {
+    }
+    if (fram_world_copy(u->world, &s->world, &e) != FRAM_OK) {
         unit_fail_by(u, &e);
         free(s);
         return NULL;
     }
     s->start = u->start;
-    s->initialised = u->initialised;
+    s->phase = u->phase;
     s->count = u->count;
     memcpy(s->variables, u->variables, variables_size(u));
     return s;
@@ -45,15 +56,15 @@ static kept_state *keep(const unit *u, const fram_world *world)
 /* The state behind an importer's handle; NULL when this instance has given no such state, or it was freed. */
 static kept_state *find_state(const unit *u, const void *handle)
 {
-    kept_state *s = u ? u->kept : NULL;
+    kept_state *s = u->kept;
     while (s && s != handle)
         s = s->next;
     return s;
 }
 
-static fmi2Status refuse_state(const unit *u)
+static unit_status refuse_state(unit *u)
 {
-    return u ? unit_fail(u, "there is no such state: it was freed, or is of another instance") : fmi2Error;
+    return unit_fail(u, "there is no such state: it was freed, or is of another instance");
 }
 
 static void forget(unit *u, kept_state *s)
@@ -67,7 +78,7 @@ static void forget(unit *u, kept_state *s)
 
 /* A new state for the importer.  One that is handed in is used again, as the standard wants; a pointer that is none of
    this instance's states is taken for one that nobody has set. */
-static void hand_out(unit *u, kept_state *s, fmi2FMUstate *out)
+static void hand_out(unit *u, kept_state *s, void **out)
 {
     kept_state *before = find_state(u, *out);
     if (before)
@@ -77,40 +88,49 @@ static void hand_out(unit *u, kept_state *s, fmi2FMUstate *out)
     *out = s;
 }
 
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
+/* States have no place in the middle of a step; at any other time they have. */
+static unit_status allow(unit *u, const char *call, bool has_arguments)
 {
-    unit *u = c;
-    if (!u)
-        return fmi2Error;
+    unit_status status = unit_allow(u, ~(1U << UNIT_INTERMEDIATE), call);
+    return status == UNIT_OK && !has_arguments ? unit_fail(u, "an argument about a state is NULL") : status;
+}
+
+unit_status unit_state_free(unit *u, void **state)
+{
+    unit_status status = allow(u, "FreeFMUState", true);
+    if (status != UNIT_OK)
+        return status;
     kept_state *s = find_state(u, (const void *)state);
-    if (s) { /* fmusim 0.0.39 does that; its state is freed all the same */
-        unit_tell(u, fmi2Warning, "logStatusWarning", "fmi2FreeFMUstate expects the address of a state, not the state");
+    if (s) { /* fmusim 0.0.39 does that with units of 2.0; its state is freed all the same */
+        unit_tell(u, UNIT_WARNING, "a state is freed by its address, not by itself");
         forget(u, s);
-        return fmi2OK;
+        return UNIT_OK;
     }
     if (!state || !*state)
-        return fmi2OK;
+        return UNIT_OK;
     s = find_state(u, *state);
     if (!s)
         return refuse_state(u);
     forget(u, s);
     *state = NULL;
-    return fmi2OK;
+    return UNIT_OK;
 }
 
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *state)
+unit_status unit_state_get(unit *u, void **state)
 {
-    unit *u = c;
-    kept_state *s = u && state ? keep(u, u->world) : NULL;
+    unit_status status = allow(u, "GetFMUState", state != NULL);
+    kept_state *s = status == UNIT_OK ? keep(u) : NULL;
     if (!s)
-        return fmi2Error;
+        return UNIT_ERROR;
     hand_out(u, s, state);
-    return fmi2OK;
+    return UNIT_OK;
 }
 
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
+unit_status unit_state_set(unit *u, const void *state)
 {
-    unit *u = c;
+    unit_status status = allow(u, "SetFMUState", true);
+    if (status != UNIT_OK)
+        return status;
     const kept_state *s = find_state(u, state);
     fram_world *copy;
     fram_error e;
@@ -121,80 +141,106 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state)
     fram_world_destroy(u->world);
     u->world = copy;
     u->start = s->start;
-    u->initialised = s->initialised;
+    u->phase = s->phase;
     memcpy(u->variables, s->variables, variables_size(u));
-    return fmi2OK;
+    return UNIT_OK;
 }
 
-/* Bytes of a state: start, flag, variables, then the world. */
-static size_t head_size(const unit *u) { return sizeof(double) + sizeof(int) + variables_size(u); }
+/* ---- bytes: a head, value and told of each variable, then the world ---- */
 
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
+typedef struct state_head {
+    char mark[8];
+    int64_t count, phase;
+    double start;
+} state_head;
+static const char mark[sizeof((state_head *)0)->mark] = {'F', 'R', 'A', 'M', 'F', 'M', 'U', '1'};
+
+static size_t head_size(const unit *u) { return sizeof(state_head) + (size_t)u->count * 2 * sizeof(double); }
+
+static void write_head(const kept_state *s, char *out)
 {
-    unit *u = c;
+    state_head head = {.count = s->count, .phase = s->phase, .start = s->start};
+    memcpy(head.mark, mark, sizeof mark);
+    memcpy(out, &head, sizeof head);
+    for (int i = 0; i < s->count; i++) {
+        const double values[2] = {s->variables[i].value, s->variables[i].told};
+        memcpy(out + sizeof head + (size_t)i * sizeof values, values, sizeof values);
+    }
+}
+
+/* false: no state of this unit. */
+static bool read_head(const unit *u, const char *in, kept_state *s)
+{
+    state_head head;
+    memcpy(&head, in, sizeof head);
+    if (memcmp(head.mark, mark, sizeof mark) != 0 || head.count != u->count || head.phase < 0 ||
+        head.phase >= UNIT_PHASES || head.phase == UNIT_INTERMEDIATE || !isfinite(head.start))
+        return false;
+    s->start = head.start;
+    s->phase = (unit_phase)head.phase;
+    for (int i = 0; i < u->count; i++) {
+        double values[2];
+        memcpy(values, in + sizeof head + (size_t)i * sizeof values, sizeof values);
+        s->variables[i].value = values[0];
+        s->variables[i].told = values[1];
+        if (s->variables[i].kind == VARIABLE_INPUT && !(isfinite(values[0]) && isfinite(values[1])))
+            return false;
+    }
+    return true;
+}
+
+/* The world's bytes are written again for the size: a state is kept as a copy, which is made faster. */
+static unit_status save(unit *u, const void *state, void *out, size_t room, size_t *size)
+{
     const kept_state *s = find_state(u, state);
     void *data;
     size_t bytes;
     fram_error e;
-    if (!s || !size)
+    if (!s)
         return refuse_state(u);
     if (fram_world_save_memory(s->world, &data, &bytes, &e) != FRAM_OK)
         return unit_fail_by(u, &e);
-    fram_data_free(u->context, data);
     *size = head_size(u) + bytes;
-    return fmi2OK;
-}
-
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte out[], size_t size)
-{
-    unit *u = c;
-    const kept_state *s = find_state(u, state);
-    void *data;
-    size_t bytes;
-    fram_error e;
-    if (!s || !out)
-        return refuse_state(u);
-    if (fram_world_save_memory(s->world, &data, &bytes, &e) != FRAM_OK)
-        return unit_fail_by(u, &e);
-    bool fits = size >= head_size(u) + bytes;
-    if (fits) {
-        int flag = s->initialised;
-        memcpy(out, &s->start, sizeof s->start);
-        memcpy(out + sizeof s->start, &flag, sizeof flag);
-        memcpy(out + sizeof s->start + sizeof flag, s->variables, variables_size(u));
-        memcpy(out + head_size(u), data, bytes);
+    bool fits = !out || room >= *size;
+    if (out && fits) {
+        write_head(s, out);
+        memcpy((char *)out + head_size(u), data, bytes);
     }
     fram_data_free(u->context, data);
-    return fits ? fmi2OK : unit_fail(u, "there is less room than the serialized state needs");
+    return fits ? UNIT_OK : unit_fail(u, "there is less room than the serialized state needs");
 }
 
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte in[], size_t size, fmi2FMUstate *state)
+unit_status unit_state_size(unit *u, const void *state, size_t *size)
 {
-    unit *u = c;
+    unit_status status = allow(u, "SerializedFMUStateSize", size != NULL);
+    return status == UNIT_OK ? save(u, state, NULL, 0, size) : status;
+}
+
+unit_status unit_state_write(unit *u, const void *state, void *out, size_t size)
+{
+    unit_status status = allow(u, "SerializeFMUState", out != NULL);
+    size_t needed;
+    return status == UNIT_OK ? save(u, state, out, size, &needed) : status;
+}
+
+unit_status unit_state_read(unit *u, const void *in, size_t size, void **state)
+{
+    unit_status status = allow(u, "DeserializeFMUState", in != NULL && state != NULL);
+    if (status != UNIT_OK)
+        return status;
     fram_error e;
-    if (!u || !in || !state)
-        return fmi2Error;
     if (size < head_size(u))
         return unit_fail(u, "the serialized state is too short");
-    kept_state *s = keep(u, u->world);
+    kept_state *s = keep(u);
     if (!s)
-        return fmi2Error;
-    if (fram_world_load_memory(s->world, in + head_size(u), size - head_size(u), &e) != FRAM_OK) {
+        return UNIT_ERROR;
+    if (!read_head(u, in, s))
+        status = unit_fail(u, "the serialized state is none of this unit");
+    else if (fram_world_load_memory(s->world, (const char *)in + head_size(u), size - head_size(u), &e) != FRAM_OK)
+        status = unit_fail_by(u, &e);
+    if (status == UNIT_OK)
+        hand_out(u, s, state);
+    else
         free_state(s);
-        return unit_fail_by(u, &e);
-    }
-    int flag;
-    memcpy(&s->start, in, sizeof s->start);
-    memcpy(&flag, in + sizeof s->start, sizeof flag);
-    s->initialised = flag != 0;
-    for (int i = 0; i < u->count; i++) {
-        variable from;
-        memcpy(&from, in + sizeof s->start + sizeof flag + (size_t)i * sizeof from, sizeof from);
-        s->variables[i].value = from.value;
-        s->variables[i].told = from.told;
-    }
-    hand_out(u, s, state);
-    return fmi2OK;
+    return status;
 }
-
-/* NOLINTEND(readability-non-const-parameter) */

@@ -1,4 +1,4 @@
-/* Fram: scenarios as co-simulation units of FMI 2.0, for programs that import such (docs/fmu.md). */
+/* Fram: scenarios as co-simulation units of FMI 2.0 or 3.0, for programs that import such (docs/fmu.md). */
 #ifndef FRAM_FMU_H
 #define FRAM_FMU_H
 
@@ -13,9 +13,11 @@ typedef struct fram_fmu_definition {
     const char *output; /* NAME.fmu; NAME, letters, digits and _, is the model's */
     const char *binary; /* fram_fmu.so, which the unit carries */
     /* Names of inputs (fram_world_input) and channels that the unit has; * and ? stand for any characters.  NULL with
-       0: all inputs; all channels but time and step_wall_time. */
+       0: all inputs; all channels but time and step_wall_time.  In 3.0 `time` is the independent variable of every
+       unit, and no output. */
     const char *const *inputs, *const *outputs;
     int input_count, output_count;
+    int version; /* of FMI: 2 (by default) for 2.0, 3 for 3.0 */
 } fram_fmu_definition;
 
 typedef struct fram_fmu_result {

@@ -8,7 +8,7 @@
 
 static void fram_fmu_fill(fram_fmu_definition *definition)
 {
-    *definition = (fram_fmu_definition){.size = sizeof *definition};
+    *definition = (fram_fmu_definition){.size = sizeof *definition, .version = 2};
 }
 DEFINITION_DEFAULT(fram_fmu, fram_fmu_definition)
 
@@ -37,9 +37,12 @@ fram_status fram_fmu(const fram_scenario *s, const fram_fmu_definition *definiti
         status = check_names("inputs", d.inputs, d.input_count, error);
     if (status == FRAM_OK)
         status = check_names("outputs", d.outputs, d.output_count, error);
+    if (status == FRAM_OK && d.version != 2 && d.version != 3)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "version",
+                           "expected 2 for FMI 2.0 or 3 for FMI 3.0, found %d", d.version);
     if (status != FRAM_OK)
         return status;
-    const fmu_options options = {d.output, d.binary, d.inputs, d.outputs, d.input_count, d.output_count};
+    const fmu_options options = {d.output, d.binary, d.inputs, d.outputs, d.input_count, d.output_count, d.version};
     fmu_report report;
     status = fmu_write(&s->context->inner, &s->inner, &options, &report, error);
     if (status == FRAM_OK && result)

@@ -55,15 +55,22 @@ static int write_unit(const common_options *common, const char *path, const opti
     return EXIT_GOOD;
 }
 
+static bool read_version(const char *text, int *version)
+{
+    *version = text[0] - '0';
+    return (*version == 2 || *version == 3) && (text[1] == '\0' || strcmp(text + 1, ".0") == 0);
+}
+
 int command_fmu(const command_row *self, int argc, char **argv)
 {
     common_options common;
     fram_fmu_definition d;
     fram_fmu_default(&d);
     option_list overrides = {0}, inputs = {0}, outputs = {0};
-    const char *path = NULL;
+    const char *path = NULL, *version = "2";
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.output, "NAME.fmu", "the unit (required); NAME is the model's"},
+        {"--fmi", NULL, OPTION_TEXT, &version, "2|3", "version of the standard, 2.0 or 3.0 (2)"},
         {"--in", NULL, OPTION_LIST, &inputs, "NAME", "an input of the unit, * and ? for any (all); may be repeated"},
         {"--out", NULL, OPTION_LIST, &outputs, "NAME",
          "a channel as output, * and ? for any (all but clocks); may be repeated"},
@@ -75,6 +82,8 @@ int command_fmu(const command_row *self, int argc, char **argv)
         return code;
     if (!d.output)
         return answer_usage(&common, "--output", "is missing: name the unit, -o NAME.fmu");
+    if (!read_version(version, &d.version))
+        return answer_usage(&common, "--fmi", "expected 2 (FMI 2.0) or 3 (FMI 3.0)");
     char found[BESIDE_SIZE];
     if (!d.binary && !find_binary(found))
         return answer_usage(&common, "--binary", "fram_fmu.so is not beside the command: name it with --binary FILE");

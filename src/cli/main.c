@@ -51,8 +51,10 @@ static const command_row commands[] = {
      "  fram fatigue out/turret --channel line_tension_max --slope 3,5\n"
      "  fram fatigue tension.csv --channel T --frequency 0.1 -o cycles.csv\n",
      command_fatigue},
-    {"fmu", "SCENARIO -o NAME.fmu", "make a co-simulation unit of FMI 2.0 of a scenario, for programs that import such",
+    {"fmu", "SCENARIO -o NAME.fmu",
+     "make a co-simulation unit of FMI 2.0 or 3.0 of a scenario, for programs that import such",
      "  fram fmu scenes/supply_ship.yaml -o supply.fmu\n"
+     "  fram fmu scenes/supply_ship.yaml -o supply.fmu --fmi 3\n"
      "  fram fmu scenes/demo.yaml -o towed.fmu --in 'tow_velocity_*' --out 'ice_force_*' --out position_x\n",
      command_fmu},
     {"view", "RUN", "make a page that plays a run in a browser, from disk",

@@ -60,6 +60,7 @@ static fram_status check_names(const packer *p, bool inputs, fram_error *error)
     return FRAM_OK;
 }
 
+/* Inputs, then outputs; in 3.0 then the independent variable, which the standard wants: what `time` is there. */
 static fram_status choose(packer *p, const model *m, const world *w, fram_error *error)
 {
     bool good = true;
@@ -67,14 +68,22 @@ static fram_status choose(packer *p, const model *m, const world *w, fram_error 
         const control *c = &p->controls.data[i];
         if (p->o->input_count == 0 || is_chosen(c->name, p->o->inputs, p->o->input_count))
             good = array_push(p->ctx, &p->variables,
-                              ((fmu_variable){true, c->name, c->unit, c->meaning, control_get(m, w, c)}));
+                              ((fmu_variable){FMU_INPUT, c->role == CONTROL_POSITIONING || c->role == CONTROL_RELEASE,
+                                              c->name, c->unit, c->meaning, control_get(m, w, c)}));
     }
     for (int32_t i = 0; i < p->columns.columns.count && good; i++) {
         const csv_column *c = &p->columns.columns.data[i];
         bool of_clock = strcmp(c->name, "time") == 0 || strcmp(c->name, "step_wall_time") == 0;
+        if (p->o->version == 3 && strcmp(c->name, "time") == 0)
+            continue;
         if (p->o->output_count == 0 ? !of_clock : is_chosen(c->name, p->o->outputs, p->o->output_count))
-            good = array_push(p->ctx, &p->variables, ((fmu_variable){false, c->name, c->unit, "", 0}));
+            good = array_push(p->ctx, &p->variables,
+                              ((fmu_variable){.kind = FMU_OUTPUT, .name = c->name, .unit = c->unit, .meaning = ""}));
     }
+    if (good && p->o->version == 3)
+        good =
+            array_push(p->ctx, &p->variables,
+                       ((fmu_variable){.kind = FMU_TIME, .name = "time", .unit = "s", .meaning = "of the importer"}));
     return good ? FRAM_OK : error_memory(error);
 }
 
@@ -218,17 +227,18 @@ static fram_status pack_scenario(packer *p, fram_error *error)
 static fram_status pack_all(packer *p, fram_error *error)
 {
     char name[sizeof p->names.identifier + 40];
+    static const char *const kinds[] = {[FMU_INPUT] = "input", [FMU_OUTPUT] = "output", [FMU_TIME] = "time"};
     text_buffer list = {0}, text = {0};
     for (int32_t i = 0; i < p->variables.count; i++)
-        text_format(p->ctx, &list, "%s %s\n", p->variables.data[i].is_input ? "input" : "output",
-                    p->variables.data[i].name);
+        text_format(p->ctx, &list, "%s %s\n", kinds[p->variables.data[i].kind], p->variables.data[i].name);
     text_add(p->ctx, &list, "");
     fram_status status = list.failed ? error_memory(error) : find_guid(p, list.data, error);
     if (status == FRAM_OK) {
         fmu_describe(p->ctx, p->s, &p->names, &p->variables, &text);
         status = pack_text(p, "modelDescription.xml", &text, error);
     }
-    snprintf(name, sizeof name, "binaries/linux64/%s.so", p->names.identifier);
+    snprintf(name, sizeof name, "binaries/%s/%s.so", p->o->version == 3 ? "x86_64-linux" : "linux64",
+             p->names.identifier);
     if (status == FRAM_OK)
         status = pack_file(p, p->o->binary, name, true, error);
     if (status == FRAM_OK)
@@ -246,15 +256,17 @@ static fram_status pack_all(packer *p, fram_error *error)
 fram_status fmu_write(context *ctx, const scenario *s, const fmu_options *options, fmu_report *report,
                       fram_error *error)
 {
-    packer p = {.ctx = ctx, .s = s, .o = options, .zip = {.ctx = ctx}};
+    packer p = {.ctx = ctx, .s = s, .o = options, .zip = {.ctx = ctx}, .names = {.version = options->version}};
     *report = (fmu_report){0};
     fram_status status = name_of(&p, error);
     if (status == FRAM_OK)
         status = list_variables(&p, error);
     if (status == FRAM_OK)
         status = pack_all(&p, error);
-    for (int32_t i = 0; i < p.variables.count; i++)
-        *(p.variables.data[i].is_input ? &report->inputs : &report->outputs) += 1;
+    for (int32_t i = 0; i < p.variables.count; i++) {
+        report->inputs += p.variables.data[i].kind == FMU_INPUT;
+        report->outputs += p.variables.data[i].kind == FMU_OUTPUT;
+    }
     report->files = p.files > 2 ? p.files - 2 : 0;
     zip_free(&p.zip);
     array_free(ctx, &p.variables);

@@ -1,5 +1,5 @@
-/* A scenario as a co-simulation unit of FMI 2.0: model description, the binary that steps it, the scenario and its
-   files in one archive.  The binary is bindings/fmi, made elsewhere; here it is only packed. */
+/* A scenario as a co-simulation unit of FMI 2.0 or 3.0: model description, the binary that steps it, the scenario and
+   its files in one archive.  The binary is bindings/fmi, made elsewhere; here it is only packed. */
 #ifndef SIM_FMU_H
 #define SIM_FMU_H
 
@@ -11,6 +11,7 @@ typedef struct fmu_options {
     const char *const *inputs;  /* names, * and ? stand for any; none: all inputs */
     const char *const *outputs; /* none: all channels but time and the step's wall time */
     int input_count, output_count;
+    int version; /* of the standard: 2 or 3 */
 } fmu_options;
 
 typedef struct fmu_report {

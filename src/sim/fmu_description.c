@@ -93,54 +93,106 @@ static void add_units(context *ctx, const fmu_variable_array *variables, text_bu
     text_add(ctx, out, any ? "  </UnitDefinitions>\n" : "");
 }
 
-static void add_variable(context *ctx, const fmu_variable *v, int32_t reference, text_buffer *out)
+static const char *variability_of(const fmu_variable *v) { return v->is_discrete ? "discrete" : "continuous"; }
+
+static void add_variable_2(context *ctx, const fmu_variable *v, int32_t reference, text_buffer *out)
 {
     text_add(ctx, out, "    <ScalarVariable");
     add_attribute(ctx, out, "name", v->name);
     text_format(ctx, out, " valueReference=\"%d\"", (int)reference);
     if (v->meaning[0])
         add_attribute(ctx, out, "description", v->meaning);
-    text_add(ctx, out,
-             v->is_input ? " causality=\"input\" variability=\"continuous\"><Real"
-                         : " causality=\"output\" variability=\"continuous\" initial=\"calculated\"><Real");
+    text_format(ctx, out, " causality=\"%s\" variability=\"%s\"%s><Real", v->kind == FMU_INPUT ? "input" : "output",
+                variability_of(v), v->kind == FMU_INPUT ? "" : " initial=\"calculated\"");
     if (is_named(v->unit))
         add_attribute(ctx, out, "unit", v->unit);
-    if (v->is_input)
+    if (v->kind == FMU_INPUT)
         add_real(ctx, out, "start", v->start);
     text_add(ctx, out, "/></ScalarVariable>\n");
 }
 
-/* Outputs by their index from 1; they depend on the state alone, no input acts before a step. */
-static void add_unknowns(context *ctx, const fmu_variable_array *variables, const char *head, text_buffer *out)
+/* What is no input can be looked at between the steps of the world that a communication step has. */
+static void add_variable_3(context *ctx, const fmu_variable *v, int32_t reference, text_buffer *out)
+{
+    static const char *const causality[] = {[FMU_INPUT] = "input", [FMU_OUTPUT] = "output", [FMU_TIME] = "independent"};
+    text_add(ctx, out, "    <Float64");
+    add_attribute(ctx, out, "name", v->name);
+    text_format(ctx, out, " valueReference=\"%d\"", (int)reference);
+    if (v->meaning[0])
+        add_attribute(ctx, out, "description", v->meaning);
+    text_format(ctx, out, " causality=\"%s\" variability=\"%s\"", causality[v->kind], variability_of(v));
+    if (v->kind != FMU_INPUT)
+        text_add(ctx, out, " intermediateUpdate=\"true\"");
+    if (v->kind == FMU_OUTPUT)
+        text_add(ctx, out, " initial=\"calculated\"");
+    if (is_named(v->unit))
+        add_attribute(ctx, out, "unit", v->unit);
+    if (v->kind == FMU_INPUT)
+        add_real(ctx, out, "start", v->start);
+    text_add(ctx, out, "/>\n");
+}
+
+/* Outputs, by their index from 1 in 2.0 and by their reference in 3.0; they depend on the state alone, no input acts
+   before a step. */
+static void add_unknowns(context *ctx, const fmu_variable_array *variables, const char *form, int first,
+                         text_buffer *out)
+{
+    for (int32_t i = 0; i < variables->count; i++) {
+        if (variables->data[i].kind == FMU_OUTPUT)
+            text_format(ctx, out, "    <%s=\"%d\" dependencies=\"\"/>\n", form, (int)i + first);
+    }
+}
+
+static void add_structure(context *ctx, const fmu_variable_array *variables, int version, text_buffer *out)
 {
     bool any = false;
-    for (int32_t i = 0; i < variables->count; i++) {
-        if (variables->data[i].is_input)
-            continue;
-        if (!any)
-            text_format(ctx, out, "    <%s>\n", head);
-        any = true;
-        text_format(ctx, out, "      <Unknown index=\"%d\" dependencies=\"\"/>\n", (int)i + 1);
+    for (int32_t i = 0; i < variables->count; i++)
+        any = any || variables->data[i].kind == FMU_OUTPUT;
+    text_add(ctx, out, "  <ModelStructure>\n");
+    if (version == 3) {
+        add_unknowns(ctx, variables, "Output valueReference", 0, out);
+        add_unknowns(ctx, variables, "InitialUnknown valueReference", 0, out);
+    } else if (any) {
+        text_add(ctx, out, "    <Outputs>\n");
+        add_unknowns(ctx, variables, "Unknown index", 1, out);
+        text_add(ctx, out, "    </Outputs>\n    <InitialUnknowns>\n");
+        add_unknowns(ctx, variables, "Unknown index", 1, out);
+        text_add(ctx, out, "    </InitialUnknowns>\n");
     }
-    if (any)
-        text_format(ctx, out, "    </%s>\n", head);
+    text_add(ctx, out, "  </ModelStructure>\n");
+}
+
+static void add_head(context *ctx, const scenario *s, const fmu_names *names, text_buffer *out)
+{
+    bool is_3 = names->version == 3;
+    text_format(ctx, out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"%d.0\"",
+                names->version);
+    add_attribute(ctx, out, "modelName", names->identifier);
+    add_attribute(ctx, out, is_3 ? "instantiationToken" : "guid", names->guid);
+    if (s->title[0])
+        add_attribute(ctx, out, "description", s->title);
+    text_format(ctx, out, " generationTool=\"Fram " FRAM_VERSION "\" variableNamingConvention=\"flat\"%s>\n",
+                is_3 ? "" : " numberOfEventIndicators=\"0\"");
+    text_add(ctx, out, "  <CoSimulation");
+    add_attribute(ctx, out, "modelIdentifier", names->identifier);
+    text_add(ctx, out, " canHandleVariableCommunicationStepSize=\"true\"");
+    if (is_3) {
+        add_real(ctx, out, "fixedInternalStepSize", s->run.time_step);
+        text_add(ctx, out,
+                 " canGetAndSetFMUState=\"true\" canSerializeFMUState=\"true\" providesIntermediateUpdate=\"true\""
+                 " mightReturnEarlyFromDoStep=\"true\" canReturnEarlyAfterIntermediateUpdate=\"true\""
+                 " hasEventMode=\"false\"/>\n");
+    } else {
+        text_add(ctx, out,
+                 " canNotUseMemoryManagementFunctions=\"true\" canGetAndSetFMUstate=\"true\""
+                 " canSerializeFMUstate=\"true\"/>\n");
+    }
 }
 
 void fmu_describe(context *ctx, const scenario *s, const fmu_names *names, const fmu_variable_array *variables,
                   text_buffer *out)
 {
-    text_add(ctx, out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"2.0\"");
-    add_attribute(ctx, out, "modelName", names->identifier);
-    add_attribute(ctx, out, "guid", names->guid);
-    if (s->title[0])
-        add_attribute(ctx, out, "description", s->title);
-    text_add(ctx, out,
-             " generationTool=\"Fram " FRAM_VERSION "\" variableNamingConvention=\"flat\""
-             " numberOfEventIndicators=\"0\">\n  <CoSimulation");
-    add_attribute(ctx, out, "modelIdentifier", names->identifier);
-    text_add(ctx, out,
-             " canHandleVariableCommunicationStepSize=\"true\" canNotUseMemoryManagementFunctions=\"true\""
-             " canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n");
+    add_head(ctx, s, names, out);
     add_units(ctx, variables, out);
     text_add(ctx, out,
              "  <LogCategories>\n    <Category name=\"logStatusWarning\"/>\n    <Category name=\"logStatusError\"/>\n"
@@ -149,9 +201,8 @@ void fmu_describe(context *ctx, const scenario *s, const fmu_names *names, const
     add_real(ctx, out, "stepSize", s->run.time_step);
     text_add(ctx, out, "/>\n  <ModelVariables>\n");
     for (int32_t i = 0; i < variables->count; i++)
-        add_variable(ctx, &variables->data[i], i, out);
-    text_add(ctx, out, "  </ModelVariables>\n  <ModelStructure>\n");
-    add_unknowns(ctx, variables, "Outputs", out);
-    add_unknowns(ctx, variables, "InitialUnknowns", out);
-    text_add(ctx, out, "  </ModelStructure>\n</fmiModelDescription>\n");
+        (names->version == 3 ? add_variable_3 : add_variable_2)(ctx, &variables->data[i], i, out);
+    text_add(ctx, out, "  </ModelVariables>\n");
+    add_structure(ctx, variables, names->version, out);
+    text_add(ctx, out, "</fmiModelDescription>\n");
 }

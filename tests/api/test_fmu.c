@@ -59,6 +59,15 @@ START_TEST(units_are_written_and_mistakes_refused)
     assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "no_such");
     ck_assert_str_eq(e.key, "output");
     d.outputs = outputs;
+    static const int versions[] = {0, 1, 4, -2};
+    for (size_t i = 0; i < sizeof versions / sizeof *versions; i++) {
+        d.version = versions[i];
+        assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_USAGE, "FMI 3.0");
+        ck_assert_str_eq(e.key, "version");
+    }
+    d.version = 3;
+    assert_ok(fram_fmu(s, &d, &result, &e), e);
+    ck_assert(result.inputs > 5 && result.outputs == 3);
     static const char *const bad[] = {"", "ship", "1ship.fmu", "ship.zip", "a ship.fmu", "s.h.fmu", ".fmu"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         d.output = bad[i];

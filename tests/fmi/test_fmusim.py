@@ -54,10 +54,10 @@ def as_stepped_here(unit, rows, step, told):
     ship.free()
 
 
-def scene(folder, path, words):
-    file = folder / (pathlib.Path(path).stem + ".fmu")
+def scene(folder, path, words, version):
+    file = folder / f"{pathlib.Path(path).stem}_{version}.fmu"
     sets = [word for one in words for word in ("--set", one)]
-    subprocess.run([os.environ["FRAM"], "fmu", path, "-o", file, "-q", *sets], check=True)
+    subprocess.run([os.environ["FRAM"], "fmu", path, "-o", file, "-q", "--fmi", version, *sets], check=True)
     unit = Unit(file, folder / "unpacked" / file.stem)
     unit.file, dt = file, unit.step_size
     rows, told = simulate(folder, unit, "--stop-time", 100 * dt, "--output-interval", 4 * dt)
@@ -91,18 +91,35 @@ def states(folder, unit):
     print(f"state in a file, {(folder / 'state').stat().st_size} bytes: the second half is the same in every digit")
 
 
+def looked_at(folder, unit):
+    """Rows between communication points are those of shorter steps."""
+    dt = unit.step_size
+    long, _ = simulate(folder, unit, "--stop-time", 40 * dt, "--output-interval", 10 * dt, "--early-return-allowed",
+                       "--record-intermediate-values")
+    short, _ = simulate(folder, unit, "--stop-time", 40 * dt, "--output-interval", dt)
+    places = {round(float(row["time"]) / dt): row for row in long}
+    assert len(places) == 41, sorted(places)
+    for number, row in enumerate(short):
+        found = places[number]
+        assert all(found[name] == value for name, value in row.items() if name != "time"), f"row {number}"
+    print("values between communication points: as those of steps of their length, in every digit")
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         print(subprocess.run([FMUSIM, "--version"], capture_output=True, text=True, check=True).stdout.strip())
-        units = [scene(folder, path, words) for path, words in SCENES.items()]
-        inputs(folder, units[0])
-        for unit in (units[0], units[-1]):
-            states(folder, unit)
-        unit, dt = units[0], units[0].step_size
-        _, told = simulate(folder, unit, "--stop-time", 10 * dt, "--output-interval", 1.3 * dt, code=3)
-        assert "no whole multiple" in told, told
-        print("a communication step that does not fit is refused: " + told.strip().splitlines()[-1])
+        for version in "2", "3":
+            units = [scene(folder, path, words, version) for path, words in SCENES.items()]
+            inputs(folder, units[0])
+            for unit in (units[0], units[-1]):
+                states(folder, unit)
+            if version == "3":
+                looked_at(folder, units[-1])
+            unit, dt = units[0], units[0].step_size
+            _, told = simulate(folder, unit, "--stop-time", 10 * dt, "--output-interval", 1.3 * dt, code=3)
+            assert "no whole multiple" in told, told
+            print("a communication step that does not fit is refused: " + told.strip().splitlines()[-1])
 
 
 main()

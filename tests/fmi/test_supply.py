@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The supply ship as a unit, steered by a controller outside, is to the bit what the same controller in C makes of it
-(examples/positioning.c), and goes back to any of its states."""
+"""The supply ship as a unit of FMI 2.0 and of 3.0, steered by a controller outside, is to the bit what the same
+controller in C makes of it (examples/positioning.c), and goes back to any of its states."""
 
 import ctypes as c
 import os
@@ -112,12 +112,14 @@ def roll_backs(unit):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "supply.fmu"
         words = [word for text in SMALLER for word in ("--set", text)]
-        subprocess.run([FRAM, "fmu", SCENE, "-o", path, "-q", *words], check=True)
-        unit = Unit(path, pathlib.Path(folder) / "unpacked")
-        against_c(unit)
-        roll_backs(unit)
+        for version in "2", "3":
+            path = pathlib.Path(folder) / f"supply_{version}.fmu"
+            subprocess.run([FRAM, "fmu", SCENE, "-o", path, "-q", "--fmi", version, *words], check=True)
+            unit = Unit(path, pathlib.Path(folder) / f"unpacked_{version}")
+            print(f"FMI {version}.0")
+            against_c(unit)
+            roll_backs(unit)
 
 
 main()

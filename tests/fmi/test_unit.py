@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""fram fmu: the unit holds what it must, steps as a world does, goes back to the bit, and refuses what it cannot do."""
+"""fram fmu, of FMI 2.0 and of 3.0: the unit holds what it must, steps as a world does, goes back to the bit, and
+refuses what it cannot do."""
 
 import ctypes as c
 import os
@@ -16,7 +17,7 @@ FRAM, BUILD = os.environ["FRAM"], pathlib.Path(os.environ["FRAM_BUILD"])
 if os.environ.get("FRAM_TEST_SANITIZE"):
     print("skipped: a unit under sanitizers is not loaded by a Python without them")
     sys.exit(77)
-ROLL_BACKS = int(os.environ.get("FRAM_ROLL_BACKS", "60" if os.environ.get("FRAM_TEST_SHORT") else "1000"))
+ROLL_BACKS = int(os.environ.get("FRAM_ROLL_BACKS", "30" if os.environ.get("FRAM_TEST_SHORT") else "500"))
 SCENE = """
 title: Ship & "ice" <of> its own
 run: {duration: 10, time_step: 0.05}
@@ -32,7 +33,9 @@ environment: {current_speed: 6, current_direction_deg: 180}
 OUTPUTS = ("offset_x", "velocity_x", "yaw", "ice_force_x", "contacts", "kinetic_energy", "splits", "bendings")
 
 
-class Units(unittest.TestCase):
+class Units:
+    """The tests that both versions share."""
+
     @classmethod
     def setUpClass(cls):
         cls.holder = tempfile.TemporaryDirectory()
@@ -43,7 +46,7 @@ class Units(unittest.TestCase):
                       for x in (25, 36, 47) for y in (-16, -5, 6)))
         cls.scene = cls.folder / "scene.yaml"
         cls.scene.write_text(SCENE)
-        cls.fram("fmu", cls.scene, "-o", cls.folder / "ship.fmu", "-q")
+        cls.fram("fmu", cls.scene, "-o", cls.folder / "ship.fmu", "-q", "--fmi", cls.version)
         cls.unit = Unit(cls.folder / "ship.fmu", cls.folder / "unpacked unit")
 
     @classmethod
@@ -58,23 +61,32 @@ class Units(unittest.TestCase):
 
     def test_what_the_unit_holds(self):
         unit = self.unit
-        self.assertEqual(unit.description.get("fmiVersion"), "2.0")
+        self.assertEqual(unit.description.get("fmiVersion"), f"{self.version}.0")
         self.assertEqual(unit.description.get("description"), 'Ship & "ice" <of> its own')
         self.assertTrue((unit.folder / "resources/ice of mine.txt").exists())
         kinds = {name: v.get("causality") for name, v in unit.variables.items()}
         self.assertEqual(kinds["thruster_1_order"], "input")
         self.assertEqual(kinds["ice_force_x"], "output")
         self.assertNotIn("step_wall_time", kinds)
-        self.assertEqual(unit.variables["ice_force_x"].find("Real").get("unit"), "N")
+        self.assertEqual(unit.unit_of("ice_force_x"), "N")
         units = {u.get("name") for u in unit.description.iter("Unit")}
-        for variable in unit.variables.values():
-            self.assertIn(variable.find("Real").get("unit"), units | {None})
-        outputs = [i for i, v in enumerate(unit.variables.values(), start=1) if v.get("causality") == "output"]
-        self.assertEqual([int(u.get("index")) for u in unit.description.find("ModelStructure/Outputs")], outputs)
-        self.assertEqual(unit.binary.fmi2GetVersion(), b"2.0")
+        for variable in unit.variables:
+            self.assertIn(unit.unit_of(variable), units | {None})
+        for name, kind in (("thruster_1_order", "continuous"), ("positioning", "discrete"),
+                           ("line_1_release", "discrete"), ("ice_force_x", "continuous")):
+            self.assertEqual(unit.variables[name].get("variability"), kind)
+        structure = unit.description.find("ModelStructure")
+        if self.version == "2":
+            outputs = [i for i, v in enumerate(unit.variables.values(), start=1) if v.get("causality") == "output"]
+            self.assertEqual([int(u.get("index")) for u in structure.find("Outputs")], outputs)
+        else:
+            outputs = [unit.reference[name] for name in unit.outputs()]
+            self.assertEqual([int(u.get("valueReference")) for u in structure.findall("Output")], outputs)
+            self.assertEqual(kinds["time"], "independent")
+        self.assertEqual(unit.function("GetVersion")(), f"{self.version}.0".encode())
         # The same scenario makes the same bytes.
         (self.folder / "again").mkdir()
-        self.fram("fmu", self.scene, "-o", self.folder / "again/ship.fmu", "-q")
+        self.fram("fmu", self.scene, "-o", self.folder / "again/ship.fmu", "-q", "--fmi", f"{self.version}.0")
         self.assertEqual((self.folder / "again/ship.fmu").read_bytes(), (self.folder / "ship.fmu").read_bytes())
 
     def test_a_controller_outside_does_what_it_does_in_c(self):
@@ -92,7 +104,7 @@ class Units(unittest.TestCase):
                 world["line_1_release"] = 1
             instance.step(100 + i * dt, dt)
             world.step()
-        names = [name for name, v in self.unit.variables.items() if v.get("causality") == "output"]
+        names = self.unit.outputs()
         self.assertEqual(instance.get(*names), [world[name] for name in names])
         self.assertEqual(instance.get("lines_parted"), [1])
         self.assertNotEqual(instance.get("ice_force_averaged_x"), [0])
@@ -134,36 +146,117 @@ class Units(unittest.TestCase):
         one.free()
         two.free()
 
+    def refused(self, instance, call, word):
+        """The call is an error that says the word; after it the instance can be read, but not stepped, until it goes
+        back to a state."""
+        state, before, count = instance.keep(), instance.get(*OUTPUTS), len(instance.told)
+        call()
+        self.assertEqual(len(instance.told), count + 1)
+        self.assertEqual(instance.told[-1][:2], (ERROR, "logStatusError"))
+        self.assertIn(word, instance.told[-1][2])
+        self.assertEqual(instance.get(*OUTPUTS), before)
+        instance.step(0, self.unit.step_size, status=ERROR)
+        self.assertIn("after an error", instance.told[-1][2])
+        instance.set("wind_x", 1, status=ERROR)
+        instance.back(state)
+        instance.forget(state)
+
     def test_what_cannot_be_is_refused(self):
         instance, dt = self.unit.instance().initialise(), self.unit.step_size
-        for step in (0.5 * dt, 1.2 * dt, 0, -dt, float("nan"), float("inf")):
-            instance.step(0, step, status=ERROR)
-            self.assertIn("whole multiple", instance.told[-1][2])
+        nan = float("nan")
+        for step in (0.5 * dt, 1.2 * dt, 0, -dt, nan, float("inf")):
+            self.refused(instance, lambda size=step: instance.step(0, size, status=ERROR), "whole multiple")
         instance.step(0, 3 * dt * (1 + 1e-9))
-        instance.step(0, dt, status=ERROR)
-        self.assertIn("stands at", instance.told[-1][2])
-        instance.set("wind_x", float("nan"), status=ERROR)
-        instance.set("ice_force_x", 1, status=ERROR)
-        self.unit.reference["nothing"] = 10**6
-        instance.set("nothing", 1, status=ERROR)
-        instance.set("wind_x", 1e9)
-        instance.step(3 * dt, dt, status=ERROR)
-        self.assertIn("wind_x", instance.told[-1][2])
-        instance.from_bytes(b"no state at all", status=ERROR)
-        instance.from_bytes(b"0" * 100000, status=ERROR)
+        for now in (0, 2.9 * dt, nan, float("inf")):
+            self.refused(instance, lambda time=now: instance.step(time, dt, status=ERROR), "stands at")
+        self.refused(instance, lambda: instance.set("wind_x", nan, status=ERROR), "not finite")
+        self.refused(instance, lambda: instance.set("ice_force_x", 1, status=ERROR), "no input")
+        for number in (len(self.unit.variables), 10**6, 2**32 - 1):
+            self.unit.reference["nothing"] = number
+            self.refused(instance, lambda: instance.set("nothing", 1, status=ERROR), "no input")
+            self.refused(instance, lambda: instance.get("nothing", status=ERROR), "no variable")
+
+        def wind():
+            instance.set("wind_x", 1e9)
+            instance.step(3 * dt, dt, status=ERROR)
+
+        self.refused(instance, wind, "wind_x")
+        good = instance.keep()
+        data = instance.bytes_of(good)
+        for bad in (b"no state at all", b"0" * 100000, data[:200], data[:-1], b"X" + data[1:], data[:24] + data[16:],
+                    data[:-9] + bytes([data[-9] ^ 1]) + data[-8:]):
+            self.refused(instance, lambda some=bad: instance.from_bytes(some, status=ERROR), "")
         instance.call("Reset")
         instance.initialise().step(0, dt)
-        instance.call("SetupExperiment", 0, c.c_double(0), c.c_double(9), 0, c.c_double(0), status=ERROR)
-        for name in ("GetReal", "SetReal"):
-            instance.call(name, None, c.c_size_t(1), (c.c_double * 1)(), status=ERROR)
-            instance.call(name, (c.c_uint * 1)(), c.c_size_t(1), None, status=ERROR)
-            instance.call(name, None, c.c_size_t(0), None)
+        for name in (("GetReal", "SetReal") if self.version == "2" else ("GetFloat64", "SetFloat64")):
+            more = () if self.version == "2" else (c.c_size_t(1),)
+            none = () if self.version == "2" else (c.c_size_t(0),)
+            self.refused(instance, lambda n=name, m=more: instance.call(
+                n, None, c.c_size_t(1), (c.c_double * 1)(), *m, status=ERROR), "NULL")
+            self.refused(instance, lambda n=name, m=more: instance.call(
+                n, (c.c_uint * 1)(), c.c_size_t(1), None, *m, status=ERROR), "NULL")
+            instance.call(name, None, c.c_size_t(0), None, *none)
         instance.free()
-        self.assertFalse(self.unit.instance(guid="{of another}").c)
-        self.assertFalse(self.unit.instance(where="file:///no/such/folder").c)
-        early = self.unit.instance()
-        early.step(0, dt, status=ERROR)
-        early.free()
+        self.assertFalse(self.unit.instance(token="{of another}").c)
+        self.assertFalse(self.unit.instance(where="/no/such/folder").c)
+        self.assertFalse(self.unit.instance(name=" ").c)
+
+    def test_the_order_of_calls(self):
+        one, dt = self.unit.instance(), self.unit.step_size
+        fresh = one.keep()
+        for name in "ExitInitializationMode", "Terminate":
+            one.call(name, status=ERROR)
+            self.assertIn("before it enters", one.told[-1][2])
+            one.back(fresh)
+        one.step(0, dt, status=ERROR)
+        one.call("Reset")
+        one.set("thruster_2_order", 3e4)
+        self.assertEqual(one.get("thruster_2_order"), [3e4])
+        one.initialise(start=5.0, stop=5 + 4 * dt)
+        one.step(5 + one.get("offset_x")[0], dt)  # 0 before the first step
+        for name in "EnterInitializationMode", "ExitInitializationMode":
+            state = one.keep()
+            arguments = () if self.version == "2" or name[1] == "x" else (False, c.c_double(0), c.c_double(0), False,
+                                                                         c.c_double(0))
+            one.call(name, *arguments, status=ERROR)
+            one.back(state)
+        state = one.keep()
+        one.step(5 + dt, 4 * dt, status=ERROR)
+        self.assertIn("past the stop time", one.told[-1][2])
+        one.back(state)
+        one.step(5 + dt, 3 * dt)
+        one.call("Terminate")
+        self.assertNotEqual(one.get("velocity_x"), [0])
+        one.set("wind_x", 0, status=ERROR)
+        one.step(5 + 4 * dt, dt, status=ERROR)
+        one.call("Reset")
+        self.assertEqual(one.get("thruster_2_order", "velocity_x"), [0, 0])
+        one.initialise().step(0, dt)
+        one.free()
+        for start, stop in ((float("nan"), None), (0, float("nan")), (1, 1), (1, 0.5)):
+            two = self.unit.instance()
+            self.assertRaises(AssertionError, two.initialise, start, stop)
+            self.assertIn("time is not", two.told[-1][2])
+            two.free()
+
+    def test_what_is_told_to_the_log(self):
+        one = self.unit.instance()
+        names = (c.c_char_p * 1)(b"logStatusWarning")
+        one.call("SetDebugLogging", 1, c.c_size_t(1), names)
+        one.call("SetDebugLogging", 0, c.c_size_t(0), None)
+        one.told.clear()
+        one.set("ice_force_x", 1, status=ERROR)
+        self.assertEqual(len(one.told), 1 if self.version == "2" else 0)  # 2.0 switches debug messages alone
+        one.call("Reset")
+        for category in self.unit.description.iter("Category"):
+            one.call("SetDebugLogging", 1, c.c_size_t(1), (c.c_char_p * 1)(category.get("name").encode()))
+        one.set("ice_force_x", 1, status=ERROR)
+        self.assertEqual(one.told[-1][:2], (ERROR, "logStatusError"))
+        one.told.clear()
+        for bad in ((c.c_char_p * 1)(b"no such"), (c.c_char_p * 1)(None), None):
+            one.call("SetDebugLogging", 1, c.c_size_t(1), bad, status=ERROR)
+        self.assertEqual(len(one.told), 3)
+        one.free()
 
     def test_a_handle_that_is_no_state_is_refused(self):
         one, two = self.unit.instance(name="one").initialise(), self.unit.instance(name="two").initialise()
@@ -173,18 +266,24 @@ class Units(unittest.TestCase):
         one.forget(c.c_void_p())
         size, room = c.c_size_t(), (c.c_char * 8)()
         for instance, handle in ((two, state), (one, gone), (one, c.c_void_p(1)), (one, c.c_void_p())):
-            instance.call("SetFMUstate", handle, status=ERROR)
-            instance.call("SerializedFMUstateSize", handle, c.byref(size), status=ERROR)
-            instance.call("SerializeFMUstate", handle, room, c.c_size_t(8), status=ERROR)
+            instance.call("SetFMUState", handle, status=ERROR)
+            instance.call("SerializedFMUStateSize", handle, c.byref(size), status=ERROR)
+            instance.call("SerializeFMUState", handle, room, c.c_size_t(8), status=ERROR)
             if handle.value:
-                instance.call("FreeFMUstate", c.byref(handle), status=ERROR)
-        one.call("SerializeFMUstate", state, room, c.c_size_t(8), status=ERROR)
+                instance.call("FreeFMUState", c.byref(handle), status=ERROR)
+        for name, arguments in (("GetFMUState", (None,)), ("SerializedFMUStateSize", (state, None)),
+                                ("SerializeFMUState", (state, None, c.c_size_t(8))),
+                                ("DeserializeFMUState", (None, c.c_size_t(8), c.byref(state))),
+                                ("DeserializeFMUState", (room, c.c_size_t(8), None))):
+            one.call(name, *arguments, status=ERROR)
+            self.assertIn("NULL", one.told[-1][2])
+        one.call("SerializeFMUState", state, room, c.c_size_t(8), status=ERROR)
         self.assertIn("less room", one.told[-1][2])
-        one.call("GetFMUstate", c.byref(state))  # a state that is handed in is used again
+        one.call("GetFMUState", c.byref(state))  # a state that is handed in is used again
         one.back(state)
-        one.call("FreeFMUstate", state)  # the state for its address, as fmusim 0.0.39 does
+        one.call("FreeFMUState", state)  # the state for its address, as fmusim 0.0.39 does
         self.assertIn("address", one.told[-1][2])
-        one.call("SetFMUstate", state, status=ERROR)
+        one.call("SetFMUState", state, status=ERROR)
         two.keep()  # and never forgotten: goes with the instance
         one.free()
         two.free()
@@ -193,13 +292,122 @@ class Units(unittest.TestCase):
         told = self.fram("fmu", self.scene, "-o", self.folder / "few.fmu", "--in", "thruster_*", "--out", "ice_force_?",
                          "--out", "yaw")
         self.assertIn("4 inputs, 4 outputs, 1 files", told)
-        for words, word in ((("--in", "no_such"), "no_such"), (("--out", "x*y"), "--out"), ((), "NAME.fmu")):
+        for words, word in ((("--in", "no_such"), "no_such"), (("--out", "x*y"), "--out"), ((), "NAME.fmu"),
+                            (("--fmi", "4"), "--fmi"), (("--fmi", "3.1"), "--fmi"), (("--fmi", ""), "--fmi")):
             output = self.folder / ("few.fmu" if words else "1-few.fmu")
             self.assertIn(word, self.fram("fmu", self.scene, "-o", output, "--force", *words, code=2))
         self.assertIn("--output", self.fram("fmu", self.scene, code=2))
         self.assertIn("time_step", self.fram("fmu", self.scene, "-o", self.folder / "bad.fmu", "--set",
                                              "run.time_step=-1", code=2))
         self.assertFalse((self.folder / "bad.fmu").exists())
+
+
+class Units2(Units, unittest.TestCase):
+    version = "2"
+
+
+class Units3(Units, unittest.TestCase):
+    version = "3"
+
+    def test_time_is_the_importers(self):
+        one, dt = self.unit.instance().initialise(start=-7.0), self.unit.step_size
+        self.assertEqual(one.get("time"), [-7])
+        self.assertEqual([one.step(-7, 4 * dt)], one.get("time"))
+        self.assertAlmostEqual(one.get("time")[0], -7 + 4 * dt, delta=1e-12)
+        one.set("time", 0, status=ERROR)
+        one.free()
+
+    def test_the_importer_looks_on_and_ends_steps_early(self):
+        dt, seen = self.unit.step_size, []
+
+        def look(time, may_return):
+            seen.append((time, may_return, *one.get("offset_x", "time")))
+            return answers.pop(0) if answers else None
+
+        one = self.unit.instance(look=look, look_at=("offset_x", "time")).initialise()
+        two = self.unit.instance().initialise()
+        answers = []
+        self.assertAlmostEqual(one.step(0, 4 * dt), 4 * dt, delta=1e-12)
+        self.assertFalse(one.early)
+        for i, (time, may_return, offset, own) in enumerate(seen):
+            two.step(i * dt, dt)
+            self.assertEqual([offset], two.get("offset_x"))
+            self.assertEqual((time, may_return), (own, i < 3))
+        self.assertEqual(len(seen), 4)
+        for answer, steps in ((0, 1), (float("nan"), 1), (6.9 * dt, 2), (8 * dt, 4), (1e9, 4)):
+            state, answers = one.keep(), [answer]
+            self.assertAlmostEqual(one.step(4 * dt, 4 * dt), (4 + steps) * dt, delta=1e-12)
+            self.assertEqual(one.early, steps < 4)
+            one.back(state)
+            one.forget(state)
+        one.free()
+        # Who does not allow it is not asked; the rest of the unit is not read, stepped or set meanwhile.
+        seen.clear()
+        one = self.unit.instance(look=look, look_at=("offset_x", "time"), early=False).initialise()
+        answers = [0, 0]
+        one.step(0, 3 * dt)
+        self.assertEqual((one.early, [may for _, may, _, _ in seen]), (False, [False] * 3))
+        one.free()
+        for bad in (lambda: one.get("yaw", status=ERROR), lambda: one.set("wind_x", 1, status=ERROR),
+                    lambda: one.step(0, dt, status=ERROR), lambda: one.call("Reset", status=ERROR),
+                    lambda: one.call("GetFMUState", c.byref(c.c_void_p()), status=ERROR), lambda: one.free()):
+            one = self.unit.instance(look=lambda _time, _may, call=bad: call() and None, look_at=("offset_x",))
+            one.initialise()
+            one.step(0, 3 * dt, status=ERROR)
+            self.assertIn("given up", one.told[-1][2])
+            one.free()
+        for names in (("wind_x",), ("nothing",)):
+            self.unit.reference["nothing"] = 10**6
+            self.assertFalse(self.unit.instance(look=look, look_at=names).c)
+
+    def test_what_3_has_and_this_unit_has_not(self):
+        one = self.unit.instance().initialise()
+        reference, size = (c.c_uint * 1)(0), c.c_size_t(1)
+        for kind in "Float32 Int8 UInt8 Int16 UInt16 Int32 UInt32 Int64 UInt64 Boolean String".split():
+            for way in "Get", "Set":
+                one.call(way + kind, None, c.c_size_t(0), None, c.c_size_t(0))
+                state = one.keep()
+                one.call(way + kind, reference, size, (c.c_double * 1)(), size, status=ERROR)
+                self.assertIn(f"fmi3{way}{kind}: all variables", one.told[-1][2])
+                one.back(state)
+        state = one.keep()
+        for name in ("EnterEventMode EnterStepMode EnterConfigurationMode ExitConfigurationMode EvaluateDiscreteStates "
+                     "EnterContinuousTimeMode").split():
+            one.call(name, status=ERROR)
+            self.assertIn(f"fmi3{name}: this unit does not offer that", one.told[-1][2])
+        nothing = (None,) * 7
+        for name in ("UpdateDiscreteStates GetIntervalDecimal GetIntervalFraction GetShiftDecimal GetShiftFraction "
+                     "SetIntervalDecimal SetIntervalFraction SetShiftDecimal SetShiftFraction ActivateModelPartition "
+                     "GetDirectionalDerivative GetAdjointDerivative GetOutputDerivatives GetVariableDependencies "
+                     "GetNumberOfVariableDependencies CompletedIntegratorStep SetTime SetContinuousStates "
+                     "GetContinuousStateDerivatives GetEventIndicators GetContinuousStates "
+                     "GetNominalsOfContinuousStates GetNumberOfEventIndicators GetNumberOfContinuousStates").split():
+            one.call(name, *nothing, status=ERROR)
+        one.back(state)
+        for references, values in ((1, 2), (2, 1), (1, 0)):
+            for name in "GetFloat64", "SetFloat64":
+                one.call(name, (c.c_uint * 2)(0, 1), c.c_size_t(references), (c.c_double * 2)(), c.c_size_t(values),
+                         status=ERROR)
+                self.assertIn("as many values", one.told[-1][2])
+                one.back(state)
+        room = [c.byref(c.c_bool()), c.byref(c.c_bool()), c.byref(c.c_bool()), c.byref(c.c_double())]
+        for missing in range(4):
+            where = [None if i == missing else pointer for i, pointer in enumerate(room)]
+            one.call("DoStep", c.c_double(0), c.c_double(self.unit.step_size), True, *where, status=ERROR)
+            one.back(state)
+        one.free()
+        self.assertFalse(self.unit.instance(events=True).c)
+        binary = self.unit.binary
+        for name in "ModelExchange", "ScheduledExecution":
+            function = getattr(binary, "fmi3Instantiate" + name)
+            function.restype = c.c_void_p
+            self.assertFalse(function(b"one", self.unit.token.encode(), b"/", False, True, *nothing))
+        binary.fmi3FreeInstance(None)
+        self.assertEqual(binary.fmi3DoStep(None, c.c_double(0), c.c_double(1), True, *nothing[:4]), ERROR)
+        silent = self.unit.instance(logging=False)
+        silent.set("ice_force_x", 1, status=ERROR)
+        self.assertEqual(silent.told, [])
+        silent.free()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,382 @@
+/* realpath is of X/Open, not of POSIX alone */
+#define _XOPEN_SOURCE 700
+/* Log, life and calling order of an instance.  Inputs are told to the world at the next step, and only when they
+   changed, so that an importer that sets all of them in every step does not take orders from the vessel's own
+   controller. */
+#include "unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- log ---- */
+
+static const struct {
+    unsigned bit;
+    const char *name;
+} categories[] = {
+    {UNIT_LOG_WARNING, "logStatusWarning"}, {UNIT_LOG_ERROR, "logStatusError"}, {UNIT_LOG_REST, "logAll"}};
+enum { CATEGORIES = sizeof categories / sizeof *categories, TEXT_ROOM = 2 * sizeof(fram_error) + 400 };
+
+void unit_tell(const unit *u, unit_status status, const char *text)
+{
+    int row = status == UNIT_OK ? 2 : status == UNIT_ERROR ? 1 : 0;
+    if (!u->logger || !(u->log & categories[row].bit))
+        return;
+    char told[TEXT_ROOM];
+    size_t length = 0;
+    for (; *text && length + 2 < sizeof told; text++) { /* # begins a reference to a variable: ## is the character */
+        if (*text == '#')
+            told[length++] = '#';
+        told[length++] = *text;
+    }
+    told[length] = '\0';
+    u->tell(u, status, categories[row].name, told);
+}
+
+unit_status unit_fail(unit *u, const char *text)
+{
+    u->phase = UNIT_TERMINATED;
+    unit_tell(u, UNIT_ERROR, text);
+    return UNIT_ERROR;
+}
+
+unit_status unit_fail_by(unit *u, const fram_error *e)
+{
+    char text[sizeof *e + 40];
+    snprintf(text, sizeof text, "%s%s%s%s%s", e->file, e->file[0] ? ": " : "", e->key, e->key[0] ? ": " : "",
+             e->message);
+    return unit_fail(u, text);
+}
+
+/* "fmi3DoStep", then what is wrong with it. */
+static unit_status fail_call(unit *u, const char *call, const char *text)
+{
+    char whole[300];
+    snprintf(whole, sizeof whole, "fmi%d%s: %s", u->version, call, text);
+    return unit_fail(u, whole);
+}
+
+unit_status unit_not_offered(unit *u, const char *call)
+{
+    return u ? fail_call(u, call, "this unit does not offer that") : UNIT_ERROR;
+}
+
+unit_status unit_no_such_type(unit *u, const char *call, size_t count)
+{
+    if (!u)
+        return UNIT_ERROR;
+    if (count == 0)
+        return UNIT_OK;
+    return fail_call(u, call,
+                     u->version == 2 ? "all variables of this unit are of type Real"
+                                     : "all variables of this unit are of type Float64");
+}
+
+unit_status unit_log_categories(unit *u, size_t count, const char *const names[], unsigned *sum)
+{
+    *sum = count == 0 ? UNIT_LOG_ALL : 0;
+    if (count > 0 && !names)
+        return unit_fail(u, "the categories of the log are NULL");
+    for (size_t i = 0; i < count; i++) {
+        int row = 0;
+        while (row < CATEGORIES && names[i] && strcmp(names[i], categories[row].name) != 0)
+            row++;
+        if (row == CATEGORIES || !names[i])
+            return unit_fail(u, "a category of the log is none of this unit's");
+        *sum |= categories[row].bit == UNIT_LOG_REST ? UNIT_LOG_ALL : categories[row].bit;
+    }
+    return UNIT_OK;
+}
+
+/* ---- life ---- */
+
+unit *unit_new(int version)
+{
+    unit *u = calloc(1, sizeof *u);
+    if (u) {
+        u->version = version;
+        u->stop = (double)INFINITY;
+    }
+    return u;
+}
+
+void unit_free(unit *u)
+{
+    if (!u)
+        return;
+    if (u->phase == UNIT_INTERMEDIATE) { /* its step goes on when the importer's function returns */
+        unit_fail(u, "an instance is not freed while it makes a step");
+        return;
+    }
+    unit_free_states(u);
+    fram_world_destroy(u->world);
+    fram_scenario_destroy(u->scenario);
+    fram_context_destroy(u->context);
+    free(u->variables);
+    free(u->name);
+    free(u->folder);
+    free(u);
+}
+
+unit *unit_open(unit *u, const char *name, const char *token, const char *folder)
+{
+    unsigned log = u->log;
+    u->log |= UNIT_LOG_ERROR; /* why there is no instance is told in any case */
+    u->name = strdup(name ? name : "");
+    u->folder = folder ? realpath(folder, NULL) : NULL; /* the working folder may change */
+    unit_status status = UNIT_ERROR;
+    if (!u->name)
+        unit_fail(u, "there is no memory left");
+    else if (!u->name[strspn(u->name, " \t\r\n")])
+        unit_fail(u, "the instance has no name");
+    else if (!token)
+        unit_fail(u, "the unit's token is NULL");
+    else if (!u->folder)
+        unit_fail(u, folder ? "the folder of the unit's resources is not there" : "there is no path of resources");
+    else
+        status = unit_read_resources(u, token);
+    u->log = log;
+    if (status == UNIT_OK)
+        return u;
+    unit_free(u);
+    return NULL;
+}
+
+unit_status unit_allow(unit *u, unsigned phases, const char *call)
+{
+    static const char *const names[UNIT_PHASES] = {"before it enters the initialization mode",
+                                                   "in the initialization mode", "between its steps", "during a step",
+                                                   "after it was terminated, or after an error"};
+    if (!u)
+        return UNIT_ERROR;
+    if (phases & 1U << u->phase)
+        return UNIT_OK;
+    char text[120];
+    snprintf(text, sizeof text, "this is not to be called %s", names[u->phase]);
+    return fail_call(u, call, text);
+}
+
+unit_status unit_set_up(unit *u, const char *call, double start, double stop)
+{
+    unit_status status = unit_allow(u, 1U << UNIT_INSTANTIATED, call);
+    if (status != UNIT_OK)
+        return status;
+    if (!isfinite(start))
+        return fail_call(u, call, "the start time is not finite");
+    if (!(stop > start))
+        return fail_call(u, call, "the stop time is not after the start time");
+    u->start = start;
+    u->stop = stop;
+    return UNIT_OK;
+}
+
+unit_status unit_enter_initialization(unit *u)
+{
+    unit_status status = unit_allow(u, 1U << UNIT_INSTANTIATED, "EnterInitializationMode");
+    if (status == UNIT_OK)
+        u->phase = UNIT_INITIALIZING;
+    return status;
+}
+
+/* Inputs that changed, in their order: positioning comes before the orders that it would refuse. */
+static unit_status tell_inputs(unit *u)
+{
+    fram_error e;
+    for (int i = 0; i < u->count; i++) {
+        variable *v = &u->variables[i];
+        if (v->kind != VARIABLE_INPUT || v->value == v->told)
+            continue;
+        if (fram_world_set_input(u->world, v->index, v->value, &e) != FRAM_OK)
+            return unit_fail_by(u, &e);
+        v->told = v->value; /* as the importer sees it: a limited order is not told again */
+    }
+    return UNIT_OK;
+}
+
+unit_status unit_exit_initialization(unit *u)
+{
+    unit_status status = unit_allow(u, 1U << UNIT_INITIALIZING, "ExitInitializationMode");
+    if (status == UNIT_OK)
+        status = tell_inputs(u);
+    if (status == UNIT_OK)
+        u->phase = UNIT_STEPPING;
+    return status;
+}
+
+unit_status unit_terminate(unit *u)
+{
+    unit_status status = unit_allow(u, 1U << UNIT_STEPPING, "Terminate");
+    if (status == UNIT_OK)
+        u->phase = UNIT_TERMINATED;
+    return status;
+}
+
+/* Outputs as the world says them now. */
+static void read_outputs(unit *u)
+{
+    for (int i = 0; i < u->count; i++) {
+        if (u->variables[i].kind == VARIABLE_OUTPUT)
+            u->variables[i].value = fram_world_value(u->world, u->variables[i].index);
+    }
+}
+
+void unit_read_start(unit *u)
+{
+    read_outputs(u);
+    for (int i = 0; i < u->count; i++) {
+        variable *v = &u->variables[i];
+        if (v->kind == VARIABLE_INPUT)
+            v->value = v->told = fram_world_input_value(u->world, v->index);
+    }
+}
+
+unit_status unit_make_world(unit *u)
+{
+    fram_error e;
+    fram_world *made;
+    if (fram_world_create(u->scenario, &made, &e) != FRAM_OK)
+        return unit_fail_by(u, &e);
+    fram_world_destroy(u->world);
+    u->world = made;
+    u->phase = UNIT_INSTANTIATED;
+    u->start = 0;
+    u->stop = INFINITY;
+    unit_read_start(u);
+    return UNIT_OK;
+}
+
+unit_status unit_reset(unit *u)
+{
+    unit_status status = unit_allow(u, ~(1U << UNIT_INTERMEDIATE), "Reset");
+    return status == UNIT_OK ? unit_make_world(u) : status;
+}
+
+/* ---- variables ---- */
+
+static bool are_variables(const unit *u, const uint32_t references[], size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (references[i] >= (uint32_t)u->count)
+            return false;
+    }
+    return true;
+}
+
+unit_status unit_get(unit *u, const uint32_t references[], size_t count, double values[])
+{
+    if (!u)
+        return UNIT_ERROR;
+    if (count > 0 && (!references || !values))
+        return unit_fail(u, "value references or values are NULL");
+    if (!are_variables(u, references, count))
+        return unit_fail(u, "a value reference names no variable");
+    for (size_t i = 0; i < count; i++) {
+        const variable *v = &u->variables[references[i]];
+        if (u->phase == UNIT_INTERMEDIATE && !v->is_looked_at)
+            return unit_fail(u,
+                             "a variable is read during a step that was not asked for when the unit was instantiated");
+        values[i] = v->kind == VARIABLE_TIME ? unit_time(u) : v->value;
+    }
+    return UNIT_OK;
+}
+
+unit_status unit_set(unit *u, const uint32_t references[], size_t count, const double values[])
+{
+    if (!u)
+        return UNIT_ERROR;
+    const unsigned phases = 1U << UNIT_INSTANTIATED | 1U << UNIT_INITIALIZING | 1U << UNIT_STEPPING;
+    unit_status status = unit_allow(u, phases, u->version == 2 ? "SetReal" : "SetFloat64");
+    if (status != UNIT_OK)
+        return status;
+    if (count > 0 && (!references || !values))
+        return unit_fail(u, "value references or values are NULL");
+    for (size_t i = 0; i < count; i++) {
+        if (!are_variables(u, &references[i], 1) || u->variables[references[i]].kind != VARIABLE_INPUT)
+            return unit_fail(u, "a value reference names no input");
+        if (!isfinite(values[i]))
+            return unit_fail(u, "an input is not finite");
+    }
+    for (size_t i = 0; i < count; i++)
+        u->variables[references[i]].value = values[i];
+    return UNIT_OK;
+}
+
+unit_status unit_look_at(unit *u, const uint32_t references[], size_t count)
+{
+    if (count > 0 && !references)
+        return unit_fail(u, "the intermediate variables are NULL");
+    for (size_t i = 0; i < count; i++) {
+        if (!are_variables(u, &references[i], 1) || u->variables[references[i]].kind == VARIABLE_INPUT)
+            return unit_fail(u, "an intermediate variable is no output of this unit");
+        u->variables[references[i]].is_looked_at = true;
+    }
+    return UNIT_OK;
+}
+
+/* ---- steps ---- */
+
+/* A communication step is a whole multiple of the time step within this share of it. */
+#define STEP_TOLERANCE 1e-6
+/* Times of the importer are those of the unit within this share of a time step. */
+#define TIME_TOLERANCE 0.01
+
+double unit_time(const unit *u) { return u->start + fram_world_time(u->world); }
+
+static unit_status check_step(unit *u, double now, double step, double count)
+{
+    char text[200] = "";
+    double dt = fram_scenario_time_step(u->scenario), own = unit_time(u);
+    double tolerance = TIME_TOLERANCE * dt + 1e-12 * fabs(own);
+    if (!(count >= 1 && count < 1e9 && fabs(step - count * dt) <= STEP_TOLERANCE * dt * count))
+        snprintf(text, sizeof text,
+                 "a communication step of %.17g s is no whole multiple of the scenario's time step, %.17g s", step, dt);
+    else if (!(fabs(now - own) <= tolerance))
+        snprintf(text, sizeof text, "the step begins at %.17g s, and the unit stands at %.17g s", now, own);
+    else if (own + step > u->stop + tolerance)
+        snprintf(text, sizeof text, "the step ends at %.17g s, past the stop time, %.17g s", own + step, u->stop);
+    return text[0] ? unit_fail(u, text) : UNIT_OK;
+}
+
+/* One step of the world.  *end: the importer wants no more of them. */
+static unit_status step_inside(unit *u, bool is_last, double *return_at, bool *end)
+{
+    fram_error e;
+    double dt = fram_scenario_time_step(u->scenario);
+    if (fram_world_step(u->world, &e) != FRAM_OK)
+        return unit_fail_by(u, &e);
+    *end = is_last;
+    if (u->look || is_last)
+        read_outputs(u);
+    if (u->look) {
+        u->phase = UNIT_INTERMEDIATE;
+        u->look(u, unit_time(u), u->may_return_early && !is_last, return_at);
+        if (u->phase != UNIT_INTERMEDIATE)
+            return unit_fail(u, "the step is given up after a call that is not to be made during one");
+        u->phase = UNIT_STEPPING;
+        *end = is_last || unit_time(u) + (1 - TIME_TOLERANCE) * dt > *return_at;
+    }
+    return UNIT_OK;
+}
+
+unit_status unit_step(unit *u, double now, double step, bool *early)
+{
+    *early = false;
+    unit_status status = unit_allow(u, 1U << UNIT_STEPPING, "DoStep");
+    if (status != UNIT_OK)
+        return status;
+    double count = floor(step / fram_scenario_time_step(u->scenario) + 0.5), return_at = INFINITY;
+    status = check_step(u, now, step, count);
+    if (status == UNIT_OK)
+        status = tell_inputs(u);
+    bool end = false;
+    for (int64_t i = 0; status == UNIT_OK && !end; i++) {
+        bool is_last = i + 1 == (int64_t)count;
+        status = step_inside(u, is_last, &return_at, &end);
+        *early = end && !is_last;
+    }
+    if (status != UNIT_OK)
+        read_outputs(u);
+    return status;
+}
