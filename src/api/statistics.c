@@ -5,7 +5,7 @@
 #include "api/handles.h"
 #include "study/extremes.h"
 #include "study/extremes_chart.h"
-#include "study/rainflow.h"
+#include "results/rainflow.h"
 #include "study/series_file.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
 #include "io/csv.h"
 #include "model/scenario_vessel.h"
 #include "results/manage_parts.h"
+#include "results/rainflow.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,6 +97,38 @@ static void magnitude(const manage_run *m, const char *x_name, const char *y_nam
         *mean = sum / n;
 }
 
+/* The line with the greatest damage; NaN without lines, or without memory. */
+static void sum_fatigue(const manage_run *m, int32_t lines, manage_summary *out)
+{
+    const double *t = run_channel(&m->d, "time");
+    int32_t first = run_first_row(&m->d), rows = m->d.series.rows;
+    /* Each value stands for a step, the last one too. */
+    double steps = rows - first - 1.0, seconds = t && steps > 0 ? (t[rows - 1] - t[first]) * (steps + 1) / steps : 0;
+    rain_cycles cycles = {0};
+    out->tension_range = (double)NAN;
+    for (int32_t line = 1; line <= lines && seconds > 0; line++) {
+        char name[40];
+        snprintf(name, sizeof name, "line_%d_tension", (int)line);
+        const double *tension = run_vessel_channel(&m->d, m->vessel, name);
+        if (!tension || !rainflow(m->ctx, tension + first, rows - first, &cycles))
+            continue;
+        double range = equivalent_range(&cycles, FATIGUE_CHAIN_SLOPE, seconds);
+        if (out->tension_line > 0 && range <= out->tension_range)
+            continue;
+        out->tension_range = range;
+        out->tension_line = line;
+    }
+    rainflow_free(m->ctx, &cycles);
+}
+
+static int32_t line_count(const scenario_vessel *keys)
+{
+    int32_t sum = 0;
+    for (int32_t i = 0; i < keys->mooring.lines.count; i++)
+        sum += (int32_t)keys->mooring.lines.data[i].count;
+    return sum;
+}
+
 void manage_sum_up(const manage_run *m, manage_summary *out)
 {
     double unused;
@@ -109,6 +142,7 @@ void manage_sum_up(const manage_run *m, manage_summary *out)
     magnitude(m, "line_tension_max", "line_tension_max", &unused, &out->tension_most);
     out->tension_most *= sqrt(0.5);
     const scenario_vessel *keys = scenario_vessel_entry(&m->d.s, m->vessel).keys;
+    sum_fatigue(m, line_count(keys), out);
     if (keys->mooring.lines.count == 0)
         out->tension_most = (double)NAN;
     if (keys->mooring.lines.count == 0 && !keys->positioning.active)

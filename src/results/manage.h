@@ -37,6 +37,10 @@ typedef struct manage_summary {
     double warning_least, warning_median; /* until the largest of it comes [s] */
     double load_mean, load_most;          /* averaged horizontal ice load on the vessel [N] */
     double offset_most, tension_most;     /* [m], [N] */
+    /* Of the line with the largest: the range of tension that does the damage of all its rainflow cycles with one cycle
+       a second and the slope FATIGUE_CHAIN_SLOPE [N]; the line's number, 0: none. */
+    double tension_range;
+    int32_t tension_line;
 } manage_summary;
 
 /* The page, its two tables (PAGE less its ending, .csv and -sizes.csv) and the numbers; beside: those of the other run,

@@ -1,9 +1,11 @@
 /* The page of ice management: what a client asks first, then figures, tables, charts and the plan. */
 #include "results/manage_parts.h"
 
+#include "base/transcendental.h"
 #include "io/atomic_file.h"
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
+#include "results/rainflow.h"
 #include "results/replay_plan.h"
 
 #include <stdio.h>
@@ -104,6 +106,23 @@ static void load_row(page *p, const char *name, double own, double beside)
     html_row_end(&p->html);
 }
 
+/* What the row of fatigue in the table means, and the ratio of damages. */
+static void fatigue(page *p)
+{
+    const manage_summary *a = p->s, *b = p->os;
+    if (isnan(a->tension_range))
+        return;
+    html_paragraph(&p->html,
+                   "Fatigue of line %d, the most damaged: rainflow cycles (ASTM E1049-85) and Miner's rule with slope "
+                   "%g, that of chains; the range does with one cycle a second the damage that all cycles do.",
+                   (int)a->tension_line, FATIGUE_CHAIN_SLOPE);
+    if (b && b->tension_range > 0)
+        html_paragraph(&p->html,
+                       "In the same time the most damaged line here takes %.3g times the damage of that of the "
+                       "run beside (line %d).",
+                       real_pow(a->tension_range / b->tension_range, FATIGUE_CHAIN_SLOPE), (int)b->tension_line);
+}
+
 static void load_table(page *p)
 {
     const char *const heads[] = {"after the transient", "this run", "run beside", "this / beside"};
@@ -113,7 +132,9 @@ static void load_table(page *p)
     load_row(p, "largest horizontal ice load, averaged [kN]", 1e-3 * a->load_most, 1e-3 * b->load_most);
     load_row(p, "largest offset [m]", a->offset_most, b->offset_most);
     load_row(p, "largest line tension [kN]", 1e-3 * a->tension_most, 1e-3 * b->tension_most);
+    load_row(p, "damage-equivalent range of line tension [kN]", 1e-3 * a->tension_range, 1e-3 * b->tension_range);
     html_table_end(&p->html);
+    fatigue(p);
 }
 
 static void alarm_table(page *p)

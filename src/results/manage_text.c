@@ -51,6 +51,9 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
             text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
         if (!isnan(a->tension_most))
             text_format(ctx, out, "line tension %.4g kN at most\n", 1e-3 * a->tension_most);
+        if (!isnan(a->tension_range))
+            text_format(ctx, out, "fatigue of line %d: %.4g kN, the range that damages as all its cycles do\n",
+                        (int)a->tension_line, 1e-3 * a->tension_range);
     }
     text_format(ctx, out, "managed: floes of at most %.3g m", s->limit);
     if (!isnan(s->largest_time))
@@ -89,7 +92,9 @@ static void summary_json(context *ctx, const manage_summary *s, text_buffer *out
     real(ctx, out, "load_mean", s->load_mean, ", ");
     real(ctx, out, "load_most", s->load_most, ", ");
     real(ctx, out, "offset_most", s->offset_most, ", ");
-    real(ctx, out, "tension_most", s->tension_most, "}");
+    real(ctx, out, "tension_most", s->tension_most, ", ");
+    real(ctx, out, "tension_range_equivalent", s->tension_range, ", ");
+    real(ctx, out, "tension_line", s->tension_line > 0 ? s->tension_line : (double)NAN, "}");
 }
 
 fram_status manage_text(context *ctx, const manage_summary *s, const manage_summary *beside, bool json,

@@ -7,7 +7,7 @@
 #include "model/scenario_vessel.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
-#include "study/rainflow.h"
+#include "results/rainflow.h"
 
 #include <errno.h>
 #include <math.h>
@@ -68,7 +68,7 @@ static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, cons
     rain_cycles cycles = {0};
     good = good && rainflow(ctx, value.data, value.count, &cycles);
     if (good && seconds > 0)
-        *out = equivalent_range(&cycles, ROW_FATIGUE_SLOPE, seconds);
+        *out = equivalent_range(&cycles, FATIGUE_CHAIN_SLOPE, seconds);
     rainflow_free(ctx, &cycles);
     array_free(ctx, &value);
     return good ? FRAM_OK : error_memory(error);

@@ -11,8 +11,7 @@
    significant: mean of the highest third of the peaks.  share: part of the mean horizontal ice load, along it, that a
    mechanism makes; the shares of a run add up to 1 (model/mechanism.h has their order).  range_equivalent: of the
    largest tension of a line and of the load, the range that does the damage of all rainflow cycles with one cycle a
-   second and the slope ROW_FATIGUE_SLOPE (study/rainflow.h). */
-#define ROW_FATIGUE_SLOPE 3.0
+   second and the slope FATIGUE_CHAIN_SLOPE (results/rainflow.h). */
 #define RUN_ROW_FIGURES(X)                \
     X(time, "s")                          \
     X(load_mean, "N")                     \

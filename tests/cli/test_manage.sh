@@ -80,6 +80,40 @@ rows = list(csv.reader(open("page-sizes.csv")))[1:]
 assert abs(sum(float(r[4]) for r in rows) - 1) < 1e-9
 PY
 
+# Fatigue of lines: tensions that are written by hand into a run, the second line between 0 and 1 kN from value to
+# value, the first half as far; beside it a run of half the range, that is an eighth of the damage.
+cat >moored.yaml <<'YAML'
+run: {duration: 2, time_step: 0.02, transient: 0.5}
+vessel:
+  mode: free
+  hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}
+  hydrodynamics: {source: estimate}
+  mooring: {lines: [{count: 2, spacing_deg: 180, distance: 200, pretension: 2.0e5}]}
+ice: {source: none}
+domain: {x_min: -300, x_max: 300, y_min: -300, y_max: 300, boundary: open}
+output: {frame_interval: 1, csv_interval: 0.1}
+YAML
+for run in full half; do
+    "$FRAM" run moored.yaml -o "$run" -q
+    python3 - "$run" <<'PY'
+import csv, sys
+path = sys.argv[1] + "/series.csv"
+rows = list(csv.reader(open(path)))
+columns = [next(i for i, n in enumerate(rows[0]) if n.startswith(f"line_{k}_tension")) for k in (1, 2)]
+for i, row in enumerate(rows[1:]):
+    for part, column in zip((0.5, 1), columns):
+        row[column] = repr((1000.0 if sys.argv[1] == "full" else 500.0) * part * (i % 2))
+csv.writer(open(path, "w"), lineterminator="\n").writerows(rows)
+PY
+done
+expect 0 "$FRAM" manage full --json -q
+# Values from 0.5 to 2 s: 16, so 15 half cycles in 1.6 s.
+number "j['run']['tension_range_equivalent']" "$(python3 -c 'print(1000 * (7.5 / 1.6) ** (1 / 3))')"
+number "j['run']['tension_line']" 2
+expect 0 "$FRAM" manage full --beside half
+says "fatigue of line 2" out
+grep -q "takes 8 times the damage" full/manage.html || fail "the page does not compare the damages"
+
 # What cannot be told is refused.
 expect 2 "$FRAM" manage
 expect 2 "$FRAM" manage nowhere

@@ -2,7 +2,7 @@
 #include "testing.h"
 
 #include "base/transcendental.h"
-#include "study/rainflow.h"
+#include "results/rainflow.h"
 
 static double count_of(const rain_cycles *c, double range)
 {

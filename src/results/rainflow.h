@@ -1,8 +1,11 @@
 /* Rainflow counting (ASTM E1049-85, 5.4.4) and damage-equivalent ranges.  Knows numbers only. */
-#ifndef STUDY_RAINFLOW_H
-#define STUDY_RAINFLOW_H
+#ifndef RESULTS_RAINFLOW_H
+#define RESULTS_RAINFLOW_H
 
 #include "io/csv_read.h"
+
+/* m of the T-N curves of chains (API RP 2SK). */
+#define FATIGUE_CHAIN_SLOPE 3.0
 
 typedef struct rain_cycle {
     double range, mean, count; /* count: 1, or 0.5 of a half cycle */

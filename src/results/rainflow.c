@@ -1,4 +1,4 @@
-#include "study/rainflow.h"
+#include "results/rainflow.h"
 
 #include "base/transcendental.h"
 
