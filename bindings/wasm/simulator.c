@@ -90,7 +90,7 @@ EMSCRIPTEN_KEEPALIVE int simulator_is_over(const simulator *s) { return fram_wor
 
 EMSCRIPTEN_KEEPALIVE int simulator_floes(const simulator *s)
 {
-    return fram_world_bodies(s->world, FRAM_SELECT_FLOES, &(fram_body_arrays){.size = sizeof(fram_body_arrays)});
+    return fram_world_bodies(s->world, FRAM_SELECT_FLOES, NULL);
 }
 
 /* 16 hexadecimal digits, as `fram run --json` prints them. */

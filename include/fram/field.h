@@ -85,7 +85,8 @@ typedef struct fram_field_summary {
     int bin[FRAM_FIELD_BINS];
     int passed_over; /* features of a file that say they are no ice: kind "vessel" or "wall", as exports write them */
 } fram_field_summary;
-FRAM_API void fram_field_summary_get(const fram_field *field, fram_field_summary *summary);
+FRAM_API void fram_field_summary_get(const fram_field *field, fram_field_summary *summary, size_t size);
+#define fram_field_summary_get(...) fram_field_summary_get(__VA_ARGS__, sizeof(fram_field_summary))
 
 /* What happened to a ring, in the file's order. */
 typedef struct fram_field_note {
@@ -95,7 +96,8 @@ typedef struct fram_field_note {
     const char *reason;         /* "crosses or touches itself" */
 } fram_field_note;
 /* Number of notes; up to `room` of them are copied to notes, which may be NULL with room 0. */
-FRAM_API int fram_field_notes(const fram_field *field, fram_field_note *notes, int room);
+FRAM_API int fram_field_notes(const fram_field *field, fram_field_note *notes, int room, size_t size);
+#define fram_field_notes(...) fram_field_notes(__VA_ARGS__, sizeof(fram_field_note))
 
 /* Number of vertices of a floe (from 0), 0 for no floe; up to `room` of them (x, y) are copied to vertices, which may
    be NULL with room 0. */
@@ -119,7 +121,8 @@ typedef struct fram_field_making {
     int vertex_changes;     /* drawn floes whose number of vertices was changed by being moved */
 } fram_field_making;
 /* false, and nothing is written, for a field of a file. */
-FRAM_API bool fram_field_making_get(const fram_field *field, fram_field_making *making);
+FRAM_API bool fram_field_making_get(const fram_field *field, fram_field_making *making, size_t size);
+#define fram_field_making_get(...) fram_field_making_get(__VA_ARGS__, sizeof(fram_field_making))
 
 /* A population against the law of size that was asked for. */
 typedef struct fram_field_population {
@@ -133,7 +136,8 @@ typedef struct fram_field_population {
 } fram_field_population;
 /* FRAM_ERROR_USAGE for a number (from 0) that is none. */
 FRAM_API fram_status fram_field_population_get(const fram_field *field, int number, fram_field_population *population,
-                                               fram_error *error);
+                                               fram_error *error, size_t size);
+#define fram_field_population_get(...) fram_field_population_get(__VA_ARGS__, sizeof(fram_field_population))
 
 /* --- Drawings, files --- */
 

@@ -20,6 +20,15 @@
    the result of runs, exports and pages.  Objects are not locked: use one world from one thread at a time; worlds of
    different contexts are independent.  A context must outlive its scenarios, a scenario its worlds.
 
+   Structs.  A program that was built with older headers runs with a newer library: structs grow at their ends alone,
+   and the library is told how long the program's is.  A definition carries its size, which its default function sets. A
+   function that fills a struct, or a list of them, is told it as last argument by a macro of its own name: in C there
+   is nothing to do, and a language without the headers passes the size of its struct (of a row of its list).  The
+   library writes no byte more.  A size that no version had (too short, longer than the library's) is FRAM_ERROR_USAGE
+   with the struct's name as key; functions without a status then fill nothing and return 0 or false.  What is handed by
+   value (fram_body_id), stands inside another struct or in a list of the library's (fram_level, fram_cycle), and
+   fram_error keep their form; what a callback is handed is the library's own.
+
    Units are SI.  Global frame: X, Y horizontal, Z up, still water at z = 0.  Body frame of a vessel: x forward, y to
    port, z up, origin at the centre of mass.  Quaternions are w, x, y, z and turn body coordinates into global ones. */
 #ifndef FRAM_FRAM_H
@@ -178,7 +187,8 @@ FRAM_API bool fram_world_vessel_named(const fram_world *world, const char *name,
 FRAM_API const char *fram_world_vessel_name(const fram_world *world, int vessel);
 /* FRAM_ERROR_USAGE when the body lives no more. */
 FRAM_API fram_status fram_body_state_get(const fram_world *world, fram_body_id body, fram_body_state *state,
-                                         fram_error *error);
+                                         fram_error *error, size_t size);
+#define fram_body_state_get(...) fram_body_state_get(__VA_ARGS__, sizeof(fram_body_state))
 /* Plan outline of a floe or wall: its number of vertices, and up to `room` of them in global coordinates (x, y pairs);
    0 for other bodies. */
 FRAM_API int fram_body_outline(const fram_world *world, fram_body_id body, double *xy, int room);
@@ -188,7 +198,8 @@ FRAM_API fram_status fram_body_apply_wrench(fram_world *world, fram_body_id body
                                             const double moment[3], fram_error *error);
 /* FRAM_ERROR_USAGE when the body is no vessel. */
 FRAM_API fram_status fram_world_ice_load(const fram_world *world, fram_body_id vessel, fram_ice_load *load,
-                                         fram_error *error);
+                                         fram_error *error, size_t size);
+#define fram_world_ice_load(...) fram_world_ice_load(__VA_ARGS__, sizeof(fram_ice_load))
 
 /* ---- Runs ---- */
 
@@ -234,10 +245,12 @@ FRAM_API void fram_run_default(fram_run_definition *definition, size_t size);
 #define fram_run_default(definition) fram_run_default((definition), sizeof *(definition))
 /* Run a scenario from its start and write time series, record, pictures and checkpoints to definition->folder. */
 FRAM_API fram_status fram_run(const fram_scenario *scenario, const fram_run_definition *definition,
-                              fram_run_result *result, fram_error *error);
+                              fram_run_result *result, fram_error *error, size_t size);
+#define fram_run(...) fram_run(__VA_ARGS__, sizeof(fram_run_result))
 /* Continue the run in definition->folder from its newest good checkpoint; refuses changed inputs. */
 FRAM_API fram_status fram_resume(fram_context *context, const fram_run_definition *definition, fram_run_result *result,
-                                 fram_error *error);
+                                 fram_error *error, size_t size);
+#define fram_resume(...) fram_resume(__VA_ARGS__, sizeof(fram_run_result))
 
 /* ---- Playback ---- */
 
@@ -261,7 +274,8 @@ FRAM_API void fram_playback_default(fram_playback_definition *definition, size_t
 #define fram_playback_default(definition) fram_playback_default((definition), sizeof *(definition))
 /* A page that plays a run in a browser, from disk, without a network.  result may be NULL. */
 FRAM_API fram_status fram_playback(fram_context *context, const fram_playback_definition *definition,
-                                   fram_playback_result *result, fram_error *error);
+                                   fram_playback_result *result, fram_error *error, size_t size);
+#define fram_playback(...) fram_playback(__VA_ARGS__, sizeof(fram_playback_result))
 
 /* ---- Benchmark ---- */
 
@@ -290,7 +304,8 @@ typedef struct fram_bench_result {
 
 /* Step a scenario's world for `time` seconds after `warm` seconds of warm-up, without output, and measure. */
 FRAM_API fram_status fram_bench(const fram_scenario *scenario, double warm, double time, fram_bench_result *result,
-                                fram_error *error);
+                                fram_error *error, size_t size);
+#define fram_bench(...) fram_bench(__VA_ARGS__, sizeof(fram_bench_result))
 
 /* A benchmark scene in the text format that other engines read too (bench/peers/README.md): its own simple water, a box
    ship at constant speed, walls; every floe awake. */
@@ -308,7 +323,8 @@ FRAM_API void fram_bench_scene_default(fram_bench_scene_definition *definition, 
 /* FRAM_ERROR_INPUT with file and line for a scene that cannot be read. */
 FRAM_API fram_status fram_bench_scene(fram_context *context, const char *path,
                                       const fram_bench_scene_definition *definition, fram_bench_result *result,
-                                      fram_error *error);
+                                      fram_error *error, size_t size);
+#define fram_bench_scene(...) fram_bench_scene(__VA_ARGS__, sizeof(fram_bench_result))
 
 #ifdef __cplusplus
 }

@@ -93,7 +93,8 @@ typedef struct fram_hull_surface {
     double hole_area; /* [m2] */
     int flipped;      /* triangles turned, on request */
 } fram_hull_surface;
-FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface);
+FRAM_API void fram_hull_surface_get(const fram_hull *hull, fram_hull_surface *surface, size_t size);
+#define fram_hull_surface_get(...) fram_hull_surface_get(__VA_ARGS__, sizeof(fram_hull_surface))
 /* The triangles: up to `room` vertices (x, y, z) and triangles (three vertex numbers from 0) are copied; either may be
    NULL with room 0.  Sizes stand in fram_hull_surface. */
 FRAM_API void fram_hull_triangles(const fram_hull *hull, double *vertices, int vertex_room, int *triangles,
@@ -144,7 +145,8 @@ typedef struct fram_hull_floating {
 /* condition NULL: the defaults.  FRAM_ERROR_INPUT: the water does not cut the hull, it sinks, or no equilibrium is
    found; FRAM_ERROR_USAGE: draught and mass together. */
 FRAM_API fram_status fram_hull_float(const fram_hull *hull, const fram_hull_condition *condition,
-                                     fram_hull_floating *floating, fram_error *error);
+                                     fram_hull_floating *floating, fram_error *error, size_t size);
+#define fram_hull_float(...) fram_hull_float(__VA_ARGS__, sizeof(fram_hull_floating))
 
 /* --- Pieces, drawings, files --- */
 
@@ -157,7 +159,8 @@ typedef struct fram_hull_pieces {
 /* Cut into convex pieces, as collisions use them.  tolerance: largest distance between pieces and surface [m], NaN: a
    hundredth of the breadth; most: number of pieces, at least 1.  The hull keeps them for drawings. */
 FRAM_API fram_status fram_hull_cut(fram_hull *hull, double tolerance, int most, fram_hull_pieces *pieces,
-                                   fram_error *error);
+                                   fram_error *error, size_t size);
+#define fram_hull_cut(...) fram_hull_cut(__VA_ARGS__, sizeof(fram_hull_pieces))
 /* A lines plan with the water, the surface and the pieces (if it was cut) as PNG; title may be NULL.
    FRAM_ERROR_UNSUPPORTED in a build without pictures. */
 FRAM_API fram_status fram_hull_draw(const fram_hull *hull, const fram_hull_condition *condition, const char *title,

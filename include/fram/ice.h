@@ -28,7 +28,8 @@ typedef struct fram_ice_wedge_result {
     double eta0;       /* deflection of the tip, w k b0 l^2/P */
 } fram_ice_wedge_result;
 /* FRAM_ERROR_INPUT unless 0.001 <= a/l <= 3. */
-FRAM_API fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_error *error);
+FRAM_API fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_error *error, size_t size);
+#define fram_ice_wedge(...) fram_ice_wedge(__VA_ARGS__, sizeof(fram_ice_wedge_result))
 
 /* A sheet with a straight edge, loaded evenly on a half disk of radius a there: stress along the edge. */
 typedef struct fram_ice_sheet_result {
@@ -38,7 +39,8 @@ typedef struct fram_ice_sheet_result {
 } fram_ice_sheet_result;
 /* FRAM_ERROR_INPUT unless 0.001 <= a/l <= 3 and 0 <= poisson_ratio <= 0.5. */
 FRAM_API fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet_result *result,
-                                    fram_error *error);
+                                    fram_error *error, size_t size);
+#define fram_ice_sheet(...) fram_ice_sheet(__VA_ARGS__, sizeof(fram_ice_sheet_result))
 
 /* --- A load on an ice edge --- */
 
@@ -76,7 +78,9 @@ typedef struct fram_ice_breaking {
     double strip_length;          /* from the edge to where the strip breaks [m]; 0 without contact_width */
 } fram_ice_breaking;
 /* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
-FRAM_API fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error);
+FRAM_API fram_status fram_ice_break(const fram_ice_edge *load, fram_ice_breaking *breaking, fram_error *error,
+                                    size_t size);
+#define fram_ice_break(...) fram_ice_break(__VA_ARGS__, sizeof(fram_ice_breaking))
 
 /* --- A floe that splits --- */
 
@@ -98,7 +102,9 @@ typedef struct fram_ice_splitting {
     double splitting_load;            /* largest opening force of the crack, F h K_IC sqrt(length) [N] */
 } fram_ice_splitting;
 /* FRAM_ERROR_INPUT, with the member's name as key, for a value out of range. */
-FRAM_API fram_status fram_ice_split(const fram_ice_floe *floe, fram_ice_splitting *splitting, fram_error *error);
+FRAM_API fram_status fram_ice_split(const fram_ice_floe *floe, fram_ice_splitting *splitting, fram_error *error,
+                                    size_t size);
+#define fram_ice_split(...) fram_ice_split(__VA_ARGS__, sizeof(fram_ice_splitting))
 
 #ifdef __cplusplus
 }

@@ -20,9 +20,7 @@
    again is FRAM_ERROR_USAGE until a good state was loaded.  A call of this header that fails changes nothing, unless it
    says so.
 
-   Older programs.  A struct that begins with `size` may be shorter than the library's: what it lacks has its default,
-   or is not written.  It may not be longer.  Default functions are told the size of the program's struct by a macro of
-   their name; a language that calls them without the headers says it as second argument. */
+   Older programs run with a newer library, whose structs may have more members at their ends; fram.h says how. */
 #ifndef FRAM_LIVE_H
 #define FRAM_LIVE_H
 
@@ -70,14 +68,15 @@ FRAM_API void fram_data_free(fram_context *context, void *data);
 /* ---- Channels: every column of series.csv ---- */
 
 typedef struct fram_channel {
-    size_t size; /* of this struct, set by the caller */
     int index;
     const char *name;    /* "ice_force_x"; these texts live as long as the world */
     const char *unit;    /* "N", "1" without one */
     const char *meaning; /* a few words; "" for a channel that says it by its name */
 } fram_channel;
 FRAM_API int fram_world_channels(const fram_world *world);
-FRAM_API fram_status fram_world_channel(const fram_world *world, int index, fram_channel *channel, fram_error *error);
+FRAM_API fram_status fram_world_channel(const fram_world *world, int index, fram_channel *channel, fram_error *error,
+                                        size_t size);
+#define fram_world_channel(...) fram_world_channel(__VA_ARGS__, sizeof(fram_channel))
 /* -1: there is none of this name. */
 FRAM_API int fram_world_find_channel(const fram_world *world, const char *name);
 /* Now; NaN for an index that is none. */
@@ -97,8 +96,7 @@ enum {
 
 /* Where to put what; any pointer may be NULL.  Rows ascend with the slot. */
 typedef struct fram_body_arrays {
-    size_t size; /* of this struct, set by the caller */
-    int room;    /* rows of each array */
+    int room; /* rows of each array */
     fram_body_id *id;
     int32_t *kind;            /* fram_body_kind */
     int32_t *number;          /* running number of a floe, never used twice; -1 for others */
@@ -111,7 +109,9 @@ typedef struct fram_body_arrays {
     double *angular_velocity; /* 3 each: global [rad/s] */
 } fram_body_arrays;
 /* Returns how many bodies are selected; of those the first `room` are written. */
-FRAM_API int fram_world_bodies(const fram_world *world, unsigned selection, const fram_body_arrays *arrays);
+FRAM_API int fram_world_bodies(const fram_world *world, unsigned selection, const fram_body_arrays *arrays,
+                               size_t size);
+#define fram_world_bodies(...) fram_world_bodies(__VA_ARGS__, sizeof(fram_body_arrays))
 
 /* Plan outlines of the selected floes and walls, in the same order, bodies without one having no vertices: those of row
    i are xy[2 * offset[i]] to before xy[2 * offset[i + 1]], global [m].  offset has bodies + 1 numbers, xy 2 * points;
@@ -122,7 +122,6 @@ FRAM_API int fram_world_outlines(const fram_world *world, unsigned selection, in
 /* The world's own memory, by slot: no copy.  Rows of slots where nobody lives have no meaning.  Valid until the world
    is stepped, loaded or destroyed. */
 typedef struct fram_body_view {
-    size_t size; /* of this struct, set by the caller */
     int slots;
     const double *position;         /* 3 each: centre of mass, global [m] */
     const double *orientation;      /* 4 each: w x y z */
@@ -132,7 +131,8 @@ typedef struct fram_body_view {
     const uint32_t *generation;
     const uint8_t *lives; /* 0: nobody */
 } fram_body_view;
-FRAM_API fram_status fram_world_view(const fram_world *world, fram_body_view *view, fram_error *error);
+FRAM_API fram_status fram_world_view(const fram_world *world, fram_body_view *view, fram_error *error, size_t size);
+#define fram_world_view(...) fram_world_view(__VA_ARGS__, sizeof(fram_body_view))
 
 typedef enum fram_contact_limit {
     FRAM_CONTACT_BELOW = 0, /* the normal impulse is below its limit, or has none */
@@ -150,7 +150,8 @@ typedef struct fram_contact {
     fram_contact_limit capped;
 } fram_contact;
 /* Returns how many there are; up to `room` of them are written to contacts, which may be NULL with room 0. */
-FRAM_API int fram_world_contacts(const fram_world *world, fram_contact *contacts, int room);
+FRAM_API int fram_world_contacts(const fram_world *world, fram_contact *contacts, int room, size_t size);
+#define fram_world_contacts(...) fram_world_contacts(__VA_ARGS__, sizeof(fram_contact))
 
 typedef enum fram_fracture_kind {
     FRAM_FRACTURE_SPLIT = 1,
@@ -169,7 +170,8 @@ typedef struct fram_fracture {
     double floe_area, pieces_area, area_lost, area_gained; /* [m2] */
 } fram_fracture;
 /* As fram_world_contacts. */
-FRAM_API int fram_world_fractures(const fram_world *world, fram_fracture *fractures, int room);
+FRAM_API int fram_world_fractures(const fram_world *world, fram_fracture *fractures, int room, size_t size);
+#define fram_world_fractures(...) fram_world_fractures(__VA_ARGS__, sizeof(fram_fracture))
 
 /* ---- Inputs ---- */
 
@@ -180,7 +182,9 @@ FRAM_API int fram_world_fractures(const fram_world *world, fram_fracture *fractu
    thruster_1_order [N], thruster_1_order_angle [deg] ... while positioning is 0; line_1_release (1) ...  Those
    of a list of vessels begin with the name and a point: NAME.set_point_x. */
 FRAM_API int fram_world_inputs(const fram_world *world);
-FRAM_API fram_status fram_world_input(const fram_world *world, int index, fram_channel *input, fram_error *error);
+FRAM_API fram_status fram_world_input(const fram_world *world, int index, fram_channel *input, fram_error *error,
+                                      size_t size);
+#define fram_world_input(...) fram_world_input(__VA_ARGS__, sizeof(fram_channel))
 /* -1: there is none of this name. */
 FRAM_API int fram_world_find_input(const fram_world *world, const char *name);
 /* What was told, or what holds without; NaN for an index that is none. */
@@ -216,7 +220,8 @@ FRAM_API fram_status fram_world_checkpoint(fram_world *world, fram_error *error)
 /* The end: last checkpoint, pictures, results.  The world goes on unrecorded.  result may be NULL.  Whatever is
    returned, the recording is closed.  A world that is destroyed while it is recorded ends it so; a step that fails ends
    it as a failed run. */
-FRAM_API fram_status fram_world_record_end(fram_world *world, fram_run_result *result, fram_error *error);
+FRAM_API fram_status fram_world_record_end(fram_world *world, fram_run_result *result, fram_error *error, size_t size);
+#define fram_world_record_end(...) fram_world_record_end(__VA_ARGS__, sizeof(fram_run_result))
 
 #ifdef __cplusplus
 }

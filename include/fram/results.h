@@ -22,16 +22,19 @@ typedef struct fram_result {
 
 /* For ParaView: run.pvd in the folder `output` (RUN/vtk), with floes, hull and forces of every `every`-th frame. */
 FRAM_API fram_status fram_export_vtk(fram_context *context, const char *run, const char *output, int64_t every,
-                                     fram_result *result, fram_error *error);
+                                     fram_result *result, fram_error *error, size_t size);
+#define fram_export_vtk(...) fram_export_vtk(__VA_ARGS__, sizeof(fram_result))
 /* Outlines of floes, walls and vessel at a time [s], between frames by interpolation (RUN/field-TIME.geojson).
    FRAM_ERROR_INPUT for a time outside the record. */
 FRAM_API fram_status fram_export_geojson(fram_context *context, const char *run, const char *output, double time,
-                                         fram_result *result, fram_error *error);
+                                         fram_result *result, fram_error *error, size_t size);
+#define fram_export_geojson(...) fram_export_geojson(__VA_ARGS__, sizeof(fram_result))
 /* NetCDF-4, which is HDF5: all channels, all fractures, all floes over the frames (RUN/run.nc).
    FRAM_ERROR_UNSUPPORTED in a build without NetCDF.  After FRAM_ERROR_IO for want of room HDF5 (1.10) may crash in its
    exit handler, when it tries again: leave by _exit. */
 FRAM_API fram_status fram_export_netcdf(fram_context *context, const char *run, const char *output, fram_result *result,
-                                        fram_error *error);
+                                        fram_error *error, size_t size);
+#define fram_export_netcdf(...) fram_export_netcdf(__VA_ARGS__, sizeof(fram_result))
 
 /* ---- For people ---- */
 
@@ -39,7 +42,8 @@ FRAM_API fram_status fram_export_netcdf(fram_context *context, const char *run, 
    fractures, station, books, solver quality, origin.  with_paths: it tells where the run's folder and its input files
    lie, not their names alone. */
 FRAM_API fram_status fram_report(fram_context *context, const char *run, const char *output, bool with_paths,
-                                 fram_result *result, fram_error *error);
+                                 fram_result *result, fram_error *error, size_t size);
+#define fram_report(...) fram_report(__VA_ARGS__, sizeof(fram_result))
 
 /* Channels of series.csv over time, those of one unit in one panel, from time `from` to `to` [s] (NaN: all), as SVG
    when output ends in .svg, else as PNG.  FRAM_ERROR_INPUT names a channel that the run does not have. */
@@ -60,8 +64,10 @@ typedef struct fram_comparison {
 } fram_comparison;
 /* Two runs in numbers and, unless output is NULL, as an HTML page with plots. */
 FRAM_API fram_status fram_compare(fram_context *context, const char *run_a, const char *run_b, const char *output,
-                                  fram_comparison *comparison, fram_error *error);
-FRAM_API void fram_comparison_free(fram_context *context, fram_comparison *comparison);
+                                  fram_comparison *comparison, fram_error *error, size_t size);
+#define fram_compare(...) fram_compare(__VA_ARGS__, sizeof(fram_comparison))
+FRAM_API void fram_comparison_free(fram_context *context, fram_comparison *comparison, size_t size);
+#define fram_comparison_free(...) fram_comparison_free(__VA_ARGS__, sizeof(fram_comparison))
 
 typedef struct fram_video_definition {
     size_t size;           /* of this struct, set by fram_video_default */
@@ -78,7 +84,8 @@ FRAM_API void fram_video_default(fram_video_definition *definition, size_t size)
 #define fram_video_default(definition) fram_video_default((definition), sizeof *(definition))
 /* The run as MP4, drawn without a screen.  FRAM_ERROR_UNSUPPORTED when ffmpeg is not installed. */
 FRAM_API fram_status fram_video(fram_context *context, const char *run, const fram_video_definition *definition,
-                                fram_result *result, fram_error *error);
+                                fram_result *result, fram_error *error, size_t size);
+#define fram_video(...) fram_video(__VA_ARGS__, sizeof(fram_result))
 
 /* ---- Why a load was what it was ---- */
 
@@ -121,7 +128,8 @@ FRAM_API void fram_manage_default(fram_manage_definition *definition, size_t siz
    FRAM_ERROR_INPUT for a folder without a run or a record, a vessel that is not there or not to be told from others.
    The caller frees the text with fram_text_free. */
 FRAM_API fram_status fram_manage(fram_context *context, const char *run, const fram_manage_definition *definition,
-                                 fram_result *result, char **text, fram_error *error);
+                                 fram_result *result, char **text, fram_error *error, size_t size);
+#define fram_manage(...) fram_manage(__VA_ARGS__, sizeof(fram_result))
 
 /* ---- Pressure on the hull ---- */
 
@@ -171,7 +179,8 @@ FRAM_API void fram_capability_default(fram_capability_definition *definition, si
    balance, intact and after the worst single failure: capability.csv, capability_use.csv, capability.json,
    capability.png and capability.svg (with pictures) in the folder.  Nothing is written before all is found. */
 FRAM_API fram_status fram_capability(const fram_scenario *scenario, const fram_capability_definition *definition,
-                                     fram_result *result, fram_error *error);
+                                     fram_result *result, fram_error *error, size_t size);
+#define fram_capability(...) fram_capability(__VA_ARGS__, sizeof(fram_result))
 
 #ifdef __cplusplus
 }

@@ -84,7 +84,8 @@ typedef struct fram_extremes {
 } fram_extremes;
 /* FRAM_ERROR_INPUT with file, line and channel for what cannot be read.  Data that carry no answer are no error. */
 FRAM_API fram_status fram_extremes_find(fram_context *context, const fram_extremes_definition *definition,
-                                        fram_extremes *result, fram_error *error);
+                                        fram_extremes *result, fram_error *error, size_t size);
+#define fram_extremes_find(...) fram_extremes_find(__VA_ARGS__, sizeof(fram_extremes))
 
 /* ---- Fatigue ---- */
 
@@ -112,8 +113,10 @@ typedef struct fram_fatigue {
     int64_t count;
 } fram_fatigue;
 FRAM_API fram_status fram_fatigue_find(fram_context *context, const fram_fatigue_definition *definition,
-                                       fram_fatigue *result, fram_error *error);
-FRAM_API void fram_fatigue_free(fram_context *context, fram_fatigue *result);
+                                       fram_fatigue *result, fram_error *error, size_t size);
+#define fram_fatigue_find(...) fram_fatigue_find(__VA_ARGS__, sizeof(fram_fatigue))
+FRAM_API void fram_fatigue_free(fram_context *context, fram_fatigue *result, size_t size);
+#define fram_fatigue_free(...) fram_fatigue_free(__VA_ARGS__, sizeof(fram_fatigue))
 
 #ifdef __cplusplus
 }

@@ -24,7 +24,9 @@ typedef struct fram_study_extent {
                                       last condition on this machine */
     double run_bytes;              /* on disk, that stay of a run */
 } fram_study_extent;
-FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error);
+FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error,
+                                        size_t size);
+#define fram_study_measure(...) fram_study_measure(__VA_ARGS__, sizeof(fram_study_extent))
 
 typedef struct fram_study_progress {
     int64_t done, failed, planned; /* runs; more may be planned as intervals turn out wide */
@@ -59,7 +61,8 @@ typedef struct fram_study_result {
 /* Leaves summary.csv (a row a run) and conditions.csv (a row a condition) in the folder.  A run that fails is a row
    with its reason and stops nothing.  FRAM_INTERRUPTED when stopped. */
 FRAM_API fram_status fram_study_run(const fram_study *study, const fram_study_definition *definition,
-                                    fram_study_result *result, fram_error *error);
+                                    fram_study_result *result, fram_error *error, size_t size);
+#define fram_study_run(...) fram_study_run(__VA_ARGS__, sizeof(fram_study_result))
 
 #ifdef __cplusplus
 }

@@ -34,16 +34,24 @@ void definition_give(void *definition, size_t size, const void *full, size_t kno
     memcpy(definition, &size, sizeof size);
 }
 
-fram_status room_check(const void *given, size_t known, size_t *size, const char *type, fram_error *error)
+/* The shortest struct of results that can be meant, and what every size is a multiple of [bytes]. */
+enum { RESULT_LEAST = 8, RESULT_WORD = 4 };
+
+fram_status result_check(const void *result, size_t size, size_t known, const char *type, fram_error *error)
 {
-    *size = 0;
-    if (given)
-        memcpy(size, given, sizeof *size);
-    if (*size > sizeof *size && *size <= known)
+    if (!result || (size >= RESULT_LEAST && size <= known && size % RESULT_WORD == 0))
         return FRAM_OK;
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, type, "expected a struct with its own size in it, found %s",
-                     given ? "another size" : "NULL");
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, type,
+                     "expected its size in this version, %zu bytes, or in an older one; found %zu", known, size);
 }
+
+void result_give(void *result, size_t size, const void *full)
+{
+    if (result)
+        memcpy(result, full, size);
+}
+
+void *result_row(void *rows, size_t size, int row) { return (unsigned char *)rows + size * (size_t)row; }
 
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error)
 {

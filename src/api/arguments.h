@@ -34,8 +34,17 @@ void definition_give(void *definition, size_t size, const void *full, size_t kno
     }
 /* `size` and the member after it: definitions that have only grown at their ends since. */
 #define DEFINITION_LEAST (2 * sizeof(size_t))
-/* The same for a struct that is to be filled: *size is what may be written of it. */
-fram_status room_check(const void *given, size_t known, size_t *size, const char *type, fram_error *error);
+
+/* Results.  The program tells how long its struct is, by the macro of the function's name: as long as the library's or,
+   when it was built with older headers, shorter.  FRAM_ERROR_USAGE, with the struct's name as key, for a size that no
+   version had: without a member, no whole number of words, or longer than the library's, whose last members nobody
+   would fill.  result NULL, where that may be: nothing is looked at. */
+fram_status result_check(const void *result, size_t size, size_t known, const char *type, fram_error *error);
+#define RESULT_CHECK(result, size, type, error) result_check((result), (size), sizeof(type), #type, (error))
+/* Gives of what was found as much as the program's struct holds; result may be NULL. */
+void result_give(void *result, size_t size, const void *full);
+/* Row of the program's list of such structs. */
+void *result_row(void *rows, size_t size, int row);
 
 /* FRAM_ERROR_INPUT, with the name as key, unless the number lies between the bounds, which are in. */
 fram_status number_check(const char *name, double value, double least, double most, fram_error *error);

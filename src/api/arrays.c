@@ -79,13 +79,12 @@ static void put_bodies(const world *w, const int32_t *slot, int count, int row, 
     put3(a->angular_velocity, row, b->angular_velocity, slot, count);
 }
 
-int fram_world_bodies(const fram_world *w, unsigned selection, const fram_body_arrays *arrays)
+int(fram_world_bodies)(const fram_world *w, unsigned selection, const fram_body_arrays *arrays, size_t size)
 {
-    if (!w)
+    if (!w || RESULT_CHECK(arrays, size, fram_body_arrays, NULL) != FRAM_OK)
         return 0;
     fram_body_arrays a = {0};
-    size_t size;
-    if (arrays && room_check(arrays, sizeof a, &size, "fram_body_arrays", NULL) == FRAM_OK)
+    if (arrays)
         memcpy(&a, arrays, size);
     int32_t slot[RUN];
     int count = 0, waiting = 0, put = 0;
@@ -133,17 +132,15 @@ int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset
     return points;
 }
 
-fram_status fram_world_view(const fram_world *w, fram_body_view *view, fram_error *error)
+fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_error *error, size_t size)
 {
-    size_t size = 0;
     fram_status status = REFUSE_NULL(error, {"world", w}, {"view", view});
     if (status == FRAM_OK)
-        status = room_check(view, sizeof *view, &size, "fram_body_view", error);
+        status = RESULT_CHECK(view, size, fram_body_view, error);
     if (status != FRAM_OK)
         return status;
     const body_table *b = &w->inner.bodies;
-    const fram_body_view full = {.size = size,
-                                 .slots = b->count,
+    const fram_body_view full = {.slots = b->count,
                                  .position = (const double *)b->position,
                                  .orientation = (const double *)b->orientation,
                                  .velocity = (const double *)b->velocity,
@@ -152,7 +149,7 @@ fram_status fram_world_view(const fram_world *w, fram_body_view *view, fram_erro
                                  .generation = b->generation,
                                  .lives = b->motion};
     _Static_assert(MOTION_NONE == 0, "a row of motion says whether somebody lives");
-    memcpy(view, &full, size);
+    result_give(view, size, &full);
     return FRAM_OK;
 }
 
@@ -163,15 +160,15 @@ static fram_body_id id_of(const body_table *b, int32_t slot)
     return slot >= 0 && slot < b->count ? (fram_body_id){slot, b->generation[slot]} : (fram_body_id){-1, 0};
 }
 
-int fram_world_contacts(const fram_world *w, fram_contact *contacts, int room)
+int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, size_t size)
 {
-    if (!w)
+    if (!w || RESULT_CHECK(contacts, size, fram_contact, NULL) != FRAM_OK)
         return 0;
     int32_t count = w->inner.scratch.contacts.count;
     for (int32_t i = 0; contacts && i < count && i < room; i++) {
         const contact *c = &w->inner.scratch.contacts.data[i];
-        fram_contact *out = &contacts[i];
-        *out = (fram_contact){.a = id_of(&w->inner.bodies, c->a), .b = id_of(&w->inner.bodies, c->b)};
+        fram_contact full, *out = &full;
+        full = (fram_contact){.a = id_of(&w->inner.bodies, c->a), .b = id_of(&w->inner.bodies, c->b)};
         copy3(out->point, c->point);
         copy3(out->normal, c->normal);
         copy3(out->impulse, contact_impulse(c));
@@ -179,19 +176,20 @@ int fram_world_contacts(const fram_world *w, fram_contact *contacts, int room)
         out->limit = c->impulse_limit;
         out->depth = c->depth;
         out->capped = c->impulse[0] >= c->impulse_limit ? FRAM_CONTACT_CRUSHING : FRAM_CONTACT_BELOW;
+        result_give(result_row(contacts, size, i), size, out);
     }
     return count;
 }
 
-int fram_world_fractures(const fram_world *w, fram_fracture *fractures, int room)
+int(fram_world_fractures)(const fram_world *w, fram_fracture *fractures, int room, size_t size)
 {
-    if (!w)
+    if (!w || RESULT_CHECK(fractures, size, fram_fracture, NULL) != FRAM_OK)
         return 0;
     int32_t count = w->inner.scratch.fractures.count;
     for (int32_t i = 0; fractures && i < count && i < room; i++) {
         const fracture_event *e = &w->inner.scratch.fractures.data[i];
-        fram_fracture *out = &fractures[i];
-        *out = (fram_fracture){.floe = e->floe, .first_piece = e->first_piece, .pieces = e->pieces};
+        fram_fracture full, *out = &full;
+        full = (fram_fracture){.floe = e->floe, .first_piece = e->first_piece, .pieces = e->pieces};
         switch ((fracture_kind)e->kind) {
         case FRACTURE_SPLIT:
             out->kind = FRAM_FRACTURE_SPLIT;
@@ -210,6 +208,7 @@ int fram_world_fractures(const fram_world *w, fram_fracture *fractures, int room
         out->pieces_area = e->piece_area;
         out->area_lost = e->area_lost;
         out->area_gained = e->area_gained;
+        result_give(result_row(fractures, size, i), size, out);
     }
     return count;
 }

@@ -80,30 +80,21 @@ static fram_status refuse_index(int index, int count, fram_error *error)
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "index", "expected 0 to %d, found %d", count - 1, index);
 }
 
-static fram_status fill_channel(const fram_channel *from, fram_channel *to, fram_error *error)
-{
-    size_t size;
-    fram_status status = room_check(to, sizeof *to, &size, "fram_channel", error);
-    if (status != FRAM_OK)
-        return status;
-    fram_channel full = *from;
-    full.size = size;
-    memcpy(to, &full, size);
-    return FRAM_OK;
-}
-
 int fram_world_channels(const fram_world *w) { return w ? w->base->columns.columns.count : 0; }
 
-fram_status fram_world_channel(const fram_world *w, int index, fram_channel *channel, fram_error *error)
+fram_status(fram_world_channel)(const fram_world *w, int index, fram_channel *channel, fram_error *error, size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"channel", channel});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(channel, size, fram_channel, error);
     if (status != FRAM_OK)
         return status;
     if (index < 0 || index >= w->base->columns.columns.count)
         return refuse_index(index, w->base->columns.columns.count, error);
     const csv_column *column = &w->base->columns.columns.data[index];
-    const fram_channel found = {0, index, column->name, column->unit, meaning_of(column->name)};
-    return fill_channel(&found, channel, error);
+    const fram_channel found = {index, column->name, column->unit, meaning_of(column->name)};
+    result_give(channel, size, &found);
+    return FRAM_OK;
 }
 
 int fram_world_find_channel(const fram_world *w, const char *name)
@@ -134,16 +125,19 @@ int fram_world_values(const fram_world *w, double *values, int room)
 
 int fram_world_inputs(const fram_world *w) { return w ? w->base->controls.count : 0; }
 
-fram_status fram_world_input(const fram_world *w, int index, fram_channel *input, fram_error *error)
+fram_status(fram_world_input)(const fram_world *w, int index, fram_channel *input, fram_error *error, size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"input", input});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(input, size, fram_channel, error);
     if (status != FRAM_OK)
         return status;
     if (index < 0 || index >= w->base->controls.count)
         return refuse_index(index, w->base->controls.count, error);
     const control *c = &w->base->controls.data[index];
-    const fram_channel found = {0, index, c->name, c->unit, c->meaning};
-    return fill_channel(&found, input, error);
+    const fram_channel found = {index, c->name, c->unit, c->meaning};
+    result_give(input, size, &found);
+    return FRAM_OK;
 }
 
 int fram_world_find_input(const fram_world *w, const char *name)

@@ -148,21 +148,23 @@ void fram_field_destroy(fram_field *f)
 
 /* ---- what it is ---- */
 
-void fram_field_summary_get(const fram_field *f, fram_field_summary *summary)
+void(fram_field_summary_get)(const fram_field *f, fram_field_summary *summary, size_t size)
 {
-    if (summary)
-        *summary = f ? f->about : (fram_field_summary){0};
+    static const fram_field_summary none = {0};
+    if (RESULT_CHECK(summary, size, fram_field_summary, NULL) == FRAM_OK)
+        result_give(summary, size, f ? &f->about : &none);
 }
 
-int fram_field_notes(const fram_field *f, fram_field_note *notes, int room)
+int(fram_field_notes)(const fram_field *f, fram_field_note *notes, int room, size_t size)
 {
-    if (!f)
+    if (!f || RESULT_CHECK(notes, size, fram_field_note, NULL) != FRAM_OK)
         return 0;
     for (int32_t i = 0; notes && i < f->floes.notes.count && i < room; i++) {
         const import_note *note = &f->floes.notes.data[i];
         const import_place *place = &f->source.place.data[note->ring];
-        notes[i] = (fram_field_note){place->feature, place->polygon, place->ring,
-                                     place->line,    note->dropped,  import_event_text(note->event)};
+        const fram_field_note full = {place->feature, place->polygon, place->ring,
+                                      place->line,    note->dropped,  import_event_text(note->event)};
+        result_give(result_row(notes, size, i), size, &full);
     }
     return f->floes.notes.count;
 }

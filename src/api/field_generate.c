@@ -54,12 +54,12 @@ double fram_field_concentration(const fram_field *f, const double lo[2], const d
     return field_concentration(&f->floes.outlines, (box2){{lo[0], lo[1]}, {hi[0], hi[1]}});
 }
 
-bool fram_field_making_get(const fram_field *f, fram_field_making *making)
+bool(fram_field_making_get)(const fram_field *f, fram_field_making *making, size_t size)
 {
-    if (!f || !making || !f->generated)
+    if (!f || !making || !f->generated || RESULT_CHECK(making, size, fram_field_making, NULL) != FRAM_OK)
         return false;
     const drawn_ice *d = &f->drawn;
-    *making = (fram_field_making){
+    const fram_field_making full = {
         .target = f->target,
         .reached = d->report.concentration,
         .free_area = d->report.free_area,
@@ -71,24 +71,29 @@ bool fram_field_making_get(const fram_field *f, fram_field_making *making)
         .area_change = d->packed.area_change,
         .vertex_changes = d->packed.vertex_changes,
     };
+    result_give(making, size, &full);
     return true;
 }
 
-fram_status fram_field_population_get(const fram_field *f, int number, fram_field_population *out, fram_error *error)
+fram_status(fram_field_population_get)(const fram_field *f, int number, fram_field_population *out, fram_error *error,
+                                       size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"field", f}, {"population", out});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(out, size, fram_field_population, error);
     if (status != FRAM_OK)
         return status;
     if (number < 0 || number >= f->drawn.parts.count)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "number", "expected 0 to under %d populations, found %d",
                          (int)f->drawn.parts.count, number);
     const field_population_report *p = &f->drawn.parts.data[number];
-    *out = (fram_field_population){.floes = p->floes, .area = p->area, .size_distance = p->size_distance};
+    fram_field_population full = {.floes = p->floes, .area = p->area, .size_distance = p->size_distance};
     for (int i = 0; i <= FRAM_FIELD_BINS; i++)
-        out->bin_edge[i] = p->sizes.edge[i];
+        full.bin_edge[i] = p->sizes.edge[i];
     for (int i = 0; i < FRAM_FIELD_BINS; i++) {
-        out->bin[i] = p->sizes.bin[i];
-        out->expected[i] = p->sizes.expected[i];
+        full.bin[i] = p->sizes.bin[i];
+        full.expected[i] = p->sizes.expected[i];
     }
+    result_give(out, size, &full);
     return FRAM_OK;
 }

@@ -23,12 +23,14 @@ static fram_status check_names(const char *name, const char *const *names, int c
     return FRAM_OK;
 }
 
-fram_status fram_fmu(const fram_scenario *s, const fram_fmu_definition *definition, fram_fmu_result *result,
-                     fram_error *error)
+fram_status(fram_fmu)(const fram_scenario *s, const fram_fmu_definition *definition, fram_fmu_result *result,
+                      fram_error *error, size_t size)
 {
     fram_fmu_definition d;
     fram_fmu_fill(&d);
     fram_status status = REFUSE_NULL(error, {"scenario", s});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_fmu_result, error);
     if (status == FRAM_OK)
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_fmu", error);
     if (status == FRAM_OK)
@@ -45,7 +47,7 @@ fram_status fram_fmu(const fram_scenario *s, const fram_fmu_definition *definiti
     const fmu_options options = {d.output, d.binary, d.inputs, d.outputs, d.input_count, d.output_count, d.version};
     fmu_report report;
     status = fmu_write(&s->context->inner, &s->inner, &options, &report, error);
-    if (status == FRAM_OK && result)
-        *result = (fram_fmu_result){report.inputs, report.outputs, report.files};
+    if (status == FRAM_OK)
+        result_give(result, size, &(fram_fmu_result){report.inputs, report.outputs, report.files});
     return status;
 }

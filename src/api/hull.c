@@ -186,10 +186,11 @@ void fram_hull_destroy(fram_hull *h)
     memory_free(ctx, h);
 }
 
-void fram_hull_surface_get(const fram_hull *h, fram_hull_surface *surface)
+void(fram_hull_surface_get)(const fram_hull *h, fram_hull_surface *surface, size_t size)
 {
-    if (surface)
-        *surface = h ? h->about : (fram_hull_surface){.format = ""};
+    static const fram_hull_surface none = {.format = ""};
+    if (RESULT_CHECK(surface, size, fram_hull_surface, NULL) == FRAM_OK)
+        result_give(surface, size, h ? &h->about : &none);
 }
 
 void fram_hull_triangles(const fram_hull *h, double *vertices, int vertex_room, int *triangles, int triangle_room)
@@ -268,19 +269,21 @@ static fram_status find_stability(const fram_hull *h, const fram_hull_condition 
     return status == FRAM_OK ? hull_stability_of(&h->context->inner, &h->surface, a, centre, s, error) : status;
 }
 
-fram_status fram_hull_float(const fram_hull *h, const fram_hull_condition *condition, fram_hull_floating *out,
-                            fram_error *error)
+fram_status(fram_hull_float)(const fram_hull *h, const fram_hull_condition *condition, fram_hull_floating *out,
+                             fram_error *error, size_t size)
 {
     fram_hull_condition c;
     hull_attitude a;
     hull_stability s;
     fram_status status = REFUSE_NULL(error, {"floating", out});
     if (status == FRAM_OK)
+        status = RESULT_CHECK(out, size, fram_hull_floating, error);
+    if (status == FRAM_OK)
         status = find_stability(h, condition, &c, &a, &s, error);
     if (status != FRAM_OK)
         return status;
     double k = c.water_density * c.gravity;
-    *out = (fram_hull_floating){
+    fram_hull_floating full = {
         .level = a.level,
         .heel = a.heel,
         .trim = a.trim,
@@ -318,18 +321,22 @@ fram_status fram_hull_float(const fram_hull *h, const fram_hull_condition *condi
         .midship = s.midship,
         .prismatic = s.prismatic,
     };
-    copy3(out->volume_integrals, s.at.volume_integrals);
-    copy3(out->centre, s.centre);
-    copy3(out->centre_of_buoyancy, s.centre_of_buoyancy);
-    copy3(out->centre_of_flotation, s.centre_of_flotation);
+    copy3(full.volume_integrals, s.at.volume_integrals);
+    copy3(full.centre, s.centre);
+    copy3(full.centre_of_buoyancy, s.centre_of_buoyancy);
+    copy3(full.centre_of_flotation, s.centre_of_flotation);
+    result_give(out, size, &full);
     return FRAM_OK;
 }
 
 /* ---- pieces, drawings, files ---- */
 
-fram_status fram_hull_cut(fram_hull *h, double tolerance, int most, fram_hull_pieces *out, fram_error *error)
+fram_status(fram_hull_cut)(fram_hull *h, double tolerance, int most, fram_hull_pieces *out, fram_error *error,
+                           size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"hull", h}, {"pieces", out});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(out, size, fram_hull_pieces, error);
     if (status != FRAM_OK)
         return status;
     context *ctx = &h->context->inner;
@@ -346,9 +353,10 @@ fram_status fram_hull_cut(fram_hull *h, double tolerance, int most, fram_hull_pi
     polyhedron_array_free(ctx, &h->pieces);
     h->pieces = pieces;
     h->concavity = concavity;
-    *out = (fram_hull_pieces){pieces.count, tolerance, concavity, 0};
+    fram_hull_pieces full = {pieces.count, tolerance, concavity, 0};
     for (int32_t i = 0; i < pieces.count; i++)
-        out->volume += polyhedron_volume(&pieces.data[i]);
+        full.volume += polyhedron_volume(&pieces.data[i]);
+    result_give(out, size, &full);
     return FRAM_OK;
 }
 

@@ -27,30 +27,37 @@ static fram_status need_ratio(double poisson_ratio, fram_error *error)
                 error);
 }
 
-fram_status fram_ice_wedge(double a_over_l, fram_ice_wedge_result *result, fram_error *error)
+fram_status(fram_ice_wedge)(double a_over_l, fram_ice_wedge_result *result, fram_error *error, size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"result", result});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_ice_wedge_result, error);
     if (status == FRAM_OK)
         status = need_load_length(a_over_l, error);
     if (status != FRAM_OK)
         return status;
     wedge w = wedge_solve(a_over_l);
-    *result = (fram_ice_wedge_result){w.capacity, w.x_max, w.tip_deflection};
+    const fram_ice_wedge_result full = {w.capacity, w.x_max, w.tip_deflection};
+    result_give(result, size, &full);
     return FRAM_OK;
 }
 
-fram_status fram_ice_sheet(double a_over_l, double poisson_ratio, fram_ice_sheet_result *result, fram_error *error)
+fram_status(fram_ice_sheet)(double a_over_l, double poisson_ratio, fram_ice_sheet_result *result, fram_error *error,
+                            size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"result", result});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_ice_sheet_result, error);
     if (status == FRAM_OK)
         status = need_load_length(a_over_l, error);
     if (status == FRAM_OK)
         status = need_ratio(poisson_ratio, error);
     if (status != FRAM_OK)
         return status;
-    *result =
-        (fram_ice_sheet_result){sheet_stress(a_over_l, poisson_ratio), sheet_stress_integral(a_over_l, poisson_ratio),
-                                sheet_stress_closed_form(a_over_l, poisson_ratio)};
+    const fram_ice_sheet_result full = {sheet_stress(a_over_l, poisson_ratio),
+                                        sheet_stress_integral(a_over_l, poisson_ratio),
+                                        sheet_stress_closed_form(a_over_l, poisson_ratio)};
+    result_give(result, size, &full);
     return FRAM_OK;
 }
 
@@ -101,11 +108,13 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
     return status == FRAM_OK ? need(l->wedges >= 2 && l->wedges <= 32, "wedges", "2 to 32", l->wedges, error) : status;
 }
 
-fram_status fram_ice_break(const fram_ice_edge *given, fram_ice_breaking *breaking, fram_error *error)
+fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *breaking, fram_error *error, size_t size)
 {
     fram_ice_edge taken, *load = &taken;
     fram_ice_edge_fill(load);
     fram_status status = REFUSE_NULL(error, {"breaking", breaking});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(breaking, size, fram_ice_breaking, error);
     if (status == FRAM_OK)
         status = definition_take(load, given, sizeof *load, DEFINITION_LEAST, "fram_ice_edge", error);
     if (status != FRAM_OK)
@@ -124,7 +133,7 @@ fram_status fram_ice_break(const fram_ice_edge *given, fram_ice_breaking *breaki
     edge_ice edge = {load->included_angle / PI, load->contact_width,
                      load->ice_length > 0 ? load->ice_length : HUGE_VAL};
     edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area, edge);
-    *breaking = (fram_ice_breaking){.characteristic_length = e.length,
+    const fram_ice_breaking full = {.characteristic_length = e.length,
                                     .radial_radius = e.radial_radius,
                                     .wedge_radius = e.wedge_radius,
                                     .radial_stress = e.radial_stress,
@@ -135,6 +144,7 @@ fram_status fram_ice_break(const fram_ice_edge *given, fram_ice_breaking *breaki
                                     .crushing_force = load->contact_area * load->crushing_strength,
                                     .strip_capacity = e.strip_capacity,
                                     .strip_length = e.strip_length};
+    result_give(breaking, size, &full);
     return FRAM_OK;
 }
 
@@ -160,11 +170,13 @@ static fram_status check_floe(const fram_ice_floe *f, fram_error *error)
                 f->place, error);
 }
 
-fram_status fram_ice_split(const fram_ice_floe *given, fram_ice_splitting *splitting, fram_error *error)
+fram_status(fram_ice_split)(const fram_ice_floe *given, fram_ice_splitting *splitting, fram_error *error, size_t size)
 {
     fram_ice_floe taken, *floe = &taken;
     fram_ice_floe_fill(floe);
     fram_status status = REFUSE_NULL(error, {"splitting", splitting});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(splitting, size, fram_ice_splitting, error);
     if (status == FRAM_OK)
         status = definition_take(floe, given, sizeof *floe, DEFINITION_LEAST, "fram_ice_floe", error);
     if (status == FRAM_OK)
@@ -172,11 +184,12 @@ fram_status fram_ice_split(const fram_ice_floe *given, fram_ice_splitting *split
     if (status != FRAM_OK)
         return status;
     double far = floe->width / 2 + fabs(floe->place), near = floe->width - far;
-    *splitting = (fram_ice_splitting){
+    const fram_ice_splitting full = {
         .smaller_side = near,
         .larger_side = far,
         .factor = fracture_splitting_factor(floe->length, near, far),
         .splitting_load = fracture_splitting_force(floe->thickness, floe->toughness, floe->length, near, far),
     };
+    result_give(splitting, size, &full);
     return FRAM_OK;
 }

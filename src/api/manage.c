@@ -16,14 +16,16 @@ static void fram_manage_fill(fram_manage_definition *definition)
 }
 DEFINITION_DEFAULT(fram_manage, fram_manage_definition)
 
-fram_status fram_manage(fram_context *c, const char *run, const fram_manage_definition *definition, fram_result *result,
-                        char **text, fram_error *error)
+fram_status(fram_manage)(fram_context *c, const char *run, const fram_manage_definition *definition,
+                         fram_result *result, char **text, fram_error *error, size_t size)
 {
     fram_manage_definition d;
     manage_summary own, beside;
     text_buffer out = {0};
     fram_manage_fill(&d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run}, {"text", text});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
     if (status == FRAM_OK)
         status = definition_take(&d, definition, sizeof d, DEFINITION_LEAST, "fram_manage", error);
     if (status == FRAM_OK)
@@ -44,10 +46,9 @@ fram_status fram_manage(fram_context *c, const char *run, const fram_manage_defi
         text_free(&c->inner, &out);
         return status;
     }
-    if (result) {
-        *result = (fram_result){.frames = 0};
-        memcpy(result->path, own.page, sizeof result->path);
-    }
+    fram_result full = {.frames = 0};
+    memcpy(full.path, own.page, sizeof full.path);
+    result_give(result, size, &full);
     *text = out.data;
     return FRAM_OK;
 }

@@ -98,15 +98,16 @@ static void fill_result(const fram_world *w, fram_run_result *result)
     result->finished = result->steps >= w->recording->end_step;
 }
 
-fram_status fram_world_record_end(fram_world *w, fram_run_result *result, fram_error *error)
+fram_status(fram_world_record_end)(fram_world *w, fram_run_result *result, fram_error *error, size_t size)
 {
     fram_run_result local;
     fram_status status = refuse_unrecorded(w, error);
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_run_result, error);
     if (status != FRAM_OK)
         return status;
     fill_result(w, &local);
-    if (result)
-        *result = local;
+    result_give(result, size, &local);
     status = recording_end(w->recording, local.finished ? "finished" : "stopped", error);
     forget(w);
     return status;

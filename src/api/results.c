@@ -20,61 +20,70 @@
 
 _Static_assert((int)FRAM_PATH_ROOM == (int)PATH_ROOM, "one size of paths");
 
-static fram_status answer(fram_status status, const export_report *from, fram_result *to)
+static fram_status answer(fram_status status, const export_report *from, fram_result *to, size_t size)
 {
-    if (status == FRAM_OK && to) {
-        *to = (fram_result){.frames = from->frames, .time = from->time};
-        memcpy(to->path, from->path, sizeof to->path);
+    if (status == FRAM_OK) {
+        fram_result full = {.frames = from->frames, .time = from->time};
+        memcpy(full.path, from->path, sizeof full.path);
+        result_give(to, size, &full);
     }
     return status;
 }
 
-fram_status fram_export_vtk(fram_context *c, const char *run, const char *output, int64_t every, fram_result *result,
-                            fram_error *error)
+fram_status(fram_export_vtk)(fram_context *c, const char *run, const char *output, int64_t every, fram_result *result,
+                             fram_error *error, size_t size)
 {
     export_report report;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
     if (status == FRAM_OK && every < 1)
         status =
             error_set(error, FRAM_ERROR_USAGE, NULL, 0, "every", "expected 1 or more, found %lld", (long long)every);
     if (status != FRAM_OK)
         return status;
-    return answer(export_vtk(&c->inner, run, output, every, &report, error), &report, result);
+    return answer(export_vtk(&c->inner, run, output, every, &report, error), &report, result, size);
 }
 
-fram_status fram_export_geojson(fram_context *c, const char *run, const char *output, double time, fram_result *result,
-                                fram_error *error)
+fram_status(fram_export_geojson)(fram_context *c, const char *run, const char *output, double time, fram_result *result,
+                                 fram_error *error, size_t size)
 {
     export_report report;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
     if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
+    if (status == FRAM_OK)
         status = number_check("time", time, -TIME_MOST, TIME_MOST, error);
     if (status != FRAM_OK)
         return status;
-    return answer(export_geojson(&c->inner, run, output, time, &report, error), &report, result);
+    return answer(export_geojson(&c->inner, run, output, time, &report, error), &report, result, size);
 }
 
-fram_status fram_export_netcdf(fram_context *c, const char *run, const char *output, fram_result *result,
-                               fram_error *error)
+fram_status(fram_export_netcdf)(fram_context *c, const char *run, const char *output, fram_result *result,
+                                fram_error *error, size_t size)
 {
     export_report report;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
     if (status != FRAM_OK)
         return status;
-    return answer(export_netcdf(&c->inner, run, output, &report, error), &report, result);
+    return answer(export_netcdf(&c->inner, run, output, &report, error), &report, result, size);
 }
 
-fram_status fram_report(fram_context *c, const char *run, const char *output, bool with_paths, fram_result *result,
-                        fram_error *error)
+fram_status(fram_report)(fram_context *c, const char *run, const char *output, bool with_paths, fram_result *result,
+                         fram_error *error, size_t size)
 {
     export_report report = {.frames = 0};
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
     if (status != FRAM_OK)
         return status;
     status = report_write(&c->inner, run, output, scenario_notes, with_paths, error);
     if (status == FRAM_OK)
         status = path_given_or(output, run, "report.html", report.path, error);
-    return answer(status, &report, result);
+    return answer(status, &report, result, size);
 }
 
 fram_status fram_plot(fram_context *c, const char *run, const char *const *channels, int channel_count, double from,
@@ -109,11 +118,20 @@ typedef struct comparison_inside {
     fram_comparison_row rows[COMPARE_ROWS_MOST];
 } comparison_inside;
 
-fram_status fram_compare(fram_context *c, const char *run_a, const char *run_b, const char *output,
-                         fram_comparison *comparison, fram_error *error)
+/* `inside` is to be freed: a struct that ends before it never was. */
+static fram_status comparison_check(const fram_comparison *comparison, size_t size, fram_error *error)
+{
+    size_t least = offsetof(fram_comparison, inside) + sizeof comparison->inside;
+    return RESULT_CHECK(comparison, size < least ? 0 : size, fram_comparison, error);
+}
+
+fram_status(fram_compare)(fram_context *c, const char *run_a, const char *run_b, const char *output,
+                          fram_comparison *comparison, fram_error *error, size_t size)
 {
     fram_status status =
         REFUSE_NULL(error, {"context", c}, {"run_a", run_a}, {"run_b", run_b}, {"comparison", comparison});
+    if (status == FRAM_OK)
+        status = comparison_check(comparison, size, error);
     if (status != FRAM_OK)
         return status;
     comparison_inside *in = memory_array(&c->inner, 1, sizeof *in);
@@ -128,16 +146,17 @@ fram_status fram_compare(fram_context *c, const char *run_a, const char *run_b, 
         const compare_row *row = &in->result.row[i];
         in->rows[i] = (fram_comparison_row){row->name, row->unit, row->a, row->b};
     }
-    *comparison = (fram_comparison){in->rows, in->result.count, in->result.same_scenario, in->result.same_state, in};
+    const fram_comparison full = {in->rows, in->result.count, in->result.same_scenario, in->result.same_state, in};
+    result_give(comparison, size, &full);
     return FRAM_OK;
 }
 
-void fram_comparison_free(fram_context *c, fram_comparison *comparison)
+void(fram_comparison_free)(fram_context *c, fram_comparison *comparison, size_t size)
 {
-    if (!c || !comparison)
+    if (!c || !comparison || comparison_check(comparison, size, NULL) != FRAM_OK)
         return;
     memory_free(&c->inner, comparison->inside);
-    *comparison = (fram_comparison){0};
+    memset(comparison, 0, size);
 }
 
 /* ---- video ---- */
@@ -175,12 +194,14 @@ static fram_status find_camera(const char *name, video_camera *camera, fram_erro
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "camera", "expected orbit, follow or plan");
 }
 
-fram_status fram_video(fram_context *c, const char *run, const fram_video_definition *definition, fram_result *result,
-                       fram_error *error)
+fram_status(fram_video)(fram_context *c, const char *run, const fram_video_definition *definition, fram_result *result,
+                        fram_error *error, size_t size)
 {
     fram_video_definition taken, *d = &taken;
     fram_video_fill(d);
     fram_status status = REFUSE_NULL(error, {"context", c}, {"run", run});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_video", error);
     if (status == FRAM_OK)
@@ -208,7 +229,7 @@ fram_status fram_video(fram_context *c, const char *run, const fram_video_defini
         status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "span", "only a plan has a span; choose the camera plan");
     if (status == FRAM_OK)
         status = video_write(&c->inner, run, &options, &report.frames, report.path, error);
-    return answer(status, &report, result);
+    return answer(status, &report, result, size);
 }
 
 /* ---- capability ---- */
@@ -226,12 +247,14 @@ static void fram_capability_fill(fram_capability_definition *definition)
 }
 DEFINITION_DEFAULT(fram_capability, fram_capability_definition)
 
-fram_status fram_capability(const fram_scenario *from, const fram_capability_definition *definition,
-                            fram_result *result, fram_error *error)
+fram_status(fram_capability)(const fram_scenario *from, const fram_capability_definition *definition,
+                             fram_result *result, fram_error *error, size_t size)
 {
     fram_capability_definition taken, *d = &taken;
     fram_capability_fill(d);
     fram_status status = REFUSE_NULL(error, {"scenario", from});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_result, error);
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_capability", error);
     if (status != FRAM_OK)
@@ -252,5 +275,5 @@ fram_status fram_capability(const fram_scenario *from, const fram_capability_def
                                         .stop = d->stop};
     export_report report = {.frames = 0};
     status = capability_write(&from->context->inner, &from->inner, &options, report.path, error);
-    return answer(status, &report, result);
+    return answer(status, &report, result, size);
 }

@@ -72,25 +72,25 @@ static run_options options_of(const fram_run_definition *d, progress_bridge *bri
                          .finish = run_results_write};
 }
 
-static void copy_result(const run_result *from, fram_run_result *to)
+static fram_run_result answer_of(const run_result *from)
 {
-    if (!to)
-        return;
-    *to = (fram_run_result){.state_hash = from->state_hash,
-                            .steps = from->steps,
-                            .time = from->time,
-                            .wall = from->wall,
-                            .real_time_factor = from->real_time_factor,
-                            .bodies = from->bodies,
-                            .floes = from->floes,
-                            .finished = from->finished};
+    return (fram_run_result){.state_hash = from->state_hash,
+                             .steps = from->steps,
+                             .time = from->time,
+                             .wall = from->wall,
+                             .real_time_factor = from->real_time_factor,
+                             .bodies = from->bodies,
+                             .floes = from->floes,
+                             .finished = from->finished};
 }
 
-fram_status fram_run(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
-                     fram_error *error)
+fram_status(fram_run)(const fram_scenario *s, const fram_run_definition *definition, fram_run_result *result,
+                      fram_error *error, size_t size)
 {
     fram_run_definition d;
     fram_status status = REFUSE_NULL(error, {"scenario", s});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_run_result, error);
     if (status == FRAM_OK)
         status = take_definition(definition, &d, error);
     if (status != FRAM_OK)
@@ -105,15 +105,17 @@ fram_status fram_run(const fram_scenario *s, const fram_run_definition *definiti
     options.begun_user = view;
     status = run_start(&s->context->inner, &s->inner, &options, &inner, error);
     live_view_end(view);
-    copy_result(&inner, result);
+    result_give(result, size, &(fram_run_result[]){answer_of(&inner)});
     return status;
 }
 
-fram_status fram_resume(fram_context *c, const fram_run_definition *definition, fram_run_result *result,
-                        fram_error *error)
+fram_status(fram_resume)(fram_context *c, const fram_run_definition *definition, fram_run_result *result,
+                         fram_error *error, size_t size)
 {
     fram_run_definition d;
     fram_status status = REFUSE_NULL(error, {"context", c});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_run_result, error);
     if (status == FRAM_OK)
         status = take_definition(definition, &d, error);
     if (status != FRAM_OK)
@@ -128,7 +130,7 @@ fram_status fram_resume(fram_context *c, const fram_run_definition *definition, 
     options.begun_user = view;
     status = run_resume(&c->inner, &options, &inner, error);
     live_view_end(view);
-    copy_result(&inner, result);
+    result_give(result, size, &(fram_run_result[]){answer_of(&inner)});
     return status;
 }
 
@@ -172,10 +174,13 @@ static fram_bench_result bench_answer(const bench_result *r)
                                .share_fracture = r->share[STAGE_FRACTURE]};
 }
 
-fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_bench_result *result, fram_error *error)
+fram_status(fram_bench)(const fram_scenario *s, double warm, double time, fram_bench_result *result, fram_error *error,
+                        size_t size)
 {
     bench_result r;
     fram_status status = REFUSE_NULL(error, {"scenario", s}, {"result", result});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_bench_result, error);
     if (status == FRAM_OK)
         status = number_check("warm", warm, 0, BENCH_TIME_MOST, error);
     if (status == FRAM_OK)
@@ -187,7 +192,7 @@ fram_status fram_bench(const fram_scenario *s, double warm, double time, fram_be
         return status;
     status = bench_scenario(&s->context->inner, &s->inner, warm, time, &r, error);
     if (status == FRAM_OK)
-        *result = bench_answer(&r);
+        result_give(result, size, &(fram_bench_result[]){bench_answer(&r)});
     return status;
 }
 
@@ -234,12 +239,14 @@ static fram_status scene_options(const fram_bench_scene_definition *given, bench
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "solver", "expected sequential, fast or accurate");
 }
 
-fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench_scene_definition *definition,
-                             fram_bench_result *result, fram_error *error)
+fram_status(fram_bench_scene)(fram_context *c, const char *path, const fram_bench_scene_definition *definition,
+                              fram_bench_result *result, fram_error *error, size_t size)
 {
     bench_scene_options options;
     scene_text scene;
     fram_status status = REFUSE_NULL(error, {"context", c}, {"path", path}, {"result", result});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_bench_result, error);
     if (status == FRAM_OK)
         status = scene_options(definition, &options, error);
     if (status == FRAM_OK)
@@ -250,7 +257,7 @@ fram_status fram_bench_scene(fram_context *c, const char *path, const fram_bench
     status = bench_scene(&c->inner, &scene, &options, &r, error);
     scene_text_free(&c->inner, &scene);
     if (status == FRAM_OK)
-        *result = bench_answer(&r);
+        result_give(result, size, &(fram_bench_result[]){bench_answer(&r)});
     return status;
 }
 
@@ -260,12 +267,14 @@ static void fram_playback_fill(fram_playback_definition *definition)
 }
 DEFINITION_DEFAULT(fram_playback, fram_playback_definition)
 
-fram_status fram_playback(fram_context *c, const fram_playback_definition *definition, fram_playback_result *result,
-                          fram_error *error)
+fram_status(fram_playback)(fram_context *c, const fram_playback_definition *definition, fram_playback_result *result,
+                           fram_error *error, size_t size)
 {
     fram_playback_definition taken, *d = &taken;
     fram_playback_fill(d);
     fram_status status = REFUSE_NULL(error, {"context", c});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_playback_result, error);
     if (status == FRAM_OK)
         status = definition_take(d, definition, sizeof *d, DEFINITION_LEAST, "fram_playback", error);
     if (status == FRAM_OK)
@@ -275,7 +284,6 @@ fram_status fram_playback(fram_context *c, const fram_playback_definition *defin
     const playback_options options = {d->viewer_page, d->output, d->page_limit, d->total_limit, d->pressure};
     playback_report report = {0};
     status = playback_write(&c->inner, d->folder, &options, &report, error);
-    if (result)
-        *result = (fram_playback_result){report.frames, report.left_out, report.files};
+    result_give(result, size, &(fram_playback_result){report.frames, report.left_out, report.files});
     return status;
 }

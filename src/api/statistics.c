@@ -171,13 +171,16 @@ static fram_status draw_extremes(context *ctx, const fram_extremes_definition *d
     return extremes_chart_write(ctx, results, count, quantity, d->duration, d->draw, error);
 }
 
-fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *definition, fram_extremes *out,
-                               fram_error *error)
+fram_status(fram_extremes_find)(fram_context *c, const fram_extremes_definition *definition, fram_extremes *result,
+                                fram_error *error, size_t size)
 {
+    fram_extremes full = {.methods = 0}, *out = &full;
     fram_extremes_definition taken, *d = &taken;
     series_data data;
     extreme_method methods[EXTREME_METHODS];
-    fram_status status = REFUSE_NULL(error, {"context", c}, {"result", out});
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"result", result});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(result, size, fram_extremes, error);
     if (status == FRAM_OK)
         status = take_extremes(definition, d, error);
     int count = status == FRAM_OK ? methods_of(d, methods, error) : 0;
@@ -186,7 +189,6 @@ fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *
     status = read_source(c, &d->source, d->maxima, &data, error);
     if (status != FRAM_OK)
         return status;
-    memset(out, 0, sizeof *out);
     if (d->maxima)
         data.set.step = d->block;
     out->series = facts_of(&data);
@@ -210,6 +212,8 @@ fram_status fram_extremes_find(fram_context *c, const fram_extremes_definition *
     memory_free(&c->inner, r);
     array_free(&c->inner, &all);
     series_free(&c->inner, &data);
+    if (status == FRAM_OK)
+        result_give(result, size, out);
     return status;
 }
 
@@ -251,13 +255,23 @@ static fram_status count_cycles(fram_context *c, const series_data *data, rain_c
     return good ? FRAM_OK : error_memory(error);
 }
 
-fram_status fram_fatigue_find(fram_context *c, const fram_fatigue_definition *definition, fram_fatigue *out,
-                              fram_error *error)
+/* `list` is to be freed: a struct that ends before its count never was. */
+static fram_status fatigue_check(const fram_fatigue *result, size_t size, fram_error *error)
 {
+    size_t least = offsetof(fram_fatigue, count) + sizeof result->count;
+    return RESULT_CHECK(result, size < least ? 0 : size, fram_fatigue, error);
+}
+
+fram_status(fram_fatigue_find)(fram_context *c, const fram_fatigue_definition *definition, fram_fatigue *result,
+                               fram_error *error, size_t size)
+{
+    fram_fatigue full, *out = &full;
     fram_fatigue_definition taken, *d = &taken;
     series_data data;
     rain_cycles cycles = {0};
-    fram_status status = REFUSE_NULL(error, {"context", c}, {"result", out});
+    fram_status status = REFUSE_NULL(error, {"context", c}, {"result", result});
+    if (status == FRAM_OK)
+        status = fatigue_check(result, size, error);
     if (status == FRAM_OK)
         status = take_fatigue(definition, d, error);
     if (status == FRAM_OK)
@@ -281,13 +295,15 @@ fram_status fram_fatigue_find(fram_context *c, const fram_fatigue_definition *de
         out->equivalent[i] = equivalent_range(&cycles, d->slope[i], d->frequency * out->series.time);
     rainflow_free(&c->inner, &cycles);
     series_free(&c->inner, &data);
+    if (status == FRAM_OK)
+        result_give(result, size, out);
     return status;
 }
 
-void fram_fatigue_free(fram_context *c, fram_fatigue *result)
+void(fram_fatigue_free)(fram_context *c, fram_fatigue *result, size_t size)
 {
-    if (!c || !result)
+    if (!c || !result || fatigue_check(result, size, NULL) != FRAM_OK)
         return;
     memory_free(&c->inner, result->list);
-    *result = (fram_fatigue){0};
+    memset(result, 0, size);
 }

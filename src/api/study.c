@@ -84,23 +84,26 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
     return status;
 }
 
-fram_status fram_study_measure(const fram_study *s, fram_study_extent *out, fram_error *error)
+fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fram_error *error, size_t size)
 {
     if (!s || !out)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study and a place for its extent are needed");
+    fram_status status = RESULT_CHECK(out, size, fram_study_extent, error);
+    if (status != FRAM_OK)
+        return status;
     const study *inner = &s->inner;
     fram_study_extent e = {.conditions = inner->conditions,
                            .runs_least = (int64_t)inner->conditions * inner->seeds.least,
                            .runs_most = (int64_t)inner->conditions * inner->seeds.most};
     int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1;
-    fram_status status = measure_condition(s, 0, &e, error);
+    status = measure_condition(s, 0, &e, error);
     if (status == FRAM_OK && last > 0)
         status = measure_condition(s, last, &e, error);
     if (status != FRAM_OK)
         return status;
     e.run_seconds /= measured;
     e.run_bytes /= measured;
-    *out = e;
+    result_give(out, size, &e);
     return FRAM_OK;
 }
 
@@ -177,13 +180,15 @@ static fram_status take_definition(const fram_study_definition *given, fram_stud
     return check_slurm(d, error);
 }
 
-fram_status fram_study_run(const fram_study *s, const fram_study_definition *definition, fram_study_result *result,
-                           fram_error *error)
+fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *definition, fram_study_result *result,
+                            fram_error *error, size_t size)
 {
     fram_study_definition taken, *d = &taken;
     if (!s)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "study", "a study is needed");
-    fram_status status = take_definition(definition, d, error);
+    fram_status status = RESULT_CHECK(result, size, fram_study_result, error);
+    if (status == FRAM_OK)
+        status = take_definition(definition, d, error);
     if (status != FRAM_OK)
         return status;
     study_progress_bridge bridge = {d->progress, d->progress_user};
@@ -204,7 +209,6 @@ fram_status fram_study_run(const fram_study *s, const fram_study_definition *def
                                    .slurm = d->on && strcmp(d->on, "slurm") == 0 ? &slurm : NULL};
     study_result inner = {0};
     status = study_run(&s->context->inner, &s->inner, &options, &inner, error);
-    if (result)
-        *result = (fram_study_result){inner.conditions, inner.runs, inner.failed, inner.made};
+    result_give(result, size, &(fram_study_result){inner.conditions, inner.runs, inner.failed, inner.made});
     return status;
 }

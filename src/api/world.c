@@ -219,22 +219,26 @@ fram_body_kind world_body_kind(const body_table *b, int32_t slot)
 
 static void copy3(double out[3], vec3 v) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
-fram_status fram_body_state_get(const fram_world *w, fram_body_id id, fram_body_state *state, fram_error *error)
+fram_status(fram_body_state_get)(const fram_world *w, fram_body_id id, fram_body_state *state, fram_error *error,
+                                 size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"state", state});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(state, size, fram_body_state, error);
     if (status != FRAM_OK)
         return status;
     const body_table *b = &w->inner.bodies;
     if (!is_living(b, id))
         return no_such_body(id, error);
     quat q = b->orientation[id.slot];
-    state->kind = world_body_kind(b, id.slot);
-    state->dynamic = body_is_dynamic(b, id.slot);
-    state->mass = b->mass[id.slot];
-    copy3(state->position, b->position[id.slot]);
-    state->orientation[0] = q.w, state->orientation[1] = q.x, state->orientation[2] = q.y, state->orientation[3] = q.z;
-    copy3(state->velocity, b->velocity[id.slot]);
-    copy3(state->angular_velocity, b->angular_velocity[id.slot]);
+    fram_body_state full = {.kind = world_body_kind(b, id.slot),
+                            .dynamic = body_is_dynamic(b, id.slot),
+                            .mass = b->mass[id.slot],
+                            .orientation = {q.w, q.x, q.y, q.z}};
+    copy3(full.position, b->position[id.slot]);
+    copy3(full.velocity, b->velocity[id.slot]);
+    copy3(full.angular_velocity, b->angular_velocity[id.slot]);
+    result_give(state, size, &full);
     return FRAM_OK;
 }
 
@@ -273,9 +277,12 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
     return world_add_wrench(&w->scenario->context->inner, &w->inner, id.slot, load, error);
 }
 
-fram_status fram_world_ice_load(const fram_world *w, fram_body_id id, fram_ice_load *load, fram_error *error)
+fram_status(fram_world_ice_load)(const fram_world *w, fram_body_id id, fram_ice_load *load, fram_error *error,
+                                 size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"load", load});
+    if (status == FRAM_OK)
+        status = RESULT_CHECK(load, size, fram_ice_load, error);
     if (status != FRAM_OK)
         return status;
     const world *in = &w->inner;
@@ -285,12 +292,13 @@ fram_status fram_world_ice_load(const fram_world *w, fram_body_id id, fram_ice_l
         if (in->vessels.body[v] != id.slot)
             continue;
         ice_load now = in->scratch.ice_loads.count > v ? in->scratch.ice_loads.data[v] : (ice_load){0};
-        copy3(load->force, now.total.force);
-        copy3(load->moment, now.total.moment);
-        copy3(load->capped, now.capped.force);
-        copy3(load->below_cap, now.below_cap.force);
-        copy3(load->friction, now.friction.force);
-        load->contacts = now.contacts;
+        fram_ice_load full = {.contacts = now.contacts};
+        copy3(full.force, now.total.force);
+        copy3(full.moment, now.total.moment);
+        copy3(full.capped, now.capped.force);
+        copy3(full.below_cap, now.below_cap.force);
+        copy3(full.friction, now.friction.force);
+        result_give(load, size, &full);
         return FRAM_OK;
     }
     return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "body %d is no vessel", (int)id.slot);

@@ -243,7 +243,7 @@ static unsigned dice(unsigned *state)
 static void steer(fram_world *w, unsigned *state)
 {
     int index = (int)(dice(state) % (unsigned)fram_world_inputs(w));
-    fram_channel channel = {.size = sizeof channel};
+    fram_channel channel;
     assert_ok(fram_world_input(w, index, &channel, &e), e);
     bool flag = strcmp(channel.unit, "1") == 0;
     double most = strcmp(channel.unit, "m/s") == 0 ? 2 : strcmp(channel.unit, "deg") == 0 ? 90 : 1e5;
@@ -373,7 +373,7 @@ START_TEST(a_world_that_failed_is_not_stepped_on)
     d.folder = live;
     assert_ok(fram_world_record(w, &d, &e), e);
     fram_body_id ids[20];
-    fram_body_arrays arrays = {.size = sizeof arrays, .room = 20, .id = ids};
+    fram_body_arrays arrays = {.room = 20, .id = ids};
     ck_assert_int_gt(fram_world_bodies(w, FRAM_SELECT_FLOES, &arrays), 1);
     const double push[3] = {1e30, 0, 0}, none[3] = {0, 0, 0};
     for (int i = 0; i < 2; i++) {
@@ -416,7 +416,7 @@ START_TEST(channels_are_the_columns_of_the_series)
     step(w, 10);
     int count = fram_world_channels(w);
     for (int i = 0; i < count; i++) {
-        fram_channel c = {.size = sizeof c};
+        fram_channel c;
         assert_ok(fram_world_channel(w, i, &c, &e), e);
         ck_assert(c.index == i && fram_world_find_channel(w, c.name) == i && c.meaning);
         snprintf(head + strlen(head), sizeof head - strlen(head), "%s%s[%s]", i ? "," : "", c.name, c.unit);
@@ -442,12 +442,6 @@ START_TEST(channels_are_the_columns_of_the_series)
         assert_bits(fram_world_value(w, i), values[i]);
     }
     ck_assert(value(w, "step_wall_time") > 0);
-    /* An older program's struct. */
-    fram_channel old = {.size = offsetof(fram_channel, meaning), .meaning = "as it was"};
-    assert_ok(fram_world_channel(w, 3, &old, &e), e);
-    ck_assert_str_eq(old.meaning, "as it was");
-    fram_channel odd = {.size = sizeof odd + 1};
-    assert_fails(fram_world_channel(w, 3, &odd, &e), e, FRAM_ERROR_USAGE, "size");
     ck_assert(isnan(fram_world_value(w, count)) && isnan(fram_world_value(w, -1)));
     fram_world_destroy(w);
     close_all();
@@ -464,13 +458,12 @@ START_TEST(arrays_tell_what_single_calls_tell)
     static int32_t kind[ROOM], number[ROOM], parent[ROOM], offset[ROOM + 1];
     static double mass[ROOM], thickness[ROOM], position[3 * ROOM], orientation[4 * ROOM], velocity[3 * ROOM],
         turn[3 * ROOM], xy[2 * POINTS], outline[2 * POINTS];
-    const fram_body_arrays a = {sizeof a, ROOM,      id,       kind,        number,   parent,
-                                mass,     thickness, position, orientation, velocity, turn};
+    const fram_body_arrays a = {ROOM, id, kind, number, parent, mass, thickness, position, orientation, velocity, turn};
     int count = fram_world_bodies(w, 0, &a), bodies;
     ck_assert(count > 40 && count < ROOM);
     int points = fram_world_outlines(w, 0, offset, ROOM + 1, xy, POINTS, &bodies);
     ck_assert(bodies == count && points < POINTS && offset[count] == points && offset[0] == 0);
-    fram_body_view view = {.size = sizeof view};
+    fram_body_view view;
     assert_ok(fram_world_view(w, &view, &e), e);
     int floes = 0;
     for (int i = 0; i < count; i++) {
@@ -497,7 +490,7 @@ START_TEST(arrays_tell_what_single_calls_tell)
     ck_assert_int_eq(fram_world_bodies(w, FRAM_SELECT_VESSELS, NULL), 1);
     ck_assert_int_eq(floes, (int)value(w, "floes"));
     /* Rooms that are too small: the rest is left out, nothing else is written. */
-    const fram_body_arrays small = {.size = sizeof small, .room = 2, .kind = kind};
+    const fram_body_arrays small = {.room = 2, .kind = kind};
     kind[2] = -77;
     ck_assert_int_eq(fram_world_bodies(w, 0, &small), count);
     ck_assert_int_eq(kind[2], -77);

@@ -171,7 +171,7 @@ def _leave() -> None:
     for address, (destroy, _, _) in list(_made.items()):
         world = ffi.cast("fram_world *", address)
         if destroy == lib.fram_world_destroy and lib.fram_world_is_recorded(world):
-            lib.fram_world_record_end(world, ffi.NULL, ffi.NULL)
+            lib.fram_world_record_end(world, ffi.NULL, ffi.NULL, 0)
     _gone.extend(_made.values())
     _made.clear()
 

@@ -132,7 +132,7 @@ class Run:
             path = os.path.join(folder, "field.geojson")
             error = new_error()
             self._context._check(lib.fram_export_geojson(self._context._pointer, bytes_of(self.folder), bytes_of(path),
-                                                         float(time), ffi.NULL, error), error)
+                                                         float(time), ffi.NULL, error, 0), error)
             with open(path, encoding="utf-8") as file:
                 features = json.load(file)["features"]
         return [Floe(np.array(f["geometry"]["coordinates"][0][:-1]), f["properties"]) for f in features
@@ -143,7 +143,7 @@ class Run:
         result, error = ffi.new("fram_result *"), new_error()
         where = ffi.NULL if output is None else ffi.new("char[]", bytes_of(output))
         self._context._check(lib.fram_report(self._context._pointer, bytes_of(self.folder), where, False, result,
-                                             error), error)
+                                             error, ffi.sizeof("fram_result")), error)
         return text_of(result.path)
 
     def plot(self, channels: Union[str, Sequence[str]], axes=None):

@@ -135,5 +135,5 @@ class Scenario:
 
             definition.progress = forward
         error = new_error()
-        self._context._check(lib.fram_run(self._pointer, definition, ffi.NULL, error), error)
+        self._context._check(lib.fram_run(self._pointer, definition, ffi.NULL, error, 0), error)
         return open_run(folder)

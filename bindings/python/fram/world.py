@@ -150,7 +150,7 @@ class Recording:
     def end(self) -> "Run":
         """The last checkpoint, pictures and results; the finished run."""
         from .runs import open_run
-        self._world._call(lib.fram_world_record_end, ffi.NULL)
+        self._world._call(lib.fram_world_record_end, ffi.NULL, size=0)
         return open_run(self.folder)
 
     def __enter__(self) -> "Recording":
@@ -173,8 +173,8 @@ class World:
     def _list(self, count, get) -> dict[str, Channel]:
         found = {}
         for index in range(count(self._pointer)):
-            channel = ffi.new("fram_channel *", {"size": ffi.sizeof("fram_channel")})
-            self._call(get, index, channel)
+            channel = ffi.new("fram_channel *")
+            self._call(get, index, channel, size=ffi.sizeof("fram_channel"))
             name = text_of(channel.name)
             found[name] = Channel(index, name, text_of(channel.unit), text_of(channel.meaning))
         return found
@@ -184,9 +184,11 @@ class World:
             raise UsageError("usage", "the world was closed", key="world")
         return self._pointer
 
-    def _call(self, function, *arguments) -> None:
+    def _call(self, function, *arguments, size: Optional[int] = None) -> None:
+        """A function of the world; size: of the struct that it fills, 0 for none."""
         error = new_error()
-        self.scenario._context._check(function(self._living(), *arguments, error), error)
+        last = (error,) if size is None else (error, size)
+        self.scenario._context._check(function(self._living(), *arguments, *last), error)
 
     def close(self) -> None:
         """Free the world now rather than when Python finds that nobody has it; a recording ends."""
@@ -307,16 +309,17 @@ class World:
     def bodies(self, kind: Union[str, Sequence[str], None] = None) -> Bodies:
         """Copies of what bodies are and how they move; kind: "floe", "vessel", "wall", "other", several, or all."""
         pointer, selection = self._living(), _selection(kind)
-        count = lib.fram_world_bodies(pointer, selection, ffi.NULL)
+        size = ffi.sizeof("fram_body_arrays")
+        count = lib.fram_world_bodies(pointer, selection, ffi.NULL, size)
         columns = {"id": (np.int64, 1), "kind": (np.int32, 1), "number": (np.int32, 1), "parent": (np.int32, 1),
                    "mass": (float, 1), "thickness": (float, 1), "position": (float, 3), "orientation": (float, 4),
                    "velocity": (float, 3), "angular_velocity": (float, 3)}
         arrays = {name: np.empty((count, width) if width > 1 else count, dtype)
                   for name, (dtype, width) in columns.items()}
-        c = ffi.new("fram_body_arrays *", {"size": ffi.sizeof("fram_body_arrays"), "room": count})
+        c = ffi.new("fram_body_arrays *", {"room": count})
         for name, array in arrays.items():
             setattr(c, name, ffi.cast(_BODY_POINTERS[name].type, array.ctypes.data))
-        lib.fram_world_bodies(pointer, selection, c)
+        lib.fram_world_bodies(pointer, selection, c, size)
         both = arrays.pop("id").view(np.int32).reshape(-1, 2)
         return Bodies(slot=both[:, 0], generation=both[:, 1].view(np.uint32), **arrays)
 
@@ -332,8 +335,8 @@ class World:
 
     def view(self) -> View:
         """Poses and velocities of all slots without a copy."""
-        v = ffi.new("fram_body_view *", {"size": ffi.sizeof("fram_body_view")})
-        self._call(lib.fram_world_view, v)
+        v = ffi.new("fram_body_view *")
+        self._call(lib.fram_world_view, v, size=ffi.sizeof("fram_body_view"))
         return View(lives=_frozen(v.lives, v.slots, "u1"), generation=_frozen(v.generation, v.slots, "u4"),
                     mass=_frozen(v.mass, v.slots, "f8"), position=_frozen(v.position, v.slots, "f8", 3),
                     orientation=_frozen(v.orientation, v.slots, "f8", 4),
@@ -341,9 +344,9 @@ class World:
                     angular_velocity=_frozen(v.angular_velocity, v.slots, "f8", 3))
 
     def _records(self, function, dtype: np.dtype, ctype: str) -> np.ndarray:
-        count = function(self._living(), ffi.NULL, 0)
+        count = function(self._living(), ffi.NULL, 0, dtype.itemsize)
         out = np.zeros(count, dtype)
-        function(self._living(), ffi.cast(ctype, out.ctypes.data), count)
+        function(self._living(), ffi.cast(ctype, out.ctypes.data), count, dtype.itemsize)
         return out
 
     def contacts(self) -> np.ndarray:
