@@ -1,6 +1,7 @@
 #include "study/acer.h"
 
 #include "base/channel_statistics.h"
+#include "base/near.h"
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/minimise.h"
@@ -151,7 +152,7 @@ static double line_of(const tail_points *t, double b, double c, acer_tail *out)
 {
     double w = 0, x = 0, y = 0, xx = 0, xy = 0, u[ACER_LEVELS];
     for (int32_t i = 0; i < t->count; i++) {
-        u[i] = real_pow(t->level[i] - b, c);
+        u[i] = near_exp(c * near_log(t->level[i] - b));
         w += t->weight[i];
         x += t->weight[i] * u[i];
         y += t->weight[i] * t->log_rate[i];

@@ -1,5 +1,6 @@
 #include "study/extreme_law.h"
 
+#include "base/near.h"
 #include "base/transcendental.h"
 #include "study/minimise.h"
 #include "study/special.h"
@@ -45,19 +46,22 @@ double extreme_law_level(const extreme_law *law, double exponent)
     return law->location + law->scale * z;
 }
 
-/* -log of the density times the scale, at a reduced value. */
+/* But for -log shape, which all values have. */
+static double weibull_cost(double shape, double log_z) { return near_exp(shape * log_z) - (shape - 1) * log_z; }
+
+/* -log of the density times the scale, at a reduced value; of Weibull's law without -log shape. */
 static double reduced_cost(const extreme_law *law, double z)
 {
     double shape = law->shape;
     if (law->kind == LAW_WEIBULL)
-        return z > 0 ? real_pow(z, shape) - real_log(shape) - (shape - 1) * real_log(z) : (double)INFINITY;
+        return z > 0 ? weibull_cost(shape, near_log(z)) : (double)INFINITY;
     if (law->kind == LAW_GUMBEL || fabs(shape) < SHAPE_ZERO)
-        return law->kind == LAW_PARETO ? z : z + real_exp(-z);
+        return law->kind == LAW_PARETO ? z : z + near_exp(-z);
     double base = 1 + shape * z;
     if (!(base > 0))
         return (double)INFINITY;
-    double log_base = real_log(base);
-    return (1 + 1 / shape) * log_base + (law->kind == LAW_PARETO ? 0 : real_exp(-log_base / shape));
+    double log_base = near_log(base);
+    return (1 + 1 / shape) * log_base + (law->kind == LAW_PARETO ? 0 : near_exp(-log_base / shape));
 }
 
 double extreme_law_cost(const extreme_law *law, const double *value, int32_t count)
@@ -65,6 +69,8 @@ double extreme_law_cost(const extreme_law *law, const double *value, int32_t cou
     if (!(law->scale > 0))
         return (double)INFINITY;
     double sum = count * real_log(law->scale);
+    if (law->kind == LAW_WEIBULL)
+        sum -= count * real_log(law->shape);
     for (int32_t i = 0; i < count && isfinite(sum); i++)
         sum += reduced_cost(law, (value[i] - law->location) / law->scale);
     return sum;
@@ -175,7 +181,7 @@ static double gumbel_equation(const double *sorted, int32_t n, double origin, do
 {
     double mean = 0, above = 0, below = 0;
     for (int32_t i = 0; i < n; i++) {
-        double x = sorted[i] - origin, weight = real_exp(-x / scale);
+        double x = sorted[i] - origin, weight = near_exp(-x / scale);
         mean += x / n;
         above += x * weight;
         below += weight;
@@ -197,7 +203,7 @@ static double weibull_equation(const double *value, int32_t n, double location, 
 {
     double mean = 0, above = 0, below = 0;
     for (int32_t i = 0; i < n; i++) {
-        double log_x = real_log((value[i] - location) / (value[n - 1] - location)), weight = real_exp(k * log_x);
+        double log_x = near_log((value[i] - location) / (value[n - 1] - location)), weight = near_exp(k * log_x);
         mean += log_x / n;
         above += log_x * weight;
         below += weight;

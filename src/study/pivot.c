@@ -1,5 +1,6 @@
 #include "study/pivot.h"
 
+#include "base/near.h"
 #include "base/transcendental.h"
 
 #include <math.h>
@@ -22,7 +23,7 @@ static double log_sum_at(const double *value, int32_t count, const extreme_law *
     for (int32_t i = 0; i < count; i++) {
         double a = (fit->location - value[i]) / fit->scale;
         *sum_a += a;
-        sum += real_exp(ratio * a);
+        sum += near_exp(ratio * a);
     }
     return real_log(sum);
 }
@@ -117,4 +118,24 @@ level_interval gumbel_pivot_interval(const gumbel_pivot *p, double exponent, dou
     return (level_interval){p->location - p->scale * log_exponent,
                             p->location + p->scale * quantile(p, log_exponent, 0.5 - 0.5 * confidence),
                             p->location + p->scale * quantile(p, log_exponent, 0.5 + 0.5 * confidence)};
+}
+
+/* ---- laws that the values may be of ---- */
+
+void gumbel_pivot_draw(const gumbel_pivot *p, random_stream *random, extreme_law *out)
+{
+    double part = random_unit(random), sum = 0, gamma = 0;
+    int i = 0;
+    /* Points are as far apart in the logarithm of the ratio: the law between them is taken as straight. */
+    while (i < PIVOT_POINTS - 2 && sum + p->weight[i] < part)
+        sum += p->weight[i++];
+    double within = fmin(fmax((part - sum) / p->weight[i], 0), 1) - 0.5;
+    int to = within < 0 && i > 0 ? i - 1 : i + 1;
+    within = fabs(within);
+    double ratio = real_exp((1 - within) * real_log(p->ratio[i]) + within * real_log(p->ratio[to]));
+    double log_sum = (1 - within) * p->log_sum[i] + within * p->log_sum[to];
+    /* The gamma variable of order n is a sum of n exponential ones. */
+    for (int32_t k = 0; k < p->count; k++)
+        gamma -= near_log(1 - random_unit(random));
+    *out = (extreme_law){LAW_GUMBEL, p->location + p->scale * (real_log(gamma) - log_sum) / ratio, p->scale / ratio, 0};
 }

@@ -5,6 +5,7 @@
 #ifndef STUDY_PIVOT_H
 #define STUDY_PIVOT_H
 
+#include "base/random.h"
 #include "study/profile.h"
 
 /* Points of the integral over the scale. */
@@ -24,5 +25,8 @@ typedef struct gumbel_pivot {
 void gumbel_pivot_make(const double *value, int32_t count, const extreme_law *fit, gumbel_pivot *out);
 /* Of the level with `exponent` expected exceedances a block. */
 level_interval gumbel_pivot_interval(const gumbel_pivot *p, double exponent, double confidence);
+
+/* A law that the values may be of: location and scale drawn from that joint law (the fiducial law of Gumbel's). */
+void gumbel_pivot_draw(const gumbel_pivot *p, random_stream *random, extreme_law *out);
 
 #endif

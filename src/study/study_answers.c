@@ -132,22 +132,20 @@ static fram_status add_annual(const study_folder *f, const answer_figure *figure
                               text_buffer *b, fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
-    for (int i = 0; i < x->annuals; i++) {
-        level_interval level;
-        int32_t missing = -1;
-        fram_status status = annual_level(f->ctx, x, of, f->s->conditions, x->annual[i], &level, &missing, error);
-        if (status != FRAM_OK)
-            return status;
+    level_interval level[STUDY_LEVELS_MOST];
+    int32_t missing = -1;
+    fram_status status = annual_levels(f->ctx, x, of, f->s->conditions, level, &missing, error);
+    for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
         text_format(f->ctx, b, "%s,%s,%s", figure->name, figure->unit, x->gev ? "gev" : "gumbel");
         add_number(f, b, x->annual[i]);
-        add_interval(f, b, &level);
+        add_interval(f, b, &level[i]);
         if (missing >= 0)
             text_format(f->ctx, b, ",\"No answer: condition %d occurs and has no fit: more seeds.\"\n",
                         (int)missing + 1);
         else
             text_add(f->ctx, b, ",\n");
     }
-    return FRAM_OK;
+    return status;
 }
 
 static fram_status write_extremes(const study_folder *f, const condition_rows *conditions, fram_error *error)

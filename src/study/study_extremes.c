@@ -2,13 +2,14 @@
 
 #include "base/random.h"
 #include "base/transcendental.h"
+#include "study/pivot.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Stream of random numbers of this file: draws of runs. */
-enum { STREAM_RUNS = 921 };
+enum { STREAM_RUNS = 921, ANNUAL_REPLICATES = 999 };
 #define HOUR 3600.0
 #define HOURS_OF_YEAR 8784.0
 
@@ -144,58 +145,118 @@ static double solve_year(const year_part *part, int32_t count, double exponent)
     return hi;
 }
 
-/* Laws of the conditions, of draws of their runs with replicate >= 0.  The first that has none, or -1; -2: no memory.
- */
-static int32_t fit_year(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
-                        int32_t replicate, year_part *part)
+/* What is known of a condition that occurs: its values, ascending, its law, and of Gumbel's law how the values speak of
+   location and scale. */
+typedef struct year_source {
+    const double *value;
+    int32_t count;
+    bool occurs;
+    gumbel_pivot pivot;
+} year_source;
+
+typedef struct year_work {
+    context *ctx;
+    const study_extremes *ask;
+    int32_t conditions;
+    year_part *part;
+    year_source *source;
+    double_array drawn, level[STUDY_LEVELS_MOST]; /* level: of all replicates */
+} year_work;
+
+/* The fits.  The first condition that occurs and has none, or -1. */
+static int32_t fit_year(year_work *w, const condition_maxima *of)
 {
-    law_kind kind = ask->gev ? LAW_GEV : LAW_GUMBEL;
-    double_array drawn = {0};
-    int32_t missing = -1;
-    for (int32_t c = 0; c < conditions && missing == -1; c++) {
-        part[c].blocks = ask->hours.data[c] * HOUR / of[c].block;
-        if (!(part[c].blocks > 0))
-            continue;
+    for (int32_t c = 0; c < w->conditions; c++) {
         int32_t n = of[c].value.count;
-        random_stream random = random_begin((uint64_t)c, STREAM_RUNS, (uint32_t)replicate);
-        if (n < LAW_VALUES_LEAST || !array_resize(ctx, &drawn, n)) {
-            missing = n < LAW_VALUES_LEAST ? c : -2;
-            break;
-        }
-        for (int32_t i = 0; i < n; i++)
-            drawn.data[i] = of[c].value.data[replicate < 0 ? i : (int32_t)(random_unit(&random) * n)];
-        values_sort(&drawn);
+        year_source *s = &w->source[c];
+        *s = (year_source){.value = of[c].value.data, .count = n};
+        w->part[c].blocks = w->ask->hours.data[c] * HOUR / of[c].block;
+        if (!(w->part[c].blocks > 0))
+            continue;
+        if (n < LAW_VALUES_LEAST)
+            return c;
+        values_sort(&(double_array){.data = of[c].value.data, .count = n});
         /* Runs without any load: nothing to exceed. */
-        if (drawn.data[0] == 0 && drawn.data[n - 1] == 0)
-            part[c].blocks = 0;
-        else if (!extreme_law_fit(kind, FIT_LIKELIHOOD, drawn.data, n, 0, &part[c].law))
-            missing = c;
+        if (s->value[0] == 0 && s->value[n - 1] == 0)
+            w->part[c].blocks = 0;
+        else if (!extreme_law_fit(w->ask->gev ? LAW_GEV : LAW_GUMBEL, FIT_LIKELIHOOD, s->value, n, 0, &w->part[c].law))
+            return c;
+        s->occurs = w->part[c].blocks > 0;
+        if (s->occurs && !w->ask->gev)
+            gumbel_pivot_make(s->value, n, &w->part[c].law, &s->pivot);
     }
-    array_free(ctx, &drawn);
-    return missing;
+    return -1;
 }
 
-fram_status annual_level(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
-                         double probability, level_interval *out, int32_t *missing, fram_error *error)
+/* The law of runs drawn from those of a condition. */
+static fram_status redraw(year_work *w, const year_source *s, random_stream *random, extreme_law *law, bool *good)
 {
-    double exponent = -real_log(1 - probability);
-    double_array level = {0};
-    year_part *part = memory_array(ctx, (size_t)conditions, sizeof *part);
-    *out = (level_interval){(double)NAN, (double)NAN, (double)NAN};
-    *missing = part ? fit_year(ctx, ask, of, conditions, -1, part) : -2;
-    if (*missing == -1)
-        out->level = solve_year(part, conditions, exponent);
-    for (int32_t i = 0; *missing == -1 && i < BOOTSTRAP_REPLICATES; i++) {
-        int32_t failed = fit_year(ctx, ask, of, conditions, i, part);
-        if (failed == -2 || (failed == -1 && !array_push(ctx, &level, solve_year(part, conditions, exponent))))
-            *missing = -2;
+    if (!array_resize(w->ctx, &w->drawn, s->count))
+        return FRAM_ERROR_MEMORY;
+    for (int32_t i = 0; i < s->count; i++)
+        w->drawn.data[i] = s->value[(int32_t)(random_unit(random) * s->count)];
+    values_sort(&w->drawn);
+    *good = extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, w->drawn.data, s->count, 0, law);
+    return FRAM_OK;
+}
+
+/* Levels of one replicate: laws that the values of each condition may be of, taken together. */
+static fram_status replicate_year(year_work *w, int32_t replicate, const double *exponent)
+{
+    for (int32_t c = 0; c < w->conditions; c++) {
+        random_stream random = random_begin((uint64_t)c, STREAM_RUNS, (uint32_t)replicate);
+        bool good = true;
+        fram_status status = FRAM_OK;
+        if (w->source[c].occurs && w->ask->gev)
+            status = redraw(w, &w->source[c], &random, &w->part[c].law, &good);
+        else if (w->source[c].occurs)
+            gumbel_pivot_draw(&w->source[c].pivot, &random, &w->part[c].law);
+        if (status != FRAM_OK || !good)
+            return status;
     }
-    if (*missing == -1 && level.count > BOOTSTRAP_REPLICATES / 2) {
-        values_sort(&level);
-        out->low = sorted_quantile(level.data, level.count, 0.5 - 0.5 * ask->confidence);
-        out->high = sorted_quantile(level.data, level.count, 0.5 + 0.5 * ask->confidence);
+    for (int i = 0; i < w->ask->annuals; i++)
+        if (!array_push(w->ctx, &w->level[i], solve_year(w->part, w->conditions, exponent[i])))
+            return FRAM_ERROR_MEMORY;
+    return FRAM_OK;
+}
+
+static fram_status answer_year(year_work *w, const condition_maxima *of, level_interval *out, int32_t *missing)
+{
+    double exponent[STUDY_LEVELS_MOST] = {0};
+    fram_status status = FRAM_OK;
+    *missing = fit_year(w, of);
+    if (*missing >= 0)
+        return FRAM_OK;
+    for (int i = 0; i < w->ask->annuals; i++) {
+        exponent[i] = -real_log(1 - w->ask->annual[i]);
+        out[i].level = solve_year(w->part, w->conditions, exponent[i]);
     }
-    array_free(ctx, &level);
-    memory_free(ctx, part);
-    return *missing == -2 ? error_memory(error) : FRAM_OK;
+    for (int32_t i = 0; status == FRAM_OK && i < ANNUAL_REPLICATES; i++)
+        status = replicate_year(w, i, exponent);
+    for (int i = 0; i < w->ask->annuals && status == FRAM_OK; i++) {
+        if (w->level[i].count <= ANNUAL_REPLICATES / 2)
+            continue;
+        values_sort(&w->level[i]);
+        out[i].low = sorted_quantile(w->level[i].data, w->level[i].count, 0.5 - 0.5 * w->ask->confidence);
+        out[i].high = sorted_quantile(w->level[i].data, w->level[i].count, 0.5 + 0.5 * w->ask->confidence);
+    }
+    return status;
+}
+
+fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
+                          level_interval *out, int32_t *missing, fram_error *error)
+{
+    year_work w = {.ctx = ctx, .ask = ask, .conditions = conditions};
+    for (int i = 0; i < ask->annuals; i++)
+        out[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
+    *missing = -1;
+    w.part = memory_array(ctx, (size_t)conditions, sizeof *w.part);
+    w.source = memory_array(ctx, (size_t)conditions, sizeof *w.source);
+    fram_status status = w.part && w.source ? answer_year(&w, of, out, missing) : FRAM_ERROR_MEMORY;
+    for (int i = 0; i < STUDY_LEVELS_MOST; i++)
+        array_free(ctx, &w.level[i]);
+    array_free(ctx, &w.drawn);
+    memory_free(ctx, w.part);
+    memory_free(ctx, w.source);
+    return status == FRAM_OK ? FRAM_OK : error_memory(error);
 }

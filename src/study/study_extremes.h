@@ -19,10 +19,13 @@ typedef struct condition_maxima {
     double block;
 } condition_maxima;
 
-/* Level that is exceeded with a probability in a year, where conditions last their hours in it: the rates of exceedance
-   add up (Naess 1984).  The interval is a bootstrap over the runs of every condition.  NaN when a condition that occurs
-   has no fit: *missing is the first of them, else -1. */
-fram_status annual_level(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
-                         double probability, level_interval *out, int32_t *missing, fram_error *error);
+/* Levels that are exceeded with the probabilities ask->annual in a year, where conditions last their hours in it: the
+   rates of exceedance add up (Naess 1984).  Intervals by Gumbel's law are generalized confidence intervals (Weerahandi
+   1993, J. Am. Stat. Assoc. 88, 899) from the exact joint law of location and scale of each condition, and so the exact
+   ones where one condition alone occurs; by the generalized law they are a bootstrap over the runs.  out: ask->annuals,
+   NaN when a condition that occurs has no fit: *missing is the first of them, else -1.  The values of `of` are left in
+   ascending order. */
+fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
+                          level_interval *out, int32_t *missing, fram_error *error);
 
 #endif
