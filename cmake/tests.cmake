@@ -46,6 +46,10 @@ if(FRAM_TESTS)
         string(REGEX REPLACE "^test_" "" topic "${topic}")
         set(program test_${room}_${topic})
         add_executable(${program} "${source}")
+        if(room STREQUAL fmi)
+            # The unit is opened as importers do.
+            add_dependencies(${program} fram_fmu)
+        endif()
         if(room STREQUAL cli)
             # The command knows the public interface only, and so do its tests.
             target_link_libraries(${program} PRIVATE room_cli PkgConfig::check)

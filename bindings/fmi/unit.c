@@ -242,7 +242,7 @@ unit_status unit_make_world(unit *u)
     u->world = made;
     u->phase = UNIT_INSTANTIATED;
     u->start = 0;
-    u->stop = INFINITY;
+    u->stop = (double)INFINITY;
     unit_read_start(u);
     return UNIT_OK;
 }
@@ -366,7 +366,7 @@ unit_status unit_step(unit *u, double now, double step, bool *early)
     unit_status status = unit_allow(u, 1U << UNIT_STEPPING, "DoStep");
     if (status != UNIT_OK)
         return status;
-    double count = floor(step / fram_scenario_time_step(u->scenario) + 0.5), return_at = INFINITY;
+    double count = floor(step / fram_scenario_time_step(u->scenario) + 0.5), return_at = (double)INFINITY;
     status = check_step(u, now, step, count);
     if (status == UNIT_OK)
         status = tell_inputs(u);

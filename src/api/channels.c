@@ -54,7 +54,7 @@ static const struct {
     {"step_wall_time", "wall-clock time that the step took"},
 };
 
-static const char *meaning_of(const char *channel)
+const char *channel_meaning(const char *channel)
 {
     const char *point = strchr(channel, '.'), *name = point ? point + 1 : channel; /* of a named vessel */
     for (size_t i = 0; i < sizeof meanings / sizeof *meanings; i++) {
@@ -92,7 +92,7 @@ fram_status(fram_world_channel)(const fram_world *w, int index, fram_channel *ch
     if (index < 0 || index >= w->base->columns.columns.count)
         return refuse_index(index, w->base->columns.columns.count, error);
     const csv_column *column = &w->base->columns.columns.data[index];
-    const fram_channel found = {index, column->name, column->unit, meaning_of(column->name)};
+    const fram_channel found = {index, column->name, column->unit, channel_meaning(column->name)};
     result_give(channel, size, &found);
     return FRAM_OK;
 }

@@ -44,7 +44,8 @@ fram_status(fram_fmu)(const fram_scenario *s, const fram_fmu_definition *definit
                            "expected 2 for FMI 2.0 or 3 for FMI 3.0, found %d", d.version);
     if (status != FRAM_OK)
         return status;
-    const fmu_options options = {d.output, d.binary, d.inputs, d.outputs, d.input_count, d.output_count, d.version};
+    const fmu_options options = {d.output,      d.binary,       d.inputs,  d.outputs,
+                                 d.input_count, d.output_count, d.version, channel_meaning};
     fmu_report report;
     status = fmu_write(&s->context->inner, &s->inner, &options, &report, error);
     if (status == FRAM_OK)

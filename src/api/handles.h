@@ -55,6 +55,8 @@ struct fram_world {
 fram_world *world_handle(const fram_scenario *s, world_base *base);
 /* The handle, and the base with its last user; not the state. */
 void world_handle_free(fram_world *w);
+/* A few words about a channel; "" for one that says it by its name. */
+const char *channel_meaning(const char *channel);
 /* Room for the values of all channels; false: no memory. */
 bool world_make_row(fram_world *w);
 /* Fills base->inputs. */

@@ -35,6 +35,9 @@ typedef struct scenario_print_options {
     bool comments;       /* unit and meaning after every key */
     bool absolute_paths; /* so that the text can be used from another folder */
     bool names_only;     /* files by their name alone, so that the text tells nothing of this machine */
+    /* Where the file of this absolute path is for whoever reads the text; NULL: as the other members say. */
+    const char *(*file_name)(void *user, const char *path);
+    void *file_user;
 } scenario_print_options;
 /* The effective scenario, every key with its value, appended to out.  Reading it again gives the same scenario to the
    bit. options NULL: comments, paths as given. */

@@ -18,6 +18,7 @@ typedef struct printer {
     const scenario *scenario;
     bool comments;
     path_style paths;
+    const scenario_print_options *options; /* NULL: none */
     fram_status status;
     fram_error *error;
 } printer;
@@ -80,7 +81,8 @@ static void print_absolute(printer *p, const char *key, const char *path)
     if (p->status == FRAM_OK)
         p->status = scenario_absolute_path(p->scenario, key, path, absolute, p->error);
     if (p->status == FRAM_OK)
-        print_quoted(p, absolute);
+        print_quoted(p, p->options && p->options->file_name ? p->options->file_name(p->options->file_user, absolute)
+                                                            : absolute);
 }
 
 static void print_path(printer *p, const char *key, const char *path)
@@ -199,9 +201,10 @@ fram_status scenario_print(context *ctx, const scenario *s, const scenario_print
                  .out = out,
                  .scenario = s,
                  .comments = !options || options->comments,
-                 .paths = options && options->absolute_paths ? PATH_ABSOLUTE
-                          : options && options->names_only   ? PATH_NAME
-                                                             : PATH_GIVEN,
+                 .paths = options && (options->absolute_paths || options->file_name) ? PATH_ABSOLUTE
+                          : options && options->names_only                           ? PATH_NAME
+                                                                                     : PATH_GIVEN,
+                 .options = options,
                  .error = error};
     return print(&p);
 }

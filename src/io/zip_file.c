@@ -5,7 +5,15 @@
 #include <string.h>
 #include <zlib.h>
 
-enum { LOCAL_SIZE = 30, CENTRAL_SIZE = 46, END_SIZE = 22, VERSION = 20, DEFLATED = 8, FILES_MOST = 65535 };
+enum {
+    LOCAL_SIZE = 30,
+    CENTRAL_SIZE = 46,
+    END_SIZE = 22,
+    VERSION = 20,
+    DEFLATED = 8,
+    NAME_IS_UTF8 = 1 << 11,
+    FILES_MOST = 65535
+};
 /* 1 January 1980, the first day that there is. */
 enum { FIRST_DAY = 0x21 };
 #define MADE_BY_UNIX (3 << 8 | VERSION)
@@ -30,8 +38,11 @@ typedef struct zip_entry {
 /* What a local head and the directory have in common: from the version that is needed to the length of the name. */
 static void put_common(unsigned char **at, const zip_entry *e)
 {
+    bool is_ascii = true;
+    for (const char *c = e->name; *c; c++)
+        is_ascii = is_ascii && (unsigned char)*c < 0x80;
     put16(at, VERSION);
-    put16(at, 0);
+    put16(at, is_ascii ? 0 : NAME_IS_UTF8);
     put16(at, DEFLATED);
     put16(at, 0);
     put16(at, FIRST_DAY);

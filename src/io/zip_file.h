@@ -12,7 +12,7 @@ typedef struct zip_file {
     int32_t count;
 } zip_file;
 
-/* Starts as {.ctx = ctx}.  name: with slashes, of ASCII; executable: as the permission to execute it. */
+/* Starts as {.ctx = ctx}.  name: with slashes, UTF-8; executable: as the permission to execute it. */
 fram_status zip_add(zip_file *zip, const char *name, const void *data, size_t size, bool executable, fram_error *error);
 /* The whole archive at its place (io/atomic_file.h). */
 fram_status zip_write(zip_file *zip, const char *path, fram_error *error);

@@ -19,6 +19,12 @@
 
 enum { FILE_LIMIT = 1 << 30 };
 
+/* A file of the scenario, and where it lies in resources. */
+typedef struct packed_file {
+    scenario_text path;
+    char name[SCENARIO_TEXT_SIZE + 12];
+} packed_file;
+
 typedef struct packer {
     context *ctx;
     const scenario *s;
@@ -28,8 +34,7 @@ typedef struct packer {
     control_array controls;
     series_layout columns;
     fmu_names names;
-    text_buffer packed; /* names of files in resources, each ended by a NUL */
-    int32_t files;
+    ARRAY(packed_file) files;
 } packer;
 
 /* ---- variables ---- */
@@ -77,8 +82,10 @@ static fram_status choose(packer *p, const model *m, const world *w, fram_error 
         if (p->o->version == 3 && strcmp(c->name, "time") == 0)
             continue;
         if (p->o->output_count == 0 ? !of_clock : is_chosen(c->name, p->o->outputs, p->o->output_count))
-            good = array_push(p->ctx, &p->variables,
-                              ((fmu_variable){.kind = FMU_OUTPUT, .name = c->name, .unit = c->unit, .meaning = ""}));
+            good = array_push(
+                p->ctx, &p->variables,
+                ((fmu_variable){
+                    .kind = FMU_OUTPUT, .name = c->name, .unit = c->unit, .meaning = p->o->meaning(c->name)}));
     }
     if (good && p->o->version == 3)
         good =
@@ -159,15 +166,45 @@ static fram_status find_guid(packer *p, const char *list, fram_error *error)
 
 /* ---- files ---- */
 
-/* Whether a file of this name is in the archive already. */
-static bool is_packed(const packer *p, const char *name)
+static const char *name_of_file(void *user, const char *path)
 {
-    const char *at = p->packed.data;
-    for (int32_t i = 0; i < p->files; i++, at += strlen(at) + 1) {
-        if (strcmp(at, name) == 0)
-            return true;
+    const packer *p = user;
+    for (int32_t i = 0; i < p->files.count; i++) {
+        if (strcmp(p->files.data[i].path, path) == 0)
+            return p->files.data[i].name;
     }
-    return false;
+    return NULL;
+}
+
+static bool is_taken(const packer *p, const char *name)
+{
+    bool taken = strcmp(name, "scenario.yaml") == 0 || strcmp(name, "variables.txt") == 0;
+    for (int32_t i = 0; i < p->files.count && !taken; i++)
+        taken = strcmp(p->files.data[i].name, name) == 0;
+    return taken;
+}
+
+/* Every file of the scenario once, by its own name, in a folder of its own where that name is taken. */
+static fram_status list_file(void *user, const scenario_key *key, const void *member, const char *path_of_key,
+                             fram_error *error)
+{
+    packer *p = user;
+    const char *given = member;
+    packed_file f = {0};
+    if (key->kind != KEY_PATH || !*given)
+        return FRAM_OK;
+    fram_status status = scenario_absolute_path(p->s, path_of_key, given, f.path, error);
+    if (status != FRAM_OK || name_of_file(p, f.path))
+        return status;
+    scenario_text stem;
+    const char *slash = strrchr(f.path, '/');
+    snprintf(stem, sizeof stem, "%s", slash ? slash + 1 : f.path);
+    for (char *c = stem; *c; c++)
+        *c = *c == '\\' ? '_' : *c; /* archives take it for a slash */
+    snprintf(f.name, sizeof f.name, "%s", stem);
+    if (is_taken(p, f.name))
+        snprintf(f.name, sizeof f.name, "%d/%s", (int)p->files.count + 1, stem);
+    return array_push(p->ctx, &p->files, f) ? FRAM_OK : error_memory(error);
 }
 
 static fram_status pack_file(packer *p, const char *path, const char *name, bool executable, fram_error *error)
@@ -182,27 +219,6 @@ static fram_status pack_file(packer *p, const char *path, const char *name, bool
     return status;
 }
 
-static fram_status pack_input(void *user, const scenario_key *key, const void *member, const char *path_of_key,
-                              fram_error *error)
-{
-    packer *p = user;
-    const char *given = member;
-    char path[SCENARIO_TEXT_SIZE], name[SCENARIO_TEXT_SIZE + 12];
-    if (key->kind != KEY_PATH || !*given)
-        return FRAM_OK;
-    fram_status status = scenario_absolute_path(p->s, path_of_key, given, path, error);
-    if (status != FRAM_OK)
-        return status;
-    const char *slash = strrchr(path, '/');
-    snprintf(name, sizeof name, "resources/%s", slash ? slash + 1 : path);
-    if (is_packed(p, name))
-        return error_set(error, FRAM_ERROR_INPUT, path, 0, path_of_key,
-                         "another file of the scenario has the same name, and resources hold one: rename one of them");
-    text_add_bytes(p->ctx, &p->packed, name, strlen(name) + 1);
-    p->files++;
-    return p->packed.failed ? error_memory(error) : pack_file(p, path, name, false, error);
-}
-
 static fram_status pack_text(packer *p, const char *name, const text_buffer *text, fram_error *error)
 {
     if (text->failed)
@@ -212,16 +228,20 @@ static fram_status pack_text(packer *p, const char *name, const text_buffer *tex
 
 static fram_status pack_scenario(packer *p, fram_error *error)
 {
-    const scenario_print_options options = {.comments = true, .names_only = true};
-    static const char own[] = "resources/scenario.yaml\0resources/variables.txt";
+    const scenario_print_options options = {.comments = true, .file_name = name_of_file, .file_user = p};
     text_buffer text = {0};
-    text_add_bytes(p->ctx, &p->packed, own, sizeof own);
-    p->files = 2;
-    fram_status status = scenario_print(p->ctx, p->s, &options, &text, error);
+    fram_status status = scenario_walk(p->s, list_file, p, error);
+    if (status == FRAM_OK)
+        status = scenario_print(p->ctx, p->s, &options, &text, error);
     if (status == FRAM_OK)
         status = pack_text(p, "resources/scenario.yaml", &text, error);
     text_free(p->ctx, &text);
-    return status == FRAM_OK ? scenario_walk(p->s, pack_input, p, error) : status;
+    for (int32_t i = 0; i < p->files.count && status == FRAM_OK; i++) {
+        char name[sizeof p->files.data->name + 12];
+        snprintf(name, sizeof name, "resources/%s", p->files.data[i].name);
+        status = pack_file(p, p->files.data[i].path, name, false, error);
+    }
+    return status;
 }
 
 static fram_status pack_all(packer *p, fram_error *error)
@@ -267,11 +287,11 @@ fram_status fmu_write(context *ctx, const scenario *s, const fmu_options *option
         report->inputs += p.variables.data[i].kind == FMU_INPUT;
         report->outputs += p.variables.data[i].kind == FMU_OUTPUT;
     }
-    report->files = p.files > 2 ? p.files - 2 : 0;
+    report->files = p.files.count;
     zip_free(&p.zip);
     array_free(ctx, &p.variables);
     array_free(ctx, &p.controls);
     series_layout_free(ctx, &p.columns);
-    text_free(ctx, &p.packed);
+    array_free(ctx, &p.files);
     return status;
 }

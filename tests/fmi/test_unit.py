@@ -69,6 +69,7 @@ class Units:
         self.assertEqual(kinds["ice_force_x"], "output")
         self.assertNotIn("step_wall_time", kinds)
         self.assertEqual(unit.unit_of("ice_force_x"), "N")
+        self.assertEqual(unit.variables["kinetic_energy"].get("description"), "of all bodies")
         units = {u.get("name") for u in unit.description.iter("Unit")}
         for variable in unit.variables:
             self.assertIn(unit.unit_of(variable), units | {None})
@@ -287,6 +288,37 @@ class Units:
         two.keep()  # and never forgotten: goes with the instance
         one.free()
         two.free()
+
+    def test_files_of_one_name(self):
+        """Folders, a file that two vessels share, names that are the unit's own or not ASCII."""
+        for name in "a", "b":
+            (self.folder / name).mkdir(exist_ok=True)
+        (self.folder / "a/wind.csv").write_text("time[s],x[m/s],y[m/s]\n0,5,0\n10,5,0\n")
+        (self.folder / "b/wind.csv").write_text("time[s],x[m/s],y[m/s]\n0,0.2,0\n10,0.2,0\n")
+        (self.folder / "variables.txt").write_text((self.folder / "ice of mine.txt").read_text())
+        odd = self.folder / "b/Größe \\ one.csv"
+        odd.write_text("depth[m],x[m/s],y[m/s]\n0,0.1,0\n5,0.05,0\n")
+        scene = self.folder / "files.yaml"
+        text = SCENE.replace("ice of mine.txt", "variables.txt").replace(
+            "current_speed: 6, current_direction_deg: 180",
+            f"wind_file: a/wind.csv, current_file: '{self.folder}/b/wind.csv', current_profile_file: '{odd}'")
+        scene.write_text(text.replace("b/wind.csv", "a/wind.csv"))
+        self.assertIn("3 files", self.fram("fmu", scene, "-o", self.folder / "files.fmu", "--force"))
+        scene.write_text(text)
+        told = self.fram("fmu", scene, "-o", self.folder / "files.fmu", "--fmi", self.version, "--force")
+        self.assertIn("4 files", told)
+        unit = Unit(self.folder / "files.fmu", self.folder / f"files {self.version}")
+        found = {str(path.relative_to(unit.resources)) for path in unit.resources.rglob("*") if path.is_file()}
+        self.assertEqual(len(found), 6)
+        self.assertIn("wind.csv", found)
+        self.assertNotIn(str(self.folder), (unit.resources / "scenario.yaml").read_text())
+        one, world = unit.instance().initialise(), World(BUILD / "libfram.so", scene)
+        for i in range(20):
+            one.step(i * unit.step_size, unit.step_size)
+            world.step()
+        self.assertEqual(one.get(*unit.outputs()), [world[name] for name in unit.outputs()])
+        one.free()
+        world.free()
 
     def test_the_command(self):
         told = self.fram("fmu", self.scene, "-o", self.folder / "few.fmu", "--in", "thruster_*", "--out", "ice_force_?",

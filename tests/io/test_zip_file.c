@@ -43,6 +43,9 @@ START_TEST(entries_are_found_by_the_directory)
     ck_assert_int_eq(inflate(&z, Z_FINISH), Z_STREAM_END);
     inflateEnd(&z);
     ck_assert(memcmp(back, text, sizeof text) == 0);
+    ck_assert_uint_eq(number(entry + 8, 2), 0);
+    assert_ok(zip_add(&zip, "Größe", "", 0, false, &error), error);
+    ck_assert_uint_eq(number(zip.directory.data + zip.directory.count - 7 - 46 + 8, 2), 1 << 11); /* a name in UTF-8 */
     char path[] = "/tmp/fram_zip_XXXXXX";
     int made = mkstemp(path);
     ck_assert_int_ge(made, 0);
@@ -50,7 +53,7 @@ START_TEST(entries_are_found_by_the_directory)
     assert_ok(zip_write(&zip, path, &error), error);
     const char *end = zip.body.data + zip.body.count - 22;
     ck_assert_uint_eq(number(end, 4), 0x06054b50);
-    ck_assert_uint_eq(number(end + 10, 2), 2);
+    ck_assert_uint_eq(number(end + 10, 2), 3);
     ck_assert(memcmp(zip.body.data + number(end + 16, 4), zip.directory.data, number(end + 12, 4)) == 0);
     unlink(path);
     assert_fails(zip_write(&zip, "/no/such/folder/a.zip", &error), error, FRAM_ERROR_INPUT, "");

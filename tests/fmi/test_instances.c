@@ -1,0 +1,391 @@
+/* bindings/fmi: instances of both versions from one binary are the world that they carry, one call after another, in
+   any order and with any arguments, and in threads.  The scripts beside this try whole units; here sanitizers see it.
+ */
+#include "../../bindings/fmi/fmi2.h"
+#include "../../bindings/fmi/fmi3.h"
+#include "base/random.h"
+#include "fram/live.h"
+#include "testing.h"
+
+#include <dlfcn.h>
+#include <pthread.h>
+
+enum { THREADS = 4, STEPS = 40, KEPT = 3, REFERENCES = 7 };
+static const double dt = 0.05;
+static const char token[] = "{11111111-2222-3333-4444-555555555555}";
+static const char variables[] = "input wind_x\ninput positioning\ninput thruster_1_order\noutput position_x\n"
+                                "output velocity_y\noutput kinetic_energy\ntime time\n";
+enum { WIND, POSITIONING, ORDER, POSITION, VELOCITY, ENERGY, TIME }; /* value references */
+static const char scene[] = "run: {duration: 10, time_step: 0.05}\n"
+                            "vessel:\n  mode: free\n  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}\n"
+                            "  thrusters: [{x: 18}, {x: -18}]\n  positioning: {active: true}\n"
+                            "ice: {source: voronoi, concentration: 0.5, mean_floe_area: 200}\n"
+                            "domain: {x_min: -60, x_max: 60, y_min: -40, y_max: 40, boundary: open}\n"
+                            "environment: {current_speed: 0.5}\n";
+
+typedef void (*any_function)(void);
+
+/* A function of the unit's binary, which no test is linked to. */
+static any_function function_of(const char *name)
+{
+    static void *binary;
+    char path[400];
+    const char *build = getenv("FRAM_BUILD");
+    if (!binary) {
+        snprintf(path, sizeof path, "%s/fram_fmu.so", build ? build : ".");
+        binary = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+        ck_assert_msg(binary != NULL, "%s: %s", path, dlerror());
+    }
+    void *found = dlsym(binary, name);
+    any_function function;
+    ck_assert_msg(found != NULL, "%s", name);
+    memcpy(&function, &found, sizeof function);
+    return function;
+}
+#define CALL(name) ((__typeof__(&name))function_of(#name))
+
+static char folder[300];
+
+static void write_text(const char *name, const char *text, const char *more)
+{
+    char path[400];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    ck_assert_ptr_nonnull(file);
+    fprintf(file, "%s%s", text, more);
+    ck_assert_int_eq(fclose(file), 0);
+}
+
+/* A folder of resources, with a trailing slash as 3.0 wants it. */
+static void make_resources(void)
+{
+    const char *root = getenv("TMPDIR");
+    char list[400];
+    snprintf(folder, sizeof folder, "%s/fram_instances_XXXXXX", root && strlen(root) < 150 ? root : "/tmp");
+    ck_assert_ptr_nonnull(mkdtemp(folder));
+    write_text("scenario.yaml", scene, "");
+    snprintf(list, sizeof list, "%s\n", token);
+    write_text("variables.txt", list, variables);
+}
+
+static void remove_resources(void)
+{
+    char command[340];
+    snprintf(command, sizeof command, "rm -rf %s", folder);
+    ck_assert_int_eq(system(command), 0); /* NOLINT(cert-env33-c): a folder of mkdtemp */
+}
+
+static void log_3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String text)
+{
+    int *errors = environment;
+    ck_assert(category && text && text[0]);
+    *errors += status == fmi3Error;
+}
+
+static void log_2(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
+                  fmi2String form, ...)
+{
+    int *errors = environment;
+    ck_assert(name && category && form);
+    *errors += status == fmi2Error;
+}
+
+static fmi3Instance make_3(int *errors, fmi3IntermediateUpdateCallback look)
+{
+    static const fmi3ValueReference looked_at[] = {POSITION, TIME};
+    char path[320];
+    snprintf(path, sizeof path, "%s/", folder);
+    return CALL(fmi3InstantiateCoSimulation)("ship #3", token, path, false, true, false, true, looked_at, 2, errors,
+                                             log_3, look);
+}
+
+/* NOLINTNEXTLINE(readability-non-const-parameter): the log counts there */
+static fmi2Component make_2(int *errors)
+{
+    char uri[320];
+    snprintf(uri, sizeof uri, "file://%s", folder);
+    const fmi2CallbackFunctions functions = {.logger = log_2, .componentEnvironment = errors};
+    return CALL(fmi2Instantiate)("ship #2", fmi2CoSimulation, token, uri, &functions, fmi2False, fmi2True);
+}
+
+static double order_of(int step) { return 2e4 * (step % 7 - 3); }
+
+static const fmi3ValueReference orders[] = {POSITIONING, ORDER};
+static const fmi3ValueReference seen[] = {POSITION, VELOCITY, ENERGY};
+
+/* `steps` steps of an instance of 3.0, the outputs of each appended to out. */
+static void run_3(fmi3Instance c, int steps, double *out)
+{
+    ck_assert_int_eq(CALL(fmi3EnterInitializationMode)(c, false, 0, 3, true, 3 + steps * dt), fmi3OK);
+    ck_assert_int_eq(CALL(fmi3ExitInitializationMode)(c), fmi3OK);
+    for (int i = 0; i < steps; i++) {
+        const double values[] = {0, order_of(i)};
+        bool event, end, early;
+        double reached;
+        ck_assert_int_eq(CALL(fmi3SetFloat64)(c, orders, 2, values, 2), fmi3OK);
+        ck_assert_int_eq(CALL(fmi3DoStep)(c, 3 + i * dt, dt, true, &event, &end, &early, &reached), fmi3OK);
+        ck_assert(!event && !end && !early && fabs(reached - (3 + (i + 1) * dt)) < 1e-9);
+        ck_assert_int_eq(CALL(fmi3GetFloat64)(c, seen, 3, out + (ptrdiff_t)3 * i, 3), fmi3OK);
+    }
+}
+
+/* The same by a world of this program. */
+static uint64_t run_world(int steps, double *out)
+{
+    fram_error e;
+    fram_context *ctx;
+    fram_scenario *s;
+    fram_world *w;
+    char path[340];
+    snprintf(path, sizeof path, "%s/scenario.yaml", folder);
+    assert_ok(fram_context_create(NULL, &ctx, &e), e);
+    assert_ok(fram_scenario_load(ctx, path, NULL, 0, &s, &e), e);
+    assert_ok(fram_world_create(s, &w, &e), e);
+    static const char *const names[] = {"position_x", "velocity_y", "kinetic_energy"};
+    for (int i = 0; i < steps; i++) {
+        if (i == 0)
+            assert_ok(fram_world_set_input(w, fram_world_find_input(w, "positioning"), 0, &e), e);
+        assert_ok(fram_world_set_input(w, fram_world_find_input(w, "thruster_1_order"), order_of(i), &e), e);
+        assert_ok(fram_world_step(w, &e), e);
+        for (int k = 0; k < 3; k++)
+            out[3 * i + k] = fram_world_value(w, fram_world_find_channel(w, names[k]));
+    }
+    uint64_t hash = fram_world_hash(w);
+    fram_world_destroy(w);
+    fram_scenario_destroy(s);
+    fram_context_destroy(ctx);
+    return hash;
+}
+
+START_TEST(both_versions_are_the_world)
+{
+    make_resources();
+    int errors = 0;
+    double expected[3 * STEPS], found[3 * STEPS];
+    run_world(STEPS, expected);
+    ck_assert(expected[3 * STEPS - 1] != 0 && expected[0] != expected[3 * STEPS - 3]);
+    fmi3Instance three = make_3(&errors, NULL);
+    fmi2Component two = make_2(&errors);
+    ck_assert(three && two);
+    run_3(three, STEPS, found);
+    ck_assert_mem_eq(found, expected, sizeof found);
+    ck_assert_int_eq(CALL(fmi2EnterInitializationMode)(two), fmi2OK);
+    ck_assert_int_eq(CALL(fmi2ExitInitializationMode)(two), fmi2OK);
+    for (int i = 0; i < STEPS; i++) {
+        const double values[] = {0, order_of(i)};
+        ck_assert_int_eq(CALL(fmi2SetReal)(two, orders, 2, values), fmi2OK);
+        ck_assert_int_eq(CALL(fmi2DoStep)(two, i * dt, dt, fmi2True), fmi2OK);
+        ck_assert_int_eq(CALL(fmi2GetReal)(two, seen, 3, found + (ptrdiff_t)3 * i), fmi2OK);
+    }
+    ck_assert_mem_eq(found, expected, sizeof found);
+    ck_assert_int_eq(errors, 0);
+    CALL(fmi3FreeInstance)(three);
+    CALL(fmi2FreeInstance)(two);
+    remove_resources();
+}
+END_TEST
+
+/* ---- any call, in any order ---- */
+
+typedef struct caller {
+    fmi3Instance c;
+    int errors, looks; /* the log is handed the address of errors */
+    random_stream rng;
+    fmi3FMUState kept[KEPT]; /* some of them are no states */
+    unsigned char bytes[1 << 18];
+    size_t size;
+    double now; /* where the unit stands, unless an error told otherwise */
+} caller;
+
+static double draw(caller *a, double most) { return random_unit(&a->rng) * most; }
+static size_t pick(caller *a, size_t count) { return (size_t)draw(a, (double)count); }
+
+static double some_number(caller *a)
+{
+    const double numbers[] = {0, 1, -1, dt, 3 * dt, 1e5, -1e300, (double)NAN, (double)INFINITY, a->now};
+    return numbers[pick(a, sizeof numbers / sizeof *numbers)];
+}
+
+static fmi3Status some_values(caller *a, bool set)
+{
+    fmi3ValueReference references[4];
+    double values[4];
+    size_t count = pick(a, 5);
+    bool is_odd = pick(a, 6) == 0;
+    for (size_t i = 0; i < 4; i++) {
+        references[i] = is_odd ? (fmi3ValueReference)(pick(a, 9) - 1) : (fmi3ValueReference)(set ? i % 3 : pick(a, 7));
+        values[i] = is_odd ? some_number(a) : references[i] == POSITIONING ? 0 : draw(a, 5);
+    }
+    const fmi3ValueReference *from = pick(a, 30) == 0 ? NULL : references;
+    size_t values_count = pick(a, 20) == 0 ? count + 1 : count;
+    return set ? CALL(fmi3SetFloat64)(a->c, from, count, pick(a, 30) == 0 ? NULL : values, values_count)
+               : CALL(fmi3GetFloat64)(a->c, from, count, pick(a, 30) == 0 ? NULL : values, values_count);
+}
+
+static fmi3Status some_step(caller *a)
+{
+    bool event, end, early;
+    bool is_odd = pick(a, 5) == 0;
+    double now = is_odd ? some_number(a) : a->now, step = is_odd ? some_number(a) : dt * (double)(1 + pick(a, 3));
+    double reached = a->now;
+    fmi3Status status =
+        CALL(fmi3DoStep)(a->c, now, step, pick(a, 2) == 0, &event, &end, pick(a, 30) == 0 ? NULL : &early, &reached);
+    if (isfinite(reached))
+        a->now = reached;
+    return status;
+}
+
+static fmi3Status some_state(caller *a)
+{
+    fmi3FMUState *state = &a->kept[pick(a, KEPT)];
+    switch (pick(a, 8)) {
+    case 0:
+    case 1:
+        return CALL(fmi3GetFMUState)(a->c, state);
+    case 2:
+    case 3:
+        return CALL(fmi3SetFMUState)(a->c, *state);
+    case 4:
+        return pick(a, 3) == 0 ? CALL(fmi3FreeFMUState)(a->c, state) : fmi3OK;
+    case 5: {
+        a->size = 0;
+        fmi3Status status = CALL(fmi3SerializedFMUStateSize)(a->c, *state, &a->size);
+        ck_assert_uint_le(a->size, sizeof a->bytes);
+        if (status == fmi3OK)
+            status = CALL(fmi3SerializeFMUState)(a->c, *state, a->bytes, a->size - (pick(a, 10) == 0));
+        if (pick(a, 4) == 0 && a->size > 0) /* damage */
+            a->bytes[pick(a, a->size)] ^= (unsigned char)(1U << pick(a, 8));
+        return status;
+    }
+    case 6:
+        return CALL(fmi3DeserializeFMUState)(a->c, a->bytes, a->size, state);
+    default: { /* a handle that was freed: refused, never followed */
+        fmi3FMUState other = *state;
+        if (CALL(fmi3FreeFMUState)(a->c, state) == fmi3OK && other)
+            ck_assert_int_eq(CALL(fmi3SetFMUState)(a->c, other), fmi3Error);
+        return fmi3OK;
+    }
+    }
+}
+
+static fmi3Status some_life(caller *a)
+{
+    switch (pick(a, 5)) {
+    case 0:
+        a->now = pick(a, 4) == 0 ? some_number(a) : 0;
+        return CALL(fmi3EnterInitializationMode)(a->c, false, 0, a->now, pick(a, 4) == 0, some_number(a));
+    case 1:
+        return CALL(fmi3ExitInitializationMode)(a->c);
+    case 2:
+        return pick(a, 4) == 0 ? CALL(fmi3Terminate)(a->c) : fmi3OK;
+    case 3: {
+        const fmi3String names[] = {"logAll", pick(a, 2) == 0 ? NULL : "logStatusError"};
+        return CALL(fmi3SetDebugLogging)(a->c, pick(a, 2) == 0, pick(a, 3), pick(a, 5) == 0 ? NULL : names);
+    }
+    default:
+        a->now = 0;
+        return pick(a, 2) == 0 ? CALL(fmi3Reset)(a->c) : fmi3OK;
+    }
+}
+
+static fmi3Status some_call(caller *a)
+{
+    switch (pick(a, 8)) {
+    case 0:
+    case 1:
+        return some_life(a);
+    case 2:
+        return some_values(a, true);
+    case 3:
+        return some_values(a, false);
+    case 4:
+    case 5:
+        return some_step(a);
+    default:
+        return some_state(a);
+    }
+}
+
+static void look(fmi3InstanceEnvironment environment, fmi3Float64 time, fmi3Boolean set_requested,
+                 fmi3Boolean get_allowed, fmi3Boolean step_finished, fmi3Boolean can_return_early,
+                 fmi3Boolean *return_requested, fmi3Float64 *return_time)
+{
+    caller *a = (caller *)((char *)environment - offsetof(caller, errors)); /* the log's environment is the errors */
+    ck_assert(!set_requested && get_allowed && step_finished && time >= 0);
+    a->looks++;
+    if (pick(a, 10) == 0) {
+        double now = a->now;
+        some_call(a);
+        a->now = now;
+    }
+    if (pick(a, 4) == 0 && can_return_early) {
+        *return_requested = true;
+        *return_time = some_number(a);
+    }
+}
+
+START_TEST(any_call_in_any_order_has_a_status)
+{
+    make_resources();
+    int calls = getenv("FRAM_TEST_SHORT") ? 800 : 4000, good = 0, refused = 0, steps = 0;
+    static caller a; /* too large for a stack */
+    a.rng = random_begin(5, 0, 0);
+    a.c = make_3(&a.errors, look);
+    ck_assert_ptr_nonnull(a.c);
+    for (int i = 0; i < calls; i++) {
+        fmi3Status status = some_call(&a);
+        ck_assert_msg(status == fmi3OK || status == fmi3Error || status == fmi3Warning, "call %d: %d", i, status);
+        good += status == fmi3OK;
+        refused += status == fmi3Error;
+        if (status == fmi3Error && pick(&a, 3) > 0) { /* on from the start, so that there is more than refusals */
+            ck_assert_int_eq(CALL(fmi3Reset)(a.c), fmi3OK);
+            ck_assert_int_eq(CALL(fmi3EnterInitializationMode)(a.c, false, 0, 0, false, 0), fmi3OK);
+            ck_assert_int_eq(CALL(fmi3ExitInitializationMode)(a.c), fmi3OK);
+            a.now = 0;
+        }
+        steps += a.now > 0;
+    }
+    ck_assert_msg(good > calls / 4 && refused > calls / 20 && a.errors > refused / 4 && a.looks > calls / 40 &&
+                      steps > calls / 10,
+                  "%d good, %d refused, %d told, %d looks, %d on the way", good, refused, a.errors, a.looks, steps);
+    CALL(fmi3FreeInstance)(a.c);
+    remove_resources();
+}
+END_TEST
+
+/* ---- threads ---- */
+
+typedef struct lane {
+    int errors;
+    double out[3 * STEPS];
+} lane;
+
+static void *run_lane(void *user)
+{
+    lane *l = user;
+    fmi3Instance c = make_3(&l->errors, NULL);
+    if (c)
+        run_3(c, STEPS, l->out);
+    CALL(fmi3FreeInstance)(c);
+    return NULL;
+}
+
+START_TEST(instances_in_threads_are_as_alone)
+{
+    make_resources();
+    static lane lanes[THREADS], alone;
+    pthread_t threads[THREADS];
+    run_lane(&alone);
+    for (int i = 0; i < THREADS; i++)
+        ck_assert_int_eq(pthread_create(&threads[i], NULL, run_lane, &lanes[i]), 0);
+    for (int i = 0; i < THREADS; i++)
+        ck_assert_int_eq(pthread_join(threads[i], NULL), 0);
+    ck_assert(alone.out[3 * STEPS - 1] != 0);
+    for (int i = 0; i < THREADS; i++)
+        ck_assert_mem_eq(lanes[i].out, alone.out, sizeof alone.out);
+    remove_resources();
+}
+END_TEST
+
+TEST_MAIN("instances", both_versions_are_the_world, any_call_in_any_order_has_a_status,
+          instances_in_threads_are_as_alone)
