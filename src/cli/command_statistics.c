@@ -70,7 +70,7 @@ enum { SERIES_ROWS = 4, STATISTICS_FILES = 256 };
 static void series_rows(series_words *w, option_row rows[SERIES_ROWS])
 {
     rows[0] = (option_row){"--channel", NULL,   OPTION_TEXT,
-                           &w->channel, "NAME", "channel of a run, column of a CSV file (load of a run)"};
+                           &w->channel, "NAME", "channel of a run, column of a CSV file (load, or NAME.load)"};
     rows[1] = (option_row){"--from", NULL, OPTION_TEXT, &w->from, "T", "leave out what is before (transient of a run)"};
     rows[2] = (option_row){"--step", NULL, OPTION_TEXT, &w->step, "T", "between rows of a file without a column time"};
     rows[3] = (option_row){"--minima", NULL, OPTION_FLAG,

@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "io/file.h"
+#include "model/scenario_vessel.h"
 #include "results/run_data.h"
 #include "study/words.h"
 
@@ -172,8 +173,11 @@ static fram_status read_csv(context *ctx, const char *path, const series_source 
 
 static fram_status no_channel(const run_data *d, const char *name, fram_error *error)
 {
-    const char *near = "load";
-    int least = word_distance(near, name);
+    const vessel_channel of_first = vessel_channel_name(&d->s, 0, "load");
+    bool vessels = scenario_vessel_count(&d->s) > 0;
+    const char *near = vessels ? of_first.text : "time";
+    /* In a list of vessels nothing is nearer to `load` than the load of one. */
+    int least = vessels && strcmp(name, "load") == 0 ? 0 : word_distance(near, name);
     for (int32_t i = 0; i < d->series.columns.count; i++) {
         int distance = word_distance(d->series.columns.data[i].name, name);
         if (distance < least) {
@@ -186,12 +190,23 @@ static fram_status no_channel(const run_data *d, const char *name, fram_error *e
                      d->folder);
 }
 
+/* The vessel whose `load` this is: NAME.load in a list of vessels; -1: no vessel's. */
+static int32_t load_of(const run_data *d, const char *name)
+{
+    for (int32_t v = 0; v < scenario_vessel_count(&d->s); v++)
+        if (strcmp(vessel_channel_name(&d->s, v, "load").text, name) == 0)
+            return v;
+    return -1;
+}
+
 static fram_status take_channel(context *ctx, const run_data *d, const char *name, double_array *value,
                                 char unit[UNIT_SIZE], fram_error *error)
 {
     const csv_table_column *c = csv_table_find(&d->series, name);
-    const double *x = run_channel(d, "ice_force_averaged_x"), *y = run_channel(d, "ice_force_averaged_y");
-    bool load = !c && strcmp(name, "load") == 0 && x && y;
+    int32_t vessel = c ? -1 : load_of(d, name);
+    const double *x = vessel < 0 ? NULL : run_vessel_channel(d, vessel, "ice_force_averaged_x");
+    const double *y = vessel < 0 ? NULL : run_vessel_channel(d, vessel, "ice_force_averaged_y");
+    bool load = x && y;
     if (!c && !load)
         return no_channel(d, name, error);
     snprintf(unit, 16, "%s", load ? "N" : c->unit);

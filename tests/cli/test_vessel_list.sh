@@ -61,6 +61,12 @@ done
 "$FRAM" compare "$run" "$run" -o "$scratch/c.html" --quiet || fail "the comparison failed"
 grep -q "tug: ice load along X, mean" "$scratch/c.html" || fail "the comparison has no row of the tug"
 
+# Fatigue and extremes are of the vessel that is named, and say so where none is.
+"$FRAM" fatigue "$run" --channel tug.load --quiet || fail "there is no fatigue of the load on the tug"
+expect 2 "$FRAM" fatigue "$run" --channel barge.load
+expect 2 "$FRAM" fatigue "$run"
+says "did you mean icebreaker.load?" err
+
 # The capability of the vessel that is asked for, the others left out.
 expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula
 expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula --vessel barge
