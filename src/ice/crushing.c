@@ -1,8 +1,11 @@
 /* Crushing patches and their contacts; see crushing.h. */
 #include "ice/crushing.h"
 
+#include "base/pool.h"
 #include "geometry/mesh_point.h"
+#include "ice/crushing_blocks.h"
 #include "ice/patch.h"
+#include "ice/patch_points.h"
 #include "ice/prism_surfaces.h"
 
 #include <assert.h>
@@ -11,15 +14,9 @@
    corner, a pile): what is left is rounding and has no direction. */
 static const double CLOSED_PATCH = 1e-9;
 
-/* Patches narrower than this part of their length get two points instead of four. */
-static const double NARROW_PATCH = 0.01;
-
 /* The comparison switch: under this |normal . z| the reference's A_I / cos(gamma) has no meaning (a vertical side has
    no section area at all), and the patch's own area is kept. */
 static const double VERTICAL_SIDE = 0.02;
-
-/* Up to this |normal . z| the first axis of a patch is level: beyond it the level direction is lost in rounding. */
-static const double STEEP_NORMAL = 0.9;
 
 /* A winding number of a closed surface about a point is 1 inside and 0 outside, to rounding. */
 static const double INSIDE_WINDING = 0.5;
@@ -32,24 +29,35 @@ static const double SMALL_DEFLECTION = 0.5;
 static const double GIVE_PRECISION = 1e-13;
 enum { MOST_GIVE_TURNS = 100 };
 
-enum { MOST_POINTS = 4 };
+/* Pairs a block, 0.1 ms of work: many more than waking a thread takes, and few enough to share out level ice. */
+enum { BLOCK_PAIRS = 32 };
 
 /* What debug builds grant to rounding where a length should be 1. */
 #define UNIT_SLACK 1e-9
 
 struct crushing_scratch {
-    patch_scratch *patch;
+    ARRAY(patch_scratch *) rooms; /* of each thread */
     prism_surfaces prisms;
+    crushing_blocks blocks;
 };
+
+static bool make_rooms(context *ctx, crushing_scratch *s, int32_t threads)
+{
+    while (s->rooms.count < threads) {
+        patch_scratch *room = patch_scratch_create(ctx);
+        if (!room || !array_push(ctx, &s->rooms, room)) {
+            patch_scratch_free(ctx, room);
+            return false;
+        }
+    }
+    return true;
+}
 
 crushing_scratch *crushing_scratch_create(context *ctx)
 {
     crushing_scratch *s = memory_array(ctx, 1, sizeof *s);
-    if (!s)
-        return NULL;
-    s->patch = patch_scratch_create(ctx);
-    if (!s->patch) {
-        memory_free(ctx, s);
+    if (s && !make_rooms(ctx, s, 1)) {
+        crushing_scratch_free(ctx, s);
         return NULL;
     }
     return s;
@@ -59,15 +67,19 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s)
 {
     if (!s)
         return;
-    patch_scratch_free(ctx, s->patch);
+    for (int32_t i = 0; i < s->rooms.count; i++)
+        patch_scratch_free(ctx, s->rooms.data[i]);
+    array_free(ctx, &s->rooms);
     prism_surfaces_free(ctx, &s->prisms);
+    crushing_blocks_free(ctx, &s->blocks);
     memory_free(ctx, s);
 }
 
-/* What one call works on. */
+/* What one call works on, or one block of it. */
 typedef struct job {
     context *ctx;
-    crushing_scratch *scratch;
+    const prism_surfaces *prisms; /* with all that are asked for */
+    patch_scratch *room;          /* of the thread */
     const crushing_settings *settings;
     const body_table *bodies;
     const shape_store *shapes;
@@ -90,7 +102,7 @@ typedef struct crushing_pair {
 
 /* ---- the surface of a body ---- */
 
-static fram_status set_surface(const job *j, crushing_pair *p)
+static void set_surface(const job *j, crushing_pair *p)
 {
     int32_t row = j->bodies->shape[p->surface_body];
     if (j->shapes->shapes.kind[row] == SHAPE_SOLID) {
@@ -100,10 +112,7 @@ static fram_status set_surface(const job *j, crushing_pair *p)
         p->surface.tree = &body->tree;
         p->surface.prism = -1;
     } else {
-        const prism_surface *prism;
-        fram_status status = prism_surfaces_get(j->ctx, &j->scratch->prisms, j->shapes, row, &prism, j->error);
-        if (status != FRAM_OK)
-            return status;
+        const prism_surface *prism = prism_surfaces_find(j->prisms, row);
         p->surface.surface = &prism->surface;
         p->surface.adjacency = &prism->adjacency;
         p->surface.tree = prism->has_tree ? &prism->tree : NULL;
@@ -112,7 +121,12 @@ static fram_status set_surface(const job *j, crushing_pair *p)
     mat3 to_global = quat_matrix(j->bodies->orientation[p->surface_body]);
     p->surface.rotation = mat3_mul(mat3_transpose(p->rotation), to_global);
     p->surface.offset = mat3_tmul_vec(p->rotation, vec3_sub(j->bodies->position[p->surface_body], p->position));
-    return FRAM_OK;
+}
+
+/* Of two bodies that crush: the one whose surface is looked at, see set_pair. */
+static int32_t surface_body_of(const body_table *bodies, int32_t a, int32_t b)
+{
+    return bodies->material[b] != MATERIAL_ICE ? b : a;
 }
 
 /* Which of both is the floe: the one of ice, of two floes the higher slot, so that the surface of the lower one serves
@@ -121,9 +135,8 @@ static fram_status set_surface(const job *j, crushing_pair *p)
 static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_policies *policies, crushing_pair *p)
 {
     const body_table *bodies = j->bodies;
-    bool first = bodies->material[b] != MATERIAL_ICE;
-    p->floe_body = first ? a : b;
-    p->surface_body = first ? b : a;
+    p->surface_body = surface_body_of(bodies, a, b);
+    p->floe_body = p->surface_body == b ? a : b;
     p->floe = bodies->owner[p->floe_body];
     if (bodies->material[p->floe_body] != MATERIAL_ICE || p->floe < 0)
         return error_set(j->error, FRAM_ERROR_USAGE, NULL, 0, NULL,
@@ -132,7 +145,8 @@ static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_polic
     p->prism = (patch_floe){j->shapes, bodies->shape[p->floe_body]};
     p->rotation = quat_matrix(bodies->orientation[p->floe_body]);
     p->position = bodies->position[p->floe_body];
-    return set_surface(j, p);
+    set_surface(j, p);
+    return FRAM_OK;
 }
 
 /* Pressure on a patch about a centre in the frame of the floe; between two floes that of the weaker one, and no more
@@ -152,46 +166,7 @@ static double pair_pressure(const job *j, const crushing_pair *p, vec3 centre, d
     return fmin(pressure, ice_ridging_line_load(j->settings->ridging, thickness, level_area / thickness) / thickness);
 }
 
-/* ---- points ---- */
-
-/* Unit vectors that span the plane of a patch, floe frame: the first one level as long as the patch is not, so that
-   points keep their places while the normal wavers about any direction but one. */
-static void patch_axes(vec3 normal, vec3 *t1, vec3 *t2)
-{
-    vec3 up = fabs(normal.z) < STEEP_NORMAL ? (vec3){0, 0, 1} : (vec3){1, 0, 0};
-    *t1 = vec3_unit(vec3_cross(up, normal));
-    *t2 = vec3_cross(normal, *t1);
-}
-
-static double spread_along(sym3 c, vec3 a, vec3 b) { return vec3_dot(a, sym3_mul_vec(c, b)); }
-
-/* Points of equal weight with the centroid and the second moments of the patch in its plane: centre +- s1 +- s2, with
-   s1 and s2 the columns of the symmetric root of its covariance.  On a rectangle they are the points of Gauss's rule.
-   Two points for a patch that is nearly a line, one for a point. */
-static int patch_points(const patch_component *c, vec3 normal, vec3 out[MOST_POINTS])
-{
-    vec3 t1, t2;
-    patch_axes(normal, &t1, &t2);
-    double xx = spread_along(c->spread, t1, t1), yy = spread_along(c->spread, t2, t2),
-           xy = spread_along(c->spread, t1, t2);
-    double root = sqrt(fmax(xx * yy - xy * xy, 0)), trace = sqrt(fmax(xx + yy + 2 * root, 0));
-    if (!(trace > 0)) {
-        out[0] = c->centre;
-        return 1;
-    }
-    vec3 s1 = vec3_add(vec3_scale(t1, (xx + root) / trace), vec3_scale(t2, xy / trace));
-    vec3 s2 = vec3_add(vec3_scale(t1, xy / trace), vec3_scale(t2, (yy + root) / trace));
-    if (root < NARROW_PATCH * (xx + yy)) {
-        vec3 along = xx >= yy ? s1 : s2;
-        along = vec3_scale(vec3_unit(along), sqrt(xx + yy));
-        out[0] = vec3_add(c->centre, along);
-        out[1] = vec3_sub(c->centre, along);
-        return 2;
-    }
-    for (int i = 0; i < 4; i++)
-        out[i] = vec3_add(c->centre, vec3_add(vec3_scale(s1, i & 1 ? -1 : 1), vec3_scale(s2, i & 2 ? -1 : 1)));
-    return 4;
-}
+/* ---- contacts ---- */
 
 /* A hull never pushes a floe out of itself, nor a floe another one: the overlap is ice that is crushed or about to
    break. */
@@ -252,7 +227,7 @@ typedef struct loaded_edge {
  * seams divide off. */
 static double excess(const job *j, const crushing_pair *p, const loaded_edge *e, double give, double *stiffness)
 {
-    vec3 left = patch_area_left(j->scratch->patch, &p->prism, e->number, e->sign * give);
+    vec3 left = patch_area_left(j->room, &p->prism, e->number, e->sign * give);
     double area = vec3_length(left), level = fabs(left.z) + e->stand.beside;
     *stiffness = edge_stiffness(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], level,
                                 e->stand);
@@ -296,7 +271,7 @@ static patch_component give_way(const job *j, const crushing_pair *p, const patc
         j->supports ? edge_stand_find(j->supports, j->bodies, p->surface_body, centre, reach) : EDGE_STAND_STRAIGHT;
     bool balance;
     double give = find_give(j, p, &e, &balance), stiffness;
-    patch_component left = patch_left(j->scratch->patch, &p->prism, number, e.sign * give);
+    patch_component left = patch_left(j->room, &p->prism, number, e.sign * give);
     excess(j, p, &e, give, &stiffness);
     *pressure = component_pressure(j, p, c, vec3_length(left.area));
     if (balance && give > 0 && left.area.z != 0)
@@ -307,7 +282,7 @@ static patch_component give_way(const job *j, const crushing_pair *p, const patc
 static bool push_patch(const job *j, const crushing_pair *p, const patch_component *c, int32_t number, double area,
                        double pressure)
 {
-    vec3 normal = vec3_unit(c->area), point[MOST_POINTS];
+    vec3 normal = vec3_unit(c->area), point[PATCH_MOST_POINTS];
     crushing_patch patch = {.floe = p->floe,
                             .floe_body = p->floe_body,
                             .surface_body = p->surface_body,
@@ -321,7 +296,7 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .contact_first = j->contacts->count,
                             .component = number};
     patch.contact_count = patch_points(c, normal, point);
-    assert(patch.contact_count >= 1 && patch.contact_count <= MOST_POINTS);
+    assert(patch.contact_count >= 1 && patch.contact_count <= PATCH_MOST_POINTS);
     assert(fabs(vec3_length(patch.normal) - 1) < UNIT_SLACK);
     assert(c->way >= 0 && patch.area > 0 && patch.horizontal_area <= c->surface * (1 + UNIT_SLACK));
     for (int i = 0; i < patch.contact_count; i++)
@@ -341,7 +316,7 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
 {
     double section_area = 0, horizontal_sum = 0;
     if (j->settings->top_plane_area) {
-        fram_status status = patch_top_area(j->ctx, j->scratch->patch, &p->surface, &p->prism, &section_area, j->error);
+        fram_status status = patch_top_area(j->ctx, j->room, &p->surface, &p->prism, &section_area, j->error);
         if (status != FRAM_OK)
             return status;
         for (int32_t i = 0; i < found->count; i++)
@@ -412,7 +387,7 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
                             .contact_first = j->contacts->count,
                             .contact_count = 1};
     double way_out;
-    if (!patch_way_out(j->ctx, j->scratch->patch, &p->prism, inner, vec3_neg(normal), &way_out))
+    if (!patch_way_out(j->ctx, j->room, &p->prism, inner, vec3_neg(normal), &way_out))
         return error_memory(j->error);
     double depth = fmin(distance + way_out, thickness);
     if (!push_contact(j, p, &patch, 0, inner, depth, 1, true) || !array_push(j->ctx, j->patches, patch))
@@ -428,7 +403,7 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, double *clear,
     if (status != FRAM_OK)
         return status;
     const patch_component_array *found;
-    if (!patch_components(j->ctx, j->scratch->patch, &p.surface, &p.prism, &found))
+    if (!patch_components(j->ctx, j->room, &p.surface, &p.prism, &found))
         return error_memory(j->error);
     if (found->count == 0 && *clear == PAIR_HAS_PATCH)
         *clear = 0;
@@ -439,19 +414,83 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, double *clear,
     return status;
 }
 
+/* ---- all pairs ---- */
+
+/* What blocks share; each makes a job of its own out of it. */
+typedef struct block_work {
+    job job;
+    crushing_scratch *scratch;
+    pair_table *pairs;
+    const index_array *rows;
+    const pair_policies *policies;
+} block_work;
+
+static fram_status crush_rows(const block_work *w, const job *j, int32_t first, int32_t end)
+{
+    for (int32_t i = first; i < end; i++) {
+        int32_t row = w->rows->data[i];
+        fram_status status = crush_pair(j, w->pairs->a[row], w->pairs->b[row], &w->pairs->clear[row], w->policies);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return FRAM_OK;
+}
+
+static void crush_block(void *arg, int32_t block, int32_t thread)
+{
+    const block_work *w = arg;
+    crushing_block *to = &w->scratch->blocks.block.data[block];
+    job j = w->job;
+    j.room = w->scratch->rooms.data[thread];
+    j.patches = &to->patches;
+    j.contacts = &to->contacts;
+    j.error = &to->error;
+    int32_t first = block * BLOCK_PAIRS, rest = w->rows->count - first;
+    to->status = crush_rows(w, &j, first, first + (rest < BLOCK_PAIRS ? rest : BLOCK_PAIRS));
+}
+
+/* The surfaces of all prisms that pairs ask for. */
+static fram_status make_surfaces(const block_work *w)
+{
+    const job *j = &w->job;
+    prism_surfaces_begin(&w->scratch->prisms);
+    for (int32_t i = 0; i < w->rows->count; i++) {
+        int32_t row = w->rows->data[i];
+        int32_t shape = j->bodies->shape[surface_body_of(j->bodies, w->pairs->a[row], w->pairs->b[row])];
+        if (j->shapes->shapes.kind[shape] != SHAPE_PRISM)
+            continue;
+        const prism_surface *made;
+        fram_status status = prism_surfaces_get(j->ctx, &w->scratch->prisms, j->shapes, shape, &made, j->error);
+        if (status != FRAM_OK)
+            return status;
+    }
+    return FRAM_OK;
+}
+
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
                               const edge_support_table *supports, pair_table *pairs, const index_array *patch_pairs,
                               const pair_policies *policies, crushing_patch_array *patches, contact_array *contacts,
                               fram_error *error)
 {
-    job j = {ctx, scratch, settings, bodies, shapes, floes, supports, patches, contacts, error};
+    block_work w = {{ctx, &scratch->prisms, scratch->rooms.data[0], settings, bodies, shapes, floes, supports, patches,
+                     contacts, error},
+                    scratch,
+                    pairs,
+                    patch_pairs,
+                    policies};
     crushing_limit_sides(settings, bodies, shapes, floes, policies, contacts);
-    for (int32_t i = 0; i < patch_pairs->count; i++) {
-        int32_t row = patch_pairs->data[i];
-        fram_status status = crush_pair(&j, pairs->a[row], pairs->b[row], &pairs->clear[row], policies);
-        if (status != FRAM_OK)
-            return status;
-    }
-    return FRAM_OK;
+    fram_status status = make_surfaces(&w);
+    if (status != FRAM_OK)
+        return status;
+    int32_t threads = context_threads(ctx), count = patch_pairs->count;
+    int32_t blocks = count / BLOCK_PAIRS + (count % BLOCK_PAIRS != 0);
+    /* In order and into the arrays themselves: the same, and no copy.  Sections go through a library that is asked by
+       one thread. */
+    if (threads == 1 || blocks <= 1 || settings->top_plane_area)
+        return crush_rows(&w, &w.job, 0, count);
+    if (!make_rooms(ctx, scratch, threads) || !crushing_blocks_make(ctx, &scratch->blocks, blocks))
+        return error_memory(error);
+    pool_run(ctx, crush_block, &w, blocks);
+    return crushing_blocks_join(ctx, &scratch->blocks, patches, contacts, error);
 }

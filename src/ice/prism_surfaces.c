@@ -2,7 +2,8 @@
 
 #include <string.h>
 
-/* So many are kept; then all are made anew, so that memory does not grow with the floes that ever crushed. */
+/* With so many at the start of a step all are made anew, so that memory does not grow with the floes that ever crushed.
+ */
 enum { MOST_KEPT = 4096 };
 /* A surface of up to so many vertices is searched faster without a tree. */
 enum { VERTICES_WITHOUT_TREE = 64 };
@@ -60,15 +61,19 @@ static int32_t place_of(context *ctx, prism_surfaces *s, int32_t row)
 {
     if (s->place.data[row] >= 0)
         return s->place.data[row];
-    if (s->used == MOST_KEPT) {
-        s->used = 0;
-        for (int32_t i = 0; i < s->place.count; i++)
-            s->place.data[i] = -1;
-    }
     if (s->used == s->kept.count && !array_push(ctx, &s->kept, (prism_surface){.half_height = 0}))
         return -1;
     s->place.data[row] = s->used;
     return s->used++;
+}
+
+void prism_surfaces_begin(prism_surfaces *s)
+{
+    if (s->used < MOST_KEPT)
+        return;
+    s->used = 0;
+    for (int32_t i = 0; i < s->place.count; i++)
+        s->place.data[i] = -1;
 }
 
 fram_status prism_surfaces_get(context *ctx, prism_surfaces *s, const shape_store *shapes, int32_t row,
@@ -82,4 +87,9 @@ fram_status prism_surfaces_get(context *ctx, prism_surfaces *s, const shape_stor
     double half_height = shapes->shapes.half_height[row];
     *out = p;
     return is_same(p, outline, half_height) ? FRAM_OK : make(ctx, p, outline, half_height, error);
+}
+
+const prism_surface *prism_surfaces_find(const prism_surfaces *s, int32_t row)
+{
+    return row < s->place.count && s->place.data[row] >= 0 ? &s->kept.data[s->place.data[row]] : NULL;
 }

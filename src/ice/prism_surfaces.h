@@ -22,9 +22,16 @@ typedef struct prism_surfaces {
 
 void prism_surfaces_free(context *ctx, prism_surfaces *s);
 
+/* Forgets what is kept when that is much: before the first of a step. */
+void prism_surfaces_begin(prism_surfaces *s);
+
 /* The surface of the prism in a row of shapes, which is good until the next call.  FRAM_ERROR_INPUT as
    mesh_make_prism. */
 fram_status prism_surfaces_get(context *ctx, prism_surfaces *s, const shape_store *shapes, int32_t row,
                                const prism_surface **out, fram_error *error);
+
+/* The surface that prism_surfaces_get gave last for a row whose shape is the same still, for several threads at once;
+   NULL where none is kept any more. */
+const prism_surface *prism_surfaces_find(const prism_surfaces *s, int32_t row);
 
 #endif

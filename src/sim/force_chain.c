@@ -24,44 +24,51 @@ bool contact_web_make(context *ctx, world *w)
     return true;
 }
 
-/* The other body of an entry, and the impulse on the one that it belongs to [N s]. */
-static int32_t web_read(const world *w, int32_t entry, vec3 *impulse)
+/* The other body of an entry. */
+static int32_t web_other(const world *w, int32_t entry)
 {
     const contact *c = &w->scratch.contacts.data[entry / 2];
-    vec3 on_a = contact_impulse(c);
-    *impulse = entry % 2 == 0 ? on_a : vec3_neg(on_a);
     return entry % 2 == 0 ? c->b : c->a;
+}
+
+/* The impulse of an entry on the body that it belongs to [N s]. */
+static vec3 web_impulse(const world *w, int32_t entry)
+{
+    vec3 on_a = contact_impulse(&w->scratch.contacts.data[entry / 2]);
+    return entry % 2 == 0 ? on_a : vec3_neg(on_a);
 }
 
 /* The contacts of a body with one other that stand together in the list from *entry on, which moves behind them. */
 static int32_t next_neighbour(const world *w, int32_t *entry, vec3 *sum)
 {
-    vec3 impulse;
-    int32_t other = web_read(w, *entry, sum);
+    int32_t other = web_other(w, *entry);
+    *sum = web_impulse(w, *entry);
     for (*entry = w->scratch.web_next.data[*entry]; *entry >= 0; *entry = w->scratch.web_next.data[*entry]) {
-        if (web_read(w, *entry, &impulse) != other)
+        if (web_other(w, *entry) != other)
             break;
-        *sum = vec3_add(*sum, impulse);
+        *sum = vec3_add(*sum, web_impulse(w, *entry));
     }
     return other;
 }
 
-/* A link with what pushes it. */
-static chain_link link_of(const world *w, double per_time, int32_t from, int32_t body)
+/* A link with what pushes it, and with `place` where. */
+static chain_link link_of(const world *w, double per_time, int32_t from, int32_t body, bool place)
 {
     chain_link l = {.body = body, .point = w->bodies.position[body]};
-    vec3 place = {0, 0, 0};
+    vec3 sum = {0, 0, 0};
     double size = 0;
     for (int32_t entry = w->scratch.web_first.data[body]; entry >= 0; entry = w->scratch.web_next.data[entry]) {
-        vec3 impulse;
-        if (web_read(w, entry, &impulse) != from)
+        if (web_other(w, entry) != from)
             continue;
+        vec3 impulse = web_impulse(w, entry);
         l.push = vec3_mad(l.push, impulse, per_time);
-        place = vec3_mad(place, w->scratch.contacts.data[entry / 2].point, vec3_length(impulse));
+        if (!place)
+            continue;
+        sum = vec3_mad(sum, w->scratch.contacts.data[entry / 2].point, vec3_length(impulse));
         size += vec3_length(impulse);
     }
     if (size > 0)
-        l.point = vec3_scale(place, 1 / size);
+        l.point = vec3_scale(sum, 1 / size);
     return l;
 }
 
@@ -120,14 +127,17 @@ static bool is_in(const force_chain *chain, int32_t body)
     return false;
 }
 
-void force_chain_follow(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain)
+/* details: what is told of the last body, and of where links act; without, only what finds the way and the first push.
+ */
+static void follow(const world *w, double time_step, int32_t from, int32_t body, bool details, force_chain *chain)
 {
     chain->count = 0;
     chain->end = CHAIN_LOOP;
     while (chain->count < CHAIN_MOST_LINKS && !is_in(chain, body)) {
         chain_link *l = &chain->link[chain->count++];
-        *l = link_of(w, 1 / time_step, from, body);
         chain->end = end_at(w, body);
+        *l = details || chain->end == CHAIN_LOOP ? link_of(w, 1 / time_step, from, body, details)
+                                                 : (chain_link){.body = body};
         if (chain->end != CHAIN_LOOP)
             return;
         int32_t holder = find_holders(w, 1 / time_step, from, l);
@@ -139,4 +149,14 @@ void force_chain_follow(const world *w, double time_step, int32_t from, int32_t 
         body = holder;
     }
     chain->end = CHAIN_LOOP;
+}
+
+void force_chain_follow(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain)
+{
+    follow(w, time_step, from, body, true, chain);
+}
+
+void force_chain_end(const world *w, double time_step, int32_t from, int32_t body, force_chain *chain)
+{
+    follow(w, time_step, from, body, false, chain);
 }

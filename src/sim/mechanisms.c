@@ -69,7 +69,7 @@ static fram_status find_reaction(context *ctx, const model *m, world *w, bool *w
         return error_memory(error);
     *web = true;
     force_chain chain;
-    force_chain_follow(w, m->time_step, r->hull, r->body, &chain);
+    force_chain_end(w, m->time_step, r->hull, r->body, &chain);
     r->mechanism = by_reaction(&chain);
     return FRAM_OK;
 }

@@ -188,8 +188,11 @@ static void push_row(int floes, bool wall)
         assert_sum(&k, &peak);
     }
     ck_assert(contact_web_make(&k.ctx, &k.w));
-    static force_chain chain;
+    static force_chain chain, end;
     force_chain_follow(&k.w, k.m.time_step, k.w.vessels.body[0], scene_floe(&k, 0), &chain);
+    force_chain_end(&k.w, k.m.time_step, k.w.vessels.body[0], scene_floe(&k, 0), &end);
+    ck_assert(end.count == chain.count && end.end == chain.end);
+    assert_vec3_close(end.link[0].push, chain.link[0].push, 0);
     if (wall) {
         ck_assert_int_eq(chain.count, floes + 1);
         ck_assert_int_eq(chain.end, CHAIN_WALL);
