@@ -228,8 +228,8 @@ START_TEST(curved_drift)
 }
 END_TEST
 
-/* The sheet drifts onto the ship for 40 s, goes on until the channel has left the window, and comes back: the ship
-   meets its own channel, open, and no load that breaks anything. */
+/* The sheet drifts onto the ship for 30 s, goes back until the channel has left the window, and comes again: the
+   ship meets its own channel, open, and next to nothing breaks. */
 START_TEST(reversal_keeps_the_channel)
 {
     if (getenv("FRAM_TEST_SHORT"))
@@ -244,21 +244,17 @@ START_TEST(reversal_keeps_the_channel)
     double crushed = k.w.clock.ice_crushed[0];
     /* Back, until the edge of the sheet is clear of the window, and on. */
     k.m.drift_given = true;
-    k.m.drift = vec2_make(1, 0);
-    k.m.media.current = vec3_make(1, 0, 0);
-    double most = 0;
-    for (int i = 0; i < 3600; i++) {
-        scene_steps(&k, 1);
-        most = fmax(most, i > 200 ? vec3_length(load_on_ship(&k)) : 0);
-    }
+    k.m.drift = vec2_make(2, 0);
+    k.m.media.current = vec3_make(2, 0, 0);
+    scene_steps(&k, 1800);
     ck_assert(k.w.drift.moved[0].x > 40 && k.w.drift_cells.count > 0);
     ck_assert_msg(k.w.clock.bendings[0] <= breaks + 3, "%lld breaks on the way back",
                   (long long)(k.w.clock.bendings[0] - breaks));
     ck_assert(k.w.clock.ice_crushed[0] <= crushed + 2000);
     /* And onto the ship again: the channel is there to where it ended. */
-    k.m.drift = vec2_make(-1, 0);
-    k.m.media.current = vec3_make(-1, 0, 0);
-    scene_steps(&k, 3300);
+    k.m.drift = vec2_make(-2, 0);
+    k.m.media.current = vec3_make(-2, 0, 0);
+    scene_steps(&k, 1650);
     /* The hull rubs its walls a little. */
     assert_absolute(ice_in(&k, 22, -6, 6, 12), cut, 0.1);
     assert_absolute(ice_in(&k, 22, 16, 6, 10), beside, 1e-6);

@@ -201,7 +201,7 @@ START_TEST(drift_turns_and_reverses)
     scene_open(&k, around);
     double start = floes_mass(&k.w), reached = 0;
     int32_t most = 0;
-    int steps = getenv("FRAM_TEST_SHORT") ? 1500 : 8000;
+    int steps = getenv("FRAM_TEST_SHORT") ? 1500 : 4000;
     k.m.drift_given = true;
     for (int i = 0; i < steps; i++) {
         double t = (double)i / steps, angle = t < 0.6 ? 2 * PI * t / 0.6 : 0;
@@ -235,7 +235,7 @@ static double mean_load(const char *const *overrides, int count)
     scene k;
     scene_open_with(&k, around, overrides, count);
     double sum = 0;
-    int steps = 3000;
+    int steps = 2000;
     for (int i = 0; i < steps; i++) {
         scene_steps(&k, 1);
         if (i >= steps / 4)

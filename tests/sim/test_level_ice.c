@@ -84,7 +84,7 @@ START_TEST(a_channel_as_wide_as_the_hull)
     scene_open(&k, SHIP);
     double before = ice_mass(&k), radius = 0, sum = 0;
     int64_t breaks = 0;
-    int steps = getenv("FRAM_TEST_SHORT") ? 1000 : 2000;
+    int steps = getenv("FRAM_TEST_SHORT") ? 1000 : 1500;
     for (int i = 0; i < steps; i++) {
         scene_steps(&k, 1);
         for (int32_t e = 0; e < k.w.scratch.fractures.count; e++) {
@@ -116,7 +116,7 @@ END_TEST
 /* Ram, back off, return: nothing before the old face, and ice again at it. */
 START_TEST(ram_back_off_return)
 {
-    for (int trims = 0; trims < 2; trims++) {
+    for (int trims = getenv("FRAM_TEST_SHORT") ? 1 : 0; trims < 2; trims++) {
         const char *strong[] = {"ice.flexural_strength=1e9", trims ? "ice.crush_trims=true" : "ice.crush_trims=false",
                                 "vessel.ramp=0"};
         scene k;
@@ -192,7 +192,7 @@ static int32_t living_vertices(const scene *k)
 /* What breaking leaves behind in the shape store is squeezed out, in an open domain and between walls. */
 START_TEST(dead_shapes_go)
 {
-    for (int walls = 0; walls < 2; walls++) {
+    for (int walls = getenv("FRAM_TEST_SHORT") ? 1 : 0; walls < 2; walls++) {
         const char *options[] = {walls ? "domain.boundary=walls" : "domain.boundary=open", "vessel.speed=2"};
         scene k;
         scene_open_with(&k, SHIP, options, 2);
@@ -322,7 +322,7 @@ START_TEST(fixed_cone)
     const double breaking_term = 1.84414e6, slope = 2.5427; /* H_B [N]; F_H over F_V at 60 degrees and mu 0.15 */
     scene k;
     scene_open(&k, text);
-    int breaks = 0, steps = getenv("FRAM_TEST_SHORT") ? 2000 : 3500;
+    int breaks = 0, steps = getenv("FRAM_TEST_SHORT") ? 1600 : 3500;
     double peak = 0;
     for (int i = 0; i < steps; i++) {
         scene_steps(&k, 1);
