@@ -76,6 +76,10 @@ bench-python: build | $(STAMPS)/python ## what reading poses and outlines from P
 bench-recording: build ## what recording costs in time and bytes, against its bounds
 	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)
 
+books: build/release/build.ninja ## whether parts of the ice load add up to it in every step of every ready scene (hours, idle)
+	@cmake --build --preset release -j$(JOBS) --target books_bench
+	@$(PYTHON) bench/run_books.py $(BENCH_FLAGS)
+
 test-sanitize: test-asan test-tsan ## run the tests under ASan + UBSan, and those with threads under TSan
 
 test-asan: build/asan/build.ninja

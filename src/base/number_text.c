@@ -54,8 +54,8 @@ int real_to_text(double value, char out[NUMBER_TEXT_SIZE])
 
 /* ---- fast ways ---- */
 
-/* Powers of ten that are doubles. */
-enum { EXACT_TENS = 22, FAST_DIGITS = 12 };
+/* Powers of ten that are doubles; room for digits of which twelve are copied from any of them on. */
+enum { EXACT_TENS = 22, FAST_DIGITS = 12, DIGITS_ROOM = 2 * FAST_DIGITS };
 static const double tens[EXACT_TENS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                             1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
@@ -69,6 +69,13 @@ static double times_ten(double size, int power)
     return power < 0 ? size / tens[-power] : size * tens[power];
 }
 
+/* floor() of a small number, which the baseline's instructions would call the library for. */
+static int whole_below(double value)
+{
+    int whole = (int)value;
+    return whole - ((double)whole > value);
+}
+
 /* The integer of so many digits, and the exponent of its first one, that size > 0 rounds to; false where it is not
    certain.  Scaled to less than 1e12, a number is wrong by no more than 2^-12 after two roundings; one that lies that
    close to the middle between two integers is left alone, ties among them. */
@@ -78,11 +85,11 @@ static bool round_to_digits(double size, int digits, uint64_t *integer, int *exp
         return false;
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
-    int power_of_two = (int)(bits >> 52) - 1023, k = (int)floor(power_of_two * 0.30102999566398120);
+    int power_of_two = (int)(bits >> 52) - 1023, k = whole_below(power_of_two * 0.30102999566398120);
     double scaled = times_ten(size, digits - 1 - k);
     if (scaled >= tens[digits])
         scaled = times_ten(size, digits - 1 - ++k);
-    double whole = floor(scaled), part = scaled - whole;
+    double whole = (double)(int64_t)scaled, part = scaled - whole;
     if (fabs(part - 0.5) < 1.0 / 2048)
         return false;
     whole += part > 0.5;
@@ -92,33 +99,45 @@ static bool round_to_digits(double size, int digits, uint64_t *integer, int *exp
     return true;
 }
 
-/* An integer's digits, without zeros at the end; how many there are. */
-static int list_digits(uint64_t integer, char out[FAST_DIGITS])
+/* Two digits each. */
+static const char pairs[] =
+    "00010203040506070809101112131415161718192021222324252627282930313233343536373839404142434445464748"
+    "49505152535455565758596061626364656667686970717273747576777879808182838485868788899091929394959697"
+    "9899";
+
+/* Six digits of a number below a million. */
+static void put_six(uint32_t value, char out[6])
 {
-    uint32_t half[2] = {(uint32_t)(integer / 1000000), (uint32_t)(integer % 1000000)};
-    char all[FAST_DIGITS];
-    for (int i = 0; i < FAST_DIGITS; i++) {
-        uint32_t *h = &half[i < 6];
-        all[FAST_DIGITS - 1 - i] = (char)('0' + *h % 10);
-        *h /= 10;
-    }
+    uint32_t upper = value / 10000, lower = value % 10000;
+    memcpy(out, pairs + 2 * (size_t)upper, 2);
+    memcpy(out + 2, pairs + 2 * (size_t)(lower / 100), 2);
+    memcpy(out + 4, pairs + 2 * (size_t)(lower % 100), 2);
+}
+
+/* An integer's digits, without zeros at the end; how many there are. */
+static int list_digits(uint64_t integer, char out[DIGITS_ROOM])
+{
+    char all[DIGITS_ROOM] = {0};
+    put_six((uint32_t)(integer / 1000000), all);
+    put_six((uint32_t)(integer % 1000000), all + 6);
     int first = 0, end = FAST_DIGITS;
     while (first < end - 1 && all[first] == '0')
         first++;
     while (end > first + 1 && all[end - 1] == '0')
         end--;
-    memcpy(out, all + first, (size_t)(end - first));
+    memcpy(out, all + first, FAST_DIGITS);
     return end - first;
 }
 
-/* By the rules of %g: out has room for a sign, twelve digits, four zeros and a point, or for an exponent. */
-static char *put_digits(const char *digit, int count, int exponent, int most, char *out)
+/* By the rules of %g: out has room for a sign, twelve digits, four zeros and a point, or for an exponent.  All twelve
+   are copied, which takes one instruction; those beyond count are written over or not looked at. */
+static char *put_digits(const char digit[DIGITS_ROOM], int count, int exponent, int most, char *out)
 {
     if (exponent < -4 || exponent >= most) {
         *out++ = *digit;
         if (count > 1)
             *out++ = '.';
-        memcpy(out, digit + 1, (size_t)(count - 1));
+        memcpy(out, digit + 1, FAST_DIGITS - 1);
         out += count - 1;
         int size = exponent < 0 ? -exponent : exponent;
         *out++ = 'e';
@@ -131,24 +150,27 @@ static char *put_digits(const char *digit, int count, int exponent, int most, ch
     if (whole <= 0) {
         *out++ = '0';
         *out++ = '.';
-        memset(out, '0', (size_t)-whole);
+        memset(out, '0', 3);
         out += -whole;
-        memcpy(out, digit, (size_t)count);
+        memcpy(out, digit, FAST_DIGITS);
         return out + count;
     }
-    for (int i = 0; i < whole || i < count; i++) {
-        if (i == whole)
-            *out++ = '.';
-        *out++ = i < count ? digit[i] : '0';
+    memcpy(out, digit, FAST_DIGITS);
+    if (count > whole) {
+        memcpy(out + whole + 1, digit + whole, FAST_DIGITS);
+        out[whole] = '.';
+        return out + count + 1;
     }
-    return out;
+    for (int i = count; i < whole; i++)
+        out[i] = '0';
+    return out + whole;
 }
 
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
 {
     uint64_t integer;
     int exponent;
-    char digit[FAST_DIGITS] = {'0'}, *at = out;
+    char digit[DIGITS_ROOM] = {'0'}, *at = out;
     int count = 1;
     bool fast = value == 0;
     if (fast)

@@ -60,18 +60,6 @@ static double kinetic_energy(const body_table *b, int32_t slot, vec3 momentum, v
     return 0.5 * (vec3_dot(momentum, b->velocity[slot]) + vec3_dot(spin_momentum, spin));
 }
 
-double body_kinetic_energy(const body_table *b)
-{
-    double sum = 0;
-    for (int32_t i = 0; i < b->count; i++) {
-        if (!body_is_dynamic(b, i))
-            continue;
-        vec3 spin = mat3_tmul_vec(quat_matrix(b->orientation[i]), b->angular_velocity[i]);
-        sum += kinetic_energy(b, i, vec3_scale(b->velocity[i], b->mass[i]), sym3_mul_vec(b->inertia[i], spin), spin);
-    }
-    return sum;
-}
-
 void body_books_add(const body_table *b, int32_t slot, body_books *sum)
 {
     if (!body_is_dynamic(b, slot))

@@ -69,8 +69,6 @@ typedef struct body_books {
     vec3 momentum, angular_momentum;
     double mass;
 } body_books;
-/* The kinetic energy of these books alone, to the same bits, in a third of the time [J]. */
-double body_kinetic_energy(const body_table *b);
 /* Adds one body's to the books, when it is dynamic. */
 void body_books_add(const body_table *b, int32_t slot, body_books *sum);
 

@@ -79,14 +79,20 @@ fram_status csv_continue(context *ctx, const char *path, uint64_t length, const 
     return status;
 }
 
+/* Numbers that are put together before they go to the file, whose every call costs as much as a number's text. */
+enum { NUMBERS_AT_ONCE = 64 };
+
 fram_status csv_append(csv_writer *w, const double *row, fram_error *error)
 {
+    char text[NUMBERS_AT_ONCE * (NUMBER_TEXT_SIZE + 1)];
     fram_status status = FRAM_OK;
-    for (int32_t c = 0; c < w->column_count && status == FRAM_OK; c++) {
-        char text[NUMBER_TEXT_SIZE + 1];
-        int length = real_to_digits(row[c], CSV_DIGITS, text);
-        text[length] = c + 1 < w->column_count ? ',' : '\n';
-        status = file_write(&w->file, text, (size_t)length + 1, error);
+    for (int32_t c = 0; c < w->column_count && status == FRAM_OK;) {
+        char *at = text;
+        for (int n = 0; n < NUMBERS_AT_ONCE && c < w->column_count; n++, c++) {
+            at += real_to_digits(row[c], CSV_DIGITS, at);
+            *at++ = c + 1 < w->column_count ? ',' : '\n';
+        }
+        status = file_write(&w->file, text, (size_t)(at - text), error);
     }
     return status;
 }

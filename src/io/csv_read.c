@@ -55,19 +55,62 @@ static fram_status find_columns(const char *path, const char *header, const char
     return FRAM_OK;
 }
 
+/* Whether the cell is a number as series are written, "-12.5e-3"; *end: behind it.  Most cells of a row are only passed
+   over, and need not be converted. */
+static bool is_plain_number(const char *c, const char **end)
+{
+    c += *c == '-';
+    const char *first = c;
+    while (*c >= '0' && *c <= '9')
+        c++;
+    bool good = c > first;
+    if (good && *c == '.')
+        for (c++; *c >= '0' && *c <= '9';)
+            c++;
+    if (good && *c == 'e' && (c[1] == '+' || c[1] == '-') && c[2] >= '0' && c[2] <= '9')
+        for (c += 3; *c >= '0' && *c <= '9';)
+            c++;
+    *end = c;
+    return good && (*c == ',' || *c == '\0');
+}
+
+/* Which of the columns that are asked for comes next, from `column` on; INT32_MAX: none. */
+static int32_t next_asked(const int32_t *at, int32_t count, int32_t column)
+{
+    int32_t next = INT32_MAX;
+    for (int32_t k = 0; k < count; k++)
+        next = at[k] >= column && at[k] < next ? at[k] : next;
+    return next;
+}
+
+static bool push_value(context *ctx, const int32_t *at, int32_t count, int32_t column, double value,
+                       double_array *columns)
+{
+    bool good = true;
+    for (int32_t k = 0; k < count && good; k++)
+        good = at[k] != column || array_push(ctx, &columns[k], value);
+    return good;
+}
+
 static fram_status read_row(context *ctx, const char *path, int line, const char *row, const int32_t *at, int32_t count,
                             double_array *columns, fram_error *error)
 {
-    int32_t column = 0;
+    int32_t column = 0, asked = next_asked(at, count, 0);
     for (const char *c = row; *c; column++) {
+        const char *passed = c;
+        if (column != asked && is_plain_number(c, &passed)) {
+            c = *passed ? passed + 1 : passed;
+            continue;
+        }
         char *end;
         double value = real_read(c, &end);
         if (end == c || (*end != ',' && *end != '\0'))
             return error_set(error, FRAM_ERROR_INPUT, path, line, NULL, "column %d: expected a number",
                              (int)column + 1);
-        for (int32_t k = 0; k < count; k++) {
-            if (at[k] == column && !array_push(ctx, &columns[k], value))
+        if (column == asked) {
+            if (!push_value(ctx, at, count, column, value, columns))
                 return error_memory(error);
+            asked = next_asked(at, count, column + 1);
         }
         c = *end ? end + 1 : end;
     }

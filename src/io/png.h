@@ -15,10 +15,10 @@ typedef struct png_pixels {
     int32_t width, height;
 } png_pixels;
 
-/* A PNG file of 8 bits a colour, by libpng's fast way: rows unfiltered and compressed lightly, which for pictures of
-   flat colours is about as small as libpng's defaults and three to four times as fast.  Appended to out, of which
-   nothing changes on a failure; FRAM_ERROR_MEMORY is the only one up to libpng's limit of a million columns or rows,
-   and beyond it, with libpng's reason. */
+/* A PNG file of 8 bits a colour: rows unfiltered and compressed lightly, which for pictures of flat colours is about as
+   small as libpng's defaults and four to five times as fast.  Appended to out, of which nothing changes on a failure;
+   FRAM_ERROR_MEMORY is the only one up to libpng's limit of a million columns or rows, and beyond it, with libpng's
+   reason. */
 fram_status png_encode(context *ctx, const png_pixels *pixels, text_buffer *out, fram_error *error);
 
 #endif

@@ -1,6 +1,7 @@
 #include "sim/bench.h"
 
 #include "base/clock.h"
+#include "bodies/energy.h"
 #include "sim/bench_measure.h"
 #include "sim/build.h"
 
@@ -117,7 +118,7 @@ static fram_status measure_step(context *ctx, const model *m, world *w, int64_t 
     return status;
 }
 
-static void summarize(const model *m, const world *w, int64_t steps, double *times, bench_result *r)
+static void summarize(const context *ctx, const model *m, const world *w, int64_t steps, double *times, bench_result *r)
 {
     double n = (double)steps, took = 0;
     for (int64_t k = 0; k < steps; k++)
@@ -135,7 +136,7 @@ static void summarize(const model *m, const world *w, int64_t steps, double *tim
     r->wall = times_of(times + TIME_WALL * steps, steps);
     for (int i = 0; i < STAGE_COUNT; i++)
         r->share[i] = r->cpu.mean > 0 ? r->share[i] / (n * r->cpu.mean) : 0;
-    r->kinetic_energy = body_kinetic_energy(&w->bodies);
+    r->kinetic_energy = body_kinetic_energy(ctx, &w->bodies);
     r->state_hash = world_hash(w);
 }
 
@@ -161,7 +162,7 @@ fram_status bench_measure(context *ctx, const model *m, world *w, int32_t ship, 
         add_step(m, w, ship, out);
     }
     if (status == FRAM_OK)
-        summarize(m, w, steps, times, out);
+        summarize(ctx, m, w, steps, times, out);
     memory_free(ctx, times);
     return status;
 }

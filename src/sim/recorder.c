@@ -448,7 +448,7 @@ fram_status recorder_step(recorder *r, world *w, double wall, fram_error *error)
     int64_t step = w->clock.step[0];
     fram_status status = FRAM_OK;
     if (step > 0 && step % r->series_every == 0) {
-        series_row(&r->layout, w, wall, r->row.data);
+        series_row(r->ctx, &r->layout, w, wall, r->row.data);
         status = csv_append(&r->series, r->row.data, error);
     }
     if (status == FRAM_OK && step > 0)

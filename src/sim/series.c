@@ -1,6 +1,7 @@
 #include "sim/series.h"
 
 #include "base/transcendental.h"
+#include "bodies/energy.h"
 #include "model/scenario_vessel.h"
 #include "sim/ice_loads.h"
 
@@ -220,7 +221,7 @@ static count_channels counts_of(const world *w)
     W("splits", "1", (double)w->clock.splits[0])                      \
     W("bendings", "1", (double)w->clock.bendings[0])                  \
     W("crushing_work", "J", w->clock.work_crushed[0])                 \
-    W("kinetic_energy", "J", body_kinetic_energy(&w->bodies))         \
+    W("kinetic_energy", "J", body_kinetic_energy(ctx, &w->bodies))    \
     W("solver_residual", "m/s", w->scratch.solver.residual)           \
     W("overlap_mean", "m", w->scratch.solver.mean_depth)              \
     W("overlap_max", "m", w->scratch.solver.max_depth)                \
@@ -313,7 +314,7 @@ void series_layout_free(context *ctx, series_layout *l)
 #define NO_VALUE(name, unit, value)
 
 /* Of the world, and with it of the first vessel where vessels have no names. */
-static int32_t put_world(const world *w, double wall, bool with_vessel, double *out)
+static int32_t put_world(const context *ctx, const world *w, double wall, bool with_vessel, double *out)
 {
     count_channels n = counts_of(w);
     int32_t k = 0;
@@ -349,9 +350,9 @@ static int32_t put_equipment(const world *w, int32_t vessel, double *out)
     return k;
 }
 
-void series_row(const series_layout *l, const world *w, double wall, double *out)
+void series_row(const context *ctx, const series_layout *l, const world *w, double wall, double *out)
 {
-    int32_t k = put_world(w, wall, !l->named, out);
+    int32_t k = put_world(ctx, w, wall, !l->named, out);
     for (int32_t v = 0; v < w->vessels.count; v++) {
         if (l->named)
             k += put_vessel(w, v, out + k);

@@ -24,7 +24,7 @@ typedef struct series_layout {
 fram_status series_columns(context *ctx, const scenario *s, series_layout *out, fram_error *error);
 void series_layout_free(context *ctx, series_layout *l);
 /* One row, of as many values as there are columns.  wall: time that the step took [s]. */
-void series_row(const series_layout *l, const world *w, double wall, double *out);
+void series_row(const context *ctx, const series_layout *l, const world *w, double wall, double *out);
 
 /* Columns of the table of broken floes, at most. */
 enum { FRACTURE_ROOM = 64 };

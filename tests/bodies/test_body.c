@@ -1,4 +1,5 @@
-#include "bodies/body.h"
+#include "base/random.h"
+#include "bodies/energy.h"
 #include "books.h"
 #include "testing.h"
 
@@ -111,5 +112,35 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
+/* By each kernel, of bodies that turn, with a group that is not full, a static body and a slot that was left. */
+START_TEST(kinetic_energy_is_that_of_the_books)
+{
+    context ctx;
+    context_init(&ctx);
+    body_table b = {0};
+    random_stream random = random_begin(3, 0, 0);
+    for (int32_t i = 0; i < 21; i++) {
+        int32_t s = body_create(&ctx, &b, i % 5 == 3 ? MOTION_STATIC : MOTION_DYNAMIC, MATERIAL_ICE);
+        double draw[16];
+        for (int k = 0; k < 16; k++)
+            draw[k] = random_uniform(&random, -0.5, 0.5);
+        b.mass[s] = 1e5 * (1 + draw[0]);
+        b.inertia[s] = (sym3){1e6 * (2 + draw[1]), 1e6 * (2 + draw[2]), 1e6 * (2 + draw[3]),
+                              1e5 * draw[4],       1e5 * draw[5],       1e5 * draw[6]};
+        b.velocity[s] = vec3_make(draw[7], draw[8], draw[9]);
+        b.angular_velocity[s] = vec3_make(draw[10], draw[11], draw[12]);
+        b.orientation[s] = quat_from_roll_pitch_yaw(draw[13], draw[14], 6 * draw[15]);
+    }
+    body_remove(&b, 9);
+    double energy = body_books_of(&b).kinetic_energy;
+    ck_assert(energy > 1e5);
+    for (isa i = ISA_BASELINE; i <= isa_best(); i++) {
+        ctx.isa = i;
+        assert_bits(body_kinetic_energy(&ctx, &b), energy);
+    }
+    table_free(&ctx, &b, &body_table_info);
+}
+END_TEST
+
 TEST_MAIN("body", slots_are_used_again_lowest_first, a_removed_body_leaves_no_trace_but_its_generation,
-          frames_and_velocities, books_add_up, memory_runs_out)
+          frames_and_velocities, books_add_up, kinetic_energy_is_that_of_the_books, memory_runs_out)

@@ -2,6 +2,7 @@
    vessel.  No water, so that nothing else acts. */
 #include "scene.h"
 
+#include "bodies/energy.h"
 #include "sim/ice_loads.h"
 
 #include <stdio.h>
@@ -62,7 +63,7 @@ static impact with_fenders(const char *step, const char *first, const char *seco
     i.expected_depth = v * sqrt(reduced / stiffness);
     i.expected_force = v * sqrt(reduced * stiffness);
     i.expected_energy = 0.5 * reduced * v * v;
-    double energy = body_kinetic_energy(&k.w.bodies), dt = k.s.run.time_step;
+    double energy = body_kinetic_energy(&k.ctx, &k.w.bodies), dt = k.s.run.time_step;
     vec3 before = momentum(&k);
     for (int n = 0; n * dt < 6; n++) {
         scene_steps(&k, 1);
@@ -73,7 +74,7 @@ static impact with_fenders(const char *step, const char *first, const char *seco
         ck_assert_double_eq_tol(loads[0].hulls.force.x, -loads[1].hulls.force.x, 1e-9 * i.expected_force);
         ck_assert(loads[0].total.force.x == 0 && loads[1].total.force.x == 0);
     }
-    i.energy = energy - body_kinetic_energy(&k.w.bodies);
+    i.energy = energy - body_kinetic_energy(&k.ctx, &k.w.bodies);
     vec3 after = momentum(&k);
     ck_assert_double_eq_tol(after.x, before.x, 1e-9 * a);
     scene_close(&k);
@@ -155,14 +156,14 @@ static void check_books(const char *const *list, int count, bool fenders)
     scene k;
     scene_open_with(&k, skewed, list, count);
     vec3 linear = momentum(&k), angular = angular_momentum(&k), velocity[8], spin[8];
-    double scale = 2 * mass_of(&k, 0), start = body_kinetic_energy(&k.w.bodies), taken = 0, turned = 0;
+    double scale = 2 * mass_of(&k, 0), start = body_kinetic_energy(&k.ctx, &k.w.bodies), taken = 0, turned = 0;
     ck_assert_int_le(k.w.bodies.count, 8);
     for (int n = 0; n < 800; n++) {
         memcpy(velocity, k.w.bodies.velocity, (size_t)k.w.bodies.count * sizeof *velocity);
         memcpy(spin, k.w.bodies.angular_velocity, (size_t)k.w.bodies.count * sizeof *spin);
-        double before = body_kinetic_energy(&k.w.bodies);
+        double before = body_kinetic_energy(&k.ctx, &k.w.bodies);
         scene_steps(&k, 1);
-        double work = work_of_contacts(&k, velocity, spin), after = body_kinetic_energy(&k.w.bodies);
+        double work = work_of_contacts(&k, velocity, spin), after = body_kinetic_energy(&k.ctx, &k.w.bodies);
         taken -= work;
         /* Turning bodies change their energy a little without any contact: gyroscopic terms of first order. */
         turned += after - before - work;

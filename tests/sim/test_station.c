@@ -17,7 +17,7 @@ static void take_row(const scene *k, record_row *r)
     series_layout_free((context *)&k->ctx, &r->layout); /* of the last row, or nothing */
     assert_ok(series_columns((context *)&k->ctx, &k->s, &r->layout, &error), error);
     ck_assert_int_le(r->layout.columns.count, 400);
-    series_row(&r->layout, &k->w, 0, r->value);
+    series_row(&k->ctx, &r->layout, &k->w, 0, r->value);
 }
 
 static double channel(const record_row *r, const char *name)

@@ -90,8 +90,8 @@ static void compare(const char *together, const char *alone, const char *name, c
     for (int n = 0; n < 200; n++) {
         scene_steps(&both, 1);
         scene_steps(&one, 1);
-        series_row(&a.layout, &both.w, 0, a.value.data);
-        series_row(&b.layout, &one.w, 0, b.value.data);
+        series_row(&both.ctx, &a.layout, &both.w, 0, a.value.data);
+        series_row(&one.ctx, &b.layout, &one.w, 0, b.value.data);
         assert_same_channels(&a, &b, name, prefix, n);
         pushed = fmax(pushed, fabs(*channel(&a, load)));
     }
@@ -134,7 +134,7 @@ START_TEST(equipment_is_counted_by_vessel)
     scene_open(&k, METHOD "vessels:\n" TUG SHIP REST);
     row_open(&k, &r);
     scene_steps(&k, 120);
-    series_row(&r.layout, &k.w, 0, r.value.data);
+    series_row(&k.ctx, &r.layout, &k.w, 0, r.value.data);
     ck_assert(*channel(&r, "ship.lines_parted") == 4);
     ck_assert(*channel(&r, "tug.lines_parted") == 0);
     ck_assert(*channel(&r, "ship.thrusters_failed") == 1);
@@ -188,7 +188,7 @@ START_TEST(ten_run)
     scene_open(&k, text);
     row_open(&k, &r);
     scene_steps(&k, 100);
-    series_row(&r.layout, &k.w, 0, r.value.data);
+    series_row(&k.ctx, &r.layout, &k.w, 0, r.value.data);
     for (int i = 0; i < 10; i++) {
         char name[32];
         snprintf(name, sizeof name, "v%d.position_x", i);
