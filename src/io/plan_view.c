@@ -1,5 +1,6 @@
 #include "io/plan_view.h"
 
+#include "base/transcendental.h"
 #include "io/image.h"
 
 #include <math.h>
@@ -185,6 +186,10 @@ static void draw_marks(cairo_t *page, const map *m, const plan_view *view)
     cairo_stroke(page);
 }
 
+/* Of labels [pixels]. */
+#define LABEL_RADIUS 6.0
+#define LABEL_SIZE 12.0
+
 static const image_colour chain = {0.20, 0.20, 0.22};
 
 /* Over floes and hull, so that the fairleads are seen too; anchors outside the window are cut off with it. */
@@ -230,6 +235,53 @@ static void draw_arrows(cairo_t *page, const map *m, const plan_view *view)
         const plan_arrow *a = &view->arrows[i];
         image_arrow(page, map_x(m, a->from), map_y(m, a->from), map_x(m, a->to), map_y(m, a->to), 2, 9);
     }
+}
+
+/* Ground of a label's name [pixels]. */
+static box2 label_box(cairo_t *page, const map *m, const plan_label *l)
+{
+    double left = map_x(m, l->at) + LABEL_RADIUS + 3, y = map_y(m, l->at);
+    return (box2){{left, y - 9}, {left + image_text_width(page, LABEL_SIZE, true, l->text) + 6, y + 7}};
+}
+
+/* One of the names before it stands there. */
+static bool is_covered(cairo_t *page, const map *m, const plan_view *view, int32_t label)
+{
+    box2 own = label_box(page, m, &view->labels[label]);
+    for (int32_t i = 0; i < label; i++) {
+        box2 b = label_box(page, m, &view->labels[i]);
+        if (b.lo.x < own.hi.x && own.lo.x < b.hi.x && b.lo.y < own.hi.y && own.lo.y < b.hi.y)
+            return true;
+    }
+    return false;
+}
+
+/* Discs, then names on a ground of their own; where names would cover each other, the first one stands. */
+static void draw_labels(cairo_t *page, const map *m, const plan_view *view)
+{
+    for (int32_t i = view->label_count - 1; i >= 0; i--) {
+        const plan_label *l = &view->labels[i];
+        double rgb[3];
+        image_ramp((double)l->value, rgb);
+        cairo_new_path(page);
+        cairo_arc(page, map_x(m, l->at), map_y(m, l->at), LABEL_RADIUS, 0, 2 * PI);
+        cairo_set_source_rgb(page, rgb[0], rgb[1], rgb[2]);
+        cairo_fill_preserve(page);
+        image_set_colour(page, ink);
+        cairo_set_line_width(page, 1.5);
+        cairo_stroke(page);
+    }
+    for (int32_t i = 0; i < view->label_count; i++) {
+        box2 box = label_box(page, m, &view->labels[i]);
+        if (is_covered(page, m, view, i))
+            continue;
+        cairo_rectangle(page, box.lo.x, box.lo.y, box.hi.x - box.lo.x, box.hi.y - box.lo.y);
+        cairo_set_source_rgba(page, 1, 1, 1, 0.85);
+        cairo_fill(page);
+        image_set_colour(page, ink);
+        image_text(page, box.lo.x + 3, box.hi.y - 3, LABEL_SIZE, ALIGN_LEFT, true, view->labels[i].text);
+    }
+    cairo_new_path(page);
 }
 
 void plan_view_colour_scale(cairo_t *page, const char *name, double lo, double hi, double right, double y)
@@ -336,6 +388,7 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
     draw_lines(page, &m, view);
     draw_marks(page, &m, view);
     draw_arrows(page, &m, view);
+    draw_labels(page, &m, view);
     cairo_restore(page);
 
     double below = m.top + h * m.scale + 28;

@@ -41,6 +41,13 @@ typedef struct plan_line {
     vec2 upper, anchor;
 } plan_line;
 
+/* What has no outline to be drawn: a disc with its name beside it. */
+typedef struct plan_label {
+    vec2 at;
+    float value; /* 0 to 1, on the colours of image_ramp */
+    char text[32];
+} plan_label;
+
 /* What moves over the whole of a plan: an arrow beside the title, with its name and speed. */
 typedef struct plan_flow {
     const char *name;
@@ -59,6 +66,8 @@ typedef struct plan_view {
     int32_t mark_count;
     const plan_arrow *arrows; /* of forces [m] */
     int32_t arrow_count;
+    const plan_label *labels;
+    int32_t label_count;
     const plan_line *lines; /* of a mooring */
     int32_t line_count;
     const plan_flow *flows;

@@ -3,10 +3,20 @@
 
 #include "results/replay_plan.h"
 #include "results/report_parts.h"
+#include "results/why_labels.h"
 
 #include <stdio.h>
 
 enum { LONGEST = 1400 };
+
+/* Of the load that a floe carries [%]. */
+static double part_of(const peak_detail *d, const peak_floe *f)
+{
+    double part = 0;
+    for (int m = 0; m < MECHANISM_COUNT; m++)
+        part += d->load > 0 ? 100 * f->part[m] / d->load : 0;
+    return part;
+}
 
 /* Part of the load that a body carries [%]; a body of a chain that does not touch the vessel 0. */
 static bool part_in(const peak_detail *d, const replay_body *b, double *part)
@@ -19,11 +29,12 @@ static bool part_in(const peak_detail *d, const replay_body *b, double *part)
         if (b->number < 0 || d->floe[i].number != b->number)
             continue;
         found = true;
-        for (int m = 0; m < MECHANISM_COUNT; m++)
-            *part += d->load > 0 ? 100 * d->floe[i].part[m] / d->load : 0;
+        *part += part_of(d, &d->floe[i]);
     }
     return found;
 }
+
+static float on_scale(double part, double most) { return (float)(most > 0 ? fmin(fmax(part / most, 0), 1) : 0); }
 
 /* Outlines are told apart by where they lie in memory: shapes are sorted. */
 static void colour_floes(const replay *r, const replay_moment *m, const peak_detail *d, double most, replay_plan *plan)
@@ -36,7 +47,7 @@ static void colour_floes(const replay *r, const replay_moment *m, const peak_det
                 !part_in(d, &r->bodies.data[m->poses.data[k].body], &part))
                 continue;
             s->has_value = true;
-            s->value = (float)(most > 0 ? fmin(fmax(part / most, 0), 1) : 0);
+            s->value = on_scale(part, most);
         }
     }
 }
@@ -70,6 +81,35 @@ static bool add_lines(context *ctx, const peak_detail *d, double length, replay_
     return good;
 }
 
+/* Floes that were born and broke between two frames have no outline in the record: those of at least this part of the
+   load get their names [%]. */
+static const double NAMED_PART = 1;
+
+static bool is_drawn(const replay *r, const replay_moment *m, int32_t number)
+{
+    for (int32_t i = 0; i < m->poses.count; i++)
+        if (r->bodies.data[m->poses.data[i].body].number == number)
+            return true;
+    return false;
+}
+
+int32_t why_labels(const replay *r, const replay_moment *m, const peak_detail *d, double most, double length,
+                   plan_label labels[PEAK_FLOES])
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < d->floe_count; i++) {
+        const peak_floe *f = &d->floe[i];
+        double part = part_of(d, f);
+        if (f->number < 0 || part < NAMED_PART || is_drawn(r, m, f->number))
+            continue;
+        plan_label *l = &labels[count++];
+        *l = (plan_label){.value = on_scale(part, most)};
+        l->at = vec2_make(f->point.x - f->force.x * length, f->point.y - f->force.y * length);
+        snprintf(l->text, sizeof l->text, "floe %d, %.0f %%", (int)f->number, part);
+    }
+    return count;
+}
+
 /* Around the middle of what touches the vessel, and what the chains reach. */
 static box2 window_of(const peak_detail *d, double reach)
 {
@@ -98,12 +138,16 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
     for (int32_t i = 0; i < m->poses.count; i++)
         if (part_in(d, &r->bodies.data[m->poses.data[i].body], &part))
             most = fmax(most, part);
-    for (int32_t i = 0; i < d->floe_count; i++)
+    for (int32_t i = 0; i < d->floe_count; i++) {
+        most = fmax(most, part_of(d, &d->floe[i]));
         force = fmax(force, vec3_length(d->floe[i].force));
+    }
     fram_status status = replay_plan_make(r, m, PLAN_COLOUR_PLAIN, 0, 1, 0, 5, &plan, error);
     if (status == FRAM_OK) {
         double length = force > 0 ? 0.3 * reach / force : 0;
-        char title[120], caption[160];
+        char title[120], caption[200];
+        plan_label labels[PEAK_FLOES];
+        int32_t label_count = why_labels(r, m, d, most, length, labels);
         show_under_hull(&plan);
         colour_floes(r, m, d, most, &plan);
         if (!add_lines(y->ctx, d, length, &plan))
@@ -113,8 +157,9 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
             snprintf(name, sizeof name, "Peak %d", (int)rank);
         snprintf(title, sizeof title, "%s: %.4g %s at %.6g s", name, d->load * unit.factor, unit.name, d->time);
         snprintf(caption, sizeof caption,
-                 "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last 5 s",
-                 mechanism_text(peak_main_mechanism(d->mechanism)));
+                 "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last 5 s%s",
+                 mechanism_text(peak_main_mechanism(d->mechanism)),
+                 label_count > 0 ? "; discs: floes that no frame shows" : "");
         plan_view view = {.window = window_of(d, reach),
                           .title = title,
                           .caption = caption,
@@ -124,6 +169,8 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
                           .mark_count = plan.marks.count,
                           .arrows = plan.arrows.data,
                           .arrow_count = plan.arrows.count,
+                          .labels = labels,
+                          .label_count = label_count,
                           .arrow_scale = length,
                           .scale_name = "part of the load [%]",
                           .scale_hi = most};

@@ -1,4 +1,5 @@
 /* Plan views: tilted prisms stand with their sides, and what lies under other ice is covered. */
+#include "io/image.h"
 #include "io/plan_flows.h"
 #include "io/plan_view.h"
 
@@ -250,8 +251,40 @@ START_TEST(flows_are_drawn)
 }
 END_TEST
 
+/* A disc in the colour of its value; of two names in one place the first one stands, and no line leads to a disc. */
+START_TEST(labels_that_cover_each_other)
+{
+    enum { LONGEST = 800 };
+    double high[3];
+    const plan_label labels[3] = {{{-5, 5}, 1, "floe 600, 21 %"}, {{-5, 4.9}, 0, "|"}, {{5, -5}, 0.5F, "floe 7, 2 %"}};
+    plan_view view = {.window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .labels = labels};
+    image_ramp(1, high);
+    int bright[4] = {0}, rgb[3];
+    for (view.label_count = 0; view.label_count < 4; view.label_count++) {
+        cairo_surface_t *page = drawn(&view, LONGEST);
+        colour_at(page, LONGEST, (vec2){-5, 5}, rgb);
+        for (int k = 0; k < 3 && view.label_count > 0; k++)
+            ck_assert_int_le(abs(rgb[k] - (int)(255 * high[k])), 2);
+        for (double x = -10; x < 10; x += 0.05)
+            for (double y = -10; y < 10; y += 0.05) {
+                colour_at(page, LONGEST, (vec2){x, y}, rgb);
+                bright[view.label_count] += rgb[0] > 210;
+            }
+        colour_at(page, LONGEST, (vec2){0, 0}, rgb);
+        ck_assert_int_eq(rgb[0], 40); /* water */
+        cairo_surface_destroy(page);
+    }
+    ck_assert_int_eq(bright[0], 0);
+    ck_assert_int_gt(bright[1], 200);
+    /* The second disc is half under the first one, and has no ground for its name. */
+    ck_assert_int_lt(bright[2] - bright[1], 60);
+    ck_assert_int_gt(bright[3] - bright[2], 150);
+}
+END_TEST
+
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history,
-          pieces_on_edge_and_under_the_sheet, level_ice_has_no_seams, mooring_lines, flows_are_drawn)
+          pieces_on_edge_and_under_the_sheet, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
+          labels_that_cover_each_other)
 
 #else
 

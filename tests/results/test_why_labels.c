@@ -1,0 +1,43 @@
+/* Floes that a frame does not show are named in the picture of a peak, by their part of the load. */
+#include "results/why_labels.h"
+#include "testing.h"
+
+static peak_floe floe(int32_t number, double part, double x)
+{
+    peak_floe f = {.number = number, .slot = 1, .force = {-part, 0, 0}, .point = {x, 2, 0}};
+    f.part[MECHANISM_BENDING] = 0.75 * part;
+    f.part[MECHANISM_FRICTION] = 0.25 * part;
+    return f;
+}
+
+START_TEST(floes_without_an_outline)
+{
+    context ctx;
+    context_init(&ctx);
+    replay r = {.ctx = &ctx};
+    replay_moment m = {0};
+    static peak_detail d;
+    /* The record knows floes 5 and 7; 5 is gone at the moment, 7 is there, 600 and 601 are in no frame. */
+    ck_assert(array_push(&ctx, &r.bodies, (replay_body){.number = 5}) &&
+              array_push(&ctx, &r.bodies, (replay_body){.number = 7}) &&
+              array_push(&ctx, &m.poses, (replay_pose){.body = 1}));
+    d.load = 1000;
+    d.floe[0] = floe(7, 400, 10);
+    d.floe[1] = floe(600, 300, 20);
+    d.floe[2] = floe(5, 150, 30);
+    d.floe[3] = floe(-1, 100, 40); /* a wall */
+    d.floe[4] = floe(601, 9, 50);  /* too little to be told */
+    d.floe_count = 5;
+    plan_label labels[PEAK_FLOES];
+    ck_assert_int_eq(why_labels(&r, &m, &d, 40, 0.1, labels), 2);
+    ck_assert_str_eq(labels[0].text, "floe 600, 30 %");
+    ck_assert_str_eq(labels[1].text, "floe 5, 15 %");
+    assert_absolute((double)labels[0].value, 0.75, 1e-6);
+    assert_absolute(labels[0].at.x, 20 + 0.1 * 300, 1e-9);
+    assert_absolute(labels[0].at.y, 2, 1e-9);
+    array_free(&ctx, &r.bodies);
+    array_free(&ctx, &m.poses);
+}
+END_TEST
+
+TEST_MAIN("why_labels", floes_without_an_outline)
