@@ -2,8 +2,9 @@
 #include "fmi2.h"
 #include "unit.h"
 
+#include <ctype.h>
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { PATH_ROOM = 4096 };
@@ -17,6 +18,15 @@ static void tell(const unit *u, unit_status status, const char *category, const 
     ((fmi2CallbackLogger)u->logger)(u->environment, u->name ? u->name : "", (fmi2Status)status, category, "%s", text);
 }
 
+/* The byte that two hexadecimal digits stand for; 0 where none stand. */
+static char byte_of(const char *text)
+{
+    if (!isxdigit((unsigned char)text[0]) || !isxdigit((unsigned char)text[1]))
+        return '\0';
+    const char digits[3] = {text[0], text[1], '\0'};
+    return (char)(unsigned char)strtoul(digits, NULL, 16);
+}
+
 /* "file:///a%20b" as a path; false when it is none. */
 static bool path_of_uri(const char *uri, char out[PATH_ROOM])
 {
@@ -26,13 +36,9 @@ static bool path_of_uri(const char *uri, char out[PATH_ROOM])
     bool is_uri = at != uri;
     size_t length = 0;
     for (; *at && length + 1 < PATH_ROOM; at++) {
-        unsigned byte;
-        if (is_uri && *at == '%' && sscanf(at + 1, "%2x", &byte) == 1 && byte != 0) {
-            out[length++] = (char)(unsigned char)byte;
-            at += 2;
-        } else {
-            out[length++] = *at;
-        }
+        char byte = is_uri && *at == '%' ? byte_of(at + 1) : '\0';
+        out[length++] = byte ? byte : *at;
+        at += byte ? 2 : 0;
     }
     out[length] = '\0';
     return length > 0 && *at == '\0';

@@ -10,6 +10,7 @@
 #include "sim/build.h"
 #include "sim/controls.h"
 #include "sim/fmu_description.h"
+#include "sim/fmu_documentation.h"
 #include "sim/run_folder.h"
 #include "sim/series.h"
 
@@ -244,6 +245,22 @@ static fram_status pack_scenario(packer *p, fram_error *error)
     return status;
 }
 
+static fram_status pack_documentation(packer *p, fram_error *error)
+{
+    text_buffer page = {0}, needs = {0};
+    fram_status status = fmu_page(p->ctx, p->s, &p->names, &p->variables, &page, error);
+    fmu_dependencies(p->ctx, &p->names, &needs);
+    if (status == FRAM_OK)
+        status = pack_text(p, "documentation/index.html", &page, error);
+    if (status == FRAM_OK)
+        status = pack_text(p, "documentation/externalDependencies.txt", &needs, error);
+    if (status == FRAM_OK)
+        status = zip_add(&p->zip, "documentation/licenses/license.txt", fmu_licence, strlen(fmu_licence), false, error);
+    text_free(p->ctx, &page);
+    text_free(p->ctx, &needs);
+    return status;
+}
+
 static fram_status pack_all(packer *p, fram_error *error)
 {
     char name[sizeof p->names.identifier + 40];
@@ -261,6 +278,8 @@ static fram_status pack_all(packer *p, fram_error *error)
              p->names.identifier);
     if (status == FRAM_OK)
         status = pack_file(p, p->o->binary, name, true, error);
+    if (status == FRAM_OK)
+        status = pack_documentation(p, error);
     if (status == FRAM_OK)
         status = pack_scenario(p, error);
     if (status == FRAM_OK) {

@@ -11,7 +11,7 @@ typedef struct fmu_options {
     const char *const *inputs;  /* names, * and ? stand for any; none: all inputs */
     const char *const *outputs; /* none: all channels but time and the step's wall time */
     int input_count, output_count;
-    int version; /* of the standard: 2 or 3 */
+    int version;                                 /* of the standard: 2 or 3 */
     const char *(*meaning)(const char *channel); /* a few words, or "" */
 } fmu_options;
 

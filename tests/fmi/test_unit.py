@@ -6,6 +6,7 @@ import ctypes as c
 import os
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -85,12 +86,19 @@ class Units:
             self.assertEqual([int(u.get("valueReference")) for u in structure.findall("Output")], outputs)
             self.assertEqual(kinds["time"], "independent")
         self.assertEqual(unit.function("GetVersion")(), f"{self.version}.0".encode())
+        told = unit.folder / "documentation"
+        page = (told / "index.html").read_text()
+        for word in *unit.variables, "Ship &amp; ", f"FMI {self.version}.0":
+            self.assertIn(word, page)
+        self.assertIn("geos", (told / "externalDependencies.txt").read_text())
+        self.assertEqual((told / "licenses/license.txt").read_bytes(), pathlib.Path("LICENSE").read_bytes())
         # The same scenario makes the same bytes.
         (self.folder / "again").mkdir()
         self.fram("fmu", self.scene, "-o", self.folder / "again/ship.fmu", "-q", "--fmi", f"{self.version}.0")
         self.assertEqual((self.folder / "again/ship.fmu").read_bytes(), (self.folder / "ship.fmu").read_bytes())
 
     def test_a_controller_outside_does_what_it_does_in_c(self):
+        self.addCleanup(os.chdir, os.getcwd())
         os.chdir("/")  # nothing depends on the working folder
         world, instance = World(BUILD / "libfram.so", self.scene), self.unit.instance().initialise(start=100.0)
         dt = self.unit.step_size
@@ -336,6 +344,19 @@ class Units:
 
 class Units2(Units, unittest.TestCase):
     version = "2"
+
+    def test_where_resources_are(self):
+        """Paths and URIs, with what URIs have to escape; signs that are no escape stand for themselves."""
+        odd = self.folder / "50% +é %zz %4"
+        shutil.copytree(self.unit.resources, odd)
+        plain = str(odd)
+        for where in (plain, plain + "/", odd.as_uri(), odd.as_uri() + "/", odd.as_uri().replace("file://", "file:"),
+                      odd.as_uri().replace("file://", "file://localhost"), f"file://{plain}"):
+            one = self.unit.instance(where=where)
+            self.assertTrue(one.c, where)
+            one.free()
+        self.assertFalse(self.unit.instance(where="file://").c)
+        self.assertFalse(self.unit.instance(where="file:///" + "a" * 5000).c)
 
 
 class Units3(Units, unittest.TestCase):
