@@ -136,7 +136,7 @@ bench: build ## measure the speed of BENCH_SCENE (managed ice); BENCH_FLAGS go t
 bench-users: build ## scenes of users, step by step; BENCH_FLAGS="--old FRAM" beside an older build
 	@$(PYTHON) bench/run_users.py $(BENCH_FLAGS)
 
-bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE on the same scenes; BENCH_FLAGS go to bench/run_peers.py
+bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE (Box3D, Jolt) on the same scenes; BENCH_FLAGS go to bench/run_peers.py
 	@bench/run_peers.py $(BENCH_FLAGS)
 
 test-slurm: build | $(STAMPS)/slurm ## studies by a real Slurm of four nodes on this machine, which it installs (as root)

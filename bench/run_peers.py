@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fram beside Bullet and ODE on the same scenes, in the same run.
+"""Fram beside Bullet, ODE, Box3D and Jolt on the same scenes, in the same run.
 
   bench/run_peers.py [--repeat R] [--sizes N ...] [--covers C ...] [--programs P ...] [--core K] [--out BASE]
       speed: every program on every scene in turn, R times, one thread on one core
@@ -10,6 +10,8 @@
   bench/run_peers.py --forces [--repeat R] [--sizes N ...] [--covers C ...]
       Fram's exact water beside the peers' columns (their forces_ms), with each instruction set; prints, keeps nothing
 
+--box3d DIR and --jolt DIR name the sources of engines that Debian does not have (github.com/erincatto/box3d,
+github.com/jrouwe/JoltPhysics); they are built in build/bench, and left out by name without.
 Results go to BASE.md, BASE.csv and BASE.json.  What BASE.json holds already is kept unless it is measured again, so
 that a long table can be made in pieces; --fresh begins anew.
 
@@ -42,11 +44,69 @@ def command(*words, **more):
     return subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True, **more).stdout
 
 
+def answer(*words):
+    """What a command says, nothing where it fails."""
+    return subprocess.run([str(w) for w in words], capture_output=True, text=True).stdout.strip()
+
+
 def flags(module):
     return command("pkg-config", "--cflags", "--libs", module).split()
 
 
-def build_peers():
+def is_older(out, sources):
+    return not out.exists() or out.stat().st_mtime < max(source.stat().st_mtime for source in sources)
+
+
+def require(folder, entry, option):
+    if not (folder / entry).exists():
+        sys.exit(f"run_peers: {option} {folder}: there is no {entry} in it; name the folder of the engine's sources")
+    return folder.resolve()
+
+
+def build_box3d(folder):
+    """The engine's own sources with the flags of the other peers."""
+    out, engine = WORK / "box3d", WORK / "box3d_engine.a"
+    sources = sorted(require(folder, "include/box3d/box3d.h", "--box3d").glob("src/*.c"))
+    compiler = ("gcc", "-O2", "-march=native", "-DNDEBUG", "-std=gnu17", "-I", folder / "include")
+    if is_older(engine, sources):
+        rooms = WORK / "box3d_objects"
+        rooms.mkdir(exist_ok=True)
+        for source in sources:
+            command(*compiler, "-w", "-I", folder / "src", "-c", source, "-o", rooms / f"{source.stem}.o")
+        engine.unlink(missing_ok=True)
+        command("ar", "qcs", engine, *sorted(rooms.glob("*.o")))
+    if is_older(out, [PEERS / "box3d_floes.c", PEERS / "scene.h", engine]):
+        command(*compiler, PEERS / "box3d_floes.c", engine, "-o", out, "-lm", "-lpthread")
+    return out
+
+
+def build_jolt(folder):
+    """By the engine's own CMake project, for its flags and definitions."""
+    build = WORK / "jolt"
+    command("cmake", "-G", "Ninja", "-S", PEERS / "jolt", "-B", build,
+            f"-DJOLT={require(folder, 'Jolt/Jolt.h', '--jolt')}")
+    command("cmake", "--build", build, "--target", "jolt_floes")
+    return build / "jolt_floes"
+
+
+def is_asked(options, name):
+    return not options.programs or name in options.programs
+
+
+def build_engines(options):
+    """Those whose sources were named."""
+    programs = {}
+    for name, folder, build in (("box3d", options.box3d, build_box3d), ("jolt", options.jolt, build_jolt)):
+        if not is_asked(options, name):
+            continue
+        if folder is None:
+            print(f"run_peers: {name} is left out: --{name} names no sources", file=sys.stderr)
+        else:
+            programs[name] = build(folder)
+    return programs
+
+
+def build_peers(options):
     WORK.mkdir(parents=True, exist_ok=True)
     recipes = {
         "bullet_f32": ("g++", "-std=c++17", PEERS / "bullet_floes.cpp", "bullet"),
@@ -55,11 +115,13 @@ def build_peers():
     }
     programs = {}
     for name, (compiler, standard, source, module) in recipes.items():
+        if not is_asked(options, name):
+            continue
         out = WORK / name
-        if not out.exists() or out.stat().st_mtime < max(source.stat().st_mtime, (PEERS / "scene.h").stat().st_mtime):
+        if is_older(out, [source, PEERS / "scene.h"]):
             command(compiler, "-O2", "-march=native", "-DNDEBUG", standard, source, "-o", out, *flags(module), "-lm")
         programs[name] = out
-    return programs
+    return {**programs, **build_engines(options)}
 
 
 def scene_of(size, cover, seed=1):
@@ -81,7 +143,8 @@ def run_fram(options, scene, cores, *words):
 
 
 def run_peer(options, program, scene, *words):
-    out = command("taskset", "-c", options.core, program, scene, "--dt", options.dt, "--iters", options.iterations,
+    rounds = options.substeps if program.name == "box3d" else options.iterations
+    out = command("taskset", "-c", options.core, program, scene, "--dt", options.dt, "--iters", rounds,
                   "--time", options.time, "--warm", options.warm, *words)
     found = dict(re.findall(r"(\S+)=(\S+)", out))
     return {
@@ -103,10 +166,16 @@ def contestants(options, peers):
             options, scene, options.core, "--isa", options.isa, "--dump", dump)
     for name, program in peers.items():
         list_of[name] = lambda scene, dump, program=program: run_peer(options, program, scene, "--dump", dump)
-    return {name: run for name, run in list_of.items() if not options.programs or name in options.programs}
+    return {name: run for name, run in list_of.items() if is_asked(options, name)}
 
 
-def machine():
+def version_of(folder):
+    """Commit and date of an engine's sources, where they come with them."""
+    return answer("git", "-C", folder, "log", "-1", "--format=%h of %as") or "of no known version"
+
+
+def machine(options=None):
+    engines = {name: getattr(options, name, None) for name in ("box3d", "jolt")}
     about = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8")
     model = re.search(r"model name\s*:\s*(.*)", about)
     return {
@@ -114,8 +183,9 @@ def machine():
         "processor": model.group(1) if model else "unknown",
         "cores": len(os.sched_getaffinity(0)),
         "compiler": command("gcc", "--version").splitlines()[0],
-        "bullet": command("pkg-config", "--modversion", "bullet-float64").strip(),
-        "ode": command("pkg-config", "--modversion", "ode").strip(),
+        "bullet": answer("pkg-config", "--modversion", "bullet-float64") or "not installed",
+        "ode": answer("pkg-config", "--modversion", "ode") or "not installed",
+        **{name: version_of(folder) for name, folder in engines.items() if folder},
     }
 
 
@@ -124,7 +194,7 @@ def median_of(rounds, key):
 
 
 def measure_speed(options):
-    programs = contestants(options, build_peers())
+    programs = contestants(options, build_peers(options))
     scenes = []
     for size in options.sizes:
         for cover in options.covers:
@@ -184,9 +254,9 @@ def same_row(a, b, keys):
     return all(a.get(k) == b.get(k) for k in keys)
 
 
-def merged(old, new):
+def merged(old, new, options):
     """What was measured before and not again, and what is new."""
-    out = {"machine": machine()}
+    out = {"machine": machine(options)}
     for part, keys in (("scenes", ("floes", "cover")), ("threads", ("floes",)),
                        ("loads", ("floes", "cover", "program"))):
         fresh = new.get(part, [])
@@ -215,7 +285,7 @@ def goal_rows(result):
         programs, name = scene["programs"], f"{scene['floes']} floes, {scene['cover']} %"
         if "fram" not in programs:
             continue
-        for peer, factor in (("bullet_f64", 8), ("ode", 4)):
+        for peer, factor in (("bullet_f64", 8), ("ode", 4), ("box3d", 2)):
             if peer in programs and not (peer == "ode" and scene["cover"] >= PACKED):
                 found = programs[peer]["fram_is_faster_by"]
                 rows.append((name, f"{factor} times faster than {peer}", f"{found:.1f}", found >= factor))
@@ -264,13 +334,14 @@ def write_report(new, options):
     base.parent.mkdir(parents=True, exist_ok=True)
     store = base.with_suffix(".json")
     old = json.loads(store.read_text(encoding="utf-8")) if store.exists() and not options.fresh else {}
-    result = merged(old, new)
+    result = merged(old, new, options)
     store.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
     write_csv(result, base.with_suffix(".csv"))
     with open(base.with_suffix(".md"), "w", encoding="utf-8") as file:
         m = result["machine"]
-        print(f"# Fram beside Bullet and ODE, {m['date']}\n", file=file)
-        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}.  One"
+        print(f"# Fram beside Bullet, ODE, Box3D and Jolt, {m['date']}\n", file=file)
+        print(f"{m['processor']}, {m['cores']} cores; {m['compiler']}; Bullet {m['bullet']}, ODE {m['ode']}"
+              f"{', Box3D ' + m['box3d'] if 'box3d' in m else ''}{', Jolt ' + m['jolt'] if 'jolt' in m else ''}.  One"
               " thread on one core unless told; ratios are medians of those inside each round.", file=file)
         for scene in result["scenes"]:
             print_scene(scene, file)
@@ -317,7 +388,7 @@ def measure_threads(options):
 
 def measure_loads(options):
     """Mean ship load of each program over seeds of the scene."""
-    programs = contestants(options, build_peers())
+    programs = contestants(options, build_peers(options))
     rows = []
     for size in options.sizes:
         for cover in options.covers:
@@ -345,7 +416,7 @@ def exact_water(options, scene):
 
 
 def measure_forces(options):
-    peers = build_peers()
+    peers = build_peers(options)
     for size in options.sizes:
         for cover in options.covers:
             scene, rounds = scene_of(size, cover), []
@@ -381,7 +452,10 @@ def main():
     words.add_argument("--sizes", type=int, nargs="+", default=[1000, 5000, 10000])
     words.add_argument("--isa", default="baseline", help="the second row of Fram; empty: none")
     words.add_argument("--programs", nargs="+", metavar="P",
-                       help="some of fram, 'fram baseline', bullet_f32, bullet_f64 and ode")
+                       help="some of fram, 'fram baseline', bullet_f32, bullet_f64, ode, box3d and jolt")
+    words.add_argument("--box3d", type=pathlib.Path, metavar="DIR", help="sources of Box3D")
+    words.add_argument("--jolt", type=pathlib.Path, metavar="DIR", help="sources of Jolt")
+    words.add_argument("--substeps", type=int, default=4, help="of Box3D, which has no iterations")
     words.add_argument("--fresh", action="store_true", help="forget what was measured before")
     words.add_argument("--out", default=str(WORK / "peers"))
     words.add_argument("--threads-only", action="store_true")
