@@ -20,9 +20,10 @@ FRAM_API void fram_study_destroy(fram_study *study);
 typedef struct fram_study_extent {
     int conditions;
     int64_t runs_least, runs_most; /* equal unless seeds go on until an interval is narrow */
-    double run_seconds;            /* wall-clock time of one run on one core, told by a short start of the first and the
-                                      last condition on this machine */
+    double run_seconds;            /* processor time of one run, told by steps of the first and the last condition on
+                                      this machine: thousands of steps into it, or at the end of a shorter run */
     double run_bytes;              /* on disk, that stay of a run */
+    double run_seconds_packed;     /* the same if the ice were packed all the time: jams cost as much */
 } fram_study_extent;
 FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error,
                                         size_t size);

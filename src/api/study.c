@@ -5,6 +5,7 @@
 #include "api/handles.h"
 #include "base/clock.h"
 #include "sim/bench.h"
+#include "study/extent.h"
 #include "study/study_file.h"
 #include "study/study_run.h"
 
@@ -44,8 +45,10 @@ void fram_study_destroy(fram_study *s)
 
 /* ---- what it will take ---- */
 
-/* Steps of the short start: the first ones settle, the others are measured. */
-enum { START_SETTLES = 10, START_MEASURES = 60 };
+/* Steps of a look: the first ones of the run settle, the others are measured. */
+enum { START_SETTLES = 10, LOOK_STEPS = 60 };
+/* Computing between the looks [s]. */
+#define BETWEEN_LOOKS 0.5
 /* A number of series.csv with its comma, and of a row of a summary. */
 enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
 /* Columns of series.csv, about; and bytes of a floe in a frame. */
@@ -63,21 +66,35 @@ static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t
     return bytes;
 }
 
+static fram_status look(context *ctx, const scenario *s, double after, step_look *out, bench_result *r,
+                        fram_error *error)
+{
+    double dt = s->run.time_step;
+    fram_status status = bench_scenario(ctx, s, after * dt, LOOK_STEPS * dt, r, error);
+    *out = (step_look){r->cpu_median, r->contact_points, r->floes};
+    return status;
+}
+
 /* Time and bytes of a run of one condition, added to those of the others. */
 static fram_status measure_condition(const fram_study *s, int32_t condition, fram_study_extent *out, fram_error *error)
 {
     context *ctx = &s->context->inner;
     scenario one = {0};
-    bench_result r;
+    bench_result r = {0};
+    step_look early, late;
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
-    double steps = ceil(one.run.duration / one.run.time_step), began = clock_wall();
-    double dt = one.run.time_step;
-    status = bench_scenario(ctx, &one, START_SETTLES * dt, (START_SETTLES + START_MEASURES) * dt, &r, error);
+    double steps = ceil(one.run.duration / one.run.time_step), began = clock_processor();
+    status = look(ctx, &one, START_SETTLES, &early, &r, error);
+    double build = fmax(clock_processor() - began - (START_SETTLES + LOOK_STEPS) * early.time, 0);
+    double after = fmin(floor(BETWEEN_LOOKS / fmax(early.time, 1e-9)), steps - LOOK_STEPS);
+    late = early;
+    if (status == FRAM_OK && after > START_SETTLES + LOOK_STEPS)
+        status = look(ctx, &one, after, &late, &r, error);
     if (status == FRAM_OK) {
-        double build = clock_wall() - began - (START_SETTLES + START_MEASURES) * r.wall_median;
-        out->run_seconds += fmax(build, 0) + steps * r.wall_median;
+        out->run_seconds += build + steps * late.time;
+        out->run_seconds_packed += build + steps * packed_step_time(&early, &late);
         out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
     }
     scenario_free(ctx, &one);
@@ -102,6 +119,7 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
     if (status != FRAM_OK)
         return status;
     e.run_seconds /= measured;
+    e.run_seconds_packed /= measured;
     e.run_bytes /= measured;
     result_give(out, size, &e);
     return FRAM_OK;

@@ -20,6 +20,9 @@ static int own_path(const common_options *common, char path[PATH_MAX])
 
 /* ---- fram study check ---- */
 
+/* From this ratio on the time of packed ice is told. */
+#define MUCH_LONGER 1.2
+
 static void print_extent(const fram_study_extent *e, int jobs)
 {
     double hours = e->run_seconds / jobs / 3600;
@@ -31,6 +34,9 @@ static void print_extent(const fram_study_extent *e, int jobs)
                (long long)e->runs_most);
     printf("one run: about %.3g s on one core of this machine, %.3g MB that stay\n", e->run_seconds,
            e->run_bytes / 1e6);
+    if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
+        printf("         up to %.3g s where ice jams: every contact between floes costs, and there are few as yet\n",
+               e->run_seconds_packed);
     printf("all: about %.3g h", (double)e->runs_least * hours);
     if (e->runs_least != e->runs_most)
         printf(" to %.3g h", (double)e->runs_most * hours);
@@ -52,6 +58,7 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     json_integer(&j, "runs_least", e.runs_least);
     json_integer(&j, "runs_most", e.runs_most);
     json_real(&j, "run_s", e.run_seconds);
+    json_real(&j, "run_s_packed", e.run_seconds_packed);
     json_real(&j, "run_bytes", e.run_bytes);
     json_end(&j);
     return EXIT_GOOD;

@@ -250,6 +250,8 @@ fram_status annual_levels(context *ctx, const study_extremes *ask, const conditi
     for (int i = 0; i < ask->annuals; i++)
         out[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
     *missing = -1;
+    if (ask->annuals == 0)
+        return FRAM_OK;
     w.part = memory_array(ctx, (size_t)conditions, sizeof *w.part);
     w.source = memory_array(ctx, (size_t)conditions, sizeof *w.source);
     fram_status status = w.part && w.source ? answer_year(&w, of, out, missing) : FRAM_ERROR_MEMORY;

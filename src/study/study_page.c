@@ -53,11 +53,18 @@ static seed_interval interval_of(const study_page *p, int32_t condition, const p
 
 static bool has_figure(const study_page *p, const page_figure *figure)
 {
-    for (int32_t c = 0; c < p->f->s->conditions; c++)
-        if (isfinite(interval_of(p, c, figure).mean))
+    for (int32_t c = 0; c < p->f->s->conditions; c++) {
+        double mean = interval_of(p, c, figure).mean;
+        /* Vessels without thrusters have no power. */
+        if (isfinite(mean) && (figure->figure != ROW_thruster_power_mean || mean > 0))
             return true;
+    }
     return false;
 }
+
+/* Tables of many columns keep numbers in one piece, and are moved sideways where the window is narrow. */
+static void wide_begin(study_page *p) { text_add(p->f->ctx, &p->page.text, "<div class=\"wide\">"); }
+static void wide_end(study_page *p) { text_add(p->f->ctx, &p->page.text, "</div>\n"); }
 
 /* ---- head and table ---- */
 
@@ -102,25 +109,27 @@ static void add_interval(study_page *p, seed_interval i)
     html_cell(&p->page, isfinite(i.half) ? text : isfinite(i.mean) ? mean : "–");
 }
 
+/* Half the interval of the mean load is a large part of it. */
+static bool wants_seeds(const study_page *p, int32_t condition)
+{
+    seed_interval of = interval_of(p, condition, &shown[0]);
+    return isfinite(of.mean) && of.mean != 0 && !(of.half <= WIDE * fabs(of.mean));
+}
+
 static void add_row(study_page *p, int32_t condition, const bool *has)
 {
-    char text[32];
-    bool wide = false;
+    char text[48];
     html_row_begin(&p->page);
     snprintf(text, sizeof text, "%d", (int)condition + 1);
     html_cell(&p->page, text);
     for (int32_t k = 0; k < p->f->s->keys.count; k++)
         html_cell(&p->page, study_value(p->f->s, condition, k));
-    snprintf(text, sizeof text, "%d", (int)p->conditions[condition].rows.count);
+    snprintf(text, sizeof text, "%d%s", (int)p->conditions[condition].rows.count,
+             wants_seeds(p, condition) ? ", more" : "");
     html_cell(&p->page, text);
-    for (int i = 0; i < SHOWN; i++) {
-        if (!has[i])
-            continue;
-        seed_interval of = interval_of(p, condition, &shown[i]);
-        wide = wide || (shown[i].figure == ROW_load_mean && !(of.half <= WIDE * fabs(of.mean)) && of.mean != 0);
-        add_interval(p, of);
-    }
-    html_cell(&p->page, wide ? "more seeds" : "");
+    for (int i = 0; i < SHOWN; i++)
+        if (has[i])
+            add_interval(p, interval_of(p, condition, &shown[i]));
     html_row_end(&p->page);
 }
 
@@ -130,6 +139,9 @@ static void add_table(study_page *p, const bool *has)
     char names[SHOWN][64];
     int32_t count = 1;
     html_section(&p->page, "Conditions");
+    text_add(p->f->ctx, &p->page.text,
+             "<style>.wide{overflow-x:auto}.wide td,.wide code{overflow-wrap:normal;white-space:nowrap}</style>\n");
+    wide_begin(p);
     for (int32_t k = 0; k < p->f->s->keys.count && count < 100; k++)
         heads[count++] = p->f->s->keys.data[k];
     heads[count++] = "seeds";
@@ -138,12 +150,12 @@ static void add_table(study_page *p, const bool *has)
         if (has[i])
             heads[count++] = names[i];
     }
-    heads[count++] = "";
     html_table_begin(&p->page, heads, count);
     for (int32_t c = 0; c < p->f->s->conditions && c < CONDITIONS_OF_TABLE; c++)
         add_row(p, c, has);
     html_table_end(&p->page);
-    html_paragraph(&p->page, "\"more seeds\": half the interval of the mean load is wider than %g %% of the mean.",
+    wide_end(p);
+    html_paragraph(&p->page, "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean.",
                    100 * WIDE);
     if (p->f->s->conditions > CONDITIONS_OF_TABLE)
         html_paragraph(&p->page, "The first %d conditions; conditions.csv has all.", CONDITIONS_OF_TABLE);
@@ -186,10 +198,12 @@ static void add_shares(study_page *p)
         heads[count++] = p->f->s->keys.data[k];
     for (int m = 0; m < (int)MECHANISM_COUNT; m++)
         heads[count++] = shares[m].name;
+    wide_begin(p);
     html_table_begin(&p->page, heads, count);
     for (int32_t c = 0; c < rows; c++)
         add_share_row(p, c);
     html_table_end(&p->page);
+    wide_end(p);
     html_paragraph(&p->page,
                    "Parts of the mean load vector along it [%%], mean over the seeds: those of a condition add "
                    "up to 100. A part may be negative, and says nothing where loads from all sides cancel.");
@@ -356,19 +370,16 @@ static int32_t find_worst(const study_page *p, worst_run out[WORST])
 
 static void add_worst(study_page *p)
 {
-    static const char *const heads[] = {"condition", "seed", "largest load [kN]", "mean load [kN]", "folder"};
+    static const char *const heads[] = {"condition",      "seed",     "largest load [kN]",
+                                        "mean load [kN]", "playback", "makes it"};
     worst_run worst[WORST];
     int32_t count = find_worst(p, worst);
     html_section(&p->page, "Worst runs");
-    html_paragraph(
-        &p->page, "%s",
-        p->f->s->keep == KEEP_SUMMARY ? "Their folders were not kept (keep: summary): to look at one, run its "
-                                        "condition's scenario again with its seed."
-        : p->f->s->keep == KEEP_SERIES
-            ? "Their records were not kept (keep: series): to see one, run its condition's scenario again with "
-              "its seed."
-            : "fram view FOLDER plays a run.");
-    html_table_begin(&p->page, heads, 5);
+    html_paragraph(&p->page,
+                   "The command, given in the folder of this page, makes a run again with a record and its playback "
+                   "(worst/...), which the link then opens.");
+    wide_begin(p);
+    html_table_begin(&p->page, heads, 6);
     for (int32_t i = 0; i < count; i++) {
         const run_row *row = &p->conditions[worst[i].condition].rows.data[worst[i].index];
         const char *id = p->f->id[worst[i].condition];
@@ -381,14 +392,15 @@ static void add_worst(study_page *p)
         html_cell(&p->page, text);
         html_number(&p->page, worst[i].load * 1e-3);
         html_number(&p->page, row->figure[ROW_load_mean] * 1e-3);
-        if (p->f->s->keep == KEEP_SUMMARY)
-            text_format(p->f->ctx, &p->page.text, "<td><a href=\"conditions/%s.yaml\">scenario</a></td>", id);
-        else
-            text_format(p->f->ctx, &p->page.text, "<td><a href=\"runs/%s/%lld/\">runs/%s/%lld</a></td>", id, seed, id,
-                        seed);
+        text_format(p->f->ctx, &p->page.text,
+                    "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>"
+                    "<td><code>fram run conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 -o "
+                    "worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code></td>",
+                    id, seed, id, seed, id, seed, id, seed);
         html_row_end(&p->page);
     }
     html_table_end(&p->page);
+    wide_end(p);
 }
 
 /* ---- all ---- */

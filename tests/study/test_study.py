@@ -187,6 +187,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         extent = self.fram("check", study)
         self.assertEqual((extent["runs_least"], extent["runs_most"]), (2, 9))
         self.assertGreater(extent["run_s"], 0)
+        self.assertGreaterEqual(extent["run_s_packed"], extent["run_s"])
 
     def test_conditions_of_a_list_a_table_and_a_hypercube(self):
         study = self.write("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
@@ -235,8 +236,16 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         cells = [f"{100 * float(last[f'share_{n}[1]']):.1f} ± {100 * float(last[f'share_{n}_half[1]']):.1f}"
                  for n in names]
         for words in ("Heat maps", "Worst runs", "</td><td>".join(cells), "<b>8", "Largest load", "image/svg",
-                      f"/{worst['seed']}/\">runs/"):
+                      f"-{worst['seed']}/playback.html\">"):
             self.assertTrue(words in page, words)
+        self.assertNotIn("thruster power", page)
+        # The command of the worst run makes what its link opens.
+        link, command = re.search('href="(worst/[^"]*)">playback</a></td><td><code>([^<]*)</code>', page).groups()
+        command = command.replace("&amp;&amp;", "&&").replace("fram ", FRAM + " ").replace("-o ", "--quiet -o ")
+        done = subprocess.run(command, shell=True, cwd=self.at / "out", capture_output=True, text=True)
+        if "make viewer" not in done.stderr:
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue((self.at / "out" / link).exists())
         if not (self.at / "out" / "study.nc").exists():
             self.skipTest("this build has no NetCDF")
         read = ("import sys, xarray; d = xarray.open_dataset(sys.argv[1]);"
@@ -285,6 +294,12 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             expected = sum(1800 * h * math.exp(-(x - f["location"]) / f["scale"]) for h, f in zip((100, 20), fits))
             self.assertAlmostEqual(expected / -math.log1p(-p), 1, delta=1e-6)
             self.assertTrue(float(row["low"]) < x < float(row["high"]))
+        # Without a year the rest stays; the runs are there.
+        (self.at / "out" / "annual.csv").unlink()
+        self.fram(self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
+                             "extremes: {duration: 10min, method: gumbel, levels: [0.9]}\n"), "-o", self.at / "out")
+        self.assertEqual(self.rows("out", "extremes.csv"), rows)
+        self.assertFalse((self.at / "out" / "annual.csv").exists())
         few = self.write("set: {run.duration: 1, run.transient: 0.5}\nseeds: 3\n"
                          "extremes: {hours: [10], annual: [0.1]}\n")
         self.fram(few, "-o", self.at / "few")

@@ -1,0 +1,15 @@
+#include "study/extent.h"
+
+#include <math.h>
+
+/* Pairs to a floe times points to a pair. */
+#define POINTS_OF_FLOE 6.0
+
+double packed_step_time(const step_look *early, const step_look *late)
+{
+    double more = late->contacts - early->contacts, left = POINTS_OF_FLOE * late->floes - late->contacts;
+    double most = fmax(early->time, late->time);
+    if (!(more > 0) || !(left > 0))
+        return most;
+    return fmax(most, late->time + fmax(late->time - early->time, 0) / more * left);
+}
