@@ -96,9 +96,14 @@ fram_status work_continue(context *ctx, const char *what, double done, double to
 {
     if (stop_is_asked(ctx->stop))
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted while %s; nothing was written", what);
+    work_tell(ctx, what, done, total);
+    return FRAM_OK;
+}
+
+void work_tell(context *ctx, const char *what, double done, double total)
+{
     if (ctx->work)
         ctx->work(ctx->work_user, what, done, total);
-    return FRAM_OK;
 }
 
 /* memmove, because a caller may wrap an error in its own words: text may point into the record itself. */

@@ -65,6 +65,8 @@ static inline bool stop_is_asked(const volatile int *stop)
 /* Asked again and again by what may take longer than a second and is no time step, from the caller's thread: tells how
    far it is; FRAM_INTERRUPTED when the stop flag is set. */
 fram_status work_continue(context *ctx, const char *what, double done, double total, fram_error *error);
+/* The same for what is not to be stopped halfway: tells only. */
+void work_tell(context *ctx, const char *what, double done, double total);
 
 /* Fill e (which may be NULL) and return status.  file, key may be NULL. */
 fram_status error_set(fram_error *e, fram_status status, const char *file, int line, const char *key,

@@ -25,7 +25,8 @@ int command_manage(const command_row *self, int argc, char **argv)
     if (code >= 0)
         return code;
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    work_view work;
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     char *text = NULL;

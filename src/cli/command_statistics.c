@@ -213,7 +213,8 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
 {
     fram_context *context = NULL;
     fram_error error = {0};
-    int code = session_open(common, &context);
+    work_view work;
+    int code = session_open_reading(common, &work, &context);
     if (code >= 0)
         return code;
     fram_extremes *e = calloc(1, sizeof *e);
@@ -379,8 +380,9 @@ int command_fatigue(const command_row *self, int argc, char **argv)
         code = refuse_outputs(&common, &used);
     }
     fram_context *context = NULL;
+    work_view work;
     if (code < 0)
-        code = session_open(&common, &context);
+        code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_fatigue f;

@@ -68,18 +68,19 @@ static int answer_extent(const common_options *common, const fram_study *study, 
 
 typedef struct study_view {
     bool terminal;
-    int64_t told; /* runs done when the last line was written */
+    int64_t told; /* runs done when the last line was written, -1 before */
     double when;  /* wall-clock time of it [s] */
 } study_view;
 
-/* Between lines where the output is no terminal [s]. */
+/* Between lines where the output is no terminal, and on a terminal while no run ends [s]. */
 #define LINE_INTERVAL 10
 
 static void show(void *user, const fram_study_progress *p)
 {
     study_view *view = user;
     bool last = p->done == p->planned && view->told != p->done;
-    if (view->told == p->done || (!view->terminal && !last && p->wall - view->when < LINE_INTERVAL))
+    bool due = p->wall - view->when >= LINE_INTERVAL || view->told < 0;
+    if (!last && !due && (!view->terminal || view->told == p->done))
         return;
     view->told = p->done;
     view->when = p->wall;
@@ -163,7 +164,8 @@ int command_study(const command_row *self, int argc, char **argv)
     if (d.jobs < 0 || d.jobs > 4096)
         return answer_usage(&common, "--jobs", "expected 0 to 4096 processes");
     fram_context *context = NULL;
-    code = session_open(&common, &context);
+    work_view work;
+    code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
     fram_study *study = NULL;

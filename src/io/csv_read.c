@@ -157,17 +157,24 @@ static fram_status next_line(FILE *file, const char *path, int number, char *lin
     return FRAM_OK;
 }
 
-static fram_status read_stream(FILE *file, const char *path, const line_reader *reader, char *line, fram_error *error)
+/* Rows between two words about how far the reading is. */
+enum { ROWS_TOLD = 256 };
+
+static fram_status read_stream(context *ctx, FILE *file, uint64_t size, const char *path, const line_reader *reader,
+                               char *line, fram_error *error)
 {
     int number = 0;
     size_t length = 0;
+    double done = 0;
     while (true) {
         fram_status status = next_line(file, path, number + 1, line, &length, error);
         if (status != FRAM_OK)
             return status;
         if (length == 0 || (line[length - 1] != '\n' && !reader->open_end))
             break;
-        number++;
+        if (number++ % ROWS_TOLD == 0)
+            work_tell(ctx, "reading rows", done, (double)size);
+        done += (double)length;
         trim_end(line, length);
         const char *text = number == 1 && strncmp(line, BYTE_ORDER_MARK, 3) == 0 ? line + 3 : line;
         status = reader->read(reader->user, path, number, text, error);
@@ -190,7 +197,7 @@ static fram_status read_lines(context *ctx, const char *path, const line_reader 
         status = line ? file_error(error, path, "open", errno) : error_memory(error);
         close(descriptor);
     } else {
-        status = read_stream(file, path, reader, line, error);
+        status = read_stream(ctx, file, size, path, reader, line, error);
         fclose(file);
     }
     memory_free(ctx, line);

@@ -64,9 +64,10 @@ static double end_of(const pressure_map *p)
 static fram_status step_through(pressure_map *p, const model *m, world *w, fram_error *error)
 {
     double slack = 1e-6 * m->time_step;
-    int64_t last = step_at(end_of(p), m->time_step);
+    int64_t first = w->clock.step[0], last = step_at(end_of(p), m->time_step);
     fram_status status = FRAM_OK;
     while (status == FRAM_OK && w->clock.step[0] < last) {
+        work_tell(p->ctx, "computing again", (double)(w->clock.step[0] - first), (double)(last - first));
         if (p->ctx->stop && *p->ctx->stop)
             return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s; nothing was written",
                              w->clock.time[0]);

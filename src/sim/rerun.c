@@ -32,9 +32,9 @@ static fram_status step_once(const rerun *r, const model *m, world *w, fram_erro
 {
     if (r->ctx->stop && *r->ctx->stop)
         return error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL, "interrupted at t = %g s", w->clock.time[0]);
-    double since = r->out->start;
-    fram_status status =
-        work_continue(r->ctx, "computing again", w->clock.time[0] - since, fmax(r->time - since, 0), error);
+    double since = r->out->start, whole = fmax(r->time - since, 0);
+    /* The largest load is looked for until half an averaging window after the moment. */
+    fram_status status = work_continue(r->ctx, "computing again", fmin(w->clock.time[0] - since, whole), whole, error);
     if (status != FRAM_OK)
         return status;
     return world_step(r->ctx, m, w, error);

@@ -246,6 +246,7 @@ bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, dou
     bool good = true;
     for (uint32_t i = 0; good && i < ACER_REPLICATES; i++) {
         acer_tail one;
+        work_tell(ctx, "drawing bootstrap samples", i, ACER_REPLICATES);
         if (draw_tail(r, fit, i, &one))
             good = array_push(ctx, &tail, one);
     }

@@ -65,6 +65,7 @@ static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_reque
     double_array drawn = {0}, level = {0};
     bool good = array_resize(ctx, &drawn, s->value.count);
     for (uint32_t i = 0; good && i < BOOTSTRAP_REPLICATES; i++) {
+        work_tell(ctx, "drawing bootstrap samples", i, BOOTSTRAP_REPLICATES);
         random_stream random = random_begin(1, STREAM_SAMPLES, i);
         for (int32_t k = 0; k < drawn.count; k++)
             drawn.data[k] = s->value.data[(int32_t)(random_unit(&random) * s->value.count)];
@@ -88,7 +89,7 @@ static bool sample_level(context *ctx, const extreme_sample *s, const extreme_re
                          const gumbel_pivot *pivot, double probability, level_interval *out)
 {
     double exponent = -real_log(probability);
-    const profile_question q = {law, s->value.data, s->value.count, s->exposure, exponent, ask->confidence};
+    const profile_question q = {law, s->value.data, s->value.count, s->exposure, exponent, ask->confidence, ctx};
     if (pivot)
         *out = gumbel_pivot_interval(pivot, exponent / s->exposure, ask->confidence);
     else if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)

@@ -91,6 +91,8 @@ static double end_of(const profile_question *q, double level, double first, doub
         /* Peaks tell nothing of levels under their threshold. */
         if (is_peaks(q->law->kind) && next <= q->law->location)
             return q->law->location;
+        if (q->ctx)
+            work_tell(q->ctx, "finding intervals by profile likelihood", i + 1, 0);
         double x[2] = {from[0], from[1]}, root = sqrt(2 * fmax(cost_at(q, next, x) - least, 0));
         if (fabs(root - z) < ROOT_NEAR * z)
             return next;

@@ -120,14 +120,19 @@ static fram_status read_line(const csv_want *want, const char *line, int number,
     return FRAM_OK;
 }
 
+/* Rows between two words about how far the reading is. */
+enum { ROWS_TOLD = 256 };
+
 static fram_status read_lines(context *ctx, const csv_want *want, const char *text, double_array *time,
                               double_array *value, fram_error *error)
 {
+    const double size = (double)strlen(text);
     int number = 1;
     for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n')) {
         double t = 0, x = 0;
         bool found = true;
-        number++;
+        if (number++ % ROWS_TOLD == 0)
+            work_tell(ctx, "reading rows", (double)(line - text), size);
         if (line[1] == '\n' || line[1] == '\r' || line[1] == '#')
             continue;
         fram_status status = read_line(want, line + 1, number, &t, &x, &found, error);

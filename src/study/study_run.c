@@ -244,6 +244,9 @@ static void show_progress(const study_work *w)
         w->options->progress(w->options->progress_user, &p);
 }
 
+/* Progress is told so often while no run ends [s]. */
+#define TELL_SECONDS 1.0
+
 static bool asked_to_stop(const study_work *w) { return stop_is_asked(w->options->stop); }
 
 static fram_status work_loop(study_work *w, fram_error *error)
@@ -251,11 +254,16 @@ static fram_status work_loop(study_work *w, fram_error *error)
     const struct timespec pause = {0, LOOK_NANOSECONDS};
     fram_status status = fill_pool(w, error);
     show_progress(w);
+    double told = clock_wall();
     while (status == FRAM_OK && (w->pool.running.count > 0 || w->busy > 0) && !asked_to_stop(w)) {
         int32_t task = 0;
         int exit_code = 0;
         if (!processes_ended(&w->pool, &task, &exit_code)) {
             nanosleep(&pause, NULL);
+            if (clock_wall() - told >= TELL_SECONDS) {
+                told = clock_wall();
+                show_progress(w);
+            }
             if (w->pool.running.count == 0) {
                 look_again(w);
                 status = fill_pool(w, error);
