@@ -21,10 +21,10 @@ static void print_text(const fram_bench_result *r)
             r->collide_ms, r->solve_ms, r->forces_ms, r->real_time_factor);
     fprintf(stderr, "mean step %.3f ms CPU, 99 %% within %.3f, 99.9 %% within %.3f, longest %.3f (wall %.3f)\n",
             r->ms_mean, r->ms_p99, r->ms_p999, r->ms_longest, r->ms_wall_longest);
-    fprintf(stderr, "of all: forces %.0f %%, collision %.0f %%, crushing %.0f %%, solver %.0f %%, fracture %.0f %%\n",
+    fprintf(stderr, "shares: forces %.0f %%, collision %.0f %%, crushing %.0f %%, solver %.0f %%, fracture %.0f %%\n",
             1e2 * r->share_forces, 1e2 * r->share_collision, 1e2 * r->share_crushing, 1e2 * r->share_solver,
             1e2 * r->share_fracture);
-    fprintf(stderr, "%.0f pairs press on one another; %.0f points in %.0f pairs overlap, mean %.3g m, largest %.3g m\n",
+    fprintf(stderr, "%.0f loaded pairs; %.0f overlapping points in %.0f pairs, mean %.3g m, largest %.3g m\n",
             r->loaded_pairs, r->contact_points, r->pairs, r->mean_penetration_m, r->max_penetration_m);
 }
 
@@ -101,7 +101,7 @@ static int bench_solvers(fram_context *context, const bench_words *w)
     scene.dump = NULL;
     if (!w->common.quiet)
         fprintf(stderr, "%-12s %12s %14s %12s %12s %12s\n", "solver", "load kN", "residual m/s", "mean m", "largest m",
-                "ms a step");
+                "ms per step");
     for (int i = 0; i < SOLVERS; i++) {
         fram_error error = {0};
         scene.solver = names[i];
@@ -150,14 +150,14 @@ int command_bench(const command_row *self, int argc, char **argv)
     fram_bench_scene_default(&w.scene);
     const option_row rows[] = {
         {"--warm", NULL, OPTION_REAL, &w.warm, "T", "simulated seconds before measuring (2; scene: 5)"},
-        {"--time", NULL, OPTION_REAL, &w.time, "T", "simulated seconds to measure (10); scene: in all (20)"},
+        {"--time", NULL, OPTION_REAL, &w.time, "T", "simulated seconds to measure (10); scene: total (20)"},
         {"--set", NULL, OPTION_LIST, &w.overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--scene", NULL, OPTION_TEXT, &scene, "FILE", "a scene in the format of bench/peers, instead of a scenario"},
         {"--dt", NULL, OPTION_REAL, &w.scene.time_step, "S", "scene: time step (0.02 s)"},
-        {"--iterations", NULL, OPTION_INTEGER, &w.scene.iterations, "N", "scene: of the solver (10)"},
+        {"--iterations", NULL, OPTION_INTEGER, &w.scene.iterations, "N", "scene: solver iterations (10)"},
         {"--solver", NULL, OPTION_TEXT, &w.scene.solver, "NAME", "scene: sequential, fast or accurate"},
         {"--solvers", NULL, OPTION_FLAG, &w.all_solvers, NULL,
-         "scene: load, residual, overlap and time of each solver"},
+         "scene: compare load, residual, overlap and time of each solver"},
         {"--exact-water", NULL, OPTION_FLAG, &w.exact_water, NULL,
          "scene: Fram's own water in place of the scene's columns"},
         {"--dump", NULL, OPTION_TEXT, &w.scene.dump, "FILE", "scene: write the final poses as CSV"},

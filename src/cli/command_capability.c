@@ -45,19 +45,18 @@ int command_capability(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (required)"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
-        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME",
-         "of a list of vessels: whose capability; the others are left out"},
+        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "which of several vessels; the others are left out"},
         {"--measure", NULL, OPTION_REAL, &d.measure, "T",
          "simulated seconds of each run that measures the ice load on the fixed hull (120)"},
         {"--formula", NULL, OPTION_FLAG, &d.formula, NULL,
-         "ice load by Zuev's formula for ships in broken ice instead: at once, and coarse"},
-        {"--directions", NULL, OPTION_INTEGER, &d.directions, "N", "directions, evenly round (36)"},
-        {"--speed-step", NULL, OPTION_REAL, &d.speed_step, "V", "between drift speeds [m/s] (0.1)"},
+         "ice load from Zuev's formula for ships in broken ice instead: immediate, but coarse"},
+        {"--directions", NULL, OPTION_INTEGER, &d.directions, "N", "number of directions, evenly spaced (36)"},
+        {"--speed-step", NULL, OPTION_REAL, &d.speed_step, "V", "step of drift speed [m/s] (0.1)"},
         {"--speed-most", NULL, OPTION_REAL, &d.speed_most, "V", "largest drift speed [m/s] (1)"},
-        {"--allowance", NULL, OPTION_REAL, &d.allowance, "X", "what mean loads are multiplied by (1.25)"},
+        {"--allowance", NULL, OPTION_REAL, &d.allowance, "X", "dynamic allowance: factor on mean loads (1.25)"},
         {"--line-safety", NULL, OPTION_REAL, &d.line_safety, "X",
-         "breaking load over the tension a line may have, intact (2)"},
-        {"--line-safety-damaged", NULL, OPTION_REAL, &d.line_safety_damaged, "X", "after a failure (1.43)"},
+         "safety factor of lines, breaking load over tension, intact (2)"},
+        {"--line-safety-damaged", NULL, OPTION_REAL, &d.line_safety_damaged, "X", "the same, after a failure (1.43)"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code >= 0)

@@ -51,7 +51,7 @@ int command_check(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--build", NULL, OPTION_FLAG, &build, NULL,
-         "also pack the ice, float the vessel, and measure how long a run will take"},
+         "also generate the ice, float the vessel, and estimate how long a run will take"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code >= 0)
@@ -76,7 +76,7 @@ int command_check(const command_row *self, int argc, char **argv)
         if (!common.quiet)
             fputs(fram_scenario_notes(scenario), stderr);
         if (!common.quiet && build) {
-            fprintf(stderr, "built: %d floes among %d bodies\ntime: by its first steps a run computes ", made.floes,
+            fprintf(stderr, "built: %d floes among %d bodies\ntime: judged by its first steps a run takes ", made.floes,
                     made.bodies);
             print_duration(made.seconds);
             fputs(" here, more where ice gathers or breaks later\n", stderr);

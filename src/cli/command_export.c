@@ -30,9 +30,9 @@ int command_export(const command_row *self, int argc, char **argv)
          "for ParaView: floes, hull and forces of every frame (RUN/vtk/run.pvd)"},
         {"--netcdf", NULL, OPTION_FLAG, &netcdf, NULL,
          "NetCDF-4 for xarray and h5py: all channels and floes (RUN/run.nc)"},
-        {"--geojson", NULL, OPTION_FLAG, &geojson, NULL, "outlines at one time (RUN/field-T.geojson)"},
-        {"--time", NULL, OPTION_REAL, &time, "T", "the time of --geojson [s]"},
-        {"--every", NULL, OPTION_INTEGER, &every, "N", "every N-th frame only, for --vtk (1)"},
+        {"--geojson", NULL, OPTION_FLAG, &geojson, NULL, "floe outlines at one time (RUN/field-T.geojson)"},
+        {"--time", NULL, OPTION_REAL, &time, "T", "time of --geojson [s]"},
+        {"--every", NULL, OPTION_INTEGER, &every, "N", "only every N-th frame, for --vtk (1)"},
         {"--output", "-o", OPTION_TEXT, &output, "PATH", "the file, or the folder of --vtk"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
@@ -67,7 +67,7 @@ int command_export(const command_row *self, int argc, char **argv)
         print_result(&common, &result,
                      vtk      ? "open it in ParaView"
                      : netcdf ? "xarray.open_dataset reads it"
-                              : "any GIS, geopandas and fram itself read it");
+                              : "readable by any GIS, geopandas and fram itself");
     code = status == FRAM_OK ? EXIT_GOOD : answer_error(&common, &error);
     fram_context_destroy(context);
     /* HDF5 keeps a file that it could not close for want of room, tries again at exit and reads what it has freed. */

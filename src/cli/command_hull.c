@@ -39,45 +39,46 @@ static int read_words(const command_row *self, hull_words *w, common_options *co
     fram_hull_particulars *p = &w->particulars;
     const option_row rows[] = {
         {"--draught", NULL, OPTION_REAL, &w->condition.draught, "T",
-         "water this far over the lowest point [m]; otherwise at z = 0 of the file"},
-        {"--mass", NULL, OPTION_REAL, &w->condition.mass, "M", "find level, heel and trim for this mass [kg]"},
+         "draught, from the lowest point [m]; otherwise the waterline is z = 0 of the file"},
+        {"--mass", NULL, OPTION_REAL, &w->condition.mass, "M", "find draught, heel and trim for this mass [kg]"},
         {"--kg", NULL, OPTION_REAL, &w->kg, "H",
-         "centre of mass over the lowest point [m]; otherwise in the waterline"},
-        {"--lcg", NULL, OPTION_REAL, &w->lcg, "X", "x of the centre of mass [m]; otherwise that of the buoyancy"},
-        {"--tcg", NULL, OPTION_REAL, &w->tcg, "Y", "y of the centre of mass [m]; otherwise that of the buoyancy"},
-        {"--water-density", NULL, OPTION_REAL, &w->condition.water_density, "RHO", "of the water [kg/m3], 1025"},
-        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE.png", "draw lines, surface and convex pieces"},
+         "centre of gravity above the lowest point [m]; otherwise in the waterline"},
+        {"--lcg", NULL, OPTION_REAL, &w->lcg, "X", "x of the centre of gravity [m]; otherwise that of buoyancy"},
+        {"--tcg", NULL, OPTION_REAL, &w->tcg, "Y", "y of the centre of gravity [m]; otherwise that of buoyancy"},
+        {"--water-density", NULL, OPTION_REAL, &w->condition.water_density, "RHO",
+         "density of the water [kg/m3] (1025)"},
+        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE.png", "draw lines plan, surface and convex pieces"},
         {"--output", "-o", OPTION_TEXT, &w->output, "FILE", "write the closed surface: .stl, .obj or .gdf"},
         {"--tolerance", NULL, OPTION_REAL, &w->tolerance, "D",
-         "largest distance of the convex pieces [m]; otherwise breadth/100"},
-        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N", "most convex pieces, 64"},
+         "largest deviation of the convex pieces from the hull [m] (breadth/100)"},
+        {"--pieces", NULL, OPTION_INTEGER, &w->pieces, "N", "largest number of convex pieces (64)"},
         {"--seal", NULL, OPTION_REAL, &w->file.seal_width, "WIDTH",
-         "file: seal cracks up to this width [m], 0 none; otherwise length/2000"},
+         "file: seal cracks up to this width [m]; 0: none (length/2000)"},
         {"--repair", NULL, OPTION_FLAG, &w->file.repair, NULL,
-         "file: fill holes and turn triangles instead of refusing"},
+         "file: fill holes and reorient triangles instead of refusing"},
         {"--freeboard", NULL, OPTION_REAL, &w->file.freeboard, "F",
-         "raise an open top by this and deck it [m]; particulars: deck over the water"},
+         "file: extend an open top by this and close it with a deck [m]; no file: freeboard"},
         {"--scale", NULL, OPTION_REAL, &w->file.scale, "S",
-         "file: lengths times this are metres (0.001 for millimetres)"},
-        {"--length", NULL, OPTION_REAL, &p->length, "L", "no file: length of the waterline [m]"},
-        {"--beam", NULL, OPTION_REAL, &p->beam, "B", "no file: beam of the waterline [m]"},
+         "file: factor from its lengths to metres (0.001 for millimetres)"},
+        {"--length", NULL, OPTION_REAL, &p->length, "L", "no file: length on the waterline [m]"},
+        {"--beam", NULL, OPTION_REAL, &p->beam, "B", "no file: beam on the waterline [m]"},
         {"--stem-angle-deg", NULL, OPTION_REAL, &p->stem_angle, "A",
-         "no file: stem against the water plane, 30, ship 75"},
+         "no file: stem angle from the waterplane (30; ship 75)"},
         {"--entrance-angle-deg", NULL, OPTION_REAL, &p->entrance_angle, "A",
-         "no file: half entrance angle of the waterline, 30, ship: as the block coefficient has it"},
+         "no file: half angle of entrance of the waterline (30; ship: from the block coefficient)"},
         {"--flare-angle-deg", NULL, OPTION_REAL, &p->flare_angle, "A",
-         "no file: sides against the vertical, 8, ship 0"},
+         "no file: flare of the sides from the vertical (8; ship 0)"},
         {"--stern-angle-deg", NULL, OPTION_REAL, &p->stern_angle, "A",
-         "no file: run of the stern against the water plane, 30, ship 45"},
+         "no file: angle of the stern from the waterplane (30; ship 45)"},
         {"--parallel-midbody", NULL, OPTION_REAL, &p->parallel_midbody, "P",
-         "no file: parallel middle body over the length, 0.4, ship: as the block coefficient has it"},
+         "no file: parallel middle body over the length (0.4; ship: from the block coefficient)"},
         {"--block-coefficient", NULL, OPTION_REAL, &p->block_coefficient, "CB",
-         "no file: met by the bilge, of a ship by its ends; otherwise sharp bilges, ship 0.8"},
-        {"--bilge-radius", NULL, OPTION_REAL, &p->bilge_radius, "R", "ship: radius of the bilge [m]"},
-        {"--transom", NULL, OPTION_REAL, &p->transom, "S", "ship: breadth of the transom over the beam, 0.5"},
+         "no file: block coefficient, by rounding the bilge, of a ship by its ends (sharp bilges; ship 0.8)"},
+        {"--bilge-radius", NULL, OPTION_REAL, &p->bilge_radius, "R", "ship: bilge radius [m]"},
+        {"--transom", NULL, OPTION_REAL, &p->transom, "S", "ship: breadth of the transom over the beam (0.5)"},
         {"--box", NULL, OPTION_FLAG, &w->box, NULL, "no file: a box instead of an icebreaker"},
         {"--ship", NULL, OPTION_FLAG, &w->ship, NULL,
-         "no file: a tanker, FPSO or drillship, flat of side and bottom, instead of an icebreaker"},
+         "no file: a tanker, FPSO or drillship with flat sides and bottom instead of an icebreaker"},
     };
     return options_read_some(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->path, 0, 1);
 }
@@ -161,7 +162,7 @@ static void print_surface(const hull_words *w, const fram_hull_surface *s)
     if (s->dropped)
         printf("  left out: %d without area\n", s->dropped);
     if (s->lids)
-        printf("  left out: %d triangles in the water plane\n", s->lids);
+        printf("  left out: %d triangles in the waterplane\n", s->lids);
     if (s->joined || s->splits)
         printf(
             "  cracks up to %.4g m sealed: widest %.4g m, %d vertices joined, edges led over a vertex %d times; moved "
@@ -174,7 +175,7 @@ static void print_surface(const hull_words *w, const fram_hull_surface *s)
     if (s->holes_filled)
         printf("  holes filled: %d, %.4g m2\n", s->holes_filled, s->hole_area);
     if (s->flipped)
-        printf("  triangles turned: %d\n", s->flipped);
+        printf("  triangles reoriented: %d\n", s->flipped);
 }
 
 /* Decimals that keep five digits of a number as large as this one, and four at least. */
@@ -206,7 +207,7 @@ static void print_floating(const fram_hull_floating *f)
            f->centre_of_buoyancy[1], l, f->centre_of_buoyancy[2], l, f->kb);
     printf("  centre of flotation     %14.*f m     y %.*f\n", l, f->centre_of_flotation[0], l,
            f->centre_of_flotation[1]);
-    printf("  centre of mass          %14.*f m     y %.*f, z %.*f; KG %.*f\n", l, f->centre[0], l, f->centre[1], l,
+    printf("  centre of gravity       %14.*f m     y %.*f, z %.*f; KG %.*f\n", l, f->centre[0], l, f->centre[1], l,
            f->centre[2], l, f->kg);
     printf("  waterplane area         %14.*f m2    wetted surface %.*f m2\n", a, f->waterplane_area, a, f->wetted_area);
     printf("  second moments          %14.*f m4    longitudinal %.*f\n", m, f->second_moment_transverse, m,
@@ -350,14 +351,14 @@ int command_hull(const command_row *self, int argc, char **argv)
         return code;
     const char *particular = given_particular(&w);
     if (w.path && particular)
-        return answer_usage(&common, particular, "is for a hull without a file; a file has its own form");
+        return answer_usage(&common, particular, "applies to a hull without a file");
     if (!w.path && (isnan(w.particulars.length) || isnan(w.particulars.beam) || isnan(w.condition.draught)))
         return answer_usage(&common, "hull", "needs a mesh file, or --length, --beam and --draught; see --help");
     if (w.box && w.ship)
-        return answer_usage(&common, "--ship", "is not together with --box");
+        return answer_usage(&common, "--ship", "cannot be combined with --box");
     if (!w.ship && !w.path && !(isnan(w.particulars.bilge_radius) && isnan(w.particulars.transom)))
         return answer_usage(&common, isnan(w.particulars.transom) ? "--bilge-radius" : "--transom",
-                            "is of a ship: add --ship");
+                            "applies to a ship: add --ship");
     const command_files files = {.inputs = {w.path},
                                  .outputs = {{"--draw", w.draw, "png"}, {"--output", w.output, "stl obj gdf"}}};
     code = refuse_outputs(&common, &files);

@@ -20,28 +20,33 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
     const option_row rows[] = {
         {"--a-over-l", NULL, OPTION_REAL, &w->a_over_l, "X",
          "wedge, sheet: radius of the load over the characteristic length"},
-        {"--nu", NULL, OPTION_REAL, &w->load.poisson_ratio, "V", "sheet, break: Poisson's ratio, 0.3"},
-        {"--force", NULL, OPTION_REAL, &w->load.force, "P", "break: load across the ice [N], 0"},
-        {"--contact-area", NULL, OPTION_REAL, &w->load.contact_area, "A", "break: horizontal contact area [m2], 0"},
-        {"--thickness", NULL, OPTION_REAL, &w->load.thickness, "H", "break, split: of the ice [m], 1"},
-        {"--elastic-modulus", NULL, OPTION_REAL, &w->load.elastic_modulus, "E", "break: [Pa], 5e9"},
-        {"--flexural-strength", NULL, OPTION_REAL, &w->load.flexural_strength, "S", "break: [Pa], 5e5"},
-        {"--crushing-strength", NULL, OPTION_REAL, &w->load.crushing_strength, "S", "break: [Pa], 2e6"},
-        {"--water-density", NULL, OPTION_REAL, &w->load.water_density, "RHO", "break: [kg/m3], 1025"},
-        {"--gravity", NULL, OPTION_REAL, &w->load.gravity, "G", "break: [m/s2], 9.81"},
-        {"--wedges", NULL, OPTION_INTEGER, &w->load.wedges, "N", "break: wedges that share the load, 3"},
+        {"--nu", NULL, OPTION_REAL, &w->load.poisson_ratio, "V", "sheet, break: Poisson's ratio (0.3)"},
+        {"--force", NULL, OPTION_REAL, &w->load.force, "P", "break: vertical load [N] (0)"},
+        {"--contact-area", NULL, OPTION_REAL, &w->load.contact_area, "A", "break: horizontal contact area [m2] (0)"},
+        {"--thickness", NULL, OPTION_REAL, &w->load.thickness, "H", "break, split: ice thickness [m] (1)"},
+        {"--elastic-modulus", NULL, OPTION_REAL, &w->load.elastic_modulus, "E", "break: elastic modulus [Pa] (5e9)"},
+        {"--flexural-strength", NULL, OPTION_REAL, &w->load.flexural_strength, "S",
+         "break: flexural strength [Pa] (5e5)"},
+        {"--crushing-strength", NULL, OPTION_REAL, &w->load.crushing_strength, "S",
+         "break: crushing strength [Pa] (2e6)"},
+        {"--water-density", NULL, OPTION_REAL, &w->load.water_density, "RHO",
+         "break: density of the water [kg/m3] (1025)"},
+        {"--gravity", NULL, OPTION_REAL, &w->load.gravity, "G", "break: gravity [m/s2] (9.81)"},
+        {"--wedges", NULL, OPTION_INTEGER, &w->load.wedges, "N", "break: number of wedges that share the load (3)"},
         {"--included-angle", NULL, OPTION_REAL, &angle, "DEG",
-         "break: of the ice at the contact [deg], 180: a straight edge"},
+         "break: included angle of the ice at the contact [deg] (180: a straight edge)"},
         {"--contact-width", NULL, OPTION_REAL, &w->load.contact_width, "W",
-         "break: of the contact along the edge [m], 0: narrow"},
+         "break: width of the contact along the edge [m] (0: narrow)"},
         {"--ice-length", NULL, OPTION_REAL, &w->load.ice_length, "L",
-         "break: of the ice behind a wide contact [m], 0: without end"},
-        {"--thin-plate", NULL, OPTION_FLAG, &w->thin, NULL, "break: small loads keep their own radius"},
-        {"--toughness", NULL, OPTION_REAL, &w->floe.toughness, "K", "split: K_IC [Pa m^0.5], 150e3"},
-        {"--length", NULL, OPTION_REAL, &w->floe.length, "L", "split: of the floe along the crack [m], 50"},
-        {"--width", NULL, OPTION_REAL, &w->floe.width, "W", "split: of the floe across the crack [m], 50"},
+         "break: length of the ice behind a wide contact [m] (0: semi-infinite)"},
+        {"--thin-plate", NULL, OPTION_FLAG, &w->thin, NULL,
+         "break: thin-plate theory also under small loads (no equivalent radius)"},
+        {"--toughness", NULL, OPTION_REAL, &w->floe.toughness, "K",
+         "split: fracture toughness K_IC [Pa m^0.5] (150e3)"},
+        {"--length", NULL, OPTION_REAL, &w->floe.length, "L", "split: length of the floe along the crack [m] (50)"},
+        {"--width", NULL, OPTION_REAL, &w->floe.width, "W", "split: width of the floe across the crack [m] (50)"},
         {"--place", NULL, OPTION_REAL, &w->floe.place, "Y",
-         "split: of the load along the side, from its middle [m], 0"},
+         "split: distance of the load from the middle of the side [m] (0)"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
     w->floe.thickness = w->load.thickness;
@@ -79,8 +84,8 @@ static int answer_wedge(const ice_words *w, const common_options *common)
     if (fram_ice_wedge(w->a_over_l, &r, &error) != FRAM_OK)
         return answer_error(common, &error);
     const answer_row rows[] = {
-        {"a_over_l", w->a_over_l, "", "radius of the load over l"},
-        {"capacity_C", r.capacity_C, "", "a wedge carries flexural strength * b0 h^2/6 * C"},
+        {"a_over_l", w->a_over_l, "", "radius of the load over the characteristic length l"},
+        {"capacity_C", r.capacity_C, "", "wedge capacity = flexural strength * b0 h^2/6 * C"},
         {"x_max", r.x_max, "", "breaking radius over l"},
         {"eta0", r.eta0, "", "deflection of the tip, w k b0 l^2/P"},
     };
@@ -95,10 +100,10 @@ static int answer_sheet(const ice_words *w, const common_options *common)
     if (fram_ice_sheet(w->a_over_l, w->load.poisson_ratio, &r, &error) != FRAM_OK)
         return answer_error(common, &error);
     const answer_row rows[] = {
-        {"a_over_l", w->a_over_l, "", "radius of the load over l"},
+        {"a_over_l", w->a_over_l, "", "radius of the load over the characteristic length l"},
         {"nu", w->load.poisson_ratio, "", "Poisson's ratio"},
-        {"sigma_h2_over_P", r.sigma_h2_over_P, "", "stress along the edge, as a run takes it"},
-        {"exact_sigma_h2_over_P", r.exact_sigma_h2_over_P, "", "the plate's integral"},
+        {"sigma_h2_over_P", r.sigma_h2_over_P, "", "stress along the edge, as used in a run"},
+        {"exact_sigma_h2_over_P", r.exact_sigma_h2_over_P, "", "exact integral of the plate equation"},
         {"closed_form_sigma_h2_over_P", r.closed_form_sigma_h2_over_P, "", "Westergaard's closed form"},
     };
     PRINT(common, rows);
@@ -115,16 +120,16 @@ static int answer_break(const ice_words *w, const common_options *common)
         return answer_error(common, &error);
     const answer_row rows[] = {
         {"characteristic_length", b.characteristic_length, "m", "l"},
-        {"radial_radius", b.radial_radius, "m", "loaded half disk"},
-        {"wedge_radius", b.wedge_radius, "m", "loaded tip of the wedges"},
+        {"radial_radius", b.radial_radius, "m", "radius of the loaded half disc"},
+        {"wedge_radius", b.wedge_radius, "m", "radius of the loaded wedge tip"},
         {"radial_stress", b.radial_stress, "Pa", "along the edge; the radial crack opens at the flexural strength"},
         {"wedge_stress", b.wedge_stress, "Pa", "in the wedges; they break off at the flexural strength"},
         {"radial_capacity", b.radial_capacity, "N", "load at which the radial crack opens"},
         {"wedge_capacity", b.wedge_capacity, "N", "load at which the wedges break off, with the strip between them"},
-        {"strip_capacity", b.strip_capacity, "N", "what of it the strip under a wide contact carries"},
-        {"strip_length", b.strip_length, "m", "from the edge to where that strip breaks"},
-        {"breaking_radius", b.breaking_radius, "m", "from the edge to the circumferential crack"},
-        {"crushing_force", b.crushing_force, "N", "contact area at the crushing strength"},
+        {"strip_capacity", b.strip_capacity, "N", "part of it carried by the strip under a wide contact"},
+        {"strip_length", b.strip_length, "m", "distance from the edge at which that strip breaks"},
+        {"breaking_radius", b.breaking_radius, "m", "distance from the edge to the circumferential crack"},
+        {"crushing_force", b.crushing_force, "N", "contact area times crushing strength"},
     };
     PRINT(common, rows);
     return EXIT_GOOD;
@@ -137,8 +142,8 @@ static int answer_split(const ice_words *w, const common_options *common)
     if (fram_ice_split(&w->floe, &s, &error) != FRAM_OK)
         return answer_error(common, &error);
     const answer_row rows[] = {
-        {"smaller_side", s.smaller_side, "m", "the floe to the nearer side of the crack"},
-        {"larger_side", s.larger_side, "m", "to the other side"},
+        {"smaller_side", s.smaller_side, "m", "width of the floe on the nearer side of the crack"},
+        {"larger_side", s.larger_side, "m", "width on the other side"},
         {"factor", s.factor, "", "F of the largest opening force F h K_IC sqrt(length)"},
         {"splitting_load", s.splitting_load, "N", "opening force at which the floe splits"},
     };
@@ -161,7 +166,7 @@ int command_ice(const command_row *self, int argc, char **argv)
     if (strcmp(w.what, "split") == 0)
         return answer_split(&w, &common);
     if (!wedge && !sheet)
-        return answer_usage(&common, w.what, "is no calculation; take wedge, sheet, break or split");
+        return answer_usage(&common, w.what, "is not a calculation; choose wedge, sheet, break or split");
     if (isnan(w.a_over_l))
         return answer_usage(&common, "--a-over-l", "is needed");
     return wedge ? answer_wedge(&w, &common) : answer_sheet(&w, &common);

@@ -10,12 +10,13 @@ int command_manage(const command_row *self, int argc, char **argv)
     fram_manage_definition d;
     fram_manage_default(&d);
     const option_row rows[] = {
-        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "the protected vessel (the one that does not drive itself)"},
-        {"--beside", NULL, OPTION_TEXT, &d.beside, "RUN", "another run to stand beside, without icebreakers say"},
-        {"--limit", NULL, OPTION_REAL, &d.limit, "M", "largest size of a managed floe [m] (the vessel's beam)"},
+        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "the protected vessel (the only one without propulsion)"},
+        {"--beside", NULL, OPTION_TEXT, &d.beside, "RUN", "a run to compare with, for instance without icebreakers"},
+        {"--limit", NULL, OPTION_REAL, &d.limit, "M",
+         "largest size of a floe that counts as managed [m] (the vessel's beam)"},
         {"--depth", NULL, OPTION_REAL, &d.depth, "M",
-         "of the windows of ice along the drift [m] (the corridor's width)"},
-        {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the page (RUN/manage.html); tables go beside it"},
+         "length of the ice windows along the drift [m] (the width of the corridor)"},
+        {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the page (RUN/manage.html); tables are written beside it"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)

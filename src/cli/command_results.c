@@ -23,7 +23,8 @@ int command_report(const command_row *self, int argc, char **argv)
     bool with_paths = false;
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &output, "FILE", "the page (RUN/report.html)"},
-        {"--with-paths", NULL, OPTION_FLAG, &with_paths, NULL, "tell where the input files lie, not their names alone"},
+        {"--with-paths", NULL, OPTION_FLAG, &with_paths, NULL,
+         "show the full paths of input files, not only their names"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
@@ -94,7 +95,7 @@ int command_plot(const command_row *self, int argc, char **argv)
     const char *word[1 + CHANNELS_MOST] = {NULL}, *output = NULL;
     double from = (double)NAN, to = (double)NAN;
     const option_row rows[] = {
-        {"--output", "-o", OPTION_TEXT, &output, "FILE", "the picture, .png or .svg (required with channels)"},
+        {"--output", "-o", OPTION_TEXT, &output, "FILE", "the plot, .png or .svg (required with channels)"},
         {"--from", NULL, OPTION_REAL, &from, "T", "begin at this time [s]"},
         {"--to", NULL, OPTION_REAL, &to, "T", "end at this time [s]"},
     };
@@ -137,8 +138,8 @@ static void print_rows(const fram_comparison *c)
         snprintf(name, sizeof name, row->unit[0] ? "%s [%s]" : "%s%s", row->name, row->unit);
         printf("%-38s %14.6g %14.6g %14.4g\n", name, row->a, row->b, row->b - row->a);
     }
-    printf("scenarios: %s; states at the end: %s\n", c->same_scenario ? "the same" : "different",
-           c->same_state ? "the same to the bit" : "different");
+    printf("scenarios: %s; final states: %s\n", c->same_scenario ? "the same" : "different",
+           c->same_state ? "identical to the bit" : "different");
 }
 
 static void print_comparison(const common_options *common, const fram_comparison *c, const char *output)
@@ -208,12 +209,13 @@ int command_video(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &d.output, "FILE", "the video (RUN/run.mp4), or the folder of --pictures"},
         {"--colour", NULL, OPTION_TEXT, &d.colour, "NAME", "plain, speed (default), force, thickness or age"},
-        {"--speed", NULL, OPTION_REAL, &d.speed, "X", "simulated seconds a second (as many as make 30 s at most)"},
-        {"--camera", NULL, OPTION_TEXT, &d.camera, "NAME", "orbit (default), follow the vessel, or plan from above"},
-        {"--span", NULL, OPTION_REAL, &d.span, "M", "of a plan: follow the vessel, M metres across"},
-        {"--fps", NULL, OPTION_INTEGER, &d.frames_per_second, "N", "frames a second (25)"},
-        {"--width", NULL, OPTION_INTEGER, &d.width, "PX", "pixels across (1280)"},
-        {"--height", NULL, OPTION_INTEGER, &d.height, "PX", "pixels upwards (720)"},
+        {"--speed", NULL, OPTION_REAL, &d.speed, "X", "simulated seconds per second (so that it lasts 30 s at most)"},
+        {"--camera", NULL, OPTION_TEXT, &d.camera, "NAME",
+         "orbit (default), follow (the vessel), or plan (from above)"},
+        {"--span", NULL, OPTION_REAL, &d.span, "M", "plan camera: follow the vessel, M metres across"},
+        {"--fps", NULL, OPTION_INTEGER, &d.frames_per_second, "N", "frames per second (25)"},
+        {"--width", NULL, OPTION_INTEGER, &d.width, "PX", "width of the picture [pixels] (1280)"},
+        {"--height", NULL, OPTION_INTEGER, &d.height, "PX", "height of the picture [pixels] (720)"},
         {"--pictures", NULL, OPTION_FLAG, &d.pictures, NULL, "numbered PNG files instead; needs no ffmpeg"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);

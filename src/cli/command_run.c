@@ -81,9 +81,9 @@ int command_run(const command_row *self, int argc, char **argv)
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--with-paths", NULL, OPTION_FLAG, &definition.with_paths, NULL,
-         "the record tells where the input files lie, not their names alone"},
+         "record the full paths of input files, not only their names"},
         {"--live", NULL, OPTION_FLAG, &live, NULL,
-         "print an address at which a browser here sees the run while it goes"},
+         "print an address at which a browser on this machine can watch the run"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &path, 1);
     if (code < 0)
@@ -135,7 +135,7 @@ int command_resume(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--until", NULL, OPTION_REAL, &definition.until, "T", "stop at simulated time T [s] with a checkpoint"},
         {"--live", NULL, OPTION_FLAG, &live, NULL,
-         "print an address at which a browser here sees the run while it goes"},
+         "print an address at which a browser on this machine can watch the run"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &definition.folder, 1);
     if (code < 0)

@@ -48,7 +48,7 @@ static int take_numbers(const common_options *common, const char *option, const 
             char *end = NULL;
             double value = strtod(c, &end);
             if (end == c || !isfinite(value) || (*end && *end != ','))
-                return answer_usage(common, option, "expected numbers, divided by commas");
+                return answer_usage(common, option, "expected numbers, separated by commas");
             if (*count == room)
                 return answer_usage(common, option, "has too many numbers");
             out[(*count)++] = value;
@@ -70,11 +70,11 @@ enum { SERIES_ROWS = 4, STATISTICS_FILES = 256 };
 static void series_rows(series_words *w, option_row rows[SERIES_ROWS])
 {
     rows[0] = (option_row){"--channel", NULL,   OPTION_TEXT,
-                           &w->channel, "NAME", "channel of a run, column of a CSV file (load, or NAME.load)"};
-    rows[1] = (option_row){"--from", NULL, OPTION_TEXT, &w->from, "T", "leave out what is before (transient of a run)"};
-    rows[2] = (option_row){"--step", NULL, OPTION_TEXT, &w->step, "T", "between rows of a file without a column time"};
+                           &w->channel, "NAME", "channel of a run or column of a CSV file (load, or NAME.load)"};
+    rows[1] = (option_row){"--from", NULL, OPTION_TEXT, &w->from, "T", "ignore earlier values (a run: its transient)"};
+    rows[2] = (option_row){"--step", NULL, OPTION_TEXT, &w->step, "T", "time step of a file without a time column"};
     rows[3] = (option_row){"--minima", NULL, OPTION_FLAG,
-                           &w->minima, NULL, "the least values: all is told of the negative ones"};
+                           &w->minima, NULL, "minima instead of maxima: results are those of the negated series"};
 }
 
 static int take_source(const common_options *common, const series_words *w, const char *const *files,
@@ -96,9 +96,9 @@ static void print_facts(const fram_series_source *source, const fram_series_fact
     printf("%s of %d %s: %lld %s", source->channel ? source->channel : "load", source->file_count,
            source->file_count == 1 ? "file" : "files", (long long)f->values, maxima ? "maxima" : "values");
     if (!maxima)
-        printf(", %.6g s, a value every %.4g s, time scale %.4g s", f->time, f->step, f->time_scale);
-    printf("\nmean %.5g, deviation %.5g, least %.5g, greatest %.5g %s\n", f->mean, f->deviation, f->least, f->greatest,
-           f->unit);
+        printf(", %.6g s at a step of %.4g s, correlation time %.4g s", f->time, f->step, f->time_scale);
+    printf("\nmean %.5g, standard deviation %.5g, minimum %.5g, maximum %.5g %s\n", f->mean, f->deviation, f->least,
+           f->greatest, f->unit);
 }
 
 static void json_facts(json *j, const fram_series_facts *f)
@@ -129,8 +129,8 @@ static void print_level(const char *name, const fram_level *l, const char *unit)
 static void print_law(const fram_extreme *e)
 {
     if (e->tail_c > 0)
-        printf(", order %d, rate a value %.3g exp(-%.3g (x - %.4g)^%.3g)", e->order, e->tail_q, e->tail_a, e->tail_b,
-               e->tail_c);
+        printf(", order %d, exceedance rate per value %.3g exp(-%.3g (x - %.4g)^%.3g)", e->order, e->tail_q, e->tail_a,
+               e->tail_b, e->tail_c);
     else
         printf(", location %.5g, scale %.5g, shape %.3g", e->location, e->scale, e->shape);
 }
@@ -146,11 +146,11 @@ static void print_method(const fram_extreme *e, const fram_extremes_definition *
         else
             printf(" over %.5g", e->threshold);
         print_law(e);
-        printf("\n  intervals by %s\n", e->interval);
+        printf("\n  intervals: %s\n", e->interval);
         print_level("most probable", &e->most_probable, unit);
         for (int i = 0; i < d->levels; i++) {
             char name[32];
-            snprintf(name, sizeof name, "below by %.6g", d->probability[i]);
+            snprintf(name, sizeof name, "%.6g quantile", d->probability[i]);
             print_level(name, &e->level[i], unit);
         }
     }
@@ -233,7 +233,7 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
         code = EXIT_GOOD;
     } else {
         print_facts(&d->source, &e->series, d->maxima);
-        printf("the greatest value in %.6g s, with intervals of %g %%\n", d->duration, 100 * d->confidence);
+        printf("extreme value in %.6g s, with %g %% confidence intervals\n", d->duration, 100 * d->confidence);
         for (int i = 0; i < e->methods; i++)
             print_method(&e->method[i], d, e->series.unit);
         code = EXIT_GOOD;
@@ -257,16 +257,18 @@ int command_extremes(const command_row *self, int argc, char **argv)
         {0},
         {0},
         {0},
-        {"--duration", NULL, OPTION_TEXT, &duration, "T", "of which the greatest value is asked (3h)"},
+        {"--duration", NULL, OPTION_TEXT, &duration, "T", "duration of the extreme value (3h)"},
         {"--method", NULL, OPTION_TEXT, &d.method, "NAME", "acer, upcrossing, gumbel, gev, pot, weibull or all (all)"},
-        {"--level", NULL, OPTION_LIST, &levels, "P,P...", "probabilities of staying below (0.5,0.9,0.99)"},
-        {"--confidence", NULL, OPTION_REAL, &d.confidence, "P", "of the intervals (0.95)"},
-        {"--block", NULL, OPTION_TEXT, &block, "T", "of block maxima (a fiftieth of the data)"},
-        {"--threshold", NULL, OPTION_REAL, &d.threshold, "X", "of peaks and rates (by the quantiles)"},
-        {"--separation", NULL, OPTION_TEXT, &separation, "T", "of independent peaks (4 time scales)"},
-        {"--order", NULL, OPTION_INTEGER, &d.order, "K", "of acer, in values (as many as the separation takes)"},
-        {"--fit", NULL, OPTION_TEXT, &fit, "NAME", "likelihood, or moments: L-moments with a bootstrap (likelihood)"},
-        {"--maxima", NULL, OPTION_FLAG, &d.maxima, NULL, "the values are maxima of blocks of --block each, no series"},
+        {"--level", NULL, OPTION_LIST, &levels, "P,P...", "probabilities of non-exceedance (0.5,0.9,0.99)"},
+        {"--confidence", NULL, OPTION_REAL, &d.confidence, "P", "confidence level of the intervals (0.95)"},
+        {"--block", NULL, OPTION_TEXT, &block, "T", "block length for block maxima (a fiftieth of the data)"},
+        {"--threshold", NULL, OPTION_REAL, &d.threshold, "X", "threshold of peaks and crossing rates (from quantiles)"},
+        {"--separation", NULL, OPTION_TEXT, &separation, "T", "least time between independent peaks (4 time scales)"},
+        {"--order", NULL, OPTION_INTEGER, &d.order, "K",
+         "ACER: order of conditioning, in values (as many as the separation holds)"},
+        {"--fit", NULL, OPTION_TEXT, &fit, "NAME", "likelihood, or moments: L-moments with bootstrap (likelihood)"},
+        {"--maxima", NULL, OPTION_FLAG, &d.maxima, NULL,
+         "the values are maxima of blocks of length --block, not a series"},
         {"--draw", NULL, OPTION_TEXT, &d.draw, "FILE", "a probability plot of each method, .png or .svg"},
     };
     series_rows(&words, rows);
@@ -285,7 +287,7 @@ int command_extremes(const command_row *self, int argc, char **argv)
     if (code < 0 && fit && strcmp(fit, "likelihood") != 0 && strcmp(fit, "moments") != 0)
         code = answer_usage(&common, "--fit", "expected likelihood or moments");
     if (code < 0 && d.maxima && !block)
-        code = answer_usage(&common, "--block", "is missing: of how long a time is each of the maxima?");
+        code = answer_usage(&common, "--block", "is missing: the length of the blocks that the maxima are of");
     d.moments = fit && strcmp(fit, "moments") == 0;
     for (int i = 0; i < d.source.file_count && code < 0; i++) {
         const command_files touched = {.inputs = {files[i]}, .outputs = {{"--draw", d.draw, "png svg"}}};
@@ -313,7 +315,7 @@ static void print_classes(const fram_fatigue *f)
 static void print_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f)
 {
     print_facts(&d->source, &f->series, false);
-    printf("%.1f cycles (rainflow, ASTM E1049-85), greatest range %.5g %s\n", f->cycles, f->greatest, f->series.unit);
+    printf("%.1f cycles (rainflow, ASTM E1049-85), largest range %.5g %s\n", f->cycles, f->greatest, f->series.unit);
     if (f->greatest > 0)
         print_classes(f);
     for (int i = 0; i < d->slopes; i++)
@@ -364,9 +366,9 @@ int command_fatigue(const command_row *self, int argc, char **argv)
         {0},
         {0},
         {0},
-        {"--slope", NULL, OPTION_LIST, &slopes, "M,M...", "m of S-N lines (3,5)"},
-        {"--frequency", NULL, OPTION_REAL, &d.frequency, "F", "of the equivalent cycles [Hz] (1)"},
-        {"--output", "-o", OPTION_TEXT, &output, "FILE", "all cycles as CSV"},
+        {"--slope", NULL, OPTION_LIST, &slopes, "M,M...", "slopes m of S-N curves (3,5)"},
+        {"--frequency", NULL, OPTION_REAL, &d.frequency, "F", "frequency of the equivalent cycles [Hz] (1)"},
+        {"--output", "-o", OPTION_TEXT, &output, "FILE", "write all cycles as CSV"},
     };
     series_rows(&words, rows);
     int code =

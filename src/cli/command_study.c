@@ -30,14 +30,13 @@ static void print_extent(const fram_study_extent *e, int jobs)
     if (e->runs_least == e->runs_most)
         printf("runs: %lld\n", (long long)e->runs_least);
     else
-        printf("runs: %lld to %lld, until the intervals are narrow\n", (long long)e->runs_least,
+        printf("runs: %lld to %lld, until the intervals are narrow enough\n", (long long)e->runs_least,
                (long long)e->runs_most);
-    printf("one run: about %.3g s on one core of this machine, %.3g MB that stay\n", e->run_seconds,
-           e->run_bytes / 1e6);
+    printf("one run: about %.3g s on one core of this machine, %.3g MB kept\n", e->run_seconds, e->run_bytes / 1e6);
     if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
         printf("         up to %.3g s where ice jams: every contact between floes costs, and there are few as yet\n",
                e->run_seconds_packed);
-    printf("all: about %.3g h", (double)e->runs_least * hours);
+    printf("total: about %.3g h", (double)e->runs_least * hours);
     if (e->runs_least != e->runs_most)
         printf(" to %.3g h", (double)e->runs_most * hours);
     printf(" on %d %s, %.3g MB\n", jobs, jobs == 1 ? "core" : "cores", (double)e->runs_most * e->run_bytes / 1e6);
@@ -88,7 +87,7 @@ static void show(void *user, const fram_study_progress *p)
     if (p->failed > 0)
         fprintf(stderr, ", %lld failed", (long long)p->failed);
     if (p->eta > 0)
-        fprintf(stderr, ", left about %.0f s", p->eta);
+        fprintf(stderr, ", about %.0f s left", p->eta);
     fputs(view->terminal ? "" : "\n", stderr);
     fflush(stderr);
 }
@@ -139,17 +138,19 @@ int command_study(const command_row *self, int argc, char **argv)
     fram_study_default(&d);
     const char *words[2] = {NULL, NULL};
     const option_row rows[] = {
-        {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (one of this study: go on)"},
-        {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N", "processes at a time (the cores of this machine)"},
+        {"--output", "-o", OPTION_TEXT, &d.folder, "DIR",
+         "folder for the results; a folder of this study is continued"},
+        {"--jobs", "-j", OPTION_INTEGER, &d.jobs, "N", "concurrent processes (as many as this machine has cores)"},
         {"--on", NULL, OPTION_TEXT, &d.on, "WHERE", "local, or slurm: job arrays over a shared folder (local)"},
-        {"--partition", NULL, OPTION_TEXT, &d.slurm_partition, "NAME", "of Slurm (the cluster's default)"},
-        {"--time", NULL, OPTION_TEXT, &d.slurm_time, "T", "limit of a task, as sbatch takes it: 1:00:00"},
+        {"--partition", NULL, OPTION_TEXT, &d.slurm_partition, "NAME", "Slurm partition (the cluster's default)"},
+        {"--time", NULL, OPTION_TEXT, &d.slurm_time, "T", "time limit of a task, as for sbatch: 1:00:00"},
         {"--runs-per-task", NULL, OPTION_INTEGER, &d.slurm_runs_per_task, "N",
-         "runs of a task, one after the other (such that there are 200 tasks at most)"},
-        {"--sbatch", NULL, OPTION_LIST, &sbatch, "OPTION", "further option of sbatch, --account=ice; may be repeated"},
-        {"--poll", NULL, OPTION_REAL, &d.slurm_poll, "T", "seconds between questions to the scheduler (30)"},
+         "runs per task, one after another (so that there are at most 200 tasks)"},
+        {"--sbatch", NULL, OPTION_LIST, &sbatch, "OPTION",
+         "further option of sbatch, such as --account=ice; may be repeated"},
+        {"--poll", NULL, OPTION_REAL, &d.slurm_poll, "T", "seconds between queries to the scheduler (30)"},
         {"--dry-run", NULL, OPTION_FLAG, &d.dry_run, NULL, "print the script for Slurm, submit nothing"},
-        {"--retry", NULL, OPTION_FLAG, &d.retry, NULL, "run again what failed"},
+        {"--retry", NULL, OPTION_FLAG, &d.retry, NULL, "repeat failed runs"},
     };
     int code = options_read_some(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, words, 1, 2);
     if (code >= 0)

@@ -46,12 +46,13 @@ int command_view(const command_row *self, int argc, char **argv)
     const option_row rows[] = {
         {"--output", "-o", OPTION_TEXT, &definition.output, "FILE", "the page (RUN/playback.html)"},
         {"--pressure", NULL, OPTION_TEXT, &definition.pressure, "DIR",
-         "also the pressure on the hull, from a folder that fram pressure made of this run"},
+         "also show the pressure on the hull, from a folder that fram pressure wrote of this run"},
         {"--page", NULL, OPTION_TEXT, &definition.viewer_page, "FILE",
          "the viewer's page, if it is not beside the command"},
         {"--page-limit", NULL, OPTION_REAL, &page_mb, "MB",
-         "largest page (50); frames of a longer run go into files beside it"},
-        {"--total-limit", NULL, OPTION_REAL, &total_mb, "MB", "page and files (500); above, frames are left out"},
+         "largest page (50); frames of a longer run are put into files beside it"},
+        {"--total-limit", NULL, OPTION_REAL, &total_mb, "MB",
+         "largest total of page and files (500); beyond it frames are left out"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &folder, 1);
     if (code >= 0)

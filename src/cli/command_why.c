@@ -15,17 +15,18 @@ int command_why(const command_row *self, int argc, char **argv)
     d.time = (double)NAN;
     const option_row rows[] = {
         {"--peak", NULL, OPTION_INTEGER, &peak, "N", "the N-th largest peak of the run, 1 to 10"},
-        {"--time", NULL, OPTION_REAL, &d.time, "T", "this moment instead; computed again when it is no such peak [s]"},
-        {"--vessel", NULL, OPTION_INTEGER, &vessel, "N", "of several: the N-th (1)"},
+        {"--time", NULL, OPTION_REAL, &d.time, "T",
+         "a moment instead of a peak [s]; recomputed unless it is one of the peaks"},
+        {"--vessel", NULL, OPTION_INTEGER, &vessel, "N", "of several vessels: the N-th (1)"},
         {"--no-rerun", NULL, OPTION_FLAG, &no_rerun, NULL,
-         "do not compute the second before again by half steps and by the accurate solver"},
-        {"--output", "-o", OPTION_TEXT, &d.picture, "FILE", "also a picture of the plan, .png"},
+         "do not repeat the last second with half the time step and with the accurate solver"},
+        {"--output", "-o", OPTION_TEXT, &d.picture, "FILE", "also draw the plan view, .png"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
     if ((peak != 0) == (d.time == d.time))
-        return answer_usage(&common, "--peak", "or --time is needed, and only one of them");
+        return answer_usage(&common, "--peak", "or --time is required, but not both");
     if (d.time != d.time && peak < 1)
         return answer_usage(&common, "--peak", "expected 1, the largest, or more");
     if (vessel < 1)

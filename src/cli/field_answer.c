@@ -39,7 +39,7 @@ static void print_summary(const field_words *w, const fram_field_summary *s)
     if (!w->scenario)
         printf("  left out: %d, repaired: %d\n", s->dropped, s->repaired);
     if (s->passed_over > 0)
-        printf("  passed over: %d features of kind vessel or wall, which are no ice\n", s->passed_over);
+        printf("  passed over: %d features of kind vessel or wall, which are not ice\n", s->passed_over);
 }
 
 static void print_windows(const field_words *w, const fram_field *field)

@@ -17,20 +17,20 @@ static const command_row commands[] = {
      "  fram resume out/demo\n"
      "  fram resume out/demo --until 45\n",
      command_resume},
-    {"check", "SCENARIO", "check a scenario, print it with every default filled in, and what follows from it",
+    {"check", "SCENARIO", "check a scenario; print it with every default filled in, and what follows from it",
      "  fram check scenes/demo.yaml\n"
      "  fram check scenes/demo.yaml --set ice.concentration=0.7 > full.yaml\n"
      "  fram check scenes/packed_field.yaml --build\n",
      command_check},
-    {"bench", "SCENARIO | --scene FILE", "step a scenario without output and measure its speed",
+    {"bench", "SCENARIO | --scene FILE", "time the steps of a scenario, without output",
      "  fram bench scenes/demo.yaml --warm 5 --time 10\n"
      "  fram bench scenes/demo.yaml --threads 2 --json\n"
      "  fram bench --scene bench/scenes/n1000_c90.scene --dt 0.02 --iterations 10 --json\n",
      command_bench},
     {"study", "[check] STUDY -o DIR",
-     "run a scenario under many conditions with several seeds each, and tell means with their intervals",
+     "run a scenario under many conditions with several seeds each; report means with confidence intervals",
      "  fram study check study.yaml              how many runs, how long, how much disk\n"
-     "  fram study study.yaml -o out/study       go on with the same command after a stop\n"
+     "  fram study study.yaml -o out/study       after a stop, the same command continues\n"
      "  fram study study.yaml -o out/study --on slurm --partition short --time 1:00:00\n"
      "A study in six lines:\n"
      "  scenario: demo.yaml\n"
@@ -41,13 +41,14 @@ static const command_row commands[] = {
      "  keep: summary\n",
      command_study},
     {"extremes", "RUN | FILE.csv...",
-     "the greatest load, tension or offset in three hours or in any time, with its interval",
+     "extreme load, tension or offset in three hours, or any other duration, with confidence intervals",
      "  fram extremes out/demo --duration 3h                     the load, by all methods\n"
      "  fram extremes out/a out/b --channel line_tension_max     several runs of one condition\n"
      "  fram extremes tension.csv --channel T --from 60 --method acer --level 0.9,0.99 --json\n"
      "  fram extremes out/study/summary.csv --channel load_largest --maxima --block 45s\n",
      command_extremes},
-    {"fatigue", "RUN | FILE.csv...", "cycles of a load or tension by rainflow counting, and damage-equivalent ranges",
+    {"fatigue", "RUN | FILE.csv...",
+     "count the cycles of a load or tension (rainflow), and give damage-equivalent ranges",
      "  fram fatigue out/turret --channel line_tension_max --slope 3,5\n"
      "  fram fatigue tension.csv --channel T --frequency 0.1 -o cycles.csv\n",
      command_fatigue},
@@ -57,17 +58,18 @@ static const command_row commands[] = {
      "  fram fmu scenes/supply_ship.yaml -o supply.fmu --fmi 3\n"
      "  fram fmu scenes/demo.yaml -o towed.fmu --in 'tow_velocity_*' --out 'ice_force_*' --out position_x\n",
      command_fmu},
-    {"view", "RUN", "make a page that plays a run in a browser, from disk",
+    {"view", "RUN", "make a page that plays a run back in a browser, from disk",
      "  fram view out/demo                      writes out/demo/playback.html\n"
      "  fram view out/demo -o demo.html\n"
      "  fram view out/demo --pressure out/demo-pressure\n",
      command_view},
-    {"export", "RUN --vtk | --netcdf | --geojson", "write a run's results in the formats of other programs",
+    {"export", "RUN --vtk | --netcdf | --geojson", "write the results of a run in the formats of other programs",
      "  fram export out/demo --vtk                       for ParaView: out/demo/vtk/run.pvd\n"
      "  fram export out/demo --netcdf                    for xarray and h5py: out/demo/run.nc\n"
      "  fram export out/demo --geojson --time 30         the field at 30 s\n",
      command_export},
-    {"report", "RUN", "one page about a run: loads, field, fractures, station, books, quality; prints well",
+    {"report", "RUN",
+     "report on one page: loads, ice field, fractures, station keeping, balances, solver quality; prints well",
      "  fram report out/demo                    writes out/demo/report.html\n", command_report},
     {"plot", "RUN [CHANNEL...] -o FILE",
      "draw channels of a run over time, as PNG or SVG; without a channel, list them",
@@ -76,40 +78,40 @@ static const command_row commands[] = {
      "  fram plot out/demo ice_force_x roll pitch --from 20 --to 40 -o part.png\n",
      command_plot},
     {"why", "RUN --peak N | --time T",
-     "explain a peak of the ice load: mechanisms, floes, chains of contacts, breaks before it, time step and solver",
+     "explain a peak ice load: mechanisms, floes, force chains, fractures before it, time step and solver",
      "  fram why out/demo --peak 1\n"
      "  fram why out/demo --peak 3 -o peak3.png --no-rerun\n"
      "  fram why out/demo --time 12.5 --json\n",
      command_why},
     {"pressure", "RUN -o DIR",
-     "ice pressure on the hull by panel (mean, largest, cumulative) and by area; computes the run again",
+     "ice pressure on the hull by panel (mean, largest, cumulative) and by area; repeats the run",
      "  fram pressure out/demo -o out/demo-pressure\n"
      "  fram pressure out/demo -o out/fine --panel 0.5 --from 20 --to 40\n"
      "  fram pressure out/demo -o out/frames --frames -30:0.6:30 --stringers -4,-2.5,-1,0.5,2\n",
      command_pressure},
-    {"compare", "RUN RUN", "two runs beside each other, in numbers and plots",
+    {"compare", "RUN RUN", "compare two runs, in numbers and plots",
      "  fram compare out/demo out/thick\n"
      "  fram compare out/demo out/thick -o both.html\n",
      command_compare},
     {"manage", "RUN",
-     "what ice management brought a vessel: floe sizes upstream, behind the icebreakers and at it, warnings, loads",
+     "what ice management achieves: floe sizes updrift, behind the icebreakers and at the vessel, warning times, loads",
      "  fram manage out/managed\n"
      "  fram manage out/managed --beside out/alone\n"
      "  fram manage out/escort --vessel tanker --limit 20 --json\n",
      command_manage},
-    {"video", "RUN", "make an MP4 of a run, in space or from above; needs ffmpeg, but no screen",
+    {"video", "RUN", "make an MP4 of a run, in perspective or in plan; needs ffmpeg, but no screen",
      "  fram video out/demo\n"
      "  fram video out/demo --camera plan --span 200 --colour force -o bow.mp4\n"
      "  fram video out/demo --pictures -o frames\n",
      command_video},
     {"capability", "SCENARIO -o DIR",
-     "from which direction and up to which drift speed thrusters and mooring hold a vessel, intact and after a failure",
+     "capability plot: drift speed from each direction up to which a vessel holds station, intact and after a failure",
      "  fram capability scenes/supply_ship.yaml -o out/capability\n"
      "  fram capability scenes/supply_ship.yaml -o out/measured --measure 300 --speed-most 1.5\n"
      "  fram capability scenes/turret_ship.yaml -o out/formula --formula --set ice.thickness=1.5\n",
      command_capability},
     {"hull", "[FILE]",
-     "report how a hull floats, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
+     "hydrostatics of a hull, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",
      "  fram hull ship.stl --draught 7.5\n"
      "  fram hull panels.gdf --freeboard 6 --draw hull.png --json\n"
      "  fram hull ship.obj --mass 9.5e6 --kg 8.2 --repair -o closed.stl\n"
@@ -117,15 +119,15 @@ static const command_row commands[] = {
      "  fram hull --length 100 --beam 20 --draught 7 --stem-angle-deg 30 --block-coefficient 0.55 -o ship.stl\n",
      command_hull},
     {"field", "FILE | SCENARIO",
-     "report an ice field of a scenario or of observed floes: scale, cut, mend, draw and write it",
+     "statistics of an ice field, of a scenario or of observed floes; scale, crop, repair, draw and write it",
      "  fram field floes.geojson\n"
      "  fram field scenes/packed_field.yaml --window -50,-50,50,50 --cover cover.png --table floes.csv\n"
-     "  fram field outlines.wkt --draw field.png           WKT, or lines of x and y, as well as GeoJSON\n"
+     "  fram field outlines.wkt --draw field.png           WKT, or rows of x and y, as well as GeoJSON\n"
      "  fram field floes.geojson --scale 0.01 --crop -300,-200,300,200 --smallest 20 --draw field.png\n"
      "  fram field outlines.geojson --bad repair --simplify 0.5 -o clean.geojson --json\n",
      command_field},
     {"ice", "wedge | sheet | break | split",
-     "calculate how floating ice breaks: a wedge, a sheet, a load on an edge of given properties, a floe that splits",
+     "breaking loads of floating ice by hand formulas: a wedge, a sheet, a load on an edge, a floe that splits",
      "  fram ice wedge --a-over-l 0.1\n"
      "  fram ice sheet --a-over-l 0.1 --nu 0.3 --json\n"
      "  fram ice break --force 3e5 --contact-area 0.2 --thickness 0.8 --flexural-strength 6e5\n"
@@ -142,13 +144,13 @@ static const char help_before[] =
 static const char help_after[] =
     "\nA first run, from the folder of the sources:\n"
     "  fram check scenes/demo.yaml                what will be simulated\n"
-    "  fram run scenes/demo.yaml -o out/demo      half a minute of computing; then look into out/demo:\n"
+    "  fram run scenes/demo.yaml -o out/demo      takes half a minute; then look into out/demo:\n"
     "      plan.png         the field seen from above\n"
     "      loads.png        ice load on the vessel over time\n"
-    "      series.csv       all channels, one row a step, name[unit] headers\n"
+    "      series.csv       all channels, one row per time step, headings name[unit]\n"
     "      record.fram      every frame, for playback\n"
-    "\nExit codes: 0 good, 1 the run failed, 2 bad input or usage, 130 interrupted (a run that steps: after a\n"
-    "checkpoint).\n"
+    "\nExit codes: 0 success, 1 the run failed, 2 bad input or usage, 130 interrupted (a run has written a\n"
+    "checkpoint then).\n"
     "fram --version prints the version and the optional parts of this build.\n";
 
 static void print_help(FILE *file)

@@ -18,8 +18,9 @@ static void common_rows(common_options *c, option_row rows[COMMON_ROWS])
                            &c->isa, "NAME", "baseline, avx2 or avx512; results never depend on it"};
     rows[3] = (option_row){"--quiet", "-q", OPTION_FLAG, &c->quiet, NULL, "errors only on standard error"};
     rows[4] = (option_row){"--verbose", "-v", OPTION_FLAG, &c->verbose, NULL, "more on standard error"};
-    rows[5] = (option_row){"--force", NULL, OPTION_FLAG,
-                           &c->force, NULL, "write over a file of another kind, or into a folder that is not empty"};
+    rows[5] =
+        (option_row){"--force", NULL, OPTION_FLAG,
+                     &c->force, NULL, "overwrite a file of another type, or write into a folder that is not empty"};
     rows[6] = (option_row){"--help", "-h", OPTION_FLAG, &c->help, NULL, "this text"};
 }
 
@@ -128,7 +129,7 @@ static int read_option(word_list *list)
     if (!row)
         row = find_row(list->shared, COMMON_ROWS, word, length);
     if (!row)
-        return answer_usage(list->common, word, "is no option of this command; see --help");
+        return answer_usage(list->common, word, "is not an option of this command; see --help");
     if (row->kind == OPTION_FLAG) {
         if (equals)
             return answer_usage(list->common, row->name, "takes no value");
@@ -159,7 +160,7 @@ static int read_words(word_list *list, const char **positional, int most, int *f
             if (!*word)
                 return answer_usage(list->common, list->arguments, "expected a word, found an empty one; see --help");
             if (*found == most)
-                return answer_usage(list->common, word, "is one word too many; see --help");
+                return answer_usage(list->common, word, "is one argument too many; see --help");
             positional[(*found)++] = word;
             list->at++;
         }
@@ -206,7 +207,7 @@ int options_read_some(const command_row *command, const option_row *rows, int ro
         return answer_usage(common, "--threads", "must lie between 1 and 256");
     if (found < least) {
         char message[160];
-        snprintf(message, sizeof message, "misses an argument: fram %s %s", command->name, command->arguments);
+        snprintf(message, sizeof message, "lacks an argument: fram %s %s", command->name, command->arguments);
         return answer_usage(common, command->name, message);
     }
     return -1;

@@ -187,7 +187,7 @@ static fram_status compose(pair *p, fram_error *error)
                   p->d[k].s.title[0] ? p->d[k].s.title : "no title", p->d[k].note.status, p->d[k].note.scenario_hash,
                   p->d[k].note.state_hash);
     html_fact(&p->page, "scenarios", "%s", p->result->same_scenario ? "the same" : "different");
-    html_fact(&p->page, "states at the end", "%s", p->result->same_state ? "the same to the bit" : "different");
+    html_fact(&p->page, "final states", "%s", p->result->same_state ? "identical to the bit" : "different");
     html_table_end(&p->page);
     html_section(&p->page, "Numbers");
     number_table(p);

@@ -124,7 +124,7 @@ python3 - "$(value 'j["run_wall_s"]')" <<'END' || fail "no time is told"
 import sys
 sys.exit(not 0 < float(sys.argv[1]) < 600)
 END
-says "time: by its first steps a run computes" err
+says "time: judged by its first steps a run takes" err
 promised=$(sed -n 's/^disk: about \([0-9.e+]*\) MB.*/\1/p' err)
 expect 0 "$FRAM" run box.yaml -o sized -q --set output.csv_interval=0.1
 pictures=no

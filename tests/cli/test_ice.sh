@@ -57,7 +57,7 @@ expect 2 "$FRAM" ice wedge --a-over-l 7 --json
 says 'a_over_l' err
 says '"status":"input"' out
 expect 2 "$FRAM" ice bend
-says 'is no calculation' err
+says 'is not a calculation' err
 expect 2 "$FRAM" ice break --thickness -1
 says thickness err
 
