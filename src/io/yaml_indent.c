@@ -92,6 +92,17 @@ static bool blame(indentation *r, const yaml_line *l, const char *what)
     return true;
 }
 
+/* YAML allows blanks alone there; an editor shows no difference. */
+static bool begins_with_tab(indentation *r, const yaml_line *l)
+{
+    if (l->text[l->indent] != '\t')
+        return false;
+    r->out->line = l->number;
+    r->out->column = l->indent + 1;
+    snprintf(r->out->message, sizeof r->out->message, "the line begins with a tab: indent by blanks");
+    return true;
+}
+
 /* Whether the line fits; opens and closes levels. */
 static bool line_is_at_fault(indentation *r, const yaml_line *l)
 {
@@ -129,7 +140,7 @@ bool yaml_indent_blame(const char *data, size_t size, yaml_blame *out)
         open = r.brackets;
         if (inside || line.size == 0)
             continue;
-        if (line_is_at_fault(&r, &line))
+        if (begins_with_tab(&r, &line) || line_is_at_fault(&r, &line))
             return true;
         r.last = line;
     }

@@ -2,7 +2,6 @@
 
 #include "base/transcendental.h"
 #include "model/scenario_schema.h"
-#include "model/scenario_vessel.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,8 +45,8 @@ static const usual usual_values[] = {
     {"ice.flexural_strength", 3e4, 4e6, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.populations[].flexural_strength", 3e4, 4e6, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.elastic_modulus", 1e8, 1.5e10, 1, "what was measured on ice", "give pascal, not GPa"},
-    {"ice.crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not MPa"},
-    {"ice.populations[].crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not MPa"},
+    {"ice.crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
+    {"ice.populations[].crushing_strength", 5e4, 5e7, 1, "what was measured on ice", "give pascal, not kPa or MPa"},
     {"ice.fracture.toughness", 1e4, 1e6, 1.5, "what was measured on ice", "give Pa m^0.5, not kPa m^0.5"},
     {"ice.density", 650, 960, 0, "what was measured on ice", "give kg/m3"},
     {"ice.friction.ice_ice_static", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
@@ -63,6 +62,10 @@ static const usual usual_values[] = {
     {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
     {"vessel.mooring.lines[].pretension", 2e3, 3e7, 3, "what lines are set to", "give newtons, not kN or tonnes"},
     {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
+    {"vessel.fender_stiffness", 1e4, 1e11, 2, "what fenders have", "give N/m, not kN/m"},
+    {"vessel.propulsion.bollard_pull", 1e4, 2e7, 3, "what ships pull", "give newtons, not kN or tonnes"},
+    {"vessel.propulsion.open_water_speed", 1, 13, 0.5, "what ships make", "give m/s, a knot is 0.514 of it"},
+    {"vessel.propulsion.speed", 0, 13, 0.5, "what ships make", "give m/s, a knot is 0.514 of it"},
     {"vessel.thrusters[].thrust", 2e3, 1e7, 3, "what a propeller gives", "give newtons, not kN or tonnes"},
 };
 
@@ -195,6 +198,10 @@ static void tell_directions(const teller *t)
 #define LONGEST_TRANSIENT 0.9
 #define LONGEST_WINDOW 0.5
 #define MOST_PICTURES 1e4
+/* Rows of series.csv under which no curve is one. */
+#define LEAST_ROWS 10
+/* Three hours in steps of 0.1 ms, ten times as short as any scene of full size asks for. */
+#define MOST_STEPS 1.08e8
 
 static void tell_times(const teller *t)
 {
@@ -208,6 +215,20 @@ static void tell_times(const teller *t)
         sanity_say(t->tell, t->to,
                    "output.frame_interval: %g s is longer than the run, so that pages show nothing that moves",
                    o->frame_interval);
+    if (r->duration / r->time_step > MOST_STEPS)
+        sanity_say(t->tell, t->to, "run.time_step: %g s makes %.3g steps of the run: give seconds", r->time_step,
+                   r->duration / r->time_step);
+    if (o->frame_interval < r->time_step)
+        sanity_say(t->tell, t->to,
+                   "output.frame_interval: %g s is shorter than run.time_step, %g s: a frame every step",
+                   o->frame_interval, r->time_step);
+    if (o->checkpoint_interval > 0 && o->checkpoint_interval < r->time_step)
+        sanity_say(t->tell, t->to,
+                   "output.checkpoint_interval: %g s is shorter than run.time_step, %g s: a checkpoint every step",
+                   o->checkpoint_interval, r->time_step);
+    if (o->csv_interval > 0 && r->duration / o->csv_interval < LEAST_ROWS && r->duration / r->time_step > LEAST_ROWS)
+        sanity_say(t->tell, t->to, "output.csv_interval: %g s leaves %.0f rows of the run in series.csv",
+                   o->csv_interval, r->duration / o->csv_interval);
     if (o->averaging_window > LONGEST_WINDOW * r->duration)
         sanity_say(t->tell, t->to, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
     if (o->picture_interval > 0 && r->duration / o->picture_interval > MOST_PICTURES)
@@ -328,5 +349,6 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
         tell_hull(&t, &e);
         tell_domain(&t, &e);
         tell_station(&t, &e);
+        sanity_tell_vessel(s, &e, tell, to);
     }
 }

@@ -3,7 +3,7 @@
 #ifndef SIM_SANITY_H
 #define SIM_SANITY_H
 
-#include "model/scenario.h"
+#include "model/scenario_vessel.h"
 
 /* Takes one sentence that names the key, what was found and what is usual. */
 typedef void (*sanity_teller)(const void *to, const char *text);
@@ -12,5 +12,7 @@ enum { SANITY_SENTENCE = 380 };
 void sanity_say(sanity_teller tell, const void *to, const char *format, ...) __attribute__((format(printf, 3, 4)));
 /* From the keys alone, nothing is built. */
 void sanity_tell(const scenario *s, sanity_teller tell, const void *to);
+/* What of a vessel's gear does not belong together or to its hull.  sanity_tell asks. */
+void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 
 #endif

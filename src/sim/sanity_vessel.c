@@ -1,0 +1,168 @@
+#include "base/transcendental.h"
+#include "sim/sanity.h"
+#include "sim/wall_check.h"
+
+#include <math.h>
+
+typedef struct teller {
+    const scenario *s;
+    const vessel_entry *e;
+    sanity_teller tell;
+    const void *to;
+} teller;
+
+/* ---- the ship ---- */
+
+/* Radii of gyration over beam and length: 0.3 to 0.45 and 0.2 to 0.3 are usual (Lewis 1989, Principles of Naval
+   Architecture III); under and over these a part of the length was given for metres, or metres of another ship. */
+#define ROLL_LEAST 0.15
+#define ROLL_MOST 0.7
+#define YAW_LEAST 0.1
+#define YAW_MOST 0.6
+
+static void tell_gyration(const teller *t, const char *key, double radius, const char *of, double size, double least,
+                          double most)
+{
+    if (is_automatic(radius) || (radius >= least * size && radius <= most * size))
+        return;
+    sanity_say(t->tell, t->to, "%s.%s: %.4g m is %.3g of the %s, %.4g m, outside of %.2g to %.2g: give metres",
+               t->e->path, key, radius, radius / size, of, size, least, most);
+}
+
+static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
+
+static void tell_inertia(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    if (!is_own_hull(v) || v->mode == VESSEL_PRESCRIBED)
+        return;
+    tell_gyration(t, "gyration_roll", v->gyration_roll, "beam", v->hull.beam, ROLL_LEAST, ROLL_MOST);
+    tell_gyration(t, "gyration_pitch", v->gyration_pitch, "length", v->hull.length, YAW_LEAST, YAW_MOST);
+    tell_gyration(t, "gyration_yaw", v->gyration_yaw, "length", v->hull.length, YAW_LEAST, YAW_MOST);
+}
+
+/* ---- what stands on it ---- */
+
+/* Parts of the half length and beam beyond which nothing stands: the hull's ends overhang the waterline. */
+#define OVERHANG 1.3
+
+static void tell_thrusters(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    for (int32_t i = 0; i < v->thrusters.count; i++) {
+        const scenario_thruster *p = &v->thrusters.data[i];
+        bool off = fabs(p->x) > OVERHANG * v->hull.length / 2 || fabs(p->y) > OVERHANG * v->hull.beam / 2;
+        if (is_own_hull(v) && off)
+            sanity_say(t->tell, t->to, "%s.thrusters[%d]: (%.4g, %.4g) m is outside of a hull of %.4g m by %.4g m",
+                       t->e->path, (int)i, p->x, p->y, v->hull.length, v->hull.beam);
+        if (!is_automatic(p->failure_time) && p->failure_time > t->s->run.duration)
+            sanity_say(t->tell, t->to, "%s.thrusters[%d].failure_time: %g s is after the end of the run, %g s",
+                       t->e->path, (int)i, p->failure_time, t->s->run.duration);
+        if (is_own_hull(v) && !is_automatic(p->diameter) && p->diameter > v->hull.draught)
+            sanity_say(t->tell, t->to, "%s.thrusters[%d].diameter: %.4g m is more than the draught, %.4g m", t->e->path,
+                       (int)i, p->diameter, v->hull.draught);
+    }
+}
+
+static void tell_propulsion(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_propulsion *p = &v->propulsion;
+    if (is_automatic(p->bollard_pull))
+        return;
+    double most = p->open_water_speed * real_pow(p->power, 1.0 / 3);
+    if (!is_automatic(p->speed) && p->speed > most)
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.speed: %.4g m/s is more than the ship makes in open water at that power, %.4g m/s",
+                   t->e->path, p->speed, most);
+    if (is_own_hull(v) && !is_automatic(p->propeller_diameter) && p->propeller_diameter > v->hull.draught)
+        sanity_say(t->tell, t->to, "%s.propulsion.propeller_diameter: %.4g m is more than the draught, %.4g m",
+                   t->e->path, p->propeller_diameter, v->hull.draught);
+    const scenario_domain *d = &t->s->domain;
+    for (int32_t i = 0; i < p->waypoints.count && d->boundary == DOMAIN_OPEN && t->s->ice.source != ICE_NONE; i++) {
+        const scenario_course_point *w = &p->waypoints.data[i];
+        double way = sqrt((w->x - v->x) * (w->x - v->x) + (w->y - v->y) * (w->y - v->y));
+        /* A point far ahead gives a course. */
+        if (way > vessel_fastest(v) * t->s->run.duration)
+            return;
+        if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
+            continue;
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.waypoints[%d]: (%.5g, %.5g) m lies outside of the domain, where there is no ice",
+                   t->e->path, (int)i, w->x, w->y);
+        return;
+    }
+}
+
+/* ---- its mooring ---- */
+
+/* Axial stiffness over breaking load, which is one over the strain at which a line would part if it stayed linear: 60
+   to 130 of chain and wire, 5 to 30 of polyester, 3 of nylon (API RP 2SK 2005; Flory et al. 2007). */
+#define STIFFNESS_LEAST 1.0
+#define STIFFNESS_MOST 2000.0
+/* Horizontal distance to the anchor over the depth; a line that hangs straighter down holds nothing. */
+#define SCOPE_LEAST 0.05
+/* A full turn with what rounding leaves of a spacing [deg]. */
+#define FULL_CIRCLE 360.5
+
+static void tell_line(const teller *t, int32_t i)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_mooring_line *l = &v->mooring.lines.data[i];
+    const scenario_run *r = &t->s->run;
+    double ratio = l->stiffness / automatic_or(l->breaking_load, (double)NAN);
+    if (l->kind == LINE_CATENARY && (ratio < STIFFNESS_LEAST || ratio > STIFFNESS_MOST))
+        sanity_say(
+            t->tell, t->to,
+            "%s.mooring.lines[%d].stiffness: EA of %.4g N is %.3g breaking loads, chain and wire have 60 to 130, "
+            "ropes 3 to 30: give newtons",
+            t->e->path, (int)i, l->stiffness, ratio);
+    if (l->kind == LINE_CATENARY && l->distance < SCOPE_LEAST * v->mooring.depth)
+        sanity_say(
+            t->tell, t->to,
+            "%s.mooring.lines[%d].distance: an anchor %.4g m off in a depth of %.4g m holds nothing: give metres",
+            t->e->path, (int)i, l->distance, v->mooring.depth);
+    if (l->count > 1 && (double)l->count * fabs(l->spacing_deg) > FULL_CIRCLE)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].spacing_deg: %d lines at %g degrees go round more than once: give the angle "
+                   "between neighbours",
+                   t->e->path, (int)i, (int)l->count, l->spacing_deg);
+    if (is_own_hull(v) && fabs(v->mooring.x) + l->fairlead_distance > OVERHANG * v->hull.length)
+        sanity_say(t->tell, t->to, "%s.mooring: fairleads %.4g m from amidships are outside of a hull of %.4g m",
+                   t->e->path, fabs(v->mooring.x) + l->fairlead_distance, v->hull.length);
+    if (!is_automatic(l->release_time) && l->release_time > r->duration)
+        sanity_say(t->tell, t->to, "%s.mooring.lines[%d].release_time: %g s is after the end of the run, %g s",
+                   t->e->path, (int)i, l->release_time, r->duration);
+}
+
+/* ---- its way ---- */
+
+static void tell_motion(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_run *r = &t->s->run;
+    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->ramp >= r->duration)
+        sanity_say(t->tell, t->to, "%s.ramp: %g s is not over when the run ends, at %g s", t->e->path, v->ramp,
+                   r->duration);
+    const scenario_domain *d = &t->s->domain;
+    const scenario_positioning *p = &v->positioning;
+    for (int32_t i = 0; p->active && i < p->waypoints.count && d->boundary != DOMAIN_WALLS; i++) {
+        const scenario_waypoint *w = &p->waypoints.data[i];
+        if (w->x >= d->x_min && w->x <= d->x_max && w->y >= d->y_min && w->y <= d->y_max)
+            continue;
+        sanity_say(t->tell, t->to, "%s.positioning.waypoints[%d]: (%.5g, %.5g) m lies outside of the domain",
+                   t->e->path, (int)i, w->x, w->y);
+        return;
+    }
+}
+
+void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
+{
+    const teller t = {s, e, tell, to};
+    tell_inertia(&t);
+    tell_thrusters(&t);
+    tell_propulsion(&t);
+    for (int32_t i = 0; i < e->keys->mooring.lines.count; i++)
+        tell_line(&t, i);
+    tell_motion(&t);
+}

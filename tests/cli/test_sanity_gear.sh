@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Thirty-two more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and remedy.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+cat >ship.yaml <<'YAML'
+run: {duration: 600, time_step: 0.05, transient: 60}
+vessel:
+  mode: free
+  hull: {form: icebreaker, length: 76, beam: 19, draught: 6.5, freeboard: 3.5}
+  mooring:
+    depth: 120
+    lines:
+      - {count: 8, spacing_deg: 45, distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8,
+         breaking_load: 8.0e6}
+  thrusters: [{x: 30, thrust: 2.0e5}, {x: -30, thrust: 2.0e5}]
+ice: {concentration: 0.7, mean_floe_area: 200, thickness: 0.7}
+domain: {x_min: -160, x_max: 160, y_min: -160, y_max: 160, boundary: feeding}
+environment: {current_speed: 0.4, current_direction_deg: 180, wind_speed: 8, wind_direction_deg: 170}
+YAML
+cat >drive.yaml <<'YAML'
+run: {duration: 60, time_step: 0.01}
+vessel:
+  mode: free
+  hull: {form: icebreaker, length: 60, beam: 14, draught: 4}
+  propulsion: {bollard_pull: 8.0e5, open_water_speed: 7, speed: 3, waypoints: [{x: 90, y: 0}]}
+ice: {mean_floe_area: 200, thickness: 0.7, concentration: 0.5}
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100, boundary: open}
+YAML
+
+# told SCENE WORDS OPTIONS...: a warning with all the words between the bars; refused SCENE WORDS OPTIONS...
+told() {
+    local scene=$1 words=$2
+    shift 2
+    expect 0 "$FRAM" check "$scene" "$@"
+    grep '^warning' err | grep -F -- "${words%%|*}" | grep -qF -- "${words##*|}" ||
+        fail "not told \"$words\" of $*: $(grep '^warning' err)"
+}
+refused() {
+    local scene=$1 words=$2
+    shift 2
+    expect 2 "$FRAM" check "$scene" "$@"
+    says "$words" err
+}
+for scene in ship.yaml drive.yaml; do
+    expect 0 "$FRAM" check $scene
+    grep '^warning' err && fail "a warning without reason of $scene"
+done
+
+# Tonnes, kilonewtons, knots, kilometres, parts for metres.
+told drive.yaml "propulsion.bollard_pull: 80 N|not kN or tonnes" --set vessel.propulsion.bollard_pull=80
+told drive.yaml "propulsion.open_water_speed: 15 m/s|knot" --set vessel.propulsion.open_water_speed=15
+told drive.yaml "propulsion.speed: 12 m/s is more than the ship makes|7 m/s" --set vessel.propulsion.speed=12
+told drive.yaml "propeller_diameter: 6 m|draught, 4 m" --set vessel.propulsion.propeller_diameter=6
+told drive.yaml "waypoints[0]: (150, 0) m lies outside of the domain" --set "vessel.propulsion.waypoints[0].x=150"
+told ship.yaml "lines[0].stiffness: EA of 8e+05 N is 0.1 breaking loads|newtons" \
+    --set "vessel.mooring.lines[0].stiffness=8e5"
+told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.mooring.lines[0].distance=0.9"
+told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.mooring.lines[0].spacing_deg=90"
+told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
+told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400
+told ship.yaml "lines[0].release_time: 3600 s is after the end" --set "vessel.mooring.lines[0].release_time=3600"
+told ship.yaml "lines[0].weight: 1.5 N/m|not kg/m or kN/m" --set "vessel.mooring.lines[0].weight=1.5"
+told ship.yaml "thrusters[0].failure_time: 3600 s is after the end" --set "vessel.thrusters[0].failure_time=3600"
+told ship.yaml "thrusters[0]: (300, 0) m is outside of a hull" --set "vessel.thrusters[0].x=300"
+told ship.yaml "thrusters[1].diameter: 28 m|draught" --set "vessel.thrusters[1].diameter=28"
+told ship.yaml "gyration_roll: 0.35 m is 0.0184 of the beam|metres" --set vessel.gyration_roll=0.35
+told ship.yaml "fender_stiffness: 50 N/m|not kN/m" --set vessel.fender_stiffness=50
+told ship.yaml "ice.crushing_strength: 2000 Pa|not kPa or MPa" --set ice.crushing_strength=2000
+told ship.yaml "centre_of_gravity_z, 12 m" --set vessel.centre_of_gravity_z=12
+told ship.yaml "centre_of_gravity_x: the vessel trims" --set vessel.centre_of_gravity_x=30
+told ship.yaml "centre_of_gravity_y: the vessel heels" --set vessel.centre_of_gravity_y=5
+told ship.yaml "vessel.mass is 0.106" --set vessel.mass=5.5e5
+
+# Times.
+told ship.yaml "run.time_step: 1e-06 s makes 6e+08 steps" --set run.time_step=1e-6
+told ship.yaml "frame_interval: 0.01 s is shorter than run.time_step" --set output.frame_interval=0.01
+told ship.yaml "checkpoint_interval: 0.001 s is shorter than run.time_step" --set output.checkpoint_interval=0.001
+told ship.yaml "csv_interval: 100 s leaves 6 rows" --set output.csv_interval=100
+grep -v propulsion drive.yaml >towed.yaml
+told towed.yaml "vessel.ramp: 100 s is not over when the run ends" --set vessel.mode=towed --set vessel.speed=2 \
+    --set vessel.ramp=100
+
+# The writing.
+refused ship.yaml 'found "0.7 m"' --set "ice.thickness=0.7 m"
+refused ship.yaml 'found "0,7"' --set ice.thickness=0,7
+refused ship.yaml 'did you mean' --set ice.thicknes=0.7
+sed 's/^  mode: free/\tmode: free/' ship.yaml >tab.yaml
+refused tab.yaml "tab.yaml:3:1: the line begins with a tab"
+sed 's/^  mode: free/&\n  mode: towed/' ship.yaml >twice.yaml
+refused twice.yaml "twice.yaml:4:3: vessel.mode: expected each key once"
+
+# At another scale the bounds go along.
+expect 0 "$FRAM" check drive.yaml --set run.scale=1 --set vessel.propulsion.bollard_pull=500 \
+    --set vessel.propulsion.open_water_speed=0.9 --set vessel.propulsion.speed=0.5
+grep 'bollard_pull\|water_speed' err && fail "the propulsion of a model is told"
+finish "slips in a ship's gear and in the writing are told or refused, with key and remedy"
