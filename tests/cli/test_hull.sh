@@ -56,7 +56,7 @@ refused_ship transom --transom 0.05
 refused_ship parallel_midbody --parallel-midbody 0.95
 refused_ship --ship --box
 expect 2 "$FRAM" hull --length 100 --beam 20 --draught 7 --transom 0.5
-says "is of a ship" err
+says "applies to a ship" err
 
 # A ship with bulb, flare and transom: cut as finely as it is told, and symmetric.
 ship=$FRAM_SOURCE/examples/hulls/ship_with_bulb.obj

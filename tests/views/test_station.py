@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Mooring lines and thrusters in the playback page, in headless Chromium.
+"""Mooring lines, thrusters and propellers in the playback page, in headless Chromium.
 
 Lines must lead from the fairlead, which the run's own forces tell, to the anchor, which follows from the scenario, and
 hang as a catenary does; what parted or failed is told.  Skipped (77) without Chromium or without the viewer's page.
@@ -47,6 +47,13 @@ vessels:
       depth: 60
       turret: true
       lines: [{count: 2, spacing_deg: 180, fairlead_distance: 5, distance: 2000, pretension: 9.0e5}]
+  - name: tug
+    mode: free
+    x: 40
+    y: -20
+    heading_deg: 90
+    hull: {length: 36, beam: 10, draught: 4, freeboard: 2}
+    propulsion: {bollard_pull: 4.0e5, open_water_speed: 5, speed: 0.5, propellers: 2, propeller_diameter: 3}
 ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
 domain: {x_min: -64, x_max: 64, y_min: -110, y_max: 50, boundary: open}
 environment: {current_speed: 0.5, current_direction_deg: 180}
@@ -138,10 +145,20 @@ def check_catenary(told, pull):
         assert abs(slope - expected) < 0.03, (slope, expected)
 
 
+def check_propellers(two):
+    """They stand at 0.45 of the length abaft of amidships, 0.6 of the draught deep, 1.5 diameters apart, and face ahead;
+    the hull's ends overhang, and the ship has moved by half a metre."""
+    for propeller, side in zip(two, (1, -1)):
+        x, y, z = propeller["at"]
+        assert abs(x - 40 - side * 2.25) < 0.3 and abs(y + 20 + 0.45 * 36) < 3 and abs(z + 2.4) < 0.4, propeller
+        assert propeller["works"] and near(propeller["axis"], (0, 1, 0), 0.05) and propeller["disc"] == 3, propeller
+
+
 def check_start(browser):
     state = go(browser, 1)
-    assert state["drawn"] == [17 * 6, 2] and [t["number"] for t in state["lines"]] == [1, 2, 3, 4, 1, 2], state
-    assert state["gone"] == 0 and state["legend"] == ["mooring line", "thruster"], state["legend"]
+    assert state["drawn"] == [17 * 6, 4] and [t["number"] for t in state["lines"]] == [1, 2, 3, 4, 1, 2], state
+    assert state["gone"] == 0 and state["legend"] == ["mooring line", "propeller, thruster"], state["legend"]
+    check_propellers(state["thrusters"][2:])
     pulls = pulls_of(state)
     for told, line in zip(state["lines"], LINES):
         assert told["held"], line
@@ -192,9 +209,9 @@ def check_end(browser):
     assert [t["held"] for t in state["lines"]] == [True, True, False, True, True, True], state["lines"]
     assert all(abs(p[2] + DEPTH) < 1e-6 for p in state["lines"][2]["points"]), state["lines"][2]
     assert near(state["lines"][2]["points"][-1][:2], start_of(0, 140, 290), 0.01)
-    assert [t["works"] for t in state["thrusters"]] == [True, False] and state["gone"] == 2
+    assert [t["works"] for t in state["thrusters"]] == [True, False, True, True] and state["gone"] == 2
     assert near(state["thrusters"][1]["at"], before["at"], 3), (state["thrusters"][1], before)
-    assert state["legend"] == ["mooring line", "thruster", "parted or failed"], state["legend"]
+    assert state["legend"] == ["mooring line", "propeller, thruster", "parted or failed"], state["legend"]
     pulls = pulls_of(state)
     for told, line in zip(state["lines"], LINES):
         if told["held"]:
@@ -219,7 +236,7 @@ def main():
         for check in (check_pixels, check_between, check_end):
             check(browser)
         assert not browser.complaints, browser.complaints
-    print(f"six lines and two thrusters stand where the run has them, in {calls} draw calls")
+    print(f"six lines, two thrusters and two propellers stand where the run has them, in {calls} draw calls")
 
 
 main()

@@ -1,4 +1,5 @@
-// What holds a vessel on station: mooring lines from their fairleads to their anchors, and thrusters where they stand.
+// What holds and drives a vessel: mooring lines from their fairleads to their anchors, thrusters and propellers where
+// they stand.
 // Places come from the scenario in the record and from the forces of the frame at hand.
 import * as THREE from 'three';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
@@ -10,6 +11,7 @@ import { readScenario } from './scenario.js';
 
 const FREE = 16, SEGMENTS = FREE + 1; // of a line: those that hang, and one along the bottom
 const DISC_PRESSURE = 45e3; // thrust on the disc of a propeller without a diameter, as the scenario's keys say [Pa]
+const SPACING = 1.5, DEPTH = 0.6, STERN = 0.45; // of propellers without keys, as src/sim/build_wash.c has them
 const LEAST_DISC = 0.025; // of the hull's length: smaller ones would not be seen
 
 export class Station {
@@ -19,7 +21,7 @@ export class Station {
         const vessels = (told.vessels ?? [told.vessel]).filter((v) => v && v.present !== false);
         const each = (make) => vessels.flatMap((v, i) => (v.mode === 'free' && hulls[i] ? make(v, hulls[i]) : []));
         this.lines = each(linesOf);
-        this.thrusters = each(thrustersOf);
+        this.thrusters = each((v, hull) => [...thrustersOf(v, hull), ...propellersOf(v, hull)]);
         this.gone = 0; // lines that parted and thrusters that failed
         const box = new THREE.Box3().setFromObject(water);
         this.edge = [box.min, box.max];
@@ -29,8 +31,10 @@ export class Station {
 
     /** Rows of swatches for the legend. */
     keys() {
+        const kinds = [[true, 'propeller'], [false, 'thruster']];
+        const names = kinds.filter(([own]) => this.thrusters.some((t) => Boolean(t.own) === own)).map(([, name]) => name);
         const drawn = [[this.lines, FORCE_COLOURS.line, 'mooring line'], [this.thrusters, FORCE_COLOURS.thruster,
-            'thruster']].filter(([list]) => list.length).map(([, colour, name]) => [colour, name]);
+            names.join(', ')]].filter(([list]) => list.length).map(([, colour, name]) => [colour, name]);
         return drawn.length ? [drawn, ...this.gone ? [[[GONE, 'parted or failed']]] : []] : [];
     }
 
@@ -95,11 +99,12 @@ export class Station {
         const turn = new THREE.Quaternion(), size = new THREE.Vector3(), front = new THREE.Vector3(0, 0, 1);
         const colour = new THREE.Color();
         this.thrusters.forEach((t, i) => {
-            const push = found.get(t);
-            if (push) t.place = local(push.point, t.hull, poses); // where it stays when it fails
+            const push = t.own ?? found.get(t);
+            if (t.own) t.place ??= astern(t, poses);
+            else if (push) t.place = local(push.point, t.hull, poses); // where it stays when it fails
             t.works = Boolean(push);
             this.gone += !push;
-            t.axis = push?.force.lengthSq() > 1 ? push.force.clone().normalize() : turned(t.rest, t.hull, poses);
+            t.axis = push?.force?.lengthSq() > 1 ? push.force.clone().normalize() : turned(t.rest, t.hull, poses);
             t.at = t.place ? global(t.place, t.hull, poses) : null; // null: it had failed before the first frame
             matrix.compose(t.at ?? front, turn.setFromUnitVectors(front, t.axis), size.setScalar(t.at ? t.disc : 0));
             this.discs.setMatrixAt(i, matrix);
@@ -141,9 +146,13 @@ function linesOf(v, hull) {
     return out;
 }
 
-function thrustersOf(v, hull) {
-    const [stern, stem] = hull.vertices.reduce(([a, b], x, i) => (i % 3 ? [a, b] : [Math.min(a, x), Math.max(b, x)]),
+function reachOf(hull) {
+    return hull.vertices.reduce(([a, b], x, i) => (i % 3 ? [a, b] : [Math.min(a, x), Math.max(b, x)]),
         [Infinity, -Infinity]);
+}
+
+function thrustersOf(v, hull) {
+    const [stern, stem] = reachOf(hull);
     return (v.thrusters ?? []).map((t, i) => ({
         hull, number: i + 1, given: [t.x, t.y],
         rest: new THREE.Vector3(t.kind === 'tunnel' ? 0 : 1, t.kind === 'tunnel' ? 1 : 0, 0),
@@ -152,7 +161,28 @@ function thrustersOf(v, hull) {
     }));
 }
 
+/** Propellers of `propulsion`: their thrust is no force of a frame, so they face ahead. */
+function propellersOf({ propulsion: p }, hull) {
+    if (typeof p?.bollard_pull !== 'number') return [];
+    const [stern, stem] = reachOf(hull), or = (given, other) => (typeof given === 'number' ? given : other);
+    const length = stem - stern, count = p.propellers;
+    const diameter = or(p.propeller_diameter, Math.sqrt(4 * p.bollard_pull / (count * Math.PI * DISC_PRESSURE)));
+    const apart = or(p.propeller_spacing, SPACING * diameter);
+    return Array.from({ length: count }, (_, k) => ({
+        own: true, hull, rest: new THREE.Vector3(1, 0, 0), disc: Math.max(LEAST_DISC * length, diameter),
+        x: (stern + stem) / 2 + or(p.steering_x, -STERN * length), y: (k - (count - 1) / 2) * apart,
+        z: or(p.propeller_z, null),
+    }));
+}
+
 // ---- from the frame ----
+
+/** Where a propeller stands in the hull's axes: its depth counts from the waterline at the first frame that is shown. */
+function astern({ hull, x, y, z }, poses) {
+    const height = poses.pose[7 * hull.index + 2];
+    const keel = height + hull.vertices.reduce((least, v, i) => (i % 3 === 2 ? Math.min(least, v) : least), Infinity);
+    return new THREE.Vector3(x, y, (z ?? DEPTH * keel) - height);
+}
 
 /** Forces of a kind by what they belong to: numbers count within a vessel, so where several have one of it, it belongs
  *  to the one that it fits best. */
