@@ -146,7 +146,7 @@ def check_catenary(told, pull):
 
 
 def check_propellers(two):
-    """They stand at 0.45 of the length abaft of amidships, 0.6 of the draught deep, 1.5 diameters apart, and face ahead;
+    """They stand 0.45 lengths abaft amidships, 0.6 of the draught deep, 1.5 diameters apart, and face ahead;
     the hull's ends overhang, and the ship has moved by half a metre."""
     for propeller, side in zip(two, (1, -1)):
         x, y, z = propeller["at"]

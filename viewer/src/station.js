@@ -31,8 +31,8 @@ export class Station {
 
     /** Rows of swatches for the legend. */
     keys() {
-        const kinds = [[true, 'propeller'], [false, 'thruster']];
-        const names = kinds.filter(([own]) => this.thrusters.some((t) => Boolean(t.own) === own)).map(([, name]) => name);
+        const names = [[true, 'propeller'], [false, 'thruster']]
+            .filter(([own]) => this.thrusters.some((t) => Boolean(t.own) === own)).map(([, name]) => name);
         const drawn = [[this.lines, FORCE_COLOURS.line, 'mooring line'], [this.thrusters, FORCE_COLOURS.thruster,
             names.join(', ')]].filter(([list]) => list.length).map(([, colour, name]) => [colour, name]);
         return drawn.length ? [drawn, ...this.gone ? [[[GONE, 'parted or failed']]] : []] : [];
@@ -177,7 +177,7 @@ function propellersOf({ propulsion: p }, hull) {
 
 // ---- from the frame ----
 
-/** Where a propeller stands in the hull's axes: its depth counts from the waterline at the first frame that is shown. */
+/** Where a propeller stands in the hull's axes: its depth counts from the waterline at the first frame shown. */
 function astern({ hull, x, y, z }, poses) {
     const height = poses.pose[7 * hull.index + 2];
     const keel = height + hull.vertices.reduce((least, v, i) => (i % 3 === 2 ? Math.min(least, v) : least), Infinity);
