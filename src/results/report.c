@@ -78,7 +78,7 @@ static fram_status key_figures(report *r, fram_error *error)
 static const char *const modes[] = {"prescribed motion", "towed", "free"};
 static const char *const forms[] = {"box", "icebreaking hull", "hull from a file", "cone", "ship of full form"};
 
-static const char *const boundaries[] = {"walls", "open", "in an endless field that drifts through"};
+static const char *const boundaries[] = {"walls", "open", "unbounded field that drifts through"};
 
 /* A file as the page may tell it: with its path only where that was asked for. */
 static const char *file_told(const report *r, const char *path)
@@ -100,7 +100,8 @@ static void kept_facts(report *r, const scenario_vessel *v)
     if (v->thrusters.count > 0)
         snprintf(thrusters, sizeof thrusters, "%d thruster%s", (int)v->thrusters.count,
                  v->thrusters.count > 1 ? "s" : "");
-    html_fact(&r->page, "kept by", "%s, %s%s%s", lines, thrusters, v->positioning.active ? ", dynamic positioning" : "",
+    html_fact(&r->page, "station keeping", "%s, %s%s%s", lines, thrusters,
+              v->positioning.active ? ", dynamic positioning" : "",
               is_automatic(v->propulsion.bollard_pull) ? "" : ", its own propulsion");
 }
 
@@ -143,7 +144,7 @@ static void strength_fact(report *r, const scenario_strength *s)
 {
     if (!(s->flexural_variation > 0 || s->crushing_variation > 0))
         return;
-    html_fact(&r->page, "strength varies",
+    html_fact(&r->page, "strength variation",
               "coefficient of variation %g of the flexural, %g of the crushing strength, over a correlation length of "
               "%g m; correlation of the two %g; drawn by seed %lld",
               s->flexural_variation, s->crushing_variation, s->correlation_length, s->common,
@@ -162,10 +163,10 @@ static void ice_facts(report *r)
     if (i->source == ICE_FILE)
         html_fact(&r->page, "field", "from %s", file_told(r, i->file));
     if (i->source == ICE_VORONOI && i->populations.count == 0)
-        html_fact(&r->page, "field", "%g %% of the area free for ice asked for, floes of %g m2 on average",
+        html_fact(&r->page, "field", "%g %% of the area free for ice requested, floes of %g m2 on average",
                   100 * i->concentration, i->mean_floe_area);
     else if (i->source == ICE_VORONOI || i->source == ICE_PACKED)
-        html_fact(&r->page, "field", "%g %% of the area free for ice asked for", 100 * i->concentration);
+        html_fact(&r->page, "field", "%g %% of the area free for ice requested", 100 * i->concentration);
     population_facts(r, i);
 }
 
@@ -173,7 +174,7 @@ static void ice_facts(report *r)
 static void flow_fact(report *r, const char *name, const char *file, double speed, double direction)
 {
     if (file[0])
-        html_fact(&r->page, name, "as %s has it over time", file_told(r, file));
+        html_fact(&r->page, name, "time history %s", file_told(r, file));
     else if (speed > 0)
         html_fact(&r->page, name, "%g m/s towards %g deg", speed, direction);
     else
@@ -203,7 +204,7 @@ static void scenario_table(report *r)
         html_fact(&r->page, "drift of the ice", "that of the current");
     flow_fact(r, "current", e->current_file, e->current_speed, e->current_direction_deg);
     if (e->current_profile_file[0])
-        html_fact(&r->page, "over depth", "with what %s adds", file_told(r, e->current_profile_file));
+        html_fact(&r->page, "over depth", "plus the profile %s", file_told(r, e->current_profile_file));
     flow_fact(r, "wind", e->wind_file, e->wind_speed, e->wind_direction_deg);
     html_fact(&r->page, "run", "%g s in steps of %g s, seed %lld", s->run.duration, s->run.time_step,
               (long long)s->run.seed);
@@ -231,7 +232,7 @@ static void events(report *r)
     html_table_end(&r->page);
     double all = n->events.count + n->events_left_out;
     if (all > SHOWN)
-        html_paragraph(&r->page, "The first %d of %.0f events; run.json has more of them.", (int)SHOWN, all);
+        html_paragraph(&r->page, "The first %d of %.0f events; run.json lists more.", (int)SHOWN, all);
 }
 
 static fram_status appendix(report *r, fram_error *error)
@@ -241,9 +242,9 @@ static fram_status appendix(report *r, fram_error *error)
     const scenario_print_options options = {.comments = true, .names_only = !r->with_paths};
     fram_status status = notes.failed ? error_memory(error) : scenario_print(r->ctx, &r->d.s, &options, &text, error);
     if (status == FRAM_OK) {
-        html_section(&r->page, "What follows from the scenario");
+        html_section(&r->page, "Derived from the scenario");
         html_verbatim(&r->page, notes.data ? notes.data : "");
-        html_section(&r->page, "The whole scenario");
+        html_section(&r->page, "Complete scenario");
         html_verbatim(&r->page, text.data);
     }
     text_free(r->ctx, &notes);

@@ -30,7 +30,7 @@ static void field_table(report *r)
     field_row(r, "floes", a->areas.count, b->areas.count);
     field_row(r, "of these fixed", a->fixed, b->fixed);
     field_row(r, "ice area [m2]", a->area, b->area);
-    field_row(r, "ice area over all of the domain", a->area / domain, b->area / domain);
+    field_row(r, "ice area over domain area", a->area / domain, b->area / domain);
     field_row(r, "ice mass [t]", a->mass * 1e-3, b->mass * 1e-3);
     field_row(r, "mean thickness [m]", a->thickness, b->thickness);
     field_row(r, "mean floe area [m2]", a->mean, b->mean);
@@ -48,12 +48,12 @@ static void tell_cover(report *r)
         return;
     html_paragraph(
         &r->page,
-        "%g %% was asked of the area that is free for ice: the domain less the vessel with %g m around it%s. "
-        "The table counts every floe of the run, also what reaches beyond the edge, over all of the domain%s.",
+        "%g %% was requested of the area free for ice: the domain without the vessel and %g m around it%s. "
+        "The table counts all ice of the run, including what extends beyond the edge, over the whole domain%s.",
         100 * s->ice.concentration, s->ice.keep_out_margin,
         s->ice.open_water.count > 0 || s->ice.open_water_file[0] ? " and the open water" : "",
         d->boundary == DOMAIN_FEEDING
-            ? "; of an endless field it is a window, which holds now more, now less than the whole tile"
+            ? "; it is a window on an unbounded field, whose content varies about that of the whole tile"
             : "");
 }
 
@@ -75,8 +75,8 @@ static fram_status sizes(report *r, fram_error *error)
         lines[k] = chart_line_make(names[k], state[k]->areas.data, part, n, true);
         lines[k].colour = k + 2;
     }
-    chart c = chart_make("Floe sizes", "part of the floes that are at least this large", "floe area [m2]",
-                         "part of the floes", lines, 2);
+    chart c =
+        chart_make("Floe sizes", "share of floes at least this large", "floe area [m2]", "share of floes", lines, 2);
     c.log_x = true;
     c.log_y = true;
     return html_chart(&r->page, &c, false, error);
@@ -201,7 +201,7 @@ fram_status report_fractures(report *r, fram_error *error)
         return FRAM_OK;
     html_section(&r->page, "Fracture");
     if (rows == 0) {
-        html_paragraph(&r->page, "Floes may break, and none did.");
+        html_paragraph(&r->page, "Floes may break, but none did.");
         return FRAM_OK;
     }
     for (int32_t i = 0; i < rows; i++) {
@@ -211,7 +211,7 @@ fram_status report_fractures(report *r, fram_error *error)
     const report_line kinds[] = {{"bendings", "broken in bending"}, {"splits", "split"}};
     html_paragraph(&r->page, "%d floes broke: %.0f in bending, %.0f by splitting.", (int)rows, bent, rows - bent);
     html_grid_begin(&r->page);
-    fram_status status = report_series(r, "Broken floes", "floes so far", 1, kinds, 2, true, error);
+    fram_status status = report_series(r, "Broken floes", "floes, cumulative", 1, kinds, 2, true, error);
     html_grid_end(&r->page);
     event_table_of(r, load_unit_for(most));
     return status;

@@ -38,16 +38,16 @@ static fram_status draw_distribution(report *r, load_distribution *d, load_unit 
     chart_line bars = chart_line_make("", d->bar.data, d->density.data, d->bar.count, false);
     bars.style = CHART_BARS;
     bars.colour = 2;
-    chart histogram = chart_make("Histogram of the load", "", x_label, "part of the time [%]", &bars, 1);
+    chart histogram = chart_make("Histogram of the load", "", x_label, "share of the time [%]", &bars, 1);
     cut_low_bound(d);
     chart_line lines[2] = {chart_line_make("95 % confidence", d->level.data, d->low.data, d->level.count, false),
-                           chart_line_make("exceeded", d->level.data, d->exceeded.data, d->level.count, true)};
+                           chart_line_make("exceedance", d->level.data, d->exceeded.data, d->level.count, true)};
     lines[0].style = CHART_BAND;
     lines[0].y2 = d->high.data;
     lines[0].colour = lines[1].colour = 2;
-    snprintf(subtitle, sizeof subtitle, "as good as %.0f independent values, one every %.3g s", d->independent,
+    snprintf(subtitle, sizeof subtitle, "equivalent to %.0f independent values, one every %.3g s", d->independent,
              2 * d->time_scale);
-    chart exceedance = chart_make("Exceedance of the load", subtitle, x_label, "part of the time", lines, 2);
+    chart exceedance = chart_make("Exceedance of the load", subtitle, x_label, "share of the time", lines, 2);
     exceedance.log_y = true;
     fram_status status = html_chart(&r->page, &histogram, false, error);
     return status == FRAM_OK ? html_chart(&r->page, &exceedance, false, error) : status;
@@ -135,8 +135,8 @@ static fram_status station(report *r, load_unit unit, fram_error *error)
     char head[64];
     if (!station_has_results(&r->d.s, r->vessel))
         return FRAM_OK;
-    report_vessel_section(r, "Keeping station");
-    report_statistics_heads(r, "deviation from the station");
+    report_vessel_section(r, "Station keeping");
+    report_statistics_heads(r, "deviation from the set point");
     report_statistics(r, "offset_x", "along X [m]", 1);
     report_statistics(r, "offset_y", "along Y [m]", 1);
     report_statistics(r, "heading_deviation", "heading [deg]", 1);
@@ -164,8 +164,8 @@ fram_status report_loads(report *r, fram_error *error)
     report_vessel_section(r, "Ice load");
     html_paragraph(
         &r->page,
-        "Loads are forces of the ice on the vessel, in the global frame unless it says body. Averages are over "
-        "%g s; statistics leave out the first %g s. A significant peak is the mean of the highest third of the "
+        "Loads are forces of the ice on the vessel, in the global frame unless body axes are named. Averages are over "
+        "%g s; statistics exclude the first %g s. A significant peak is the mean of the highest third of the "
         "peaks, on the side of zero where the mean is.",
         r->d.s.output.averaging_window, r->d.s.run.transient);
     html_grid_begin(&r->page);

@@ -99,7 +99,7 @@ fram_status report_series(report *r, const char *title, const char *y_label, dou
 
 void report_statistics_heads(report *r, const char *first)
 {
-    const char *const heads[] = {first, "mean", "deviation", "least", "greatest", "significant peak"};
+    const char *const heads[] = {first, "mean", "standard deviation", "minimum", "maximum", "significant peak"};
     html_table_begin(&r->page, heads, 6);
 }
 

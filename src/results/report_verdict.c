@@ -70,8 +70,8 @@ static void judge_end(verdict *v)
         return;
     bool failed = strcmp(n->status, "failed") == 0;
     find(v, failed ? VERDICT_BAD : VERDICT_CAUTION,
-         failed ? "What is written above the failure is sound; the message says what went wrong."
-                : "fram resume goes on from the newest checkpoint.",
+         failed ? "Results up to the failure are valid; the message says what went wrong."
+                : "fram resume continues from the newest checkpoint.",
          "The run %s at %.4g s of %.4g s%s%s.", failed ? "failed" : "stopped", n->time, v->r->d.s.run.duration,
          n->message[0] ? ": " : "", n->message);
 }
@@ -122,15 +122,16 @@ static void judge_limit(verdict *v, const char *what, const char *unit, limit_us
     report_number(u.most, most);
     whose(v->r, name);
     if (is_automatic(limit)) {
-        find(v, VERDICT_NOTE, "", "%slargest %s %s %s; no %s is set to judge it by.", name, what, most, unit, key);
+        find(v, VERDICT_NOTE, "", "%slargest %s %s %s; %s is not set, so it is not judged.", name, what, most, unit,
+             key);
         return;
     }
     v->kept = true;
     v->lost |= u.most > limit;
     if (u.most > limit)
         find(v, VERDICT_BAD,
-             "Look at the loads of that time (fram why), at more thrust or stiffer lines, at ice management.",
-             "%sthe %s passed its limit of %.4g %s, first at %.4g s: largest %s %s, beyond it %.3g %% of the time.",
+             "Examine the loads at that time (fram why); consider more thrust, stiffer lines or ice management.",
+             "%sthe %s passed its limit of %.4g %s, first at %.4g s: largest %s %s, exceeded for %.3g %% of the time.",
              name, what, limit, unit, u.first, most, unit, 100 * u.part);
     else
         find(v, VERDICT_GOOD, "", "%slargest %s %s %s, within its limit of %.4g %s (%.0f %%).", name, what, most, unit,
@@ -173,19 +174,19 @@ static void judge_lines(verdict *v)
     v->lines += number;
     v->parted += gone;
     if (gone > 0)
-        find(v, VERDICT_BAD,
-             "Results after that are those of a damaged mooring; look at pretension, breaking load and drift.",
-             "%s%d of %d lines parted or were let go, the first at %.4g s.", name, (int)gone, (int)number,
+        find(v, VERDICT_BAD, "Later results are those of a damaged mooring; check pretension, breaking load and drift.",
+             "%s%d of %d lines parted or were released, the first at %.4g s.", name, (int)gone, (int)number,
              time ? time[at] : 0);
     if (number > 0 && use > 0)
         find(v, use > LINE_USE ? VERDICT_CAUTION : VERDICT_GOOD,
-             use > LINE_USE ? "Codes ask for a factor of safety, commonly 1.67 of an intact mooring (API RP 2SK): 60 %."
+             use > LINE_USE ? "Codes require a safety factor, commonly 1.67 for an intact mooring (API RP 2SK): 60 %."
                             : "",
              "%slargest tension %s in line %d, %.0f %% of its breaking load; %d lines%s.", name, force(tension, text),
              (int)worst, 100 * use, (int)number, gone > 0 ? ", of which those that parted went beyond" : "");
     else if (number > 0)
-        find(v, VERDICT_NOTE, "", "%slargest tension %s in line %d of %d; no breaking_load is set to judge it by.",
-             name, force(tension, text), (int)worst, (int)number);
+        find(v, VERDICT_NOTE, "",
+             "%slargest tension %s in line %d of %d; breaking_load is not set, so it is not judged.", name,
+             force(tension, text), (int)worst, (int)number);
 }
 
 static void judge_thrusters(verdict *v)
@@ -199,8 +200,8 @@ static void judge_thrusters(verdict *v)
     char name[48];
     double part = channel_statistics_of(time, full, r->d.series.rows, r->d.s.run.transient).mean;
     find(v, part > THRUSTERS_FULL ? VERDICT_CAUTION : VERDICT_GOOD,
-         part > THRUSTERS_FULL ? "The vessel asked for more than its thrusters give: see fram capability." : "",
-         "%sthrusters at their limit %.3g %% of the time.", whose(r, name), 100 * part);
+         part > THRUSTERS_FULL ? "The demand exceeded the thrust available: see fram capability." : "",
+         "%sthrusters saturated for %.3g %% of the time.", whose(r, name), 100 * part);
 }
 
 static void judge_station(verdict *v)
@@ -241,7 +242,8 @@ static fram_status judge_load(verdict *v, fram_error *error)
     if (!scenario_names_vessels(&r->d.s))
         snprintf(v->load, sizeof v->load, " Ice load: mean %s, largest %s.", mean, most);
     if (!(s.greatest > 0)) {
-        find(v, VERDICT_CAUTION, "Is the ice where the vessel is, and does either move?", "%sno ice load came.", name);
+        find(v, VERDICT_CAUTION, "Does the ice reach the vessel, and does either move?", "%sno ice load occurred.",
+             name);
         return FRAM_OK;
     }
     load_distribution d;
@@ -254,13 +256,13 @@ static fram_status judge_load(verdict *v, fram_error *error)
     report_number(fmax(span * part * part / (ENOUGH * ENOUGH), span * VALUES_ENOUGH / d.independent), needed);
     snprintf(
         remedy, sizeof remedy,
-        "About %s s after the transient, or as much in several seeds (fram study), would give a mean within %.0f %%.",
+        "About %s s after the transient, or as much over several seeds (fram study), would give a mean within %.0f %%.",
         needed, 100 * ENOUGH);
     find(v, enough ? VERDICT_GOOD : VERDICT_CAUTION, enough ? "" : remedy,
-         "%smean ice load %s, known within %.0f %% at 95 %% (%.0f independent values in %.4g s): %s.", name, mean,
-         fmin(100 * part, 999), d.independent, span, enough ? "enough for a mean" : "too short for a mean");
+         "%smean ice load %s, known within %.0f %% (95 %% confidence, %.0f independent values in %.4g s): %s.", name,
+         mean, fmin(100 * part, 999), d.independent, span, enough ? "enough for a mean" : "too short for a mean");
     find(v, VERDICT_NOTE,
-         "The largest value of one run is one draw: several seeds, or fram extremes, tell its scatter.",
+         "The largest value of one run is a single sample: see several seeds, or fram extremes, for its scatter.",
          "%slargest ice load %s, averaged over %.3g s, after %.4g s.", name, most, r->d.s.output.averaging_window,
          r->d.s.run.transient);
     load_distribution_free(r->ctx, &d);
@@ -290,15 +292,15 @@ static void judge_solver(verdict *v)
         return;
     double mean = channel_statistics_of(time, residual, r->d.series.rows, r->d.s.run.transient).mean;
     if (!(speed > 0)) {
-        find(v, VERDICT_NOTE, "It is small where it is a few hundredths of the speed at which bodies meet.",
-             "The mean residual of the contacts is %.2g m/s.", mean);
+        find(v, VERDICT_NOTE, "It is small if it is a few hundredths of the approach speed of the bodies.",
+             "The mean residual of the contact solver is %.2g m/s.", mean);
         return;
     }
     bool good = mean <= RESIDUAL_SMALL * speed;
     find(v, good ? VERDICT_GOOD : VERDICT_CAUTION,
          good ? "" : "Compare with half of run.time_step and twice run.solver.iterations before trusting peaks.",
-         "The contacts are %s: mean residual %.2g m/s, %s%.2g %% of the speed of %.3g m/s at which bodies meet.",
-         good ? "solved" : "not solved well", mean, mean < 1e-4 * speed ? "less than " : "",
+         "The contact solver %s: mean residual %.2g m/s, %s%.2g %% of the approach speed of %.3g m/s.",
+         good ? "converged" : "did not converge well", mean, mean < 1e-4 * speed ? "less than " : "",
          fmax(100 * mean / speed, 0.01), speed);
 }
 
@@ -310,7 +312,7 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
     bool finished = strcmp(r->d.note.status, "finished") == 0;
     char lines[80] = "";
     if (v->parted > 0)
-        snprintf(lines, sizeof lines, " %d of %d lines parted or were let go.", (int)v->parted, (int)v->lines);
+        snprintf(lines, sizeof lines, " %d of %d lines parted or were released.", (int)v->parted, (int)v->lines);
     else if (v->lines > 0)
         snprintf(lines, sizeof lines, " No line of %d parted.", (int)v->lines);
     bool several = scenario_vessel_count(&r->d.s) > 1;
@@ -319,7 +321,8 @@ static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
              v->lost   ? (several ? "A vessel did not hold its station." : "The vessel did not hold its station.")
              : v->kept ? who
                        : (finished ? "The run finished." : "The run did not finish."),
-             v->kept && !v->lost ? (finished ? " held its station." : " held its station as far as the run went.") : "",
+             v->kept && !v->lost ? (finished ? " held its station." : " held its station up to the end of the run.")
+                                 : "",
              lines, v->kept ? "" : v->load);
     verdict_grade worst = VERDICT_GOOD;
     for (int32_t i = 0; i < v->count; i++)

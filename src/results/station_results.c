@@ -401,6 +401,14 @@ static fram_status enclose(context *ctx, const station_data *d, int32_t first, v
     return good ? FRAM_OK : error_memory(error);
 }
 
+/* A channel over time; the palette's first colour is for backgrounds. */
+static chart_line over_time(const station_data *d, const char *name, int32_t column, int32_t place)
+{
+    chart_line line = chart_line_make(name, d->column[TIME].data, d->column[column].data, d->rows, true);
+    line.colour = place + 2;
+    return line;
+}
+
 static fram_status draw(context *ctx, const station_data *d, const char *text, const char *path, fram_error *error)
 {
     const scenario *s = d->s;
@@ -432,13 +440,11 @@ static fram_status draw(context *ctx, const station_data *d, const char *text, c
         chart_line_make("track", d->column[OFFSET_X].data + first, d->column[OFFSET_Y].data + first, n - first, false),
         chart_line_make("envelope", edge[0].data, edge[1].data, edge[0].count, false),
         chart_line_make("limit", round_x, round_y, CIRCLE, true)};
-    const chart_line offsets[2] = {chart_line_make("along X", time, d->column[OFFSET_X].data, n, true),
-                                   chart_line_make("along Y", time, d->column[OFFSET_Y].data, n, true)};
-    const chart_line heading = chart_line_make("heading", time, d->column[HEADING].data, n, true);
-    const chart_line loads[2] = {chart_line_make("along X", time, d->column[LOAD_X].data, n, false),
-                                 chart_line_make("along Y", time, d->column[LOAD_Y].data, n, true)};
-    const chart_line tension = chart_line_make("largest of all lines", time, d->column[TENSION].data, n, true);
-    const chart_line power = chart_line_make("thruster power", time, d->column[POWER].data, n, true);
+    const chart_line offsets[2] = {over_time(d, "along X", OFFSET_X, 0), over_time(d, "along Y", OFFSET_Y, 1)};
+    const chart_line heading = over_time(d, "heading", HEADING, 0);
+    const chart_line loads[2] = {over_time(d, "along X", LOAD_X, 0), over_time(d, "along Y", LOAD_Y, 1)};
+    const chart_line tension = over_time(d, "largest of all lines", TENSION, 0);
+    const chart_line power = over_time(d, "thruster power", POWER, 0);
     const page_panel panels[5] = {
         {chart_make("Footprint", note, "X [m]", "Y [m]", footprint, limit > 0 && !far ? 4 : 3), 20, 60, 620, 560, true},
         {chart_make("Offset", "", "time [s]", "offset [m]", offsets, 2), 660, 60, 920, 270, false},

@@ -58,7 +58,7 @@ case $("$FRAM" --version) in
 *cairo*)
     [ -s "$scratch/run/station.png" ] || fail "station.png is missing"
     "$FRAM" report "$scratch/run" 2>/dev/null || fail "the report"
-    says 'Keeping station' "$scratch/run/report.html"
+    says 'Station keeping' "$scratch/run/report.html"
     ;;
 esac
 

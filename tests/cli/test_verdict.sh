@@ -41,9 +41,9 @@ says "% of its breaking load; 5 lines" verdict.txt
 says "too short for a mean" verdict.txt
 grep -q '^bad' verdict.txt && fail "a vessel that held is blamed"
 says "5 mooring lines in 120 m of water, no thrusters" held/report.html
-says "as wind.csv has it over time" held/report.html
+says "time history wind.csv" held/report.html
 says "free in six degrees of freedom" held/report.html
-says "was asked of the area that is free for ice" held/report.html
+says "was requested of the area free for ice" held/report.html
 says "ship of full form" held/report.html
 
 # The largest load that the box tells is that of the series after the transient.
@@ -78,7 +78,7 @@ PY
 # A run that was stopped is no finished one.
 expect 0 "$FRAM" run ship.yaml -o half --quiet --until 8
 verdict half
-says "held its station as far as the run went" verdict.txt
+says "held its station up to the end of the run" verdict.txt
 says "fram resume" verdict.txt
 
 # Open water, towed: nothing to hold, no ice to speak of.

@@ -47,7 +47,7 @@ END
 
 "$FRAM" report "$run" --quiet || fail "the report failed"
 for text in "vessel ship is going to pass at" \
-    "Ice load, vessel icebreaker" "Keeping station, vessel ship" "Motion of the vessel, vessel tug"; do
+    "Ice load, vessel icebreaker" "Station keeping, vessel ship" "Motion of the vessel, vessel tug"; do
     grep -q "$text" "$run/report.html" || fail "the report has no section $text"
 done
 ! built_with cairo ||

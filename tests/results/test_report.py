@@ -34,7 +34,7 @@ domain: {{x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}}
 """,
 }
 SECTIONS = ("Scenario", "Ice load", "What makes the load", "Motion of the vessel", "Ice field",
-            "Fracture", "Mass and energy", "Quality of the solution", "Origin", "The whole scenario")
+            "Fracture", "Mass and energy", "Quality of the solution", "Origin", "Complete scenario")
 CHARTS = ("Ice load over time", "Ice load by mechanism", "Histogram of the load",
           "Exceedance of the load", "Floe sizes", "Floes in the field", "Broken floes", "Energy", "Residual", "Overlap")
 MECHANISMS = ("splitting of a floe", "bending of ice that has not broken", "crushing at the limit",
@@ -108,7 +108,7 @@ def check(name, run, pictures):
     assert float(last["fractures[1]"] if "fractures[1]" in last else last["bendings[1]"]) > 0, "nothing broke"
     if name == "feeding":
         assert book["ice_mass_entered"] > 0 and book["ice_mass_left"] > 0, book
-        assert "Keeping station" in tables.heads and "endless field" in rows["domain"][0], rows["domain"]
+        assert "Station keeping" in tables.heads and "unbounded field" in rows["domain"][0], rows["domain"]
         # Ice drifts against both axes: loads and their significant peaks are on that side.
         mean, _, least, _, significant = (number(v) for v in rows["averaged, along X"])
         assert least <= significant <= mean < 0, rows["averaged, along X"]
