@@ -43,7 +43,7 @@ demo: build ## run scenes/demo.yaml with a playback page, and say which files to
 site: | $(STAMPS)/site ## the documents as pages with search, build/site/index.html, which open from disk
 	@$(PYTHON) tools/site/site.py
 
-pictures: viewer build | $(STAMPS)/views ## screenshots of the playback page and the report at two widths, docs/pictures/pages
+pictures: viewer build | $(STAMPS)/views ## screenshots of all pages at two widths, docs/pictures/pages
 	@$(PYTHON) tools/pictures.py
 
 scenes: build ## run the ready scenes of vessels on station for ten minutes each, results under out/

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Screenshots of the pages that people open, at two widths of the window:  make pictures
 
-Runs half a minute of the demo and 40 s of the drillship, makes their playback pages and reports, and takes
+Runs half a minute of the demo, 40 s of the drillship, a minute of the escort and a study of eight runs, makes their
+pages (playback, report, comparison, ice management, study, a plot, the documents) and takes
 docs/pictures/pages/NAME-WIDTH.png of each with headless Chromium, for eyes to look at.  Needs `make viewer`.
 """
 
@@ -20,9 +21,17 @@ OUT = ROOT / "docs" / "pictures" / "pages"
 WINDOWS = ((1280, 800), (420, 800))
 RUNS = {
     "demo": ("demo.yaml", ["run.duration=30", "run.transient=10"], 25),
+    "calm": ("drillship.yaml", ["run.duration=40", "run.transient=10"], None),
+    "escort": ("escort.yaml", ["run.duration=60", "run.transient=10"], None),
     "drillship": ("drillship.yaml", ["run.duration=40", "run.transient=10", "environment.wind_speed=12",
                                      "environment.wind_direction_deg=200"], 40),
 }
+STUDY = """scenario: {scene}
+set: {{run.duration: 20, run.transient: 10}}
+seeds: 2
+vary:
+  grid: {{ice.thickness: [0.8, 1.2], domain.drift_speed: [0.3, 0.5]}}
+"""
 
 
 def fram(*arguments):
@@ -44,17 +53,45 @@ def take(browser, page, name, prepare):
         print(f"docs/pictures/pages/{name}-{width}.png")
 
 
+def study(folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "study.yaml").write_text(STUDY.format(scene=ROOT / "scenes" / "drillship.yaml"))
+    fram("study", folder / "study.yaml", "-o", folder / "out")
+    return folder / "out" / "study.html"
+
+
+def pages_of_several(made):
+    """What is made of more than one run, and of none: page by name."""
+    # The page names the folders as they are given.
+    subprocess.run([FRAM, "compare", "calm", "drillship", "-o", "compare.html", "--quiet", "--force"], cwd=made,
+                   check=True, stdout=subprocess.DEVNULL)
+    fram("manage", made / "escort", "--vessel", "tanker", "-o", made / "manage.html", "--force")
+    fram("plot", made / "drillship", "ice_force_averaged_x", "ice_force_x", "line_tension_max", "offset_x", "-o",
+         made / "plot.svg")
+    fram("why", made / "demo", "--peak", "1", "--no-rerun", "-o", made / "why.png")
+    subprocess.run([sys.executable, ROOT / "tools" / "site" / "site.py"], check=True, stdout=subprocess.DEVNULL)
+    site = ROOT / "build" / "site"
+    return {"compare": made / "compare.html", "manage": made / "manage.html", "plot": made / "plot.svg",
+            "why": made / "why.png", "study": study(made / "study"), "site": site / "index.html",
+            "station": made / "drillship" / "station.png"}
+
+
 def main():
     OUT.mkdir(parents=True, exist_ok=True)
+    made = ROOT / "out" / "pictures"
     with chromium.Browser(1400, 1000) as browser:
         for name, (scene, settings, at) in RUNS.items():
-            run = ROOT / "out" / "pictures" / name
+            run = made / name
             fram("run", ROOT / "scenes" / scene, "-o", run, "--force", *[w for s in settings for w in ("--set", s)])
+            if at is None:
+                continue
             fram("view", run)
             fram("report", run)
             take(browser, run / "playback.html", f"playback-{name}",
                  f"(fram.seek({at}), fram.placeCamera(), fram.draw())")
             take(browser, run / "report.html", f"report-{name}", None)
+        for name, page in pages_of_several(made).items():
+            take(browser, page, name, None)
 
 
 if __name__ == "__main__":

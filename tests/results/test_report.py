@@ -120,9 +120,9 @@ def check(name, run, pictures):
     zones = [number(rows[z][0]) for z in ZONES]
     assert abs(sum(zones) - 100) < 0.1 and zones[0] > 10, zones
     check_heads(page)
-    assert ("strength varies" in rows) == (name == "level"), rows.get("strength varies")
+    assert ("strength variation" in rows) == (name == "level"), rows.get("strength variation")
     if name == "level":
-        assert all(word in rows["strength varies"][0] for word in ("0.2", "7 m")), rows["strength varies"]
+        assert all(word in rows["strength variation"][0] for word in ("0.2", "7 m")), rows["strength variation"]
     for row in ("kinetic energy", "crushing work"):
         assert row in rows, (name, row)
     kinetic = float(last["kinetic_energy[J]"]) * 1e-3
