@@ -9,17 +9,25 @@
 static const char *const words[MANAGE_PLACES] = {"upstream", "behind the icebreakers", "at the vessel"};
 static const char *const keys[MANAGE_PLACES] = {"upstream", "behind", "at_vessel"};
 
-/* A dash where no window of a place was seen, or where it held no floe. */
+/* A column of a table: a dash where there is nothing to tell, as of the floes of a place that had none. */
+static void tell_number(context *ctx, const char *format, int width, double value, text_buffer *out)
+{
+    char number[32] = "-";
+    if (!isnan(value))
+        snprintf(number, sizeof number, format, value);
+    text_format(ctx, out, " %*s", width, number);
+}
+
 static void tell_place(context *ctx, const manage_summary *s, int place, text_buffer *out)
 {
-    bool floes = s->place[place].largest > 0;
+    bool windows = s->place[place].windows > 0, floes = s->place[place].largest > 0;
     text_format(ctx, out, "%-24s %8.0f", words[place], s->place[place].windows);
-    if (s->place[place].windows > 0)
-        text_format(ctx, out, " %14.3f %9.1f%% %10.1f%%", s->place[place].concentration, 100 * s->place[place].managed,
-                    100 * s->place[place].sheet);
-    if (floes)
-        text_format(ctx, out, " %11.3g %12.3g", s->place[place].mean, s->place[place].largest);
-    text_add(ctx, out, floes ? "\n" : " -\n");
+    tell_number(ctx, "%.3f", 14, windows ? s->place[place].concentration : (double)NAN, out);
+    tell_number(ctx, "%.1f%%", 10, windows ? 100 * s->place[place].managed : (double)NAN, out);
+    tell_number(ctx, "%.1f%%", 11, windows ? 100 * s->place[place].sheet : (double)NAN, out);
+    tell_number(ctx, "%.3g", 11, floes ? s->place[place].mean : (double)NAN, out);
+    tell_number(ctx, "%.3g", 12, floes ? s->place[place].largest : (double)NAN, out);
+    text_add(ctx, out, "\n");
 }
 
 static void tell_time(context *ctx, const char *name, double least, double median, text_buffer *out)

@@ -66,6 +66,9 @@ number "j['run']['behind']['windows']" 4
 number "j['run']['behind']['concentration']" "$(python3 -c 'print(73 / 200)')"
 
 # The page and its tables, also of two runs beside each other.
+# Windows without ice have a concentration, and no shares of the ice nor sizes.
+expect 0 "$FRAM" manage both --vessel tender --limit 5 --depth 2 -q
+holds "at the vessel  *[0-9][0-9]*  *0.000  *-  *-  *-  *-$" out
 expect 0 "$FRAM" manage both --vessel ship --beside alone --limit 5 --depth 20 -o page.html
 says "run beside" out
 for file in page.html page.csv page-sizes.csv; do [ -s "$file" ] || fail "$file is missing"; done
