@@ -12,6 +12,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import textwrap
 import time
 
 from run_recording import processor
@@ -37,7 +38,9 @@ load:
   zones and (at the cap, below it, friction) against the force.
 
 Told is the largest difference of an axis over the largest load of that vessel in the whole scene (force for forces,
-moment for moments). Bound: 1e-9. *Loaded* are steps with ice on a vessel. {verdict}
+moment for moments). Bound: 1e-9. *Loaded* are steps with ice on a vessel.
+
+{verdict}
 
 """
 
@@ -68,9 +71,10 @@ def verdict(rows):
     most = max(max(float(r[k]) for k in ("step", "zones", "row")) for r in rows)
     broken = [r["scene"] for r in rows if not is_good(r)]
     short = [f"{r['scene']} ({float(r['time']):.0f} of {float(r['duration']):.0f} s)" for r in rows if not is_whole(r)]
-    text = f"In {steps:,} steps of {len(rows)} scenes the largest is {most:.1e}"
+    all_scenes = len(list((ROOT / "scenes").glob("*.yaml")))
+    text = f"In {steps:,} steps of {len(rows)} of {all_scenes} scenes the largest is {most:.1e}"
     text += f"; **over the bound: {', '.join(broken)}**." if broken else ", within the bound."
-    return text + (f" Stopped before the end: {', '.join(short)}." if short else " Every scene went to its end.")
+    return text + (f" Stopped before the end: {', '.join(short)}." if short else " Each of them went to its end.")
 
 
 def write(results):
@@ -87,7 +91,7 @@ def write(results):
         lines.append(f"| {r['scene']} | {reached} | {r['vessels']} | {int(r['steps']):,} | {int(r['loaded']):,} | "
                      f"{float(r['peak']) / 1e3:.1f} kN | {float(r['step']):.1e} | {float(r['zones']):.1e} | "
                      f"{float(r['row']):.1e} | {r['date']} | {r['commit']} |")
-    head = ABOUT.format(processor=processor(), verdict=verdict(rows))
+    head = ABOUT.format(processor=processor(), verdict=textwrap.fill(verdict(rows), 118, break_on_hyphens=False))
     (RESULTS / "books.md").write_text(head + "\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -108,9 +112,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--bench", default=ROOT / "build" / "release" / "bench" / "books_bench")
     parser.add_argument("--most", type=float, default=1e9, help="processor time of a scene at most [s]")
+    parser.add_argument("--now", action="store_true", help="not in the idle class, for short scenes")
     parser.add_argument("scenes", nargs="*", help="names of scenes, default all")
     options = parser.parse_args()
-    os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
+    if not options.now:
+        os.sched_setscheduler(0, os.SCHED_IDLE, os.sched_param(0))
     names = options.scenes or [p.stem for p in (ROOT / "scenes").glob("*.yaml")]
     results, failed, where = read_results(), [], {"date": time.strftime("%Y-%m-%d"), "commit": git_commit()}
     for name in order(names):

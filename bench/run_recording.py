@@ -7,6 +7,7 @@ its own clock; the middle one of the rounds is told.  Bounds: 5 % of run time, 2
 """
 import argparse
 import json
+import os
 import pathlib
 import platform
 import statistics
@@ -17,25 +18,27 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
+RESULTS = HERE / "results" / "recording.md"
 ABOUT = """# What recording costs
 
-`make bench-recording` (`bench/run_recording.py`), {day}; {processor}, one thread on one core of a shared virtual
-machine, nothing else running. Every run measures itself: `run.json` has `wall_s`, `recording_s` of it for all that is
-written (rows of the series, frames, checkpoints, pictures and figures at the end; waiting for the disk included) and
-`recording_end_s`, the part at the end, which does not grow with the run; middle of {rounds} runs with everything as the
-scene says. Lengths are those of the managed field, of `make scenes`, two minutes for 10,000 floes. Bytes are all of the
-record: frames, forces on the vessel, outlines, the hull, the scenario. Bounds: 5 % of the run time, 20 bytes per moving
-floe and frame.
+`make bench-recording` (`bench/run_recording.py`); {processor}, one thread on one core of a shared virtual machine.
+Every run measures itself: `run.json` has `wall_s`, `recording_s` of it for all that is written (rows of the series,
+frames, checkpoints, pictures and figures at the end; waiting for the disk included) and `recording_end_s`, the part at
+the end, which does not grow with the run. Told is the middle of the rounds with everything as the scene says, and the
+least and most of them. *Load* is how many programs wanted the machine's two cores meanwhile (the system's average over
+a minute, before and after): both times are of the clock, so that a busy machine adds to each, and more to recording,
+which sometimes waits for the disk and then for a core. Lengths are those of the managed field, of `make scenes`, two
+minutes for 10,000 floes. Bytes are all of the record: frames, forces on the vessel, outlines, the hull, the scenario.
+Bounds: 5 % of the run time, 20 bytes per moving floe and frame.
 
 """
 AFTER = """
-The managed field is near the bound: single runs of it lay between 4.1 and 5.1 % earlier on 2026-11-22, on a busier
-machine.
-What does not grow with the run is about 0.1 s, half of it for `plan.png`: a run of a second or two is not within the
-bound on time (120 s of the supply ship, 1.0 s, 11 %; 24 s of the 10,000 floes, 2.1 s, 6 %), nor one of a few frames
-within that on bytes, for outlines, written once, take about 130 bytes a floe. Why it is as it is stands in [decision
-0050](../../docs/decisions/0050-recording-tells-its-cost.md).
+What does not grow with the run is about 0.1 s: a run of a second or two is not within the bound on time, nor one of a
+few frames within that on bytes, for outlines, written once, take about 130 bytes a floe. Why it is as it is stands in
+[decision 0050](../../docs/decisions/0050-recording-tells-its-cost.md).
 """
+HEADS = ("| scene | s | bodies that move | frames | record | bytes per moving body and frame | run time | of it for "
+         "recording | least to most | of that at the end | rounds | load | date |")
 MOST_PART, MOST_BYTES = 5.0, 20.0
 # Scene and how long it runs [s].
 SCENES = (("scenes/managed_ice.yaml", 60), ("scenes/supply_ship.yaml", 600), ("bench/playback.yaml", 120))
@@ -60,6 +63,13 @@ def bytes_per_pose(record):
     return len(data) / poses, frames, poses / frames, len(data)
 
 
+def kept_rows():
+    """Rows of the results by scene, as they are."""
+    lines = RESULTS.read_text(encoding="utf-8").splitlines() if RESULTS.exists() else []
+    whole = [line for line in lines if line.count("|") == HEADS.count("|") and ".yaml" in line]
+    return {line.split("|")[1].strip(): line for line in whole}
+
+
 def processor():
     for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
         if line.startswith("model name"):
@@ -71,30 +81,34 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fram", default=HERE.parent / "build" / "release" / "fram")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--write", action="store_true", help="put the table into bench/results/recording.md")
+    parser.add_argument("--write", action="store_true", help="put the rows into bench/results/recording.md")
+    parser.add_argument("scenes", nargs="*", help="of those with a row; default all")
     options = parser.parse_args()
-    lines = ["| scene | s | bodies that move | frames | record | bytes per moving body and frame | run time | of it "
-             "for recording | of that at the end |", "|---|---|---|---|---|---|---|---|---|"]
-    broken = []
+    broken, rows = [], kept_rows()
     for scene, seconds in SCENES:
+        if options.scenes and scene not in options.scenes:
+            continue
+        load = [os.getloadavg()[0]]
         with tempfile.TemporaryDirectory() as base:
             told = [run(options.fram, HERE.parent / scene, seconds, pathlib.Path(base) / str(k))
                     for k in range(options.rounds)]
             size, frames, bodies, total = bytes_per_pose(pathlib.Path(base) / "0" / "record.fram")
-        part = 100 * statistics.median(t["recording_s"] / t["wall_s"] for t in told)
+        load.append(os.getloadavg()[0])
+        parts = sorted(100 * t["recording_s"] / t["wall_s"] for t in told)
+        part = statistics.median(parts)
         end = statistics.median(t["recording_end_s"] for t in told)
         wall = statistics.median(t["wall_s"] for t in told)
-        lines.append(f"| {scene} | {seconds} | {bodies:.0f} | {frames} | {total / 1e6:.1f} MB | {size:.1f} | "
-                     f"{wall:.2f} s | {part:.1f} % | {end:.2f} s |")
+        rows[scene] = (f"| {scene} | {seconds} | {bodies:.0f} | {frames} | {total / 1e6:.1f} MB | {size:.1f} | "
+                       f"{wall:.2f} s | {part:.1f} % | {parts[0]:.1f} to {parts[-1]:.1f} % | {end:.2f} s | "
+                       f"{options.rounds} | {min(load):.0f} to {max(load):.0f} | {time.strftime('%Y-%m-%d')} |")
+        print(rows[scene], flush=True)
         if part > MOST_PART:
             broken.append(f"{scene}: {part:.1f} % of the run time is recording")
         if size > MOST_BYTES:
             broken.append(f"{scene}: {size:.1f} bytes")
-    text = "\n".join(lines)
-    print(text)
     if options.write:
-        head = ABOUT.format(day=time.strftime("%Y-%m-%d"), processor=processor(), rounds=options.rounds)
-        (HERE / "results" / "recording.md").write_text(head + text + "\n" + AFTER, encoding="utf-8")
+        table = "\n".join([HEADS, "|---" * (HEADS.count("|") - 1) + "|"] + [rows[s] for s, _ in SCENES if s in rows])
+        RESULTS.write_text(ABOUT.format(processor=processor()) + table + "\n" + AFTER, encoding="utf-8")
     for one in broken:
         print("BROKEN: " + one)
     sys.exit(1 if broken else 0)
