@@ -119,8 +119,18 @@ FRAM_API int fram_world_bodies(const fram_world *world, unsigned selection, cons
 FRAM_API int fram_world_outlines(const fram_world *world, unsigned selection, int32_t *offset, int offset_room,
                                  double *xy, int point_room, int *bodies);
 
-/* The world's own memory, by slot: no copy.  Rows of slots where nobody lives have no meaning.  Valid until the world
-   is stepped, loaded or destroyed. */
+/* Plan outlines by slot, as rows of a view, in the axes of each body: x and y about its centre of mass [m]; global are
+   position + orientation applied to (x, y, 0).  offset has slots + 1 numbers, xy 2 * points; either may be NULL with
+   its room 0; slots where nobody lives and bodies without an outline have no vertices.  Returns the vertices of all. */
+FRAM_API int fram_world_shapes(const fram_world *world, int32_t *offset, int offset_room, double *xy, int point_room);
+/* A number that is another one whenever a body came or went, a floe broke or was trimmed, or a state was loaded: as
+   long as it stays, so does what fram_world_shapes gave.  Of worlds that were copied from one another not comparable.
+ */
+FRAM_API uint64_t fram_world_shape_changes(const fram_world *world);
+
+/* The world's own memory, by slot: no copy.  Rows of slots where nobody lives have no meaning.  After a step or a load
+   it tells the new state, unless the bodies needed more room: then the memory of this view tells the state before, for
+   as long as the world lives, and another view tells the new one.  To ask for a view costs less than a microsecond. */
 typedef struct fram_body_view {
     int slots;
     const double *position;         /* 3 each: centre of mass, global [m] */

@@ -7,6 +7,7 @@
 #include <string.h>
 
 /* Dense copies leave the world as it is; only fram_world_view hands out its own memory. */
+_Static_assert(sizeof(vec2) == 2 * sizeof(double), "vertices of outlines");
 _Static_assert(sizeof(vec3) == 3 * sizeof(double) && sizeof(quat) == 4 * sizeof(double), "rows of a view");
 
 static inline fram_body_kind kind_of(const body_table *b, int32_t slot)
@@ -132,6 +133,30 @@ int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset
     return points;
 }
 
+int fram_world_shapes(const fram_world *w, int32_t *offset, int offset_room, double *xy, int point_room)
+{
+    int points = 0;
+    int32_t slots = w ? w->inner.bodies.count : 0;
+    for (int32_t i = 0; i < slots; i++) {
+        if (offset && i < offset_room)
+            offset[i] = points;
+        int32_t shape = w->inner.bodies.shape[i];
+        if (!body_is_alive(&w->inner.bodies, i) || shape < 0 || w->inner.shapes.shapes.kind[shape] != SHAPE_PRISM)
+            continue;
+        polygon outline = shape_outline(&w->inner.shapes, shape);
+        int32_t room = point_room > points ? point_room - points : 0,
+                copied = outline.count < room ? outline.count : room;
+        if (xy && copied > 0)
+            memcpy(&xy[2 * (size_t)points], outline.vertex, (size_t)copied * sizeof *outline.vertex);
+        points += outline.count;
+    }
+    if (offset && slots < offset_room)
+        offset[slots] = points;
+    return points;
+}
+
+uint64_t fram_world_shape_changes(const fram_world *w) { return w ? w->inner.shapes.changes : 0; }
+
 fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_error *error, size_t size)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"view", view});
@@ -139,6 +164,7 @@ fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_err
         status = RESULT_CHECK(view, size, fram_body_view, error);
     if (status != FRAM_OK)
         return status;
+    w->aside->kept.shown = true;
     const body_table *b = &w->inner.bodies;
     const fram_body_view full = {.slots = b->count,
                                  .position = (const double *)b->position,

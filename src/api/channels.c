@@ -69,9 +69,9 @@ const char *channel_meaning(const char *channel)
 
 const double *world_row(const fram_world *w)
 {
-    if (!*w->row_is_new)
+    if (!w->aside->row_is_new)
         series_row(&w->scenario->context->inner, &w->base->columns, &w->inner, w->step_wall, w->row);
-    *w->row_is_new = true;
+    w->aside->row_is_new = true;
     return w->row;
 }
 

@@ -2,6 +2,7 @@
 #ifndef API_HANDLES_H
 #define API_HANDLES_H
 
+#include "api/kept_memory.h"
 #include "base/hash.h"
 #include "fram/fram.h"
 #include "io/text_buffer.h"
@@ -39,6 +40,12 @@ typedef struct world_base {
     char inputs[SHA256_TEXT_SIZE]; /* of the contents of all files that the scenario names: SHA-256 */
 } world_base;
 
+/* Of a world, beside its state. */
+typedef struct world_aside {
+    bool row_is_new; /* the row of all channels tells what is now */
+    kept_memory kept;
+} world_aside;
+
 struct fram_world {
     const fram_scenario *scenario;
     world_base *base;
@@ -48,7 +55,7 @@ struct fram_world {
     double step_wall;     /* time that the last step took [s] */
     bool failed;          /* the last step did; nothing is stepped from such a state */
     double *row;          /* values of all channels ... */
-    bool *row_is_new;     /* ... as they are now: what const functions may change */
+    world_aside *aside;   /* what const functions may change */
 };
 
 /* A handle without a state, of a base that gets a user more; NULL without memory. */

@@ -97,6 +97,12 @@ static fram_status load(fram_world *w, const char *name, const void *data, size_
         world_free(ctx, &loaded);
         return status;
     }
+    /* Bodies that a program was shown keep their place; loaded.bodies becomes what the world has. */
+    body_table shown = w->inner.bodies;
+    kept_replace(&w->aside->kept, ctx, &shown, &loaded.bodies);
+    w->inner.bodies = (body_table){0};
+    loaded.bodies = shown;
+    loaded.shapes.changes += w->inner.shapes.changes + 1;
     world_free(ctx, &w->inner);
     w->inner = loaded;
     w->failed = false;

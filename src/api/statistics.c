@@ -3,9 +3,9 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "results/rainflow.h"
 #include "study/extremes.h"
 #include "study/extremes_chart.h"
-#include "results/rainflow.h"
 #include "study/series_file.h"
 
 #include <math.h>

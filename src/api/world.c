@@ -31,8 +31,8 @@ fram_world *world_handle(const fram_scenario *s, world_base *base)
     if (!w)
         return NULL;
     w->scenario = s;
-    w->row_is_new = memory_array(ctx, 1, sizeof *w->row_is_new);
-    if (!w->row_is_new) {
+    w->aside = memory_array(ctx, 1, sizeof *w->aside);
+    if (!w->aside) {
         world_handle_free(w);
         return NULL;
     }
@@ -46,7 +46,9 @@ void world_handle_free(fram_world *w)
     context *ctx = &w->scenario->context->inner;
     base_leave(ctx, w->base);
     memory_free(ctx, w->row);
-    memory_free(ctx, w->row_is_new);
+    if (w->aside)
+        kept_free(&w->aside->kept, ctx);
+    memory_free(ctx, w->aside);
     memory_free(ctx, w);
 }
 
@@ -116,7 +118,7 @@ void fram_world_destroy(fram_world *w)
 
 /* ---- stepping ---- */
 
-void world_changed(fram_world *w) { *w->row_is_new = false; }
+void world_changed(fram_world *w) { w->aside->row_is_new = false; }
 
 fram_status world_refuse_failed(const fram_world *w, fram_error *error)
 {
@@ -136,7 +138,8 @@ fram_status fram_world_step(fram_world *w, fram_error *error)
         return status;
     double before = clock_wall();
     world_changed(w);
-    status = world_step(&w->scenario->context->inner, &w->base->model, &w->inner, &local);
+    context *ctx = kept_context(&w->aside->kept, &w->scenario->context->inner, &w->inner.bodies);
+    status = world_step(ctx, &w->base->model, &w->inner, &local);
     w->step_wall = clock_wall() - before;
     w->failed = status != FRAM_OK;
     if (status == FRAM_OK && w->recording)

@@ -45,8 +45,7 @@ static uint64_t field_span(const field_info *field, int32_t capacity)
     return (bytes + FIELD_ALIGNMENT - 1) / FIELD_ALIGNMENT * FIELD_ALIGNMENT;
 }
 
-/* The address that the memory function gave for this table's block. */
-static void *table_block(const void *table, const table_info *info)
+void *table_block(const void *table, const table_info *info)
 {
     const table_head *head = table;
     if (head->capacity == 0 || info->field_count == 0)

@@ -79,6 +79,9 @@ uint64_t table_hash(const void *table, const table_info *info, uint64_t seed);
 bool table_copy(context *ctx, void *dst, const void *src, const table_info *info);
 /* Row `from` over row `to`, all fields. */
 void table_move_row(void *table, const table_info *info, int32_t to, int32_t from);
+/* The address that the memory function gave for the block of all fields; NULL without rows.  The block begins with
+   bytes that are nobody's once the table has let it go. */
+void *table_block(const void *table, const table_info *info);
 /* Pointer to a field's first number. */
 void *table_field(const void *table, const field_info *field);
 

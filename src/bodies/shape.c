@@ -239,6 +239,7 @@ static fram_status store_prism(context *ctx, shape_store *s, polygon outline, do
         t->piece_first[*row] = piece_first;
         t->piece_count[*row] = piece_count;
         t->solid[*row] = -1;
+        s->changes++;
         assert(prism_is_sound(s, *row));
     }
     memory_free(ctx, inner);
@@ -295,6 +296,7 @@ fram_status shape_add_solid(context *ctx, shape_store *s, int32_t solid_index, i
     s->shapes.kind[*row] = SHAPE_SOLID;
     s->shapes.radius[*row] = s->solids->data[solid_index].radius;
     s->shapes.solid[*row] = solid_index;
+    s->changes++;
     return FRAM_OK;
 }
 
@@ -340,6 +342,7 @@ void shape_remove(shape_store *s, int32_t row)
         const field_info *field = &shape_table_info.fields[f];
         memset((char *)table_field(&s->shapes, field) + field->size * (size_t)row, 0, field->size);
     }
+    s->changes++;
 }
 
 /* ---- compaction ---- */

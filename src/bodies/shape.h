@@ -60,6 +60,7 @@ typedef struct shape_store {
     piece_table pieces;
     shape_vertex_table vertices;
     const solid_array *solids; /* lent, not state; NULL: none */
+    uint64_t changes;          /* shapes that came or went since the store was made; no state */
 } shape_store;
 
 void shape_store_free(context *ctx, shape_store *s);

@@ -188,6 +188,77 @@ class Package(unittest.TestCase):
         with self.assertRaises(fram.UsageError):
             world.bodies("ship")
 
+    def assert_arrays_tell_what_copies_tell(self, world):
+        """Views and shapes equal what copies tell, to the bit, and outlines that are turned here to rounding."""
+        bodies, view, shapes = world.bodies(), world.view(), world.shapes()
+        rows = bodies.slot
+        for name in ("mass", "position", "orientation", "velocity", "angular_velocity", "generation"):
+            np.testing.assert_array_equal(getattr(view, name)[rows], getattr(bodies, name))
+        self.assertEqual(view.lives.astype(bool).sum(), len(bodies))
+        self.assertEqual(len(shapes), len(view.lives))
+        outlines = world.outlines(None)
+        self.assertEqual(len(shapes.points), len(outlines.points))
+        for row, slot in enumerate(rows):
+            w, x, y, z = view.orientation[slot]
+            turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z)],
+                             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z)]])
+            np.testing.assert_allclose(shapes[slot] @ turn.T + view.position[slot, :2], outlines[row], atol=1e-9)
+
+    def test_views_go_with_the_world(self):
+        world = towed().world()
+        view, held, kept = world.view(), [], 0
+        self.assertIs(world.view(), view)
+        for _ in range(100):
+            shapes, position = world.shapes(), view.position
+            before = position.copy()
+            world.step()
+            held.append((position, shapes))  # read at the end, when bodies have moved to larger memory
+            if view.position is position:
+                kept += 1
+                self.assertFalse(np.array_equal(position, before))  # live
+            if not len(world.fractures()):
+                self.assertIs(world.shapes(), shapes)
+        self.assertTrue(0 < kept < 100)
+        self.assert_arrays_tell_what_copies_tell(world)
+        for array in (view.position, view.angular_velocity, view.lives, world.shapes().points, world.shapes().offsets):
+            with self.assertRaises(ValueError):
+                array[0] = 1
+        with self.assertRaises(ValueError):
+            view.position.flags.writeable = True  # the world's own memory
+        # After a load and in a copy.
+        state, shapes = world.to_bytes(), world.shapes()
+        other = world.copy()
+        world.step(20)
+        self.assert_arrays_tell_what_copies_tell(world)
+        world.from_bytes(state)
+        self.assertIsNot(world.shapes(), shapes)
+        self.assert_arrays_tell_what_copies_tell(world)
+        self.assert_arrays_tell_what_copies_tell(other)
+        np.testing.assert_array_equal(view.position, other.view().position)
+        # When the world is closed, or nobody has it any more, arrays that are held can be read.
+        last, values = view.position, view.position.copy()
+        mass = other.view().mass
+        world.close()
+        with self.assertRaisesRegex(fram.UsageError, "closed"):
+            view.position
+        with self.assertRaises(fram.UsageError):
+            world.shapes()
+        del other
+        gc.collect()
+        np.testing.assert_array_equal(last, values)
+        self.assertTrue((mass > 0).any())
+        self.assertTrue(all(np.isfinite(position).all() and np.isfinite(shapes.points).all()
+                            for position, shapes in held))
+
+    def test_a_recorded_world_that_is_closed_under_a_view_ends_its_recording(self):
+        world = towed().world()
+        world.record(self.folder / "live")
+        world.step(3)
+        position = world.view().position
+        world.close()
+        self.assertEqual(fram.open(self.folder / "live").info["status"], "stopped")
+        self.assertTrue(np.isfinite(position).all())
+
     def test_forces_act_on_bodies(self):
         world = towed().world()
         floes = world.bodies("floe")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import weakref
 from dataclasses import dataclass
 from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
@@ -44,20 +45,94 @@ class Bodies:
         return len(self.mass)
 
 
-@dataclass(frozen=True)
-class View:
-    """The world's own arrays, by slot, without a copy: read them before the next step, which makes them invalid.
+class _Memory:
+    """Memory of a world for numpy, read-only; the world lives as long as an array of it."""
 
-    Rows where `lives` is 0 have no meaning.
+    def __init__(self, keep, pointer, shape: tuple, dtype: str):
+        self._keep = keep
+        self.__array_interface__ = {"version": 3, "shape": shape, "typestr": np.dtype(dtype).str,
+                                    "data": (int(ffi.cast("uintptr_t", pointer)), True)}
+
+
+class _Keep:
+    """What arrays hold of a world."""
+
+    def __init__(self, pointer):
+        self.pointer = pointer
+
+
+_VIEW_COLUMNS = {"lives": ("u1", 1), "generation": ("u4", 1), "mass": ("f8", 1), "position": ("f8", 3),
+                 "orientation": ("f8", 4), "velocity": ("f8", 3), "angular_velocity": ("f8", 3)}
+
+
+class View:
+    """Poses and velocities of all bodies now, by slot, in the world's own memory: nothing is copied.
+
+    Rows where `lives` is 0 have no meaning.  An array shows the world as it goes on; what shall last is copied.  When
+    the bodies need more room the arrays move: ask the view for them after each step.  One that is held longer can be
+    read as long as it is held, and then shows a state before.
     """
 
-    lives: np.ndarray
-    generation: np.ndarray
-    mass: np.ndarray
-    position: np.ndarray
-    orientation: np.ndarray
-    velocity: np.ndarray
-    angular_velocity: np.ndarray
+    def __init__(self, world: "World"):
+        self._world = world
+        self._room, self._size = ffi.new("fram_body_view *"), ffi.sizeof("fram_body_view")
+        self._told: tuple = ()  # where the arrays are, and how many slots there were
+        self._arrays: dict[str, np.ndarray] = {}
+
+    def _look(self) -> None:
+        """Finds the arrays where they are now; once a step."""
+        world, room = self._world, self._room
+        if lib.fram_world_view(world._living(), room, ffi.NULL, self._size) != 0:
+            raise UsageError("usage", "the world cannot be viewed", key="world")
+        told = (room.slots, room.position)
+        if told != self._told:
+            self._told, count = told, room.slots
+            self._arrays = {column: np.asarray(_Memory(world._keep, getattr(room, column),
+                                                       (count, width) if width > 1 else (count,), dtype))
+                            for column, (dtype, width) in _VIEW_COLUMNS.items()} if count else \
+                {column: _frozen(np.empty((0, width) if width > 1 else 0, dtype))
+                 for column, (dtype, width) in _VIEW_COLUMNS.items()}
+        world._view_is_now = True
+
+    def _array(self, name: str) -> np.ndarray:
+        if not self._world._view_is_now:
+            self._look()
+        return self._arrays[name]
+
+    @property
+    def lives(self) -> np.ndarray:
+        """0 where nobody is."""
+        return self._array("lives")
+
+    @property
+    def generation(self) -> np.ndarray:
+        """Of the bodies: another one in the same slot has another."""
+        return self._array("generation")
+
+    @property
+    def mass(self) -> np.ndarray:
+        """[kg]"""
+        return self._array("mass")
+
+    @property
+    def position(self) -> np.ndarray:
+        """Centre of mass, global [m]; 3 columns."""
+        return self._array("position")
+
+    @property
+    def orientation(self) -> np.ndarray:
+        """Quaternion w, x, y, z; 4 columns."""
+        return self._array("orientation")
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """Global [m/s]; 3 columns."""
+        return self._array("velocity")
+
+    @property
+    def angular_velocity(self) -> np.ndarray:
+        """Global [rad/s]; 3 columns."""
+        return self._array("angular_velocity")
 
 
 @dataclass(frozen=True)
@@ -112,10 +187,7 @@ def _selection(kind: Union[str, Sequence[str], None]) -> int:
     return bits
 
 
-def _frozen(pointer, count: int, dtype: str, columns: int = 1) -> np.ndarray:
-    array = np.frombuffer(ffi.buffer(pointer, count * columns * np.dtype(dtype).itemsize), dtype) if count else \
-        np.empty(0, dtype)
-    array = array.reshape(-1, columns) if columns > 1 else array
+def _frozen(array: np.ndarray) -> np.ndarray:
     array.flags.writeable = False
     return array
 
@@ -167,6 +239,11 @@ class World:
     def __init__(self, pointer, scenario: Scenario):
         self.scenario = scenario
         self._pointer = owned(pointer, lib.fram_world_destroy, scenario._pointer)
+        self._keep: Optional[_Keep] = _Keep(self._pointer)
+        self._view: Optional[View] = None
+        self._shapes: Optional[Outlines] = None
+        self._shape_number = -1
+        self._view_is_now = self._shapes_are_now = False
         self._channels = self._list(lib.fram_world_channels, lib.fram_world_channel)
         self._inputs = self._list(lib.fram_world_inputs, lib.fram_world_input)
 
@@ -192,9 +269,18 @@ class World:
 
     def close(self) -> None:
         """Free the world now rather than when Python finds that nobody has it; a recording ends."""
-        if self._pointer is not None:
-            ffi.release(self._pointer)
-            self._pointer = None
+        if self._pointer is None:
+            return
+        pointer, self._pointer = self._pointer, None
+        self._view_is_now = self._shapes_are_now = False
+        if self._view is not None:
+            self._view._arrays = {}
+        viewed = weakref.ref(self._keep)
+        self._keep = self._view = self._shapes = None
+        if viewed() is None:
+            ffi.release(pointer)
+        elif lib.fram_world_is_recorded(pointer):  # arrays are held: the memory goes with the last of them
+            lib.fram_world_record_end(pointer, ffi.NULL, ffi.NULL, 0)
 
     def __enter__(self) -> "World":
         return self
@@ -213,6 +299,7 @@ class World:
             raise UsageError("usage", f"expected 0 steps or more, found {n}", key="n")
         pointer, error, check = self._living(), new_error(), self.scenario._context._check
         for _ in range(n):
+            self._view_is_now = self._shapes_are_now = False
             check(lib.fram_world_step(pointer, error), error)
             if callback is not None and callback(self) is False:
                 break
@@ -334,14 +421,31 @@ class World:
         return Outlines(offsets, points)
 
     def view(self) -> View:
-        """Poses and velocities of all slots without a copy."""
-        v = ffi.new("fram_body_view *")
-        self._call(lib.fram_world_view, v, size=ffi.sizeof("fram_body_view"))
-        return View(lives=_frozen(v.lives, v.slots, "u1"), generation=_frozen(v.generation, v.slots, "u4"),
-                    mass=_frozen(v.mass, v.slots, "f8"), position=_frozen(v.position, v.slots, "f8", 3),
-                    orientation=_frozen(v.orientation, v.slots, "f8", 4),
-                    velocity=_frozen(v.velocity, v.slots, "f8", 3),
-                    angular_velocity=_frozen(v.angular_velocity, v.slots, "f8", 3))
+        """Poses and velocities of all slots without a copy; the same view each time."""
+        self._living()
+        if self._view is None:
+            self._view = View(self)
+        return self._view
+
+    def shapes(self) -> Outlines:
+        """Plan outlines of floes and walls in the axes of each body, x and y about its centre of mass [m]; by slot, as
+        `view` has the poses, so that row i belongs to ``view().position[i]``; other slots have no points.
+
+        The same read-only arrays until a body comes or goes or a floe breaks, so that asking in each step is cheap;
+        `outlines` gives global ones.
+        """
+        if self._shapes_are_now:
+            return self._shapes
+        pointer = self._living()
+        number = lib.fram_world_shape_changes(pointer)
+        self._shapes_are_now = True
+        if number != self._shape_number or self._shapes is None:
+            count, slots = lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0), lib.fram_world_slots(pointer)
+            offsets, points = np.empty(slots + 1, np.int32), np.empty((count, 2))
+            lib.fram_world_shapes(pointer, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
+                                  ffi.cast("double *", points.ctypes.data), count)
+            self._shapes, self._shape_number = Outlines(_frozen(offsets), _frozen(points)), number
+        return self._shapes
 
     def _records(self, function, dtype: np.dtype, ctype: str) -> np.ndarray:
         count = function(self._living(), ffi.NULL, 0, dtype.itemsize)
@@ -376,6 +480,7 @@ class World:
 
     def from_bytes(self, state: bytes) -> None:
         """Take over a state of the same scenario; InputError, and nothing changes, for any other."""
+        self._view_is_now = self._shapes_are_now = False
         self._call(lib.fram_world_load_memory, ffi.from_buffer(state), len(state))
 
     def save(self, path: Union[str, os.PathLike]) -> None:
@@ -384,6 +489,7 @@ class World:
 
     def load(self, path: Union[str, os.PathLike]) -> None:
         """Take over a state of the same scenario from a file."""
+        self._view_is_now = self._shapes_are_now = False
         self._call(lib.fram_world_load, bytes_of(path))
 
     def snapshot(self) -> Snapshot:
