@@ -5,9 +5,9 @@
 #include "io/atomic_file.h"
 #include "model/mechanism.h"
 #include "model/scenario_vessel.h"
+#include "results/rainflow.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
-#include "results/rainflow.h"
 
 #include <errno.h>
 #include <math.h>
