@@ -93,7 +93,7 @@ typedef struct fram_why_definition {
     size_t size;         /* of this struct, set by fram_why_default */
     int peak;            /* 1: the largest of the run's ten largest peaks of the averaged horizontal load; 0: by time */
     double time;         /* of the moment, with peak 0 [s] */
-    int vessel;          /* 1: the first */
+    const char *vessel;  /* its name; NULL: the first */
     bool rerun;          /* true: compute the second before again, at half the time step and with the accurate solver,
                             from the nearest checkpoint or from the start */
     bool json;           /* the text is one JSON object in SI units */

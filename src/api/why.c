@@ -8,11 +8,10 @@
 #include <math.h>
 
 #define TIME_MOST 1e12
-enum { VESSELS_MOST = 1000000 };
 
 static void fram_why_fill(fram_why_definition *definition)
 {
-    *definition = (fram_why_definition){.size = sizeof *definition, .vessel = 1, .rerun = true};
+    *definition = (fram_why_definition){.size = sizeof *definition, .rerun = true};
 }
 DEFINITION_DEFAULT(fram_why, fram_why_definition)
 
@@ -25,9 +24,6 @@ static fram_status take(const fram_why_definition *given, fram_why_definition *d
             error_set(error, FRAM_ERROR_USAGE, NULL, 0, "peak", "expected 1, the largest, or more, found %d", d->peak);
     if (status == FRAM_OK && d->peak == 0)
         status = number_check("time", d->time, -TIME_MOST, TIME_MOST, error);
-    if (status == FRAM_OK && (d->vessel < 1 || d->vessel > VESSELS_MOST))
-        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel", "expected 1, the first, or more, found %d",
-                           d->vessel);
     return status;
 }
 
@@ -67,7 +63,7 @@ static fram_status explain(context *ctx, const why *y, const fram_why_definition
     fram_status status = find(y, d, &detail, error);
     if (status == FRAM_OK && d->rerun) {
         again = memory_array(ctx, 1, sizeof *again);
-        status = again ? rerun_moment(ctx, y->run.folder, detail ? detail->time : d->time, d->vessel - 1, again, error)
+        status = again ? rerun_moment(ctx, y->run.folder, detail ? detail->time : d->time, y->vessel, again, error)
                        : error_memory(error);
         if (status == FRAM_OK)
             checked = (why_check){true, again->start, again->fork, again->same, again->half_step, again->accurate};
@@ -95,7 +91,7 @@ fram_status fram_why(fram_context *c, const char *run, const fram_why_definition
     why y;
     context *ctx = &c->inner;
     const volatile int *stop = ctx->stop;
-    status = why_open(ctx, run, d->vessel - 1, &y, error);
+    status = why_open(ctx, run, d->vessel, &y, error);
     if (status != FRAM_OK)
         return status;
     text_buffer out = {0};

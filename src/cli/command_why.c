@@ -8,7 +8,7 @@ int command_why(const command_row *self, int argc, char **argv)
 {
     common_options common;
     const char *run = NULL;
-    int peak = 0, vessel = 1;
+    int peak = 0;
     bool no_rerun = false;
     fram_why_definition d;
     fram_why_default(&d);
@@ -17,7 +17,7 @@ int command_why(const command_row *self, int argc, char **argv)
         {"--peak", NULL, OPTION_INTEGER, &peak, "N", "the N-th largest peak of the run, 1 to 10"},
         {"--time", NULL, OPTION_REAL, &d.time, "T",
          "a moment instead of a peak [s]; recomputed unless it is one of the peaks"},
-        {"--vessel", NULL, OPTION_INTEGER, &vessel, "N", "of several vessels: the N-th (1)"},
+        {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "of several vessels: whose load (the first)"},
         {"--no-rerun", NULL, OPTION_FLAG, &no_rerun, NULL,
          "do not repeat the last second with half the time step and with the accurate solver"},
         {"--output", "-o", OPTION_TEXT, &d.picture, "FILE", "also draw the plan view, .png"},
@@ -29,8 +29,6 @@ int command_why(const command_row *self, int argc, char **argv)
         return answer_usage(&common, "--peak", "or --time is required, but not both");
     if (d.time != d.time && peak < 1)
         return answer_usage(&common, "--peak", "expected 1, the largest, or more");
-    if (vessel < 1)
-        return answer_usage(&common, "--vessel", "expected 1, the first, or more");
     const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, "png"}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
@@ -42,7 +40,6 @@ int command_why(const command_row *self, int argc, char **argv)
         return code;
     d.peak = peak;
     d.time = peak > 0 ? 0 : d.time;
-    d.vessel = vessel;
     d.rerun = !no_rerun;
     d.json = common.json;
     d.stop = session_stop_flag();

@@ -152,8 +152,9 @@ typedef struct body_source {
 static void refuse(body_source *s, const char *what, const char *name)
 {
     if (s->status == FRAM_OK)
-        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL, "expected %s%s%s, found something else",
-                              what, *name ? " " : "", name);
+        s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL,
+                              "expected %s%s%s, found something else: another build of Fram wrote it", what,
+                              *name ? " " : "", name);
 }
 
 /* Bytes of the body, NULL when there are not so many. */

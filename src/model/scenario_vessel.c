@@ -41,6 +41,30 @@ int32_t scenario_find_vessel(const scenario *s, const char *name)
     return -1;
 }
 
+/* "\"tug\", \"barge\"" and so on, as far as there is room. */
+static void list_names(const scenario *s, char *out, size_t room)
+{
+    size_t at = 0;
+    for (int32_t v = 0; v < scenario_vessel_count(s) && at < room; v++) {
+        int written = snprintf(out + at, room - at, "%s\"%s\"", v > 0 ? ", " : "", scenario_vessel_name(s, v));
+        at += written > 0 ? (size_t)written : room;
+    }
+}
+
+fram_status scenario_choose_vessel(const scenario *s, const char *place, const char *name, int32_t *index,
+                                   fram_error *error)
+{
+    if (scenario_vessel_count(s) == 0)
+        return error_set(error, FRAM_ERROR_INPUT, place, 0, "vessel", "there is no vessel");
+    *index = name ? scenario_find_vessel(s, name) : 0;
+    if (*index >= 0)
+        return FRAM_OK;
+    char names[160] = "";
+    list_names(s, names, scenario_names_vessels(s) ? sizeof names : 0);
+    return error_set(error, FRAM_ERROR_INPUT, place, 0, "vessel", "expected the name of a vessel, %s; found \"%.60s\"",
+                     names[0] ? names : "of which the only one has none", name);
+}
+
 scenario scenario_of_vessel(const scenario *s, int32_t index)
 {
     scenario alone = *s;

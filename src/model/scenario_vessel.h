@@ -21,6 +21,10 @@ vessel_entry scenario_vessel_entry(const scenario *s, int32_t index);
 vessel_entry scenario_vessel_item(const scenario *s, int32_t item);
 /* Row of the vessel of this name; -1 without one. */
 int32_t scenario_find_vessel(const scenario *s, const char *name);
+/* Row of the vessel that a person names, the first where name is NULL: FRAM_ERROR_INPUT with the names that there are,
+   and with place, a file or folder, for one that is not there. */
+fram_status scenario_choose_vessel(const scenario *s, const char *place, const char *name, int32_t *index,
+                                   fram_error *error);
 /* The scenario with one of its vessels alone, in the short form.  It refers to what s owns, and must not be freed. */
 scenario scenario_of_vessel(const scenario *s, int32_t index);
 /* Whether channels and results are called by vessels' names: those of a list are, a single `vessel` is not. */

@@ -23,17 +23,10 @@ static bool drives_itself(const scenario *s, int32_t v)
 static fram_status choose_vessel(manage_run *m, const char *name, fram_error *error)
 {
     const scenario *s = &m->d.s;
+    fram_status status = scenario_choose_vessel(s, m->d.folder, name, &m->vessel, error);
+    if (name || status != FRAM_OK)
+        return status;
     int32_t count = scenario_vessel_count(s), candidates = 0;
-    if (count == 0)
-        return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, NULL, "the run has no vessel");
-    if (name) {
-        m->vessel = scenario_find_vessel(s, name);
-        return m->vessel >= 0 ? FRAM_OK
-                              : error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, "vessel",
-                                          "the run has no vessel \"%.40s\"; its first is \"%s\"", name,
-                                          scenario_vessel_entry(s, 0).keys->name);
-    }
-    m->vessel = 0;
     for (int32_t v = count - 1; v >= 0; v--) {
         if (count > 1 && drives_itself(s, v))
             continue;

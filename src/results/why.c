@@ -12,22 +12,15 @@ static const double BEFORE = 5;
 /* Differences under this part of the load matter to nobody: within what chance does from one second to the next. */
 static const double MATTERS = 0.05;
 
-fram_status why_open(context *ctx, const char *folder, int32_t vessel, why *y, fram_error *error)
+fram_status why_open(context *ctx, const char *folder, const char *vessel, why *y, fram_error *error)
 {
     *y = (why){.ctx = ctx};
     fram_status status = run_data_read(ctx, folder, false, &y->run, error);
     if (status != FRAM_OK)
         return status;
-    int32_t vessels = scenario_vessel_count(&y->run.s);
-    if (vessels == 0)
-        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL,
-                           "the run has no vessel, so that there is no load to explain");
-    else if (vessel >= vessels)
-        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "vessel", "expected one from 1 to %d, found %d",
-                           (int)vessels, (int)vessel + 1);
-    y->vessel = vessel;
+    status = scenario_choose_vessel(&y->run.s, folder, vessel, &y->vessel, error);
     if (status == FRAM_OK)
-        status = peak_list_read(ctx, folder, vessel, &y->peaks, error);
+        status = peak_list_read(ctx, folder, y->vessel, &y->peaks, error);
     if (status != FRAM_OK)
         run_data_free(ctx, &y->run);
     return status;
@@ -196,6 +189,9 @@ fram_status why_text(const why *y, const peak_detail *d, int32_t rank, const why
 {
     context *ctx = y->ctx;
     load_unit unit = load_unit_for(d->load);
+    const char *vessel = scenario_vessel_name(&y->run.s, y->vessel);
+    if (vessel)
+        text_format(ctx, out, "Vessel %s. ", vessel);
     if (rank > 0)
         text_format(ctx, out, "Peak %d of %d: ", (int)rank, (int)y->peaks.count);
     text_format(ctx, out, "t = %.6g s, horizontal ice load %.4g %s, averaged over %.3g s\n", d->time,
@@ -308,7 +304,9 @@ fram_status why_json(const why *y, const peak_detail *d, int32_t rank, const why
 {
     context *ctx = y->ctx;
     peak_breaks b = peak_breaks_before(&y->run, d->time, BEFORE);
-    text_format(ctx, out, "{\"peak\": %d, \"peaks\": %d, ", (int)rank, (int)y->peaks.count);
+    const char *vessel = scenario_vessel_name(&y->run.s, y->vessel);
+    text_format(ctx, out, "{\"vessel\": %s%s%s, ", vessel ? "\"" : "", vessel ? vessel : "null", vessel ? "\"" : "");
+    text_format(ctx, out, "\"peak\": %d, \"peaks\": %d, ", (int)rank, (int)y->peaks.count);
     number(ctx, out, "time", d->time);
     text_add(ctx, out, ", ");
     number(ctx, out, "load", d->load);

@@ -21,7 +21,7 @@ typedef struct why {
 } why;
 
 /* The run and its peaks; FRAM_ERROR_INPUT when the folder is not that of a run. */
-fram_status why_open(context *ctx, const char *folder, int32_t vessel, why *y, fram_error *error);
+fram_status why_open(context *ctx, const char *folder, const char *vessel, why *y, fram_error *error);
 void why_close(why *y);
 /* Peak 1 is the largest.  FRAM_ERROR_INPUT says how many there are, and what to do when there are none. */
 fram_status why_peak(const why *y, int64_t number, const peak_detail **d, fram_error *error);

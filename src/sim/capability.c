@@ -294,10 +294,12 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
 /* The scenario with the vessel that is asked for alone. */
 static fram_status choose_vessel(const scenario *s, const char *name, scenario *alone, fram_error *error)
 {
-    int32_t row = name ? scenario_find_vessel(s, name) : 0;
-    if (row < 0)
-        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel", "the scenario has no vessel of the name \"%.60s\"",
-                         name);
+    int32_t row = 0;
+    if (name) {
+        fram_status status = scenario_choose_vessel(s, NULL, name, &row, error);
+        if (status != FRAM_OK)
+            return status;
+    }
     if (!name && scenario_vessel_count(s) > 1)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "vessel",
                          "the scenario has %d vessels: name the one whose capability is asked for",

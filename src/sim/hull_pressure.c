@@ -115,17 +115,6 @@ static fram_status build_and_compute(pressure_map *p, fram_error *error)
 
 /* ---- what is asked ---- */
 
-static fram_status find_vessel(pressure_map *p, fram_error *error)
-{
-    p->vessel = p->o->vessel ? scenario_find_vessel(&p->s, p->o->vessel) : 0;
-    if (p->vessel < 0)
-        return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "vessel",
-                         "the run has no vessel of the name \"%.60s\"", p->o->vessel);
-    if (p->vessel >= scenario_vessel_count(&p->s))
-        return error_set(error, FRAM_ERROR_INPUT, p->o->folder, 0, "vessel", "the run has no vessel");
-    return FRAM_OK;
-}
-
 static fram_status check_times(const pressure_map *p, fram_error *error)
 {
     if ((double)step_at(end_of(p), p->s.run.time_step) * p->s.run.time_step > p->o->from * (1 + 1e-12))
@@ -143,7 +132,7 @@ fram_status hull_pressure_write(context *ctx, const pressure_options *o, fram_er
         status = scenario_read(ctx, path, NULL, &p.s, error);
     if (status != FRAM_OK)
         return status;
-    status = find_vessel(&p, error);
+    status = scenario_choose_vessel(&p.s, p.o->folder, p.o->vessel, &p.vessel, error);
     if (status == FRAM_OK)
         status = check_times(&p, error);
     if (status == FRAM_OK)

@@ -336,7 +336,7 @@ START_TEST(results)
     asked.time = -1e300;
     REFUSED(fram_why(c, run, &asked, &text, &e));
     asked.peak = 1;
-    asked.vessel = 0;
+    asked.vessel = "nobody";
     REFUSED(fram_why(c, run, &asked, &text, &e));
     asked.size = 0;
     REFUSED(fram_why(c, run, &asked, &text, &e));

@@ -65,7 +65,8 @@ expect 2 "$FRAM" why run --time 100
 says "up to 12 s" err
 expect 2 "$FRAM" why run --time 0
 expect 2 "$FRAM" why run --time -1
-expect 2 "$FRAM" why run --peak 1 --vessel 2
+expect 2 "$FRAM" why run --peak 1 --vessel ship
+says "the only one has none; found \"ship\"" err
 expect 2 "$FRAM" why nowhere --peak 1
 expect 2 "$FRAM" why chain.yaml --peak 1
 expect 2 "$FRAM" why run --peak 1 -o run/series.csv
@@ -80,4 +81,27 @@ says "peaks.fram" err
 expect 0 "$FRAM" run chain.yaml -o bare --quiet --set vessel.present=false
 expect 2 "$FRAM" why bare --peak 1
 says "no vessel" err
+
+# Of several vessels the one that is named.
+cat >two.yaml <<'END'
+run: {duration: 4, time_step: 0.02, transient: 0}
+vessels:
+  - {name: tug, mode: towed, x: -10, speed: 1, hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}}
+  - {name: barge, mode: towed, x: -10, y: 30, speed: 2,
+     hull: {form: box, length: 20, beam: 8, draught: 3, freeboard: 2}}
+ice:
+  source: floes
+  thickness: 0.5
+  floes: [{length: 6, width: 6, x: 4}, {length: 6, width: 6, x: 4, y: 30}]
+domain: {x_min: -60, x_max: 60, y_min: -60, y_max: 60, boundary: open}
+END
+expect 0 "$FRAM" run two.yaml -o two --quiet
+expect 0 "$FRAM" why two --peak 1 --no-rerun --json
+same "$(value "j['vessel'], j['floes'][0]['floe']")" "tug 0" "the first vessel and its floe"
+expect 0 "$FRAM" why two --peak 1 --no-rerun --json --vessel barge
+same "$(value "j['vessel'], j['floes'][0]['floe']")" "barge 1" "the named vessel and its floe"
+expect 0 "$FRAM" why two --time 1 --vessel barge
+says "Vessel barge. " out
+expect 2 "$FRAM" why two --peak 1 --vessel 2
+says 'expected the name of a vessel, "tug", "barge"; found "2"' err
 finish "peaks explained, computed again, refused"
