@@ -67,7 +67,7 @@ static const bad_scenario bad[] = {
     {"run_shorter_than_default_step", 3, "run.duration", "expected at least run.time_step, which is 0.01, found 0.001"},
     {"second_document", 2, "", "found a second one"},
     {"step_longer_than_run", 3, "run.time_step", "expected at most run.duration, which is 1, found 2"},
-    {"tab_indent", 2, "run", "tab"},
+    {"tab_indent", 2, "", "the line begins with a tab: indent by blanks"},
     {"tag", 2, "run.duration", "found a tag"},
     {"text_too_long", 1, "title", "expected at most 511 bytes of text, found 600"},
     {"too_deep", 1, "title[0][0][0][0][0][0][0][0][0][0][0][0][0][0][0]", "less nesting"},
