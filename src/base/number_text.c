@@ -59,7 +59,7 @@ enum { EXACT_TENS = 22, FAST_DIGITS = 12, DIGITS_ROOM = 2 * FAST_DIGITS };
 static const double tens[EXACT_TENS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                             1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/* size * 10^power, rounded twice at most. */
+/* size * 10^power, rounded once and for every 22 powers. */
 static double times_ten(double size, int power)
 {
     for (; power > EXACT_TENS; power -= EXACT_TENS)
@@ -77,11 +77,11 @@ static int whole_below(double value)
 }
 
 /* The integer of so many digits, and the exponent of its first one, that size > 0 rounds to; false where it is not
-   certain.  Scaled to less than 1e12, a number is wrong by no more than 2^-12 after two roundings; one that lies that
-   close to the middle between two integers is left alone, ties among them. */
+   certain.  A number between these bounds is scaled to less than 1e12 in four roundings at most, and wrong by no more
+   than 2^-11 then; one that lies that close to the middle between two integers is left alone, ties among them. */
 static bool round_to_digits(double size, int digits, uint64_t *integer, int *exponent)
 {
-    if (!(size >= 1e-30 && size <= 1e30))
+    if (!(size >= 1e-60 && size <= 1e60))
         return false;
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
@@ -90,7 +90,7 @@ static bool round_to_digits(double size, int digits, uint64_t *integer, int *exp
     if (scaled >= tens[digits])
         scaled = times_ten(size, digits - 1 - ++k);
     double whole = (double)(int64_t)scaled, part = scaled - whole;
-    if (fabs(part - 0.5) < 1.0 / 2048)
+    if (fabs(part - 0.5) < 1.0 / 1024)
         return false;
     whole += part > 0.5;
     bool carried = whole >= tens[digits];
