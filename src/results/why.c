@@ -107,7 +107,8 @@ static void name_floe(int32_t number, char out[24])
 
 static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
 {
-    text_format(ctx, out, "\n%d bodies touched the vessel in the window; the largest parts:\n", (int)d->bodies);
+    text_format(ctx, out, "\n%d %s touched the vessel in the window; the largest parts:\n", (int)d->bodies,
+                d->bodies == 1 ? "body" : "bodies");
     for (int32_t i = 0; i < d->floe_count && i < 10; i++) {
         const peak_floe *f = &d->floe[i];
         char name[24];

@@ -155,7 +155,9 @@ static fram_status draw(const why *y, const replay *r, const replay_moment *m, c
         char name[24] = "Ice load";
         if (rank > 0)
             snprintf(name, sizeof name, "Peak %d", (int)rank);
-        snprintf(title, sizeof title, "%s: %.4g %s at %.6g s", name, d->load * unit.factor, unit.name, d->time);
+        const char *on = scenario_vessel_name(&y->run.s, y->vessel);
+        snprintf(title, sizeof title, "%s%s%s: %.4g %s at %.6g s", name, on ? " on " : "", on ? on : "",
+                 d->load * unit.factor, unit.name, d->time);
         snprintf(caption, sizeof caption,
                  "%s; arrows: forces of floes on the hull, and chains behind them; crosses: breaks of the last 5 s%s",
                  mechanism_text(peak_main_mechanism(d->mechanism)),

@@ -1,31 +1,8 @@
 #!/usr/bin/env bash
 # Thirty slips of a pen: each is told, or refused where nothing sensible can follow, with its key and the remedy.
-. "$FRAM_SOURCE/tests/cli/common.sh"
+. "$FRAM_SOURCE/tests/cli/slips.sh"
 
-cat >ship.yaml <<'YAML'
-run: {duration: 600, time_step: 0.05, transient: 60}
-vessel:
-  mode: free
-  hull: {form: icebreaker, length: 76, beam: 19, draught: 6.5, freeboard: 3.5}
-  mooring:
-    depth: 120
-    lines:
-      - {count: 8, spacing_deg: 45, distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8,
-         breaking_load: 8.0e6}
-  thrusters: [{x: 30, thrust: 2.0e5}, {x: -30, thrust: 2.0e5}]
-ice: {concentration: 0.7, mean_floe_area: 200, thickness: 0.7}
-domain: {x_min: -160, x_max: 160, y_min: -160, y_max: 160, boundary: feeding}
-environment: {current_speed: 0.4, current_direction_deg: 180, wind_speed: 8, wind_direction_deg: 170}
-YAML
-
-# told WORDS OPTIONS...: a warning with all the words between the bars; refused KEY WORDS OPTIONS...
-told() {
-    local words=$1
-    shift
-    expect 0 "$FRAM" check ship.yaml "$@"
-    grep '^warning' err | grep -F -- "${words%%|*}" | grep -qF -- "${words##*|}" ||
-        fail "not told \"$words\" of $*: $(grep '^warning' err)"
-}
+# refused KEY WORDS OPTIONS...: the key that is blamed, and words of the remedy
 refused() {
     local key=$1 words=$2
     shift 2
@@ -47,47 +24,48 @@ refused vessel.mass "it sinks" --set vessel.mass=5e9
 refused ice.concentration "from 0.01 to 1" --set ice.concentration=70
 refused ice.density "ice floats" --set ice.density=1100
 refused environment.water_density "" --set environment.water_density=0
-told "ice.thickness: 80 m|give metres" --set ice.thickness=80
-told "ice.thickness: 0.0008 m|give metres" --set ice.thickness=0.0008
-told "ice.flexural_strength: 0.5 Pa|not kPa or MPa" --set ice.flexural_strength=0.5
-told "ice.flexural_strength: 500 Pa|not kPa or MPa" --set ice.flexural_strength=500
-told "ice.elastic_modulus: 5 Pa|not GPa" --set ice.elastic_modulus=5
-told "ice.crushing_strength: 2 Pa|not kPa or MPa" --set ice.crushing_strength=2
-told "ice.fracture.toughness: 150 Pa m^0.5|not kPa" --set ice.fracture.toughness=150
-told "environment.wind_speed: 70 m/s|knot" --set environment.wind_speed=70
-told "environment.current_speed: 40 m/s|cm/s" --set environment.current_speed=40
-told "vessel.speed: 15 m/s|knot" --set vessel.speed=15
-told "environment.gravity: 981|Earth" --set environment.gravity=981
-told "environment.water_density: 1250 kg/m3|brine" --set environment.water_density=1250
+told ship.yaml "ice.thickness: 80 m|give metres" --set ice.thickness=80
+told ship.yaml "ice.thickness: 0.0008 m|give metres" --set ice.thickness=0.0008
+told ship.yaml "ice.flexural_strength: 0.5 Pa|not kPa or MPa" --set ice.flexural_strength=0.5
+told ship.yaml "ice.flexural_strength: 500 Pa|not kPa or MPa" --set ice.flexural_strength=500
+told ship.yaml "ice.elastic_modulus: 5 Pa|not GPa" --set ice.elastic_modulus=5
+told ship.yaml "ice.crushing_strength: 2 Pa|not kPa or MPa" --set ice.crushing_strength=2
+told ship.yaml "ice.fracture.toughness: 150 Pa m^0.5|not kPa" --set ice.fracture.toughness=150
+told ship.yaml "environment.wind_speed: 70 m/s|knot" --set environment.wind_speed=70
+told ship.yaml "environment.current_speed: 40 m/s|cm/s" --set environment.current_speed=40
+told ship.yaml "vessel.speed: 15 m/s|knot" --set vessel.speed=15
+told ship.yaml "environment.gravity: 981|Earth" --set environment.gravity=981
+told ship.yaml "environment.water_density: 1250 kg/m3|brine" --set environment.water_density=1250
 refused "vessel.mooring.lines[0].pretension" "more than the weight of the line" \
     --set "vessel.mooring.lines[0].pretension=800"
-told "vessel.mooring.lines[0].pretension: 1500 N|not kN" --set "vessel.mooring.lines[0].pretension=1500" \
+told ship.yaml "vessel.mooring.lines[0].pretension: 1500 N|not kN" --set "vessel.mooring.lines[0].pretension=1500" \
     --set "vessel.mooring.lines[0].weight=10"
-told "vessel.mooring.lines[0].breaking_load: 8000 N|not kN" --set "vessel.mooring.lines[0].breaking_load=8000"
-told "vessel.thrusters[1].thrust: 200 N|not kN" --set "vessel.thrusters[1].thrust=200"
-told "vessel.heading_deg: 1.5708 degrees is 0.5 of pi|not radians" --set vessel.heading_deg=1.5708
-told "vessel.hull.length: 760 m|give metres" --set vessel.hull.length=760 --set domain.boundary=open
+told ship.yaml "vessel.mooring.lines[0].breaking_load: 8000 N|not kN" --set "vessel.mooring.lines[0].breaking_load=8000"
+told ship.yaml "vessel.thrusters[1].thrust: 200 N|not kN" --set "vessel.thrusters[1].thrust=200"
+told ship.yaml "vessel.heading_deg: 1.5708 degrees is 0.5 of pi|not radians" --set vessel.heading_deg=1.5708
+told ship.yaml "vessel.hull.length: 760 m|give metres" --set vessel.hull.length=760 --set domain.boundary=open
 
 # Two that do not belong together.
-told "run.time_step: 0.5 s is too long|heaves" --set run.time_step=0.5 --set ice.thickness=0.3
-told "pretension: 7e+06 N is more than half" --set "vessel.mooring.lines[0].pretension=7e6"
-told "pretension: 9e+06 N is over the breaking load" --set "vessel.mooring.lines[0].pretension=9e6"
-told "length: 1100 m reaches down|never pulls" --set "vessel.mooring.lines[0].length=1100"
-told "length: 890 m over a straight way of 907.96 m|over its breaking load" --set "vessel.mooring.lines[0].length=890"
-told "vessel.mooring.depth: the hull of draught 6.5 m lies on the bottom" --set vessel.mooring.depth=6
-told "its edge with the band is 30 m from vessel, which reaches 39.17 m|9.17 m" --set domain.x_max=50 \
+told ship.yaml "run.time_step: 0.5 s is too long|heaves" --set run.time_step=0.5 --set ice.thickness=0.3
+told ship.yaml "pretension: 7e+06 N is more than half" --set "vessel.mooring.lines[0].pretension=7e6"
+told ship.yaml "pretension: 9e+06 N is over the breaking load" --set "vessel.mooring.lines[0].pretension=9e6"
+told ship.yaml "length: 1100 m reaches down|never pulls" --set "vessel.mooring.lines[0].length=1100"
+told ship.yaml "length: 890 m over a straight way of 907.96 m|over its breaking load" \
+    --set "vessel.mooring.lines[0].length=890"
+told ship.yaml "vessel.mooring.depth: the hull of draught 6.5 m lies on the bottom" --set vessel.mooring.depth=6
+told ship.yaml "its edge with the band is 30 m from vessel, which reaches 39.17 m|9.17 m" --set domain.x_max=50 \
     --set domain.band=20
-told "its edge is 35 m from vessel" --set domain.y_min=-35
-told "the wind blows towards 0 degrees and the current goes towards 180|not where it comes from" \
+told ship.yaml "its edge is 35 m from vessel" --set domain.y_min=-35
+told ship.yaml "the wind blows towards 0 degrees and the current goes towards 180|not where it comes from" \
     --set environment.wind_direction_deg=0
-told "the wind blows towards 0 degrees and the ice (domain.drift_direction_deg) goes towards 180" \
+told ship.yaml "the wind blows towards 0 degrees and the ice (domain.drift_direction_deg) goes towards 180" \
     --set environment.wind_direction_deg=0 --set domain.drift_speed=0.3 --set domain.drift_direction_deg=180
-told "ice.mean_floe_area: floes of 1.5 m2" --set ice.mean_floe_area=1.5
-told "run.transient: statistics leave out 590 s" --set run.transient=590
-told "output.frame_interval: 900 s" --set output.frame_interval=900
+told ship.yaml "ice.mean_floe_area: floes of 1.5 m2" --set ice.mean_floe_area=1.5
+told ship.yaml "run.transient: statistics leave out 590 s" --set run.transient=590
+told ship.yaml "output.frame_interval: 900 s" --set output.frame_interval=900
 refused vessel.mooring.lines "vessel.mode is not free" --set vessel.mode=towed
-told "more than the draught of the vessel" --set ice.thickness=5 --set vessel.hull.draught=4
-told "vessel.hull.beam: the hull is wider" --set vessel.hull.form=box --set vessel.hull.beam=100
+told ship.yaml "more than the draught of the vessel" --set ice.thickness=5 --set vessel.hull.draught=4
+told ship.yaml "vessel.hull.beam: the hull is wider" --set vessel.hull.form=box --set vessel.hull.beam=100
 
 # Nothing moves.
 grep -v -e mooring -e depth -e lines -e count -e breaking -e thrusters ship.yaml >hull.yaml
@@ -121,5 +99,5 @@ says "positioning.control: heading alone leaves the position to a mooring" err
 # At another scale the bounds go along: a tank of 1:30 with ice of 23 mm, and the same numbers at full size.
 expect 0 "$FRAM" check ship.yaml --set run.scale=1 --set ice.thickness=0.03 --set ice.flexural_strength=2e4
 grep '^warning: ice' err && fail "ice of a tank is told"
-told "ice.flexural_strength: 20000 Pa" --set ice.flexural_strength=2e4
+told ship.yaml "ice.flexural_strength: 20000 Pa" --set ice.flexural_strength=2e4
 finish "each slip of the pen is told or refused, with its key and the remedy"

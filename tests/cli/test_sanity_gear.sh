@@ -1,22 +1,7 @@
 #!/usr/bin/env bash
 # Thirty-two more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and remedy.
-. "$FRAM_SOURCE/tests/cli/common.sh"
+. "$FRAM_SOURCE/tests/cli/slips.sh"
 
-cat >ship.yaml <<'YAML'
-run: {duration: 600, time_step: 0.05, transient: 60}
-vessel:
-  mode: free
-  hull: {form: icebreaker, length: 76, beam: 19, draught: 6.5, freeboard: 3.5}
-  mooring:
-    depth: 120
-    lines:
-      - {count: 8, spacing_deg: 45, distance: 900, pretension: 8.0e5, weight: 1500, stiffness: 8.0e8,
-         breaking_load: 8.0e6}
-  thrusters: [{x: 30, thrust: 2.0e5}, {x: -30, thrust: 2.0e5}]
-ice: {concentration: 0.7, mean_floe_area: 200, thickness: 0.7}
-domain: {x_min: -160, x_max: 160, y_min: -160, y_max: 160, boundary: feeding}
-environment: {current_speed: 0.4, current_direction_deg: 180, wind_speed: 8, wind_direction_deg: 170}
-YAML
 cat >drive.yaml <<'YAML'
 run: {duration: 60, time_step: 0.01}
 vessel:
@@ -27,14 +12,7 @@ ice: {mean_floe_area: 200, thickness: 0.7, concentration: 0.5}
 domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100, boundary: open}
 YAML
 
-# told SCENE WORDS OPTIONS...: a warning with all the words between the bars; refused SCENE WORDS OPTIONS...
-told() {
-    local scene=$1 words=$2
-    shift 2
-    expect 0 "$FRAM" check "$scene" "$@"
-    grep '^warning' err | grep -F -- "${words%%|*}" | grep -qF -- "${words##*|}" ||
-        fail "not told \"$words\" of $*: $(grep '^warning' err)"
-}
+# refused SCENE WORDS OPTIONS...
 refused() {
     local scene=$1 words=$2
     shift 2
