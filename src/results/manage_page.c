@@ -59,8 +59,12 @@ static void verdict(page *p)
              s->place[MANAGE_AT].largest, s->largest_time);
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     duration_text(s->alarm_least, time);
-    snprintf(text, sizeof text, "Unmanaged ice was never farther away than this at its nearest: %s.", time);
-    html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+    if (isinf(s->alarm_least))
+        snprintf(text, sizeof text, "No unmanaged ice was on its way to the vessel.");
+    else
+        snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
+    if (!isnan(s->alarm_least))
+        html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     if (p->os && p->os->load_most > 0) {
         snprintf(
             text, sizeof text,

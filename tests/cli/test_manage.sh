@@ -69,7 +69,10 @@ number "j['run']['behind']['concentration']" "$(python3 -c 'print(73 / 200)')"
 # Windows without ice have a concentration, and no shares of the ice nor sizes.
 expect 0 "$FRAM" manage both --vessel tender --limit 5 --depth 2 -q
 holds "at the vessel  *[0-9][0-9]*  *0.000  *-  *-  *-  *-$" out
+expect 0 "$FRAM" manage both --vessel ship --limit 50 --depth 20 -o all.html
+says "No unmanaged ice was on its way" all.html
 expect 0 "$FRAM" manage both --vessel ship --beside alone --limit 5 --depth 20 -o page.html
+says "At its nearest, unmanaged ice was" page.html
 says "run beside" out
 for file in page.html page.csv page-sizes.csv; do [ -s "$file" ] || fail "$file is missing"; done
 grep -q "Ice management for ship" page.html || fail "the page has another title"
