@@ -50,7 +50,7 @@ def measure(name, scene, warm):
     """A section of the page: the calls in turn, and steps with and without reading in turn."""
     world = fram.Scenario.from_text(scene).world()
     world.step(warm)
-    broken, shapes, renewed = 0, world.shapes(), 0
+    broken, shapes, renewals = 0, world.shapes(), []
     view = world.view()
 
     def fast():
@@ -71,15 +71,20 @@ def measure(name, scene, warm):
     for _ in range(STEPS):
         world.step()
         broken += len(world.fractures()) > 0
-        renewed += world.shapes() is not shapes
-        shapes = world.shapes()
+        before = time.thread_time()
+        now = world.shapes()
+        if now is not shapes:
+            renewals.append(time.thread_time() - before)
+            shapes = now
     world.step(1)
     rows = "".join(f"| {call} | {1e3 * t:.4f} | {100 * t / times[0]:.2f} % |\n" for call, t in zip(calls, times))
     full = 100 * (times[3] + times[4]) / times[0]
     return "\n".join([
         f"## {name}\n",
         f"{int(world['floes'])} floes, {len(world.contacts())} contact points; floes broke in {broken} of {STEPS}",
-        f"steps, and outlines were made anew in {renewed}.\n",
+        f"steps, and outlines were made anew in {len(renewals)}" +
+        (f", which took {1e3 * statistics.mean(renewals):.2f} ms each and "
+         f"{100 * sum(renewals) / STEPS / times[0]:.2f} % of the time of all.\n" if renewals else ".\n"),
         "| call | ms | share of a step |\n|---|---|---|\n" + rows,
         f"A step with poses and outlines read after it and one without, in turn: {1e3 * read:.3f} and",
         f"{1e3 * without:.3f} ms, {PAIRS} of each: {100 * (read / without - 1):+.2f} % (bound: {100 * BOUND:g} %). A",

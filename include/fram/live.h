@@ -140,6 +140,9 @@ typedef struct fram_body_view {
     const double *mass;             /* [kg] */
     const uint32_t *generation;
     const uint8_t *lives; /* 0: nobody */
+    /* The number of fram_world_shape_changes, kept up to date where it points for as long as the world lives: read it
+       after a step, without a call.  While it stays, so do this view and what fram_world_shapes gave. */
+    const uint64_t *changes;
 } fram_body_view;
 FRAM_API fram_status fram_world_view(const fram_world *world, fram_body_view *view, fram_error *error, size_t size);
 #define fram_world_view(...) fram_world_view(__VA_ARGS__, sizeof(fram_body_view))

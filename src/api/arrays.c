@@ -173,7 +173,8 @@ fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_err
                                  .angular_velocity = (const double *)b->angular_velocity,
                                  .mass = b->mass,
                                  .generation = b->generation,
-                                 .lives = b->motion};
+                                 .lives = b->motion,
+                                 .changes = &w->inner.shapes.changes};
     _Static_assert(MOTION_NONE == 0, "a row of motion says whether somebody lives");
     result_give(view, size, &full);
     return FRAM_OK;

@@ -61,6 +61,8 @@ class _Keep:
         self.pointer = pointer
 
 
+_NEVER = (-1,)
+"""In place of the number of changes of a world that is not looked at: no number of one."""
 _VIEW_COLUMNS = {"lives": ("u1", 1), "generation": ("u4", 1), "mass": ("f8", 1), "position": ("f8", 3),
                  "orientation": ("f8", 4), "velocity": ("f8", 3), "angular_velocity": ("f8", 3)}
 
@@ -73,66 +75,79 @@ class View:
     read as long as it is held, and then shows a state before.
     """
 
+    # A world's memory tells by a number whether anything moved; asking in each step costs no call of the library.
+
     def __init__(self, world: "World"):
         self._world = world
-        self._room, self._size = ffi.new("fram_body_view *"), ffi.sizeof("fram_body_view")
-        self._told: tuple = ()  # where the arrays are, and how many slots there were
-        self._arrays: dict[str, np.ndarray] = {}
+        self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
+        self._number = 0  # of the changes when the arrays were found
 
     def _look(self) -> None:
-        """Finds the arrays where they are now; once a step."""
-        world, room = self._world, self._room
-        if lib.fram_world_view(world._living(), room, ffi.NULL, self._size) != 0:
+        """Finds the arrays where they are now."""
+        world, room = self._world, ffi.new("fram_body_view *")
+        if lib.fram_world_view(world._living(), room, ffi.NULL, ffi.sizeof("fram_body_view")) != 0:
             raise UsageError("usage", "the world cannot be viewed", key="world")
-        told = (room.slots, room.position)
-        if told != self._told:
-            self._told, count = told, room.slots
-            self._arrays = {column: np.asarray(_Memory(world._keep, getattr(room, column),
-                                                       (count, width) if width > 1 else (count,), dtype))
-                            for column, (dtype, width) in _VIEW_COLUMNS.items()} if count else \
-                {column: _frozen(np.empty((0, width) if width > 1 else 0, dtype))
-                 for column, (dtype, width) in _VIEW_COLUMNS.items()}
-        world._view_is_now = True
+        count = room.slots
+        for column, (dtype, width) in _VIEW_COLUMNS.items():
+            shape = (count, width) if width > 1 else (count,)
+            setattr(self, "_" + column, np.asarray(_Memory(world._keep, getattr(room, column), shape, dtype))
+                    if count else _frozen(np.empty(shape, dtype)))
+        self._changes, self._number = room.changes, room.changes[0]
 
-    def _array(self, name: str) -> np.ndarray:
-        if not self._world._view_is_now:
-            self._look()
-        return self._arrays[name]
+    def _forget(self) -> None:
+        """The world is closed."""
+        self._changes, self._number = _NEVER, 0
+        for column in _VIEW_COLUMNS:
+            setattr(self, "_" + column, None)
 
     @property
     def lives(self) -> np.ndarray:
         """0 where nobody is."""
-        return self._array("lives")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._lives
 
     @property
     def generation(self) -> np.ndarray:
         """Of the bodies: another one in the same slot has another."""
-        return self._array("generation")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._generation
 
     @property
     def mass(self) -> np.ndarray:
         """[kg]"""
-        return self._array("mass")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._mass
 
     @property
     def position(self) -> np.ndarray:
         """Centre of mass, global [m]; 3 columns."""
-        return self._array("position")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._position
 
     @property
     def orientation(self) -> np.ndarray:
         """Quaternion w, x, y, z; 4 columns."""
-        return self._array("orientation")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._orientation
 
     @property
     def velocity(self) -> np.ndarray:
         """Global [m/s]; 3 columns."""
-        return self._array("velocity")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._velocity
 
     @property
     def angular_velocity(self) -> np.ndarray:
         """Global [rad/s]; 3 columns."""
-        return self._array("angular_velocity")
+        if self._changes[0] != self._number:
+            self._look()
+        return self._angular_velocity
 
 
 @dataclass(frozen=True)
@@ -242,8 +257,8 @@ class World:
         self._keep: Optional[_Keep] = _Keep(self._pointer)
         self._view: Optional[View] = None
         self._shapes: Optional[Outlines] = None
-        self._shape_number = -1
-        self._view_is_now = self._shapes_are_now = False
+        self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
+        self._shape_number = 0  # of the changes when the shapes were made
         self._channels = self._list(lib.fram_world_channels, lib.fram_world_channel)
         self._inputs = self._list(lib.fram_world_inputs, lib.fram_world_input)
 
@@ -272,9 +287,9 @@ class World:
         if self._pointer is None:
             return
         pointer, self._pointer = self._pointer, None
-        self._view_is_now = self._shapes_are_now = False
+        self._changes = _NEVER
         if self._view is not None:
-            self._view._arrays = {}
+            self._view._forget()
         viewed = weakref.ref(self._keep)
         self._keep = self._view = self._shapes = None
         if viewed() is None:
@@ -299,7 +314,6 @@ class World:
             raise UsageError("usage", f"expected 0 steps or more, found {n}", key="n")
         pointer, error, check = self._living(), new_error(), self.scenario._context._check
         for _ in range(n):
-            self._view_is_now = self._shapes_are_now = False
             check(lib.fram_world_step(pointer, error), error)
             if callback is not None and callback(self) is False:
                 break
@@ -434,18 +448,20 @@ class World:
         The same read-only arrays until a body comes or goes or a floe breaks, so that asking in each step is cheap;
         `outlines` gives global ones.
         """
-        if self._shapes_are_now:
-            return self._shapes
-        pointer = self._living()
-        number = lib.fram_world_shape_changes(pointer)
-        self._shapes_are_now = True
-        if number != self._shape_number or self._shapes is None:
-            count, slots = lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0), lib.fram_world_slots(pointer)
-            offsets, points = np.empty(slots + 1, np.int32), np.empty((count, 2))
-            lib.fram_world_shapes(pointer, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
-                                  ffi.cast("double *", points.ctypes.data), count)
-            self._shapes, self._shape_number = Outlines(_frozen(offsets), _frozen(points)), number
+        if self._changes[0] != self._shape_number:
+            self._make_shapes()
         return self._shapes
+
+    def _make_shapes(self) -> None:
+        pointer, view = self._living(), self.view()
+        view._look()
+        number = view._changes[0]
+        count, slots = lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0), lib.fram_world_slots(pointer)
+        offsets, points = np.empty(slots + 1, np.int32), np.empty((count, 2))
+        lib.fram_world_shapes(pointer, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
+                              ffi.cast("double *", points.ctypes.data), count)
+        self._shapes, self._changes, self._shape_number = \
+            Outlines(_frozen(offsets), _frozen(points)), view._changes, number
 
     def _records(self, function, dtype: np.dtype, ctype: str) -> np.ndarray:
         count = function(self._living(), ffi.NULL, 0, dtype.itemsize)
@@ -480,7 +496,6 @@ class World:
 
     def from_bytes(self, state: bytes) -> None:
         """Take over a state of the same scenario; InputError, and nothing changes, for any other."""
-        self._view_is_now = self._shapes_are_now = False
         self._call(lib.fram_world_load_memory, ffi.from_buffer(state), len(state))
 
     def save(self, path: Union[str, os.PathLike]) -> None:
@@ -489,7 +504,6 @@ class World:
 
     def load(self, path: Union[str, os.PathLike]) -> None:
         """Take over a state of the same scenario from a file."""
-        self._view_is_now = self._shapes_are_now = False
         self._call(lib.fram_world_load, bytes_of(path))
 
     def snapshot(self) -> Snapshot:
