@@ -9,6 +9,9 @@ TABLE_DEFINE(feeding, FEEDING_FIELDS)
 #define TABLE_SELF pattern_table
 TABLE_DEFINE(pattern, PATTERN_FIELDS)
 #undef TABLE_SELF
+#define TABLE_SELF pattern_copy_table
+TABLE_DEFINE(pattern_copy, PATTERN_COPY_FIELDS)
+#undef TABLE_SELF
 #define TABLE_SELF pattern_vertex_table
 TABLE_DEFINE(pattern_vertex, PATTERN_VERTEX_FIELDS)
 #undef TABLE_SELF
@@ -29,12 +32,17 @@ static double clear_distance(const feeding_world *w) { return feeding_clearance(
 /* x less whole periods, in -period/2 .. period/2. */
 static double wrap(double x, double period) { return x - period * floor(x / period + 0.5); }
 
-vec2 feeding_place(const feeding_world *w, int32_t row)
+vec2 feeding_place_at(const feeding_world *w, int32_t row, vec2 displacement)
 {
     const feeding_table *f = w->feeding;
     vec2 middle = vec2_scale(vec2_add(f->lo[0], f->hi[0]), 0.5);
-    vec2 from = vec2_sub(vec2_add(w->pattern->place[row], f->displacement[0]), middle);
+    vec2 from = vec2_sub(vec2_add(w->pattern->place[row], displacement), middle);
     return vec2_add(middle, vec2_make(wrap(from.x, f->tile[0].x), wrap(from.y, f->tile[0].y)));
+}
+
+vec2 feeding_place(const feeding_world *w, int32_t row)
+{
+    return feeding_place_at(w, row, w->feeding->displacement[0]);
 }
 
 /* Least distance of a point inside the window from its edge; negative outside [m]. */
@@ -197,12 +205,6 @@ static void sort_floes(const feeding_world *w)
     }
 }
 
-static bool lives_still(const feeding_world *w, int32_t row)
-{
-    int32_t body = w->pattern->body[row];
-    return body >= 0 && body_is_alive(w->bodies, body) && w->bodies->generation[body] == w->pattern->generation[row];
-}
-
 static fram_status try_to_enter(context *ctx, overlay *o, const feeding_world *w, int32_t row, vec2_array scratch[2],
                                 fram_error *error)
 {
@@ -243,7 +245,7 @@ static fram_status look_at_row(context *ctx, overlay *o, const feeding_world *w,
     case PATTERN_OUTSIDE:
         if (!reaches)
             return FRAM_OK;
-        if (lives_still(w, row)) {
+        if (feeding_lives(w, row)) {
             p->state[row] = PATTERN_INSIDE; /* it was pushed farther in than the sheet went out */
             return FRAM_OK;
         }
@@ -270,11 +272,11 @@ fram_status feeding_step(context *ctx, overlay *o, const feeding_world *w, doubl
     if (w->feeding->count == 0)
         return FRAM_OK;
     feeding_table *f = w->feeding;
-    vec2 moved = vec2_add(f->displacement[0], vec2_scale(f->velocity[0], dt));
+    vec2 before = f->displacement[0], by = vec2_scale(f->velocity[0], dt), moved = vec2_add(before, by);
     f->displacement[0] = vec2_make(wrap(moved.x, f->tile[0].x), wrap(moved.y, f->tile[0].y));
     sort_floes(w);
     vec2_array scratch[2] = {{0}, {0}};
-    fram_status status = FRAM_OK;
+    fram_status status = feeding_copies_step(ctx, w, before, by, error);
     for (int32_t row = 0; row < w->pattern->count && status == FRAM_OK; row++)
         status = look_at_row(ctx, o, w, row, scratch, error);
     array_free(ctx, &scratch[0]);

@@ -5,7 +5,9 @@
    window, on whatever side the sheet comes from; while its centre lies in the outer band of the window it goes with the
    sheet, whatever pushes (a prescribed body), so that the band presses on the ice inside as the sheet around it would.
    Inside the band it is a floe like any other.  What leaves the window is taken out, and what returns is the sheet as
-   it was.  The tile is larger than the window by more than a floe: no floe of the pattern is in the window twice.
+   it was.  The tile is larger than the window by more than a floe: no floe of the pattern has two places in the window.
+   Where ice lingers (before a vessel) the sheet leaves its floes behind; they stay, and when the pattern comes again
+   its next copy of them enters too (docs/decisions/0310-copies-of-the-pattern.md).
 
    Knows floes, bodies and the boxes of the broad phase; must not know why the sheet moves, nor scenarios. */
 #ifndef ICE_FEEDING_H
@@ -47,11 +49,21 @@ typedef enum pattern_state {
     X(material, ice_material, FIELD_F64, 6, "SI", "density, E, nu, sigma_f, sigma_c, exponent") \
     X(breakable, uint8_t, FIELD_U8, 1, "1", "1: may break")                                     \
     X(state, uint8_t, FIELD_U8, 1, "1", "enum pattern_state")                                   \
-    X(body, int32_t, FIELD_I32, 1, "1", "body slot that it entered as, -1: none")               \
+    X(body, int32_t, FIELD_I32, 1, "1", "body slot that this copy entered as, -1: none")        \
     X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")                                  \
     X(first, int32_t, FIELD_I32, 1, "1", "first vertex of the outline")                         \
     X(size, int32_t, FIELD_I32, 1, "1", "number of vertices")
 TABLE_DECLARE(pattern, PATTERN_FIELDS)
+
+/* Floes of the pattern whose body is still there while the sheet shows another copy of them.  Copies are told apart by
+   whole tiles; no rows where the sheet leaves no floe behind. */
+#define PATTERN_COPY_FIELDS(X)                                                             \
+    X(row, int32_t, FIELD_I32, 1, "1", "floe of the pattern")                              \
+    X(tiles_x, int32_t, FIELD_I32, 1, "1", "tiles from the copy that is shown to its own") \
+    X(tiles_y, int32_t, FIELD_I32, 1, "1", "tiles from the copy that is shown to its own") \
+    X(body, int32_t, FIELD_I32, 1, "1", "body slot that it entered as")                    \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")
+TABLE_DECLARE(pattern_copy, PATTERN_COPY_FIELDS)
 
 #define PATTERN_VERTEX_FIELDS(X) X(point, vec2, FIELD_F64, 2, "m", "about the centroid of its outline")
 TABLE_DECLARE(pattern_vertex, PATTERN_VERTEX_FIELDS)
@@ -60,6 +72,7 @@ TABLE_DECLARE(pattern_vertex, PATTERN_VERTEX_FIELDS)
 typedef struct feeding_world {
     feeding_table *feeding;
     pattern_table *pattern;
+    pattern_copy_table *copies;
     pattern_vertex_table *vertices;
     body_table *bodies;
     shape_store *shapes;

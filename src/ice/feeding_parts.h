@@ -8,6 +8,10 @@
 double feeding_clearance(double band);
 /* Where a floe of the pattern is nearest to the window [m]. */
 vec2 feeding_place(const feeding_world *w, int32_t row);
+/* The same when the sheet has another displacement. */
+vec2 feeding_place_at(const feeding_world *w, int32_t row, vec2 displacement);
+/* The body that entered as the copy of this floe that is shown now is there still. */
+bool feeding_lives(const feeding_world *w, int32_t row);
 /* Its bounding circle reaches the window grown by `margin` [m]. */
 bool feeding_reaches(const feeding_world *w, vec2 place, double radius, double margin);
 /* A floe of the pattern becomes a body at its place, in the band or inside.  outline: NULL for that of the pattern,
@@ -15,5 +19,8 @@ bool feeding_reaches(const feeding_world *w, vec2 place, double radius, double m
 fram_status feeding_make_floe(context *ctx, overlay *o, const feeding_world *w, int32_t row, polygon outline,
                               fram_error *error);
 polygon feeding_outline(const feeding_world *w, int32_t row);
+/* The sheet moved by `moved` from the displacement `before`: where another copy of a floe is nearest to the window now,
+   the body of the one before is kept among the copies, and one whose copy is back is that of the floe again. */
+fram_status feeding_copies_step(context *ctx, const feeding_world *w, vec2 before, vec2 moved, fram_error *error);
 
 #endif

@@ -60,6 +60,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(held_drag, held_drag),
         STATE(edge_support, edge_supports),
         STATE(hull_retreat, hull_retreats),
+        STATE(pattern_copy, pattern_copies),
     };
     memcpy(out, list, sizeof list);
 }

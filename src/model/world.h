@@ -110,6 +110,7 @@ typedef struct world {
     edge_load_table edge_loads;
     edge_support_table edge_supports;
     hull_retreat_table hull_retreats;
+    pattern_copy_table pattern_copies;
     held_drag_table held_drag; /* a row for every eight body slots, where there is water */
 
     /* Scratch: written anew each step. */
@@ -142,7 +143,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 33 };
+enum { WORLD_TABLE_COUNT = 34 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

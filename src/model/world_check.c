@@ -12,6 +12,9 @@ typedef struct column_rule {
     const char *below; /* table whose rows are named; NULL: most holds */
 } column_rule;
 
+/* A floe may be left behind by any number of tiles, but not by so many that the next one cannot be counted. */
+#define TILES_AWAY 1000000000
+
 static const column_rule column_rules[] = {
     {"body", "motion", MOTION_NONE, MOTION_CARRIED, NULL},
     {"body", "material", 0, MATERIAL_COUNT - 1, NULL},
@@ -47,6 +50,10 @@ static const column_rule column_rules[] = {
     {"event", "vessel", 0, 0, "vessel"},
     {"pattern", "state", PATTERN_OUTSIDE, PATTERN_HELD_BACK, NULL},
     {"pattern", "body", -1, 0, "body"},
+    {"pattern_copy", "row", 0, 0, "pattern"},
+    {"pattern_copy", "body", 0, 0, "body"},
+    {"pattern_copy", "tiles_x", -TILES_AWAY, TILES_AWAY, NULL},
+    {"pattern_copy", "tiles_y", -TILES_AWAY, TILES_AWAY, NULL},
     {"input", "kind", 0, INPUT_KIND_COUNT - 1, NULL},
     {"hull_retreat", "floe", 0, 0, "floe"},
     {"hull_retreat", "surface", 0, 0, "body"},

@@ -6,8 +6,16 @@
 
 feeding_world feed_world(world *w)
 {
-    return (feeding_world){&w->feeding, &w->pattern, &w->pattern_vertices, &w->bodies,       &w->shapes,
-                           &w->floes,   &w->boxes,   w->clock.next_floe,   w->clock.ice_left};
+    return (feeding_world){.feeding = &w->feeding,
+                           .pattern = &w->pattern,
+                           .copies = &w->pattern_copies,
+                           .vertices = &w->pattern_vertices,
+                           .bodies = &w->bodies,
+                           .shapes = &w->shapes,
+                           .floes = &w->floes,
+                           .boxes = &w->boxes,
+                           .next_number = w->clock.next_floe,
+                           .left = w->clock.ice_left};
 }
 
 drift_world feed_sheet(const model *m, world *w)

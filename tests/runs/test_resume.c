@@ -44,6 +44,12 @@ static const char *const scenes[] = {
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 40\n  boundary: feeding\n  drift_speed: 3\n"
     "  drift_direction_deg: 200\n"
     "environment:\n  current_speed: 1\n  current_direction_deg: 40\n",
+    /* an endless field whose pattern comes again while floes of it linger before a hull */
+    "run:\n  duration: 10\n  time_step: 0.05\n  seed: 4\n"
+    "vessel:\n  mode: prescribed\n  hull: {form: box, length: 8, beam: 16, draught: 4, freeboard: 2}\n"
+    "ice:\n  concentration: 0.8\n  mean_floe_area: 12\n  thickness: 0.4\n"
+    "domain:\n  x_min: -20\n  x_max: 20\n  y_min: -20\n  y_max: 20\n  boundary: feeding\n  drift_speed: 8\n"
+    "  drift_direction_deg: 180\n",
     /* level ice that drifts onto a moored hull, is driven with a limit and comes and goes */
     "run:\n  duration: 4\n  time_step: 0.02\n"
     "vessel:\n  mode: free\n  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"

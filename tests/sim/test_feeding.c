@@ -143,6 +143,124 @@ START_TEST(hours_of_drift_keep_the_field)
 }
 END_TEST
 
+/* ---- floes that linger ---- */
+
+/* So long a tile that all floes about the middle change to their next copy before the first of these enters. */
+static const char *const long_tile[] = {"domain.tile_x=160"};
+
+/* Pins the floes about the middle of the window, as a vessel would that holds them up. */
+static int pin_floes(world *w, int32_t rows[], int most)
+{
+    int count = 0;
+    for (int32_t row = 0; row < w->pattern.count && count < most; row++) {
+        int32_t body = w->pattern.state[row] == PATTERN_INSIDE ? w->pattern.body[row] : -1;
+        if (body < 0 || fabs(w->bodies.position[body].x) > 15 || fabs(w->bodies.position[body].y) > 10)
+            continue;
+        w->bodies.motion[body] = MOTION_STATIC;
+        w->bodies.velocity[body] = w->bodies.angular_velocity[body] = vec3_make(0, 0, 0);
+        rows[count++] = row;
+    }
+    return count;
+}
+
+/* How many of these rows have a body of the copy that is shown. */
+static int shown(const world *w, const int32_t rows[], int count)
+{
+    int living = 0;
+    for (int i = 0; i < count; i++) {
+        int32_t body = w->pattern.body[rows[i]];
+        living += body >= 0 && body_is_alive(&w->bodies, body) &&
+                  w->bodies.generation[body] == w->pattern.generation[rows[i]];
+    }
+    return living;
+}
+
+/* How many of these rows have a body of a copy that is no longer shown, or not yet again. */
+static int left_behind(const world *w, const int32_t rows[], int count)
+{
+    int found = 0;
+    for (int32_t i = 0; i < w->pattern_copies.count; i++)
+        for (int k = 0; k < count; k++)
+            found += w->pattern_copies.row[i] == rows[k];
+    return found;
+}
+
+/* Steps until the sheet has gone on by `way` metres along x. */
+static void drift_by(scene *k, double way, double speed)
+{
+    k->m.drift_given = true;
+    k->m.drift = vec2_make(way > 0 ? speed : -speed, 0);
+    scene_steps(k, (int64_t)(fabs(way) / speed / k->m.time_step + 0.5));
+}
+
+/* Floes that are held up leave no hole where the pattern comes again, and are themselves when the sheet comes back. */
+START_TEST(floes_that_linger_leave_no_holes)
+{
+    enum { MOST = 32 };
+    scene k;
+    scene_open_with(&k, alone, long_tile, 1);
+    double start = floes_mass(&k.w), tile = k.w.feeding.tile[0].x;
+    int32_t rows[MOST];
+    int pinned = pin_floes(&k.w, rows, MOST);
+    ck_assert_int_gt(pinned, 8);
+
+    /* By half a tile and a tenth: another copy of each floe is nearest, and none of them has come. */
+    drift_by(&k, -0.6 * tile, 2);
+    ck_assert_int_eq(left_behind(&k.w, rows, pinned), pinned);
+    ck_assert_int_eq(shown(&k.w, rows, pinned), 0);
+
+    /* Back: each is the floe that it was, and no second one came. */
+    drift_by(&k, 0.6 * tile, 2);
+    ck_assert_int_eq(left_behind(&k.w, rows, pinned), 0);
+    ck_assert_int_eq(shown(&k.w, rows, pinned), pinned);
+
+    /* Nearly a tile on: the next copies stand updrift of those that are pinned, but for those that were held back. */
+    drift_by(&k, -0.85 * tile, 2);
+    int second = shown(&k.w, rows, pinned), waiting = 0;
+    for (int i = 0; i < pinned; i++)
+        waiting += k.w.pattern.state[rows[i]] == PATTERN_WAITING || k.w.pattern.state[rows[i]] == PATTERN_HELD_BACK;
+    ck_assert_int_eq(left_behind(&k.w, rows, pinned), pinned);
+    ck_assert_msg(second + waiting == pinned && waiting <= 3, "%d of %d floes came again, %d have no room", second,
+                  pinned, waiting);
+    check_books(&k, start);
+
+    /* Another tile on the third copies come as well, and all that are left behind are counted from there. */
+    drift_by(&k, -1.0 * tile, 2);
+    ck_assert_int_ge(left_behind(&k.w, rows, pinned), pinned);
+    ck_assert_int_gt(shown(&k.w, rows, pinned), pinned / 2);
+    for (int32_t i = 0; i < k.w.pattern_copies.count; i++)
+        ck_assert(k.w.pattern_copies.tiles_x[i] < 0 && k.w.pattern_copies.tiles_y[i] == 0);
+    check_books(&k, start);
+    scene_close(&k);
+}
+END_TEST
+
+/* A copy of a world that has such floes goes on to the same bits. */
+START_TEST(copies_of_floes_are_state)
+{
+    scene k;
+    fram_error error = {0};
+    int32_t rows[32];
+    scene_open_with(&k, alone, long_tile, 1);
+    pin_floes(&k.w, rows, 32);
+    drift_by(&k, -0.6 * k.w.feeding.tile[0].x, 2);
+    ck_assert_int_gt(k.w.pattern_copies.count, 0);
+    world other = {0};
+    assert_ok(world_copy(&k.ctx, &k.w, &other, &error), error);
+    ck_assert_uint_eq(world_hash(&k.w), world_hash(&other));
+    other.pattern_copies.tiles_x[0]++;
+    ck_assert_uint_ne(world_hash(&k.w), world_hash(&other));
+    other.pattern_copies.tiles_x[0]--;
+    for (int i = 0; i < 100; i++) {
+        scene_steps(&k, 1);
+        assert_ok(world_step(&k.ctx, &k.m, &other, &error), error);
+    }
+    ck_assert_uint_eq(world_hash(&k.w), world_hash(&other));
+    world_free(&k.ctx, &other);
+    scene_close(&k);
+}
+END_TEST
+
 /* ---- around a vessel ---- */
 
 static void outline_of(const world *w, int32_t body, vec2 out[64], polygon *p)
@@ -340,4 +458,5 @@ START_TEST(refusals_name_their_key)
 END_TEST
 
 TEST_MAIN("feeding", the_pattern_has_the_concentration_and_no_seam, hours_of_drift_keep_the_field,
-          drift_turns_and_reverses, driven_ice_presses, cut_at_the_vessel, open_water_is_clear, refusals_name_their_key)
+          floes_that_linger_leave_no_holes, copies_of_floes_are_state, drift_turns_and_reverses, driven_ice_presses,
+          cut_at_the_vessel, open_water_is_clear, refusals_name_their_key)
