@@ -69,7 +69,7 @@ static fram_status measure(const scenario_hull *keys, const new_hull *h, hull_pa
 {
     box3 box = mesh_bounds(&h->surface);
     box2 line = h->floats.waterline;
-    if (!(h->floats.waterplane_area > 0))
+    if (!(h->floats.waterplane_area > 0) || !(h->floats.volume > 0))
         return error_set(
             error, FRAM_ERROR_INPUT, keys->file, 0, "mesh",
             "the design waterline of a hull's file is its z = 0, but the mesh reaches from z = %g to %g m; "

@@ -2,6 +2,8 @@
 
 #include "io/velocity_file.h"
 
+#include <math.h>
+
 static fram_status read_profile(context *ctx, const scenario *s, const char *file, current_profile *out,
                                 fram_error *error)
 {
@@ -34,4 +36,48 @@ fram_status build_media(context *ctx, const scenario *s, media_history *out, fra
     if (status == FRAM_OK)
         status = read_profile(ctx, s, e->current_profile_file, &out->profile, error);
     return status;
+}
+
+/* ---- what is likely a slip in a history ---- */
+
+/* Part of the run that a history of several rows covers at least: one in minutes covers a sixtieth. */
+#define LEAST_COVER 0.1
+
+typedef struct history_rule {
+    const char *key, *file;
+    const velocity_series *rows;
+    double most; /* [m/s] */
+} history_rule;
+
+static void warn_of_history(context *ctx, const scenario *s, const history_rule *r)
+{
+    int32_t n = r->rows->count;
+    if (n < 1)
+        return;
+    double first = r->rows->time[0], last = r->rows->time[n - 1], end = s->run.duration, fastest = 0;
+    for (int32_t i = 0; i < n; i++)
+        fastest = fmax(fastest, vec3_length(r->rows->velocity[i]));
+    if (n > 1 && last > first && last < LEAST_COVER * end)
+        log_write(ctx, LOG_WARNING,
+                  "%s: the last row of %s is of %.6g s, and the run goes on to %.6g s: times are seconds, not minutes "
+                  "or hours",
+                  r->key, r->file, last, end);
+    if (first > end)
+        log_write(
+            ctx, LOG_WARNING,
+            "%s: the first row of %s is of %.6g s, after the end of the run at %.6g s: times count from its start",
+            r->key, r->file, first, end);
+    if (fastest > r->most)
+        log_write(ctx, LOG_WARNING, "%s: %s goes up to %.4g m/s, more than %.3g: give m/s, not knots, km/h or cm/s",
+                  r->key, r->file, fastest, r->most);
+}
+
+void history_warnings(context *ctx, const scenario *s, const media_history *h)
+{
+    /* As of the constant ones (sanity.c). */
+    const history_rule rules[] = {{"environment.current_file", s->environment.current_file, &h->current, 4},
+                                  {"environment.wind_file", s->environment.wind_file, &h->wind, 50},
+                                  {"domain.drift_file", s->domain.drift_file, &h->drift, 3}};
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        warn_of_history(ctx, s, &rules[i]);
 }

@@ -135,6 +135,8 @@ fram_status build_method(context *ctx, const scenario *s, model *m, fram_error *
     *m = settings_of(s);
     fram_status status = build_media(ctx, s, &m->history, error);
     if (status == FRAM_OK)
+        history_warnings(ctx, s, &m->history);
+    if (status == FRAM_OK)
         status = build_sheet(ctx, s, &m->sheet, error);
     if (status != FRAM_OK)
         model_free(ctx, m);

@@ -50,22 +50,67 @@ static const usual usual_values[] = {
     {"ice.fracture.toughness", 1e4, 1e6, 1.5, "what was measured on ice", "give Pa m^0.5, not kPa m^0.5"},
     {"ice.density", 650, 960, 0, "what was measured on ice", "give kg/m3"},
     {"ice.friction.ice_ice_static", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"ice.friction.ice_ice_kinetic", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
     {"ice.friction.ice_hull_static", 0, 1, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"ice.friction.ice_hull_kinetic", 0, 1, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"ice.friction.ice_wall_static", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"ice.friction.ice_wall_kinetic", 0, 1.5, 0, "what was measured", "it is a coefficient, not an angle"},
+    {"ice.poisson_ratio", 0.2, 0.45, 0, "what was measured on ice", "about 0.3"},
+    {"ice.crushing_exponent", -0.8, 0, 0, "what was measured", "the pressure falls with the area"},
+    {"ice.ridging_resistance", 0.1, 20, 0, "what was measured of ridges", "R is 2 to 10"},
+    {"ice.strength.flexural_variation", 0, 1, 0, "what was measured on ice", "give a part of the mean, not per cent"},
+    {"ice.strength.crushing_variation", 0, 1, 0, "what was measured on ice", "give a part of the mean, not per cent"},
+    {"ice.level.line_load", 1e3, 1e7, 2, "what drifting ice drives with", "give N/m, not kN/m or MN/m"},
+    {"ice.floes[].velocity_x", -5, 5, 0.5, "what floes move with", "give m/s"},
+    {"ice.floes[].velocity_y", -5, 5, 0.5, "what floes move with", "give m/s"},
+    {"ice.floes[].spin", -1, 1, -0.5, "what floes turn with", "give rad/s, not deg/s"},
+    {"run.solver.contact_skin", 0, 0.01, 1, "what lets packed ice rest", "give metres"},
+    {"run.solver.tolerance", 0, 0.01, 0.5, "what residuals are worth", "give m/s"},
+    {"run.scale", 0.5, 200, 0, "what ice is tested at", "give lambda, 30 for full size, 1 for the size of a tank"},
     {"environment.water_density", 980, 1100, 0, "fresh water to brine", "give kg/m3"},
+    {"output.record_limit", 0.1, 1e6, 0, "what disks hold", "give MB"},
     {"environment.air_density", 1, 1.7, 0, "air at sea level", "give kg/m3"},
     {"environment.gravity", 9.7, 9.9, 0, "that of the Earth", "give m/s2"},
     {"environment.wind_speed", 0, 50, 0.5, "a hurricane", "give m/s, a knot is 0.514 of it"},
     {"environment.current_speed", 0, 4, 0.5, "a strong tidal stream", "give m/s, not cm/s"},
     {"domain.drift_speed", 0, 3, 0.5, "fast drift", "give m/s, not km/h or cm/s"},
     {"vessel.speed", 0, 12, 0.5, "what ships do in ice", "give m/s, a knot is 0.514 of it"},
+    {"environment.floe_damping", 0, 2, 0, "what floats", "give a part of the critical damping"},
+    {"environment.ice_drag.water_form", 0, 3, 0, "what was measured", "it is a coefficient"},
+    {"environment.ice_drag.water_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
+    {"environment.ice_drag.air_form", 0, 3, 0, "what was measured", "it is a coefficient"},
+    {"environment.ice_drag.air_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
+    {"environment.hull_drag.water_form", 0, 3, 0, "what was measured", "it is a coefficient"},
+    {"environment.hull_drag.water_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
+    {"environment.hull_drag.air_form", 0, 3, 0, "what was measured", "it is a coefficient"},
+    {"environment.hull_drag.air_skin", 0, 0.1, 0, "what was measured", "it is a coefficient"},
     {"vessel.hull.length", 4, 500, 1, "what ships and structures measure", "give metres"},
     {"vessel.mooring.lines[].weight", 5, 2e4, 2, "chain and wire in water", "give N/m, not kg/m or kN/m"},
     {"vessel.mooring.lines[].pretension", 2e3, 3e7, 3, "what lines are set to", "give newtons, not kN or tonnes"},
     {"vessel.mooring.lines[].breaking_load", 5e4, 1e8, 3, "what lines carry", "give newtons, not kN or tonnes"},
+    {"vessel.hull.freeboard", 0.2, 60, 1, "what ships have", "give metres"},
+    {"vessel.hydrodynamics.heave_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},
+    {"vessel.hydrodynamics.roll_damping", 0, 1, 0, "what ships have", "give a part of the critical damping"},
+    {"vessel.hydrodynamics.pitch_damping", 0, 2, 0, "what ships have", "give a part of the critical damping"},
+    {"vessel.positioning.noise_position", 0, 5, 1, "what position references have", "give metres"},
+    {"vessel.positioning.noise_heading_deg", 0, 3, 0, "what gyrocompasses have", "give degrees"},
+    {"vessel.positioning.frequency", 0.005, 0.6, -0.5, "what ships are controlled with", "give rad/s"},
+    {"vessel.positioning.damping", 0.2, 3, 0, "what controllers have", "give a part of the critical damping"},
+    {"vessel.positioning.observer_bandwidth", 0.01, 3, -0.5, "what observers have", "give rad/s"},
+    {"vessel.positioning.bias_time", 10, 1e5, 0.5, "what observers have", "give seconds"},
+    {"vessel.positioning.reference_speed", 0.01, 6, 0.5, "what ships are moved with on station", "give m/s"},
+    {"vessel.station.offset_limit", 0.05, 500, 1, "what is required of a station", "give metres"},
+    {"vessel.station.heading_limit_deg", 1, 180, 0, "what is required of a station", "give degrees, not radians"},
+    {"vessel.wash.reach", 1, 200, 0, "how far jets are felt", "give diameters of the propeller"},
     {"vessel.fender_stiffness", 1e4, 1e11, 2, "what fenders have", "give N/m, not kN/m"},
     {"vessel.propulsion.bollard_pull", 1e4, 2e7, 3, "what ships pull", "give newtons, not kN or tonnes"},
     {"vessel.propulsion.open_water_speed", 1, 13, 0.5, "what ships make", "give m/s, a knot is 0.514 of it"},
     {"vessel.propulsion.speed", 0, 13, 0.5, "what ships make", "give m/s, a knot is 0.514 of it"},
+    {"vessel.propulsion.steering_angle_deg", 3, 90, 0, "what rudders and pods do", "give degrees, not radians"},
+    {"vessel.propulsion.steering_rate_deg", 0.3, 60, -0.5, "what rudders and pods do", "give deg/s, not rad/s"},
+    {"vessel.thrusters[].time_constant", 0, 60, 0.5, "what shafts take", "give seconds"},
+    {"vessel.thrusters[].turn_rate_deg", 0.3, 90, -0.5, "what azimuths and rudders do", "give deg/s, not rad/s"},
+    {"vessel.thrusters[].speed_rate", 2e-3, 10, -0.5, "what shafts do", "give a part of the largest speed in 1/s"},
     {"vessel.thrusters[].thrust", 2e3, 1e7, 3, "what a propeller gives", "give newtons, not kN or tonnes"},
 };
 
@@ -113,6 +158,7 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     double value = key->kind == KEY_REAL ? *(const double *)member : (double)NAN;
     if (is_automatic(value))
         return FRAM_OK;
+    bool has_unit = *key->unit && strcmp(key->unit, "1") != 0;
     char pattern[PATTERN_SIZE];
     pattern_of(path, pattern);
     if (is_angle(pattern))
@@ -123,8 +169,8 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
         double least = u->least * fmin(1, factor), most = u->most * fmax(1, factor);
         if (strcmp(u->key, pattern) != 0 || (value >= least && value <= most) || (u->least > 0 && value == 0))
             continue;
-        sanity_say(t->tell, t->to, "%s: %.6g%s%s is outside of %.3g to %.3g, %s: %s", path, value,
-                   *key->unit ? " " : "", key->unit, least, most, u->why, u->remedy);
+        sanity_say(t->tell, t->to, "%s: %.6g%s%s is outside of %.3g to %.3g, %s: %s", path, value, has_unit ? " " : "",
+                   has_unit ? key->unit : "", least, most, u->why, u->remedy);
     }
     return FRAM_OK;
 }
@@ -182,6 +228,8 @@ static void tell_directions(const teller *t)
     bool own = d->boundary == DOMAIN_FEEDING && !is_automatic(d->drift_speed);
     double drift = own ? d->drift_direction_deg : e->current_direction_deg;
     double speed = own ? d->drift_speed : e->current_speed;
+    if (e->air_density == 0 && (e->wind_speed > 0 || e->wind_file[0]))
+        sanity_say(t->tell, t->to, "environment.air_density: 0 kg/m3 leaves a wind without any force");
     bool histories = e->wind_file[0] || e->current_file[0] || d->drift_file[0];
     if (histories || !(speed > 0) || !(e->wind_speed > 0) || t->s->ice.source == ICE_NONE)
         return;
@@ -202,6 +250,10 @@ static void tell_directions(const teller *t)
 #define LEAST_ROWS 10
 /* Three hours in steps of 0.1 ms, ten times as short as any scene of full size asks for. */
 #define MOST_STEPS 1.08e8
+/* Steps under which a window is one of another unit; a little shorter than a step is a step. */
+#define SHORTEST_WINDOW 0.5
+/* The default, which is longer than many a short run. */
+#define USUAL_CHECKPOINT 60
 
 static void tell_times(const teller *t)
 {
@@ -229,6 +281,17 @@ static void tell_times(const teller *t)
     if (o->csv_interval > 0 && r->duration / o->csv_interval < LEAST_ROWS && r->duration / r->time_step > LEAST_ROWS)
         sanity_say(t->tell, t->to, "output.csv_interval: %g s leaves %.0f rows of the run in series.csv",
                    o->csv_interval, r->duration / o->csv_interval);
+    if (o->picture_interval > r->duration)
+        sanity_say(t->tell, t->to, "output.picture_interval: %g s is longer than the run: no picture on the way",
+                   o->picture_interval);
+    if (o->checkpoint_interval > r->duration && o->checkpoint_interval > USUAL_CHECKPOINT)
+        sanity_say(t->tell, t->to,
+                   "output.checkpoint_interval: %g s is longer than the run: nothing to resume from if it is killed",
+                   o->checkpoint_interval);
+    if (o->averaging_window > 0 && o->averaging_window < SHORTEST_WINDOW * r->time_step)
+        sanity_say(t->tell, t->to,
+                   "output.averaging_window: %g s is less than run.time_step, %g s: averaged loads are those of a step",
+                   o->averaging_window, r->time_step);
     if (o->averaging_window > LONGEST_WINDOW * r->duration)
         sanity_say(t->tell, t->to, "output.averaging_window: %g s is more than half of the run", o->averaging_window);
     if (o->picture_interval > 0 && r->duration / o->picture_interval > MOST_PICTURES)
@@ -239,6 +302,9 @@ static void tell_times(const teller *t)
 /* ---- vessels, from their keys ---- */
 
 static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
+
+/* Beam over draught of barges and shallow river ships goes up to 15. */
+#define MOST_BEAM 25
 
 static void tell_hull(const teller *t, const vessel_entry *e)
 {
@@ -251,6 +317,14 @@ static void tell_hull(const teller *t, const vessel_entry *e)
     if (h->draught > h->beam)
         sanity_say(t->tell, t->to, "%s.hull.draught: %.4g m is more than the beam, %.4g m", e->path, h->draught,
                    h->beam);
+    if (h->beam > MOST_BEAM * h->draught)
+        sanity_say(t->tell, t->to, "%s.hull.draught: %.4g m is %.3g of the beam, %.4g m: give metres", e->path,
+                   h->draught, h->draught / h->beam, h->beam);
+    if (automatic_or(e->keys->centre_of_gravity_z, 0) > h->freeboard)
+        sanity_say(t->tell, t->to,
+                   "%s.centre_of_gravity_z: %.4g m is above the deck at %.4g m: give metres above the design "
+                   "waterline, not above the keel",
+                   e->path, e->keys->centre_of_gravity_z, h->freeboard);
     if (t->s->ice.source != ICE_NONE && t->s->ice.thickness > h->draught)
         sanity_say(t->tell, t->to, "ice.thickness: %.4g m is more than the draught of the vessel, %.4g m",
                    t->s->ice.thickness, h->draught);
@@ -276,6 +350,11 @@ static void tell_domain(const teller *t, const vessel_entry *e)
             "domain: its edge%s is %.4g m from %s, which reaches %.4g m as it turns; enlarge the domain by %.3g m or "
             "more on that side",
             band > 0 ? " with the band" : "", edge - band, e->path, reach, reach - edge + band);
+    if (edge < -reach)
+        sanity_say(t->tell, t->to,
+                   "%s.x: (%.5g, %.5g) m lies outside of the domain, %.4g m from its edge: there is no "
+                   "ice",
+                   e->path, v->x, v->y, -edge);
     double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
     if (d->boundary != DOMAIN_FEEDING && width < 2 * v->hull.beam)
         sanity_say(t->tell, t->to, "domain: %.4g m is less than two beams of %s, so that its edges carry the load",
@@ -341,6 +420,7 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
     (void)scenario_walk(s, look_at_number, &t, NULL);
     tell_heave(&t);
     tell_ice_shape(&t);
+    sanity_tell_ice(s, tell, to);
     tell_directions(&t);
     tell_times(&t);
     tell_rest(&t);
@@ -350,5 +430,6 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
         tell_domain(&t, &e);
         tell_station(&t, &e);
         sanity_tell_vessel(s, &e, tell, to);
+        sanity_tell_control(s, &e, tell, to);
     }
 }

@@ -1,4 +1,5 @@
 #include "base/transcendental.h"
+#include "model/scenario_schema.h"
 #include "sim/sanity.h"
 #include "sim/wall_check.h"
 
@@ -102,6 +103,10 @@ static void tell_propulsion(const teller *t)
 #define STIFFNESS_MOST 2000.0
 /* Horizontal distance to the anchor over the depth; a line that hangs straighter down holds nothing. */
 #define SCOPE_LEAST 0.05
+/* Length of line that the breaking load carries [m]: 5 km of chain, 15 km of wire. */
+#define OWN_WEIGHT 1e3
+/* Freeboards to which fairleads go up. */
+#define MOST_HEIGHT 2.0
 /* A full turn with what rounding leaves of a spacing [deg]. */
 #define FULL_CIRCLE 360.5
 
@@ -130,6 +135,23 @@ static void tell_line(const teller *t, int32_t i)
     if (is_own_hull(v) && fabs(v->mooring.x) + l->fairlead_distance > OVERHANG * v->hull.length)
         sanity_say(t->tell, t->to, "%s.mooring: fairleads %.4g m from amidships are outside of a hull of %.4g m",
                    t->e->path, fabs(v->mooring.x) + l->fairlead_distance, v->hull.length);
+    if (l->count > 1 && fabs(l->spacing_deg) < 1e-9)
+        sanity_say(t->tell, t->to, "%s.mooring.lines[%d].spacing_deg: %d lines lie one upon another at 0 degrees apart",
+                   t->e->path, (int)i, (int)l->count);
+    if (l->kind == LINE_CATENARY && automatic_or(l->breaking_load, HUGE_VAL) < OWN_WEIGHT * l->weight)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].weight: a line of %.4g N/m parts under %.3g m of itself: give N/m", t->e->path,
+                   (int)i, l->weight, l->breaking_load / l->weight);
+    if (is_own_hull(v) && v->mooring.z > MOST_HEIGHT * v->hull.freeboard)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "
+                   "negative under water",
+                   t->e->path, v->mooring.z, v->hull.freeboard);
+    if (!is_automatic(l->release_time) && l->release_time > 0 && l->release_time < r->transient)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.lines[%d].release_time: it is let go at %g s, in the transient of %g s that statistics "
+                   "leave out: give seconds, or leave the line out",
+                   t->e->path, (int)i, l->release_time, r->transient);
     if (!is_automatic(l->release_time) && l->release_time > r->duration)
         sanity_say(t->tell, t->to, "%s.mooring.lines[%d].release_time: %g s is after the end of the run, %g s",
                    t->e->path, (int)i, l->release_time, r->duration);
@@ -137,10 +159,60 @@ static void tell_line(const teller *t, int32_t i)
 
 /* ---- its way ---- */
 
+/* Angle of drift from which on a ship is rather turned the wrong way [deg]. */
+#define MOST_DRIFT 60
+/* Fastest way between two points at full size [m/s]. */
+#define FASTEST_LEG 12.0
+/* Fastest turn between them at full size [deg/s]. */
+#define FASTEST_TURN 10.0
+/* Runs that a path is long. */
+#define MOST_PATH 10
+
+static double degrees_apart(double a, double b)
+{
+    double apart = fmod(fabs(a - b), 360);
+    return fmin(apart, 360 - apart);
+}
+
+/* Whether the leg that ends at a point is too fast. */
+static bool tell_leg(const teller *t, int32_t i)
+{
+    const scenario_path_point *to = &t->e->keys->path.data[i], *from = to - 1;
+    double x = to->x - from->x, y = to->y - from->y, time = to->time - from->time;
+    double speed = sqrt(x * x + y * y) / time;
+    double most = FASTEST_LEG * fmax(1, real_pow(t->s->run.scale / scenario_default_scale(), 0.5));
+    double turn = fabs(to->heading_deg - from->heading_deg) / time;
+    double fastest = FASTEST_TURN * fmax(1, real_pow(t->s->run.scale / scenario_default_scale(), -0.5));
+    if (time > 0 && speed <= most && turn > fastest)
+        sanity_say(t->tell, t->to, "%s.path[%d].heading_deg: %g degrees are reached with %.4g deg/s: give degrees",
+                   t->e->path, (int)i, to->heading_deg, turn);
+    if (!(time > 0) || speed <= most)
+        return turn > fastest;
+    sanity_say(t->tell, t->to, "%s.path[%d]: (%.5g, %.5g) m is reached with %.4g m/s: give seconds and metres",
+               t->e->path, (int)i, to->x, to->y, speed);
+    return true;
+}
+
 static void tell_motion(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_run *r = &t->s->run;
+    double drift = degrees_apart(automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
+    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->hull.form != HULL_CONE && drift > MOST_DRIFT)
+        sanity_say(t->tell, t->to,
+                   "%s.course_deg: the vessel is moved at %.4g degrees to its bow, towards %.4g with its heading at "
+                   "%.4g: both are counter-clockwise from X",
+                   t->e->path, drift, automatic_or(v->course_deg, v->heading_deg), v->heading_deg);
+    if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->speed * r->duration < t->s->ice.thickness &&
+        t->s->ice.source != ICE_NONE && t->s->domain.boundary != DOMAIN_FEEDING)
+        sanity_say(t->tell, t->to, "%s.speed: the vessel moves %.3g m in the run, less than the ice is thick: give m/s",
+                   t->e->path, v->speed * r->duration);
+    for (int32_t i = 1; v->mode != VESSEL_FREE && i < v->path.count; i++)
+        if (tell_leg(t, i))
+            break;
+    if (v->mode != VESSEL_FREE && v->path.count > 1 && v->path.data[v->path.count - 1].time > MOST_PATH * r->duration)
+        sanity_say(t->tell, t->to, "%s.path: it goes on to %.4g s, and the run ends at %.4g s: give seconds",
+                   t->e->path, v->path.data[v->path.count - 1].time, r->duration);
     if (v->mode != VESSEL_FREE && v->speed > 0 && v->path.count == 0 && v->ramp >= r->duration)
         sanity_say(t->tell, t->to, "%s.ramp: %g s is not over when the run ends, at %g s", t->e->path, v->ramp,
                    r->duration);
@@ -156,6 +228,31 @@ static void tell_motion(const teller *t)
     }
 }
 
+/* ---- areas of the wind and the current ---- */
+
+/* Over length or beam times draught or freeboard. */
+#define AREA_LEAST 0.1
+#define AREA_MOST 30.0
+
+static void tell_area(const teller *t, const char *key, double area, double own)
+{
+    if (!is_automatic(area) && (area < AREA_LEAST * own || area > AREA_MOST * own))
+        sanity_say(t->tell, t->to, "%s.%s: %.4g m2 is %.3g of what the hull shows, %.4g m2: give square metres",
+                   t->e->path, key, area, area / own, own);
+}
+
+static void tell_flows(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_hull *h = &v->hull;
+    if (!is_own_hull(v))
+        return;
+    tell_area(t, "current_coefficients.frontal_area", v->current_coefficients.frontal_area, h->beam * h->draught);
+    tell_area(t, "current_coefficients.lateral_area", v->current_coefficients.lateral_area, h->length * h->draught);
+    tell_area(t, "wind_coefficients.frontal_area", v->wind_coefficients.frontal_area, h->beam * h->freeboard);
+    tell_area(t, "wind_coefficients.lateral_area", v->wind_coefficients.lateral_area, h->length * h->freeboard);
+}
+
 void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
     const teller t = {s, e, tell, to};
@@ -165,4 +262,5 @@ void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller 
     for (int32_t i = 0; i < e->keys->mooring.lines.count; i++)
         tell_line(&t, i);
     tell_motion(&t);
+    tell_flows(&t);
 }

@@ -1,6 +1,9 @@
 #include "sim/vessel_check.h"
 
 #include "base/transcendental.h"
+#include "geometry/polygon.h"
+#include "model/scenario_schema.h"
+#include "sim/build_ice.h"
 #include "sim/build_vessel.h"
 #include "sim/wall_check.h"
 
@@ -233,10 +236,94 @@ static void warn_of_springs(context *ctx, const scenario *s, const vessel_entry 
     warn_of_lines(ctx, s, e, w, row);
 }
 
+/* ---- a hull from a file ---- */
+
+/* Sizes of what is taken for a ship or a structure at full size [m], as those of vessel.hull.length. */
+#define SHORTEST 4.0
+#define LONGEST 500.0
+/* Part of the length by which amidships may lie beside the middle of the waterline. */
+#define OFF_AMIDSHIPS 0.2
+/* Beam over draught, as of hulls by particulars. */
+#define SHALLOWEST 25.0
+
+static void warn_of_mesh(context *ctx, const scenario *s, const vessel_entry *e, const hull_particulars *p)
+{
+    if (e->keys->hull.form != HULL_MESH)
+        return;
+    double size = s->run.scale / scenario_default_scale();
+    if (p->length < SHORTEST * fmin(1, size) || p->length > LONGEST * fmax(1, size))
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the waterline is %.4g m long, outside of %.3g to %.3g: a file in millimetres wants "
+                  "hull.file_scale 0.001, one in feet 0.3048",
+                  e->path, p->length, SHORTEST * fmin(1, size), LONGEST * fmax(1, size));
+    if (p->beam > p->length)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the hull is %.4g m wide along y and %.4g m long along x: x is to be forward", e->path,
+                  p->beam, p->length);
+    if (fabs(p->midships) > OFF_AMIDSHIPS * p->length)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the waterline of %.4g m lies about x = %.4g m, not about x = 0, amidships: all places "
+                  "on the ship are counted from there; move the mesh",
+                  e->path, p->length, p->midships);
+    if (p->beam > SHALLOWEST * p->draught)
+        log_write(ctx, LOG_WARNING,
+                  "%s.hull.file: the mesh reaches %.3g m under its z = 0, the design waterline, with a beam of %.4g m: "
+                  "move it down by the draught",
+                  e->path, p->draught, p->beam);
+}
+
+/* ---- floes that are listed ---- */
+
+/* Part of the smaller footprint within the other from which on one begins inside the other; a bow reaches over a floe
+   that it only touches. */
+#define INSIDE 0.5
+/* As many as the key of a floe's sides allows. */
+enum { FLOE_SIDES_MOST = 64 };
+
+/* Outline of a floe as it is given, level. */
+static int32_t floe_outline(const scenario_floe *f, vec2 out[FLOE_SIDES_MOST])
+{
+    int32_t n = f->shape == FLOE_REGULAR ? (int32_t)f->sides : 4;
+    double c = real_cos(radians(f->yaw_deg)), d = real_sin(radians(f->yaw_deg));
+    for (int32_t i = 0; i < n; i++) {
+        double angle = 2 * PI * i / n;
+        vec2 v = {f->radius * real_cos(angle), f->radius * real_sin(angle)};
+        if (f->shape != FLOE_REGULAR)
+            v = (vec2){(i == 0 || i == 3 ? 0.5 : -0.5) * f->length, (i < 2 ? 0.5 : -0.5) * f->width};
+        out[i] = (vec2){f->x + c * v.x - d * v.y, f->y + d * v.x + c * v.y};
+    }
+    return n;
+}
+
+static void warn_of_floes(context *ctx, const scenario *s, const vessel_entry *e, const world *w, int32_t row)
+{
+    const scenario_ice *ice = &s->ice;
+    vec2_array hull = {0};
+    fram_error ignored = {0};
+    if (ice->source != ICE_FLOES || build_footprint(ctx, w, w->vessels.body[row], false, &hull, &ignored) != FRAM_OK)
+        return;
+    polygon ship = {hull.data, hull.count};
+    for (int32_t i = 0; i < ice->floes.count; i++) {
+        const scenario_floe *f = &ice->floes.data[i];
+        vec2 corner[FLOE_SIDES_MOST];
+        polygon floe = {corner, floe_outline(f, corner)};
+        double common = polygon_overlap_area(ship, floe), least = fmin(polygon_area(ship), polygon_area(floe));
+        if (is_automatic(f->elevation) && common > INSIDE * least)
+            log_write(
+                ctx, LOG_WARNING,
+                "ice.floes[%d]: %.4g m2 of the floe at (%.5g, %.5g) m lie inside the hull of %s at the start: move "
+                "one of them",
+                (int)i, common, f->x, f->y, vessel_title_of(e).text);
+    }
+    array_free(ctx, &hull);
+}
+
 void vessel_warnings(context *ctx, const scenario *s, const vessel_entry *e, const model *m, const world *w,
                      int32_t row)
 {
     const vessel_model *hull = &m->vessels.data[row];
+    warn_of_mesh(ctx, s, e, &hull->particulars);
+    warn_of_floes(ctx, s, e, w, row);
     warn_of_stability(ctx, s, e, hull);
     warn_of_damping(ctx, e, hull);
     warn_of_springs(ctx, s, e, hull, w, row);

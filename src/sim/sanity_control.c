@@ -1,0 +1,204 @@
+#include "base/transcendental.h"
+#include "model/scenario_schema.h"
+#include "sim/sanity.h"
+#include "sim/wall_check.h"
+
+#include <math.h>
+
+typedef struct teller {
+    const scenario *s;
+    const vessel_entry *e;
+    sanity_teller tell;
+    const void *to;
+} teller;
+
+static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
+
+/* What goes with a power of the scale has that of full size at the default one. */
+static double at_scale(const scenario *s, double power)
+{
+    return real_pow(s->run.scale / scenario_default_scale(), power);
+}
+
+/* ---- dynamic positioning ---- */
+
+/* Of 1 over the frequency: a controller that acts less often does not hold. */
+#define SLOWEST_CALL 1.0
+
+static void tell_interval(const teller *t, const char *key, double interval)
+{
+    double period = 2 * PI / t->e->keys->positioning.frequency;
+    if (interval > t->s->run.duration)
+        sanity_say(t->tell, t->to, "%s.positioning.%s: %.4g s is longer than the run, %.4g s: give seconds", t->e->path,
+                   key, interval, t->s->run.duration);
+    else if (interval > SLOWEST_CALL / t->e->keys->positioning.frequency)
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.%s: once in %.4g s is too seldom for a controlled period of %.3g s "
+                   "(positioning.frequency %.3g rad/s): take %.2g s or less",
+                   t->e->path, key, interval, period, t->e->keys->positioning.frequency,
+                   0.1 / t->e->keys->positioning.frequency);
+    else if (interval > 0 && interval < t->s->run.time_step * (1 - 1e-9))
+        sanity_say(t->tell, t->to, "%s.positioning.%s: %.4g s is shorter than run.time_step, %.4g s: it is a step",
+                   t->e->path, key, interval, t->s->run.time_step);
+}
+
+/* Masses of the controller's model over those of the vessel and its water. */
+#define MODEL_MASS_LEAST 0.3
+#define MODEL_MASS_MOST 5.0
+
+static void tell_model_mass(const teller *t, const char *key, double mass)
+{
+    const scenario_vessel *v = t->e->keys;
+    double own = automatic_or(v->mass, 0);
+    if (is_automatic(v->mass) && is_own_hull(v))
+        own = t->s->environment.water_density * v->hull.length * v->hull.beam * v->hull.draught *
+              automatic_or(v->hull.block_coefficient, 0.7);
+    if (!is_automatic(mass) && own > 0 && (mass < MODEL_MASS_LEAST * own || mass > MODEL_MASS_MOST * own))
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.%s: %.4g kg is %.3g of the vessel's mass, about %.3g kg: give kilograms with the "
+                   "added mass",
+                   t->e->path, key, mass, mass / own, own);
+}
+
+static void tell_positioning(const teller *t)
+{
+    const scenario_positioning *p = &t->e->keys->positioning;
+    if (!p->active)
+        return;
+    tell_interval(t, "interval", p->interval);
+    tell_interval(t, "sample_interval", p->sample_interval);
+    tell_model_mass(t, "mass_surge", p->mass_surge);
+    tell_model_mass(t, "mass_sway", p->mass_sway);
+    if (!(p->damping > 0))
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.damping: a controlled vessel of relative damping 0 swings to and fro for ever: "
+                   "take 0.7 to 1",
+                   t->e->path);
+    double limit = t->e->keys->station.offset_limit;
+    if (p->control != CONTROL_HEADING && p->noise_position > automatic_or(limit, HUGE_VAL))
+        sanity_say(t->tell, t->to,
+                   "%s.positioning.noise_position: a standard deviation of %.4g m is more than station.offset_limit, "
+                   "%.4g m: give metres",
+                   t->e->path, p->noise_position, limit);
+    double period = 2 * PI / p->frequency;
+    if (t->s->run.duration < period)
+        sanity_say(t->tell, t->to,
+                   "run.duration: %.4g s is less than one period of the controlled vessel, %.3g s "
+                   "(%s.positioning.frequency %.3g rad/s)",
+                   t->s->run.duration, period, t->e->path, p->frequency);
+}
+
+/* ---- thrusters ---- */
+
+/* Power over thrust of a propeller at bollard condition, full size [W/N]: 4 to 8 of thrusters (Dang and Laheij 2004,
+   Hydrodynamic aspects of steerable thrusters); it goes with the speed of the jet. */
+#define POWER_LEAST 1.0
+#define POWER_MOST 50.0
+/* Draughts under the waterline at which a propeller still belongs to the hull. */
+#define DEEPEST 2.0
+
+static void tell_thruster(const teller *t, int32_t i)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_thruster *p = &v->thrusters.data[i];
+    double speed = at_scale(t->s, 0.5);
+    double ratio = automatic_or(p->power, (double)NAN) / p->thrust;
+    if (ratio < POWER_LEAST * fmin(1, speed) || ratio > POWER_MOST * fmax(1, speed))
+        sanity_say(t->tell, t->to,
+                   "%s.thrusters[%d].power: %.4g W is %.3g W for each newton of thrust, %.3g to %.3g are usual: give "
+                   "watts, not kW or MW",
+                   t->e->path, (int)i, p->power, ratio, POWER_LEAST * fmin(1, speed), POWER_MOST * fmax(1, speed));
+    if (is_own_hull(v) && (p->z > 0 || p->z < -DEEPEST * v->hull.draught))
+        sanity_say(t->tell, t->to,
+                   "%s.thrusters[%d].z: %.4g m %s: give metres above the design waterline, negative under it",
+                   t->e->path, (int)i, p->z, p->z > 0 ? "is above the water" : "is far below the hull");
+    double early = t->s->run.transient;
+    if (!is_automatic(p->failure_time) && p->failure_time > 0 && p->failure_time < early)
+        sanity_say(t->tell, t->to,
+                   "%s.thrusters[%d].failure_time: it fails at %g s, in the transient of %g s that statistics leave "
+                   "out: give seconds, or 0 for a thruster that is out of order from the start",
+                   t->e->path, (int)i, p->failure_time, early);
+}
+
+/* ---- propulsion ---- */
+
+/* Bollard pull on the discs of the propellers [Pa], full size: 20 to 100 kPa; tens of times more is a diameter in
+   another unit. */
+#define DISC_MOST 1e6
+#define DISC_LEAST 2e3
+/* In lengths of the ship. */
+#define LOOKAHEAD_LEAST 0.2
+#define LOOKAHEAD_MOST 50.0
+#define RAM_LEAST 0.05
+#define RAM_MOST 20.0
+
+static void tell_in_lengths(const teller *t, const char *key, double value, double least, double most)
+{
+    double length = t->e->keys->hull.length;
+    if (!is_automatic(value) && (value < least * length || value > most * length))
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.%s: %.4g m is %.3g lengths of the ship, outside of %.3g to %.3g: give "
+                   "metres",
+                   t->e->path, key, value, value / length, least, most);
+}
+
+static void tell_propulsion(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    const scenario_propulsion *p = &v->propulsion;
+    if (is_automatic(p->bollard_pull))
+        return;
+    if (is_own_hull(v)) {
+        tell_in_lengths(t, "lookahead", p->lookahead, LOOKAHEAD_LEAST, LOOKAHEAD_MOST);
+        tell_in_lengths(t, "ram_distance", p->ram_distance, RAM_LEAST, RAM_MOST);
+        if (automatic_or(p->propeller_z, 0) < -DEEPEST * v->hull.draught)
+            sanity_say(t->tell, t->to, "%s.propulsion.propeller_z: %.4g m is far below the hull of draught %.4g m",
+                       t->e->path, p->propeller_z, v->hull.draught);
+        if (automatic_or(p->propeller_spacing, 0) > v->hull.beam)
+            sanity_say(t->tell, t->to, "%s.propulsion.propeller_spacing: %.4g m is more than the beam, %.4g m",
+                       t->e->path, p->propeller_spacing, v->hull.beam);
+    }
+    if (automatic_or(p->steering_x, -1) >= 0)
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.steering_x: %.4g m is ahead of the centre of mass, so that the ship turns the wrong "
+                   "way: give a negative number",
+                   t->e->path, p->steering_x);
+    double d = p->propeller_diameter, disc = p->bollard_pull / ((double)p->propellers * PI / 4 * d * d);
+    double pressure = at_scale(t->s, 1);
+    if (!is_automatic(d) && (disc > DISC_MOST * fmax(1, pressure) || disc < DISC_LEAST * fmin(1, pressure)))
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.propeller_diameter: %.4g m leaves %.3g kPa of bollard pull on the disc, 20 to 100 "
+                   "are usual: give metres",
+                   t->e->path, d, disc * 1e-3);
+    if (p->beset_speed >= vessel_fastest(v))
+        sanity_say(t->tell, t->to,
+                   "%s.propulsion.beset_speed: the ship never makes more than %.3g m/s and counts as beset under %.3g: "
+                   "it backs again and again",
+                   t->e->path, vessel_fastest(v), p->beset_speed);
+}
+
+/* ---- what counts as being on station ---- */
+
+static void tell_station(const teller *t)
+{
+    const scenario_vessel *v = t->e->keys;
+    double x = automatic_or(v->station.watch_x, 0), y = automatic_or(v->station.watch_y, 0);
+    if (is_own_hull(v) && (fabs(x) > v->hull.length || fabs(y) > v->hull.length))
+        sanity_say(t->tell, t->to, "%s.station.watch_%s: (%.4g, %.4g) m is outside of a hull of %.4g m", t->e->path,
+                   fabs(x) > v->hull.length ? "x" : "y", x, y, v->hull.length);
+    bool lines = v->mooring.lines.count > 0;
+    if (lines && automatic_or(v->station.offset_limit, 0) > v->mooring.depth)
+        sanity_say(t->tell, t->to,
+                   "%s.station.offset_limit: %.4g m is more than the depth, %.4g m: give metres, not a percentage",
+                   t->e->path, v->station.offset_limit, v->mooring.depth);
+}
+
+void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
+{
+    const teller t = {s, e, tell, to};
+    tell_positioning(&t);
+    for (int32_t i = 0; i < e->keys->thrusters.count; i++)
+        tell_thruster(&t, i);
+    tell_propulsion(&t);
+    tell_station(&t);
+}

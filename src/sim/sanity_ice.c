@@ -1,0 +1,211 @@
+#include "base/transcendental.h"
+#include "ice/floe.h"
+#include "model/scenario_schema.h"
+#include "sim/build_model.h"
+#include "sim/sanity.h"
+
+#include <math.h>
+
+typedef struct teller {
+    const scenario *s;
+    sanity_teller tell;
+    const void *to;
+} teller;
+
+/* ---- sizes under which ice is left out ---- */
+
+/* Part of the mean floe from which on what is left out is ice that was asked for. */
+#define LEFT_OUT 0.1
+/* Of the thickness squared: pieces smaller than this are no floes any more. */
+#define SPECK 1e-3
+/* Of the thickness: edges as long belong to the shape of a floe. */
+#define LONG_EDGE 1.0
+
+/* Distance from the edge at which wedges break off [m]. */
+static double breaking_radius(const scenario *s)
+{
+    const scenario_ice *i = &s->ice;
+    ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
+                      i->flexural_strength, i->crushing_strength, i->crushing_exponent};
+    fracture_settings f = build_fracture_settings(s);
+    return fracture_edge_stress(&f, &m, i->thickness, 1, i->thickness * i->thickness, EDGE_STRAIGHT).breaking_radius;
+}
+
+static void tell_left_out(const teller *t, const char *key, double area)
+{
+    const scenario_ice *i = &t->s->ice;
+    bool mean_floe = i->source == ICE_VORONOI && i->populations.count == 0;
+    double radius = i->breakable ? breaking_radius(t->s) : HUGE_VAL;
+    if (mean_floe && area > LEFT_OUT * i->mean_floe_area)
+        sanity_say(t->tell, t->to,
+                   "ice.%s: %.4g m2 is %.2g of the mean floe, %.4g m2: ice that is asked for is left out; give a "
+                   "smaller area, or the run.scale (%g) by which it is found",
+                   key, area, area / i->mean_floe_area, i->mean_floe_area, t->s->run.scale);
+    else if (area > radius * radius)
+        sanity_say(t->tell, t->to,
+                   "ice.%s: %.4g m2 is more than the pieces that break off, about %.3g m long: all of them are left "
+                   "out; give a smaller area, or the run.scale (%g) by which it is found",
+                   key, area, radius, t->s->run.scale);
+}
+
+static void tell_thresholds(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    double speck = SPECK * i->thickness * i->thickness;
+    tell_left_out(t, "smallest_floe_area", i->smallest_floe_area);
+    tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
+    if (i->breakable && i->smallest_floe_area > 0 && i->smallest_floe_area < speck)
+        sanity_say(t->tell, t->to,
+                   "ice.smallest_floe_area: %.3g m2 keeps specks of ice that is %.3g m thick, thousands of them where "
+                   "it breaks: take %.2g m2 or more",
+                   i->smallest_floe_area, i->thickness, speck);
+    if (i->edge_threshold > LONG_EDGE * i->thickness)
+        sanity_say(t->tell, t->to,
+                   "ice.edge_threshold: edges under %.4g m are removed from floes of %.3g m thickness, and their shape "
+                   "with them: give a length far under the thickness, or the run.scale (%g) by which it is found",
+                   i->edge_threshold, i->thickness, t->s->run.scale);
+}
+
+/* ---- the field ---- */
+
+/* Part of the domain's smaller side that may be kept free of ice round a vessel. */
+#define WIDEST_MARGIN 0.25
+
+static void tell_field(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    const scenario_domain *d = &t->s->domain;
+    double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
+    if (scenario_vessel_count(t->s) > 0 && i->keep_out_margin > WIDEST_MARGIN * width)
+        sanity_say(t->tell, t->to,
+                   "ice.keep_out_margin: %.4g m round the vessel are free of ice in a domain of %.4g m: give metres",
+                   i->keep_out_margin, width);
+    if (d->boundary != DOMAIN_FEEDING || i->source == ICE_LEVEL)
+        return;
+    double radius = sqrt(i->mean_floe_area / PI), band = automatic_or(d->band, HUGE_VAL);
+    if (i->source == ICE_VORONOI && i->populations.count == 0 && band < radius)
+        sanity_say(t->tell, t->to,
+                   "domain.band: %.4g m is narrower than the mean floe's radius, %.3g m: floes at the edge are not "
+                   "driven; leave it out, or give metres",
+                   band, radius);
+    if (automatic_or(d->tile_x, HUGE_VAL) < d->x_max - d->x_min)
+        sanity_say(t->tell, t->to, "domain.tile_x: the field repeats itself after %.4g m, within the domain of %.4g m",
+                   d->tile_x, d->x_max - d->x_min);
+    if (automatic_or(d->tile_y, HUGE_VAL) < d->y_max - d->y_min)
+        sanity_say(t->tell, t->to, "domain.tile_y: the field repeats itself after %.4g m, within the domain of %.4g m",
+                   d->tile_y, d->y_max - d->y_min);
+}
+
+static void tell_populations(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    const scenario_domain *d = &t->s->domain;
+    double width = fmin(d->x_max - d->x_min, d->y_max - d->y_min);
+    for (int32_t k = 0; k < i->populations.count; k++) {
+        const scenario_population *p = &i->populations.data[k];
+        const struct {
+            const char *key, *unit;
+            double mean, deviation;
+        } spread[] = {
+            {"thickness", "m", automatic_or(p->thickness, i->thickness), p->thickness_deviation},
+            {"flexural", "Pa", automatic_or(p->flexural_strength, i->flexural_strength), p->flexural_deviation},
+            {"crushing", "Pa", automatic_or(p->crushing_strength, i->crushing_strength), p->crushing_deviation}};
+        for (size_t n = 0; n < sizeof spread / sizeof *spread; n++)
+            if (spread[n].deviation > spread[n].mean)
+                sanity_say(t->tell, t->to,
+                           "ice.populations[%d].%s_deviation: %.4g %s is more than the mean, %.4g %s: give the "
+                           "standard deviation, not a percentage",
+                           (int)k, spread[n].key, spread[n].deviation, spread[n].unit, spread[n].mean, spread[n].unit);
+        bool one = p->size == SIZE_CONSTANT || p->size == SIZE_LOGNORMAL;
+        double size = one ? p->diameter : p->diameter_max;
+        if (p->size != SIZE_HISTOGRAM && size > width)
+            sanity_say(t->tell, t->to,
+                       "ice.populations[%d].diameter%s: floes of %.4g m do not fit into a domain of %.4g m: give "
+                       "metres",
+                       (int)k, one ? "" : "_max", size, width);
+    }
+}
+
+/* ---- level ice ---- */
+
+static void tell_level(const teller *t)
+{
+    const scenario_level *l = &t->s->ice.level;
+    const scenario_domain *d = &t->s->domain;
+    const scenario_ice *i = &t->s->ice;
+    if (i->source != ICE_LEVEL)
+        return;
+    bool moves = false;
+    for (int32_t v = 0; v < scenario_vessel_count(t->s); v++)
+        moves = moves || scenario_vessel_entry(t->s, v).keys->speed > 0;
+    if (!i->breakable && (moves || d->boundary == DOMAIN_FEEDING))
+        sanity_say(t->tell, t->to, "ice.breakable: false makes a wall of level ice: set it to true to let it break");
+    bool fed = d->boundary == DOMAIN_FEEDING;
+    double speed = automatic_or(d->drift_speed, t->s->environment.current_speed);
+    double gap = fmax(automatic_or(l->x_min, d->x_min) - d->x_max, d->x_min - automatic_or(l->x_max, d->x_max));
+    gap = fmax(gap, fmax(automatic_or(l->y_min, d->y_min) - d->y_max, d->y_min - automatic_or(l->y_max, d->y_max)));
+    bool steady = !d->drift_file[0] && !t->s->environment.current_file[0];
+    if (fed && steady && gap > speed * t->s->run.duration)
+        sanity_say(t->tell, t->to,
+                   "ice.level: the sheet begins %.4g m outside of the domain, and drifts %.4g m in the run: there will "
+                   "be no ice",
+                   gap, speed * t->s->run.duration);
+    double mass = i->density * i->thickness * (d->x_max - d->x_min) * (d->y_max - d->y_min);
+    if (fed && automatic_or(l->mass, HUGE_VAL) < mass)
+        sanity_say(t->tell, t->to,
+                   "ice.level.mass: %.4g kg is less than that of the ice in the domain, %.4g kg: give all that slows "
+                   "down together, in kg",
+                   l->mass, mass);
+}
+
+/* ---- the material ---- */
+
+static void tell_strength(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    if (i->crushing_strength < i->flexural_strength)
+        sanity_say(t->tell, t->to,
+                   "ice.crushing_strength: %.4g Pa is less than the flexural strength, %.4g Pa: ice is stronger in "
+                   "compression than in bending; are they swapped?",
+                   i->crushing_strength, i->flexural_strength);
+    bool varies = i->strength.flexural_variation > 0 || i->strength.crushing_variation > 0;
+    if (varies && i->strength.correlation_length < i->thickness)
+        sanity_say(t->tell, t->to,
+                   "ice.strength.correlation_length: %.4g m is less than the ice is thick, %.4g m: give metres",
+                   i->strength.correlation_length, i->thickness);
+}
+
+/* Heights from which a floe falls, in thicknesses or metres. */
+#define HIGHEST 5
+
+/* Floes that are listed: where and how fast they begin. */
+static void tell_floes(const teller *t)
+{
+    const scenario_ice *i = &t->s->ice;
+    for (int32_t k = 0; i->source == ICE_FLOES && k < i->floes.count && t->s->environment.water; k++) {
+        const scenario_floe *f = &i->floes.data[k];
+        double h = automatic_or(f->thickness, i->thickness), size = f->shape == FLOE_REGULAR ? f->radius : f->length;
+        if (size < h)
+            sanity_say(t->tell, t->to, "ice.floes[%d]: %.4g m is less than it is thick, %.4g m: give metres", (int)k,
+                       size, h);
+        if (!is_automatic(f->elevation) && fabs(f->elevation) > HIGHEST * fmax(1, h))
+            sanity_say(
+                t->tell, t->to,
+                "ice.floes[%d].elevation: its centre is %.4g m %s still water: give metres, or leave it out for a "
+                "floe that floats",
+                (int)k, fabs(f->elevation), f->elevation > 0 ? "above" : "below");
+    }
+}
+
+void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to)
+{
+    const teller t = {s, tell, to};
+    if (s->ice.source == ICE_NONE)
+        return;
+    tell_thresholds(&t);
+    tell_field(&t);
+    tell_populations(&t);
+    tell_level(&t);
+    tell_strength(&t);
+    tell_floes(&t);
+}

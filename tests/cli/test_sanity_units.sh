@@ -1,0 +1,154 @@
+#!/usr/bin/env bash
+# Sixty more slips of a pen, in the ice, the controller, the gear and the files: each is told with key and remedy.
+. "$FRAM_SOURCE/tests/cli/slips.sh"
+
+cat >towed.yaml <<'YAML'
+run: {duration: 60, time_step: 0.01}
+vessel: {mode: towed, speed: 1, hull: {form: icebreaker, length: 60, beam: 14, draught: 4}}
+ice: {mean_floe_area: 200, thickness: 0.7, concentration: 0.5}
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100, boundary: open}
+YAML
+sed 's/speed: 1, /path: [{time: 0, x: 0}, {time: 60, x: 60}], /' towed.yaml >path.yaml
+sed 's/towed, speed: 1,/free, propulsion: {bollard_pull: 8.0e5, speed: 1},/' towed.yaml >drive.yaml
+sed 's/^ice:.*/ice: {source: floes, floes: [{x: 50, length: 20, width: 20}]}/' towed.yaml >floes.yaml
+sed 's/^ice:.*/ice: {source: packed, populations: [{size: lognormal, diameter: 20}]}/' towed.yaml >packed.yaml
+sed 's/^ice: {/&source: level, breakable: true, /' ship.yaml >level.yaml
+sed 's/^vessel:/&\n  positioning: {active: true}\n  station: {offset_limit: 5}/' ship.yaml >held.yaml
+for scene in towed path drive floes packed level held; do
+    expect 0 "$FRAM" check $scene.yaml
+    grep '^warning' err && fail "a warning without reason of $scene"
+done
+
+# all_told SCENE OPTIONS... -- WORDS...: each slip of the options has its warning, with the words between the bars
+all_told() {
+    local scene=$1 words options=()
+    shift
+    while [ "$1" != -- ]; do
+        options+=(--set "$1")
+        shift
+    done
+    shift
+    expect 0 "$FRAM" check "$scene" "${options[@]}"
+    same "$(grep -c '^warning' err)" "$#" "warnings of ${options[*]}: $(grep '^warning' err)"
+    for words in "$@"; do
+        grep '^warning' err | grep -F -- "${words%%|*}" | grep -qF -- "${words##*|}" ||
+            fail "not told \"$words\" of ${options[*]}: $(grep '^warning' err)"
+    done
+}
+
+# Ice: sizes that are left out, the material, the sheet.
+all_told ship.yaml run.scale=1000 -- "run.scale: 1000 is outside|30 for full size" \
+    "ice.smallest_floe_area: 200 m2 is 1 of the mean floe|run.scale (1000)" "ice.edge_threshold: edges under 5 m"
+all_told ship.yaml ice.smallest_floe_area=100 ice.smallest_piece_area=50 ice.edge_threshold=2 domain.band=0.2 \
+    domain.tile_x=100 domain.tile_y=200 ice.keep_out_margin=200 -- \
+    "smallest_floe_area: 100 m2 is 0.5 of the mean floe" "smallest_piece_area: 50 m2" \
+    "edge_threshold: edges under 2 m" \
+    "domain.band: 0.2 m is narrower than the mean floe's radius" "domain.tile_x: the field repeats itself after 100 m" \
+    "domain.tile_y: the field repeats itself after 200 m" "keep_out_margin: 200 m round the vessel"
+all_told ship.yaml ice.poisson_ratio=0.03 ice.crushing_exponent=0.5 ice.friction.ice_hull_static=6 \
+    ice.friction.ice_hull_kinetic=6 ice.crushing_strength=4e5 ice.strength.correlation_length=0.01 \
+    ice.strength.flexural_variation=1.5 ice.ridging_resistance=400 -- "poisson_ratio: 0.03 is outside|about 0.3" \
+    "crushing_exponent: 0.5|falls with the area" "ice_hull_static: 6 is|not an angle" "ice_hull_kinetic: 6 is" \
+    "crushing_strength: 4e+05 Pa is less than the flexural strength|swapped" "correlation_length: 0.01 m" \
+    "flexural_variation: 1.5|not per cent" "ridging_resistance: 400 MN/m|R is 2 to 10"
+all_told level.yaml ice.breakable=false ice.level.x_min=5000 ice.level.line_load=100 ice.level.mass=1000 -- \
+    "ice.breakable: false makes a wall" "sheet begins 4840 m outside of the domain|no ice" \
+    "line_load: 100 N/m|not kN/m" "level.mass: 1000 kg is less than that of the ice in the domain"
+all_told level.yaml ice.smallest_floe_area=1e-6 -- "smallest_floe_area: 1e-06 m2 keeps specks"
+all_told level.yaml ice.smallest_floe_area=400 -- "smallest_floe_area: 400 m2 is more than the pieces that break off"
+all_told floes.yaml "ice.floes[0].x=20" "ice.floes[0].velocity_y=20" "ice.floes[0].spin=90" -- \
+    "ice.floes[0]: 280.5 m2 of the floe|inside the hull" "velocity_y: 20 m/s" "spin: 90 rad/s|not deg/s"
+all_told floes.yaml "ice.floes[0].elevation=20" "ice.floes[0].length=0.02" -- \
+    "elevation: its centre is 20 m above still water" "ice.floes[0]: 0.02 m is less than it is thick"
+all_told packed.yaml "ice.populations[0].diameter=90" "ice.populations[0].diameter_max=2000" \
+    "ice.populations[0].thickness_deviation=20" "ice.populations[0].flexural_deviation=8e5" \
+    "ice.populations[0].crushing_deviation=9e6" domain.y_max=-20 domain.y_min=-100 vessel.y=-60 -- \
+    "diameter: floes of 90 m do not fit" "thickness_deviation: 20 m is more than the mean" \
+    "flexural_deviation: 8e+05 Pa" "crushing_deviation: 9e+06 Pa"
+
+# Control, thrusters, station.
+all_told held.yaml vessel.positioning.interval=1000 vessel.positioning.sample_interval=0.001 \
+    vessel.positioning.damping=0 vessel.positioning.mass_surge=5000 vessel.positioning.bias_time=1 \
+    vessel.positioning.noise_position=20 -- "positioning.interval: 1000 s is longer than the run" \
+    "sample_interval: 0.001 s is shorter than run.time_step" "damping: a controlled vessel of relative damping 0" \
+    "mass_surge: 5000 kg is|about 6.73e+06 kg" "bias_time: 1 s|give seconds" "noise_position: 20 m is outside|metres" \
+    "noise_position: a standard deviation of 20 m is more than station.offset_limit, 5 m"
+all_told held.yaml vessel.positioning.interval=30 vessel.positioning.mass_sway=6e9 \
+    vessel.positioning.observer_bandwidth=20 vessel.positioning.noise_heading_deg=30 vessel.station.watch_x=500 \
+    vessel.station.heading_limit_deg=0.26 vessel.station.offset_limit=150 -- "once in 30 s is too seldom|62.8 s" \
+    "mass_sway: 6e+09 kg is 891" "observer_bandwidth: 20 rad/s" "noise_heading_deg: 30 deg" \
+    "watch_x: (500, 0) m is outside of a hull" "heading_limit_deg: 0.26 deg|not radians" \
+    "offset_limit: 150 m is more than the depth|not a percentage"
+all_told held.yaml vessel.positioning.frequency=0.001 -- "frequency: 0.001 rad/s is outside" \
+    "run.duration: 600 s is less than one period of the controlled vessel"
+all_told ship.yaml "vessel.thrusters[0].power=1250" "vessel.thrusters[0].z=6" "vessel.thrusters[1].z=-60" \
+    "vessel.thrusters[1].turn_rate_deg=0.1" "vessel.thrusters[0].time_constant=100" \
+    "vessel.thrusters[1].failure_time=0.5" -- "power: 1250 W is 0.00625 W for each newton|not kW" \
+    "thrusters[0].z: 6 m is above the water" "thrusters[1].z: -60 m is far below the hull" \
+    "turn_rate_deg: 0.1 deg/s|not rad/s" "time_constant: 100 s" \
+    "failure_time: it fails at 0.5 s, in the transient of 60 s"
+
+# Mooring, hull, propulsion, motion.
+all_told ship.yaml "vessel.mooring.lines[0].release_time=0.1" "vessel.mooring.lines[0].spacing_deg=0" \
+    vessel.mooring.z=50 vessel.hull.freeboard=0.1 vessel.centre_of_gravity_z=0.5 -- \
+    "release_time: it is let go at 0.1 s, in the transient of 60 s" "8 lines lie one upon another" \
+    "mooring.z: fairleads 50 m above" "hull.freeboard: 0.1 m is outside" "centre_of_gravity_z: 0.5 m is above the deck"
+all_told ship.yaml "vessel.mooring.lines[0].weight=5000" "vessel.mooring.lines[0].breaking_load=4e6" -- \
+    "lines[0].weight: a line of 5000 N/m parts under 800 m of itself"
+all_told towed.yaml vessel.hull.draught=0.5 vessel.speed=0.001 vessel.course_deg=120 vessel.x=500 \
+    vessel.current_coefficients.frontal_area=0.01 -- "hull.draught: 0.5 m is 0.0357 of the beam" \
+    "ice.thickness: 0.7 m is more than the draught" "vessel.speed: the vessel moves 0.06 m in the run" \
+    "course_deg: the vessel is moved at 120 degrees to its bow" "(500, 0) m lies outside of the domain, 400 m" \
+    "the vessel leaves the domain" "current_coefficients.frontal_area: 0.01 m2"
+all_told path.yaml "vessel.path[1].time=1" -- "vessel.path[1]: (60, 0) m is reached with 60 m/s"
+all_told path.yaml "vessel.path[1].time=3600" -- "vessel.path: it goes on to 3600 s, and the run ends at 60 s"
+all_told path.yaml "vessel.path[1].heading_deg=3600" -- "heading_deg: 3600 degrees are reached with 60 deg/s"
+all_told drive.yaml vessel.propulsion.steering_angle_deg=0.61 vessel.propulsion.steering_rate_deg=0.04 \
+    vessel.propulsion.steering_x=27 vessel.propulsion.lookahead=0.1 vessel.propulsion.ram_distance=5000 \
+    vessel.propulsion.beset_speed=5 vessel.propulsion.propeller_diameter=0.03 vessel.propulsion.propeller_z=-50 \
+    vessel.propulsion.propeller_spacing=100 -- "steering_angle_deg: 0.61 deg|not radians" "steering_rate_deg: 0.04" \
+    "steering_x: 27 m is ahead of the centre of mass" "lookahead: 0.1 m is 0.00167 lengths" \
+    "ram_distance: 5000 m is 83.3 lengths" "beset_speed: the ship never makes more than 1 m/s" \
+    "propeller_diameter: 0.03 m leaves|metres" "propeller_z: -50 m is far below the hull" \
+    "propeller_spacing: 100 m is more than the beam"
+
+# Times of output; a medium without weight.
+all_told ship.yaml output.averaging_window=0.001 output.picture_interval=5000 output.checkpoint_interval=5000 \
+    output.record_limit=0.01 environment.air_density=0 environment.floe_damping=5 \
+    environment.ice_drag.water_skin=5 -- "averaging_window: 0.001 s is" \
+    "picture_interval: 5000 s is longer than the run" "checkpoint_interval: 5000 s is longer than the run" \
+    "record_limit: 0.01 MB" "air_density: 0 kg/m3 leaves a wind without" "floe_damping: 5 is" "water_skin: 5 is"
+
+# Histories in minutes, in knots, of a date; hulls in millimetres, athwartships, from the keel or the stern up.
+printf 'time [s],x [m/s],y [m/s]\n0,-0.4,0\n10,-0.3,0.3\n' >minutes.csv
+printf 'time [s],x [m/s],y [m/s]\n0,-80,0\n600,-5,0.2\n' >knots.csv
+printf 'time [s],x [m/s],y [m/s]\n100000,-0.4,0\n100600,-0.4,0.2\n' >date.csv
+all_told ship.yaml domain.drift_file=minutes.csv environment.wind_file=knots.csv environment.current_file=date.csv -- \
+    "domain.drift_file: the last row of minutes.csv is of 10 s|not minutes" \
+    "environment.wind_file: knots.csv goes up to 80 m/s|not knots" \
+    "environment.current_file: the first row of date.csv is of 100000 s, after the end of the run"
+# box NAME X0 X1 Y0 Y1 Z0 Z1: a closed mesh
+box() {
+    {
+        for z in "$6" "$7"; do printf 'v %s %s %s\n' "$2" "$4" "$z" "$3" "$4" "$z" "$3" "$5" "$z" "$2" "$5" "$z"; done
+        printf 'f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n'
+    } >"$1.obj"
+}
+box good -30 30 -7 7 -4 3
+box large -30000 30000 -7000 7000 -4000 3000
+box athwart -7 7 -30 30 -4 3
+box stern 0 60 -7 7 -4 3
+box shallow -30 30 -7 7 -0.1 6.9
+box keel -30 30 -7 7 0 7
+for hull in good large athwart stern shallow; do
+    sed "s/hull: {.*}}/hull: {form: file, file: $hull.obj}}/" towed.yaml >"$hull.yaml"
+done
+all_told good.yaml --
+all_told large.yaml -- "vessel.hull.file: the waterline is 6e+04 m long|hull.file_scale 0.001"
+all_told athwart.yaml -- "vessel.hull.file: the hull is 60 m wide along y and 14 m long along x"
+all_told stern.yaml -- "the waterline of 60 m lies about x = 30 m, not about x = 0"
+all_told shallow.yaml -- "the mesh reaches 0.1 m under its z = 0|move it down by the draught"
+sed "s/hull: {.*}}/hull: {form: file, file: keel.obj}}/" towed.yaml >keel.yaml
+expect 2 "$FRAM" check keel.yaml
+says "the design waterline of a hull's file is its z = 0, but the mesh reaches from z = 0 to 7 m" err
+finish "slips in ice, control, gear and files are told with key and remedy"
