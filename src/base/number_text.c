@@ -69,6 +69,9 @@ static double times_ten(double size, int power)
     return power < 0 ? size / tens[-power] : size * tens[power];
 }
 
+/* How many roundings that are. */
+static int roundings_of(int power) { return 1 + ((power < 0 ? -power : power) - 1) / EXACT_TENS; }
+
 /* floor() of a small number, which the baseline's instructions would call the library for. */
 static int whole_below(double value)
 {
@@ -77,11 +80,11 @@ static int whole_below(double value)
 }
 
 /* The integer of so many digits, and the exponent of its first one, that size > 0 rounds to; false where it is not
-   certain.  A number between these bounds is scaled to less than 1e12 in four roundings at most, and wrong by no more
-   than 2^-11 then; one that lies that close to the middle between two integers is left alone, ties among them. */
+   certain.  A number is scaled to less than 1e12, wrong by no more than 2^-13 for each rounding; one that lies within
+   twice that of the middle between two integers is left alone, ties among them. */
 static bool round_to_digits(double size, int digits, uint64_t *integer, int *exponent)
 {
-    if (!(size >= 1e-60 && size <= 1e60))
+    if (!(size >= 1e-280 && size <= 1e280))
         return false;
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
@@ -90,7 +93,7 @@ static bool round_to_digits(double size, int digits, uint64_t *integer, int *exp
     if (scaled >= tens[digits])
         scaled = times_ten(size, digits - 1 - ++k);
     double whole = (double)(int64_t)scaled, part = scaled - whole;
-    if (fabs(part - 0.5) < 1.0 / 1024)
+    if (fabs(part - 0.5) < roundings_of(digits - 1 - k) / 4096.0)
         return false;
     whole += part > 0.5;
     bool carried = whole >= tens[digits];
@@ -142,9 +145,10 @@ static char *put_digits(const char digit[DIGITS_ROOM], int count, int exponent, 
         int size = exponent < 0 ? -exponent : exponent;
         *out++ = 'e';
         *out++ = exponent < 0 ? '-' : '+';
-        *out++ = (char)('0' + size / 10);
-        *out++ = (char)('0' + size % 10);
-        return out;
+        if (size > 99)
+            *out++ = (char)('0' + size / 100);
+        memcpy(out, pairs + 2 * (size_t)(size % 100), 2);
+        return out + 2;
     }
     int whole = exponent + 1; /* digits before the point */
     if (whole <= 0) {
@@ -171,18 +175,14 @@ int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
     uint64_t integer;
     int exponent;
     char digit[DIGITS_ROOM] = {'0'}, *at = out;
-    int count = 1;
-    bool fast = value == 0;
-    if (fast)
-        exponent = 0;
-    else if (digits >= 1 && digits <= FAST_DIGITS && round_to_digits(fabs(value), digits, &integer, &exponent)) {
-        count = list_digits(integer, digit);
-        fast = true;
-    }
-    if (fast) {
+    bool fast = digits >= 1 && digits <= FAST_DIGITS && round_to_digits(fabs(value), digits, &integer, &exponent);
+    if (value == 0 || fast) {
         if (signbit(value))
             *at++ = '-';
-        at = put_digits(digit, count, exponent, digits, at);
+        if (fast)
+            at = put_digits(digit, list_digits(integer, digit), exponent, digits, at);
+        else
+            *at++ = '0';
         *at = '\0';
         return (int)(at - out);
     }

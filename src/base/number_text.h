@@ -11,8 +11,8 @@ enum { NUMBER_TEXT_SIZE = 32 };
    digits than needed); "nan", "inf", "-inf" otherwise. Returns its length. */
 int real_to_text(double value, char out[NUMBER_TEXT_SIZE]);
 
-/* The text of %.*g with that many significant digits, without a locale; up to twelve digits of numbers from 1e-60 to
-   1e60 take a tenth of printf's time.  Returns its length. */
+/* The text of %.*g with that many significant digits, without a locale; up to twelve digits of numbers from 1e-280 to
+   1e280 take a tenth of printf's time.  Returns its length. */
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE]);
 
 typedef enum number_fault {

@@ -2,6 +2,7 @@
 #include "io/csv.h"
 #include "base/number_text.h"
 #include "io/text_buffer.h"
+#include <math.h>
 #include <string.h>
 
 /* "time[s],x[m]\n" */
@@ -89,7 +90,10 @@ fram_status csv_append(csv_writer *w, const double *row, fram_error *error)
     for (int32_t c = 0; c < w->column_count && status == FRAM_OK;) {
         char *at = text;
         for (int n = 0; n < NUMBERS_AT_ONCE && c < w->column_count; n++, c++) {
-            at += real_to_digits(row[c], CSV_DIGITS, at);
+            if (row[c] == 0 && !signbit(row[c]))
+                *at++ = '0'; /* half of a series, or more */
+            else
+                at += real_to_digits(row[c], CSV_DIGITS, at);
             *at++ = c + 1 < w->column_count ? ',' : '\n';
         }
         status = file_write(&w->file, text, (size_t)(at - text), error);

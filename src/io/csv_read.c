@@ -98,6 +98,10 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
     int32_t column = 0, asked = next_asked(at, count, 0);
     for (const char *c = row; *c; column++) {
         const char *passed = c;
+        if (column != asked && c[0] == '0' && c[1] == ',') {
+            c += 2;
+            continue;
+        }
         if (column != asked && is_plain_number(c, &passed)) {
             c = *passed ? passed + 1 : passed;
             continue;
@@ -139,20 +143,47 @@ static void trim_end(char *line, size_t length)
         line[--length] = '\0';
 }
 
-/* The next line with its end, if it has one, and a NUL after it.  *length 0: there is none. */
-static fram_status next_line(FILE *file, const char *path, int number, char *line, size_t *length, fram_error *error)
+/* A part of the file: what stands from `at` to `end` has been read and not yet given out.  A NUL fits behind it. */
+typedef struct line_buffer {
+    FILE *file;
+    char *text;
+    size_t at, end;
+} line_buffer;
+enum { PART = 1 << 16, BUFFER_ROOM = CSV_LINE_MOST + PART };
+
+/* More of the file behind what is there, which moves to the front: at most a line.  False at the file's end. */
+static bool read_part(line_buffer *b)
 {
-    size_t n = 0;
-    for (int c = '\0'; c != '\n' && n < CSV_LINE_MOST && (c = getc_unlocked(file)) != EOF;)
-        line[n++] = (char)c;
-    line[n] = '\0';
-    *length = n;
-    if (ferror(file))
+    b->end -= b->at;
+    memmove(b->text, b->text + b->at, b->end);
+    b->at = 0;
+    size_t got = fread(b->text + b->end, 1, PART, b->file);
+    b->end += got;
+    return got > 0;
+}
+
+/* The next line with its end, if it has one; otherwise a NUL follows.  *length 0: there is none. */
+static fram_status next_line(line_buffer *b, const char *path, int number, char **line, size_t *length,
+                             fram_error *error)
+{
+    const char *end;
+    size_t seen = 0;
+    do {
+        end = memchr(b->text + b->at + seen, '\n', b->end - b->at - seen);
+        seen = b->end - b->at;
+    } while (!end && seen < CSV_LINE_MOST && read_part(b));
+    if (ferror(b->file))
         return file_error(error, path, "read", errno);
-    if (n == CSV_LINE_MOST)
+    size_t n = end ? (size_t)(end - b->text) + 1 - b->at : seen;
+    if (n >= CSV_LINE_MOST)
         return error_set(error, FRAM_ERROR_INPUT, path, number, NULL,
                          "expected at most %d characters in a line, found more", (int)CSV_LINE_MOST);
-    if (memchr(line, '\0', n))
+    *line = b->text + b->at;
+    if (!end)
+        (*line)[n] = '\0';
+    b->at += n;
+    *length = n;
+    if (memchr(*line, '\0', n))
         return error_set(error, FRAM_ERROR_INPUT, path, number, NULL, "expected text, found a NUL byte");
     return FRAM_OK;
 }
@@ -160,14 +191,15 @@ static fram_status next_line(FILE *file, const char *path, int number, char *lin
 /* Rows between two words about how far the reading is. */
 enum { ROWS_TOLD = 256 };
 
-static fram_status read_stream(context *ctx, FILE *file, uint64_t size, const char *path, const line_reader *reader,
-                               char *line, fram_error *error)
+static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, const char *path, const line_reader *reader,
+                               fram_error *error)
 {
     int number = 0;
+    char *line = NULL;
     size_t length = 0;
     double done = 0;
     while (true) {
-        fram_status status = next_line(file, path, number + 1, line, &length, error);
+        fram_status status = next_line(b, path, number + 1, &line, &length, error);
         if (status != FRAM_OK)
             return status;
         if (length == 0 || (line[length - 1] != '\n' && !reader->open_end))
@@ -191,16 +223,16 @@ static fram_status read_lines(context *ctx, const char *path, const line_reader 
     fram_status status = file_open_regular(path, CSV_BYTES_MOST, &descriptor, &size, error);
     if (status != FRAM_OK)
         return status;
-    char *line = memory_resize(ctx, NULL, CSV_LINE_MOST + 1);
-    FILE *file = line ? fdopen(descriptor, "r") : NULL;
-    if (!file) {
-        status = line ? file_error(error, path, "open", errno) : error_memory(error);
+    line_buffer b = {.text = memory_resize(ctx, NULL, BUFFER_ROOM + 1)};
+    b.file = b.text ? fdopen(descriptor, "r") : NULL;
+    if (!b.file) {
+        status = b.text ? file_error(error, path, "open", errno) : error_memory(error);
         close(descriptor);
     } else {
-        status = read_stream(ctx, file, size, path, reader, line, error);
-        fclose(file);
+        status = read_stream(ctx, &b, size, path, reader, error);
+        fclose(b.file);
     }
-    memory_free(ctx, line);
+    memory_free(ctx, b.text);
     return status;
 }
 

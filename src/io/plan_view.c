@@ -67,14 +67,55 @@ static image_colour fill_of(const plan_shape *s)
     return (image_colour){rgb[0], rgb[1], rgb[2]};
 }
 
+/* Width of lines but those of a hull [pixels]. */
+#define FLOE_LINE 0.7
+
 static void paint(cairo_t *page, const plan_shape *s)
 {
     cairo_close_path(page);
     image_set_colour(page, fill_of(s));
     cairo_fill_preserve(page);
     image_set_colour(page, looks[s->style].line);
-    cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : 0.7);
+    cairo_set_line_width(page, s->style == PLAN_DECK || s->style == PLAN_WATERLINE ? 1.5 : FLOE_LINE);
     cairo_stroke(page);
+}
+
+/* The least 1 + cos of the turn at a corner that a line follows to its tip. */
+#define SHARPEST 0.1
+
+/* To the right of a way along an edge; zero for none. */
+static vec2 edge_normal(vec2 from, vec2 to)
+{
+    vec2 along = vec2_sub(to, from);
+    double length = vec2_length(along);
+    return length > 0 ? vec2_scale(vec2_make(along.y, -along.x), 1 / length) : vec2_make(0, 0);
+}
+
+/* The outline, each edge moved by so many metres to its right. */
+static void trace_moved(cairo_t *page, const map *m, polygon p, vec2 origin, double distance)
+{
+    vec2 before = edge_normal(p.vertex[p.count - 1], p.vertex[0]);
+    for (int32_t i = 0; i < p.count; i++) {
+        vec2 after = edge_normal(p.vertex[i], p.vertex[i + 1 < p.count ? i + 1 : 0]);
+        double turn = fmax(1 + vec2_dot(before, after), SHARPEST);
+        vec2 away = vec2_scale(vec2_add(before, after), distance / turn);
+        line_to(page, m, vec2_add(vec2_add(p.vertex[i], origin), away));
+        before = after;
+    }
+    cairo_close_path(page);
+}
+
+/* A floe: its line is what an area half a line larger shows around one half a line smaller, for two areas take a third
+   of the time of an area and its outline. */
+static void paint_floe(cairo_t *page, const map *m, const plan_shape *s, vec2 origin)
+{
+    double half = FLOE_LINE / 2 / m->scale * (polygon_area(s->outline) < 0 ? -1 : 1);
+    trace_moved(page, m, s->outline, origin, half);
+    image_set_colour(page, looks[s->style].line);
+    cairo_fill(page);
+    trace_moved(page, m, s->outline, origin, -half);
+    image_set_colour(page, fill_of(s));
+    cairo_fill(page);
 }
 
 /* Floes of a few pixels get no lines, which cost most of a picture's time, but a gap: that much smaller [pixels]. */
@@ -123,6 +164,10 @@ static void draw_shape(cairo_t *page, const map *m, const plan_shape *s)
         line_to(page, m, vec2_sub(b, up));
         line_to(page, m, vec2_sub(a, up));
         paint(page, s);
+    }
+    if (s->outline.count > 0 && (s->style == PLAN_FLOE || s->style == PLAN_FIXED_ICE)) {
+        paint_floe(page, m, s, up);
+        return;
     }
     for (int32_t i = 0; i < s->outline.count; i++)
         line_to(page, m, vec2_add(s->outline.vertex[i], up));

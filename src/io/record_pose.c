@@ -7,28 +7,36 @@ enum { HALF_MOST = 0x7bff, HALF_STEPS = 16383, WORD_MASK = 32767, TOP_BIT = 3276
 enum { MARKED_WORD = RECORD_POSE_SIZE - (int)sizeof(uint16_t) }; /* place of the third word of the orientation */
 static const double root_half = 0.70710678118654752440;
 
+/* 2^power, of a normal double. */
+static double power_of_two(int power)
+{
+    uint64_t bits = (uint64_t)(power + 1023) << 52;
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
 uint16_t half_from_real(double value)
 {
     uint16_t sign = value < 0 ? 0x8000 : 0;
     double size = fabs(value);
     if (!(size < 65504))
         return (uint16_t)(sign | HALF_MOST);
-    int exponent = 0; /* of the scale of the last place: 2^(exponent - 24) */
-    double unit = 1.0 / 16777216;
-    while (size >= 2048 * unit) {
-        unit *= 2;
-        exponent++;
-    }
-    double places = size / unit, whole = floor(places), rest = places - whole;
-    bool odd = whole - 2 * floor(whole / 2) == 1;
-    whole += rest > 0.5 || (rest == 0.5 && odd);
+    uint64_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    /* The scale of the last place is 2^(exponent - 24): eleven binary places, or those of the smallest scale. */
+    int first = (int)(bits >> 52) - 1023, exponent = first > -14 ? first + 14 : 0;
+    double places = size * power_of_two(24 - exponent);
+    int whole = (int)places;
+    double rest = places - whole;
+    whole += rest > 0.5 || (rest == 0.5 && whole % 2 == 1);
     if (whole >= 2048) {
         whole /= 2;
         exponent++;
     }
     /* Below 1024 places the number is subnormal and its exponent field is zero. */
-    uint32_t bits = whole < 1024 ? (uint32_t)whole : (uint32_t)(exponent + 1) << 10 | ((uint32_t)whole - 1024);
-    return (uint16_t)(sign | (bits > HALF_MOST ? HALF_MOST : bits));
+    uint32_t half = whole < 1024 ? (uint32_t)whole : (uint32_t)(exponent + 1) << 10 | ((uint32_t)whole - 1024);
+    return (uint16_t)(sign | (half > HALF_MOST ? HALF_MOST : half));
 }
 
 double real_from_half(uint16_t half)

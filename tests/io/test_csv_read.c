@@ -2,6 +2,8 @@
 #include "io/csv_read.h"
 #include "scratch.h"
 
+#include <stdlib.h>
+
 enum { COLUMNS = 2 };
 static const char *const names[COLUMNS] = {"time", "force[N]"};
 
@@ -113,5 +115,42 @@ START_TEST(hundreds_of_columns_are_read)
 }
 END_TEST
 
+/* Rows of all lengths over several parts of a buffer, with zeros and texts that a skipped cell may be; a line that is
+   as long as one may be but for a character, and one that is not. */
+START_TEST(rows_go_over_the_parts_of_a_buffer)
+{
+    enum { ROWS = 3000, ROOM = ROWS * 200 + 3 * CSV_LINE_MOST };
+    char *text = malloc(ROOM);
+    ck_assert_ptr_nonnull(text);
+    size_t length = (size_t)snprintf(text, ROOM, "time[s],x[m],force[N]\n");
+    for (int i = 0; i < ROWS; i++)
+        length += (size_t)snprintf(text + length, ROOM - length, "%d,%s%0*d,%d\n", i, i % 3 ? "-1." : "", 1 + i % 150,
+                                   i % 2, -i);
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_msg(read_text(text, length, columns, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(columns[0].count, ROWS);
+    for (int i = 0; i < ROWS; i++) {
+        assert_bits(columns[0].data[i], i);
+        assert_absolute(columns[1].data[i], -i, 0);
+    }
+    free_columns(columns);
+    for (int more = 0; more < 2; more++) {
+        double_array wide[COLUMNS] = {0};
+        size_t row = CSV_LINE_MOST - 2 + (size_t)more; /* and the end of the line */
+        memset(text + length, '0', row);
+        memcpy(text + length + 4, ",0,", 3);
+        text[length + row] = '\n';
+        memcpy(text + length + row + 1, "7,0,8", 5);
+        fram_status status = read_text(text, length + row + 6, wide, &error);
+        ck_assert_int_eq(status, more ? FRAM_ERROR_INPUT : FRAM_OK);
+        ck_assert_int_eq(wide[0].count, ROWS + (more ? 0 : 2));
+        ck_assert(!more || (error.line == ROWS + 2 && strstr(error.message, "characters in a line")));
+        free_columns(wide);
+    }
+    free(text);
+}
+END_TEST
+
 TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter,
-          what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read)
+          what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read, rows_go_over_the_parts_of_a_buffer)

@@ -152,6 +152,38 @@ START_TEST(pieces_on_edge_and_under_the_sheet)
 }
 END_TEST
 
+/* A floe has a line: at an edge 0.6 of a pixel down the row, its pixels are 0.7 line, which no mix of ice and water is
+   as dark as.  Which way round the outline goes does not matter, and a tip is neither lost nor drawn far beyond itself.
+ */
+START_TEST(floes_have_lines)
+{
+    enum { LONGEST = 800 };
+    const double pixel = 20.0 / (LONGEST - 64 - 44);
+    const vec2 ring[2][5] = {{{-6, -6}, {6, -6}, {6, 6}, {5.9, 9}, {-6, 6}},
+                             {{-6, 6}, {5.9, 9}, {6, 6}, {6, -6}, {-6, -6}}};
+    cairo_surface_t *page[2];
+    for (int way = 0; way < 2; way++) {
+        const plan_shape s = {.outline = {ring[way], 5}, .style = PLAN_FLOE};
+        const plan_view view = {
+            .window = {{-10, -10}, {10, 10}}, .title = "", .caption = "", .shapes = &s, .shape_count = 1};
+        page[way] = drawn(&view, LONGEST);
+        int found[3];
+        for (double x = -5.5; x < 5.5; x += 0.07) {
+            colour_at(page[way], LONGEST, (vec2){x, -6}, found);
+            ck_assert_msg(found[0] < 145, "no line at x = %g: %d", x, found[0]);
+            ck_assert(is_floe(page[way], LONGEST, (vec2){x, -6 + 1.5 * pixel}));
+        }
+        ck_assert(is_floe(page[way], LONGEST, (vec2){5.6, 8.6}));
+        colour_at(page[way], LONGEST, (vec2){5.9, 9 + 4 * pixel}, found);
+        ck_assert_int_lt(found[0], 60);
+    }
+    size_t size = (size_t)LONGEST * (size_t)cairo_image_surface_get_stride(page[0]);
+    ck_assert_mem_eq(cairo_image_surface_get_data(page[0]), cairo_image_surface_get_data(page[1]), size);
+    cairo_surface_destroy(page[0]);
+    cairo_surface_destroy(page[1]);
+}
+END_TEST
+
 /* Tiles of level ice show no seams, nor what lies under them; a floe on them and the water between parts are seen. */
 START_TEST(level_ice_has_no_seams)
 {
@@ -283,7 +315,7 @@ START_TEST(labels_that_cover_each_other)
 END_TEST
 
 TEST_MAIN("plan_view", level_prism, tilted_prism, sorted, flows_that_move, flows_of_a_history,
-          pieces_on_edge_and_under_the_sheet, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
+          pieces_on_edge_and_under_the_sheet, floes_have_lines, level_ice_has_no_seams, mooring_lines, flows_are_drawn,
           labels_that_cover_each_other)
 
 #else
