@@ -82,7 +82,7 @@ static void put_bodies(const world *w, const int32_t *slot, int count, int row, 
 
 int(fram_world_bodies)(const fram_world *w, unsigned selection, const fram_body_arrays *arrays, size_t size)
 {
-    if (!w || RESULT_CHECK(arrays, size, fram_body_arrays, NULL) != FRAM_OK)
+    if (!world_can_be_read(w) || RESULT_CHECK(arrays, size, fram_body_arrays, NULL) != FRAM_OK)
         return 0;
     fram_body_arrays a = {0};
     if (arrays)
@@ -108,7 +108,8 @@ int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset
                         int point_room, int *bodies)
 {
     int row = 0, points = 0;
-    for (int32_t i = 0; w && i < w->inner.bodies.count; i++) {
+    int32_t slots = world_can_be_read(w) ? w->inner.bodies.count : 0;
+    for (int32_t i = 0; i < slots; i++) {
         const body_table *b = &w->inner.bodies;
         if (!is_selected(b, i, selection))
             continue;
@@ -136,7 +137,7 @@ int fram_world_outlines(const fram_world *w, unsigned selection, int32_t *offset
 int fram_world_shapes(const fram_world *w, int32_t *offset, int offset_room, double *xy, int point_room)
 {
     int points = 0;
-    int32_t slots = w ? w->inner.bodies.count : 0;
+    int32_t slots = world_can_be_read(w) ? w->inner.bodies.count : 0;
     for (int32_t i = 0; i < slots; i++) {
         if (offset && i < offset_room)
             offset[i] = points;
@@ -162,6 +163,8 @@ fram_status(fram_world_view)(const fram_world *w, fram_body_view *view, fram_err
     fram_status status = REFUSE_NULL(error, {"world", w}, {"view", view});
     if (status == FRAM_OK)
         status = RESULT_CHECK(view, size, fram_body_view, error);
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     w->aside->kept.shown = true;
@@ -189,7 +192,7 @@ static fram_body_id id_of(const body_table *b, int32_t slot)
 
 int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, size_t size)
 {
-    if (!w || RESULT_CHECK(contacts, size, fram_contact, NULL) != FRAM_OK)
+    if (!world_can_be_read(w) || RESULT_CHECK(contacts, size, fram_contact, NULL) != FRAM_OK)
         return 0;
     int32_t count = w->inner.scratch.contacts.count;
     for (int32_t i = 0; contacts && i < count && i < room; i++) {
@@ -210,7 +213,7 @@ int(fram_world_contacts)(const fram_world *w, fram_contact *contacts, int room, 
 
 int(fram_world_fractures)(const fram_world *w, fram_fracture *fractures, int room, size_t size)
 {
-    if (!w || RESULT_CHECK(fractures, size, fram_fracture, NULL) != FRAM_OK)
+    if (!world_can_be_read(w) || RESULT_CHECK(fractures, size, fram_fracture, NULL) != FRAM_OK)
         return 0;
     int32_t count = w->inner.scratch.fractures.count;
     for (int32_t i = 0; fractures && i < count && i < room; i++) {

@@ -108,12 +108,13 @@ int fram_world_find_channel(const fram_world *w, const char *name)
 
 double fram_world_value(const fram_world *w, int index)
 {
-    return w && index >= 0 && index < w->base->columns.columns.count ? world_row(w)[index] : (double)NAN;
+    bool there = world_can_be_read(w) && index >= 0 && index < w->base->columns.columns.count;
+    return there ? world_row(w)[index] : (double)NAN;
 }
 
 int fram_world_values(const fram_world *w, double *values, int room)
 {
-    if (!w)
+    if (!world_can_be_read(w))
         return 0;
     int count = w->base->columns.columns.count, copied = room < count ? room : count;
     if (values && copied > 0)
@@ -151,7 +152,7 @@ int fram_world_find_input(const fram_world *w, const char *name)
 
 double fram_world_input_value(const fram_world *w, int index)
 {
-    if (!w || index < 0 || index >= w->base->controls.count)
+    if (!world_can_be_read(w) || index < 0 || index >= w->base->controls.count)
         return (double)NAN;
     return control_get(&w->base->model, &w->inner, &w->base->controls.data[index]);
 }
@@ -159,6 +160,8 @@ double fram_world_input_value(const fram_world *w, int index)
 fram_status fram_world_set_input(fram_world *w, int index, double value, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     if (index < 0 || index >= w->base->controls.count)
@@ -177,6 +180,8 @@ fram_status fram_world_set_path(fram_world *w, int vessel, const double *times, 
     fram_status status = REFUSE_NULL(error, {"world", w});
     if (status == FRAM_OK && count != 0)
         status = REFUSE_NULL(error, {"times", times}, {"places", places});
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     if (vessel < 0 || vessel >= w->inner.vessels.count)

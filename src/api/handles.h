@@ -42,7 +42,8 @@ typedef struct world_base {
 
 /* Of a world, beside its state. */
 typedef struct world_aside {
-    bool row_is_new; /* the row of all channels tells what is now */
+    atomic_bool taken; /* a call that changes the world is going on */
+    bool row_is_new;   /* the row of all channels tells what is now */
     kept_memory kept;
 } world_aside;
 
@@ -68,6 +69,14 @@ const char *channel_meaning(const char *channel);
 bool world_make_row(fram_world *w);
 /* Fills base->inputs. */
 fram_status world_find_inputs(fram_world *w, fram_error *error);
+/* A call that changes a world has it to itself: FRAM_ERROR_USAGE when another one is going on, on another thread or
+   around the callback that this one comes from, and for NULL.  world_leave ends it. */
+fram_status world_enter(fram_world *w, fram_error *error);
+void world_leave(fram_world *w);
+/* FRAM_ERROR_USAGE while a call that changes the world is going on: there is no state to be told of. */
+fram_status world_refuse_taken(const fram_world *w, fram_error *error);
+/* The same for functions without a status; false for NULL too. */
+bool world_can_be_read(const fram_world *w);
 /* FRAM_ERROR_USAGE after a step that failed. */
 fram_status world_refuse_failed(const fram_world *w, fram_error *error);
 /* A live view of a folder whose address the caller was told; page NULL: none.  FRAM_ERROR_USAGE without `live`. */

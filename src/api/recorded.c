@@ -32,14 +32,12 @@ static fram_status begin(fram_world *w, recording *r, fram_error *error)
     return recording_begin(r, &w->inner, error);
 }
 
-fram_status fram_world_record(fram_world *w, const fram_record_definition *definition, fram_error *error)
+static fram_status record(fram_world *w, const fram_record_definition *definition, fram_error *error)
 {
     fram_record_definition d;
     fram_record_fill(&d);
-    fram_status status = REFUSE_NULL(error, {"world", w});
-    if (status == FRAM_OK)
-        status =
-            definition_take(&d, definition, sizeof d, offsetof(fram_record_definition, force), "fram_record", error);
+    fram_status status =
+        definition_take(&d, definition, sizeof d, offsetof(fram_record_definition, force), "fram_record", error);
     if (status == FRAM_OK)
         status = world_refuse_failed(w, error);
     if (status != FRAM_OK)
@@ -69,20 +67,35 @@ fram_status fram_world_record(fram_world *w, const fram_record_definition *defin
     return status;
 }
 
+fram_status fram_world_record(fram_world *w, const fram_record_definition *definition, fram_error *error)
+{
+    fram_status status = world_enter(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = record(w, definition, error);
+    world_leave(w);
+    return status;
+}
+
 bool fram_world_is_recorded(const fram_world *w) { return w && w->recording; }
 
-static fram_status refuse_unrecorded(const fram_world *w, fram_error *error)
+static fram_status enter_recorded(fram_world *w, fram_error *error)
 {
-    fram_status status = REFUSE_NULL(error, {"world", w});
-    if (status == FRAM_OK && !w->recording)
-        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world", "it is not recorded");
-    return status;
+    fram_status status = world_enter(w, error);
+    if (status != FRAM_OK || w->recording)
+        return status;
+    world_leave(w);
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world", "it is not recorded");
 }
 
 fram_status fram_world_checkpoint(fram_world *w, fram_error *error)
 {
-    fram_status status = refuse_unrecorded(w, error);
-    return status == FRAM_OK ? recording_checkpoint(w->recording, error) : status;
+    fram_status status = enter_recorded(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = recording_checkpoint(w->recording, error);
+    world_leave(w);
+    return status;
 }
 
 static void fill_result(const fram_world *w, fram_run_result *result)
@@ -101,15 +114,18 @@ static void fill_result(const fram_world *w, fram_run_result *result)
 fram_status(fram_world_record_end)(fram_world *w, fram_run_result *result, fram_error *error, size_t size)
 {
     fram_run_result local;
-    fram_status status = refuse_unrecorded(w, error);
+    fram_status status = REFUSE_NULL(error, {"world", w});
     if (status == FRAM_OK)
         status = RESULT_CHECK(result, size, fram_run_result, error);
+    if (status == FRAM_OK)
+        status = enter_recorded(w, error);
     if (status != FRAM_OK)
         return status;
     fill_result(w, &local);
     result_give(result, size, &local);
     status = recording_end(w->recording, local.finished ? "finished" : "stopped", error);
     forget(w);
+    world_leave(w);
     return status;
 }
 

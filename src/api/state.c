@@ -20,6 +20,8 @@ void fram_stop_set(volatile int *stop, int value) /* NOLINT(readability-non-cons
 fram_status fram_world_copy(const fram_world *w, fram_world **out, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"copy", out});
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     fram_world *copy = world_handle(w->scenario, w->base);
@@ -65,6 +67,8 @@ static checkpoint_note note_of(const fram_world *w)
 fram_status fram_world_save_memory(const fram_world *w, void **data, size_t *size, fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"data", data}, {"size", size});
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     checkpoint_note note = note_of(w);
@@ -81,7 +85,7 @@ void fram_data_free(fram_context *c, void *data)
         memory_free(&c->inner, data);
 }
 
-static fram_status load(fram_world *w, const char *name, const void *data, size_t size, fram_error *error)
+static fram_status take_over(fram_world *w, const char *name, const void *data, size_t size, fram_error *error)
 {
     if (w->recording)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world",
@@ -109,6 +113,16 @@ static fram_status load(fram_world *w, const char *name, const void *data, size_
     w->step_wall = 0;
     world_changed(w);
     return FRAM_OK;
+}
+
+static fram_status load(fram_world *w, const char *name, const void *data, size_t size, fram_error *error)
+{
+    fram_status status = world_enter(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = take_over(w, name, data, size, error);
+    world_leave(w);
+    return status;
 }
 
 fram_status fram_world_load_memory(fram_world *w, const void *data, size_t size, fram_error *error)

@@ -36,6 +36,7 @@ fram_world *world_handle(const fram_scenario *s, world_base *base)
         world_handle_free(w);
         return NULL;
     }
+    atomic_init(&w->aside->taken, false);
     w->base = base;
     atomic_fetch_add(&base->users, 1);
     return w;
@@ -108,12 +109,41 @@ fram_status fram_world_create(const fram_scenario *s, fram_world **out, fram_err
 
 void fram_world_destroy(fram_world *w)
 {
-    if (!w)
+    if (!world_can_be_read(w))
         return;
     if (w->recording)
         (void)fram_world_record_end(w, NULL, NULL);
     world_free(&w->scenario->context->inner, &w->inner);
     world_handle_free(w);
+}
+
+/* ---- one call at a time ---- */
+
+static fram_status taken(fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "world",
+                     "another call on it has not returned yet: use a world from one thread at a time, and not from a "
+                     "function that a call on it calls");
+}
+
+fram_status world_enter(fram_world *w, fram_error *error)
+{
+    fram_status status = REFUSE_NULL(error, {"world", w});
+    if (status == FRAM_OK && atomic_exchange_explicit(&w->aside->taken, true, memory_order_acquire))
+        status = taken(error);
+    return status;
+}
+
+void world_leave(fram_world *w) { atomic_store_explicit(&w->aside->taken, false, memory_order_release); }
+
+bool world_can_be_read(const fram_world *w)
+{
+    return w && !atomic_load_explicit(&w->aside->taken, memory_order_relaxed);
+}
+
+fram_status world_refuse_taken(const fram_world *w, fram_error *error)
+{
+    return world_can_be_read(w) ? FRAM_OK : taken(error);
 }
 
 /* ---- stepping ---- */
@@ -128,12 +158,10 @@ fram_status world_refuse_failed(const fram_world *w, fram_error *error)
                      "its last step failed; load a good state before it goes on, or destroy it");
 }
 
-fram_status fram_world_step(fram_world *w, fram_error *error)
+static fram_status step(fram_world *w, fram_error *error)
 {
     fram_error local = {0};
-    fram_status status = REFUSE_NULL(error, {"world", w});
-    if (status == FRAM_OK)
-        status = world_refuse_failed(w, error);
+    fram_status status = world_refuse_failed(w, error);
     if (status != FRAM_OK)
         return status;
     double before = clock_wall();
@@ -152,14 +180,24 @@ fram_status fram_world_step(fram_world *w, fram_error *error)
     return status;
 }
 
+fram_status fram_world_step(fram_world *w, fram_error *error)
+{
+    fram_status status = world_enter(w, error);
+    if (status != FRAM_OK)
+        return status;
+    status = step(w, error);
+    world_leave(w);
+    return status;
+}
+
 double fram_world_time(const fram_world *w) { return w ? w->inner.clock.time[0] : (double)NAN; }
 int64_t fram_world_steps(const fram_world *w) { return w ? w->inner.clock.step[0] : 0; }
-uint64_t fram_world_hash(const fram_world *w) { return w ? world_hash(&w->inner) : 0; }
+uint64_t fram_world_hash(const fram_world *w) { return world_can_be_read(w) ? world_hash(&w->inner) : 0; }
 int fram_world_slots(const fram_world *w) { return w ? w->inner.bodies.count : 0; }
 
 bool fram_world_body(const fram_world *w, int slot, fram_body_id *id)
 {
-    if (!w || !id)
+    if (!world_can_be_read(w) || !id)
         return false;
     const body_table *b = &w->inner.bodies;
     if (slot < 0 || slot >= b->count || !body_is_alive(b, slot))
@@ -228,6 +266,8 @@ fram_status(fram_body_state_get)(const fram_world *w, fram_body_id id, fram_body
     fram_status status = REFUSE_NULL(error, {"world", w}, {"state", state});
     if (status == FRAM_OK)
         status = RESULT_CHECK(state, size, fram_body_state, error);
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     const body_table *b = &w->inner.bodies;
@@ -247,7 +287,7 @@ fram_status(fram_body_state_get)(const fram_world *w, fram_body_id id, fram_body
 
 int fram_body_outline(const fram_world *w, fram_body_id id, double *xy, int room)
 {
-    if (!w)
+    if (!world_can_be_read(w))
         return 0;
     const body_table *b = &w->inner.bodies;
     const shape_store *s = &w->inner.shapes;
@@ -265,6 +305,8 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
                                    fram_error *error)
 {
     fram_status status = REFUSE_NULL(error, {"world", w}, {"force", force}, {"moment", moment});
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     if (!is_living(&w->inner.bodies, id))
@@ -286,6 +328,8 @@ fram_status(fram_world_ice_load)(const fram_world *w, fram_body_id id, fram_ice_
     fram_status status = REFUSE_NULL(error, {"world", w}, {"load", load});
     if (status == FRAM_OK)
         status = RESULT_CHECK(load, size, fram_ice_load, error);
+    if (status == FRAM_OK)
+        status = world_refuse_taken(w, error);
     if (status != FRAM_OK)
         return status;
     const world *in = &w->inner;

@@ -14,9 +14,11 @@ static bool is_special(const char *path)
     return lstat(path, &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode);
 }
 
-static fram_status refuse_folder(const char *path, fram_error *error)
+static fram_status refuse_no_file(const char *path, fram_error *error)
 {
     struct stat about;
+    if (!*path)
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, NULL, "expected the name of a file, found an empty text");
     if (stat(path, &about) == 0 && S_ISDIR(about.st_mode))
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected the name of a file, found a folder");
     return FRAM_OK;
@@ -25,7 +27,7 @@ static fram_status refuse_folder(const char *path, fram_error *error)
 fram_status atomic_file_begin(context *ctx, const char *path, atomic_file *a, fram_error *error)
 {
     memset(a, 0, sizeof *a);
-    fram_status status = refuse_folder(path, error);
+    fram_status status = refuse_no_file(path, error);
     if (status != FRAM_OK)
         return status;
     a->direct = is_special(path);
@@ -99,7 +101,7 @@ void atomic_file_abandon(atomic_file *a)
 fram_status atomic_file_adopt(context *ctx, const char *temporary, const char *path, fram_error *error)
 {
     int descriptor = open(temporary, O_RDONLY | O_CLOEXEC);
-    fram_status status = refuse_folder(path, error);
+    fram_status status = refuse_no_file(path, error);
     if (status == FRAM_OK && is_special(path))
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found a device or a link");
     if (status != FRAM_OK) {

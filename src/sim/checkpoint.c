@@ -193,12 +193,16 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
                       bytes[BYTES_VERSION].data ? (const char *)bytes[BYTES_VERSION].data : "");
     } else if (!same_text(&bytes[BYTES_SCENARIO], note->scenario_hash)) {
         *other = true;
-        status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                           "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
+        status =
+            error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
+                      data ? "the state belongs to another scenario; load it into a world of the one it is of"
+                           : "the checkpoint belongs to another scenario: scenario.yaml in the folder was changed");
     } else if (!same_text(&bytes[BYTES_INPUTS], note->inputs)) {
         *other = true;
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
-                           "a file that the run was started with was changed since; restore it or start a new run");
+                           data ? "a file that the scenario names was changed since the state was saved; restore it"
+                                : "a file that the run was started with was changed since; restore it or start a new "
+                                  "run");
     } else if (world_check(m, w, &unsound) != FRAM_OK) {
         status = error_set(error, FRAM_ERROR_INPUT, path, 0, unsound.key, "%s", unsound.message);
     } else if (world_hash(w) != numbers[NUMBER_HASH].value) {

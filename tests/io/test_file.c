@@ -187,6 +187,7 @@ START_TEST(replacing_a_folder_leaves_nothing_behind)
     ck_assert_int_eq(unlink(inside), 0);
     ck_assert_int_eq(rmdir(s.path), 0);
     ck_assert_int_eq(rmdir(s.folder), 0);
+    assert_fails(atomic_file_write(&ctx, "", "y", 1, &error), error, FRAM_ERROR_INPUT, "found an empty text");
     assert_fails(atomic_file_write(&ctx, "/no/such/folder/a", "y", 1, &error), error, FRAM_ERROR_INPUT, "No such file");
     ck_assert_str_eq(error.file, "/no/such/folder/a");
 }

@@ -466,6 +466,7 @@ class Package(unittest.TestCase):
 
     def test_environment(self):
         environment = fram.StationKeeping(fram.Scenario.from_text(FREE), interval=0.2, horizon=1)
+        self.assertIs(environment.unwrapped, environment)
         self.assertEqual(environment.action_space.shape, (len(environment.actions),))
         first, info = environment.reset(seed=3)
         self.assertTrue(environment.observation_space.contains(first))

@@ -63,6 +63,9 @@ class FramError(Exception):
         place = file + (f":{line}" if line else "") + (f":{column}" if line and column else "")
         super().__init__(": ".join(part for part in (place, key, message) if part))
 
+    def __reduce__(self):
+        return type(self), (self.status, self.message, self.file, self.line, self.column, self.key)
+
 
 class UsageError(FramError, ValueError):
     """The call is wrong: an argument, or the order of calls."""

@@ -47,6 +47,16 @@ class Context:
         check(lib.fram_context_create(definition, out, error), error)
         self._pointer = owned(out[0], lib.fram_context_destroy, uses=self._keep)
 
+    def __copy__(self) -> "Context":
+        return self  # it never changes
+
+    def __deepcopy__(self, _memo) -> "Context":
+        return self
+
+    def __reduce__(self):
+        raise TypeError("a context is of its process and cannot be pickled; scenarios and worlds of the default one "
+                        "can be")
+
     def _check(self, status: int, error) -> None:
         lib.fram_stop_set(self._stop, 0)
         if self._raised:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional, Sequence
+from typing import Any, Callable, Optional, Sequence, Union
 
 import numpy as np
 
@@ -58,17 +58,22 @@ def station_reward(world: World) -> float:
     return -float(np.hypot(world["offset_x"], world["offset_y"]) + 0.1 * abs(world["heading_deviation"]))
 
 
+def _names(given: Union[str, Sequence[str], None], default: Sequence[str]) -> tuple[str, ...]:
+    return tuple(default) if given is None else (given,) if isinstance(given, str) else tuple(given)
+
+
 class StationKeeping:
     """Keeping a vessel on station in ice by orders to its thrusters.
 
-    actions: names of inputs (default: all orders to thrusters), each scaled so that -1 to 1 is what it can do.
-    observations: names of channels.  interval: simulated time of one `step` [s].  horizon: simulated time after which
-    an episode is truncated [s].  offset_limit: an episode ends when the offset exceeds it [m].  reward: of the world
-    after each step.
+    actions: names of orders to thrusters (default: all), each scaled so that -1 to 1 is what it can do.
+    observations: names of channels.  interval: simulated time of one `step` [s], rounded to whole time steps.
+    horizon: simulated time after which an episode is truncated [s].  offset_limit: an episode ends when the offset
+    exceeds it [m].  reward: of the world after each step.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}
     render_mode = None
+    spec = None
 
     def __init__(self, scenario: Scenario, actions: Optional[Sequence[str]] = None,
                  observations: Sequence[str] = OBSERVATIONS, interval: float = 0.5, horizon: Optional[float] = None,
@@ -78,14 +83,22 @@ class StationKeeping:
         self._first = scenario.world()
         inputs = self._first.inputs
         if "positioning" not in inputs:
-            raise InputError("input", "expected a free vessel with thrusters", key="vessel")
-        self.actions = tuple(actions) if actions is not None else tuple(n for n in inputs if "_order" in n)
-        self.observations = tuple(observations)
-        for name in self.actions + self.observations:
+            raise InputError("input", "expected one free vessel with thrusters, and no list of vessels", key="vessel")
+        orders = tuple(name for name in inputs if name.startswith("thruster_") and "_order" in name)
+        self.actions = _names(actions, orders)
+        self.observations = _names(observations, ())
+        for name in self.actions:
+            if name not in orders:
+                raise InputError("input", f"expected orders to thrusters ({', '.join(orders)}), whose limits are known",
+                                 key=name)
+        for name in self.observations:
             if name not in self._first:
                 raise InputError("input", "the world has no such channel or input", key=name)
+        if not 0 < interval < float("inf"):
+            raise InputError("input", f"expected a time above 0, found {interval}", key="interval")
         self._ranges = np.array([self._range(name) for name in self.actions]).reshape(-1, 2)
         self._steps = max(1, round(interval / scenario.time_step))
+        self.interval = self._steps * scenario.time_step
         self._horizon = scenario.duration if horizon is None else horizon
         self.action_space = _box(np.full(len(self.actions), -1.0), np.full(len(self.actions), 1.0))
         ends = np.full(len(self.observations), np.inf)
@@ -108,12 +121,17 @@ class StationKeeping:
         return np.array([self.world[name] for name in self.observations], np.float64)
 
     def reset(self, *, seed: Optional[int] = None, options: Optional[dict] = None):
-        """A new episode; a seed is that of the scenario (ice field, noise).  Returns observation and info."""
+        """A new episode; a seed is that of the scenario (ice field, noise), without one the last episode begins again.
+
+        Returns observation and info.
+        """
         del options
         if seed is not None and seed != self._seed:
-            self._seed = int(seed)
+            if seed != int(seed):
+                raise InputError("input", f"expected a whole number, found {seed}", key="seed")
+            first = self._scenario.replaced({"run.seed": int(seed)}).world()
             self._first.close()
-            self._first = self._scenario.replaced({"run.seed": self._seed}).world()
+            self._first, self._seed = first, int(seed)
         if self.world is not None:
             self.world.close()
         self.world = self._first.copy()
@@ -141,6 +159,17 @@ class StationKeeping:
         info["time"] = self.world.time
         truncated = not failed and self.world.time >= self._horizon - 1e-9
         return self._observe(), self._reward(self.world), failed or offset > self._limit, truncated, info
+
+    @property
+    def unwrapped(self) -> "StationKeeping":
+        """This environment, as that of a wrapper is asked for."""
+        return self
+
+    def __enter__(self) -> "StationKeeping":
+        return self
+
+    def __exit__(self, *_exception) -> None:
+        self.close()
 
     def render(self) -> None:
         """Nothing is drawn; see `fram.plot_outlines`."""

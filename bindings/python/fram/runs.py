@@ -29,24 +29,57 @@ class Floe:
     properties: Mapping[str, Any]
 
 
-def _read_table(path: pathlib.Path) -> tuple[dict[str, np.ndarray], dict[str, str]]:
-    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
+def _read_text(path: pathlib.Path) -> str:
+    """A file as text; bytes that are none become what no number and no key has."""
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
+        return path.read_text(encoding="utf-8", errors="surrogateescape")
     except OSError as error:
         raise FileError("io", str(error), file=str(path)) from error
+
+
+def _read_object(path: pathlib.Path) -> dict[str, Any]:
+    """A JSON object in a file."""
+    try:
+        found = json.loads(_read_text(path))
+    except json.JSONDecodeError as error:
+        raise InputError("input", f"expected a JSON object: {error.msg}", file=str(path), line=error.lineno,
+                         column=error.colno) from error
+    if not isinstance(found, dict):
+        raise InputError("input", f"expected a JSON object, found {type(found).__name__}", file=str(path), line=1)
+    return found
+
+
+def _heads(row: list[str], path: pathlib.Path, needed: Sequence[str]) -> dict[str, str]:
+    """Units by name of a row of heads name[unit]."""
+    units: dict[str, str] = {}
+    for head in row:
+        name, _, unit = head.partition("[")
+        if name in units:
+            raise InputError("input", "expected each column once, found two of this name", file=str(path), line=1,
+                             key=name)
+        units[name] = unit.rstrip("]")
+    for name in needed:
+        if name not in units:
+            raise InputError("input", "expected a column of this name, found none", file=str(path), line=1, key=name)
+    return units
+
+
+def _read_table(path: pathlib.Path, needed: Sequence[str] = ()) -> tuple[dict[str, np.ndarray], dict[str, str]]:
+    """Columns and units of a table with heads name[unit]; a last row that is not whole yet is left out."""
+    try:
+        rows = list(csv.reader(_read_text(path).splitlines()))
+    except csv.Error as error:
+        raise InputError("input", f"expected rows of numbers: {error}", file=str(path)) from error
     if not rows:
         raise InputError("input", "expected a row of heads, found an empty file", file=str(path), line=1)
-    heads, units = [], {}
-    for head in rows[0]:
-        name, _, unit = head.partition("[")
-        heads.append(name)
-        units[name] = unit.rstrip("]")
+    units = _heads(rows[0], path, needed)
+    heads = list(units)
     values = np.empty((len(rows) - 1, len(heads)))
     count = 0
     for number, row in enumerate(rows[1:], start=2):
         try:
+            if len(row) != len(heads):
+                raise ValueError(f"there are {len(row)}")
             values[count] = [float(word) for word in row]
         except ValueError as error:
             if number == len(rows):
@@ -68,17 +101,21 @@ class Run:
     @property
     def info(self) -> dict[str, Any]:
         """run.json: version, hashes, status, computing time."""
-        return json.loads((self.folder / "run.json").read_text(encoding="utf-8"))
+        return _read_object(self.folder / "run.json")
 
     @property
     def hash(self) -> str:
         """State hash at the end, as `World.hash`."""
-        return self.info["state_hash"]
+        info = self.info
+        if "state_hash" not in info:
+            raise InputError("input", "expected the state hash of a run, found none", key="state_hash",
+                             file=str(self.folder / "run.json"))
+        return info["state_hash"]
 
     @property
     def scenario_text(self) -> str:
         """The effective scenario as YAML."""
-        return (self.folder / "scenario.yaml").read_text(encoding="utf-8")
+        return _read_text(self.folder / "scenario.yaml")
 
     @property
     def units(self) -> dict[str, str]:
@@ -92,7 +129,7 @@ class Run:
     @property
     def series(self):
         """series.csv as a pandas DataFrame over time; without pandas, as `columns`."""
-        columns = self.columns()
+        columns = _read_table(self.folder / "series.csv", ["time"])[0]
         return columns if pandas is None else pandas.DataFrame(columns).set_index("time", drop=False)
 
     @property
@@ -104,7 +141,7 @@ class Run:
     def to_xarray(self):
         """The series as an xarray Dataset over time, with units as attributes; ImportError without xarray."""
         import xarray
-        columns, units = _read_table(self.folder / "series.csv")
+        columns, units = _read_table(self.folder / "series.csv", ["time"])
         time = columns.pop("time")
         data = xarray.Dataset({name: ("time", values, {"units": units[name]}) for name, values in columns.items()},
                               coords={"time": ("time", time, {"units": units["time"]})})
@@ -115,7 +152,7 @@ class Run:
     def station(self) -> Optional[dict[str, Any]]:
         """Results of station keeping (station.json), or None."""
         path = self.folder / "station.json"
-        return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+        return _read_object(path) if path.exists() else None
 
     @property
     def events(self) -> list[dict[str, Any]]:
@@ -150,7 +187,7 @@ class Run:
         """Channels over time, by matplotlib; shown by a notebook.  Returns the axes."""
         import matplotlib.pyplot as pyplot
         names = [channels] if isinstance(channels, str) else list(channels)
-        columns, units = _read_table(self.folder / "series.csv")
+        columns, units = _read_table(self.folder / "series.csv", ["time"])
         for name in names:
             if name not in columns:
                 raise InputError("input", "the run has no such channel", key=name)
@@ -166,8 +203,16 @@ class Run:
         return plot_outlines([floe.outline for floe in self.floes(time)], axes)
 
     def __repr__(self) -> str:
-        info = self.info
-        return f"<fram.Run {self.folder}: {info['status']} at t = {info['time_s']:g} s>"
+        try:
+            info = self.info
+        except (InputError, FileError):
+            return f"<fram.Run {self.folder}: unreadable>"
+        return f"<fram.Run {self.folder}: {info.get('status')} at t = {info.get('time_s')} s>"
+
+    def __reduce__(self):
+        if self._context is not default_context():
+            raise TypeError("a run of a context of its own cannot be pickled; open it without a context")
+        return Run, (self.folder,)
 
     def _repr_html_(self) -> str:
         info = self.info

@@ -5,25 +5,34 @@ from __future__ import annotations
 import os
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
+import numpy as np
+
 from ._library import bytes_of, ffi, lib, new_error, owned, text_of
 from .context import Context, default_context
 
-Overrides = Union[Mapping[str, Any], Sequence[str], None]
+Overrides = Union[Mapping[str, Any], Sequence[str], str, None]
 
 
 def _override_texts(overrides: Overrides) -> list[bytes]:
     """{"run.seed": 7} or ["run.seed=7"] as the library takes them."""
     if overrides is None:
         return []
+    if isinstance(overrides, (str, bytes)):
+        return [bytes_of(overrides)]
     if not isinstance(overrides, Mapping):
         return [bytes_of(text) for text in overrides]
 
     def word(value: Any) -> str:
-        if isinstance(value, bool):
+        if isinstance(value, (bool, np.bool_)):
             return "true" if value else "false"
         return repr(float(value)) if isinstance(value, float) else str(value)
 
     return [bytes_of(f"{key}={word(value)}") for key, value in overrides.items()]
+
+
+def _read_again(how: str, what: bytes, base, overrides: list[bytes]) -> "Scenario":
+    """What was pickled, in another process perhaps; its files are read there."""
+    return Scenario._make(how, what, base, overrides, default_context())
 
 
 class Scenario:
@@ -62,6 +71,17 @@ class Scenario:
             status = lib.fram_scenario_parse(context._pointer, what, folder, items, len(keep), out, error)
         context._check(status, error)
         return cls(out[0], context, (how, what, base, overrides))
+
+    def __copy__(self) -> "Scenario":
+        return self  # it never changes
+
+    def __deepcopy__(self, _memo) -> "Scenario":
+        return self
+
+    def __reduce__(self):
+        if self._context is not default_context():
+            raise TypeError("a scenario of a context of its own cannot be pickled; make it without a context")
+        return _read_again, self._origin
 
     def replaced(self, overrides: Overrides) -> "Scenario":
         """The same scenario with further overrides, read again."""

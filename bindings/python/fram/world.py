@@ -244,8 +244,15 @@ class Recording:
         return self
 
     def __exit__(self, kind, *_exception) -> None:
-        if self._world.recorded:
+        if self._world._pointer is not None and self._world.recorded:
             self.end()
+
+
+def _load_again(scenario: Scenario, state: bytes) -> "World":
+    """What was pickled, in another process perhaps."""
+    world = scenario.world()
+    world.from_bytes(state)
+    return world
 
 
 class World:
@@ -259,6 +266,7 @@ class World:
         self._shapes: Optional[Outlines] = None
         self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
         self._shape_number = 0  # of the changes when the shapes were made
+        self._calls: list[None] = []  # an item for each call that has not returned, of whatever thread
         self._channels = self._list(lib.fram_world_channels, lib.fram_world_channel)
         self._inputs = self._list(lib.fram_world_inputs, lib.fram_world_input)
 
@@ -280,12 +288,20 @@ class World:
         """A function of the world; size: of the struct that it fills, 0 for none."""
         error = new_error()
         last = (error,) if size is None else (error, size)
-        self.scenario._context._check(function(self._living(), *arguments, *last), error)
+        pointer = self._living()
+        self._calls.append(None)
+        try:
+            status = function(pointer, *arguments, *last)
+        finally:
+            self._calls.pop()
+        self.scenario._context._check(status, error)
 
     def close(self) -> None:
         """Free the world now rather than when Python finds that nobody has it; a recording ends."""
         if self._pointer is None:
             return
+        if self._calls:
+            raise UsageError("usage", "another call on it has not returned yet: close it after that", key="world")
         pointer, self._pointer = self._pointer, None
         self._changes = _NEVER
         if self._view is not None:
@@ -312,9 +328,15 @@ class World:
         """
         if n < 0:
             raise UsageError("usage", f"expected 0 steps or more, found {n}", key="n")
-        pointer, error, check = self._living(), new_error(), self.scenario._context._check
+        error, check, calls = new_error(), self.scenario._context._check, self._calls
         for _ in range(n):
-            check(lib.fram_world_step(pointer, error), error)
+            pointer = self._living()
+            calls.append(None)
+            try:
+                status = lib.fram_world_step(pointer, error)
+            finally:
+                calls.pop()
+            check(status, error)
             if callback is not None and callback(self) is False:
                 break
         return self.time
@@ -385,9 +407,10 @@ class World:
         places there is no path any more.
         """
         t = np.ascontiguousarray(times, float).reshape(-1)
-        p = np.ascontiguousarray(places, float).reshape(-1, 3) if len(t) else np.empty((0, 3))
-        if len(p) != len(t):
-            raise InputError("input", f"expected as many places as times, found {len(p)} and {len(t)}", key="places")
+        p = np.ascontiguousarray(places, float)
+        if p.size != 3 * len(t):
+            raise InputError("input", f"expected x, y and heading of {len(t)} places, as many as times; found an array "
+                             f"of shape {p.shape}", key="places")
         self._call(lib.fram_world_set_path, vessel, ffi.cast("double *", t.ctypes.data),
                    ffi.cast("double *", p.ctypes.data), len(t))
 
@@ -396,6 +419,9 @@ class World:
 
         body: (slot, generation), as `bodies` and `vessel` tell them; calls add up.
         """
+        for name, vector in (("force", force), ("moment", moment)):
+            if np.shape(vector) != (3,):
+                raise InputError("input", f"expected three numbers, found {vector}", key=name)
         f, m = (ffi.new("double[3]", [float(x) for x in v]) for v in (force, moment))
         self._call(lib.fram_body_apply_wrench, {"slot": int(body[0]), "generation": int(body[1])}, f, m)
 
@@ -484,6 +510,15 @@ class World:
         error, out = new_error(), ffi.new("fram_world **")
         self.scenario._context._check(lib.fram_world_copy(self._living(), out, error), error)
         return World(out[0], self.scenario)
+
+    def __copy__(self) -> "World":
+        return self.copy()
+
+    def __deepcopy__(self, _memo) -> "World":
+        return self.copy()
+
+    def __reduce__(self):
+        return _load_again, (self.scenario, self.to_bytes())
 
     def to_bytes(self) -> bytes:
         """The whole state."""

@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""The Python package in the hands of a stranger: worlds closed or stepped where they must not be, copies and pickles,
+values that cannot be, damaged folders of runs, orders of calls of the environment."""
+
+import copy
+import gc
+import json
+import pathlib
+import pickle
+import shutil
+import sys
+import tempfile
+import threading
+import unittest
+
+import package  # noqa: F401  first: it finds the package `fram`
+import numpy as np
+
+import fram
+
+TOWED = """
+run: {duration: 0.4, time_step: 0.02}
+vessel: {mode: towed, x: -26, speed: 3, ramp: 0.1, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {source: floes, thickness: 0.5, floes: [{length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}]}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44}
+output: {frame_interval: 0.1}
+"""
+FREE = """
+run: {duration: 2, time_step: 0.05}
+vessel: {mode: free, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}, thrusters: [{x: 18}, {x: -18}]}
+ice: {concentration: 0.3, mean_floe_area: 64, thickness: 0.3}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40, boundary: open}
+"""
+
+
+def towed(**more):
+    return fram.Scenario.from_text(TOWED, **more)
+
+
+class Worlds(unittest.TestCase):
+    def test_a_callback_may_close_step_and_load(self):
+        world = towed().world()
+        with self.assertRaisesRegex(fram.UsageError, "closed"):
+            world.step(3, callback=lambda w: w.close())
+        gc.collect()
+        world = towed().world()
+        world.step(3, callback=lambda w: w.step())
+        self.assertEqual(world.steps, 6)
+        state = world.to_bytes()
+        world.step(2, callback=lambda w: w.from_bytes(state))
+        self.assertEqual(world.steps, 6)
+        with self.assertRaises(RuntimeError):
+            world.step(2, callback=lambda w: (_ for _ in ()).throw(RuntimeError("mine")))
+        self.assertEqual(world.steps, 7)
+
+    def test_threads_that_use_one_world_are_refused_or_wait(self):
+        world = towed().world()
+        done, others = [], []
+
+        def work():
+            for _ in range(40):
+                try:
+                    world.step()
+                    done.append(1)
+                except fram.UsageError as error:
+                    others.append(error.message)
+
+        threads = [threading.Thread(target=work) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual((world.steps, len(done) + len(others)), (len(done), 120))
+        self.assertTrue(all("another call on it has not returned" in message for message in others))
+        world._calls.append(None)  # as while another thread steps it
+        with self.assertRaisesRegex(fram.UsageError, "has not returned"):
+            world.close()
+        world._calls.pop()
+        world.close()
+
+    def test_copies_and_pickles(self):
+        world = towed().world()
+        world.step(5)
+        before = world.hash
+        for other in (copy.copy(world), copy.deepcopy(world), pickle.loads(pickle.dumps(world))):
+            self.assertEqual(other.hash, before)
+            other.step()
+            self.assertNotEqual(other.hash, before)
+            other.close()
+        self.assertEqual(world.hash, before)
+        scenario = world.scenario
+        self.assertIs(copy.deepcopy(scenario), scenario)
+        self.assertIs(copy.copy(scenario._context), copy.deepcopy(scenario._context))
+        self.assertEqual(pickle.loads(pickle.dumps(scenario.replaced({"run.seed": 9}))).hash,
+                         scenario.replaced({"run.seed": 9}).hash)
+        for other in (fram.Context(), towed(context=fram.Context())):
+            with self.assertRaisesRegex(TypeError, "context"):
+                pickle.dumps(other)
+        with self.assertRaises(fram.InputError) as caught:
+            fram.Scenario.from_text("run:\n  sed: 3\n")
+        there = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((there.key, there.line, str(there)), ("run.sed", 2, str(caught.exception)))
+
+    def test_values_that_cannot_be(self):
+        world = towed().world()
+        for force in ((1, 2), (1, 2, 3, 4), 5):
+            with self.assertRaisesRegex(fram.InputError, "three numbers") as caught:
+                world.apply_wrench(world.vessel, force)
+            self.assertEqual(caught.exception.key, "force")
+        with self.assertRaises(fram.InputError):
+            world.apply_wrench(world.vessel, (0, 0, 0), moment=(1,))
+        with self.assertRaisesRegex(fram.InputError, r"shape \(2, 2\)"):
+            world.set_path([1, 2], [[1, 2], [3, 4]])
+        with self.assertRaisesRegex(fram.InputError, "empty text"):
+            world.save("")
+        with self.assertRaisesRegex(fram.InputError, "state belongs to another scenario"):
+            world.from_bytes(towed(overrides="run.seed=8").world().to_bytes())
+        self.assertEqual(towed(overrides="run.seed=8").hash, towed(overrides={"run.seed": np.int64(8)}).hash)
+        self.assertEqual(towed(overrides={"ice.breakable": np.bool_(True)}).hash,
+                         towed(overrides={"ice.breakable": True}).hash)
+
+    def test_a_world_closed_under_its_recording_or_view(self):
+        world = towed().world()
+        with tempfile.TemporaryDirectory() as folder:
+            with world.record(pathlib.Path(folder) / "run"):
+                world.step()
+                view = world.view()
+                world.close()
+            self.assertEqual(fram.open(pathlib.Path(folder) / "run").info["status"], "stopped")
+        for ask in (lambda: view.mass, lambda: view.lives, world.shapes, world.view):
+            with self.assertRaisesRegex(fram.UsageError, "closed"):
+                ask()
+
+
+class Runs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.good, cls.bad = pathlib.Path(folder.name) / "good", pathlib.Path(folder.name) / "bad"
+        towed().run(cls.good)
+
+    def broken(self, name, content):
+        """The run with another file in it."""
+        shutil.rmtree(self.bad, ignore_errors=True)
+        shutil.copytree(self.good, self.bad)
+        (self.bad / name).write_bytes(content)
+        return fram.open(self.bad)
+
+    def assert_refused(self, ask, name, line, key=""):
+        with self.assertRaises(fram.InputError) as caught:
+            ask()
+        error = caught.exception
+        self.assertEqual((pathlib.Path(error.file).name, error.line, error.key), (name, line, key), error)
+
+    def test_run_json(self):
+        for content, line in ((b"", 1), (b'{\n"a": 1,\n', 3), (b"[1, 2]", 1), (bytes(range(256)), 1), (b"\xff\xfe", 1)):
+            run = self.broken("run.json", content)
+            self.assert_refused(lambda: run.info, "run.json", line)
+            self.assert_refused(lambda: run.hash, "run.json", line)
+            self.assertIn("unreadable", repr(run))
+        run = self.broken("run.json", b"{}")
+        self.assert_refused(lambda: run.hash, "run.json", 0, "state_hash")
+        self.assertIn("None", repr(run))
+        run = self.broken("station.json", b"{")
+        self.assert_refused(lambda: run.station, "station.json", 1)
+        self.assert_refused(lambda: run.events, "station.json", 1)
+
+    def test_series(self):
+        for content, line, key in ((b"", 1, ""), (b"time[s],b[m]\n1,x\n2,3\n", 2, ""),
+                                   (b"time[s],b[m]\n1\n2,3\n", 2, ""),
+                                   (b"time[s],b[m]\n1,2,3\n2,3\n", 2, ""), (b"time[s],b[m]\n\xff,2\n2,3\n", 2, ""),
+                                   (b"time[s],b[m],b[m]\n1,2,3\n", 1, "b"), (b"a[s],b[m]\n1,2\n", 1, "time")):
+            run = self.broken("series.csv", content)
+            self.assert_refused(lambda: run.series, "series.csv", line, key)
+        run = self.broken("series.csv", b"time[s],b[m]\n1,2\n2")  # it is still being written
+        np.testing.assert_array_equal(run.columns()["b"], [2])
+
+    def test_files_that_are_gone(self):
+        run = self.broken("series.csv", b"")
+        (self.bad / "series.csv").unlink()
+        (self.bad / "scenario.yaml").unlink()
+        for ask in (lambda: run.series, lambda: run.scenario_text, lambda: run.columns("nothing")):
+            with self.assertRaises(fram.FileError):
+                ask()
+        self.assertEqual(pickle.loads(pickle.dumps(run)).folder, run.folder)
+        self.assertEqual(json.loads((self.bad / "run.json").read_text())["state_hash"], run.hash)
+
+
+class Environment(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scenario = fram.Scenario.from_text(FREE)
+
+    def test_a_seed_that_is_refused_changes_nothing(self):
+        with fram.StationKeeping(self.scenario, interval=0.1) as environment:
+            self.assertIs(environment.unwrapped, environment)
+            _, before = environment.reset(seed=5)
+            for seed in (-3, 2**70, 1.5):
+                with self.assertRaises(fram.InputError):
+                    environment.reset(seed=seed)
+            environment.step(environment.action_space.sample())
+            self.assertEqual(environment.reset()[1], before)
+            self.assertEqual(environment.reset(seed=np.int64(5))[1], before)
+        with self.assertRaises(fram.UsageError):
+            environment.reset()
+
+    def test_what_it_is_made_of(self):
+        one = fram.StationKeeping(self.scenario, actions="thruster_1_order", observations="offset_x", interval=0.12)
+        self.assertEqual((one.actions, one.observations), (("thruster_1_order",), ("offset_x",)))
+        self.assertAlmostEqual(one.interval, 0.1)
+        for wrong in ({"actions": ["wind_x"]}, {"actions": ["time"]}, {"observations": ["nothing"]}):
+            with self.assertRaises(fram.InputError) as caught:
+                fram.StationKeeping(self.scenario, **wrong)
+            self.assertEqual([caught.exception.key], *wrong.values())
+        for interval in (0, -1, float("nan"), float("inf")):
+            with self.assertRaises(fram.InputError) as caught:
+                fram.StationKeeping(self.scenario, interval=interval)
+            self.assertEqual(caught.exception.key, "interval")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
