@@ -70,7 +70,7 @@ def case(out):
         enter("tow, ice and water less mass times acceleration", f"{pull:.1e}")
         enter("largest change of the towing speed in a step, over it", f"{slack:.1e}")
         for what, value, most in (("parts", parts, 1e-9), ("zones", zones, 1e-9),
-                                  ("Newton's law along and across the way", pull, 1e-9 + digits)):
+                                  ("Newton's law along and across the track", pull, 1e-9 + digits)):
             c.check(value <= most, f"{scene}: {what}: {value:.0e}, at most {most:.0e}")
 
         before, after = ice_mass(scene, 0, keys), ice_mass(scene, END, keys)
@@ -111,5 +111,5 @@ def case(out):
         axes.set(xlabel="time [s]", ylabel="resistance [kN]")
         axes.legend(loc="upper left")
 
-    ladder.figure(c, out, "books", "Level ice: the ice force along the way and its parts.", draw)
+    ladder.figure(c, out, "books", "Level ice: the ice force along the track and its parts.", draw)
     return c

@@ -48,14 +48,14 @@ def case(out):
         "A whole break",
         2,
         "A plate 2 m wide at 45 degrees, frictionless, driven at 0.1 m/s into the edge of fixed ice of 1 m: "
-        "crushing, load, bending, cut; downward and upward, with a rigid edge and with one that gives; and the "
+        "crushing, load, bending, cut; downward and upward, with a rigid edge and with a compliant one; and the "
         "direction of the load with friction.",
-        "Nevel's wedge (1961) with the load of the patch, N = 3: breaks at 311.743 kN, 0.779357 s after first touch, "
-        "R_bending 4.14196 m; where the edge gives after 1.686608 s, as the tip is down by 0.090725 m then. "
+        "Nevel's wedge (1961) with the load of the patch, N = 3: breaks at 311.743 kN, 0.779357 s after first contact, "
+        "R_bending 4.14196 m; with a compliant edge after 1.686608 s, its tip being down by 0.090725 m then. "
         "F_H/F_V = (sin g + mu cos g)/(cos g - mu sin g).",
         "First order in dt: the break comes with the first step at which the criterion is met, dt at most after it, "
-        "and the load goes on growing until then. Five steps are halved ones that all meet the break half a step late, "
-        "two meet it elsewhere.",
+        "and the load goes on growing until then. Five of the steps are successive halvings that all meet the break "
+        "half a step late; two meet it elsewhere.",
     )
     c.header = ["plate", "dt [s]", "time of break [s]", "load [kN]", "R_bending [m]", "loaded radius [m]",
                 "load, difference"]

@@ -14,11 +14,11 @@ def case(out):
         "Confinement and floe size",
         7,
         "Mean resistance of the managed field's hull (beam 20 m, 80 %) between walls 30 to 200 m to either side, "
-        "and with "
-        f"floes of 50 to 400 m2 in mean; {len(SEEDS)} seeds each.",
+        f"and with floes of a mean area of 50 to 400 m2; {len(SEEDS)} seeds each.",
         "Model tests in basins of several widths: a field that cannot yield sideways loads more; larger floes at "
         "the same concentration load more (they are fewer and heavier, and jam).",
-        "Falls as the walls go away, and no longer changes by more than 2 standard errors from 150 to 200 m (the "
+        "The load falls as the walls move away, and no longer changes by more than 2 standard errors from 150 to 200 "
+        "m (the "
         "field size of the managed field is enough). Grows from the smallest floes to the largest.",
     )
     c.header = ["half width [m]", "mean floe area [m2]", "mean [kN]", "standard error [kN]"]

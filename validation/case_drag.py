@@ -63,12 +63,12 @@ def case(out):
         "N/(1 + N) = 0.018768 for sides without drag); (pi/5) rho Cf w^2 R^5 for the bottom, and the sides' skin; "
         "1/2 rho Cd d w^2 b^4.",
         "First order in dt for the drift; 1 % for the wind drift, since sides drag too; torques 0.5 % (level floes use "
-        "closed forms on the sides and a quadrature of six points a triangle on the bottom).",
+        "closed forms on the sides and a six-point quadrature per triangle on the bottom).",
     )
     c.header = ["quantity", "found", "exact", "relative difference"]
     length = 2 * 92000 / (RHO * (0.01 * 100 + 0.01 * 2 * 10 * DRAUGHT + 1.0 * 10 * DRAUGHT))
     end = 0.3 - 0.3 / (1 + 0.3 * 60 / length)
-    c.check(abs(end - 0.15136) < 1e-5, f"closed form: u(60 s) = {end:.5f} m/s, as the source has it")
+    c.check(abs(end - 0.15136) < 1e-5, f"closed form: u(60 s) = {end:.5f} m/s, as in the source")
     errors, curve = [], None
     for dt in STEPS:
         curve = drift(dt, 60)

@@ -71,7 +71,7 @@ def case(out):
         "Closed forms: inclusion and exclusion of corners; BM + tan^2 of a wall-sided box; rho g Awp / m; GM = 9.2332 "
         "m.",
         "Volumes, levers and draught to 1e-9: pressure is integrated exactly over clipped triangles. Periods "
-        "converge at second order in dt (semi-implicit Euler changes the period by its square only); roll has a "
+        "converge at second order in dt (semi-implicit Euler changes the period only at second order); roll has a "
         "finite amplitude of 0.5 degrees. The check asks for first order only.",
     )
     c.header = ["quantity", "found", "exact", "relative difference"]

@@ -75,9 +75,9 @@ def case(out):
         1,
         f"A prism of 10 x 4 x 1 m at 1 rad/s about each of its axes, half a degree off, without any force for {END:g} "
         f"s.",
-        "Euler's equations, integrated by Runge and Kutta's method in steps of 1 ms from the same start.",
+        "Euler's equations, integrated by the Runge-Kutta method with steps of 1 ms from the same start.",
         "Angular momentum and energy to 1e-9 at any time step (implicit midpoint rule); spin about the smallest "
-        "and the largest axis stays near it, about the middle one turns over; first order in dt or better.",
+        "and the largest axis stays near it, about the intermediate one tumbles; first order in dt or better.",
     )
     c.header = ["upright axis", "dt [s]", "momentum, drift", "energy, drift", "largest error of the spin "
                                                                               "[rad/s]", "order"]
@@ -109,5 +109,6 @@ def case(out):
         axes.set(xlabel="time [s]", ylabel="spin in own axes [rad/s]")
         axes.legend(loc="lower left")
 
-    ladder.figure(c, out, "free_prism", "Middle axis upright: Fram (lines) and Euler's equations (circles).", draw)
+    ladder.figure(c, out, "free_prism", "Intermediate axis upright: Fram (lines) and Euler's equations (circles).",
+                  draw)
     return c

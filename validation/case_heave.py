@@ -19,7 +19,7 @@ def case(out):
     c = ladder.Case(
         "Heave of a box",
         3,
-        "A box let go 0.25 m above its equilibrium without drag or added mass: position over 20 s beside the exact "
+        "A box released 0.25 m above its equilibrium without drag or added mass: position over 20 s beside the exact "
         "cosine, at five time steps.",
         "z = -A (1 - cos w t), w^2 = rho g Awp / m (hydrostatics of a wall-sided body).",
         "First order in dt: the integrator is semi-implicit Euler.",

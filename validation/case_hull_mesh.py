@@ -25,8 +25,8 @@ def case(out):
         "The fixed cone of 60 degrees as a pyramid of 6 to 96 sides: displaced volume, and horizontal load at the "
         "first break in 1 m of level ice (dt 5 ms).",
         "Volume of the round cone; the load of the finest mesh.",
-        "Volume: exact for the mesh, second order in 1/sides to the round one. The load is decided by the patch "
-        "that the cone's nose has in the ice: convergent, within 5 % from 24 sides on.",
+        "Volume: exact for the mesh, second order in 1/sides to the round one. The load depends on the contact patch "
+        "at the cone's nose: convergent, within 5 % from 24 sides on.",
     )
     c.header = ["sides", "volume [m3]", "to its own mesh", "to the round cone", "order", "first break [kN]",
                 "to the finest", "R_bending [m]"]

@@ -42,8 +42,8 @@ def case(out):
         "(2 MPa) and with `ice.crushing_exponent` -0.16.",
         "ISO 19906: p = C_R (h/1 m)^n (w/h)^-0.16, C_R 2.2 MPa (1.8 to 2.8 by region).",
         "Fram's load is sigma_c w h to rounding, and sigma_c (w h)^(1+e) with an exponent. A constant pressure "
-        "must be too high for wide structures; how much is what this case is for. With the exponent 0.5 to 1.5 of the "
-        "rule is asked: a wide bound without a source.",
+        "must be too high for wide structures; how much is what this case is for. With the exponent 0.5 to 1.5 of "
+        "the rule is required: a wide bound without a source.",
     )
     c.header = ["w [m]", "h [m]", "constant [MN]", "exponent -0.16 [MN]", "ISO [MN]", "constant / "
                                                                                       "ISO", "exponent / ISO"]

@@ -36,7 +36,7 @@ def case(out):
         f"The managed field at 90 %, {len(SEEDS)} seeds: mean load, mean residual of the solver (largest "
         "complementarity "
         "error of a step) and mean largest overlap, for 5 to 80 sweeps of the fast solver and for three time steps.",
-        "The runs themselves; load beside that of 80 sweeps.",
+        "The runs themselves; load compared with that of 80 sweeps.",
         "The residual falls with the sweeps. The mean load from 20 sweeps on differs from that of 80 by less than "
         "2 standard errors; so do the time steps.",
     )

@@ -49,15 +49,16 @@ def case(out):
     c = ladder.Case(
         "Level-ice resistance of an icebreaker",
         5,
-        "Mean ice resistance of the 60 m icebreaker of `scenes/level_ice.yaml` over thickness and speed, from the "
-        "last 15 m of 75 m of way, two starts each; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1).",
+        "Mean ice resistance of the 60 m icebreaker of `scenes/level_ice.yaml` over thickness and speed, over the "
+        "last 15 m of a track of 75 m, two starts each; defaults for all of the ice (0.5 MPa, 5 GPa, mu 0.1).",
         "Lindqvist (1989) with the same inputs. Published errors of such formulas on one ship's tests are 22 to 51 %.",
         "Grows with thickness and with speed; the sheet breaks under the bow, so that the ship never rises by half its "
-        "draught (a bound set after the first run); within a factor of 2 of the formula at 1 and 2 m/s. Above that "
-        "less, since Fram's breaking has no inertia of the water (limits page).",
+        "draught (a bound set after the first run); within a factor of 2 of the formula at 1 and 2 m/s. At higher "
+        "speeds less than that, since Fram's breaking has no inertia of the water (limits page).",
     )
-    c.header = ["h [m]", "speed [m/s]", "Fram, mean of 2 starts [kN]", "apart [kN]", "Lindqvist [kN]", "ratio",
-                "largest rise of the ship [m]", "largest stress/strength of a bite"]
+    c.header = ["h [m]", "speed [m/s]", "Fram, mean of 2 starts [kN]", "difference of the two [kN]", "Lindqvist "
+                "[kN]", "ratio",
+                "largest rise of the ship [m]", "largest stress/strength at a break"]
     cases = [(h, v) for h in THICKNESSES for v in SPEEDS]
     series = ladder.run_all([job(h, v, back) for h, v in cases for back in STARTS])
     found, rise, bite = {}, {}, {}
@@ -81,7 +82,7 @@ def case(out):
                                       "first step or the next (bound of 1.5 set after a first run)")
     c.found = ("The first run of this case showed a defect. Where a break's outline met a seam of the tiles in two "
                "corners that rounding told apart, the break was put off in every step, and in 1 m of ice the ship "
-               "climbed onto the sheet (5 m up, 1.5 MN instead of 0.3 in the mean). It has been mended, with a test "
+               "climbed onto the sheet (5 m up, 1.5 MN instead of 0.3 on average). It has been corrected, with a test "
                "(tests/ice/test_fracture_sheet.c).")
     for v in SPEEDS:
         of_v = [found[h, v] for h in THICKNESSES]

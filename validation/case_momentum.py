@@ -9,7 +9,7 @@ ABOUT, ACROSS = SIDE**2 / 6, (SIDE**2 + THICKNESS**2) / 12  # moments of inertia
 
 
 def scene():
-    """25 square floes at random that fly at one another: drawn by a small fixed generator, with no library's."""
+    """25 square floes at random that collide: drawn by a small fixed generator, with no library's."""
     lines, state = [], 12345
 
     def draw():
@@ -68,12 +68,13 @@ def case(out):
     c = ladder.Case(
         "Momentum and energy of colliding floes",
         1,
-        "25 square floes of 8 m fly at one another without water or gravity for 60 s, restitution 0, friction 0.3; "
+        "25 square floes of 8 m collide without water or gravity for 60 s, restitution 0, friction 0.3; "
         "with each of the three solvers, with and without position correction.",
-        "Newton's laws: what floes do to one another cancels.",
-        "Contacts: linear and angular momentum to 1e-10 of the sum of their magnitudes, and kinetic energy never grows "
-        "(1e-12 of the first a step for rounding). Position correction moves bodies without a velocity: it leaves "
-        "linear momentum alone, and changes the angular momentum about a fixed point by a little; its bounds, 1e-4 and "
+        "Newton's laws: the forces between floes cancel.",
+        "Contacts: linear and angular momentum to 1e-10 of the sum of their magnitudes, and kinetic energy never "
+        "increases "
+        "(1e-12 of the first a step for rounding). Position correction moves bodies without a velocity: it does not "
+        "change linear momentum, and changes the angular momentum about a fixed point slightly; its bounds, 1e-4 and "
         "1e-8 of energy a step, were set after a first run and predict nothing.",
     )
     c.header = ["solver", "position correction", "linear momentum, drift", "angular momentum, drift",
@@ -93,8 +94,8 @@ def case(out):
             else:
                 c.check(angular <= 1e-10, f"{kind}: angular momentum drifts by {angular:.1e}, at most 1e-10")
                 c.check(growth <= 1e-12, f"{kind}: energy grows by {growth:.1e} in a step at most, at most 1e-12")
-    c.found = ("Contacts conserve to rounding. Position correction turns a tilted, spinning floe by a hair and keeps "
-               "its velocities, which is where its drifts come from; they are far under the drag of any water.")
+    c.found = ("Contacts conserve to rounding. Position correction rotates a tilted, spinning floe very slightly and "
+               "keeps its velocities, which is where its drifts come from; they are far smaller than any drag.")
 
     def draw(axes):
         for kind, style in zip(curves, ("-", "--", ":")):
@@ -102,5 +103,5 @@ def case(out):
         axes.set(xlabel="time [s]", ylabel="kinetic energy / first", ylim=(0, None))
         axes.legend()
 
-    ladder.figure(c, out, "momentum", "Kinetic energy: collisions are plastic, and take it away.", draw)
+    ladder.figure(c, out, "momentum", "Kinetic energy: collisions are plastic and dissipate it.", draw)
     return c

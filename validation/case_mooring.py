@@ -50,8 +50,8 @@ def case(out):
         "Tension at the upper end of a line of 1 kN/m in 50 m of water, whose anchor is moved away: slack, with a "
         "part on the bottom, and taut; almost inextensible, and elastic.",
         "The catenary: H 400 kN gives 206.1553 m of hanging line over 197.9732 m and T = H + w d = 450 kN. Elastic: "
-        "T - w d = H, stretch by the mean tension.",
-        "1e-6 without elasticity. With EA = 500 MN the line is stretched by 0.09 % and the pull falls.",
+        "T - w d = H, elongation by the mean tension.",
+        "1e-6 without elasticity. With EA = 500 MN the line is stretched by 0.09 % and the tension falls.",
     )
     length, way, top = suspended(PULL)
     c.header = ["pull [kN]", "anchor at [m]", "tension by Fram [kN]", "exact [kN]", "relative difference"]

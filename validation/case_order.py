@@ -28,8 +28,7 @@ def case(out):
         "plate "
         "under a half disk of a/l = 0.1: 1/3.95955 sigma_f h^2.",
         "The numbers to 1e-3 (radial: 1 %, Westergaard's closed form). The radial crack opens first at any load: so "
-        "the "
-        "wedges that then break are there.",
+        "the wedges exist when they break off.",
     )
     l = characteristic(1.0)
     b0 = 2 * math.tan(math.pi / 6)

@@ -50,12 +50,14 @@ def case(out):
         f"A box ship of 80 x 20 m at constant speed through {FLOES} floes, 75 % in still water and 90 % packed by a "
         "current, in the same text scene and water model: Fram's fast and sequential solver, Bullet and ODE; "
         f"{len(SEEDS)} seeds, dt 0.02 s, {OPTIONS['iterations']} iterations, mean of 5 to 20 s.",
-        "The judge on the same scenes: Fram's accurate solver (to 1e-6 m/s) at 75 %, 300 sweeps in contact order at "
+        "The reference on the same scenes: Fram's accurate solver (to 1e-6 m/s) at 75 %, 300 sweeps in contact order "
+        "at "
         "90 %, where the accurate one takes minutes a run. Bullet 3.24 and ODE 0.16 (bench/peers).",
-        "Fast and sequential within 2 standard errors of the judge. The other engines differ in friction (pyramid) "
+        "Fast and sequential within 2 standard errors of the reference. The other engines differ in friction (pyramid) "
         "and in contact points: within 20 % or 2 standard errors.",
     )
-    c.header = ["cover [%]", "program", "mean load [kN]", "standard error [kN]", "to the judge (first), paired [kN]",
+    c.header = ["cover [%]", "program", "mean load [kN]", "standard error [kN]", "difference from the reference "
+                "(first row), paired [kN]",
                 "over its standard error"]
     picture = {}
     for cover, judge in JUDGES.items():
@@ -70,12 +72,13 @@ def case(out):
             sigmas = apart / of_apart if of_apart > 0 else 0.0
             c.rows.append([cover, name, f"{mean:.1f}", f"{error:.1f}", f"{apart:+.1f}", f"{sigmas:+.2f}"])
             if name in ("Fram, fast", "Fram, sequential"):
-                c.check(abs(sigmas) < 2, f"{cover} %, {name}: {apart:+.1f} kN from the judge, {abs(sigmas):.2f} "
+                c.check(abs(sigmas) < 2, f"{cover} %, {name}: {apart:+.1f} kN from the reference, {abs(sigmas):.2f} "
                                          "standard errors, less than 2")
             elif name in programs:
                 share = apart / ladder.mean_and_error(best)[0]
                 c.check(abs(share) <= 0.2 or abs(sigmas) < 2,
-                        f"{cover} %, {name}: {100 * share:+.0f} % from the judge ({abs(sigmas):.2f} standard errors)")
+                        f"{cover} %, {name}: {100 * share:+.0f} % from the reference ({abs(sigmas):.2f} standard "
+                        f"errors)")
         picture[cover] = loads
 
     def draw(axes):
@@ -88,6 +91,6 @@ def case(out):
             ax.set_xticks(range(len(loads)), ["judge", *short[1:]], rotation=25)
             ax.set(ylabel="mean load [kN]", title=f"{cover} %", ylim=(0, None))
 
-    ladder.figure(c, out, "peers", "Each seed (grey), mean and 95 % interval; the judge is in the table's first line.",
+    ladder.figure(c, out, "peers", "Each seed (grey), mean and 95 % interval; the reference is the table's first row.",
                   draw, panels=2)
     return c

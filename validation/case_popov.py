@@ -70,13 +70,14 @@ def case(out):
         "Glancing impacts",
         2,
         "A floe of 276 t and twelve sides, corner first, meets the side of a ship that leans by 20, 35 and 50 degrees, "
-        "frictionless: straight, and gliding along the side at twice the speed; constant pressure and the exponent "
+        "frictionless: straight, and sliding along the side at twice the speed; constant pressure and the exponent "
         "-0.1 of the polar rules.",
-        "Popov et al. (1967), Daley (1999), IACS UR I2, recalled and derived anew: the mass that the corner feels, "
+        "Popov et al. (1967), Daley (1999), IACS UR I2, from memory and derived again: the effective mass at the "
+        "corner, "
         "1/M = n.n/m + (r x n).I^-1.(r x n); the area of a corner of opening phi at a side that leans by beta', "
         "A = d^2 tan(phi/2)/(sin beta' cos^2 beta'); energy M v_n^2/2 = p0 int A^(1+e) dd.",
-        "Force and impulse within 3 %: the lever arm and the lean are those of the first touch, while the floe pitches "
-        "by a few hundredths. A glide changes nothing.",
+        "Force and impulse within 3 %: the lever arm and the lean are those of first contact, while the floe pitches "
+        "by a few hundredths. Sliding along the side changes nothing.",
     )
     c.header = ["lean [deg]", "exponent", "speed across, along [m/s]", "dt [ms]", "force [kN]", "exact",
                 "impulse [kN s]", "exact", "depth, exact [mm]"]
@@ -102,7 +103,7 @@ def case(out):
         axes.legend()
 
     c.found = ("Lever arms, angles and the pressure-area law come out of patch, cap and solver as in Popov's "
-               "collision; a glide along the side changes nothing. What is left of the difference does not fall with "
+               "collision; sliding along the side changes nothing. The difference that remains does not fall with "
                "the step: the floe pitches during the impact, which the closed form leaves out.")
     ladder.figure(c, out, "popov", "A corner of 150 degrees on a side that leans by 35 degrees", draw)
     return c

@@ -84,12 +84,13 @@ def case(out):
     c = ladder.Case(
         "Position control in surge",
         2,
-        "A vessel of 6764 t on dynamic positioning (PID, wn 0.1 rad/s, damping 1, Ki = Kp wn/10) is pushed by 100 "
-        "kN from one moment on: offset over time, with ideal thrusters and noiseless measurements, at three "
+        "A vessel of 6764 t on dynamic positioning (PID, wn 0.1 rad/s, damping 1, Ki = Kp wn/10) is subjected to a "
+        "step load of 100 kN: offset over time, with ideal thrusters and noiseless measurements, at three "
         "bandwidths of the observer.",
         "The closed loop without observer: peak 1.212357 m at 44.39 s, final offset 0, its integral F/Ki = 147.8328 m "
         "s.",
-        "The observer stands in the loop: its lag (1/bandwidth) is felt, and must vanish as it gets faster. The "
+        "The observer stands in the loop: its lag (1/bandwidth) has an effect, which must vanish as it gets faster. "
+        "The "
         "controller integrates the estimate, not the offset. 0.5 % of the peak at 20 rad/s. That the integral is held "
         "to 0.1 % above 1 rad/s only was decided after a first run: it is 4 % off at 0.2 rad/s.",
     )
@@ -117,7 +118,7 @@ def case(out):
                                     f"0.2 rad/s")
 
     c.found = ("At the default bandwidth of 0.2 rad/s, twice that of the loop, the observer's lag raises the peak by "
-               f"{100 * errors[0]:.0f} %: a real loop is not its textbook answer. Feed-forward or a faster observer "
+               f"{100 * errors[0]:.0f} %: a real loop differs from the textbook one. Feed-forward or a faster observer "
                "(vessel.positioning.observer_bandwidth) removes it.")
 
     def draw(axes):

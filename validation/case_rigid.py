@@ -85,7 +85,7 @@ def case(out):
         "rows; a box on slopes (mu 0.3); two floes that meet head on; a floe that is caught at a corner.",
         "Coulomb's law and the conservation of momentum: v^2/(2 mu g), g (sin a - mu cos a), plastic impact.",
         "First order in dt for what takes time (a stop falls inside a step); 1e-6 and better for the impact head on, "
-        "whatever the step; 2e-4 at a corner, which is wider, for the reason told below.",
+        "whatever the step; 2e-4 at a corner, which is wider, for the reason given below.",
     )
     c.header = ["test", "dt [s]", "found", "exact", "difference", "order"]
 
@@ -101,10 +101,10 @@ def case(out):
 
     stop = 4 / (2 * 0.1 * GRAVITY)
     ways = {dt: slide(dt, 0) for dt in (0.02, 0.01, 0.005)}
-    enter("slide, way", [(dt, way) for dt, (_, way) in ways.items()], stop, "m", 0.02)
+    enter("slide, distance", [(dt, way) for dt, (_, way) in ways.items()], stop, "m", 0.02)
     enter("slide, time", [(dt, t) for dt, (t, _) in ways.items()], 2 / (0.1 * GRAVITY), "s", 0.006, ordered=False)
     for heading in (22.5, 45):
-        enter(f"slide, way at {heading:g} deg", [(0.01, slide(0.01, heading)[1])], ways[0.01][1], "m", 1e-6)
+        enter(f"slide, distance at {heading:g} deg", [(0.01, slide(0.01, heading)[1])], ways[0.01][1], "m", 1e-6)
     angles = [12, 16, 16.6, 16.8, 18, 20, 22.5, 25, 30]
     found = [2 * incline(0.005, a) / 4 for a in angles]
     steep = GRAVITY * (math.sin(math.radians(25)) - 0.3 * math.cos(math.radians(25)))
@@ -120,8 +120,8 @@ def case(out):
         speed, spin = corner(dt)
         enter(f"corner, speed after (dt {dt})", [(dt, speed)], 0.6, "m/s", 2e-4)
         enter(f"corner, spin after (dt {dt})", [(dt, spin)], 0.12, "rad/s", 2e-4)
-    c.found = ("The corner's contact is 0.5 mm of face, not a point: the lever is 0.25 mm short of 5 m, which is what "
-               "its numbers are off by.")
+    c.found = ("The corner's contact is 0.5 mm of face, not a point: the lever arm is 0.25 mm short of 5 m, which "
+               "explains the difference.")
 
     def draw(axes):
         fine = [10 + 0.1 * i for i in range(211)]

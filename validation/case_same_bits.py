@@ -10,7 +10,7 @@ WAYS = [("1 thread", {}), ("2 threads", {"threads": 2}), ("5 threads", {"threads
 
 
 def resumed(path, name, half, end):
-    """Hash of a run that is stopped half way and resumed."""
+    """Hash of a run that is stopped halfway and resumed."""
     folder = ladder.WORK / "same_bits" / name
     keys = [f"--set=run.duration={end}", "--set=run.transient=0", "--set=output.frame_interval=0"]
     ladder.answer("run", path, "-o", folder, "--force", "--quiet", "--until", half, *keys)
@@ -19,13 +19,13 @@ def resumed(path, name, half, end):
 
 def case(out):
     c = ladder.Case(
-        "The same bits from any number of threads, instruction set, and after a stop",
+        "Bit-identical results from any number of threads, any instruction set, and after a restart",
         1,
         "Hash of the whole state after 6 s of the managed field and of level ice: threads, instruction sets, and a "
         "run that was "
-        "stopped half way and resumed.",
+        "stopped halfway and resumed.",
         "The runs themselves.",
-        "Equal to the bit: results are formed in an order that data alone decide.",
+        "Equal to the bit: the order of operations depends on the data alone.",
     )
     c.header = ["way", *SCENES]
     hashes = {}

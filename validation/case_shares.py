@@ -79,9 +79,10 @@ def case(out):
         "Mean resistance of the icebreaker of `scenes/level_ice.yaml` and of MT Uikku in test 303, after the scenes' "
         "transients (30 s at 2 m/s, a ship length; 80 s at 1 m/s, half of one), by mechanism "
         "([theory](../theory.md#mechanisms-of-an-ice-load)), beside the parts of Lindqvist's "
-        "formula. Breaking is bending, crushing and splitting; submersion is all that pieces do that broke before: "
-        "submersion, accumulation, chains and impact; friction is apart in both, in the formula what vanishes at "
-        "mu 0.",
+        "formula. Breaking is bending, crushing and splitting; submersion is the load of pieces that broke off "
+        "earlier: "
+        "submersion, accumulation, chains and impact; friction is separate in both; in the formula it is what "
+        "vanishes at mu 0.",
         "Lindqvist (1989) with the scenes' inputs. Enkvist (1983, POAC, 484-493) surveys measured relations of "
         "breaking and submersion; his numbers were not at hand.",
         "No bound on the shares: none was written down before they were known. The mechanisms add up to the load in "
@@ -124,10 +125,12 @@ def case(out):
 
 
 FOUND = (
-    "Friction is much the same part in both. Breaking is less here, and broken pieces are more, for two reasons. "
+    "Friction has much the same share in both. Breaking has a smaller share here and broken pieces a larger one, for "
+    "two reasons. "
     "Pieces are rigid and lean on the sheet beside the channel: the chains of the table, which the formula does not "
     "have, since its submersion is the buoyancy of ice that covers the hull. And the load that bends the sheet is "
     "quasi-static and ends with the break, while the formula's breaking grows with speed. A piece that is crushed at "
-    "its limit counts as breaking, so that breaking is rather too much than too little. The towed MT Uikku was "
-    "measured at 780 kN in the mean; this is one start over half a ship length, and [its own page](uikku.md) has three "
+    "its limit counts as breaking, so that the share of breaking is rather too large than too small. The towed MT "
+    "Uikku was measured at 780 kN on average; this is one start over half a ship length, and [its own "
+    "page](uikku.md) has three "
     "over two.")

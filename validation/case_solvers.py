@@ -27,7 +27,7 @@ def case(out):
         "accurate "
         "solver (to 1e-6 m/s), the fast one (default) and projected Gauss-Seidel in contact order, 30 sweeps each.",
         "The accurate solver.",
-        "Single runs part ways after some collisions, means must not: difference of the paired means under 3.2 "
+        "Single runs diverge after some collisions, means must not: difference of the paired means under 3.2 "
         "standard "
         "errors (95 % of Student's t for four seeds), and the impulse of the first second of contact within 5 %.",
     )

@@ -53,10 +53,11 @@ def case(out):
         "Splitting by fracture mechanics",
         2,
         "Fixed floes of 1 m, 20 to 80 m long, whose side meets a steep plate, frictionless, with the option "
-        "`splitting: toughness` (K_IC 150 kPa m^0.5): the in-plane load at which the floe splits; nothing bends it to "
-        "its strength.",
-        "Edge crack in a rectangular plate opened at its mouth: F = f h K_IC sqrt(L), f by finite elements made for "
-        "each floe (`validation/splitting_factors.py`; 0.1334 at a width of 0.5 lengths, 0.1869 at 1, 0.2105 at 2, as "
+        "`splitting: toughness` (K_IC 150 kPa m^0.5): the in-plane load at which the floe splits; bending does not "
+        "reach its strength.",
+        "Edge crack in a rectangular plate opened at its mouth: F = f h K_IC sqrt(L), f by finite elements, computed "
+        "for each floe (`validation/splitting_factors.py`; 0.1334 at a width of 0.5 lengths, 0.1869 at 1, 0.2105 at "
+        "2, as "
         "published).",
         "First order in dt: the floe splits in the first step at which the load is reached, so that the simulated "
         "load is above the exact one by less than a step's growth.",
@@ -80,7 +81,8 @@ def case(out):
                     f"{100 * off:+.2f} % of the exact load, {100 * most:.2f} % allowed")
         if length == width and not place:
             squares.append((length, load))
-    c.found = ("This is the option. The default rule of the reference has no load at all: a radial crack runs through "
+    c.found = ("This is an option. The default rule, that of the reference, involves no load at all: a radial crack "
+               "runs through "
                "when it is shorter than S_k = 3 breaking radii, and never when it is longer.")
 
     def draw(axes):

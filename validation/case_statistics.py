@@ -43,10 +43,10 @@ def case(out):
             c.rows.append([name, length, f"{mean / 1e3:.1f}", f"{cv:.2f}", f"{100 * WANTED[name]:.0f} %", need,
                            f"{need * length / 60:.1f}"])
         c.check(cv < 1, f"{name}, {length:g} s: coefficient of variation {cv:.2f}, less than 1")
-    c.found = (f"A mean within 5 % asks for {needed(scatter['mean'][-1], 0.05)} runs of {LENGTHS[-1]:g} s or "
+    c.found = (f"A mean within 5 % requires {needed(scatter['mean'][-1], 0.05)} runs of {LENGTHS[-1]:g} s or "
                f"{needed(scatter['mean'][0], 0.05)} of {LENGTHS[0]:g} s after the transient; a largest load within 15 "
-               f"% for {needed(scatter['largest'][-1], 0.15)} runs of {LENGTHS[-1]:g} s. A largest load belongs to the "
-               "length of its run: longer runs have larger ones.")
+               f"% for {needed(scatter['largest'][-1], 0.15)} runs of {LENGTHS[-1]:g} s. The largest load depends on "
+               f"the length of the run: longer runs have larger ones.")
 
     def draw(axes):
         series = runs[0]

@@ -30,7 +30,7 @@ def case(out):
         "was written down; published formulas are 22 to 51 % off on the whole campaign. The verdict says only that "
         "the runs are long enough.",
     )
-    c.header = ["start", *(f"{name} [kN]" for name in MEASURED), "bites of the sheet", "R_bending, mean [m]"]
+    c.header = ["start", *(f"{name} [kN]" for name in MEASURED), "breaks of the sheet", "R_bending, mean [m]"]
     names = [f"uikku/{-x:g}" for x, _ in STARTS]
     keys = {"output__frame_interval": 0, "output__checkpoint_interval": 0}
     series = ladder.run_all([(SCENE, n, {"vessel__x": x, **keys}) for n, (x, _) in zip(names, STARTS)])
@@ -50,7 +50,7 @@ def case(out):
     c.rows.append(["measured", *(f"{x:.0f}" for x in MEASURED.values()), "", ""])
     spread = max(f[0] for f in found) - min(f[0] for f in found)
     off = ", ".join(f"{name} {100 * (x / y - 1):+.0f} %" for x, (name, y) in zip(mean, MEASURED.items()))
-    c.found = f"Off by: {off}; the starts' means are {spread:.0f} kN apart. [Why](../level_ice.md)."
+    c.found = f"Deviation: {off}; the starts' means are {spread:.0f} kN apart. [Why](../level_ice.md)."
 
     def draw(axes):
         for offset, s in curves:
@@ -63,6 +63,6 @@ def case(out):
         axes.set(xlabel="time [s]", ylabel="resistance [kN]", ylim=(0, None))
         axes.legend(ncols=4, fontsize=8)
 
-    ladder.figure(c, out, "uikku", "Resistance averaged over 0.5 s; what is left of the grey line does not count.",
+    ladder.figure(c, out, "uikku", "Resistance averaged over 0.5 s; the part left of the grey line is not used.",
                   draw)
     return c

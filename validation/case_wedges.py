@@ -28,7 +28,7 @@ def case(out):
         "from 18 to 32 s, two starts each, for N = 2 to 5.",
         "P = sigma_f h^2 (N b0/6) C, b0 = 2 tan(pi/(2 N)): N b0 falls from 4 (N = 2) to pi.",
         "Converges: N b0 - pi = pi^3/(12 N^2), second order in 1/N. N is a parameter of the reference (3 to 5); "
-        "the ship's resistance must not hang on it by more than 15 %.",
+        "the ship's resistance must not depend on it by more than 15 %.",
     )
     c.header = ["N", "capacity [kN]", "to N = 32", "R_bending [m]", "ship: resistance [kN]", "of the two starts",
                 "ship: mean R_bending [m]"]
@@ -69,7 +69,7 @@ def case(out):
     c.found = ("An edge converges at second order. The ship does not: from N = 3 to 5 its resistance grows, since more "
                "and smaller pieces must be moved. N is part of the model, not of the numerics: keep the default of 3 "
                "when results are to be compared. (808 kN from one of the starts with N = 2 in an earlier edition was "
-               "the defect that [level ice](lindqvist.md) tells of.)")
+               "the defect described in [level ice](lindqvist.md).)")
 
     def draw(axes):
         axes[0].plot(COUNTS, [capacity[n] / 1e3 for n in COUNTS], "o-")

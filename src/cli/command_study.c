@@ -34,8 +34,9 @@ static void print_extent(const fram_study_extent *e, int jobs)
                (long long)e->runs_most);
     printf("one run: about %.3g s on one core of this machine, %.3g MB kept\n", e->run_seconds, e->run_bytes / 1e6);
     if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
-        printf("         up to %.3g s where ice jams: every contact between floes costs, and there are few as yet\n",
-               e->run_seconds_packed);
+        printf(
+            "         up to %.3g s where ice jams: contacts between floes take time, and there are few at the start\n",
+            e->run_seconds_packed);
     printf("total: about %.3g h", (double)e->runs_least * hours);
     if (e->runs_least != e->runs_most)
         printf(" to %.3g h", (double)e->runs_most * hours);
@@ -96,7 +97,7 @@ static int answer_result(const common_options *common, const char *folder, const
 {
     if (!common->quiet)
         fprintf(stderr,
-                "%lld runs of %lld conditions, %lld failed; %lld were made now\n"
+                "%lld runs of %lld conditions, %lld failed; %lld carried out now\n"
                 "results: %s/summary.csv, %s/conditions.csv\n",
                 (long long)r->runs, (long long)r->conditions, (long long)r->failed, (long long)r->made, folder, folder);
     if (!common->json)

@@ -1,4 +1,4 @@
-/* Two runs beside each other: the same numbers of both, and their channels over each other. */
+/* Comparison of two runs: the same numbers of both, and their channels over each other. */
 #include "io/atomic_file.h"
 #include "io/html_page.h"
 #include "model/scenario_vessel.h"
@@ -46,16 +46,16 @@ static const struct {
     const char *unit;
 } rows[] = {
     {"ice_force_averaged_x", "ice load along X, mean", MEAN, 1e-3, "kN"},
-    {"ice_force_averaged_x", "ice load along X, deviation", DEVIATION, 1e-3, "kN"},
-    {"ice_force_averaged_x", "ice load along X, least", LEAST, 1e-3, "kN"},
-    {"ice_force_averaged_x", "ice load along X, greatest", GREATEST, 1e-3, "kN"},
+    {"ice_force_averaged_x", "ice load along X, standard deviation", DEVIATION, 1e-3, "kN"},
+    {"ice_force_averaged_x", "ice load along X, minimum", LEAST, 1e-3, "kN"},
+    {"ice_force_averaged_x", "ice load along X, maximum", GREATEST, 1e-3, "kN"},
     {"ice_force_averaged_y", "ice load along Y, mean", MEAN, 1e-3, "kN"},
-    {"ice_force_averaged_y", "ice load along Y, deviation", DEVIATION, 1e-3, "kN"},
-    {"ice_force_averaged_y", "ice load along Y, least", LEAST, 1e-3, "kN"},
-    {"ice_force_averaged_y", "ice load along Y, greatest", GREATEST, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, standard deviation", DEVIATION, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, minimum", LEAST, 1e-3, "kN"},
+    {"ice_force_averaged_y", "ice load along Y, maximum", GREATEST, 1e-3, "kN"},
     {"line_tension_max", "largest line tension", GREATEST, 1e-3, "kN"},
-    {"offset_x", "offset along X, deviation", DEVIATION, 1, "m"},
-    {"offset_y", "offset along Y, deviation", DEVIATION, 1, "m"},
+    {"offset_x", "offset along X, standard deviation", DEVIATION, 1, "m"},
+    {"offset_y", "offset along Y, standard deviation", DEVIATION, 1, "m"},
     {"thruster_power", "thruster power, mean", MEAN, 1e-6, "MW"},
     {"position_x", "x at the end", LAST, 1, "m"},
     {"position_y", "y at the end", LAST, 1, "m"},
@@ -63,7 +63,7 @@ static const struct {
     {"floes", "floes at the end", LAST, 1, ""},
     {"bendings", "floes broken in bending", LAST, 1, ""},
     {"splits", "floes split", LAST, 1, ""},
-    {"ice_mass_left", "ice that left", LAST, 1e-3, "t"},
+    {"ice_mass_left", "ice that left the domain", LAST, 1e-3, "t"},
     {"ice_mass_lost", "ice lost in fracture", LAST, 1e-3, "t"},
     {"crushing_work", "work of crushing", LAST, 1e-3, "kJ"},
     {"kinetic_energy", "kinetic energy at the end", LAST, 1e-3, "kJ"},
@@ -180,7 +180,7 @@ static fram_status compose(pair *p, fram_error *error)
                   {"bendings", "Floes broken in bending", "floes so far", 1},
                   {"line_tension_max", "Largest line tension", "tension [kN]", 1e-3},
                   {"crushing_work", "Work of crushing", "work [kJ]", 1e-3}};
-    html_begin(&p->page, "Two runs beside each other", "");
+    html_begin(&p->page, "Comparison of two runs", "");
     html_table_begin(&p->page, NULL, 0);
     for (int k = 0; k < 2; k++)
         html_fact(&p->page, k ? "B" : "A", "%s: %s, %s, scenario %.12s, state %s", p->d[k].folder,
@@ -191,7 +191,7 @@ static fram_status compose(pair *p, fram_error *error)
     html_table_end(&p->page);
     html_section(&p->page, "Numbers");
     number_table(p);
-    html_section(&p->page, "Over time");
+    html_section(&p->page, "Time series");
     html_grid_begin(&p->page);
     fram_status status = FRAM_OK;
     for (size_t i = 0; i < sizeof charts / sizeof *charts && status == FRAM_OK; i++)

@@ -43,7 +43,7 @@ static void verdict(page *p)
                        managed >= 0.95  ? VERDICT_GOOD
                        : managed >= 0.5 ? VERDICT_NOTE
                                         : VERDICT_CAUTION,
-                       "What came to the vessel");
+                       "Ice that reached the vessel");
     if (isnan(managed)) {
         html_verdict_line(&p->html, VERDICT_CAUTION, "No ice came to the vessel after the transient.",
                           "Run longer, or shorten run.transient.");
@@ -68,8 +68,8 @@ static void verdict(page *p)
     if (p->os && p->os->load_most > 0) {
         snprintf(
             text, sizeof text,
-            "Largest ice load %.0f %% of that of the run beside, mean %.0f %%: of one run each; a study over seeds "
-            "tells how sure that is.",
+            "Largest ice load %.0f %% of that of the comparison run, mean %.0f %%: one run each; a study over seeds "
+            "gives the confidence interval.",
             100 * s->load_most / p->os->load_most, 100 * s->load_mean / p->os->load_mean);
         html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     }
@@ -118,18 +118,18 @@ static void fatigue(page *p)
         return;
     html_paragraph(&p->html,
                    "Fatigue of line %d, the most damaged: rainflow cycles (ASTM E1049-85) and Miner's rule with slope "
-                   "%g, that of chains; the range does with one cycle a second the damage that all cycles do.",
+                   "%g, that of chains; the range that does the same damage at one cycle per second.",
                    (int)a->tension_line, FATIGUE_CHAIN_SLOPE);
     if (b && b->tension_range > 0)
         html_paragraph(&p->html,
                        "In the same time the most damaged line here takes %.3g times the damage of that of the "
-                       "run beside (line %d).",
+                       "comparison run (line %d).",
                        real_pow(a->tension_range / b->tension_range, FATIGUE_CHAIN_SLOPE), (int)b->tension_line);
 }
 
 static void load_table(page *p)
 {
-    const char *const heads[] = {"after the transient", "this run", "run beside", "this / beside"};
+    const char *const heads[] = {"after the transient", "this run", "comparison run", "this / comparison"};
     const manage_summary none = {.limit = 0}, *a = p->s, *b = p->os ? p->os : &none;
     html_table_begin(&p->html, heads, p->os ? 4 : 2);
     load_row(p, "mean horizontal ice load [kN]", 1e-3 * a->load_mean, 1e-3 * b->load_mean);
@@ -146,7 +146,7 @@ static void alarm_table(page *p)
     const double value[] = {p->s->alarm_least, p->s->alarm_median, p->s->warning_least, p->s->warning_median};
     static const char *const name[] = {"nearest unmanaged ice, least", "nearest unmanaged ice, median",
                                        "largest unmanaged ice, least", "largest unmanaged ice, median"};
-    static const char *const heads[] = {"time until it comes", "this run"};
+    static const char *const heads[] = {"time until it arrives", "this run"};
     html_table_begin(&p->html, heads, 2);
     for (int i = 0; i < 4; i++) {
         char text[32];
@@ -183,7 +183,7 @@ static fram_status series_chart(page *p, bool alarm, const char *title, const ch
         const manage_run *m = k ? p->other : p->m;
         if (!fill_series(m, alarm, time, value))
             return error_memory(error);
-        lines[n] = chart_line_make(k ? "run beside" : "this run", time->data, value->data, time->count, k == 0);
+        lines[n] = chart_line_make(k ? "comparison run" : "this run", time->data, value->data, time->count, k == 0);
         lines[n++].colour = k + 2;
     }
     chart c = chart_make(title, "", "time [s]", label, lines, n);
@@ -256,7 +256,7 @@ static fram_status compose(page *p, fram_error *error)
     snprintf(title, sizeof title, "Ice management for %s", name ? name : "the vessel");
     html_begin(&p->html, title, m->d.s.title);
     verdict(p);
-    html_section(&p->html, "The ice that came to the vessel");
+    html_section(&p->html, "Ice that reached the vessel");
     html_paragraph(
         &p->html,
         "A window as wide as the hull across the drift is followed back with the ice from where it meets the "
@@ -265,18 +265,18 @@ static fram_status compose(page *p, fram_error *error)
         m->limit);
     place_table(p, p->s, "this run");
     if (p->os)
-        place_table(p, p->os, "run beside");
+        place_table(p, p->os, "comparison run");
     html_section(&p->html, "Loads");
     load_table(p);
     html_section(&p->html, "Warning");
-    html_paragraph(&p->html, "Along the drift of each moment, as if it lasted; in the record's domain.");
+    html_paragraph(&p->html, "Along the drift at each moment, assuming that it persists; within the recorded domain.");
     alarm_table(p);
     html_grid_begin(&p->html);
     fram_status status = size_chart(p, error);
     if (status == FRAM_OK)
         status = series_chart(p, false, "Managed ice at the vessel", "part of the ice [%]", error);
     if (status == FRAM_OK)
-        status = series_chart(p, true, "Until the largest unmanaged ice comes", "time [min]", error);
+        status = series_chart(p, true, "Time until the largest unmanaged ice arrives", "time [min]", error);
     if (status == FRAM_OK)
         status = plan(p, error);
     html_grid_end(&p->html);

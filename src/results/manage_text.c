@@ -50,7 +50,7 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
     const manage_summary *all[2] = {s, beside};
     for (int k = 0; k < (beside ? 2 : 1); k++) {
         const manage_summary *a = all[k];
-        text_format(ctx, out, "%-24s %8s %14s %10s %11s %11s %12s\n", k ? "run beside" : "this run", "windows",
+        text_format(ctx, out, "%-24s %8s %14s %10s %11s %11s %12s\n", k ? "comparison run" : "this run", "windows",
                     "concentration", "managed", "unbroken", "mean [m]", "largest [m]");
         for (int p = 0; p < MANAGE_PLACES; p++)
             tell_place(ctx, a, p, out);
@@ -60,15 +60,16 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
         if (!isnan(a->tension_most))
             text_format(ctx, out, "line tension %.4g kN at most\n", 1e-3 * a->tension_most);
         if (!isnan(a->tension_range))
-            text_format(ctx, out, "fatigue of line %d: %.4g kN, the range that damages as all its cycles do\n",
+            text_format(ctx, out, "fatigue of line %d: %.4g kN, damage-equivalent range of tension\n",
                         (int)a->tension_line, 1e-3 * a->tension_range);
     }
     text_format(ctx, out, "managed: floes of at most %.3g m", s->limit);
     if (!isnan(s->largest_time))
         text_format(ctx, out, "; the largest that came, at %.4g s", s->largest_time);
     text_add(ctx, out, "\n");
-    tell_time(ctx, "nearest unmanaged ice comes in, least, median", s->alarm_least, s->alarm_median, out);
-    tell_time(ctx, "largest unmanaged ice comes in, least, median", s->warning_least, s->warning_median, out);
+    tell_time(ctx, "time until the nearest unmanaged ice arrives, least, median", s->alarm_least, s->alarm_median, out);
+    tell_time(ctx, "time until the largest unmanaged ice arrives, least, median", s->warning_least, s->warning_median,
+              out);
 }
 
 static void real(context *ctx, text_buffer *out, const char *name, double value, const char *after)

@@ -81,7 +81,7 @@ static double sum_of(const double part[MECHANISM_COUNT])
 
 static void tell_parts(context *ctx, const peak_detail *d, text_buffer *out)
 {
-    text_add(ctx, out, "\nWhat makes it, along the load:\n");
+    text_add(ctx, out, "\nContributions along the load, by mechanism:\n");
     double told[MECHANISM_COUNT];
     memcpy(told, d->mechanism, sizeof told);
     for (int k = 0; k < MECHANISM_COUNT; k++) {
@@ -107,7 +107,7 @@ static void name_floe(int32_t number, char out[24])
 
 static void tell_floes(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
 {
-    text_format(ctx, out, "\n%d %s touched the vessel in the window; the largest parts:\n", (int)d->bodies,
+    text_format(ctx, out, "\n%d %s touched the vessel in the window; the largest contributions:\n", (int)d->bodies,
                 d->bodies == 1 ? "body" : "bodies");
     for (int32_t i = 0; i < d->floe_count && i < 10; i++) {
         const peak_floe *f = &d->floe[i];
@@ -137,14 +137,14 @@ static void tell_chain(context *ctx, const peak_floe *f, const peak_link *link, 
 static void tell_chains(context *ctx, const peak_detail *d, load_unit unit, text_buffer *out)
 {
     int32_t at = 0;
-    text_add(ctx, out, "\nWhat stood behind them in the step of the peak (impulses over the step):\n");
+    text_add(ctx, out, "\nForce chains behind them in the step of the peak (impulses over the step):\n");
     for (int32_t i = 0; i < d->floe_count; i++) {
         if (d->floe[i].links > 0)
             tell_chain(ctx, &d->floe[i], &d->link[at], unit, out);
         at += d->floe[i].links;
     }
     if (at == 0)
-        text_add(ctx, out, "  nothing to follow: those floes broke in that step or touched no more\n");
+        text_add(ctx, out, "  no chain to follow: those floes broke in that step or no longer touched\n");
 }
 
 static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
@@ -166,22 +166,21 @@ static void tell_difference(context *ctx, const char *how, double load, double s
 {
     double part = same > 0 ? load / same - 1 : 0;
     text_format(ctx, out, "  %-24s %9.4g %s  %+.1f %%%s\n", how, load * unit.factor, unit.name, 100 * part,
-                fabs(part) > MATTERS ? "  it matters" : "");
+                fabs(part) > MATTERS ? "  significant" : "");
 }
 
 static void tell_check(context *ctx, const why_check *c, load_unit unit, text_buffer *out)
 {
     if (!c->done) {
-        text_add(ctx, out, "\nNot computed again: whether time step and solver matter is open.\n");
+        text_add(ctx, out, "\nNot recomputed: the influence of time step and solver is unknown.\n");
         return;
     }
-    text_format(ctx, out, "\nComputed again from %g s on, by other methods from %g s; largest averaged load:\n",
-                c->start, c->fork);
-    tell_difference(ctx, "as the run was made", c->same, c->same, unit, out);
+    text_format(ctx, out, "\nRecomputed from %g s on, with other methods from %g s; largest averaged load:\n", c->start,
+                c->fork);
+    tell_difference(ctx, "as in the run", c->same, c->same, unit, out);
     tell_difference(ctx, "half the time step", c->half_step, c->same, unit, out);
     tell_difference(ctx, "the accurate solver", c->accurate, c->same, unit, out);
-    text_format(ctx, out,
-                "  (more than %g %% is said to matter; contacts that jam are chaotic, so look at means too)\n",
+    text_format(ctx, out, "  (more than %g %% counts as significant; jams are chaotic, so compare means too)\n",
                 100 * MATTERS);
 }
 

@@ -295,7 +295,7 @@ def cases():
          read(BOX_FLOATS, 1e-4)),
         ("wedge.obj", "OBJ, polygons, groups, vt and vn", obj(wedge(40, 10, 4, 2), extras=True), [],
          read({"volume": 800, "plane": 400, "kb": 8 / 3, "bm": 40 * 10 ** 3 / 12 / 800})),
-        ("cylinder.obj", "OBJ, counted back from the end, lids of 96 corners", obj(prism(circle(4, 96), -3, 2),
+        ("cylinder.obj", "OBJ, indices counted back from the end, lids of 96 corners", obj(prism(circle(4, 96), -3, 2),
          negative=True), [],
          read(cylinder)),
         ("catamaran.obj", "two hulls in one file", obj(catamaran), [],
@@ -427,9 +427,9 @@ def try_case(folder, case):
 
 PAGE = """# Hull files as they come
 
-Written by `tests/cli/test_hull_files.py --write docs/hull-files.md`, which makes every one of these files,
-    reads it with
-`fram hull`, and is a test. Where a file is refused, what the message says to do is done, and the file is then read.
+Written by `tests/cli/test_hull_files.py --write docs/hull-files.md`, which makes each of these files,
+reads it with `fram hull`, and is itself a test. Where a file is refused, the remedy that the message names is applied,
+and the file is then read.
 Volume, centre of buoyancy, water plane and metacentric radius are compared with closed forms of box, wedge, cylinder,
 ellipsoid and their sums; the last column but one is the largest relative difference. Of an ellipsoid the facets are
 compared with the smooth body. Times are seconds of processor time of the whole command, convex pieces included, on a

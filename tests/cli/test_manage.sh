@@ -73,7 +73,7 @@ expect 0 "$FRAM" manage both --vessel ship --limit 50 --depth 20 -o all.html
 says "No unmanaged ice was on its way" all.html
 expect 0 "$FRAM" manage both --vessel ship --beside alone --limit 5 --depth 20 -o page.html
 says "At its nearest, unmanaged ice was" page.html
-says "run beside" out
+says "comparison run" out
 for file in page.html page.csv page-sizes.csv; do [ -s "$file" ] || fail "$file is missing"; done
 grep -q "Ice management for ship" page.html || fail "the page has another title"
 head -1 page.csv | grep -q "at_vessel_managed\[1\],.*unmanaged_comes_in\[s\]" || fail "page.csv has other columns"

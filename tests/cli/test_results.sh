@@ -148,7 +148,7 @@ holds '"same_state":true' out
 expect 0 "$FRAM" compare run thin -o both.html
 holds "scenarios: different" out
 holds "ice load along X, mean" out
-holds "Two runs beside each other" both.html
+holds "Comparison of two runs" both.html
 
 # Video: frames without ffmpeg; with ffmpeg the file; without it a clear word.
 if [ $pictures = yes ]; then

@@ -106,15 +106,15 @@ def main():
         for k, each in enumerate((box, soft)):
             load = [1e-3 * v for v in column(each, "ice_force_averaged_x[N]", 1)]
             assert min(load) < -1000 and max(load) <= 0, (min(load), max(load))
-            close(rows["ice load along X, least"][k], min(load), 1e-9)
-            assert abs(rows["ice load along X, greatest"][k] - max(load)) < 1e-9 * -min(load), (rows, max(load))
+            close(rows["ice load along X, minimum"][k], min(load), 1e-9)
+            assert abs(rows["ice load along X, maximum"][k] - max(load)) < 1e-9 * -min(load), (rows, max(load))
             mean = sum(load) / len(load)
             close(rows["ice load along X, mean"][k], mean, 1e-3)
-            close(rows["ice load along X, deviation"][k], (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5, 5e-3)
+            close(rows["ice load along X, standard deviation"][k], (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5, 5e-3)
             close(rows["x at the end"][k], -22 + SPEED * (WAY + 2), 1e-3)
         # A vertical face is pushed through ice that crushes: strength x beam x thickness.
-        close(rows["ice load along X, least"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
-        close(rows["ice load along X, least"][1], -1e6 * BEAM * THICKNESS * 1e-3, 0.02)
+        close(rows["ice load along X, minimum"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
+        close(rows["ice load along X, minimum"][1], -1e6 * BEAM * THICKNESS * 1e-3, 0.02)
     print("floes, crushed ice and loads as counted by hand")
 
 
