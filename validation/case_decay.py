@@ -81,8 +81,8 @@ def case(out):
     c = ladder.Case(
         "Free decay of a vessel",
         2,
-        f"A box of {LENGTH:g} x {BEAM:g} x {DRAUGHT:g} m with given added mass and linear damping is given an impulse in "
-        f"heave, roll and pitch and then left free for {END:g} s, at three time steps.",
+        f"A box of {LENGTH:g} x {BEAM:g} x {DRAUGHT:g} m with given added mass and linear damping is given an "
+        f"impulse in heave, roll and pitch and then left free for {END:g} s, at three time steps.",
         "The damped oscillator, a exp(-z w t) sin(w' t), with w^2 = K/(M + A), K = rho g Awp, m g GM, m g GM_L.",
         "First order in dt; within 2 % of the amplitude at 0.01 s. Amplitudes of 0.1 m, 0.3 and 0.1 degrees: small "
         "enough for a linear response.",

@@ -34,8 +34,9 @@ static const char style[] =
     "table{border-collapse:collapse;width:100%;margin:10px 0 16px;font-size:13.5px;font-variant-numeric:tabular-nums}\n"
     "th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1.5px solid var(--line);"
     "padding:5px 10px 5px 0}\n"
-    "td{border-bottom:1px solid var(--line);padding:5px 10px 5px 0;vertical-align:top;overflow-wrap:anywhere}\n"
-    "td.n{text-align:right}th.n{text-align:right}\n"
+    "td{border-bottom:1px solid var(--line);padding:5px 10px 5px 0;vertical-align:top;overflow-wrap:break-word}\n"
+    "td.n{text-align:right;white-space:nowrap}th.n{text-align:right}td.v{overflow-wrap:anywhere}\n"
+    ".scroll{overflow-x:auto}\n"
     "tr{break-inside:avoid}\n"
     ".grid{display:grid;grid-template-columns:1fr 1fr;gap:16px;margin:12px 0}\n"
     ".grid figure{margin:0;break-inside:avoid}.grid figure.wide{grid-column:1/-1}\n"
@@ -46,6 +47,7 @@ static const char style[] =
     "border-radius:8px;padding:12px 14px;white-space:pre-wrap;overflow-wrap:anywhere;columns:2;column-gap:28px}\n"
     "@media(max-width:760px){.grid{grid-template-columns:1fr}body{padding:20px}pre{columns:1}}\n"
     "@media print{@page{size:A4;margin:14mm}body{padding:0;max-width:none;font-size:10.5pt}h2{margin-top:20pt}"
+    ".scroll{overflow:visible}"
     "table{font-size:9pt}.figure b{font-size:15pt}pre{font-size:6.5pt;border:none;padding:0}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}\n"
     "</style>\n";
@@ -159,7 +161,7 @@ void html_figures_end(html_page *p) { add(p, "</div>\n"); }
 /* The first column holds names, the others numbers. */
 void html_table_begin(html_page *p, const char *const *heads, int32_t count)
 {
-    add(p, "<table>\n");
+    add(p, "<div class=\"scroll\"><table>\n");
     if (count > 0)
         add(p, "<thead><tr>");
     p->heads = count < HTML_HEADS_MOST ? count : HTML_HEADS_MOST;
@@ -224,7 +226,7 @@ void html_row_end(html_page *p)
     add(p, "</tr>\n");
 }
 
-void html_table_end(html_page *p) { add(p, "</tbody>\n</table>\n"); }
+void html_table_end(html_page *p) { add(p, "</tbody>\n</table></div>\n"); }
 
 void html_fact(html_page *p, const char *name, const char *format, ...)
 {
@@ -232,7 +234,7 @@ void html_fact(html_page *p, const char *name, const char *format, ...)
     html_row_begin(p);
     html_cell(p, name);
     p->column++;
-    add(p, "<td>");
+    add(p, "<td class=\"v\">");
     va_start(arguments, format);
     add_formatted(p, format, arguments);
     va_end(arguments);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 double image_round_step(double span, int parts)
 {
@@ -100,13 +101,29 @@ fram_status image_vector_begin(context *ctx, int width, int height, image_vector
     return error_memory(error);
 }
 
+/* A picture that is opened alone is to shrink with a narrow window, in the proportions of its viewBox. */
+static void add_shrinking(image_vector *v, text_buffer *out)
+{
+    static const char mark[] = "<svg ", style[] = "style=\"max-width:100%;height:auto\" ";
+    text_add_bytes(v->ctx, &v->text, "", 1);
+    const char *at = v->text.failed ? NULL : strstr(v->text.data, mark);
+    if (!at) {
+        out->failed = true;
+        return;
+    }
+    size_t before = (size_t)(at - v->text.data) + sizeof mark - 1;
+    text_add_bytes(v->ctx, out, v->text.data, before);
+    text_add_bytes(v->ctx, out, style, sizeof style - 1);
+    text_add_bytes(v->ctx, out, v->text.data + before, (size_t)v->text.count - 1 - before);
+}
+
 fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *error)
 {
     cairo_surface_finish(cairo_get_target(v->page));
     bool good = cairo_status(v->page) == CAIRO_STATUS_SUCCESS && !v->text.failed;
     cairo_destroy(v->page);
     if (good && out)
-        text_add_bytes(v->ctx, out, v->text.data, (size_t)v->text.count);
+        add_shrinking(v, out);
     text_free(v->ctx, &v->text);
     return good && (!out || !out->failed) ? FRAM_OK : error_memory(error);
 }

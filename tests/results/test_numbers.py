@@ -110,7 +110,8 @@ def main():
             assert abs(rows["ice load along X, maximum"][k] - max(load)) < 1e-9 * -min(load), (rows, max(load))
             mean = sum(load) / len(load)
             close(rows["ice load along X, mean"][k], mean, 1e-3)
-            close(rows["ice load along X, standard deviation"][k], (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5, 5e-3)
+            deviation = (sum((v - mean) ** 2 for v in load) / len(load)) ** 0.5
+            close(rows["ice load along X, standard deviation"][k], deviation, 5e-3)
             close(rows["x at the end"][k], -22 + SPEED * (WAY + 2), 1e-3)
         # A vertical face is pushed through ice that crushes: strength x beam x thickness.
         close(rows["ice load along X, minimum"][0], -2e6 * BEAM * THICKNESS * 1e-3, 0.02)
