@@ -73,7 +73,8 @@ static void fram_ice_edge_fill(fram_ice_edge *load)
                             .gravity = 9.81,
                             .wedges = 3,
                             .thick_plate_radius = true,
-                            .included_angle = PI};
+                            .included_angle = PI,
+                            .ice_density = 900};
 }
 DEFINITION_DEFAULT(fram_ice_edge, fram_ice_edge)
 
@@ -93,7 +94,9 @@ static fram_status check_load(const fram_ice_edge *l, fram_error *error)
                {"gravity", l->gravity, true},
                {"included_angle", l->included_angle, true},
                {"contact_width", l->contact_width, false},
-               {"ice_length", l->ice_length, false}};
+               {"ice_length", l->ice_length, false},
+               {"rise_time", l->rise_time, false},
+               {"ice_density", l->ice_density, true}};
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         bool good = (row[i].positive ? row[i].value > 0 : row[i].value >= 0) && isfinite(row[i].value);
         fram_status status =
@@ -122,16 +125,21 @@ fram_status(fram_ice_break)(const fram_ice_edge *given, fram_ice_breaking *break
     status = check_load(load, error);
     if (status != FRAM_OK)
         return status;
-    ice_material m = {.elastic_modulus = load->elastic_modulus,
+    ice_material m = {.density = load->ice_density,
+                      .elastic_modulus = load->elastic_modulus,
                       .poisson_ratio = load->poisson_ratio,
                       .flexural_strength = load->flexural_strength,
                       .crushing_strength = load->crushing_strength};
     fracture_settings s = {.water_density = load->water_density,
                            .gravity = load->gravity,
                            .wedges = load->wedges,
-                           .thick_plate_radius = load->thick_plate_radius};
-    edge_ice edge = {load->included_angle / PI, load->contact_width,
-                     load->ice_length > 0 ? load->ice_length : HUGE_VAL};
+                           .thick_plate_radius = load->thick_plate_radius,
+                           .edges_give = true,
+                           .edge_inertia = true};
+    edge_ice edge = {.wedges = load->included_angle / PI,
+                     .strip = load->contact_width,
+                     .length = load->ice_length > 0 ? load->ice_length : HUGE_VAL,
+                     .rise = load->rise_time > 0 ? load->rise_time : HUGE_VAL};
     edge_stress e = fracture_edge_stress(&s, &m, load->thickness, load->force, load->contact_area, edge);
     const fram_ice_breaking full = {.characteristic_length = e.length,
                                     .radial_radius = e.radial_radius,

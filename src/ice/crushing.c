@@ -269,6 +269,7 @@ static patch_component give_way(const job *j, const crushing_pair *p, const patc
     loaded_edge e = {.whole = c, .number = number, .sign = c->area.z < 0 ? -1 : 1};
     e.stand =
         j->supports ? edge_stand_find(j->supports, j->bodies, p->surface_body, centre, reach) : EDGE_STAND_STRAIGHT;
+    e.stand.rise += j->settings->time_step;
     bool balance;
     double give = find_give(j, p, &e, &balance), stiffness;
     patch_component left = patch_left(j->room, &p->prism, number, e.sign * give);

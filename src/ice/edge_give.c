@@ -11,6 +11,9 @@ TABLE_DEFINE(edge_support, EDGE_SUPPORT_FIELDS)
 /* Westergaard's thick-plate radius holds below this many thicknesses. */
 static const double THICK_PLATE_LIMIT = 1.724;
 
+/* Turns in which the water's mass follows the place of the largest moment: the last changes it by less than 1 %. */
+enum { MASS_TURNS = 4 };
+
 double fracture_wedge_width(int32_t wedges) { return 2 * real_tan(PI / (2.0 * wedges)); }
 
 double fracture_loaded_radius(double area, double share, double thickness, bool thick)
@@ -38,7 +41,11 @@ edge_stand edge_stand_find(const edge_support_table *supports, const body_table 
     }
     if (best < 0)
         return EDGE_STAND_STRAIGHT;
-    return (edge_stand){supports->wedges[best], supports->beside[best], supports->strip[best]};
+    return (edge_stand){.wedges = supports->wedges[best],
+                        .beside = supports->beside[best],
+                        .strip = supports->strip[best],
+                        .impulse = supports->impulse[best],
+                        .rise = edge_rise_time(supports->impulse[best], supports->load[best])};
 }
 
 double edge_reach(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area)
@@ -49,12 +56,28 @@ double edge_reach(const edge_compliance *e, const ice_material *ice, double thic
     return length * wedge_breaking_estimate(radius / length);
 }
 
+double edge_rise_time(double impulse, double load) { return load > 0 ? 2 * impulse / load : HUGE_VAL; }
+
+wedge_ramp edge_rise(const edge_compliance *e, const ice_material *ice, double thickness, double radius, double time)
+{
+    wedge_ramp r = WEDGE_RAMP_STATIC;
+    if (!e->inertia || !(time < HUGE_VAL))
+        return r;
+    double length = ice_characteristic_length(ice, thickness, e->water_density, e->gravity), a = radius / length;
+    double water = e->water_density * 4 / PI * length * wedge_breaking_estimate(a);
+    for (int turn = 0; turn < MASS_TURNS; turn++) {
+        double mass = ice->density * thickness + water * r.place;
+        r = wedge_ramp_at(a, time / sqrt(mass / (e->water_density * e->gravity)));
+    }
+    return r;
+}
+
 double edge_stiffness(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,
                       edge_stand stand)
 {
     double length = ice_characteristic_length(ice, thickness, e->water_density, e->gravity);
     double width = fmax(stand.wedges, EDGE_LEAST_ICE) * e->wedges * fracture_wedge_width(e->wedges);
     double radius = fracture_loaded_radius(horizontal_area, width / 2, thickness, e->thick_plate_radius);
-    double tip = wedge_tip_deflection(radius / length);
+    double tip = wedge_tip_deflection(radius / length) * edge_rise(e, ice, thickness, radius, stand.rise).tip;
     return e->water_density * e->gravity * (length * length * width / tip + stand.strip);
 }

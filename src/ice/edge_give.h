@@ -1,7 +1,8 @@
 /* How far the edge of level or fixed ice gives under a load before it breaks (docs/decisions/0220): Nevel's wedges, and
    the strip under a wide contact, have one tip deflection in common,
        P = k (l^2 sum b0 / eta(0) + strip) w,   k = rho_w g,
-   with eta(0) of ice/wedge.h and the strip of ice/strip.h.  Knows loads and ice, not whose surface pushes. */
+   with eta(0) of ice/wedge.h and the strip of ice/strip.h; and what the inertia of ice and water makes of an edge whose
+   load rises (docs/decisions/0320).  Knows loads and ice, not whose surface pushes. */
 #ifndef ICE_EDGE_GIVE_H
 #define ICE_EDGE_GIVE_H
 
@@ -9,20 +10,24 @@
 #include "base/vec.h"
 #include "bodies/body.h"
 #include "ice/material.h"
+#include "ice/wedge_ramp.h"
 
 /* What a patch on level or fixed ice stood on in the last step; rows are made anew in each, and found again by the
    nearest place on the surface.  State. */
-#define EDGE_SUPPORT_FIELDS(X)                                                                   \
-    X(surface, int32_t, FIELD_I32, 1, "1", "slot of the body that pushes")                       \
-    X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")                                   \
-    X(place, vec3, FIELD_F64, 3, "m", "middle of the patch, frame of that body")                 \
-    X(wedges, double, FIELD_F64, 1, "1", "ice of the wedges over that of N whole ones")          \
-    X(beside, double, FIELD_F64, 1, "m2", "horizontal area of what the load has in other tiles") \
-    X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g")
+#define EDGE_SUPPORT_FIELDS(X)                                                                                   \
+    X(surface, int32_t, FIELD_I32, 1, "1", "slot of the body that pushes")                                       \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")                                                   \
+    X(place, vec3, FIELD_F64, 3, "m", "middle of the patch, frame of that body")                                 \
+    X(wedges, double, FIELD_F64, 1, "1", "ice of the wedges over that of N whole ones")                          \
+    X(beside, double, FIELD_F64, 1, "m2", "horizontal area of what the load has in other tiles")                 \
+    X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g") \
+    X(load, double, FIELD_F64, 1, "N", "vertical load of the last step, of the whole load")                      \
+    X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")
 TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)
 
 typedef struct edge_compliance {
     bool gives;           /* false: an edge is rigid until it breaks */
+    bool inertia;         /* false: ice and water have no mass as an edge bends */
     double water_density; /* [kg/m3] */
     double gravity;       /* [m/s2] */
     int32_t wedges;       /* N_wedges */
@@ -31,13 +36,14 @@ typedef struct edge_compliance {
 
 /* One row of the table, without its place. */
 typedef struct edge_stand {
-    double wedges, beside, strip;
+    double wedges, beside, strip, impulse;
+    double rise; /* for how long the load has risen [s] */
 } edge_stand;
 /* Less ice than this part of a straight edge's is rounding. */
 #define EDGE_LEAST_ICE 1e-6
 
 /* A straight edge under a narrow load that no seam divides. */
-#define EDGE_STAND_STRAIGHT ((edge_stand){1, 0, 0})
+#define EDGE_STAND_STRAIGHT ((edge_stand){.wedges = 1})
 
 /* What stands under a patch with this middle (global [m]) of the surface's body: the nearest row within `reach` [m], a
    straight edge without one. */
@@ -52,6 +58,15 @@ double fracture_loaded_radius(double area, double share, double thickness, bool 
 
 /* R_bending of a straight edge under a narrow load on a horizontal area [m2], within 5 % [m]. */
 double edge_reach(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area);
+
+/* A load that has risen by as much in each second as its impulse says would have risen for this time [s]: 2 J/P,
+   endless without a load. */
+double edge_rise_time(double impulse, double load);
+
+/* What inertia makes of an edge whose load has risen for this time [s] on a radius [m]; 1 without inertia.  M is the
+   ice's mass and the water's rho_w/k under waves of the wave number k = pi/(4 R), R the distance to the largest moment.
+ */
+wedge_ramp edge_rise(const edge_compliance *e, const ice_material *ice, double thickness, double radius, double time);
 
 /* Load over deflection of the edge under a load on a horizontal area [m2], of the whole load [N/m]. */
 double edge_stiffness(const edge_compliance *e, const ice_material *ice, double thickness, double horizontal_area,

@@ -61,6 +61,7 @@ typedef struct fracture_settings {
     strength_field strength;    /* how strengths vary over the ice */
     bool crush_notches;         /* floes that float lose what a hull had crushed when it draws back */
     bool edges_give;            /* edges of level and fixed ice give before they break: supports are kept */
+    bool edge_inertia;          /* with edges_give: ice and water under a bending edge have mass */
     bool crush_trims;           /* static ice loses what a hull has taken the place of (fracture_trim.c) */
 } fracture_settings;
 
@@ -123,9 +124,10 @@ typedef struct edge_ice {
     double wedges; /* ice of the wedges over that of N whole ones: 1 on a straight edge, less at a corner [1] */
     double strip;  /* width of the ice between the wedges, for a load that is wide along the edge [m] */
     double length; /* of that ice across the edge, which may be infinite [m] */
+    double rise;   /* for how long the load has risen, infinite for one that rests [s] */
 } edge_ice;
 /* A straight edge under a narrow load: Nevel's N wedges. */
-#define EDGE_STRAIGHT ((edge_ice){1, 0, HUGE_VAL})
+#define EDGE_STRAIGHT ((edge_ice){1, 0, HUGE_VAL, HUGE_VAL})
 
 /* What a load P on a horizontal area A_h does to the edge of a floe. */
 typedef struct edge_stress {

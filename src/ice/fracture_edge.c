@@ -52,7 +52,10 @@ static double part_of(const sectors *s, const double *area)
 static edge_ice ice_of(const fracture_job *j, const sectors *s, const double *area, double length)
 {
     bool equal = j->settings->sharing == SHARING_EQUAL;
-    return (edge_ice){equal ? 1 : part_of(s, area), s->count > s->wedges ? area[s->wedges] / s->reach : 0, length};
+    return (edge_ice){.wedges = equal ? 1 : part_of(s, area),
+                      .strip = s->count > s->wedges ? area[s->wedges] / s->reach : 0,
+                      .length = length,
+                      .rise = HUGE_VAL};
 }
 
 /* Width along the edge of an even load with the patch's mean square; none that is narrower than the ice is thick, since
@@ -105,9 +108,19 @@ break_size fracture_break_size(const fracture_load *l)
     return (break_size){l->stress.breaking_radius, wide ? l->width : 0, l->stress.strip_length};
 }
 
+edge_compliance fracture_edges(const fracture_settings *f)
+{
+    return (edge_compliance){.gives = f->edges_give,
+                             .inertia = f->edges_give && f->edge_inertia,
+                             .water_density = f->water_density,
+                             .gravity = f->gravity,
+                             .wedges = f->wedges,
+                             .thick_plate_radius = f->thick_plate_radius};
+}
+
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area)
 {
-    const edge_compliance e = {false, f->water_density, f->gravity, f->wedges, f->thick_plate_radius};
+    const edge_compliance e = fracture_edges(f);
     return edge_reach(&e, ice, thickness, area);
 }
 

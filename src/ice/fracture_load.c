@@ -45,6 +45,13 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
         s.breaking_radius = s.length * w.x_max;
         part = moment * width * w.capacity / s.wedge_capacity;
     }
+    const edge_compliance edges = fracture_edges(settings);
+    wedge_ramp r = edge_rise(&edges, ice, h, s.wedge_radius, edge.rise);
+    s.wedge_stress *= r.moment;
+    s.wedge_capacity /= r.moment;
+    s.strip_capacity /= r.moment;
+    s.breaking_radius *= r.place;
+    s.strip_length *= r.place;
     return s;
 }
 
@@ -167,13 +174,13 @@ static bool merge_seams(context *ctx, fracture_scratch *s, const tile_grid *g)
 /* ---- which fail ---- */
 
 /* Loads under this part of the strength fail in no way on a straight edge: 6/b0 eta'' and sigma_yy h^2/P are both under
-   12 for a/l of POINT_LOAD and more, and fall from there.  Less ice than a spike of 8 degrees has is at no start: a
-   cleaned outline has no sharper corner. */
+   12 for a/l of POINT_LOAD and more, and fall from there; vibration adds a twentieth at most.  Less ice than a spike of
+   8 degrees has is at no start: a cleaned outline has no sharper corner. */
 static bool may_fail(const fracture_settings *settings, const fracture_load *l)
 {
     static const double SPIKE = 8.0 / 180;
     double least = settings->sharing == SHARING_EQUAL ? 1 : SPIKE;
-    return 12 * l->force >= least * l->ice.flexural_strength * l->thickness * l->thickness;
+    return 12 * WEDGE_RAMP_MOST_MOMENT * l->force >= least * l->ice.flexural_strength * l->thickness * l->thickness;
 }
 
 /* Whether a load on this ice fails at all.  Nevel's C is at least 1, that of a load on a point; a sheet of tiles breaks
@@ -181,7 +188,8 @@ static bool may_fail(const fracture_settings *settings, const fracture_load *l)
 static bool fails(const fracture_settings *settings, const fracture_load *l, edge_ice edge)
 {
     double h = l->thickness, strength = l->ice.flexural_strength * h * h;
-    if (6 * l->force >= strength * settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges)
+    double force = WEDGE_RAMP_MOST_MOMENT * l->force;
+    if (6 * force >= strength * settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges)
         return true;
     if (l->tile)
         return false;
@@ -229,6 +237,7 @@ static fram_status keep_failing(const fracture_job *j)
         fram_status status = fracture_find_ice(j, &l, &edge);
         if (status != FRAM_OK)
             return status;
+        edge.rise = w->rises.data[i].time;
         w->edges.data[i] = edge;
         if (l.split_ratio < 1 && !fails(j->settings, &l, edge))
             continue;
@@ -270,7 +279,7 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
             (other == MATERIAL_ICE && !add_load(ctx, s, j->settings, patches, i, j->state, p->surface_body)))
             return error_memory(j->error);
     }
-    if (!fracture_note_parts(j, patches) || !merge_seams(ctx, s, &j->settings->tiles))
+    if (!fracture_note_parts(j, patches) || !merge_seams(ctx, s, &j->settings->tiles) || !fracture_note_rises(j))
         return error_memory(j->error);
     fram_status status = fracture_respond(j);
     if (status == FRAM_OK)

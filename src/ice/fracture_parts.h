@@ -74,7 +74,15 @@ typedef struct load_part {
     vec3 place;      /* frame of the surface's body [m] */
     double level;    /* horizontal area [m2] */
     double sum;      /* of a root: of all parts [m2] */
+    double impulse;  /* of the load that was here, up to the last step [N s] */
 } load_part;
+
+/* How a load has grown. */
+typedef struct load_rise {
+    double load;    /* vertical, in this step [N] */
+    double impulse; /* since the first touch [N s] */
+    double time;    /* of rising; infinite on ice that floats, or without inertia [s] */
+} load_rise;
 
 /* The loads at hand. */
 typedef struct load_work {
@@ -83,6 +91,7 @@ typedef struct load_work {
     ARRAY(vec3) felt;       /* one per load: what was felt there before this step */
     ARRAY(load_part) parts; /* one per load that there was before seams were merged */
     ARRAY(edge_ice) edges;  /* one per load since: the ice that it stands on, a straight edge where it is too small */
+    ARRAY(load_rise) rises; /* one per load since */
     int32_array root;       /* the least load that is one with each, across seams */
 } load_work;
 
@@ -155,9 +164,14 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
 /* By EDGE_LOAD_RESPONSE, the loads on floes that float become what these feel, which is remembered. */
 fram_status fracture_respond(const fracture_job *j);
 
-/* Loads of hulls on level and fixed ice, before seams are merged; and what they stood on, for the next step. */
+/* Loads of hulls on level and fixed ice, before seams are merged; how each load since has grown; and what they stood
+   on, for the next step. */
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches);
+bool fracture_note_rises(const fracture_job *j);
 fram_status fracture_keep_supports(const fracture_job *j);
+
+/* What of the settings concerns edges alone. */
+edge_compliance fracture_edges(const fracture_settings *f);
 
 /* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);

@@ -2,6 +2,15 @@
 #include "ice/fracture_parts.h"
 #include "ice/strip.h"
 
+/* The impulse of the load that was nearest to a part in the last step [N s]. */
+static double old_impulse(const fracture_job *j, const fracture_load *l, vec3 place)
+{
+    const fracture_settings *f = j->settings;
+    double reach = fracture_edge_reach(f, &l->ice, l->thickness, l->horizontal_area);
+    edge_stand s = edge_stand_find(j->state->supports, j->state->bodies, l->surface, place, reach);
+    return s.impulse;
+}
+
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches)
 {
     load_work *w = &j->scratch->load;
@@ -17,6 +26,8 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
                        .surface = l->surface,
                        .place = body_to_local(bodies, l->surface, patches->data[l->patch].centre),
                        .level = l->horizontal_area};
+        if (held && j->settings->edge_inertia && j->state->supports)
+            p.impulse = old_impulse(j, l, patches->data[l->patch].centre);
         if (!array_push(j->ctx, &w->parts, p))
             return false;
     }
@@ -34,8 +45,32 @@ static void find_roots(load_work *w)
             p->root = w->root.data[p->root];
         if (p->root == i)
             p->load = kept++;
-        w->parts.data[p->root].sum += p->level;
+        load_part *root = &w->parts.data[p->root];
+        root->sum += p->level;
+        root->impulse = fmax(root->impulse, p->impulse);
     }
+}
+
+bool fracture_note_rises(const fracture_job *j)
+{
+    load_work *w = &j->scratch->load;
+    if (!array_resize(j->ctx, &w->rises, w->all.count))
+        return false;
+    for (int32_t i = 0; i < w->all.count; i++)
+        w->rises.data[i] = (load_rise){.time = HUGE_VAL};
+    if (!j->settings->edges_give)
+        return true;
+    find_roots(w);
+    for (int32_t i = 0; i < w->parts.count && j->settings->edge_inertia; i++) {
+        const load_part *p = &w->parts.data[i];
+        if (p->root != i || !p->held)
+            continue;
+        load_rise *r = &w->rises.data[p->load];
+        r->load = fabs(w->all.data[p->load].vector.z);
+        r->impulse = p->impulse + r->load * j->settings->time_step;
+        r->time = edge_rise_time(r->impulse, r->load);
+    }
+    return true;
 }
 
 /* Load over deflection of the strip under a wide contact, over rho_w g [m2]. */
@@ -58,7 +93,6 @@ fram_status fracture_keep_supports(const fracture_job *j)
         return FRAM_OK;
     if (!table_resize(j->ctx, e, &edge_support_table_info, w->parts.count))
         return error_memory(j->error);
-    find_roots(w);
     int32_t row = 0;
     for (int32_t i = 0; i < w->parts.count; i++) {
         const load_part *p = &w->parts.data[i], *root = &w->parts.data[p->root];
@@ -69,6 +103,8 @@ fram_status fracture_keep_supports(const fracture_job *j)
         e->generation[row] = j->state->bodies->generation[p->surface];
         e->place[row] = p->place;
         e->wedges[row] = edge->wedges;
+        e->load[row] = w->rises.data[root->load].load;
+        e->impulse[row] = w->rises.data[root->load].impulse;
         e->beside[row] = root->sum - p->level;
         e->strip[row++] = strip_stiffness(j, p, edge);
     }

@@ -221,6 +221,9 @@
     X(edge_compliance, BOOLEAN(true), "",                                                                             \
       "level and fixed ice: a loaded edge goes down or up under its load before it breaks, as Nevel's wedges do on "  \
       "water; false: it is rigid until it breaks")                                                                    \
+    X(edge_inertia, BOOLEAN(false), "",                                                                               \
+      "level and fixed ice, with edge_compliance: ice and the water that moves with it have mass as an edge bends, "  \
+      "so that breaking loads rise and pieces shorten with speed; false: both are those of a load at rest")           \
     X(splitting, CHOICE(splitting_rule, SPLITTING_LENGTH, "length toughness none"), "",                               \
       "what lets a radial crack run through: length: it is longer than the breaking radius R and shorter than "       \
       "splitting_factor R; toughness: fracture mechanics, by the load in the floe's plane; none: floes do not split") \

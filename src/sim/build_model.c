@@ -50,6 +50,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .tiles = build_tiles(s),
                                .strength = strength_of(s),
                                .edges_give = s->ice.fracture.edge_compliance,
+                               .edge_inertia = s->ice.fracture.edge_inertia,
                                .crush_notches = s->ice.crush_notches,
                                .crush_trims = s->ice.crush_trims};
 }
@@ -57,6 +58,7 @@ fracture_settings build_fracture_settings(const scenario *s)
 static edge_compliance compliance_of(const scenario *s)
 {
     return (edge_compliance){.gives = s->ice.fracture.edge_compliance,
+                             .inertia = s->ice.fracture.edge_inertia,
                              .water_density = s->environment.water_density,
                              .gravity = s->environment.gravity,
                              .wedges = (int32_t)s->ice.fracture.wedges,

@@ -664,12 +664,13 @@ START_TEST(ice)
     fram_ice_edge_default(&load);
     REFUSED(fram_ice_break(&load, NULL, &e));
     for (int i = 0; i < 4; i++) {
-        for (int member = 0; member < 12; member++) {
+        for (int member = 0; member < 14; member++) {
             fram_ice_edge_default(&load);
             double *const members[] = {&load.force,           &load.contact_area,      &load.thickness,
                                        &load.elastic_modulus, &load.poisson_ratio,     &load.flexural_strength,
                                        &load.gravity,         &load.crushing_strength, &load.water_density,
-                                       &load.included_angle,  &load.contact_width,     &load.ice_length};
+                                       &load.included_angle,  &load.contact_width,     &load.ice_length,
+                                       &load.rise_time,       &load.ice_density};
             *members[member] = wild[i];
             REFUSED(fram_ice_break(&load, &breaking, &e));
         }

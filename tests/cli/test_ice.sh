@@ -31,6 +31,15 @@ near 'j["strip_length"]' '1.11072 * j["characteristic_length"]' 1e-5 "its strip"
 expect 0 "$FRAM" ice break --contact-width 10 --ice-length 1.5 --json
 near 'j["strip_capacity"]' '0.5e6 / 6 * 10 * 27 / 4 / 1.5' 1e-4 "a rigid strip"
 near 'j["strip_length"]' 0.5 1e-4 "where it breaks"
+# A load that rises in a tenth of a second: the ratios of validation/wedge_ramp.py at a/l 0.0205, tau 0.1624.
+expect 0 "$FRAM" ice break --thin-plate --contact-area 0.155871 --json
+both='j = __import__("json").load(__import__("sys").stdin); print(j["wedge_capacity"], j["breaking_radius"])'
+rest=$(tail -n 1 out | python3 -c "$both")
+expect 0 "$FRAM" ice break --thin-plate --contact-area 0.155871 --rise-time 0.1 --json
+near 'j["wedge_capacity"]' "${rest% *} / 0.9322" 1e-2 "capacity under a load that rises"
+near 'j["breaking_radius"]' "${rest#* } * 0.5390" 2e-2 "length under a load that rises"
+expect 2 "$FRAM" ice break --rise-time -1
+says rise_time err
 expect 2 "$FRAM" ice break --included-angle 361
 says included_angle err
 expect 2 "$FRAM" ice break --contact-width -1

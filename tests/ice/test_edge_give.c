@@ -7,7 +7,7 @@
 #include "ice_rig.h"
 #include "sheet_rig.h"
 
-static const edge_compliance GIVES = {true, 1025, 9.81, 3, false};
+static const edge_compliance GIVES = {true, false, 1025, 9.81, 3, false};
 static const double FOUNDATION = 1025 * 9.81;
 
 /* A plate 2 m wide that leans by `slope` (x over z), `way` beyond the first touch with ice that begins at x = 0; the
@@ -77,7 +77,7 @@ START_TEST(stiffness_of_an_edge)
     assert_relative(k, FOUNDATION * length * length * width / 2.067333645437, 1e-5);
     assert_relative(362e3 / k, 0.101, 5e-3);
     /* Half the ice on a tip of the same length is half as stiff; a strip of 10 m adds k l w / sqrt(2). */
-    edge_stand half = {0.5, 0, 0}, wide = {1, 0, 10 * length * sqrt(0.5)};
+    edge_stand half = {.wedges = 0.5}, wide = {.wedges = 1, .strip = 10 * length * sqrt(0.5)};
     assert_relative(edge_stiffness(&GIVES, &m, 1, area / 2, half), k / 2, 1e-12);
     assert_relative(edge_stiffness(&GIVES, &m, 1, area, wide), k + FOUNDATION * 10 * length * sqrt(0.5), 1e-9);
 }

@@ -12,8 +12,15 @@ typedef struct breaking {
     vec3 force; /* on the ice when it broke [N] */
 } breaking;
 
-/* A plate 2 m wide that leans by `slope` (x over z) moves in +x at 0.1 m/s; the ice begins at x = 0. */
-static void ramp_scene(ice_rig *r, double dt, double slope)
+/* What the plate meets, and how. */
+typedef struct approach {
+    double slope; /* x over z */
+    double speed; /* [m/s] */
+    bool gives, inertia;
+} approach;
+
+/* A plate 2 m wide that leans by `slope` (x over z) moves in +x; the ice begins at x = 0. */
+static void ramp_scene(ice_rig *r, double dt, double slope, double speed)
 {
     ice_rig_make(r, dt);
     int32_t row = ice_rig_plate(r, 60, 80, 1, MOTION_STATIC), ice = r->floes.body[row];
@@ -25,15 +32,15 @@ static void ramp_scene(ice_rig *r, double dt, double slope)
     int32_t hull = ice_rig_hull(r, &plate, MOTION_PRESCRIBED, MATERIAL_HULL);
     /* The first touch is at the upper or the lower edge of the ice. */
     r->bodies.position[hull] = (vec3){-0.5 * fabs(slope), 0, 0};
-    r->bodies.velocity[hull] = (vec3){0.1, 0, 0};
+    r->bodies.velocity[hull] = (vec3){speed, 0, 0};
     ice_rig_pair(r, ice, hull);
 }
 
-static breaking run_until_broken(double dt, double slope, bool gives)
+static breaking run_until_broken(double dt, approach a)
 {
     ice_rig r;
-    ramp_scene(&r, dt, slope);
-    r.settings.edges = (edge_compliance){gives, 1025, 9.81, 3, false};
+    ramp_scene(&r, dt, a.slope, a.speed);
+    r.settings.edges = (edge_compliance){a.gives, a.inertia, 1025, 9.81, 3, false};
     fracture_scratch *scratch = fracture_scratch_create(&r.ctx);
     fracture_settings settings = {.time_step = dt,
                                   .water_density = 1025,
@@ -44,10 +51,11 @@ static breaking run_until_broken(double dt, double slope, bool gives)
                                   .smallest_floe_area = 0.18,
                                   .smallest_piece_area = 0.009,
                                   .edge_threshold = 0.15,
-                                  .edges_give = gives};
+                                  .edges_give = a.gives,
+                                  .edge_inertia = a.inertia};
     fracture_event_array events = {0};
     breaking b = {0};
-    for (int step = 0; step * dt < 3 && events.count == 0; step++) {
+    for (int step = 0; step * dt * a.speed < 0.3 && events.count == 0; step++) {
         fram_error e = {0};
         ice_rig_crush(&r);
         wrench *loads = memory_array(&r.ctx, (size_t)r.bodies.count, sizeof *loads);
@@ -59,7 +67,7 @@ static breaking run_until_broken(double dt, double slope, bool gives)
         b.force = ice_rig_force(&r);
         b.time = step * dt;
         fracture_state state = {&r.bodies,      &r.shapes, &r.floes, &r.contacts, &r.memory,
-                                &r.next_number, NULL,      NULL,     NULL,        NULL};
+                                &r.next_number, NULL,      NULL,     &r.supports, NULL};
         assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
         integrate_poses(&r.ctx, &r.bodies, dt);
     }
@@ -75,7 +83,7 @@ static breaking run_until_broken(double dt, double slope, bool gives)
    first step at which it is large enough. */
 static void check_break(double dt, double slope)
 {
-    breaking b = run_until_broken(dt, slope, false);
+    breaking b = run_until_broken(dt, (approach){slope, 0.1, false, false});
     double time = dt * ceil(TIME / dt), area = 2 * 0.1 * time;
     ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
     assert_absolute(b.time, time, 1e-9);
@@ -113,7 +121,7 @@ static const double TIP = 0.090725, LATER = 1.686608;
 
 static void check_give(double dt, double slope)
 {
-    breaking b = run_until_broken(dt, slope, true);
+    breaking b = run_until_broken(dt, (approach){slope, 0.1, true, false});
     ck_assert_int_eq(b.event.kind, FRACTURE_BENDING);
     ck_assert_msg(b.time >= LATER * (1 - 1e-4) && b.time < LATER * (1 + 1e-4) + dt, "broke after %.6f s, not %.6f",
                   b.time, LATER);
@@ -137,6 +145,70 @@ START_TEST(edge_that_gives)
 }
 END_TEST
 
+/* The same with inertia, by one unknown: the load P = p A of the area A = 2 (v t - w) that the plate crushes, and the
+   tip's deflection w = P eta(0)/(k sum(b0) l^2) tip under a load that has risen for 2 J/P, until the wedges' moment,
+   which rising makes smaller, is the ice's. */
+typedef struct rising {
+    double time, load, radius;
+} rising;
+
+static rising march(double speed)
+{
+    const edge_compliance e = {true, true, 1025, 9.81, 3, false};
+    const fracture_settings s = {.water_density = 1025, .gravity = 9.81, .wedges = 3};
+    const ice_material m = ICE_RIG_MATERIAL;
+    double dt = 1e-5 / speed, load = 0, impulse = 0, deflection = 0;
+    for (int step = 1; step < 40000; step++) {
+        double area = 2 * (speed * step * dt - deflection);
+        load = 2e6 * area;
+        impulse += load * dt;
+        edge_stand stand = {.wedges = 1, .rise = edge_rise_time(impulse, load)};
+        deflection = load / edge_stiffness(&e, &m, 1, area, stand);
+        edge_stress b = fracture_edge_stress(&s, &m, 1, load, area, EDGE_STRAIGHT);
+        wedge_ramp r = edge_rise(&e, &m, 1, b.wedge_radius, stand.rise);
+        if (b.wedge_stress * r.moment >= m.flexural_strength)
+            return (rising){step * dt, load, b.breaking_radius * r.place};
+    }
+    ck_abort_msg("no break");
+    return (rising){0};
+}
+
+START_TEST(edge_with_inertia)
+{
+    static const double SPEEDS[] = {0.3, 1};
+    for (int i = 0; i < 4; i++) {
+        double speed = SPEEDS[i / 2], dt = (i % 2 ? 1e-4 : 4e-4) / speed;
+        breaking b = run_until_broken(dt, (approach){i % 2 ? -1 : 1, speed, true, true});
+        rising exact = march(speed);
+        /* First order in the time step: dt of loading more at most; the march is 0.01 % off. */
+        double more = dt / exact.time + 2e-4;
+        ck_assert_msg(fabs(b.time - exact.time) < 2 * dt, "broke after %.6f s, not %.6f", b.time, exact.time);
+        assert_relative(b.event.load, exact.load, 2 * more);
+        assert_relative(b.event.crack_length, exact.radius, 2 * more);
+    }
+}
+END_TEST
+
+/* Load and length rise and fall with speed, from those of an edge without inertia. */
+START_TEST(inertia_and_speed)
+{
+    static const double SPEEDS[] = {0.004, 0.3, 1, 3};
+    double load = FORCE, radius = RADIUS;
+    for (int i = 0; i < 4; i++) {
+        breaking b = run_until_broken(1e-3 / SPEEDS[i], (approach){1, SPEEDS[i], true, true});
+        if (i == 0) {
+            assert_relative(b.event.load, FORCE, 0.01);
+            assert_relative(b.event.crack_length, RADIUS, 0.01);
+            continue;
+        }
+        ck_assert(b.event.load > load && b.event.crack_length < radius);
+        load = b.event.load;
+        radius = b.event.crack_length;
+    }
+    ck_assert(load > 1.05 * FORCE && radius < 0.5 * RADIUS);
+}
+END_TEST
+
 /* Exactly the oracle's state, between two time steps. */
 START_TEST(critical_state)
 {
@@ -151,4 +223,4 @@ START_TEST(critical_state)
 }
 END_TEST
 
-TEST_MAIN("fracture_oracles", downward, upward, edge_that_gives, critical_state)
+TEST_MAIN("fracture_oracles", downward, upward, edge_that_gives, edge_with_inertia, inertia_and_speed, critical_state)

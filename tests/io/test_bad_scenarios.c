@@ -36,6 +36,7 @@ static const bad_scenario bad[] = {
     {"floes_larger_than_domain", 2, "ice.mean_floe_area", "80000"},
     {"floes_missing", 1, "ice.floes", "expected at least one floe"},
     {"floes_unused", 2, "ice.floes", "expected no floes"},
+    {"inertia_without_compliance", 6, "ice.fracture.edge_inertia", "expected false"},
     {"friction_turned_round", 3, "ice.friction.ice_hull_static", "expected at least ice.friction.ice_hull_kinetic"},
     {"hexadecimal", 2, "ice.density", "found \"0x398\""},
     {"hull_file_missing", 2, "vessel.hull.file", "expected the path of a mesh"},

@@ -56,6 +56,7 @@ static const char *const scenes[] = {
     "  mooring:\n    depth: 60\n    lines:\n      - {count: 4, spacing_deg: 90, distance: 300, pretension: 2.0e5}\n"
     "ice:\n  source: level\n  thickness: 0.4\n  breakable: true\n  keep_out_margin: 0.1\n"
     "  strength: {flexural_variation: 0.3, crushing_variation: 0.3}\n"
+    "  fracture: {edge_inertia: true}\n"
     "  level: {tile_size: 9, line_load: 20000, mass: 2.0e6, openings: [{x: 50, y: 3, length: 30, width: 7}]}\n"
     "domain:\n  x_min: -40\n  x_max: 40\n  y_min: -30\n  y_max: 30\n  boundary: feeding\n  drift_speed: 5\n"
     "  drift_direction_deg: 200\n"
