@@ -13,9 +13,12 @@ enum { PATH_ROOM = 4096 };
 
 /* ---- life ---- */
 
+/* The standard has the message as a format of printf with its arguments; importers that cannot take arguments show the
+   format alone, so the text itself is it where it asks for none. */
 static void tell(const unit *u, unit_status status, const char *category, const char *text)
 {
-    ((fmi2CallbackLogger)u->logger)(u->environment, u->name ? u->name : "", (fmi2Status)status, category, "%s", text);
+    ((fmi2CallbackLogger)u->logger)(u->environment, u->name ? u->name : "", (fmi2Status)status, category,
+                                    strchr(text, '%') ? "%s" : text, text);
 }
 
 /* The byte that two hexadecimal digits stand for; 0 where none stand. */

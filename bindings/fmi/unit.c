@@ -44,8 +44,10 @@ unit_status unit_fail(unit *u, const char *text)
 
 unit_status unit_fail_by(unit *u, const fram_error *e)
 {
-    char text[sizeof *e + 40];
-    snprintf(text, sizeof text, "%s%s%s%s%s", e->file, e->file[0] ? ": " : "", e->key, e->key[0] ? ": " : "",
+    char text[sizeof *e + 40], line[16] = "";
+    if (e->line > 0)
+        snprintf(line, sizeof line, ":%d", e->line);
+    snprintf(text, sizeof text, "%s%s%s%s%s%s", e->file, line, e->file[0] ? ": " : "", e->key, e->key[0] ? ": " : "",
              e->message);
     return unit_fail(u, text);
 }
@@ -83,8 +85,13 @@ unit_status unit_log_categories(unit *u, size_t count, const char *const names[]
         int row = 0;
         while (row < CATEGORIES && names[i] && strcmp(names[i], categories[row].name) != 0)
             row++;
-        if (row == CATEGORIES || !names[i])
-            return unit_fail(u, "a category of the log is none of this unit's");
+        if (row == CATEGORIES || !names[i]) {
+            char text[200];
+            snprintf(text, sizeof text,
+                     "the log has the categories logStatusWarning, logStatusError and logAll, not %.80s",
+                     names[i] ? names[i] : "NULL");
+            return unit_fail(u, text);
+        }
         *sum |= categories[row].bit == UNIT_LOG_REST ? UNIT_LOG_ALL : categories[row].bit;
     }
     return UNIT_OK;

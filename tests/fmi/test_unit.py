@@ -262,9 +262,10 @@ class Units:
         one.set("ice_force_x", 1, status=ERROR)
         self.assertEqual(one.told[-1][:2], (ERROR, "logStatusError"))
         one.told.clear()
-        for bad in ((c.c_char_p * 1)(b"no such"), (c.c_char_p * 1)(None), None):
+        for bad in ((c.c_char_p * 1)(b"no such"), (c.c_char_p * 1)(None), None, (c.c_char_p * 1)(b"100 %d %n")):
             one.call("SetDebugLogging", 1, c.c_size_t(1), bad, status=ERROR)
-        self.assertEqual(len(one.told), 3)
+        self.assertEqual(len(one.told), 4)
+        self.assertIn("100 %d %n", one.told[-1][2])  # no format of the importer's printf
         one.free()
 
     def test_a_handle_that_is_no_state_is_refused(self):

@@ -348,6 +348,7 @@ class Package(unittest.TestCase):
         self.assertEqual(half.info["status"], "stopped")
         station = fram.Scenario.from_text(FREE).run(self.folder / "station")
         self.assertIsNotNone(station.station)
+        self.assertEqual(station.stations, {"": station.station})
         self.assertEqual(len(station.events), 4)
         (self.folder / "bad").mkdir()
         (self.folder / "bad/run.json").write_text("{}")

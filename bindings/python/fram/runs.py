@@ -150,18 +150,24 @@ class Run:
 
     @property
     def station(self) -> Optional[dict[str, Any]]:
-        """Results of station keeping (station.json), or None."""
+        """Results of station keeping (station.json) of the one vessel of a scenario, or None."""
         path = self.folder / "station.json"
         return _read_object(path) if path.exists() else None
 
     @property
-    def events(self) -> list[dict[str, Any]]:
-        """What befell the vessel on station: lines that parted, thrusters that failed, position lost."""
-        station = self.station or {}
-        found = list(station.get("events", []))
-        for vessel in station.get("vessels", []):
-            found += vessel.get("events", [])
+    def stations(self) -> dict[str, dict[str, Any]]:
+        """Results of station keeping by the name of the vessel; of a vessel without a name, as `station`, under ""."""
+        found = {} if self.station is None else {"": self.station}
+        for path in sorted(self.folder.glob("station-*.json")):
+            found[path.stem.partition("-")[2]] = _read_object(path)
         return found
+
+    @property
+    def events(self) -> list[dict[str, Any]]:
+        """What befell vessels on station: lines that parted, thrusters that failed, position lost; of a list of vessels
+        each with the name of its ``vessel``."""
+        return [{**event, "vessel": name} if name else event
+                for name, station in self.stations.items() for event in station.get("events", [])]
 
     def floes(self, time: float) -> list[Floe]:
         """Outlines of floes, walls and vessel at a time [s] of the record, between frames by interpolation."""
