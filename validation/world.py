@@ -53,6 +53,11 @@ def library():
     return lib
 
 
+def size_of(struct):
+    """What the C macros append for structs that a newer library may have made longer."""
+    return ctypes.c_size_t(ctypes.sizeof(struct))
+
+
 class World:
     """A scenario (path or text) as it moves.  Bodies go by slot; vectors are tuples in the global frame."""
 
@@ -67,7 +72,7 @@ class World:
         array = (ctypes.c_char_p * max(1, len(sets)))(*sets)
         self.context, self.scenario, self.world = (ctypes.c_void_p() for _ in range(3))
         definition = ContextDefinition()
-        self.lib.fram_context_default(ctypes.byref(definition), ctypes.c_size_t(ctypes.sizeof(definition)))
+        self.lib.fram_context_default(ctypes.byref(definition), size_of(definition))
         definition.threads, definition.isa = threads, isa.encode() if isa else None
         self._ok(self.lib.fram_context_create(ctypes.byref(definition), ctypes.byref(self.context), self._e()))
         self._ok(self.lib.fram_scenario_load(self.context, str(scenario).encode(), array, len(sets),
@@ -113,7 +118,7 @@ class World:
         state, found = State(), self._id(slot)
         if found is None:
             return None
-        self._ok(self.lib.fram_body_state_get(self.world, found, ctypes.byref(state), self._e()))
+        self._ok(self.lib.fram_body_state_get(self.world, found, ctypes.byref(state), self._e(), size_of(state)))
         return state
 
     def bodies(self, kind=None):
@@ -140,7 +145,7 @@ class World:
         vessel, load = Id(), Load()
         if not self.lib.fram_world_vessel(self.world, ctypes.byref(vessel)):
             raise RuntimeError("there is no vessel")
-        self._ok(self.lib.fram_world_ice_load(self.world, vessel, ctypes.byref(load), self._e()))
+        self._ok(self.lib.fram_world_ice_load(self.world, vessel, ctypes.byref(load), self._e(), size_of(load)))
         return load
 
 
