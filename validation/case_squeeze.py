@@ -44,8 +44,8 @@ def case(out):
         5,
         f"{FLOES} floes in a row, pushed by a wall of their width against one that is held, at {SPEED:g} m/s, with "
         "`ice.ridging_resistance` R and without; load on the wall, mean from 1 to 2 s.",
-        "ISO 19906: w = R h^1.25 D^-0.54 MN/m (recalled, docs/decisions/0113); without it the ice crushes over its "
-        "whole face, sigma_c h D.",
+        "ISO 19906: w = R h^1.25 D^-0.54 MN/m (recalled, [0113](../decisions/0113-ridge-building.md)); without "
+        "it the ice crushes over its whole face, sigma_c h D.",
         "Fram's own law, within 1 % at both steps; the fall from the crushing load is what the case is for.",
     )
     c.header = ["h [m]", "D [m]", "R", *(f"Fram, dt {1e3 * dt:.0f} ms [MN]" for dt in STEPS), "ridge building [MN]",
