@@ -97,7 +97,7 @@ typedef struct fram_why_definition {
     bool rerun;          /* true: compute the second before again, at half the time step and with the accurate solver,
                             from the nearest checkpoint or from the start */
     bool json;           /* the text is one JSON object in SI units */
-    const char *picture; /* a PNG of the plan; NULL: none */
+    const char *picture; /* file of the plan, SVG when its name ends in .svg, otherwise PNG; NULL: none */
     const volatile int *stop; /* non-zero: end with FRAM_INTERRUPTED; may be NULL */
 } fram_why_definition;
 FRAM_API void fram_why_default(fram_why_definition *definition, size_t size);

@@ -24,8 +24,9 @@ static int read_words(const command_row *self, field_words *w, common_options *c
         {"--set", NULL, OPTION_LIST, &w->overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--window", NULL, OPTION_LIST, &w->window_words, "X0,Y0,X1,Y1",
          "report the concentration in this window [m]; may be repeated"},
-        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE.png", "draw the field from above"},
-        {"--cover", NULL, OPTION_TEXT, &w->cover, "FILE.png", "draw the concentration on a grid of square cells"},
+        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE", "draw the field from above, .png or .svg"},
+        {"--cover", NULL, OPTION_TEXT, &w->cover, "FILE",
+         "draw the concentration on a grid of square cells, .png or .svg"},
         {"--cell", NULL, OPTION_REAL, &w->cell, "L", "side of a cell [m] (about a fortieth of the field)"},
         {"--table", NULL, OPTION_TEXT, &w->table, "FILE.csv",
          "write one row per floe, with the shape and size it was drawn from"},
@@ -122,10 +123,10 @@ static int check_words(const common_options *common, field_words *w)
     if (w->bad && !read_bad(w))
         return answer_usage(common, "--bad", "expected refuse, drop or repair");
     if (w->cell != 0 && !w->cover)
-        return answer_usage(common, "--cell", "is the size of the cells of --cover FILE.png, which is missing");
+        return answer_usage(common, "--cell", "is the size of the cells of --cover FILE, which is missing");
     const command_files files = {.inputs = {w->path},
-                                 .outputs = {{"--draw", w->draw, "png"},
-                                             {"--cover", w->cover, "png"},
+                                 .outputs = {{"--draw", w->draw, "png svg"},
+                                             {"--cover", w->cover, "png svg"},
                                              {"--table", w->table, "csv"},
                                              {"--output", w->output, "geojson json"}}};
     return refuse_outputs(common, &files);

@@ -47,7 +47,7 @@ static int read_words(const command_row *self, hull_words *w, common_options *co
         {"--tcg", NULL, OPTION_REAL, &w->tcg, "Y", "y of the centre of gravity [m]; otherwise that of buoyancy"},
         {"--water-density", NULL, OPTION_REAL, &w->condition.water_density, "RHO",
          "density of the water [kg/m3] (1025)"},
-        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE.png", "draw lines plan, surface and convex pieces"},
+        {"--draw", NULL, OPTION_TEXT, &w->draw, "FILE", "draw lines plan, surface and convex pieces, .png or .svg"},
         {"--output", "-o", OPTION_TEXT, &w->output, "FILE", "write the closed surface: .stl, .obj or .gdf"},
         {"--tolerance", NULL, OPTION_REAL, &w->tolerance, "D",
          "largest deviation of the convex pieces from the hull [m] (breadth/100)"},
@@ -360,7 +360,7 @@ int command_hull(const command_row *self, int argc, char **argv)
         return answer_usage(&common, isnan(w.particulars.transom) ? "--bilge-radius" : "--transom",
                             "applies to a ship: add --ship");
     const command_files files = {.inputs = {w.path},
-                                 .outputs = {{"--draw", w.draw, "png"}, {"--output", w.output, "stl obj gdf"}}};
+                                 .outputs = {{"--draw", w.draw, "png svg"}, {"--output", w.output, "stl obj gdf"}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

@@ -2,13 +2,26 @@
 #include "cli/cli.h"
 
 #include "fram/results.h"
+
+#include <limits.h>
 #include <math.h>
+#include <string.h>
+#include <strings.h>
+
+/* --peak was not given. */
+enum { PEAK_NONE = INT_MIN };
+
+static bool is_picture(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && (strcasecmp(dot, ".png") == 0 || strcasecmp(dot, ".svg") == 0);
+}
 
 int command_why(const command_row *self, int argc, char **argv)
 {
     common_options common;
     const char *run = NULL;
-    int peak = 0;
+    int peak = PEAK_NONE;
     bool no_rerun = false;
     fram_why_definition d;
     fram_why_default(&d);
@@ -20,16 +33,18 @@ int command_why(const command_row *self, int argc, char **argv)
         {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "of several vessels: whose load (the first)"},
         {"--no-rerun", NULL, OPTION_FLAG, &no_rerun, NULL,
          "do not repeat the last second with half the time step and with the accurate solver"},
-        {"--output", "-o", OPTION_TEXT, &d.picture, "FILE", "also draw the plan view, .png"},
+        {"--output", "-o", OPTION_TEXT, &d.picture, "FILE", "also draw the plan view, .png or .svg"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, &common, argc, argv, &run, 1);
     if (code >= 0)
         return code;
-    if ((peak != 0) == (d.time == d.time))
+    if ((peak != PEAK_NONE) == (d.time == d.time))
         return answer_usage(&common, "--peak", "or --time is required, but not both");
     if (d.time != d.time && peak < 1)
         return answer_usage(&common, "--peak", "expected 1, the largest, or more");
-    const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, "png"}}};
+    if (d.picture && !is_picture(d.picture))
+        return answer_usage(&common, "--output", "expected a picture's name that ends in .png or .svg");
+    const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, "png svg"}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;
@@ -38,8 +53,8 @@ int command_why(const command_row *self, int argc, char **argv)
     code = session_open_reading(&common, &work, &context);
     if (code >= 0)
         return code;
-    d.peak = peak;
-    d.time = peak > 0 ? 0 : d.time;
+    d.peak = peak == PEAK_NONE ? 0 : peak;
+    d.time = peak == PEAK_NONE ? d.time : 0;
     d.rerun = !no_rerun;
     d.json = common.json;
     d.stop = session_stop_flag();

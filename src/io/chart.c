@@ -356,47 +356,27 @@ static void draw_stack(cairo_t *page, const chart *charts, int32_t count, int wi
     }
 }
 
-static bool wants_svg(const char *path)
-{
-    size_t length = strlen(path);
-    return length >= 4 && strcmp(path + length - 4, ".svg") == 0;
-}
-
-static fram_status stack_svg(context *ctx, const chart *charts, int32_t count, int width, int height, text_buffer *out,
-                             fram_error *error)
+fram_status chart_svg(context *ctx, const chart *c, int width, int height, text_buffer *out, fram_error *error)
 {
     image_vector v;
-    fram_status status = image_vector_begin(ctx, width, height * count, &v, error);
+    fram_status status = image_vector_begin(ctx, width, height, &v, error);
     if (status != FRAM_OK)
         return status;
     cairo_set_source_rgb(v.page, 1, 1, 1);
     cairo_paint(v.page);
-    draw_stack(v.page, charts, count, width, height);
+    draw_stack(v.page, c, 1, width, height);
     return image_vector_end(&v, out, error);
-}
-
-fram_status chart_svg(context *ctx, const chart *c, int width, int height, text_buffer *out, fram_error *error)
-{
-    return stack_svg(ctx, c, 1, width, height, out, error);
 }
 
 fram_status chart_stack_write(context *ctx, const chart *charts, int32_t count, const char *path, int width, int height,
                               fram_error *error)
 {
-    if (wants_svg(path)) {
-        text_buffer text = {0};
-        fram_status status = stack_svg(ctx, charts, count, width, height, &text, error);
-        if (status == FRAM_OK)
-            status = atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
-        text_free(ctx, &text);
-        return status;
-    }
-    cairo_t *page = NULL;
-    fram_status status = image_begin(width, height * count, &page, error);
+    image_page page;
+    fram_status status = image_page_begin(ctx, path, width, height * count, &page, error);
     if (status != FRAM_OK)
         return status;
-    draw_stack(page, charts, count, width, height);
-    return image_write(ctx, page, path, error);
+    draw_stack(page.pen, charts, count, width, height);
+    return image_page_end(ctx, &page, path, error);
 }
 
 #else

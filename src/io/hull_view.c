@@ -449,14 +449,16 @@ fram_status hull_view_write(context *ctx, const hull_view *view, const char *pat
     vec3 size = vec3_sub(d.box.hi, d.box.lo);
     double scale = fmin((PAGE_WIDTH - 3 * MARGIN) / size.x, fmin(TALLEST_PROFILE / size.z, TALLEST_PLAN / size.y));
     double profile = size.z * scale, plan = size.y * scale;
-    fram_status status =
-        image_begin(PAGE_WIDTH, (int)(HEAD + 20 + profile + plan + 2 * GAP + LOW_ROW + MARGIN), &d.page, error);
+    int height = (int)(HEAD + 20 + profile + plan + 2 * GAP + LOW_ROW + MARGIN);
+    image_page page;
+    fram_status status = image_page_begin(ctx, path, PAGE_WIDTH, height, &page, error);
     if (status != FRAM_OK)
         return status;
+    d.page = page.pen;
     status = draw_page(&d, scale, profile, plan);
     if (status == FRAM_OK)
-        return image_write(ctx, d.page, path, error);
-    cairo_destroy(d.page);
+        return image_page_end(ctx, &page, path, error);
+    image_page_drop(&page);
     return status;
 }
 

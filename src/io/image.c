@@ -41,6 +41,8 @@ void image_force_text(double newton, char out[IMAGE_FORCE_TEXT])
 #include "io/png.h"
 
 #include <cairo-svg.h>
+#include <string.h>
+#include <strings.h>
 
 bool image_available(void) { return true; }
 
@@ -126,6 +128,46 @@ fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *erro
         add_shrinking(v, out);
     text_free(v->ctx, &v->text);
     return good && (!out || !out->failed) ? FRAM_OK : error_memory(error);
+}
+
+static bool wants_svg(const char *path)
+{
+    size_t length = strlen(path);
+    return length >= 4 && strcasecmp(path + length - 4, ".svg") == 0;
+}
+
+fram_status image_page_begin(context *ctx, const char *path, int width, int height, image_page *page, fram_error *error)
+{
+    *page = (image_page){.is_vector = wants_svg(path)};
+    if (!page->is_vector)
+        return image_begin(width, height, &page->pen, error);
+    fram_status status = image_vector_begin(ctx, width, height, &page->vector, error);
+    if (status != FRAM_OK)
+        return status;
+    page->pen = page->vector.page;
+    cairo_set_source_rgb(page->pen, 1, 1, 1);
+    cairo_paint(page->pen);
+    return FRAM_OK;
+}
+
+fram_status image_page_end(context *ctx, image_page *page, const char *path, fram_error *error)
+{
+    if (!page->is_vector)
+        return image_write(ctx, page->pen, path, error);
+    text_buffer text = {0};
+    fram_status status = image_vector_end(&page->vector, &text, error);
+    if (status == FRAM_OK)
+        status = atomic_file_put(ctx, path, text.data, (size_t)text.count, error);
+    text_free(ctx, &text);
+    return status;
+}
+
+void image_page_drop(image_page *page)
+{
+    if (page->is_vector)
+        (void)image_vector_end(&page->vector, NULL, NULL);
+    else
+        cairo_destroy(page->pen);
 }
 
 void image_set_colour(cairo_t *page, image_colour c) { cairo_set_source_rgb(page, c.r, c.g, c.b); }

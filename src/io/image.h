@@ -28,6 +28,17 @@ typedef struct image_vector {
 } image_vector;
 fram_status image_vector_begin(context *ctx, int width, int height, image_vector *v, fram_error *error);
 fram_status image_vector_end(image_vector *v, text_buffer *out, fram_error *error);
+/* A page for a file: SVG when its name ends in .svg, otherwise PNG.  Not to be moved between begin and end, which
+   writes the file; both end and drop free the page. */
+typedef struct image_page {
+    cairo_t *pen;
+    bool is_vector;
+    image_vector vector;
+} image_page;
+fram_status image_page_begin(context *ctx, const char *path, int width, int height, image_page *page,
+                             fram_error *error);
+fram_status image_page_end(context *ctx, image_page *page, const char *path, fram_error *error);
+void image_page_drop(image_page *page);
 /* The page as PNG, appended to out; frees the page, also on failure. */
 fram_status image_png(context *ctx, cairo_t *page, text_buffer *out, fram_error *error);
 void image_set_colour(cairo_t *page, image_colour c);

@@ -5,31 +5,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-
-void plan_shape_stand(plan_shape *s, vec3 position, quat orientation, double thickness)
-{
-    vec3 axis = mat3_column(quat_matrix(orientation), 2);
-    double down = axis.z < 0 ? thickness : -thickness;
-    s->drop = vec2_make(down * axis.x, down * axis.y);
-    s->height = position.z + 0.5 * thickness * fabs(axis.z);
-}
-
-static int compare_heights(const void *a, const void *b)
-{
-    const plan_shape *x = a, *y = b;
-    if (x->height != y->height)
-        return x->height < y->height ? -1 : 1;
-    if (x->style != y->style)
-        return x->style < y->style ? -1 : 1;
-    return x->outline.vertex < y->outline.vertex ? -1 : x->outline.vertex > y->outline.vertex;
-}
-
-void plan_shapes_sort(plan_shape *shapes, int32_t count)
-{
-    if (count > 1)
-        qsort(shapes, (size_t)count, sizeof *shapes, compare_heights);
-}
 
 #ifdef FRAM_HAVE_CAIRO
 
@@ -449,31 +424,42 @@ void plan_view_draw(cairo_t *page, const plan_view *view, int width, int height)
         draw_legend(page, view, used, m.left + w * m.scale, below);
 }
 
-static fram_status draw_page(const plan_view *view, int longest, cairo_t **page, fram_error *error)
+/* How large a page is whose plan has `longest` pixels along its longer side. */
+static fram_status size_page(const plan_view *view, int longest, int *width, int *height, fram_error *error)
 {
     double w = view->window.hi.x - view->window.lo.x, h = view->window.hi.y - view->window.lo.y;
     if (!(w > 0 && h > 0))
         return error_set(error, FRAM_ERROR_INTERNAL, NULL, 0, NULL, "the plan view's window is empty");
     double scale = longest / fmax(w, h);
-    int width = (int)fmax(w * scale + 2 * MARGIN, LEAST_WIDTH), height = (int)(h * scale + ABOVE + BELOW);
-    fram_status status = image_begin(width, height, page, error);
-    if (status == FRAM_OK)
-        plan_view_draw(*page, view, width, height);
-    return status;
+    *width = (int)fmax(w * scale + 2 * MARGIN, LEAST_WIDTH);
+    *height = (int)(h * scale + ABOVE + BELOW);
+    return FRAM_OK;
 }
 
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
 {
-    cairo_t *page = NULL;
-    fram_status status = draw_page(view, longest, &page, error);
-    return status == FRAM_OK ? image_write(ctx, page, path, error) : status;
+    image_page page;
+    int width, height;
+    fram_status status = size_page(view, longest, &width, &height, error);
+    if (status == FRAM_OK)
+        status = image_page_begin(ctx, path, width, height, &page, error);
+    if (status != FRAM_OK)
+        return status;
+    plan_view_draw(page.pen, view, width, height);
+    return image_page_end(ctx, &page, path, error);
 }
 
 fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text_buffer *out, fram_error *error)
 {
     cairo_t *page = NULL;
-    fram_status status = draw_page(view, longest, &page, error);
-    return status == FRAM_OK ? image_png(ctx, page, out, error) : status;
+    int width, height;
+    fram_status status = size_page(view, longest, &width, &height, error);
+    if (status == FRAM_OK)
+        status = image_begin(width, height, &page, error);
+    if (status != FRAM_OK)
+        return status;
+    plan_view_draw(page, view, width, height);
+    return image_png(ctx, page, out, error);
 }
 
 #else

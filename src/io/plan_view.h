@@ -77,7 +77,8 @@ typedef struct plan_view {
     double scale_lo, scale_hi;
 } plan_view;
 
-/* `longest`: pixels of the longer side.  FRAM_ERROR_UNSUPPORTED without cairo. */
+/* `longest`: pixels of the longer side.  SVG when the path ends in .svg, else PNG.  FRAM_ERROR_UNSUPPORTED without
+   cairo. */
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error);
 
 /* The same as PNG in memory, appended to out. */

@@ -173,34 +173,14 @@ static void draw(cairo_t *page, const polar_chart *p)
     draw_text(page, p);
 }
 
-static fram_status write_vector(context *ctx, const polar_chart *p, const char *path, fram_error *error)
-{
-    image_vector v;
-    text_buffer text = {0};
-    fram_status status = image_vector_begin(ctx, PAGE_WIDTH, PAGE_HEIGHT, &v, error);
-    if (status != FRAM_OK)
-        return status;
-    cairo_set_source_rgb(v.page, 1, 1, 1);
-    cairo_paint(v.page);
-    draw(v.page, p);
-    status = image_vector_end(&v, &text, error);
-    if (status == FRAM_OK)
-        status = atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
-    text_free(ctx, &text);
-    return status;
-}
-
 fram_status polar_write(context *ctx, const polar_chart *p, const char *path, fram_error *error)
 {
-    size_t length = strlen(path);
-    if (length >= 4 && strcmp(path + length - 4, ".svg") == 0)
-        return write_vector(ctx, p, path, error);
-    cairo_t *page = NULL;
-    fram_status status = image_begin(PAGE_WIDTH, PAGE_HEIGHT, &page, error);
+    image_page page;
+    fram_status status = image_page_begin(ctx, path, PAGE_WIDTH, PAGE_HEIGHT, &page, error);
     if (status != FRAM_OK)
         return status;
-    draw(page, p);
-    return image_write(ctx, page, path, error);
+    draw(page.pen, p);
+    return image_page_end(ctx, &page, path, error);
 }
 
 #else

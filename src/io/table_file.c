@@ -153,8 +153,9 @@ static void refuse(body_source *s, const char *what, const char *name)
 {
     if (s->status == FRAM_OK)
         s->status = error_set(s->error, FRAM_ERROR_INPUT, s->file, 0, NULL,
-                              "expected %s%s%s, found something else: another build of Fram wrote it", what,
-                              *name ? " " : "", name);
+                              "expected a checkpoint of this version of Fram, found one of another, in which %s%s%s "
+                              "is not the same: go on with the version that made it, or start the run again",
+                              what, *name ? " " : "", name);
 }
 
 /* Bytes of the body, NULL when there are not so many. */
@@ -224,12 +225,12 @@ static void take_bytes(body_source *s, table_file_bytes *bytes)
 static void take_fields(body_source *s, const table_info *info)
 {
     take_name(s, "the table", info->name);
-    take_count(s, "the number of fields of this version in the table", info->field_count);
+    take_count(s, "the number of fields of a table", info->field_count);
     for (int f = 0; f < info->field_count; f++) {
         take_name(s, "the field", info->fields[f].name);
         uint32_t kind = take_u32(s), components = take_u32(s);
         if (kind != (uint32_t)info->fields[f].kind || components != (uint32_t)info->fields[f].components)
-            refuse(s, "the type of this version for the field", info->fields[f].name);
+            refuse(s, "the type of the field", info->fields[f].name);
     }
 }
 

@@ -32,6 +32,11 @@ holds 'hull -> floe 0 (.*) -> floe 1 (.*) -> floe 2 (.*) -> wall (.*); the end: 
 says "half the time step" out
 says "the accurate solver" out
 ! built_with cairo || [ "$(head -c 4 peak.png | tail -c 3)" = PNG ] || fail "peak.png is no picture"
+if built_with cairo; then
+    expect 0 "$FRAM" why run --peak 1 --no-rerun -o peak.svg
+    says "<svg " peak.svg
+    holds "</svg>" peak.svg
+fi
 
 # As JSON: the parts sum to the load, by zone too; computed again by the same method it is the same.
 expect 0 "$FRAM" why run --peak 1 --json
@@ -58,6 +63,10 @@ same "$(value "j['computed_again']")" None "not computed again"
 expect 2 "$FRAM" why run
 expect 2 "$FRAM" why run --peak 1 --time 3
 expect 2 "$FRAM" why run --peak 0
+says "expected 1, the largest, or more" err
+expect 2 "$FRAM" why run --peak 1 -o peak.pdf
+says "ends in .png or .svg" err
+[ ! -e peak.pdf ] || fail "a refused picture is there"
 expect 2 "$FRAM" why run --peak -1
 expect 2 "$FRAM" why run --peak 11
 says "expected 1, the largest" err

@@ -273,9 +273,9 @@ START_TEST(other_contents_are_refused_by_name)
     field_info retyped = other_table_info.fields[0];
     retyped.kind = FIELD_I64;
     renamed.fields = &retyped;
-    EXPECT(b.tables[1].info = &renamed, "the type of this version for the field value");
+    EXPECT(b.tables[1].info = &renamed, "of another, in which the type of the field value");
     renamed = (table_info){"other", 0, other_table_info.fields};
-    EXPECT(b.tables[1].info = &renamed, "the number of fields of this version");
+    EXPECT(b.tables[1].info = &renamed, "the number of fields of a table");
     free(data);
 }
 END_TEST
