@@ -38,6 +38,19 @@ function(fram_tests_target label)
     endif()
 endfunction()
 
+# Tests, fuzz targets and benches are linked by the quickest linker that is there: two hundred programs, a third of the
+# time.  What users get is linked by the compiler's own.
+find_program(FRAM_LLD ld.lld)
+find_program(FRAM_GOLD ld.gold)
+mark_as_advanced(FRAM_LLD FRAM_GOLD)
+function(fram_link_quickly program)
+    if(FRAM_LLD)
+        target_link_options(${program} PRIVATE -fuse-ld=lld)
+    elseif(FRAM_GOLD)
+        target_link_options(${program} PRIVATE -fuse-ld=gold)
+    endif()
+endfunction()
+
 function(fram_test name label)
     add_test(NAME ${name} COMMAND ${ARGN} WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}")
     set_tests_properties(${name} PROPERTIES LABELS ${label} TIMEOUT 600 SKIP_RETURN_CODE 77
@@ -69,8 +82,10 @@ if(FRAM_TESTS)
             target_link_libraries(${program} PRIVATE fram_objects PkgConfig::check)
         endif()
         target_include_directories(${program} PRIVATE tests)
-        # As for kernels: vectors pass between static functions only.
-        target_compile_options(${program} PRIVATE -Wno-psabi)
+        # As for kernels: vectors pass between static functions only.  A test is compiled without optimisation, in a
+        # third of the time: what it calls stands in the library, optimised, and no bit depends on how it was compiled.
+        target_compile_options(${program} PRIVATE -Wno-psabi -O0)
+        fram_link_quickly(${program})
         set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
         fram_test(${room}/${topic} ${room} ${program})
         fram_tests_target(${room})
@@ -97,6 +112,7 @@ if(FRAM_TESTS)
     fram_limit_tests()
 endif()
 
+add_custom_target(fuzz_targets) # all of them, and nothing else
 file(GLOB fuzzers CONFIGURE_DEPENDS "fuzz/fuzz_*.c")
 foreach(source ${fuzzers})
     get_filename_component(program "${source}" NAME_WE)
@@ -104,6 +120,8 @@ foreach(source ${fuzzers})
     add_executable(${program} "${source}" fuzz/memory_file.c)
     target_include_directories(${program} PRIVATE fuzz)
     target_link_libraries(${program} PRIVATE fram_objects)
+    fram_link_quickly(${program})
+    add_dependencies(fuzz_targets ${program})
     set_target_properties(${program} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/fuzz")
     if(FRAM_FUZZ)
         target_link_options(${program} PRIVATE -fsanitize=fuzzer)

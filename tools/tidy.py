@@ -2,16 +2,18 @@
 """Analyse C files with clang-tidy, each once as it stands:  tools/tidy.py BUILD JOBS [FILE...]
 
 A file that was found clean is looked at again when anything that clang-tidy reads has changed: the file, every header
-that it includes (as the compiler told ninja), its flags, .clang-tidy, or clang-tidy itself.  What is known to be clean
-is kept in BUILD/tidy, a file named by the hash of all that; without it, every file is analysed.  Files that the build
-does not know have no flags to be analysed with and are passed over.  One file a run: given several, clang-tidy 14 calls
-every va_list after the first file's uninitialised.  Exit code 1 when there was a finding.
+that it includes (as the compiler told ninja), its flags, .clang-tidy, how deep it is to look, or clang-tidy itself.
+What is known to be clean is kept in BUILD/tidy, a file named by the hash of all that; without it, every file is
+analysed.  Files that the build does not know have no flags to be analysed with and are passed over.  One file a run:
+given several, clang-tidy 14 calls every va_list after the first file's uninitialised.  Exit code 1 when there was a
+finding.
 """
 
 import concurrent.futures
 import functools
 import hashlib
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -20,8 +22,21 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-# Tests and fuzz targets are followed less far into what they call: a third of the time, for code that no user runs.
-SHALLOW = [f"--extra-arg={word}" for word in ("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow")]
+def analyzer(word):
+    """A word for the static analyser's own configuration."""
+    return [f"--extra-arg={part}" for part in ("-Xclang", "-analyzer-config", "-Xclang", word)]
+
+
+# How far the static analyser goes, nine tenths of the time (docs/decisions/0300-what-the-gate-looks-at.md).
+# In src it gives up a function after this many states instead of 225,000; TIDY_DEEP=1 leaves it at those.  Programs
+# that no user runs are looked at by all checks but the analyser's: they run under sanitizers.
+SOURCE = [] if os.environ.get("TIDY_DEEP") else analyzer("max-nodes=75000")
+OTHERS = ["--checks=-clang-analyzer-*"]
+PROGRAMS = ("tests/", "fuzz/", "bench/")
+
+
+def depth(file):
+    return OTHERS if str(file).startswith(PROGRAMS) else SOURCE
 
 
 def output(*command):
@@ -46,6 +61,18 @@ def headers_by_object(build):
     return found
 
 
+def once_each(build, folder):
+    """Flags of each file once: a kernel is compiled for three instruction sets and looked at in its widest copy, the
+    only one with vectors of eight, or in the only one there is."""
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        if entry["file"] not in found or "_kernels_avx512.dir" in entry["command"]:
+            found[entry["file"]] = entry
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "compile_commands.json").write_text(json.dumps(list(found.values()), indent=1))
+    return folder
+
+
 def keys(build, files):
     """File -> hash of what clang-tidy reads of it, or None where that is not known; files of the build only."""
     common = output("clang-tidy", "--version") + content_hash(ROOT / ".clang-tidy")
@@ -60,7 +87,7 @@ def keys(build, files):
         path = (ROOT / file).resolve()
         if path not in entries:
             continue
-        text, known = [common, str(file)], True
+        text, known = [common, str(file), *depth(file)], True
         for made, command in sorted(entries[path]):
             text.append(command)
             known = known and made in headers
@@ -75,14 +102,14 @@ def main():
     build, jobs, files = pathlib.Path(sys.argv[1]).resolve(), int(sys.argv[2]), sys.argv[3:]
     clean = build / "tidy"
     clean.mkdir(exist_ok=True)
+    flags = once_each(build, build / "tidy-flags")
     known = keys(build, files or output(ROOT / "tools" / "sources.sh", "*.c").split())
     wanted = [file for file, key in known.items() if not key or not (clean / key).exists()]
     print(f"lint:   {len(wanted)} of {len(known)} files have changed since they were found clean", flush=True)
     bad = 0
 
     def analyse(file):
-        depth = [] if file.startswith("src/") else SHALLOW
-        done = subprocess.run(["clang-tidy", "--quiet", *depth, "-p", str(build), file], cwd=ROOT,
+        done = subprocess.run(["clang-tidy", "--quiet", *depth(file), "-p", str(flags), file], cwd=ROOT,
                               capture_output=True, text=True)
         return file, done.returncode, done.stdout
 
