@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
-const char *key_other_name(const char *word)
+const char *key_other_name(const char *word, int32_t nth)
 {
     static const char *const words[][2] = {
         {"draft", "draught"},
@@ -79,12 +79,44 @@ const char *key_other_name(const char *word)
         {"anchors", "lines"},
         {"azimuths", "thrusters"},
         {"bollard", "bollard_pull"},
+        {"type", "form"},
+        {"type", "kind"},
+        {"type", "source"},
+        {"type", "mode"},
+        {"hull_type", "form"},
+        {"n", "count"},
+        {"number", "count"},
+        {"number_of_lines", "count"},
+        {"spacing", "spacing_deg"},
+        {"azimuth", "direction_deg"},
+        {"direction", "direction_deg"},
+        {"angle", "direction_deg"},
+        {"radius", "distance"},
+        {"anchor_radius", "distance"},
+        {"diameter", "mean_floe_area"},
+        {"floe_diameter", "mean_floe_area"},
+        {"roll_radius", "gyration_roll"},
+        {"submerged_weight", "weight"},
+        {"MBL", "breaking_load"},
+        {"pre_tension", "pretension"},
+        {"max_thrust", "thrust"},
+        {"bow_angle", "stem_angle_deg"},
+        {"stem_angle", "stem_angle_deg"},
+        {"waterline_angle", "entrance_angle_deg"},
+        {"flare_angle", "flare_angle_deg"},
+        {"ice_thickness", "thickness"},
+        {"ice_concentration", "concentration"},
+        {"poisson", "poisson_ratio"},
+        {"nu", "poisson_ratio"},
+        {"strength", "flexural_strength"},
+        {"random_seed", "seed"},
+        {"boundaries", "boundary"},
         {"center_of_gravity_x", "centre_of_gravity_x"},
         {"center_of_gravity_y", "centre_of_gravity_y"},
         {"center_of_gravity_z", "centre_of_gravity_z"},
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(word, words[i][0]) == 0)
+        if (strcmp(word, words[i][0]) == 0 && nth-- == 0)
             return words[i][1];
     return NULL;
 }

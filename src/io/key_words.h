@@ -2,7 +2,10 @@
 #ifndef IO_KEY_WORDS_H
 #define IO_KEY_WORDS_H
 
-/* "draught" for "draft", "time_step" for "dt"; NULL for a word that is not known. */
-const char *key_other_name(const char *word);
+#include <stdint.h>
+
+/* "draught" for "draft", "time_step" for "dt"; a word may stand for several keys, of which nth counts from 0.  NULL
+   past the last, and for a word that is not known. */
+const char *key_other_name(const char *word, int32_t nth);
 
 #endif

@@ -210,8 +210,11 @@ static fram_status unknown_key(const reader *r, const scenario_section *section,
                                const value_place *place)
 {
     char other[KEY_SIZE];
-    const char *known = key_other_name(name);
-    const char *nearest = known && section_find(section, known) >= 0 ? known : NULL;
+    const char *known = key_other_name(name, 0), *nearest = NULL, *word = known;
+    for (int32_t nth = 1; word && !nearest; nth++) {
+        nearest = section_find(section, word) >= 0 ? word : NULL;
+        word = key_other_name(name, nth);
+    }
     if (!nearest && known && find_anywhere(&scenario_schema, "", known, other))
         nearest = other;
     if (!nearest)

@@ -98,7 +98,8 @@ static fram_status check_propulsion(const scenario *s, const vessel_entry *e, fr
         return vessel_fault(s, e, "propulsion.bollard_pull", error,
                             "expected a thrust, since way points or a pattern are given, found auto");
     if (drives && e->keys->mode != VESSEL_FREE)
-        return vessel_fault(s, e, "propulsion.bollard_pull", error, "expected auto, since %s.mode is not free",
+        return vessel_fault(s, e, "propulsion.bollard_pull", error,
+                            "expected auto, since %s.mode is not free: a ship that drives itself needs mode: free",
                             e->path);
     if (drives && e->keys->positioning.active)
         return vessel_fault(s, e, "propulsion.bollard_pull", error,
@@ -115,11 +116,13 @@ static fram_status check_station(const scenario *s, const vessel_entry *e, fram_
     const scenario_vessel *v = e->keys;
     bool held = v->mode != VESSEL_FREE;
     if (held && v->mooring.lines.count > 0)
-        return vessel_fault(s, e, "mooring.lines", error, "expected none, since %s.mode is not free, found %d", e->path,
-                            (int)v->mooring.lines.count);
+        return vessel_fault(s, e, "mooring.lines", error,
+                            "expected none, since %s.mode is not free, found %d: a moored vessel needs mode: free",
+                            e->path, (int)v->mooring.lines.count);
     if (held && v->thrusters.count > 0)
-        return vessel_fault(s, e, "thrusters", error, "expected none, since %s.mode is not free, found %d", e->path,
-                            (int)v->thrusters.count);
+        return vessel_fault(s, e, "thrusters", error,
+                            "expected none, since %s.mode is not free, found %d: thrusters move a vessel in mode: free",
+                            e->path, (int)v->thrusters.count);
     if (v->positioning.active && v->thrusters.count == 0)
         return vessel_fault(s, e, "thrusters", error,
                             "expected thrusters, since %s.positioning.active is true, found none", e->path);

@@ -361,6 +361,25 @@ static void tell_domain(const teller *t, const vessel_entry *e)
                    width, e->path);
 }
 
+/* Ice in a basin does not drift past a vessel on station: it gathers at a wall. */
+static void tell_basin(const teller *t)
+{
+    const scenario *s = t->s;
+    bool drifts = s->environment.current_speed > 0 || s->environment.current_file[0];
+    for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
+        vessel_entry e = scenario_vessel_entry(s, i);
+        bool held = e.keys->mooring.lines.count > 0 || e.keys->positioning.active;
+        if (!held || !drifts || s->domain.boundary != DOMAIN_WALLS || s->ice.source == ICE_NONE)
+            continue;
+        sanity_say(
+            t->tell, t->to,
+            "domain.boundary: walls keep the ice in a basin, where the current of %.4g m/s drives it against one of "
+            "them: for ice that drifts past %s take feeding",
+            s->environment.current_speed, vessel_title_of(&e).text);
+        return;
+    }
+}
+
 static bool vessel_moves(const scenario_vessel *v)
 {
     bool driven = v->thrusters.count > 0 || !is_automatic(v->propulsion.bollard_pull);
@@ -424,6 +443,7 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
     tell_directions(&t);
     tell_times(&t);
     tell_rest(&t);
+    tell_basin(&t);
     for (int32_t i = 0; i < scenario_vessel_count(s); i++) {
         vessel_entry e = scenario_vessel_entry(s, i);
         tell_hull(&t, &e);

@@ -112,6 +112,25 @@ all_told drive.yaml vessel.propulsion.steering_angle_deg=0.61 vessel.propulsion.
     "propeller_diameter: 0.03 m leaves|metres" "propeller_z: -50 m is far below the hull" \
     "propeller_spacing: 100 m is more than the beam"
 
+# Ice in a basin does not drift past; words of the field that stand for several keys.
+all_told ship.yaml domain.boundary=walls -- \
+    "domain.boundary: walls keep the ice in a basin|past the vessel take feeding"
+# meant SCENE KEY: the key that is asked for
+meant() {
+    expect 2 "$FRAM" check "$1" --set "$2=1"
+    says "did you mean $3?" err
+}
+meant ship.yaml vessel.type mode
+meant ship.yaml vessel.hull.type form
+meant ship.yaml ice.type source
+meant ship.yaml "vessel.thrusters[0].type" kind
+meant ship.yaml "vessel.mooring.lines[0].n" count
+meant ship.yaml "vessel.mooring.lines[0].radius" distance
+meant ship.yaml "vessel.mooring.lines[0].spacing" spacing_deg
+meant ship.yaml ice.floe_diameter mean_floe_area
+expect 2 "$FRAM" check ship.yaml --set vessel.mode=towed
+says "a moored vessel needs mode: free" err
+
 # Times of output; a medium without weight.
 all_told ship.yaml output.averaging_window=0.001 output.picture_interval=5000 output.checkpoint_interval=5000 \
     output.record_limit=0.01 environment.air_density=0 environment.floe_damping=5 \
