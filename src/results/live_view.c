@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "io/path.h"
 #include "results/playback.h"
+#include "results/playback_explained.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
@@ -35,13 +36,14 @@ enum { CONNECTIONS_MOST = 16, SILENCE_MOST = 10 };
 struct live_view {
     context *ctx;
     struct MHD_Daemon *daemon;
-    char record[PATH_ROOM];
+    char folder[PATH_ROOM], record[PATH_ROOM];
     char *page;
     size_t page_size;
     char token[TOKEN_DIGITS + 1];
     char hosts[2][40]; /* what a browser on this machine says it asks */
     char address[TOKEN_DIGITS + 48];
     atomic_bool begun, ended;
+    text_buffer loads;    /* blocks that follow the record for whoever looks on; whole before `ended` */
     _Atomic double asked; /* when a page was last given less than the whole record [s]; 0: never */
 };
 
@@ -120,7 +122,7 @@ static bool asked_from(struct MHD_Connection *connection, uint64_t *from)
     return true;
 }
 
-/* What the record holds from there on; an empty answer while there is nothing. */
+/* What the record holds from there on, then what follows it; an empty answer while there is nothing. */
 static enum MHD_Result give_record(live_view *v, struct MHD_Connection *connection)
 {
     uint64_t from, size = 0, given = 0;
@@ -134,16 +136,20 @@ static enum MHD_Result give_record(live_view *v, struct MHD_Connection *connecti
         size = (uint64_t)about.st_size;
     if (from < size)
         given = size - from < ANSWER_MOST ? size - from : ANSWER_MOST;
+    uint64_t total = size + (ended ? (uint64_t)v->loads.count : 0);
     struct MHD_Response *response = NULL;
     if (given > 0) {
         response = MHD_create_response_from_fd_at_offset64(given, descriptor, from);
     } else {
         if (descriptor >= 0)
             close(descriptor);
-        response = MHD_create_response_from_buffer(0, "", MHD_RESPMEM_PERSISTENT);
+        given = from < total ? total - from : 0;
+        response = MHD_create_response_from_buffer((size_t)given, given > 0 ? v->loads.data + (from - size) : "",
+                                                   MHD_RESPMEM_PERSISTENT);
     }
-    bool whole = ended && from >= size;
-    if (!whole)
+    /* The answer with the last bytes says so: nothing is left to ask for, and nobody may be there to be asked. */
+    bool whole = ended && from + given >= total;
+    if (given > 0 || !whole)
         atomic_store(&v->asked, clock_wall());
     if (response) {
         MHD_add_response_header(response, "Content-Type", "application/octet-stream");
@@ -219,6 +225,7 @@ static void free_view(live_view *v)
     if (v->daemon)
         MHD_stop_daemon(v->daemon);
     memory_free(v->ctx, v->page);
+    text_free(v->ctx, &v->loads);
     memory_free(v->ctx, v);
 }
 
@@ -232,6 +239,7 @@ fram_status live_view_open(context *ctx, const char *folder, const char *viewer,
     atomic_init(&v->ended, false);
     atomic_init(&v->asked, 0);
     fram_status status = path_join(folder, "record.fram", v->record, error);
+    snprintf(v->folder, sizeof v->folder, "%s", folder);
     if (status == FRAM_OK)
         status = playback_live_page(ctx, viewer, "record", &v->page, &v->page_size, error);
     if (status == FRAM_OK)
@@ -253,14 +261,26 @@ void live_view_begin(live_view *v)
         atomic_store(&v->begun, true);
 }
 
+static bool is_looked_at(live_view *v) { return clock_wall() - atomic_load(&v->asked) < ABSENT; }
+
+/* Loads by mechanism and the explained peaks, as a page from disk has them, for whoever looks on; without them when
+   they cannot be read, of a run that failed for one. */
+static void explain(live_view *v)
+{
+    if (atomic_load(&v->begun) && is_looked_at(v) &&
+        playback_explain(v->ctx, v->folder, NULL, &v->loads, NULL) != FRAM_OK)
+        text_free(v->ctx, &v->loads);
+}
+
 void live_view_end(live_view *v)
 {
     if (!v)
         return;
+    explain(v);
     atomic_store(&v->ended, true);
     const struct timespec moment = {.tv_nsec = 20000000};
     double until = clock_wall() + WAIT_MOST;
-    while (clock_wall() < until && clock_wall() - atomic_load(&v->asked) < ABSENT)
+    while (clock_wall() < until && is_looked_at(v))
         nanosleep(&moment, NULL);
     free_view(v);
 }

@@ -17,8 +17,9 @@ fram_status live_view_open(context *ctx, const char *folder, const char *viewer,
 const char *live_view_address(const live_view *view);
 /* From now on the folder's record is that of this run.  view may be NULL. */
 void live_view_begin(live_view *view);
-/* The record is whole.  Pages that are open get what they lack, for a few seconds at most; then nothing answers any
-   more.  view may be NULL. */
+/* The record is whole.  Pages that are open get what they lack, and behind it the loads by mechanism with the peaks
+   that the run kept (playback_explained.h), for a few seconds at most; then nothing answers any more.  view may be
+   NULL. */
 void live_view_end(live_view *view);
 
 #endif

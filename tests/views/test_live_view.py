@@ -5,6 +5,7 @@ the run stands still.
 The page must show frames while the run goes, go on with it, know floes that broke off meanwhile, and play the whole
 run afterwards, with nothing to complain of.  Skipped (77) without Chromium, libmicrohttpd or the viewer's page.
 """
+import json
 import os
 import pathlib
 import subprocess
@@ -40,6 +41,24 @@ def advance(world, time):
         world.step()
 
 
+def check_peak(browser, run):
+    """The run is over: the same page has its loads by mechanism, and a click on a peak tells what fram why tells."""
+    told = subprocess.run([FRAM, "why", run, "--peak", "1", "--no-rerun", "--json"], capture_output=True, text=True,
+                          check=True)
+    why = json.loads(told.stdout)
+    peaks = browser.run("fram.loads.vessels[0].peaks.map((p) => [p.rank, p.time, p.detail.load])")
+    assert len(peaks) == why["peaks"] and peaks[0][1:] == [why["time"], why["load"]], (peaks, why["time"], why["load"])
+    left, top, height, x = browser.run("""(() => {
+        const t = fram.timeline, box = t.canvas.getBoundingClientRect();
+        return [box.left, box.top, box.height, t.x(fram.loads.vessels[0].peaks[0].time)]; })()""")
+    assert height > 70, "the timeline has no room for its bands"
+    browser.click(left + x, top + height / 2)
+    assert abs(browser.run("fram.time") - why["time"]) < 1e-9, "a click on a peak does not lead there"
+    panel = browser.run("document.getElementById('peak').textContent")
+    assert browser.run("fram.loads.vessels[0].peaks[0].sentence") in panel, panel
+    browser.run("fram.peaks.close()")
+
+
 def check(browser, folder, page):
     import fram
     addresses = []
@@ -60,9 +79,11 @@ def check(browser, folder, page):
         advance(world, 12)
         browser.until("fram.end === 12", "the page does not go on with the run")
         assert browser.run("fram.time") == 1
+        assert browser.run("fram.loads === undefined"), "loads of a run that goes on"
         recording.end()
         floes = world["floes"]
     browser.until("window.framEnded === true", "the page does not hear of the end")
+    check_peak(browser, folder / "run")
     browser.run("(fram.seek(12), fram.draw())")
     state = browser.run(STATE)
     assert state["frames"] == 121 and state["floes"] == floes, (state, floes)

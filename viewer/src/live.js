@@ -10,10 +10,14 @@ const PATIENCE = 3; // answers that may fail one after the other
  *  @param begin begin(record) makes the player when the first frame is there. @param tell tell(text) shows a line. */
 export function follow(address, begin, tell) {
     const reader = new RecordReader();
-    let player = null, seen = 0;
+    let player = null, seen = 0, explained = false;
     const append = (bytes) => {
         reader.append(bytes);
-        const { frames } = reader.record;
+        const { frames, loads } = reader.record;
+        if (loads && player && !explained) {
+            explained = true;
+            player.explain();
+        }
         if (frames.length === seen) return;
         seen = frames.length;
         if (player) player.grow();
@@ -34,7 +38,7 @@ async function ask(address, append, tell) {
             last = answer.headers.get('Fram-Run') === 'ended';
             const bytes = await answer.arrayBuffer();
             have += bytes.byteLength;
-            if (bytes.byteLength) { append(bytes); last = false; }
+            if (bytes.byteLength) append(bytes);
             failed = 0;
         } catch (e) {
             if (++failed === PATIENCE) { tell('The run has ended, or does not answer.'); break; }

@@ -39,6 +39,14 @@ class Player {
         this.begin();
     }
 
+    /** Loads by mechanism and peaks have come, after the end of a run that was looked at. */
+    explain() {
+        if (!this.ready) return; // begin tells them
+        this.tellLoads();
+        this.resize();
+        this.dirty = true;
+    }
+
     /** When the first frame is there, which may lie in a file beside the page. */
     begin() {
         const { record } = this, first = this.store.get(0);
