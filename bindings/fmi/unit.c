@@ -338,7 +338,7 @@ static unit_status check_step(unit *u, double now, double step, double count)
     double tolerance = TIME_TOLERANCE * dt + 1e-12 * fabs(own);
     if (!(count >= 1 && count < 1e9 && fabs(step - count * dt) <= STEP_TOLERANCE * dt * count))
         snprintf(text, sizeof text,
-                 "a communication step of %.17g s is no whole multiple of the scenario's time step, %.17g s", step, dt);
+                 "a communication step of %.15g s is no whole multiple of the scenario's time step, %.15g s", step, dt);
     else if (!(fabs(now - own) <= tolerance))
         snprintf(text, sizeof text, "the step begins at %.17g s, and the unit stands at %.17g s", now, own);
     else if (own + step > u->stop + tolerance)

@@ -36,7 +36,7 @@ static fram_status choose_vessel(manage_run *m, const char *name, fram_error *er
     if (candidates == 1)
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, m->d.folder, 0, "vessel",
-                     "%s: name the one that is protected, --vessel NAME (the first is \"%s\")",
+                     "%s: name the one that is protected (the first is \"%s\")",
                      candidates == 0 ? "all vessels drive themselves" : "several vessels do not drive themselves",
                      scenario_vessel_entry(s, 0).keys->name);
 }

@@ -40,7 +40,7 @@ static fram_status check_formula(const scenario *s, fram_error *error)
         key = "ice.populations", rule = "expected none, since the formula knows one thickness only (ice.thickness)";
     if (!key)
         return FRAM_OK;
-    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s; without --formula the load is measured", rule);
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "%s; without the formula the load is measured", rule);
     scenario_locate(s, error);
     return FRAM_ERROR_INPUT;
 }
@@ -241,7 +241,7 @@ fram_status capability_ice_measured(context *ctx, const scenario *s, capability 
     if (s->domain.boundary != DOMAIN_FEEDING) {
         error_set(error, FRAM_ERROR_INPUT, NULL, 0, "domain.boundary",
                   "expected feeding, so that ice can be driven past the hull and its load measured; otherwise the load "
-                  "can be had by formula, with --formula");
+                  "can be had by the formula");
         scenario_locate(s, error);
         return FRAM_ERROR_INPUT;
     }

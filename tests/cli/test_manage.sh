@@ -124,7 +124,7 @@ grep -q "takes 8 times the damage" full/manage.html || fail "the page does not c
 expect 2 "$FRAM" manage
 expect 2 "$FRAM" manage nowhere
 expect 2 "$FRAM" manage both
-says "--vessel NAME" err
+says "vessel: several vessels do not drive themselves: name the one that is protected" err
 expect 2 "$FRAM" manage both --vessel nobody
 says "nobody" err
 expect 2 "$FRAM" manage both --vessel ship --limit -1
