@@ -250,6 +250,31 @@ class Package(unittest.TestCase):
         self.assertTrue(all(np.isfinite(position).all() and np.isfinite(shapes.points).all()
                             for position, shapes in held))
 
+    def test_memory_of_shapes_is_used_again_when_nobody_has_it(self):
+        for keeps in (False, True):
+            world = towed().world()
+            held, copies, places, again = [], [], set(), 0
+            for step in range(100):
+                world.step()
+                shapes = world.shapes()
+                if keeps and step % 10 == 0:  # the whole, a part, one outline
+                    held.append((shapes, shapes.points[3:], shapes[len(shapes) - 1])[len(held) % 3])
+                    copies.append(np.array(getattr(held[-1], "points", held[-1])))
+                if len(world.fractures()):
+                    again += shapes.points.ctypes.data in places
+                places.add(shapes.points.ctypes.data)
+                np.testing.assert_array_equal(np.diff(shapes.offsets), self.lengths(world))
+            self.assertEqual(again > 0, not keeps)
+            for kept, copied in zip(held, copies):
+                np.testing.assert_array_equal(getattr(kept, "points", kept), copied)
+
+    @staticmethod
+    def lengths(world):
+        """Vertices of the outline in each slot, by another way."""
+        bodies, outlines, found = world.bodies(), world.outlines(None), np.zeros(len(world.view().lives), int)
+        found[bodies.slot] = np.diff(outlines.offsets)
+        return found
+
     def test_a_recorded_world_that_is_closed_under_a_view_ends_its_recording(self):
         world = towed().world()
         world.record(self.folder / "live")

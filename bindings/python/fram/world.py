@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import weakref
 from dataclasses import dataclass
 from typing import Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
@@ -170,6 +171,27 @@ class Outlines:
         return (self[row] for row in range(len(self)))
 
 
+class _Room:
+    """Memory for outlines, used again when nobody has an array of it: new memory costs more than what goes into it."""
+
+    def __init__(self, slots: int, points: int):
+        self.offsets = np.empty(slots + slots // 8 + 65, np.int32)
+        self.points = np.empty((points + points // 8 + 512, 2))
+        self._pointers = (ffi.cast("int32_t *", self.offsets.ctypes.data), len(self.offsets),
+                          ffi.cast("double *", self.points.ctypes.data), len(self.points))
+
+    def is_free(self) -> bool:
+        """Whether no array of it is held: each one holds what it was cut from."""
+        return sys.getrefcount(self.offsets) == 2 and sys.getrefcount(self.points) == 2
+
+    def fill(self, pointer, slots: int) -> Optional[Outlines]:
+        """The outlines of a world by slot; None when there is not room enough."""
+        count = lib.fram_world_shapes(pointer, *self._pointers)
+        if count > len(self.points) or slots + 1 > len(self.offsets):
+            return None
+        return Outlines(_frozen(self.offsets[:slots + 1]), _frozen(self.points[:count]))
+
+
 def _dtype(name: str) -> np.dtype:
     """numpy's form of a C struct of numbers, from cffi's description of it."""
     kinds = {"int": "i4", "int32_t": "i4", "uint32_t": "u4", "double": "f8"}
@@ -266,6 +288,7 @@ class World:
         self._shapes: Optional[Outlines] = None
         self._changes: Sequence[int] = _NEVER  # the number of changes as it is now, in the world's memory
         self._shape_number = 0  # of the changes when the shapes were made
+        self._rooms: list[_Room] = []
         self._calls: list[None] = []  # an item for each call that has not returned, of whatever thread
         self._channels = self._list(lib.fram_world_channels, lib.fram_world_channel)
         self._inputs = self._list(lib.fram_world_inputs, lib.fram_world_input)
@@ -308,6 +331,7 @@ class World:
             self._view._forget()
         viewed = weakref.ref(self._keep)
         self._keep = self._view = self._shapes = None
+        self._rooms = []
         if viewed() is None:
             ffi.release(pointer)
         elif lib.fram_world_is_recorded(pointer):  # arrays are held: the memory goes with the last of them
@@ -481,13 +505,15 @@ class World:
     def _make_shapes(self) -> None:
         pointer, view = self._living(), self.view()
         view._look()
-        number = view._changes[0]
-        count, slots = lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0), lib.fram_world_slots(pointer)
-        offsets, points = np.empty(slots + 1, np.int32), np.empty((count, 2))
-        lib.fram_world_shapes(pointer, ffi.cast("int32_t *", offsets.ctypes.data), len(offsets),
-                              ffi.cast("double *", points.ctypes.data), count)
-        self._shapes, self._changes, self._shape_number = \
-            Outlines(_frozen(offsets), _frozen(points)), view._changes, number
+        slots, self._shapes = lib.fram_world_slots(pointer), None
+        for room in self._rooms:
+            if self._shapes is None and room.is_free():
+                self._shapes = room.fill(pointer, slots)
+        if self._shapes is None:
+            room = _Room(slots, lib.fram_world_shapes(pointer, ffi.NULL, 0, ffi.NULL, 0))
+            self._rooms = [room, *self._rooms[:1]]
+            self._shapes = room.fill(pointer, slots)
+        self._changes, self._shape_number = view._changes, view._changes[0]
 
     def _records(self, function, dtype: np.dtype, ctype: str) -> np.ndarray:
         count = function(self._living(), ffi.NULL, 0, dtype.itemsize)
