@@ -161,4 +161,34 @@ START_TEST(one_condition_has_the_exact_interval)
 }
 END_TEST
 
-TEST_MAIN("annual_coverage", levels_of_a_year_are_held_as_often_as_they_say, one_condition_has_the_exact_interval)
+/* Three conditions of the same values are one of three times the hours. */
+START_TEST(hours_of_conditions_add_up)
+{
+    const diagram *d = &diagrams[1];
+    double value[CONDITIONS_MOST][RUNS_MOST], hours[CONDITIONS_MOST] = {500, 300, 700}, all = 1500;
+    condition_maxima of[CONDITIONS_MOST];
+    for (int32_t c = 0; c < CONDITIONS_MOST; c++)
+        of[c] = (condition_maxima){.value = {.data = value[c], .count = d->runs}, .block = BLOCK};
+    draw(d, 0, of);
+    for (int32_t c = 1; c < CONDITIONS_MOST; c++)
+        memcpy(value[c], value[0], sizeof value[0]);
+    study_extremes ask = {.confidence = 0.95,
+                          .annual = {probability[0], probability[1]},
+                          .annuals = LEVELS,
+                          .hours = {.data = hours, .count = CONDITIONS_MOST}};
+    level_interval apart[LEVELS], together[LEVELS];
+    int32_t missing;
+    fram_error error = {0};
+    context ctx;
+    context_init(&ctx);
+    assert_ok(annual_levels(&ctx, &ask, of, CONDITIONS_MOST, apart, &missing, &error), error);
+    ask.hours.data = &all;
+    ask.hours.count = 1;
+    assert_ok(annual_levels(&ctx, &ask, of, 1, together, &missing, &error), error);
+    for (int l = 0; l < LEVELS; l++)
+        assert_relative(apart[l].level, together[l].level, 1e-9);
+}
+END_TEST
+
+TEST_MAIN("annual_coverage", levels_of_a_year_are_held_as_often_as_they_say, one_condition_has_the_exact_interval,
+          hours_of_conditions_add_up)

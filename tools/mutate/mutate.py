@@ -108,7 +108,7 @@ def main():
     print("\n".join(problems) if problems else f"mutants: {count} fit the code")
     if options.check:
         return 1 if problems else 0
-    verdicts, jobs, wanted = Verdicts(options.results), queue.Queue(), []
+    verdicts, jobs, wanted, late = Verdicts(options.results), queue.Queue(), [], []
     every = listing.read(ROOT)
     for mutant in every:
         if options.rooms and mutant.room not in options.rooms.split(","):
@@ -121,7 +121,10 @@ def main():
             continue
         wanted.append(mutant)
         if not verdicts.known(ROOT, mutant, digest(text)):
-            jobs.put((mutant, path, text))
+            late.append((mutant, path, text))
+    # What was never tried comes first, for who has little time.
+    for job in sorted(late, key=lambda job: (job[0].room, job[0].what) in verdicts.rows):
+        jobs.put(job)
     print(f"{jobs.qsize()} of {len(wanted)} to be tried", flush=True)
     lock, end = threading.Lock(), time.monotonic() + 60 * options.minutes
     places = [Workplace(ROOT, n, options.first > 0) for n in range(min(options.jobs, jobs.qsize()))]

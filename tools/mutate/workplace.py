@@ -94,7 +94,7 @@ class Workplace:
     def make(self, test):
         """Build what the test needs; the compiler's words when that fails."""
         target = self.program(test)
-        targets = [target] if target else ["fram_command", "fram_shared", "fram_static"]
+        targets = [target] if target else ["fram_command", "fram_shared", "fram_static", "example_controller"]
         done = subprocess.run(["ninja", "-C", str(self.build), "-j1", *targets], capture_output=True, text=True,
                               check=False)
         return None if done.returncode == 0 else done.stdout[-3000:] + done.stderr[-1000:]
