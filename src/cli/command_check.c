@@ -73,8 +73,12 @@ int command_check(const command_row *self, int argc, char **argv)
     } else {
         code = EXIT_GOOD;
         fputs(fram_scenario_text(scenario), stdout);
-        if (!common.quiet)
+        if (!common.quiet) {
             fputs(fram_scenario_notes(scenario), stderr);
+            if (!build)
+                fputs("time: fram check --build makes the ice and judges by its first steps how long a run takes\n",
+                      stderr);
+        }
         if (!common.quiet && build) {
             fprintf(stderr, "built: %d floes among %d bodies\ntime: judged by its first steps a run takes ", made.floes,
                     made.bodies);

@@ -89,7 +89,10 @@ static void load_table(report *r, load_unit unit)
     char head[64];
     snprintf(head, sizeof head, "load on %s [%s]", report_vessel(r).text, unit.name);
     report_statistics_heads(r, head);
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+    /* The last row is that of the carriage, which a free vessel does not have. */
+    vessel_entry e = scenario_vessel_entry(&r->d.s, r->vessel);
+    size_t count = sizeof rows / sizeof *rows - (e.keys->mode == VESSEL_FREE ? 1 : 0);
+    for (size_t i = 0; i < count; i++)
         report_statistics(r, rows[i].channel, rows[i].name, unit.factor);
     html_table_end(&r->page);
 }

@@ -3,6 +3,7 @@
 
 #include "base/channel_statistics.h"
 #include "base/transcendental.h"
+#include "results/mechanism_curve.h"
 #include "results/station_results.h"
 
 #include <math.h>
@@ -304,6 +305,45 @@ static void judge_solver(verdict *v)
          fmax(100 * mean / speed, 0.01), speed);
 }
 
+/* ---- the edge of the field ---- */
+
+/* Part of the mean load from which on the edge of the domain takes part in it. */
+#define EDGE_PART 0.1
+
+/* Part of the mean horizontal load after the transient that comes through chains to bodies that do not give way; 0
+   where the run does not say. */
+static double chain_part(const report *r)
+{
+    mechanism_columns c;
+    const double *time = run_channel(&r->d, "time");
+    double all_x = 0, all_y = 0, x = 0, y = 0;
+    if (!time || !mechanism_columns_find(&r->d, r->vessel, &c))
+        return 0;
+    for (int32_t i = 0; i < r->d.series.rows; i++)
+        for (int m = 0; m < MECHANISM_COUNT && time[i] > r->d.s.run.transient; m++) {
+            all_x += c.x[m][i], all_y += c.y[m][i];
+            x += m == MECHANISM_CHAIN ? c.x[m][i] : 0, y += m == MECHANISM_CHAIN ? c.y[m][i] : 0;
+        }
+    double square = all_x * all_x + all_y * all_y;
+    return square > 0 ? (x * all_x + y * all_y) / square : 0;
+}
+
+/* Floes in an endless field are driven at its edge, whatever pushes: a chain from the hull to there is a load of the
+   domain's size.  In level ice the sheet itself stands there. */
+static void judge_edge(verdict *v)
+{
+    const report *r = v->r;
+    const scenario *s = &r->d.s;
+    if (s->domain.boundary != DOMAIN_FEEDING || s->ice.source == ICE_NONE || s->ice.source == ICE_LEVEL)
+        return;
+    double part = chain_part(r);
+    if (part > EDGE_PART)
+        find(v, VERDICT_CAUTION, "Enlarge the domain until the load no longer depends on it; fram why shows chains.",
+             "%.0f %% of the mean ice load on %s comes through chains of floes that end at the driven edge of the "
+             "domain%s.",
+             100 * part, report_vessel(r).text, scenario_vessel_count(s) > 1 ? " or at another vessel" : "");
+}
+
 /* ---- the box ---- */
 
 static verdict_grade headline(const verdict *v, char out[TEXT_SIZE])
@@ -345,6 +385,8 @@ fram_status report_verdict(report *r, fram_error *error)
             judge_station(&v);
         if (status == FRAM_OK && r->d.s.ice.source != ICE_NONE)
             status = judge_load(&v, error);
+        if (status == FRAM_OK)
+            judge_edge(&v);
     }
     judge_solver(&v);
     verdict_grade grade = headline(&v, title);

@@ -77,8 +77,12 @@ static void note_ice(const note_taker *n, const scenario *s)
 static void note_fracture(const note_taker *n, const scenario *s)
 {
     const scenario_ice *i = &s->ice;
-    if (i->source == ICE_NONE || !i->breakable)
+    if (i->source == ICE_NONE)
         return;
+    if (!i->breakable) {
+        note_fact(n, "ice: nothing breaks or splits (ice.breakable: false); contacts are crushed at most");
+        return;
+    }
     double h = i->thickness, sigma = i->crushing_strength, areas[2] = {SMALL_CONTACT * h * h, h * h};
     ice_material m = {i->density,           i->elastic_modulus,   i->poisson_ratio,
                       i->flexural_strength, i->crushing_strength, i->crushing_exponent};
