@@ -32,6 +32,18 @@ static void keep_address(void *user, const char *address)
     snprintf(o->address, sizeof o->address, "%s", address);
 }
 
+/* The recording is not begun yet: nothing of the world is to be had. */
+static void keep_and_try(void *user, const char *address)
+{
+    opened *o = user;
+    fram_error e;
+    keep_address(user, address);
+    ck_assert_int_eq(fram_world_step(o->w, &e), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(e.key, "world");
+    ck_assert_int_eq(fram_world_record_end(o->w, NULL, &e), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(e.key, "world");
+}
+
 /* A world before its recording; false when this build has no live view. */
 static bool set_up(opened *o)
 {
@@ -69,7 +81,7 @@ static void begin(opened *o)
     fram_record_default(&d);
     d.folder = o->run;
     d.live_page = o->page;
-    d.live = keep_address;
+    d.live = keep_and_try;
     d.live_user = o;
     assert_ok(fram_world_record(o->w, &d, &e), e);
     ck_assert_int_eq(o->told, 1);
