@@ -41,7 +41,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     world_tables(&w, tables);
     table_file_number number = {.name = "number"};
     table_file_bytes bytes = {.name = "bytes"};
-    table_file content = {tables, WORLD_TABLE_COUNT, &number, 1, &bytes, 1};
+    table_file content = {tables, WORLD_TABLE_COUNT, &number, 1, &bytes, 1, false};
     uint64_t before = world_hash(&w);
     fram_status status = table_file_decode(&ctx, "fuzz.fram", copy, size, &content, &error);
     if (status == FRAM_OK) {

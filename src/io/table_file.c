@@ -314,6 +314,7 @@ fram_status table_file_decode(context *ctx, const char *name, const void *data, 
                               fram_error *error)
 {
     forget_bytes(content);
+    content->differs = false;
     fram_status status = check_head(name, data, size, error);
     if (status != FRAM_OK)
         return status;
@@ -324,6 +325,7 @@ fram_status table_file_decode(context *ctx, const char *name, const void *data, 
                         .status = FRAM_OK,
                         .error = error};
     status = take_body(body, content);
+    content->differs = status == FRAM_ERROR_INPUT;
     if (status != FRAM_OK)
         return status;
     body.apply = true;

@@ -38,6 +38,7 @@ typedef struct table_file {
     int32_t number_count;
     table_file_bytes *bytes;
     int32_t bytes_count;
+    bool differs; /* set by reading: the file is sound, but not of these numbers, byte strings and tables */
 } table_file;
 
 /* Into a new atomic file (io/atomic_file.h), to be committed. */

@@ -155,11 +155,14 @@ static void tell_breaks(const why *y, const peak_detail *d, text_buffer *out)
     if (isfinite(b.last))
         text_format(y->ctx, out, ", the last one %.3g s before", d->time - b.last);
     const double *time = run_channel(&y->run, "time"), *residual = run_channel(&y->run, "solver_residual");
-    double most = 0;
+    double most = -1;
     for (int32_t i = 0; time && residual && i < y->run.series.rows; i++)
         if (time[i] > d->time - BEFORE && time[i] <= d->time)
             most = fmax(most, residual[i]);
-    text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);
+    if (most < 0)
+        text_add(y->ctx, out, "; series.csv holds no rows of that time, so the solver's residual is unknown\n");
+    else
+        text_format(y->ctx, out, "; the solver's largest residual %.3g m/s\n", most);
 }
 
 static void tell_difference(context *ctx, const char *how, double load, double same, load_unit unit, text_buffer *out)

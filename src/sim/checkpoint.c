@@ -108,7 +108,7 @@ static void content_of(const world *w, const checkpoint_note *note, state_conten
         {"fram_version", (void *)FRAM_VERSION, strlen(FRAM_VERSION)}};
     memcpy(c->numbers, numbers, sizeof numbers);
     memcpy(c->bytes, bytes, sizeof bytes);
-    c->file = (table_file){c->tables, WORLD_TABLE_COUNT, c->numbers, NUMBER_COUNT, c->bytes, BYTES_COUNT};
+    c->file = (table_file){c->tables, WORLD_TABLE_COUNT, c->numbers, NUMBER_COUNT, c->bytes, BYTES_COUNT, false};
 }
 
 static fram_status begin_file(context *ctx, const char *path, const world *w, const checkpoint_note *note,
@@ -176,11 +176,12 @@ static fram_status read_one(context *ctx, const char *path, const void *data, si
     table_file_number numbers[NUMBER_COUNT] = {
         {"series_length", 0}, {"record_length", 0}, {"fractures_length", 0}, {"state_hash", 0}};
     table_file_bytes bytes[BYTES_COUNT] = {{"scenario_hash", NULL, 0}, {"inputs", NULL, 0}, {"fram_version", NULL, 0}};
-    table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT};
+    table_file content = {tables, WORLD_TABLE_COUNT, numbers, NUMBER_COUNT, bytes, BYTES_COUNT, false};
     fram_error unsound = {0};
-    *other = false;
     fram_status status =
         data ? table_file_decode(ctx, path, data, size, &content, error) : table_file_read(ctx, path, &content, error);
+    *other = false;
+    note->differs = content.differs;
     if (status != FRAM_OK)
         return status;
     if (!same_text(&bytes[BYTES_VERSION], FRAM_VERSION)) {
@@ -223,24 +224,24 @@ fram_status state_decode(context *ctx, const char *name, const void *data, size_
     return read_one(ctx, name, data, size, m, w, &found, &other, error);
 }
 
-/* The newest good one that is not after a step; *found says whether there is any not after it, good or bad. */
+/* The newest good one that is not after a step; *found says whether there is any not after it, good or bad, *other
+   whether one was good, but of another run, input or version. */
 static fram_status read_newest(context *ctx, const char *folder, int64_t most, const model *m, world *w,
-                               checkpoint_note *note, bool *found, fram_error *error)
+                               checkpoint_note *note, bool *found, bool *other, fram_error *error)
 {
     step_array steps = {0};
-    *found = false;
+    *found = *other = false;
     fram_status status = list_steps(ctx, folder, &steps, error);
     for (int32_t i = 0; i < steps.count && (status == FRAM_OK || *found); i++) {
         char path[PATH_ROOM];
-        bool other = false;
         fram_error reason = {0};
         if (steps.data[i] > most || checkpoint_path(folder, steps.data[i], path, NULL) != FRAM_OK)
             continue;
         *found = true;
-        status = read_one(ctx, path, NULL, 0, m, w, note, &other, &reason);
+        status = read_one(ctx, path, NULL, 0, m, w, note, other, &reason);
         if (error && status != FRAM_OK)
             *error = reason;
-        if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || other)
+        if (status == FRAM_OK || status == FRAM_ERROR_MEMORY || *other)
             break;
         log_write(ctx, LOG_WARNING, "%s: %s; trying the one before", path, reason.message);
     }
@@ -251,8 +252,8 @@ static fram_status read_newest(context *ctx, const char *folder, int64_t most, c
 fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
                                    fram_error *error)
 {
-    bool found;
-    fram_status status = read_newest(ctx, folder, INT64_MAX, m, w, note, &found, error);
+    bool found, other;
+    fram_status status = read_newest(ctx, folder, INT64_MAX, m, w, note, &found, &other, error);
     if (status != FRAM_OK || found)
         return status;
     return error_set(error, FRAM_ERROR_INPUT, folder, 0, NULL, "there is no checkpoint in this folder to resume from");
@@ -263,5 +264,16 @@ fram_status checkpoint_read_before(context *ctx, const char *folder, double time
 {
     double steps = floor(time / m->time_step + 1e-6);
     *found = false;
-    return steps < 0 ? FRAM_OK : read_newest(ctx, folder, (int64_t)steps, m, w, note, found, error);
+    if (steps < 0)
+        return FRAM_OK;
+    bool other;
+    fram_error reason = {0};
+    fram_status status = read_newest(ctx, folder, (int64_t)steps, m, w, note, found, &other, &reason);
+    if (status == FRAM_ERROR_INPUT && *found && !other && !note->differs) {
+        *found = false;
+        return FRAM_OK;
+    }
+    if (status != FRAM_OK && error)
+        *error = reason;
+    return status;
 }

@@ -13,6 +13,7 @@ typedef struct checkpoint_note {
     uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
     char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs; /* text of inputs_list, compared on resume */
+    bool differs; /* reading: the last one looked at is sound, but of another layout of tables */
 } checkpoint_note;
 
 /* Write FOLDER/checkpoint-STEP.fram, in two parts: the state is taken now, and brought to the disk after the streams
@@ -35,8 +36,8 @@ fram_status state_decode(context *ctx, const char *name, const void *data, size_
    inputs. note->scenario_hash and inputs say what is expected; the lengths are filled. */
 fram_status checkpoint_read_newest(context *ctx, const char *folder, const model *m, world *w, checkpoint_note *note,
                                    fram_error *error);
-/* The same of a checkpoint that is not after a time [s]; found: false when there is none, and the world is then as it
-   was. */
+/* The same of a checkpoint that is not after a time [s]; found: false when there is none that is sound, and the world
+   is then to be freed. */
 fram_status checkpoint_read_before(context *ctx, const char *folder, double time, const model *m, world *w,
                                    checkpoint_note *note, bool *found, fram_error *error);
 /* Whether a file of this name, without its folder, is a checkpoint. */

@@ -79,6 +79,16 @@ says "the only one has none; found \"ship\"" err
 expect 2 "$FRAM" why nowhere --peak 1
 expect 2 "$FRAM" why chain.yaml --peak 1
 expect 2 "$FRAM" why run --peak 1 -o run/series.csv
+
+# Results that were cut short are told; a damaged checkpoint is passed over for the one before, or for the start.
+cp -r run cut
+for checkpoint in cut/checkpoint-*.fram; do head -c 3000 "$checkpoint" >short && mv short "$checkpoint"; done
+head -n 3 run/series.csv >cut/series.csv
+expect 0 "$FRAM" why cut --time 11
+says "trying the one before" err
+says "computing again from t = 0 s" err
+says "series.csv holds no rows of that time" out
+rm -r cut
 rm run/peaks.fram
 expect 2 "$FRAM" why run --peak 1 --no-rerun
 says "keeps no peaks" err

@@ -48,7 +48,7 @@ static void content_begin(content *c)
     c->numbers[1].name = "record_length";
     c->bytes[0].name = "hash";
     c->bytes[1].name = "nothing";
-    c->file = (table_file){c->tables, 2, c->numbers, 2, c->bytes, 2};
+    c->file = (table_file){c->tables, 2, c->numbers, 2, c->bytes, 2, false};
 }
 
 static void content_free(context *of, content *c)

@@ -111,8 +111,8 @@ def longer(data):
 
 
 DAMAGE = {
-    "a field of other components": (other_components, "the type of this version for the field position"),
-    "bytes behind the last table": (longer, "expected the end of the file"),
+    "a field of other components": (other_components, "of another, in which the type of the field position"),
+    "bytes behind the last table": (longer, "in which the end of the file is not the same"),
     "empty": (lambda data: b"", "too short|cut short|expected"),
     "cut in its head": (lambda data: data[:20], "short|expected"),
     "cut in its middle": (lambda data: data[:len(data) // 2], r"of \d+ bytes, found"),
