@@ -172,8 +172,8 @@ static char *put_digits(const char digit[DIGITS_ROOM], int count, int exponent, 
 
 int real_to_digits(double value, int digits, char out[NUMBER_TEXT_SIZE])
 {
-    uint64_t integer;
-    int exponent;
+    uint64_t integer = 0;
+    int exponent = 0;
     char digit[DIGITS_ROOM] = {'0'}, *at = out;
     bool fast = digits >= 1 && digits <= FAST_DIGITS && round_to_digits(fabs(value), digits, &integer, &exponent);
     if (value == 0 || fast) {
