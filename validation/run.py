@@ -97,14 +97,14 @@ def index(book, names):
              "nothing has changed since, no more. What "
              "disagrees, and the size of each known error, stands in the [limits](../limits.md). The last column names "
              "the code that has changed since a page was made: its numbers may have changed with it "
-             "(`make validate-status` compares with the code of now).", "",
+             "(`make validate-status` compares with the present code).", "",
              f"{agree} of {len(verdicts)} cases agree. "
              + " ".join(book["times"][key] for key in ("whole", "quick") if key in book["times"]), ""]
     for rung, title in RUNGS.items():
         of_rung = {n: v for n, v in verdicts.items() if v["rung"] == rung}
         if not of_rung:
             continue
-        lines += [f"## {rung}. {title}", "", "| case | verdict | checks | made | other code since |",
+        lines += [f"## {rung}. {title}", "", "| case | verdict | checks | made | code changed since |",
                   "|---|---|---|---|---|"]
         for name, v in sorted(of_rung.items(), key=lambda item: item[1]["title"]):
             lines.append(f"| [{v['title']}]({name}.md) | {'agrees' if v['good'] else '**does not agree**'} | "

@@ -67,7 +67,12 @@ fram_status why_check_time(const why *y, double time, fram_error *error)
                      "expected a time in the run, above 0 and up to %g s, found %g", end, time);
 }
 
-static double percent(double part, const peak_detail *d) { return d->load > 0 ? 100 * part / d->load : 0; }
+/* In whole per cent, so that a small part against the load is no "-0". */
+static double percent(double part, const peak_detail *d)
+{
+    double whole = d->load > 0 ? floor(100 * part / d->load + 0.5) : 0;
+    return fabs(whole) > 0 ? whole : 0;
+}
 
 static double sum_of(const double part[MECHANISM_COUNT])
 {

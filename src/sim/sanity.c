@@ -278,6 +278,10 @@ static void tell_times(const teller *t)
         sanity_say(t->tell, t->to,
                    "output.checkpoint_interval: %g s is shorter than run.time_step, %g s: a checkpoint every step",
                    o->checkpoint_interval, r->time_step);
+    if (o->csv_interval > 0 && o->csv_interval < SHORTEST_WINDOW * r->time_step)
+        sanity_say(t->tell, t->to,
+                   "output.csv_interval: %g s is shorter than run.time_step, %g s: a row every step, as 0 says",
+                   o->csv_interval, r->time_step);
     if (o->csv_interval > 0 && r->duration / o->csv_interval < LEAST_ROWS && r->duration / r->time_step > LEAST_ROWS)
         sanity_say(t->tell, t->to, "output.csv_interval: %g s leaves %.0f rows of the run in series.csv",
                    o->csv_interval, r->duration / o->csv_interval);

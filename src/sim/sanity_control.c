@@ -179,6 +179,9 @@ static void tell_propulsion(const teller *t)
 
 /* ---- what counts as being on station ---- */
 
+/* Speed at the start with which nobody comes to rest on a mooring, full size [m/s]. */
+#define STARTING_SPEED 0.5
+
 static void tell_station(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
@@ -187,6 +190,11 @@ static void tell_station(const teller *t)
         sanity_say(t->tell, t->to, "%s.station.watch_%s: (%.4g, %.4g) m is outside of a hull of %.4g m", t->e->path,
                    fabs(x) > v->hull.length ? "x" : "y", x, y, v->hull.length);
     bool lines = v->mooring.lines.count > 0;
+    if ((lines || v->positioning.active) && v->speed > STARTING_SPEED * fmax(1, at_scale(t->s, 0.5)))
+        sanity_say(t->tell, t->to,
+                   "%s.speed: a vessel on station begins with %.4g m/s: speed is that of the start, of a drift give "
+                   "environment.current_speed or domain.drift_speed",
+                   t->e->path, v->speed);
     if (lines && automatic_or(v->station.offset_limit, 0) > v->mooring.depth)
         sanity_say(t->tell, t->to,
                    "%s.station.offset_limit: %.4g m is more than the depth, %.4g m: give metres, not a percentage",

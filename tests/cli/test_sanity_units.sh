@@ -113,6 +113,8 @@ all_told drive.yaml vessel.propulsion.steering_angle_deg=0.61 vessel.propulsion.
     "propeller_spacing: 100 m is more than the beam"
 
 # Ice in a basin does not drift past; words of the field that stand for several keys.
+all_told ship.yaml vessel.speed=1 output.csv_interval=0.001 -- \
+    "vessel.speed: a vessel on station begins with 1 m/s|domain.drift_speed" "csv_interval: 0.001 s is shorter than"
 all_told ship.yaml domain.boundary=walls -- \
     "domain.boundary: walls keep the ice in a basin|past the vessel take feeding"
 # meant SCENE KEY: the key that is asked for
