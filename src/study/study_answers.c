@@ -1,7 +1,6 @@
 #include "study/study_answers.h"
 
 #include "base/number_text.h"
-#include "io/atomic_file.h"
 #include "study/sensitivity.h"
 #include "study/study_extremes.h"
 #include "study/study_file.h"
@@ -36,17 +35,6 @@ static void add_interval(const study_folder *f, text_buffer *b, const level_inte
     add_number(f, b, i->level);
     add_number(f, b, i->low);
     add_number(f, b, i->high);
-}
-
-static fram_status write_table(const study_folder *f, const char *name, const text_buffer *b, fram_error *error)
-{
-    text_buffer path = {0};
-    text_format(f->ctx, &path, "%s/%s", f->path, name);
-    fram_status status = path.failed || b->failed
-                             ? error_memory(error)
-                             : atomic_file_write(f->ctx, path.data, b->data, (size_t)b->count, error);
-    text_free(f->ctx, &path);
-    return status;
 }
 
 /* ---- extremes ---- */
@@ -164,9 +152,9 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
             status = add_annual(f, &rare[i], of, &year, error);
     }
     if (status == FRAM_OK)
-        status = write_table(f, "extremes.csv", &table, error);
+        status = study_table_write(f, "extremes.csv", &table, error);
     if (status == FRAM_OK && f->s->extremes.annuals > 0)
-        status = write_table(f, "annual.csv", &year, error);
+        status = study_table_write(f, "annual.csv", &year, error);
     for (int32_t c = 0; of && c < f->s->conditions; c++)
         array_free(f->ctx, &of[c].value);
     memory_free(f->ctx, of);
@@ -246,7 +234,7 @@ static fram_status write_sensitivity(const study_folder *f, const condition_rows
             add_sobol(f, &moved[i], rows, sobol, &b);
     }
     if (status == FRAM_OK)
-        status = write_table(f, "sensitivity.csv", &b, error);
+        status = study_table_write(f, "sensitivity.csv", &b, error);
     memory_free(f->ctx, answer);
     text_free(f->ctx, &b);
     return status;

@@ -32,5 +32,7 @@ typedef struct condition_rows {
 } condition_rows;
 /* DIR/summary.csv and DIR/conditions.csv of the seeds that each condition takes. */
 fram_status study_tables_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+/* DIR/NAME with a text that has been put together, as a whole or not at all. */
+fram_status study_table_write(const study_folder *f, const char *name, const text_buffer *b, fram_error *error);
 
 #endif

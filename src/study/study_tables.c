@@ -104,7 +104,7 @@ static fram_status summarise_conditions(const study_folder *f, const condition_r
     return FRAM_OK;
 }
 
-static fram_status write_table(const study_folder *f, const char *name, const text_buffer *b, fram_error *error)
+fram_status study_table_write(const study_folder *f, const char *name, const text_buffer *b, fram_error *error)
 {
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/%s", f->path, name);
@@ -121,9 +121,9 @@ fram_status study_tables_write(const study_folder *f, const condition_rows *cond
     summarise(f, conditions, &runs);
     fram_status status = summarise_conditions(f, conditions, &means, error);
     if (status == FRAM_OK)
-        status = write_table(f, "summary.csv", &runs, error);
+        status = study_table_write(f, "summary.csv", &runs, error);
     if (status == FRAM_OK)
-        status = write_table(f, "conditions.csv", &means, error);
+        status = study_table_write(f, "conditions.csv", &means, error);
     if (status == FRAM_OK)
         status = study_answers_write(f, conditions, error);
     if (status == FRAM_OK)

@@ -1,5 +1,6 @@
 /* The conical hull: volume in closed form, symmetry, refusals. */
 #include "base/transcendental.h"
+#include "hull_memory.h"
 #include "testing.h"
 #include "vessel/hull.h"
 
@@ -50,26 +51,7 @@ START_TEST(refusals)
 }
 END_TEST
 
-START_TEST(without_memory)
-{
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
-        fram_error error = {0};
-        hull_particulars p = cone();
-        mesh surface = {0};
-        polyhedron_array pieces = {0};
-        fram_status status = hull_make(&ctx, &p, &surface, &pieces, &error);
-        polyhedron_array_free(&ctx, &pieces);
-        mesh_free(&ctx, &surface);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
-    }
-}
+START_TEST(without_memory) { hull_make_without_memory(cone()); }
 END_TEST
 
 TEST_MAIN("hull_cone", volume_of_a_frustum, refusals, without_memory)

@@ -1,6 +1,7 @@
 /* The hull of a ship of full form: closed and convex, displacement in closed form, the block coefficient that was asked
    for, refusals. */
 #include "base/transcendental.h"
+#include "hull_memory.h"
 #include "testing.h"
 #include "vessel/hull.h"
 
@@ -213,27 +214,7 @@ START_TEST(refusals)
 }
 END_TEST
 
-START_TEST(without_memory)
-{
-    for (long n = 1;; n++) {
-        failing_memory memory;
-        context ctx = failing_context(&memory, n);
-        fram_error error = {0};
-        hull_particulars p = ship(0.8);
-        hull_particulars_fill(&p);
-        mesh surface = {0};
-        polyhedron_array pieces = {0};
-        fram_status status = hull_make(&ctx, &p, &surface, &pieces, &error);
-        polyhedron_array_free(&ctx, &pieces);
-        mesh_free(&ctx, &surface);
-        ck_assert_int_eq(memory.live, 0);
-        if (!memory.failed) {
-            ck_assert_int_eq(status, FRAM_OK);
-            break;
-        }
-        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
-    }
-}
+START_TEST(without_memory) { hull_make_without_memory(ship(0.8)); }
 END_TEST
 
 TEST_MAIN("hull_ship", displacement_in_closed_form, section_amidships, block_coefficient_is_met, stem_and_entrance,
