@@ -76,7 +76,7 @@ bench-python: build | $(STAMPS)/python ## what reading poses and outlines from P
 bench-recording: build ## what recording costs in time and bytes, against its bounds
 	@$(PYTHON) bench/run_recording.py $(BENCH_FLAGS)
 
-books: build/release/build.ninja ## whether parts of the ice load add up to it in every step of every ready scene (hours, idle)
+books: build/release/build.ninja ## whether parts of the ice load add up to it in every step of every ready scene (half an hour, idle)
 	@cmake --build --preset release -j$(JOBS) --target books_bench
 	@$(PYTHON) bench/run_books.py $(BENCH_FLAGS)
 

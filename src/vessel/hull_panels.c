@@ -373,16 +373,24 @@ static fram_status gather(panel_work *w, hull_panels *out, fram_error *error)
     return mesh_bvh_build(w->ctx, &out->triangle, &out->tree) == FRAM_OK ? FRAM_OK : error_memory(error);
 }
 
-static fram_status check_lines(const double *line, int32_t count, const char *key, fram_error *error)
+/* Finite and ascending, and one of them at least between the hull's ends: others cut nothing. */
+static fram_status check_lines(const double *line, int32_t count, double lo, double hi, const char *key,
+                               fram_error *error)
 {
+    bool inside = count == 0;
     for (int32_t i = 0; i < count; i++) {
         if (!isfinite(line[i]))
             return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected finite coordinates, found %g", line[i]);
         if (i > 0 && !(line[i] > line[i - 1]))
             return error_set(error, FRAM_ERROR_INPUT, NULL, 0, key, "expected ascending coordinates, found %g after %g",
                              line[i], line[i - 1]);
+        inside |= line[i] > lo && line[i] < hi;
     }
-    return FRAM_OK;
+    return inside ? FRAM_OK
+                  : error_set(error, FRAM_ERROR_INPUT, NULL, 0, key,
+                              "expected coordinates in metres that cut the hull, which reaches from %.4g to %.4g m; "
+                              "found %g to %g m",
+                              lo, hi, line[0], line[count - 1]);
 }
 
 static fram_status check_rules(const mesh *hull, const panel_rules *rules, fram_error *error)
@@ -393,8 +401,10 @@ static fram_status check_rules(const mesh *hull, const panel_rules *rules, fram_
     if (!(rules->size > 0 && rules->size <= longest))
         return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "panel",
                          "expected a side above 0 and up to the hull's %g m, found %g m", longest, rules->size);
-    fram_status status = check_lines(rules->frame, rules->frame_count, "frames", error);
-    return status == FRAM_OK ? check_lines(rules->stringer, rules->stringer_count, "stringers", error) : status;
+    fram_status status = check_lines(rules->frame, rules->frame_count, box.lo.x, box.hi.x, "frames", error);
+    return status == FRAM_OK
+               ? check_lines(rules->stringer, rules->stringer_count, box.lo.z, box.hi.z, "stringers", error)
+               : status;
 }
 
 fram_status hull_panels_make(context *ctx, const mesh *hull, const panel_rules *rules, hull_panels *out,

@@ -157,7 +157,7 @@ expect 2 "$FRAM" pressure run -o map
 expect 0 "$FRAM" pressure run -o map --force --to 0.1 --quiet
 for bad in "--panel 0" "--panel -1" "--panel 41" "--panel 1e-4" "--from 5" "--from 2 --to 1" "--vessel ghost" \
     "--frames 3,1" "--frames 1,,2" "--frames 0:1" "--frames 0:-1:5" "--frames x" "--stringers 1,nan" \
-    "--frames 0:1e-9:5"; do
+    "--frames 0:1e-9:5" "--frames 100,200" "--stringers -90"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" pressure run -o none $bad
     [ "$(wc -l <err)" -le 2 ] || fail "$bad: more than one message: $(cat err)"

@@ -203,7 +203,7 @@ START_TEST(refusals)
     context_init(&ctx);
     mesh m = {0};
     hull_panels p;
-    const double falling[] = {1, 0}, none[] = {NAN};
+    const double falling[] = {1, 0}, none[] = {NAN}, beyond[] = {20, 2000}, below[] = {-40, -4};
     ck_assert(mesh_make_box(&ctx, (vec3){-20, -10, -4}, (vec3){20, 10, 3}, &m));
     const struct {
         panel_rules rules;
@@ -217,6 +217,8 @@ START_TEST(refusals)
         {{.size = 0.05}, "panel"},
         {{.size = 1, .frame = falling, .frame_count = 2}, "frames"},
         {{.size = 1, .stringer = none, .stringer_count = 1}, "stringers"},
+        {{.size = 1, .frame = beyond, .frame_count = 2}, "frames"},
+        {{.size = 1, .stringer = below, .stringer_count = 2}, "stringers"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         fram_error error = {0};
