@@ -23,7 +23,8 @@ typedef struct fram_study_extent {
     double run_seconds;            /* processor time of one run, told by steps of the first and the last condition on
                                       this machine: thousands of steps into it, or at the end of a shorter run */
     double run_bytes;              /* on disk, that stay of a run */
-    double run_seconds_packed;     /* the same if the ice were packed all the time: jams cost as much */
+    double
+        run_seconds_packed; /* the same if the ice were packed all the time, or went on breaking: jams cost as much */
 } fram_study_extent;
 FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error,
                                         size_t size);

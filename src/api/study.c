@@ -47,8 +47,9 @@ void fram_study_destroy(fram_study *s)
 
 /* Steps of a look: the first ones of the run settle, the others are measured. */
 enum { START_SETTLES = 10, LOOK_STEPS = 60 };
-/* Computing between the looks [s]. */
+/* Computing up to the second look [s], and up to a third where ice breaks: it may be far from the hull at first. */
 #define BETWEEN_LOOKS 0.5
+#define UP_TO_BREAKING 8.0
 /* A number of series.csv with its comma, and of a row of a summary. */
 enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
 /* Columns of series.csv, about; and bytes of a floe in a frame. */
@@ -71,8 +72,27 @@ static fram_status look(context *ctx, const scenario *s, double after, step_look
 {
     double dt = s->run.time_step;
     fram_status status = bench_scenario(ctx, s, after * dt, LOOK_STEPS * dt, r, error);
-    *out = (step_look){r->cpu_median, r->contact_points, r->floes};
+    *out = (step_look){r->cpu_median, r->contact_points, r->floes, after};
     return status;
+}
+
+/* Steps that the ice stays in a domain that it drifts through. */
+static double steps_of_stay(const scenario *s)
+{
+    const scenario_domain *d = &s->domain;
+    double speed = is_automatic(d->drift_speed) ? s->environment.current_speed : d->drift_speed;
+    if (d->boundary == DOMAIN_WALLS || d->drift_file[0] || !(speed > 0))
+        return (double)INFINITY;
+    return fmax(d->x_max - d->x_min, d->y_max - d->y_min) / speed / s->run.time_step;
+}
+
+/* A later look at the run, after so much computing at the pace of the last one; that one again where the run is
+ * shorter. */
+static fram_status look_later(context *ctx, const scenario *s, double steps, double computing, step_look *last,
+                              bench_result *r, fram_error *error)
+{
+    double after = fmin(floor(computing / fmax(last->time, 1e-9)), steps - LOOK_STEPS);
+    return after > last->at + LOOK_STEPS ? look(ctx, s, after, last, r, error) : FRAM_OK;
 }
 
 /* Time and bytes of a run of one condition, added to those of the others. */
@@ -88,13 +108,15 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
     double steps = ceil(one.run.duration / one.run.time_step), began = clock_processor();
     status = look(ctx, &one, START_SETTLES, &early, &r, error);
     double build = fmax(clock_processor() - began - (START_SETTLES + LOOK_STEPS) * early.time, 0);
-    double after = fmin(floor(BETWEEN_LOOKS / fmax(early.time, 1e-9)), steps - LOOK_STEPS);
     late = early;
-    if (status == FRAM_OK && after > START_SETTLES + LOOK_STEPS)
-        status = look(ctx, &one, after, &late, &r, error);
+    if (status == FRAM_OK)
+        status = look_later(ctx, &one, steps, BETWEEN_LOOKS, &late, &r, error);
+    if (status == FRAM_OK && one.ice.breakable)
+        status = look_later(ctx, &one, steps, UP_TO_BREAKING, &late, &r, error);
     if (status == FRAM_OK) {
+        double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one));
         out->run_seconds += build + steps * late.time;
-        out->run_seconds_packed += build + steps * packed_step_time(&early, &late);
+        out->run_seconds_packed += build + steps * fmax(packed_step_time(&early, &late), breaking);
         out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
     }
     scenario_free(ctx, &one);

@@ -200,13 +200,37 @@ static bool fit_points(const tail_points *t, const double start[2], double width
     return isfinite(cost) && isfinite(line_of(t, place_of(t, x[0]), x[1], out));
 }
 
-bool acer_fit(const acer_rates *r, acer_tail *out)
+static tail_points points_of(const acer_rates *r)
 {
     tail_points t = {.count = 0};
     for (int32_t l = 0; l < r->levels; l++)
         add_point(&t, r->level[l], exceedances_of(r, l), (double)r->batches * r->per_batch);
+    return t;
+}
+
+static bool fit_afresh(const tail_points *t, acer_tail *out)
+{
     const double start[2] = {0, 1.5};
-    return fit_points(&t, start, 0.5, 1e-9, MINIMISE_TO_THE_END, out);
+    return fit_points(t, start, 0.5, 1e-9, MINIMISE_TO_THE_END, out);
+}
+
+bool acer_fit(const acer_rates *r, acer_tail *out)
+{
+    const tail_points t = points_of(r);
+    return fit_afresh(&t, out);
+}
+
+/* Of the upper half of the levels alone. */
+static bool fit_upper(const tail_points *all, double tolerance, int descents, acer_tail *out)
+{
+    const double start[2] = {0, 1.5};
+    tail_points t = {.count = 0};
+    for (int32_t i = all->count / 2; i < all->count; i++, t.count++) {
+        t.level[t.count] = all->level[i];
+        t.log_rate[t.count] = all->log_rate[i];
+        t.weight[t.count] = all->weight[i];
+    }
+    return fit_points(&t, start, 0.5, tolerance, descents, out);
 }
 
 double acer_level(const acer_tail *tail, double step, double time, double exponent)
@@ -217,8 +241,14 @@ double acer_level(const acer_tail *tail, double step, double time, double expone
 
 /* ---- bootstrap over batches ---- */
 
+/* A draw speaks of two fits: of all levels, and of their upper half, where has_upper. */
+typedef struct tail_draw {
+    acer_tail all, upper;
+    bool has_upper;
+} tail_draw;
+
 /* Of a draw of batches, the fit going on from the whole's; percentiles need no more digits than the data have. */
-static bool draw_tail(const acer_rates *r, const acer_tail *whole, uint32_t replicate, acer_tail *out)
+static bool draw_tail(const acer_rates *r, const acer_tail *whole, uint32_t replicate, tail_draw *out)
 {
     random_stream random = random_begin(1, STREAM_BATCHES, replicate);
     int64_t sum[ACER_LEVELS] = {0};
@@ -235,26 +265,56 @@ static bool draw_tail(const acer_rates *r, const acer_tail *whole, uint32_t repl
     double width = t.level[t.count - 1] - t.level[0];
     const double start[2] = {fmin(fmax(real_log((t.level[0] - whole->b) / width), PLACE_LEAST + 0.3), PLACE_MOST - 0.3),
                              fmin(fmax(whole->c, POWER_LEAST + 0.1), POWER_MOST - 0.1)};
-    return fit_points(&t, start, 0.2, 1e-6, 1, out);
+    out->has_upper = fit_upper(&t, 1e-6, 1, &out->upper);
+    return fit_points(&t, start, 0.2, 1e-6, 1, &out->all);
+}
+
+/* A sound tail is told to change once in a hundred times. */
+#define UPPER_CONFIDENCE 0.99
+
+/* Levels by the upper half less those by all, of the draws; `difference` is room for as many as there are draws. */
+static void look_at_upper(const acer_rates *r, const tail_draw *draw, int32_t draws, double time, double exponent,
+                          double_array *difference, acer_doubt *out)
+{
+    acer_tail upper;
+    const tail_points t = points_of(r);
+    out->upper =
+        fit_upper(&t, 1e-9, MINIMISE_TO_THE_END, &upper) ? acer_level(&upper, r->step, time, exponent) : (double)NAN;
+    difference->count = 0;
+    for (int32_t i = 0; i < draws; i++)
+        if (draw[i].has_upper)
+            difference->data[difference->count++] =
+                acer_level(&draw[i].upper, r->step, time, exponent) - acer_level(&draw[i].all, r->step, time, exponent);
+    values_sort(difference);
+    out->upper_differs = false;
+    if (isnan(out->upper) || difference->count <= ACER_REPLICATES / 2)
+        return;
+    double low = sorted_quantile(difference->data, difference->count, 0.5 - 0.5 * UPPER_CONFIDENCE);
+    double high = sorted_quantile(difference->data, difference->count, 0.5 + 0.5 * UPPER_CONFIDENCE);
+    out->upper_differs = (low > 0) == (high > 0);
 }
 
 bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
-                    int32_t count, double confidence, level_interval *out)
+                    int32_t count, double confidence, level_interval *out, acer_doubt *doubt)
 {
-    ARRAY(acer_tail) tail = {0};
+    ARRAY(tail_draw) tail = {0};
     double_array level = {0};
     bool good = true;
     for (uint32_t i = 0; good && i < ACER_REPLICATES; i++) {
-        acer_tail one;
+        tail_draw one;
         work_tell(ctx, "drawing bootstrap samples", i, ACER_REPLICATES);
         if (draw_tail(r, fit, i, &one))
             good = array_push(ctx, &tail, one);
     }
+    *doubt = (acer_doubt){.fitted = (double)tail.count / ACER_REPLICATES};
     good = good && array_resize(ctx, &level, tail.count);
+    if (good)
+        look_at_upper(r, tail.data, tail.count, time, exponent[0], &level, doubt);
+    level.count = tail.count;
     for (int32_t k = 0; good && k < count; k++) {
         out[k] = (level_interval){acer_level(fit, r->step, time, exponent[k]), (double)NAN, (double)NAN};
         for (int32_t i = 0; i < tail.count; i++)
-            level.data[i] = acer_level(&tail.data[i], r->step, time, exponent[k]);
+            level.data[i] = acer_level(&tail.data[i].all, r->step, time, exponent[k]);
         values_sort(&level);
         if (tail.count <= ACER_REPLICATES / 2)
             continue;

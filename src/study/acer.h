@@ -36,9 +36,17 @@ double acer_rate(const acer_rates *r, int32_t level, int64_t *exceedances);
 bool acer_fit(const acer_rates *r, acer_tail *out);
 /* Where the greatest value in a time [s] stays below with the probability exp(-exponent). */
 double acer_level(const acer_tail *tail, double step, double time, double exponent);
+/* What the draws of a bootstrap say of the fit: a tail that goes on as it begins is the same by all of its levels and
+   by their upper half alone. */
+typedef struct acer_doubt {
+    double fitted;      /* the part of the draws that a law fits */
+    double upper;       /* the first exponent's level by the upper half alone; NaN: too few levels */
+    bool upper_differs; /* from the level by all, beyond what nearly all draws differ (UPPER_CONFIDENCE) */
+} acer_doubt;
+
 /* The same for several exponents, with the intervals of a bootstrap over batches (percentiles of ACER_REPLICATES draws
    of as many batches).  false: no memory. */
 bool acer_intervals(context *ctx, const acer_rates *r, const acer_tail *fit, double time, const double *exponent,
-                    int32_t count, double confidence, level_interval *out);
+                    int32_t count, double confidence, level_interval *out, acer_doubt *doubt);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/extremes_notes.h"
+#include "study/extremes_spread.h"
 #include "study/pivot.h"
 
 #include <math.h>
@@ -47,8 +48,10 @@ void extreme_request_default(extreme_request *r)
 typedef struct extreme_sample {
     law_kind kind;
     double_array value;
-    double location; /* threshold of peaks */
-    double exposure; /* blocks in the duration; of peaks: the duration over the time of the sample */
+    double location;                    /* threshold of peaks */
+    double exposure;                    /* blocks in the duration; of peaks: the duration over the time of the sample */
+    const weibull_jackknife *jackknife; /* of Weibull's law */
+    double survival;                    /* of Pareto's: the part of all values over the threshold; 0: not known */
 } extreme_sample;
 
 static double law_level(const extreme_law *law, const extreme_sample *s, double exponent)
@@ -85,17 +88,36 @@ static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_reque
     return good;
 }
 
+/* The end towards which the limit of the tail may lie is moved by what the fit leaves out. */
+static void add_penultimate(const extreme_sample *s, const extreme_law *law, double exponent, level_interval *i)
+{
+    if (s->kind != LAW_PARETO || !(s->survival > 0))
+        return;
+    double shift = penultimate_shift(law, s->survival, real_log(fmax(s->exposure * s->value.count / exponent, 1)));
+    i->low += fmin(shift, 0);
+    i->high += fmax(shift, 0);
+}
+
 static bool sample_level(context *ctx, const extreme_sample *s, const extreme_request *ask, const extreme_law *law,
                          const gumbel_pivot *pivot, double probability, level_interval *out)
 {
     double exponent = -real_log(probability);
-    const profile_question q = {law, s->value.data, s->value.count, s->exposure, exponent, ask->confidence, ctx};
+    profile_question q = {.law = law,
+                          .sorted = s->value.data,
+                          .count = s->value.count,
+                          .exposure = s->exposure,
+                          .exponent = exponent,
+                          .confidence = ask->confidence,
+                          .ctx = ctx};
+    if (s->jackknife)
+        q.bound = jackknife_bound(s->jackknife, law, s->value.count, exponent, ask->confidence);
     if (pivot)
         *out = gumbel_pivot_interval(pivot, exponent / s->exposure, ask->confidence);
     else if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
         return bootstrap(ctx, s, ask, exponent, law, out);
     else
         *out = profile_interval(&q);
+    add_penultimate(s, law, exponent, out);
     return true;
 }
 
@@ -109,7 +131,9 @@ static bool sample_levels(context *ctx, const extreme_sample *s, const extreme_r
         good = sample_level(ctx, s, ask, &out->law, exact, ask->probability[i], &out->level[i]);
     out->interval = exact                                               ? "exact, conditional on the sample"
                     : ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL ? "bootstrap of the sample, percentiles"
-                                                                        : "profile likelihood";
+                    : s->jackknife    ? "profile likelihood, scaled by a jackknife over groups"
+                    : s->survival > 0 ? "profile likelihood, widened by the slow limit of the tail"
+                                      : "profile likelihood";
     return good;
 }
 
@@ -266,12 +290,23 @@ static bool choose_threshold(const series_work *w, extreme_sample *s, double *ou
     return true;
 }
 
+/* The part of all values over a level. */
+static double survival_of(const series_work *w, double level)
+{
+    int64_t over = 0;
+    for (int32_t p = 0; p < w->s->count; p++)
+        for (int32_t i = 0; i < w->s->parts[p].count; i++)
+            over += w->s->parts[p].value[i] > level;
+    return (double)over / (double)w->nature.values;
+}
+
 static fram_status answer_peaks(const series_work *w)
 {
     extreme_sample s = {.kind = LAW_PARETO, .exposure = w->ask->duration / w->time};
     double threshold = w->ask->threshold;
     bool good = !isnan(threshold) || choose_threshold(w, &s, &threshold);
     good = good && (!w->ask->stability || add_stability(w, threshold, &s)) && peaks_over(w, threshold, &s);
+    s.survival = survival_of(w, threshold);
     w->out->threshold = threshold;
     fram_status status = good ? answer_sample(w->ctx, &s, w->ask, w->out, w->error) : error_memory(w->error);
     array_free(w->ctx, &s.value);
@@ -284,10 +319,13 @@ static fram_status answer_weibull(const series_work *w)
     extreme_sample s = {.kind = LAW_WEIBULL, .exposure = w->ask->duration / w->time};
     fram_status status = FRAM_OK;
     s.location = w->nature.mean;
-    if (!cluster_peaks(w->ctx, w->s, w->nature.mean, 1, &s.value))
+    weibull_jackknife jackknife;
+    if (!cluster_peaks(w->ctx, w->s, w->nature.mean, 1, &s.value) ||
+        !jackknife_weibull(w->ctx, w->s, &w->nature, w->ask->duration, &jackknife))
         status = error_memory(w->error);
     values_sort(&s.value);
     w->out->threshold = w->nature.mean;
+    s.jackknife = status == FRAM_OK && jackknife.groups >= JACKKNIFE_LEAST ? &jackknife : NULL;
     if (status == FRAM_OK)
         status = answer_sample(w->ctx, &s, w->ask, w->out, w->error);
     array_free(w->ctx, &s.value);
@@ -317,11 +355,13 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
     level_interval level[EXTREME_LEVELS_MOST + 1];
     for (int i = 0; i < w->ask->levels; i++)
         exponent[i + 1] = -real_log(w->ask->probability[i]);
+    acer_doubt doubt;
     bool good = acer_intervals(w->ctx, rates, &out->tail, w->ask->duration, exponent, w->ask->levels + 1,
-                               w->ask->confidence, level);
+                               w->ask->confidence, level, &doubt);
     if (good) {
         out->most_probable = level[0];
         memcpy(out->level, level + 1, (size_t)w->ask->levels * sizeof *level);
+        extremes_doubt_tail(out, &doubt);
     }
     out->interval = "bootstrap over batches, percentiles";
     out->answered = good;

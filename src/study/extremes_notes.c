@@ -93,6 +93,21 @@ void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t co
             any.shape, any.shape < 0 ? "too high" : "too low");
 }
 
+/* So many of the draws of a bootstrap must have a fit. */
+#define FITTED_LEAST 0.9
+
+void extremes_doubt_tail(extreme_result *out, const acer_doubt *doubt)
+{
+    if (doubt->fitted < FITTED_LEAST)
+        say(out, "No law of the tail fits %.0f %% of the draws of the bootstrap: the data do not carry the answer.",
+            100 * (1 - doubt->fitted));
+    if (doubt->upper_differs)
+        say(out,
+            "The upper half of the levels alone gives %.4g: the tail does not go on as it begins, and the data do not "
+            "carry the answer.",
+            doubt->upper);
+}
+
 /* Mean and sum of squares about it of the means of the batches of one half of every part. */
 enum { HALF_BATCHES = 8 };
 typedef struct half_means {

@@ -16,4 +16,7 @@ void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t co
 /* The same of the series: halves that differ. */
 void extremes_doubt_series(extreme_result *out, const series_set *s);
 
+/* Of rates: draws without a fit, and a tail that does not go on as it begins. */
+void extremes_doubt_tail(extreme_result *out, const acer_doubt *doubt);
+
 #endif

@@ -130,7 +130,7 @@ static double root_bound(const profile_question *q)
 level_interval profile_interval(const profile_question *q)
 {
     level_interval out = {.level = level_of(q)};
-    double x[2] = {0, q->law->shape}, z = root_bound(q);
+    double x[2] = {0, q->law->shape}, z = q->bound > 0 ? q->bound : root_bound(q);
     double least = cost_at(q, out.level, x);
     double first = q->law->kind == LAW_WEIBULL ? 0.02 * (out.level - q->law->location) : 0.2 * q->law->scale;
     out.low = end_of(q, out.level, -first, least, z);

@@ -15,6 +15,7 @@ typedef struct profile_question {
                           that exposure x count peaks are expected in it */
     double exponent;   /* -log p */
     double confidence; /* 0.95 */
+    double bound;      /* of the root of the deviance; NaN or 0: Student's t, see profile_interval */
     context *ctx;      /* is told how far it is; may be NULL */
 } profile_question;
 

@@ -5,6 +5,7 @@
 #include "study/processes.h"
 #include "study/seeds.h"
 #include "study/study_folder.h"
+#include "study/twins.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,6 +41,7 @@ typedef struct study_work {
     const study_options *options;
     study_folder folder;
     study_condition *conditions;
+    int32_t *first_of; /* of each condition: the first one that is the same scenario, whose runs are its own */
     process_pool pool;
     ARRAY(int64_t) task; /* condition and seed of each that was started */
     int jobs;
@@ -144,7 +146,7 @@ static bool next_run(const study_work *w, int32_t *condition, int32_t *index)
     int32_t least = INT32_MAX;
     for (int32_t c = 0; c < w->s->conditions; c++) {
         const study_condition *of = &w->conditions[c];
-        for (int32_t i = 0; i < of->wanted && i < least; i++) {
+        for (int32_t i = 0; i < of->wanted && i < least && w->first_of[c] == c; i++) {
             if (of->seeds.data[i].state != RUN_MISSING)
                 continue;
             *condition = c;
@@ -200,6 +202,21 @@ static fram_status judge_run(const study_work *w, const char *folder, const char
     return status;
 }
 
+/* A run of a condition is that of every condition that is the same scenario. */
+static fram_status share_result(study_work *w, int32_t condition, int32_t index, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t c = condition; c < w->s->conditions && status == FRAM_OK; c++) {
+        study_condition *of = &w->conditions[c];
+        if (w->first_of[c] != condition)
+            continue;
+        if (c != condition && index < of->seeds.count)
+            of->seeds.data[index] = w->conditions[condition].seeds.data[index];
+        status = update_wanted(w, c, error);
+    }
+    return status;
+}
+
 static fram_status take_result(study_work *w, int32_t condition, int32_t index, int exit_code, fram_error *error)
 {
     int64_t seed = w->s->seeds.first + index;
@@ -224,7 +241,7 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     memory_free(w->ctx, folder);
     memory_free(w->ctx, row);
     memory_free(w->ctx, log);
-    return status == FRAM_OK ? update_wanted(w, condition, error) : status;
+    return status == FRAM_OK ? share_result(w, condition, index, error) : status;
 }
 
 static void show_progress(const study_work *w)
@@ -373,7 +390,8 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
     if (status != FRAM_OK)
         return status;
     w.conditions = memory_array(ctx, (size_t)s->conditions, sizeof *w.conditions);
-    if (!w.conditions)
+    w.first_of = twins_find(ctx, &w.folder);
+    if (!w.conditions || !w.first_of)
         status = error_memory(error);
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
         status = update_wanted(&w, c, error);
@@ -387,6 +405,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
     for (int32_t c = 0; w.conditions && c < s->conditions; c++)
         array_free(ctx, &w.conditions[c].seeds);
     memory_free(ctx, w.conditions);
+    memory_free(ctx, w.first_of);
     array_free(ctx, &w.task);
     processes_free(ctx, &w.pool);
     study_folder_close(&w.folder);

@@ -62,7 +62,7 @@ START_TEST(profile_intervals_are_scipys)
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
         extreme_law law;
         ck_assert(extreme_law_fit(expected[i].kind, FIT_LIKELIHOOD, sample, SAMPLE, 0, &law));
-        const profile_question q = {&law, sample, SAMPLE, 10, -real_log(0.9), 0.95, NULL};
+        const profile_question q = {&law, sample, SAMPLE, 10, -real_log(0.9), 0.95, 0, NULL};
         level_interval got = profile_interval(&q);
         assert_relative(got.level, expected[i].level, 2e-5);
         assert_relative(got.low, expected[i].low, 2e-5);
@@ -94,7 +94,7 @@ START_TEST(the_textbook_s_sea_levels)
     } of_year[] = {{0.9, 4.2962557798954, 4.20492783443, 4.44506907969},
                    {0.99, 4.6884358335125, 4.49065496728, 5.26070564725}};
     for (size_t i = 0; i < sizeof of_year / sizeof *of_year; i++) {
-        const profile_question q = {&law, sea_level, YEARS, 1, -real_log(of_year[i].probability), 0.95, NULL};
+        const profile_question q = {&law, sea_level, YEARS, 1, -real_log(of_year[i].probability), 0.95, 0, NULL};
         level_interval got = profile_interval(&q);
         assert_relative(got.level, of_year[i].level, 1e-4);
         double low = of_year[i].level - of_year[i].low, high = of_year[i].high - of_year[i].level;

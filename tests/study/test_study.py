@@ -308,6 +308,20 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertIn("too few", self.rows("few", "extremes.csv")[0]["note"])
         self.assertIn("condition 1", self.rows("few", "annual.csv")[0]["note"])
 
+    def test_conditions_that_are_the_same_scenario_share_their_runs(self):
+        # As Morris' designs on few levels have them: their runs have one folder, and are made once.
+        base = "set: {run.duration: 0.3, run.transient: 0.1}\nkeep: summary\n"
+        same = "vary: {list: [{vessel.speed: 1}, {vessel.speed: 2}, {vessel.speed: 1}, {vessel.speed: 1.0}]}\n"
+        told = self.fram(self.write(base + "seeds: 2\n" + same), "-o", self.at / "twins", "--jobs", 4)
+        self.assertEqual((told["runs"], told["made"], told["failed"]), (8, 4, 0))
+        told = self.fram(self.write(base + "seeds: 3\n" + same), "-o", self.at / "twins", "--jobs", 4)
+        self.assertEqual((told["runs"], told["made"], told["failed"]), (12, 2, 0))
+        rows = self.rows("twins")
+        for seed in range(3):
+            first, other, *twins = [rows[3 * c + seed] for c in range(4)]
+            self.assertNotEqual(first["state_hash"], other["state_hash"])
+            self.assertEqual([t["state_hash"] for t in twins], 2 * [first["state_hash"]])
+
     def test_which_input_moves_the_load(self):
         base = "set: {run.duration: 0.6, run.transient: 0.1}\n"
         if not SHORT:  # its sums stand in tests/study/test_sensitivity.c

@@ -1,0 +1,117 @@
+/* When answers come with the sentence that the data do not carry them. */
+#include "testing.h"
+
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "study/extremes.h"
+#include "study/extremes_notes.h"
+#include "study/extremes_spread.h"
+
+enum { VALUES = 20000 };
+
+static double exponential(random_stream *r) { return -real_log(1 - random_unit(r)); }
+
+/* By rates, of independent values; in a part of one in 200 of another law, which the first levels know nothing of. */
+static void answer(bool mixed, extreme_result *out)
+{
+    static double value[VALUES];
+    random_stream r = random_begin(5, 91, 0);
+    for (int i = 0; i < VALUES; i++)
+        value[i] = mixed && random_unit(&r) < 0.005 ? 6 + 0.5 * exponential(&r) : sqrt(2 * exponential(&r));
+    const series_part part = {value, VALUES};
+    const series_set set = {&part, 1, 1};
+    context ctx;
+    fram_error error = {0};
+    extreme_request ask;
+    context_init(&ctx);
+    extreme_request_default(&ask);
+    ask.duration = 3.0 * VALUES;
+    ask.order = 1;
+    assert_ok(extremes_of_series(&ctx, &set, EXTREME_ACER, &ask, out, &error), error);
+    ck_assert_msg(out->answered, "%s", out->note);
+}
+
+START_TEST(a_tail_that_changes_is_told)
+{
+    static extreme_result r;
+    answer(false, &r);
+    ck_assert_msg(!strstr(r.note, "do not carry"), "%s", r.note);
+    answer(true, &r);
+    ck_assert_msg(strstr(r.note, "the data do not carry the answer"), "%.4g (%.4g, %.4g), c %g: %s",
+                  r.most_probable.level, r.most_probable.low, r.most_probable.high, r.tail.c, r.note);
+}
+END_TEST
+
+START_TEST(draws_without_a_fit_are_told)
+{
+    static extreme_result r;
+    extremes_doubt_tail(&r, &(acer_doubt){0.95, 10.5, false});
+    ck_assert_str_eq(r.note, "");
+    extremes_doubt_tail(&r, &(acer_doubt){0.8, (double)NAN, false});
+    ck_assert_ptr_nonnull(strstr(r.note, "20 %"));
+    r.note[0] = 0;
+    extremes_doubt_tail(&r, &(acer_doubt){1, 11.5, true});
+    ck_assert_ptr_nonnull(strstr(r.note, "upper half"));
+}
+END_TEST
+
+/* A tail exp(-x^c) over a threshold, by the law that touches it there: the shift is what that law leaves out. */
+START_TEST(the_limit_of_a_weibull_tail)
+{
+    static const double powers[] = {2, 1, 0.7};
+    for (int i = 0; i < 3; i++) {
+        double c = powers[i], begin = 5, rare = 6, place = real_pow(begin, 1 / c);
+        /* scale: 1/hazard at the threshold; shape: that of the tail at the mean of its peaks. */
+        extreme_law law = {LAW_PARETO, place, place / (begin * c), (1 / c - 1) / (begin + 1)};
+        double truth = real_pow(begin + rare, 1 / c);
+        double told = extreme_law_level(&law, rare) + penultimate_shift(&law, real_exp(-begin), rare);
+        assert_relative(told, truth, 1e-9);
+    }
+}
+END_TEST
+
+/* Independent Weibull peaks over a mean that is far from them: the jackknife's bound is that of the fit. */
+START_TEST(independent_peaks_keep_their_bound)
+{
+    enum { PEAKS = 2000, SAMPLES = 4 };
+    static double value[2 * PEAKS];
+    double ratio = 0;
+    context ctx;
+    context_init(&ctx);
+    for (uint32_t k = 0; k < SAMPLES; k++) {
+        random_stream r = random_begin(6, 92, k);
+        for (int i = 0; i < 2 * PEAKS; i++)
+            value[i] = i % 2 ? -1.5 : 1 + real_pow(exponential(&r), 0.5);
+        const series_part part = {value, 2 * PEAKS};
+        const series_set set = {&part, 1, 1};
+        series_nature nature = series_nature_of(&set);
+        static weibull_jackknife j;
+        ck_assert(jackknife_weibull(&ctx, &set, &nature, 3.0 * 2 * PEAKS, &j));
+        ck_assert_int_eq(j.groups, JACKKNIFE_GROUPS);
+        for (int g = 0; g < j.groups; g++)
+            assert_relative(j.peaks[g], 3.0 * PEAKS, 1e-9);
+        double_array peaks = {0};
+        extreme_law law;
+        ck_assert(cluster_peaks(&ctx, &set, 1, 1, &peaks));
+        values_sort(&peaks);
+        ck_assert(extreme_law_fit(LAW_WEIBULL, FIT_LIKELIHOOD, peaks.data, peaks.count, 1, &law));
+        for (int g = 0; g < j.groups; g++) {
+            double_array left = {0};
+            for (int i = 0; i < PEAKS; i++)
+                if (i / (PEAKS / j.groups) != g)
+                    ck_assert(array_push(&ctx, &left, value[2 * i]));
+            values_sort(&left);
+            ck_assert(extreme_law_fit(LAW_WEIBULL, FIT_LIKELIHOOD, left.data, left.count, 1, &j.law[g]));
+            array_free(&ctx, &left);
+        }
+        double bound = jackknife_bound(&j, &law, PEAKS, 1, 0.95) / 2.0227;
+        ratio += bound * bound / SAMPLES;
+        array_free(&ctx, &peaks);
+    }
+    /* A variance of 39 degrees of freedom, four times: 1 within three deviations of 0.11. */
+    ck_assert_msg(fabs(ratio - 1) < 0.34, "%g", ratio);
+}
+END_TEST
+
+TEST_MAIN("extremes_doubts", a_tail_that_changes_is_told, draws_without_a_fit_are_told, the_limit_of_a_weibull_tail,
+          independent_peaks_keep_their_bound)
