@@ -36,7 +36,7 @@ static void print_extent(const fram_study_extent *e, int jobs)
     printf("one run: about %.3g s on one core of this machine, %.3g MB kept\n", e->run_seconds, e->run_bytes / 1e6);
     if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
         printf(
-            "         up to %.3g s where ice jams or goes on breaking: contacts and pieces take time, and there are few at the start\n",
+            "         up to %.3g s where ice jams or goes on breaking: contacts and pieces take time, few at first\n",
             e->run_seconds_packed);
     double most = (double)e->runs_most * fmax(e->run_seconds, e->run_seconds_packed) / jobs / 3600;
     printf("total: about %.3g h", (double)e->runs_least * hours);
