@@ -41,7 +41,6 @@ void image_force_text(double newton, char out[IMAGE_FORCE_TEXT])
 #include "io/png.h"
 
 #include <cairo-svg.h>
-#include <string.h>
 #include <strings.h>
 
 bool image_available(void) { return true; }

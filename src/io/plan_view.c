@@ -439,7 +439,7 @@ static fram_status size_page(const plan_view *view, int longest, int *width, int
 fram_status plan_view_write(context *ctx, const plan_view *view, const char *path, int longest, fram_error *error)
 {
     image_page page;
-    int width, height;
+    int width = 0, height = 0;
     fram_status status = size_page(view, longest, &width, &height, error);
     if (status == FRAM_OK)
         status = image_page_begin(ctx, path, width, height, &page, error);
@@ -452,7 +452,7 @@ fram_status plan_view_write(context *ctx, const plan_view *view, const char *pat
 fram_status plan_view_png(context *ctx, const plan_view *view, int longest, text_buffer *out, fram_error *error)
 {
     cairo_t *page = NULL;
-    int width, height;
+    int width = 0, height = 0;
     fram_status status = size_page(view, longest, &width, &height, error);
     if (status == FRAM_OK)
         status = image_begin(width, height, &page, error);
