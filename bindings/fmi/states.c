@@ -89,15 +89,13 @@ static void hand_out(unit *u, kept_state *s, void **out)
 }
 
 /* States have no place in the middle of a step; at any other time they have. */
-static unit_status allow(unit *u, const char *call, bool has_arguments)
-{
-    unit_status status = unit_allow(u, ~(1U << UNIT_INTERMEDIATE), call);
-    return status == UNIT_OK && !has_arguments ? unit_fail(u, "an argument about a state is NULL") : status;
-}
+static unit_status allow(unit *u, const char *call) { return unit_allow(u, ~(1U << UNIT_INTERMEDIATE), call); }
+
+static unit_status refuse_null(unit *u) { return unit_fail(u, "an argument about a state is NULL"); }
 
 unit_status unit_state_free(unit *u, void **state)
 {
-    unit_status status = allow(u, "FreeFMUState", true);
+    unit_status status = allow(u, "FreeFMUState");
     if (status != UNIT_OK)
         return status;
     kept_state *s = find_state(u, (const void *)state);
@@ -118,8 +116,12 @@ unit_status unit_state_free(unit *u, void **state)
 
 unit_status unit_state_get(unit *u, void **state)
 {
-    unit_status status = allow(u, "GetFMUState", state != NULL);
-    kept_state *s = status == UNIT_OK ? keep(u) : NULL;
+    unit_status status = allow(u, "GetFMUState");
+    if (status != UNIT_OK)
+        return status;
+    if (!state)
+        return refuse_null(u);
+    kept_state *s = keep(u);
     if (!s)
         return UNIT_ERROR;
     hand_out(u, s, state);
@@ -128,7 +130,7 @@ unit_status unit_state_get(unit *u, void **state)
 
 unit_status unit_state_set(unit *u, const void *state)
 {
-    unit_status status = allow(u, "SetFMUState", true);
+    unit_status status = allow(u, "SetFMUState");
     if (status != UNIT_OK)
         return status;
     const kept_state *s = find_state(u, state);
@@ -212,22 +214,28 @@ static unit_status save(unit *u, const void *state, void *out, size_t room, size
 
 unit_status unit_state_size(unit *u, const void *state, size_t *size)
 {
-    unit_status status = allow(u, "SerializedFMUStateSize", size != NULL);
-    return status == UNIT_OK ? save(u, state, NULL, 0, size) : status;
+    unit_status status = allow(u, "SerializedFMUStateSize");
+    if (status != UNIT_OK)
+        return status;
+    return size ? save(u, state, NULL, 0, size) : refuse_null(u);
 }
 
 unit_status unit_state_write(unit *u, const void *state, void *out, size_t size)
 {
-    unit_status status = allow(u, "SerializeFMUState", out != NULL);
+    unit_status status = allow(u, "SerializeFMUState");
     size_t needed;
-    return status == UNIT_OK ? save(u, state, out, size, &needed) : status;
+    if (status != UNIT_OK)
+        return status;
+    return out ? save(u, state, out, size, &needed) : refuse_null(u);
 }
 
 unit_status unit_state_read(unit *u, const void *in, size_t size, void **state)
 {
-    unit_status status = allow(u, "DeserializeFMUState", in != NULL && state != NULL);
+    unit_status status = allow(u, "DeserializeFMUState");
     if (status != UNIT_OK)
         return status;
+    if (!in || !state)
+        return refuse_null(u);
     fram_error e;
     if (size < head_size(u))
         return unit_fail(u, "the serialized state is too short");

@@ -13,7 +13,7 @@ typedef struct checkpoint_note {
     uint64_t series_length, record_length, fractures_length; /* bytes of the streams that belong to this state */
     char scenario_hash[SHA256_TEXT_SIZE];
     const char *inputs; /* text of inputs_list, compared on resume */
-    bool differs; /* reading: the last one looked at is sound, but of another layout of tables */
+    bool differs;       /* reading: the last one looked at is sound, but of another layout of tables */
 } checkpoint_note;
 
 /* Write FOLDER/checkpoint-STEP.fram, in two parts: the state is taken now, and brought to the disk after the streams
