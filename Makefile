@@ -28,9 +28,10 @@ build/%/build.ninja: CMakePresets.json | $(STAMPS)/core
 	@cmake --preset $* --log-level=WARNING
 build/fuzz/build.ninja build/clang/build.ninja: | $(STAMPS)/dev
 
+# One test more than there are cores: those of scripts and browsers wait for much of their time.
 test: build/release/build.ninja ## run every test
 	@cmake --build --preset release -j$(JOBS)
-	@cd build/release && $(CTEST) --output-junit tests.xml
+	@cd build/release && $(CTEST) -j$$(($(JOBS) + 1)) --output-junit tests.xml
 
 viewer: build/viewer/playback.html ## build the page that plays a run in a browser
 
