@@ -20,12 +20,13 @@ ABOUT = """# The playback page
 
 `make bench-views` (`bench/run_playback.py`), {day}; {processor}, 2 cores of a shared virtual machine, nothing else
 running; Chromium 156, headless, without a graphics card: SwiftShader draws on the processor. Script is what the page
-itself computes for a frame (poses, colours, arrows, legend, timeline), measured in every frame of a playback at twice
-real time; the calls to WebGL are told apart, for they wait for the device when it is slower than the page. A seek ends
+itself computes for a frame (poses, colours, arrows, legend, timeline), measured in every frame of three playbacks at
+twice real time; the calls to WebGL are told apart, for they wait for the device when it is slower than the page. A seek ends
 when the new picture can be read back. Bounds: 8 ms of script, 20 draw calls, 0.5 s a seek.
 
 """
 MOST_SCRIPT, MOST_CALLS, MOST_SEEK = 8.0, 20, 0.5
+PLAYS = 3
 PLAY = """(async () => {
     const script = [], webgl = [], gl = fram.scene.renderer.getContext(), { scene } = fram;
     const prepare = fram.prepare.bind(fram), render = scene.render.bind(scene);
@@ -69,6 +70,13 @@ def processor():
     return platform.machine()
 
 
+def play(browser):
+    """A few playbacks as one: a single one has some forty frames, of which the system takes the time of two or three."""
+    plays = [browser.run(PLAY) for _ in range(PLAYS)]
+    together = {name: [value for p in plays for value in p[name]] for name in ("script", "webgl")}
+    return {**together, "passed": sum(p["passed"] for p in plays), "calls": max(p["calls"] for p in plays)}
+
+
 def measure(page):
     with chromium.Browser() as browser:
         begin = time.monotonic()
@@ -82,7 +90,7 @@ def measure(page):
         for colour, camera in (("plain", "orbit"), ("speed", "follow")):
             browser.choose("colour", colour)
             browser.choose("camera", camera)
-            modes.append((f"{colour}, {camera}", browser.run(PLAY), browser.run(SEEK)))
+            modes.append((f"{colour}, {camera}", play(browser), browser.run(SEEK)))
         assert not browser.complaints, browser.complaints
     return {"load": load, "picture": picture, "device": device, "floes": floes, "view": view, "modes": modes}
 
