@@ -15,7 +15,7 @@ mirror=$(tools/mirror.sh)
 
 [ "$(id -u)" = 0 ] || { echo "fresh_machine: debootstrap and chroot need root" >&2; exit 1; }
 
-leave() { umount "$root/proc" "$root/dev" 2>/dev/null || true; }
+leave() { umount "$root/proc" "$root/dev/pts" "$root/dev" 2>/dev/null || true; }
 trap leave EXIT
 
 inside() { # COMMAND
@@ -62,6 +62,7 @@ cp /etc/resolv.conf "$root/etc/"
 cp -r /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/" 2>/dev/null || true
 mount -t proc proc "$root/proc"
 mount --bind /dev "$root/dev"
+mount --bind /dev/pts "$root/dev/pts"
 git clone --quiet --bare . "$here/source.git" 2>/dev/null || git -C "$here/source.git" fetch --quiet "$PWD" HEAD
 git -C "$here/source.git" update-ref refs/heads/main "$(git rev-parse HEAD)"
 git -C "$here/source.git" symbolic-ref HEAD refs/heads/main

@@ -38,7 +38,10 @@ class Deps(unittest.TestCase):
 
     def at_a_terminal(self, answer, **more):
         """Exit code and text of a session whose keyboard types the answer."""
-        mine, theirs = pty.openpty()
+        try:
+            mine, theirs = pty.openpty()
+        except OSError as why:  # a root without /dev/pts
+            self.skipTest(f"there is no terminal: {why}")
         os.write(mine, answer.encode())
         process = subprocess.Popen(["sh", DEPS, "--install", "validate"], stdin=theirs, stdout=theirs, stderr=theirs,
                                    env=self.environment | more)
