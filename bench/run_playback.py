@@ -21,8 +21,8 @@ ABOUT = """# The playback page
 `make bench-views` (`bench/run_playback.py`), {day}; {processor}, 2 cores of a shared virtual machine, nothing else
 running; Chromium 156, headless, without a graphics card: SwiftShader draws on the processor. Script is what the page
 itself computes for a frame (poses, colours, arrows, legend, timeline), measured in every frame of three playbacks at
-twice real time; the calls to WebGL are told apart, for they wait for the device when it is slower than the page. A seek ends
-when the new picture can be read back. Bounds: 8 ms of script, 20 draw calls, 0.5 s a seek.
+twice real time; the calls to WebGL are told apart, for they wait for the device when it is slower than the page. A
+seek ends when the new picture can be read back. Bounds: 8 ms of script, 20 draw calls, 0.5 s a seek.
 
 """
 MOST_SCRIPT, MOST_CALLS, MOST_SEEK = 8.0, 20, 0.5
@@ -71,7 +71,7 @@ def processor():
 
 
 def play(browser):
-    """A few playbacks as one: a single one has some forty frames, of which the system takes the time of two or three."""
+    """A few playbacks as one: of some forty frames in one the system takes the time of two or three."""
     plays = [browser.run(PLAY) for _ in range(PLAYS)]
     together = {name: [value for p in plays for value in p[name]] for name in ("script", "webgl")}
     return {**together, "passed": sum(p["passed"] for p in plays), "calls": max(p["calls"] for p in plays)}
