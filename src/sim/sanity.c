@@ -1,17 +1,8 @@
-#include "sim/sanity.h"
-
-#include "base/transcendental.h"
-#include "model/scenario_schema.h"
+#include "sim/sanity_parts.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-typedef struct teller {
-    sanity_teller tell;
-    const void *to;
-    const scenario *s;
-} teller;
 
 enum { PATTERN_SIZE = 96 };
 void sanity_say(sanity_teller tell, const void *to, const char *format, ...)
@@ -165,7 +156,7 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
         tell_radians(t, path, value);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
         const usual *u = &usual_values[i];
-        double factor = real_pow(t->s->run.scale / scenario_default_scale(), u->power);
+        double factor = sanity_at_scale(t->s, u->power);
         double least = u->least * fmin(1, factor), most = u->most * fmax(1, factor);
         if (strcmp(u->key, pattern) != 0 || (value >= least && value <= most) || (u->least > 0 && value == 0))
             continue;
@@ -305,15 +296,13 @@ static void tell_times(const teller *t)
 
 /* ---- vessels, from their keys ---- */
 
-static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
-
 /* Beam over draught of barges and shallow river ships goes up to 15. */
 #define MOST_BEAM 25
 
 static void tell_hull(const teller *t, const vessel_entry *e)
 {
     const scenario_hull *h = &e->keys->hull;
-    if (!is_own_hull(e->keys))
+    if (!sanity_own_hull(e->keys))
         return;
     if (h->beam > h->length)
         sanity_say(t->tell, t->to, "%s.hull.beam: the hull is wider, %.4g m, than it is long, %.4g m", e->path, h->beam,
@@ -343,7 +332,7 @@ static void tell_domain(const teller *t, const vessel_entry *e)
 {
     const scenario_domain *d = &t->s->domain;
     const scenario_vessel *v = e->keys;
-    if (t->s->ice.source == ICE_NONE || !is_own_hull(v) || v->path.count > 0)
+    if (t->s->ice.source == ICE_NONE || !sanity_own_hull(v) || v->path.count > 0)
         return;
     double reach = 0.5 * sqrt(v->hull.length * v->hull.length + v->hull.beam * v->hull.beam);
     double band = d->boundary == DOMAIN_FEEDING ? automatic_or(d->band, 0) : 0;
@@ -439,7 +428,7 @@ static void tell_station(const teller *t, const vessel_entry *e)
 
 void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
 {
-    teller t = {tell, to, s};
+    teller t = {s, tell, to, NULL};
     (void)scenario_walk(s, look_at_number, &t, NULL);
     tell_heave(&t);
     tell_ice_shape(&t);

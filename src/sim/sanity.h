@@ -1,5 +1,5 @@
 /* What of a scenario is likely a slip: a number in another unit, two keys that do not belong together.  All of it can
-   be simulated, so it is told, not refused.  One module with notes, which tells it. */
+   be simulated, so it is told, not refused.  One module with notes, which tells it, and sanity_parts. */
 #ifndef SIM_SANITY_H
 #define SIM_SANITY_H
 

@@ -1,24 +1,7 @@
-#include "base/transcendental.h"
-#include "model/scenario_schema.h"
-#include "sim/sanity.h"
+#include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
 
 #include <math.h>
-
-typedef struct teller {
-    const scenario *s;
-    const vessel_entry *e;
-    sanity_teller tell;
-    const void *to;
-} teller;
-
-static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
-
-/* What goes with a power of the scale has that of full size at the default one. */
-static double at_scale(const scenario *s, double power)
-{
-    return real_pow(s->run.scale / scenario_default_scale(), power);
-}
 
 /* ---- dynamic positioning ---- */
 
@@ -50,7 +33,7 @@ static void tell_model_mass(const teller *t, const char *key, double mass)
 {
     const scenario_vessel *v = t->e->keys;
     double own = automatic_or(v->mass, 0);
-    if (is_automatic(v->mass) && is_own_hull(v))
+    if (is_automatic(v->mass) && sanity_own_hull(v))
         own = t->s->environment.water_density * v->hull.length * v->hull.beam * v->hull.draught *
               automatic_or(v->hull.block_coefficient, 0.7);
     if (!is_automatic(mass) && own > 0 && (mass < MODEL_MASS_LEAST * own || mass > MODEL_MASS_MOST * own))
@@ -101,14 +84,14 @@ static void tell_thruster(const teller *t, int32_t i)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_thruster *p = &v->thrusters.data[i];
-    double speed = at_scale(t->s, 0.5);
+    double speed = sanity_at_scale(t->s, 0.5);
     double ratio = automatic_or(p->power, (double)NAN) / p->thrust;
     if (ratio < POWER_LEAST * fmin(1, speed) || ratio > POWER_MOST * fmax(1, speed))
         sanity_say(t->tell, t->to,
                    "%s.thrusters[%d].power: %.4g W is %.3g W for each newton of thrust, %.3g to %.3g are usual: give "
                    "watts, not kW or MW",
                    t->e->path, (int)i, p->power, ratio, POWER_LEAST * fmin(1, speed), POWER_MOST * fmax(1, speed));
-    if (is_own_hull(v) && (p->z > 0 || p->z < -DEEPEST * v->hull.draught))
+    if (sanity_own_hull(v) && (p->z > 0 || p->z < -DEEPEST * v->hull.draught))
         sanity_say(t->tell, t->to,
                    "%s.thrusters[%d].z: %.4g m %s: give metres above the design waterline, negative under it",
                    t->e->path, (int)i, p->z, p->z > 0 ? "is above the water" : "is far below the hull");
@@ -148,7 +131,7 @@ static void tell_propulsion(const teller *t)
     const scenario_propulsion *p = &v->propulsion;
     if (is_automatic(p->bollard_pull))
         return;
-    if (is_own_hull(v)) {
+    if (sanity_own_hull(v)) {
         tell_in_lengths(t, "lookahead", p->lookahead, LOOKAHEAD_LEAST, LOOKAHEAD_MOST);
         tell_in_lengths(t, "ram_distance", p->ram_distance, RAM_LEAST, RAM_MOST);
         if (automatic_or(p->propeller_z, 0) < -DEEPEST * v->hull.draught)
@@ -164,7 +147,7 @@ static void tell_propulsion(const teller *t)
                    "way: give a negative number",
                    t->e->path, p->steering_x);
     double d = p->propeller_diameter, disc = p->bollard_pull / ((double)p->propellers * PI / 4 * d * d);
-    double pressure = at_scale(t->s, 1);
+    double pressure = sanity_at_scale(t->s, 1);
     if (!is_automatic(d) && (disc > DISC_MOST * fmax(1, pressure) || disc < DISC_LEAST * fmin(1, pressure)))
         sanity_say(t->tell, t->to,
                    "%s.propulsion.propeller_diameter: %.4g m leaves %.3g kPa of bollard pull on the disc, 20 to 100 "
@@ -186,11 +169,11 @@ static void tell_station(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     double x = automatic_or(v->station.watch_x, 0), y = automatic_or(v->station.watch_y, 0);
-    if (is_own_hull(v) && (fabs(x) > v->hull.length || fabs(y) > v->hull.length))
+    if (sanity_own_hull(v) && (fabs(x) > v->hull.length || fabs(y) > v->hull.length))
         sanity_say(t->tell, t->to, "%s.station.watch_%s: (%.4g, %.4g) m is outside of a hull of %.4g m", t->e->path,
                    fabs(x) > v->hull.length ? "x" : "y", x, y, v->hull.length);
     bool lines = v->mooring.lines.count > 0;
-    if ((lines || v->positioning.active) && v->speed > STARTING_SPEED * fmax(1, at_scale(t->s, 0.5)))
+    if ((lines || v->positioning.active) && v->speed > STARTING_SPEED * fmax(1, sanity_at_scale(t->s, 0.5)))
         sanity_say(t->tell, t->to,
                    "%s.speed: a vessel on station begins with %.4g m/s: speed is that of the start, of a drift give "
                    "environment.current_speed or domain.drift_speed",
@@ -203,7 +186,7 @@ static void tell_station(const teller *t)
 
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
-    const teller t = {s, e, tell, to};
+    const teller t = {s, tell, to, e};
     tell_positioning(&t);
     for (int32_t i = 0; i < e->keys->thrusters.count; i++)
         tell_thruster(&t, i);

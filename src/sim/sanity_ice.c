@@ -1,16 +1,8 @@
-#include "base/transcendental.h"
 #include "ice/floe.h"
-#include "model/scenario_schema.h"
 #include "sim/build_model.h"
-#include "sim/sanity.h"
+#include "sim/sanity_parts.h"
 
 #include <math.h>
-
-typedef struct teller {
-    const scenario *s;
-    sanity_teller tell;
-    const void *to;
-} teller;
 
 /* ---- sizes under which ice is left out ---- */
 
@@ -199,7 +191,7 @@ static void tell_floes(const teller *t)
 
 void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to)
 {
-    const teller t = {s, tell, to};
+    const teller t = {s, tell, to, NULL};
     if (s->ice.source == ICE_NONE)
         return;
     tell_thresholds(&t);

@@ -1,16 +1,7 @@
-#include "base/transcendental.h"
-#include "model/scenario_schema.h"
-#include "sim/sanity.h"
+#include "sim/sanity_parts.h"
 #include "sim/wall_check.h"
 
 #include <math.h>
-
-typedef struct teller {
-    const scenario *s;
-    const vessel_entry *e;
-    sanity_teller tell;
-    const void *to;
-} teller;
 
 /* ---- the ship ---- */
 
@@ -30,12 +21,10 @@ static void tell_gyration(const teller *t, const char *key, double radius, const
                t->e->path, key, radius, radius / size, of, size, least, most);
 }
 
-static bool is_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
-
 static void tell_inertia(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
-    if (!is_own_hull(v) || v->mode == VESSEL_PRESCRIBED)
+    if (!sanity_own_hull(v) || v->mode == VESSEL_PRESCRIBED)
         return;
     tell_gyration(t, "gyration_roll", v->gyration_roll, "beam", v->hull.beam, ROLL_LEAST, ROLL_MOST);
     tell_gyration(t, "gyration_pitch", v->gyration_pitch, "length", v->hull.length, YAW_LEAST, YAW_MOST);
@@ -53,13 +42,13 @@ static void tell_thrusters(const teller *t)
     for (int32_t i = 0; i < v->thrusters.count; i++) {
         const scenario_thruster *p = &v->thrusters.data[i];
         bool off = fabs(p->x) > OVERHANG * v->hull.length / 2 || fabs(p->y) > OVERHANG * v->hull.beam / 2;
-        if (is_own_hull(v) && off)
+        if (sanity_own_hull(v) && off)
             sanity_say(t->tell, t->to, "%s.thrusters[%d]: (%.4g, %.4g) m is outside of a hull of %.4g m by %.4g m",
                        t->e->path, (int)i, p->x, p->y, v->hull.length, v->hull.beam);
         if (!is_automatic(p->failure_time) && p->failure_time > t->s->run.duration)
             sanity_say(t->tell, t->to, "%s.thrusters[%d].failure_time: %g s is after the end of the run, %g s",
                        t->e->path, (int)i, p->failure_time, t->s->run.duration);
-        if (is_own_hull(v) && !is_automatic(p->diameter) && p->diameter > v->hull.draught)
+        if (sanity_own_hull(v) && !is_automatic(p->diameter) && p->diameter > v->hull.draught)
             sanity_say(t->tell, t->to, "%s.thrusters[%d].diameter: %.4g m is more than the draught, %.4g m", t->e->path,
                        (int)i, p->diameter, v->hull.draught);
     }
@@ -76,7 +65,7 @@ static void tell_propulsion(const teller *t)
         sanity_say(t->tell, t->to,
                    "%s.propulsion.speed: %.4g m/s is more than the ship makes in open water at that power, %.4g m/s",
                    t->e->path, p->speed, most);
-    if (is_own_hull(v) && !is_automatic(p->propeller_diameter) && p->propeller_diameter > v->hull.draught)
+    if (sanity_own_hull(v) && !is_automatic(p->propeller_diameter) && p->propeller_diameter > v->hull.draught)
         sanity_say(t->tell, t->to, "%s.propulsion.propeller_diameter: %.4g m is more than the draught, %.4g m",
                    t->e->path, p->propeller_diameter, v->hull.draught);
     const scenario_domain *d = &t->s->domain;
@@ -132,7 +121,7 @@ static void tell_line(const teller *t, int32_t i)
                    "%s.mooring.lines[%d].spacing_deg: %d lines at %g degrees go round more than once: give the angle "
                    "between neighbours",
                    t->e->path, (int)i, (int)l->count, l->spacing_deg);
-    if (is_own_hull(v) && fabs(v->mooring.x) + l->fairlead_distance > OVERHANG * v->hull.length)
+    if (sanity_own_hull(v) && fabs(v->mooring.x) + l->fairlead_distance > OVERHANG * v->hull.length)
         sanity_say(t->tell, t->to, "%s.mooring: fairleads %.4g m from amidships are outside of a hull of %.4g m",
                    t->e->path, fabs(v->mooring.x) + l->fairlead_distance, v->hull.length);
     if (l->count > 1 && fabs(l->spacing_deg) < 1e-9)
@@ -142,7 +131,7 @@ static void tell_line(const teller *t, int32_t i)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].weight: a line of %.4g N/m parts under %.3g m of itself: give N/m", t->e->path,
                    (int)i, l->weight, l->breaking_load / l->weight);
-    if (is_own_hull(v) && v->mooring.z > MOST_HEIGHT * v->hull.freeboard)
+    if (sanity_own_hull(v) && v->mooring.z > MOST_HEIGHT * v->hull.freeboard)
         sanity_say(t->tell, t->to,
                    "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "
                    "negative under water",
@@ -180,9 +169,9 @@ static bool tell_leg(const teller *t, int32_t i)
     const scenario_path_point *to = &t->e->keys->path.data[i], *from = to - 1;
     double x = to->x - from->x, y = to->y - from->y, time = to->time - from->time;
     double speed = sqrt(x * x + y * y) / time;
-    double most = FASTEST_LEG * fmax(1, real_pow(t->s->run.scale / scenario_default_scale(), 0.5));
+    double most = FASTEST_LEG * fmax(1, sanity_at_scale(t->s, 0.5));
     double turn = fabs(to->heading_deg - from->heading_deg) / time;
-    double fastest = FASTEST_TURN * fmax(1, real_pow(t->s->run.scale / scenario_default_scale(), -0.5));
+    double fastest = FASTEST_TURN * fmax(1, sanity_at_scale(t->s, -0.5));
     if (time > 0 && speed <= most && turn > fastest)
         sanity_say(t->tell, t->to, "%s.path[%d].heading_deg: %g degrees are reached with %.4g deg/s: give degrees",
                    t->e->path, (int)i, to->heading_deg, turn);
@@ -245,7 +234,7 @@ static void tell_flows(const teller *t)
 {
     const scenario_vessel *v = t->e->keys;
     const scenario_hull *h = &v->hull;
-    if (!is_own_hull(v))
+    if (!sanity_own_hull(v))
         return;
     tell_area(t, "current_coefficients.frontal_area", v->current_coefficients.frontal_area, h->beam * h->draught);
     tell_area(t, "current_coefficients.lateral_area", v->current_coefficients.lateral_area, h->length * h->draught);
@@ -255,7 +244,7 @@ static void tell_flows(const teller *t)
 
 void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to)
 {
-    const teller t = {s, e, tell, to};
+    const teller t = {s, tell, to, e};
     tell_inertia(&t);
     tell_thrusters(&t);
     tell_propulsion(&t);

@@ -1,0 +1,25 @@
+/* Inner header of what tells slips (sim/sanity.h): who is told, and what its parts ask of a scenario. */
+#ifndef SIM_SANITY_PARTS_H
+#define SIM_SANITY_PARTS_H
+
+#include "base/transcendental.h"
+#include "model/scenario_schema.h"
+#include "sim/sanity.h"
+
+typedef struct teller {
+    const scenario *s;
+    sanity_teller tell;
+    const void *to;
+    const vessel_entry *e; /* NULL where no vessel is looked at */
+} teller;
+
+/* A hull by its particulars; that of a file has its size in the file. */
+static inline bool sanity_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
+
+/* What goes with a power of the scale has that of full size at the default one. */
+static inline double sanity_at_scale(const scenario *s, double power)
+{
+    return real_pow(s->run.scale / scenario_default_scale(), power);
+}
+
+#endif
