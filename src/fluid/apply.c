@@ -53,6 +53,50 @@ static void clear_slot(const level_output *out, int32_t at)
         out->load[at] = (fluid_load){0};
 }
 
+/* What is missing from the pressure on a floe whose upper face is not flooded. */
+static void flood(const fluid_work *w, int32_t slot, fluid_load *load)
+{
+    const body_table *b = w->bodies;
+    const shape_table *s = &w->shapes->shapes;
+    flooding_table *t = w->details.flooding;
+    int32_t shape = b->shape[slot];
+    if (!t || shape < 0 || s->kind[shape] != SHAPE_PRISM)
+        return;
+    flooding_state state = {0, FLOODING_NONE, false};
+    if (t->generation[slot] == b->generation[slot])
+        state = (flooding_state){t->water[slot], (flooding_face)t->face[slot], t->drowned[slot] != 0};
+    mat3 rotation = quat_matrix(b->orientation[slot]);
+    wrench missing = flooding_advance(w->media, shape_outline(w->shapes, shape), s->half_height[shape], &rotation,
+                                      b->position[slot].z, w->details.time_step, &state);
+    load->hydrostatic.force = vec3_add(load->hydrostatic.force, missing.force);
+    load->hydrostatic.moment = vec3_add(load->hydrostatic.moment, missing.moment);
+    t->generation[slot] = b->generation[slot];
+    t->water[slot] = state.water;
+    t->face[slot] = (uint8_t)state.face;
+    t->drowned[slot] = state.drowned;
+}
+
+/* Level floes have their upper face above the water; those of `rest` are looked at one by one, what is no prism stays
+   out. */
+static void dry_level_faces(const fluid_work *w, int32_t first, int32_t end, const int32_t *rest, int32_t left)
+{
+    flooding_table *t = w->details.flooding;
+    bool resting[LEVEL_BLOCK] = {false};
+    if (!t)
+        return;
+    for (int32_t i = 0; i < left; i++)
+        resting[rest[i] - first] = true;
+    for (int32_t slot = first; slot < end; slot++) {
+        if (resting[slot - first])
+            continue;
+        bool follow = body_is_dynamic(w->bodies, slot);
+        t->generation[slot] = follow ? w->bodies->generation[slot] : 0;
+        t->water[slot] = 0;
+        t->face[slot] = follow ? FLOODING_TOP : FLOODING_NONE;
+        t->drowned[slot] = 0;
+    }
+}
+
 /* Level floes together, all others one by one. */
 static void apply_block(void *arg, int32_t block, int32_t thread)
 {
@@ -66,8 +110,10 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
     const level_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL};
     int32_t left =
         level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, w->held, first, end, &out, rest);
+    dry_level_faces(w, first, end, rest, left);
     for (int32_t i = 0; i < left; i++) {
         fluid_load load = load_of_body(w, rest[i]);
+        flood(w, rest[i], &load);
         int32_t at = rest[i] - first;
         out.total[at] = total_of(&load);
         out.volume[at] = load.submerged_volume;
@@ -105,6 +151,9 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
                         const fluid_details *details, fram_error *error)
 {
     if (held && !table_resize(ctx, held, &held_drag_table_info, held_drag_rows(bodies->count)))
+        return error_memory(error);
+    flooding_table *flooding = details ? details->flooding : NULL;
+    if (flooding && !table_resize(ctx, flooding, &flooding_table_info, bodies->count))
         return error_memory(error);
     fluid_work work = {ctx, m, coefficients, bodies, shapes, held, loads, {0}};
     if (details)

@@ -6,6 +6,7 @@
 
 #include "bodies/body.h"
 #include "bodies/shape.h"
+#include "fluid/flooding.h"
 #include "fluid/held_drag.h"
 #include "fluid/media.h"
 
@@ -23,6 +24,10 @@ typedef struct fluid_details {
     double *volume;     /* submerged, per body slot [m3]; zero for bodies that are not dynamic */
     fluid_load *solids; /* per row of the store's solids; rows without a dynamic body are left as they are */
     fluid_load *all;    /* per body slot; zero for bodies that are not dynamic; not with held drag */
+    /* Water over the upper faces of prisms (flooding.h): used and led on by a time step [s].  NULL: faces are flooded
+       as soon as they are under water. */
+    flooding_table *flooding;
+    double time_step;
 } fluid_details;
 
 typedef struct fluid_motion {

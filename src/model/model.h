@@ -61,6 +61,7 @@ typedef struct model {
     media_history history; /* of current, wind and drift */
     drag_coefficients drag[MATERIAL_COUNT];
     prism_response floe_response;
+    bool ventilation;            /* upper faces of floes are dry until water has run over them (fluid/flooding.h) */
     const column_water *columns; /* of FORCES_COLUMNS, else NULL */
     collision_settings collision;
     pair_policies policies;

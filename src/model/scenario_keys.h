@@ -362,6 +362,8 @@
       "CSV of a wind that changes with time: time [s], x, y [m/s]; instead of the uniform one")                     \
     X(floe_added_mass, BOOLEAN(false), "", "floes have the added mass of thin plates in heave, roll and pitch")     \
     X(floe_damping, REAL(0, 0, 10), "1", "linear damping of floes in heave, roll and pitch, over the critical one") \
+    X(floe_ventilation, BOOLEAN(false), "",                                                                         \
+      "upper faces of floes that go under are dry until water has run over their edges; false: at once wet")        \
     X(ice_drag, SECTION(ice_drag), "", "drag coefficients of the floes")                                            \
     X(hull_drag, SECTION(hull_drag), "", "drag coefficients of the vessel")
 

@@ -61,6 +61,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(edge_support, edge_supports),
         STATE(hull_retreat, hull_retreats),
         STATE(pattern_copy, pattern_copies),
+        STATE(flooding, flooding),
     };
     memcpy(out, list, sizeof list);
 }

@@ -112,6 +112,7 @@ typedef struct world {
     hull_retreat_table hull_retreats;
     pattern_copy_table pattern_copies;
     held_drag_table held_drag; /* a row for every eight body slots, where there is water */
+    flooding_table flooding;   /* a row for each body slot, with ventilation */
 
     /* Scratch: written anew each step. */
     struct {
@@ -143,7 +144,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 34 };
+enum { WORLD_TABLE_COUNT = 35 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

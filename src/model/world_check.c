@@ -55,6 +55,8 @@ static const column_rule column_rules[] = {
     {"pattern_copy", "tiles_x", -TILES_AWAY, TILES_AWAY, NULL},
     {"pattern_copy", "tiles_y", -TILES_AWAY, TILES_AWAY, NULL},
     {"input", "kind", 0, INPUT_KIND_COUNT - 1, NULL},
+    {"flooding", "face", FLOODING_NONE, FLOODING_BOTTOM, NULL},
+    {"flooding", "drowned", 0, 1, NULL},
     {"hull_retreat", "floe", 0, 0, "floe"},
     {"hull_retreat", "surface", 0, 0, "body"},
     {"clock", "step", 0, INT64_MAX, NULL},
@@ -65,7 +67,7 @@ static const column_rule column_rules[] = {
 static const column_rule count_rules[] = {
     {"clock", NULL, 1, 1, NULL},       {"feeding", NULL, 0, 1, NULL},     {"broad", NULL, 0, 0, "body"},
     {"recorded", NULL, 0, 0, "body"},  {"station", NULL, 0, 0, "vessel"}, {"drift", NULL, 0, 1, NULL},
-    {"held_drag", NULL, 0, 0, "body"},
+    {"held_drag", NULL, 0, 0, "body"}, {"flooding", NULL, 0, 0, "body"},
 };
 
 static fram_status refuse(const char *table, int64_t row, const char *column, int64_t found, fram_error *error)

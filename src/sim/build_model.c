@@ -79,6 +79,7 @@ static model settings_of(const scenario *s)
                   .current = scenario_velocity(e->current_speed, e->current_direction_deg),
                   .wind = scenario_velocity(e->wind_speed, e->wind_direction_deg)},
         .floe_response = {e->floe_added_mass, e->floe_damping},
+        .ventilation = e->floe_ventilation,
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {.time_step = s->run.time_step,
                      .skin = v->contact_skin,

@@ -22,7 +22,10 @@
 static fram_status water_and_air(context *ctx, const model *m, world *w, fram_error *error)
 {
     media now = media_now(m, &w->inputs, w->clock.time[0]);
-    const fluid_details details = {.volume = w->scratch.submerged.data, .solids = w->scratch.fluid.data};
+    const fluid_details details = {.volume = w->scratch.submerged.data,
+                                   .solids = w->scratch.fluid.data,
+                                   .flooding = m->ventilation ? &w->flooding : NULL,
+                                   .time_step = m->time_step};
     fram_status status =
         fluid_apply(ctx, &now, m->drag, &w->bodies, &w->shapes, &w->held_drag, w->scratch.loads.data, &details, error);
     for (int32_t v = 0; v < w->vessels.count && status == FRAM_OK; v++) {

@@ -73,7 +73,7 @@ START_TEST(slots)
     media windy = still_water;
     windy.wind.x = 8;
     assert_ok(fluid_apply(&ctx, &windy, coefficients, &s.bodies, &s.shapes, NULL, loads,
-                          &(fluid_details){volume, &hull, detail}, &error),
+                          &(fluid_details){.volume = volume, .solids = &hull, .all = detail}, &error),
               error);
 
     for (int k = 0; k < 2; k++) {

@@ -70,6 +70,7 @@ static const char *const scenes[] = {
     "    - {length: 40, width: 40, x: 20.5, y: 20.5, fixed: true}\n"
     "    - {length: 40, width: 20, x: 20.5, y: -11}\n"
     "domain:\n  x_min: -64\n  x_max: 64\n  y_min: -40\n  y_max: 44\n"
+    "environment: {floe_ventilation: true}\n"
     "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
     /* all at once: lines, thrusters on dynamic positioning and floes that break under the hull */
     "run:\n  duration: 4\n  time_step: 0.02\n  seed: 5\n"

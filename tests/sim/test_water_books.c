@@ -69,6 +69,23 @@ static double push_along_x(scene *k, int32_t slot)
     return total[slot].force.x;
 }
 
+/* What the load of the next step misses since the upper face is not flooded. */
+static wrench missing_of(scene *k, int32_t slot)
+{
+    wrench flooded[8], dry[8];
+    fram_error error = {0};
+    flooding_table faces = {0};
+    fluid_details details = {.flooding = &faces, .time_step = k->m.time_step};
+    ck_assert(table_copy(&k->ctx, &faces, &k->w.flooding, &flooding_table_info));
+    assert_ok(fluid_apply(&k->ctx, &k->m.media, k->m.drag, &k->w.bodies, &k->w.shapes, NULL, dry, &details, &error),
+              error);
+    details.flooding = NULL;
+    assert_ok(fluid_apply(&k->ctx, &k->m.media, k->m.drag, &k->w.bodies, &k->w.shapes, NULL, flooded, &details, &error),
+              error);
+    table_free(&k->ctx, &faces, &flooding_table_info);
+    return (wrench){vec3_sub(dry[slot].force, flooded[slot].force), vec3_sub(dry[slot].moment, flooded[slot].moment)};
+}
+
 /* Work of drag on the floe over the last step, at the mean of the velocities before and after. */
 static double drag_work(const scene *k, const fluid_load *load, int32_t slot, vec3 velocity, vec3 spin)
 {
@@ -82,9 +99,10 @@ static double drag_work(const scene *k, const fluid_load *load, int32_t slot, ve
 
 typedef struct books {
     double lost;  /* energy at the start less that at the end [J] */
-    double drawn; /* by drag [J] */
+    double drawn; /* by drag, and by the pressure that is missing on a dry face [J] */
     vec3 up;      /* the body's z axis at the end */
     double height, speed;
+    double lifted; /* the largest missing load, upward [N] */
 } books;
 
 #define FLOE                                                                                                 \
@@ -98,15 +116,21 @@ static void open_floe(scene *k, const char *floe, const char *environment, doubl
     scene_open(k, text);
 }
 
-static books run_floe(const char *floe, double duration, double dt)
+static books run_floe(const char *floe, const char *environment, double duration, double dt)
 {
     scene k;
-    open_floe(&k, floe, "", dt);
+    open_floe(&k, floe, environment, dt);
     int32_t slot = scene_floe(&k, 0);
     books out = {.lost = energy_of(&k, slot)};
     for (int i = 0; i < (int)(duration / dt + 0.5); i++) {
         vec3 v = k.w.bodies.velocity[slot], w = k.w.bodies.angular_velocity[slot];
         fluid_load load = split_of(&k, slot);
+        if (k.m.ventilation) {
+            wrench missing = missing_of(&k, slot);
+            load.water_drag.force = vec3_add(load.water_drag.force, missing.force);
+            load.water_drag.moment = vec3_add(load.water_drag.moment, missing.moment);
+            out.lifted = fmax(out.lifted, missing.force.z);
+        }
         scene_steps(&k, 1);
         out.drawn -= drag_work(&k, &load, slot, v, w);
     }
@@ -119,15 +143,21 @@ static books run_floe(const char *floe, double duration, double dt)
 }
 
 /* The books close, to first order in the step. */
-static void check_books(const char *floe, double duration, double dt, double part, books *fine)
+static void check_books_in(const char *floe, const char *environment, double duration, double dt, double part,
+                           books *fine)
 {
-    books coarse = run_floe(floe, duration, dt);
-    *fine = run_floe(floe, duration, dt / 2);
+    books coarse = run_floe(floe, environment, duration, dt);
+    *fine = run_floe(floe, environment, duration, dt / 2);
     double open = fabs(coarse.lost - coarse.drawn), half_open = fabs(fine->lost - fine->drawn);
     ck_assert_msg(fine->drawn > 0 && half_open < part * fine->drawn, "lost %g J, taken by drag %g J, then %g and %g",
                   coarse.lost, coarse.drawn, fine->lost, fine->drawn);
     ck_assert_msg(half_open < 0.65 * open || half_open < 1e-3 * part * fine->drawn, "open by %g J, then %g J", open,
                   half_open);
+}
+
+static void check_books(const char *floe, double duration, double dt, double part, books *fine)
+{
+    check_books_in(floe, "", duration, dt, part, fine);
 }
 
 START_TEST(held_under_and_released)
@@ -154,6 +184,17 @@ START_TEST(falling_flat)
     books b;
     check_books("{thickness: 0.5, pitch_deg: 80, elevation: 0}", 60, 0.005, 0.01, &b);
     assert_absolute(fabs(b.up.z), 1, 1e-3);
+}
+END_TEST
+
+/* A floe that falls into the water goes under with a dry face, takes water and comes to rest as every other one. */
+START_TEST(diving_dry)
+{
+    books b;
+    check_books_in("{thickness: 0.5, pitch_deg: 20, elevation: 4}", "floe_ventilation: true", 40, 0.005, 0.01, &b);
+    ck_assert_msg(b.lifted > 1025 * 9.81 * 100 * 0.2, "%g N at most", b.lifted);
+    assert_absolute(b.height, 0.5 * (0.5 - 920.0 / 1025), 0.02);
+    assert_absolute(b.up.z, 1, 1e-3);
 }
 END_TEST
 
@@ -242,15 +283,16 @@ END_TEST
 START_TEST(stable_over_the_range)
 {
     static const double thickness[] = {0.02, 0.1, 0.5, 2};
-    for (int n = 0; n < 16; n++) {
+    for (int n = 0; n < 24; n++) {
         double h = thickness[n % 4];
-        int option = n / 4 % 2, rough = n / 8;
+        int option = n / 4 % 2, rough = n / 8 > 0, dry = n / 8 > 1;
         char floe[300], environment[200];
         snprintf(floe, sizeof floe,
                  "{thickness: %g, elevation: %g, pitch_deg: %d, velocity_x: %d, velocity_z: %d, spin: 0.5}", h,
                  rough ? 3.0 : 0.0, rough ? 40 : 2, rough ? 10 : 1, rough ? -8 : 0);
-        snprintf(environment, sizeof environment, "current_speed: 3, floe_added_mass: %s, floe_damping: %g",
-                 option ? "true" : "false", option ? 0.2 : 0.0);
+        snprintf(environment, sizeof environment,
+                 "current_speed: 3, floe_added_mass: %s, floe_damping: %g, floe_ventilation: %s",
+                 option ? "true" : "false", option ? 0.2 : 0.0, dry ? "true" : "false");
         /* Springs alone allow 2 sqrt(rho_i h / (rho_w g)). */
         double dt = 0.5 * sqrt(920 * h / (1025 * 9.81));
         scene k;
@@ -269,5 +311,5 @@ START_TEST(stable_over_the_range)
 }
 END_TEST
 
-TEST_MAIN("water_books", held_under_and_released, overturning, falling_flat, gliding, spin_decays, terminal_drift,
-          drift_across, stable_over_the_range)
+TEST_MAIN("water_books", held_under_and_released, overturning, falling_flat, diving_dry, gliding, spin_decays,
+          terminal_drift, drift_across, stable_over_the_range)
