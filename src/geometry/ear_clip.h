@@ -11,8 +11,8 @@ typedef int32_array index_array;
    p is simple and counter-clockwise, but may repeat a vertex several times in a row (the first one is used), may have
    straight vertices, and may touch itself as a hole joined by a bridge does (not where two parts hang together by a
    vertex).  Every edge between the vertices used belongs to exactly one triangle, a bridge to one on each side, and no
-   triangle is without area.  Orientations are exact, so that no outline is too thin.  Time grows with vertices times
-   those that are not convex.
+   triangle is without area.  Orientations are exact, so that no outline is too thin.  What bars an ear is looked for
+   in a tree of boxes over the ring: time grows little more than with the vertices.
    FRAM_ERROR_MEMORY, or FRAM_ERROR_INPUT when p is too small, clockwise or so far from simple that the ears run out. */
 fram_status polygon_triangulate_ears(context *ctx, polygon p, index_array *out);
 

@@ -1,10 +1,10 @@
 /* Does a ring cross or touch itself? */
 #include "geometry/polygon.h"
 #include "geometry/predicate.h"
-#include <stdlib.h>
+#include "geometry/ring_tree.h"
 
-/* Rings under this many vertices are not worth a sort. */
-#define SWEEP_FROM 32
+/* Rings under this many vertices are not worth a tree. */
+enum { TREE_FROM = 32 };
 
 static vec2 edge_end(polygon p, int32_t i) { return p.vertex[i + 1 < p.count ? i + 1 : 0]; }
 
@@ -42,60 +42,52 @@ static bool touch_by_pairs(polygon p, int32_t pair[2])
     return false;
 }
 
-/* The extent of an edge along the sweep. */
-typedef struct interval {
-    double lo, hi;
-    int32_t edge;
-} interval;
-
-static int compare_intervals(const void *a, const void *b)
+static box2 edge_box(polygon p, int32_t i)
 {
-    const interval *x = a, *y = b;
-    if (x->lo != y->lo)
-        return x->lo < y->lo ? -1 : 1;
-    return (x->edge > y->edge) - (x->edge < y->edge);
+    vec2 a = p.vertex[i], b = edge_end(p, i);
+    return (box2){{real_min(a.x, b.x), real_min(a.y, b.y)}, {real_max(a.x, b.x), real_max(a.y, b.y)}};
 }
 
-static int32_t list_intervals(polygon p, interval *list)
+/* The first of the edges behind i that touches it, -1 when none does; from run to run of those whose box meets its own.
+ */
+static int32_t touched_behind(polygon p, const ring_tree *edges, int32_t i)
 {
-    box2 box = polygon_bounds(p);
-    bool along_x = box.hi.x - box.lo.x >= box.hi.y - box.lo.y;
-    int32_t n = 0;
-    for (int32_t i = 0; i < p.count; i++) {
-        vec2 a = p.vertex[i], b = edge_end(p, i);
-        if (edge_is_point(p, i))
-            continue;
-        list[n++] = along_x ? (interval){real_min(a.x, b.x), real_max(a.x, b.x), i}
-                            : (interval){real_min(a.y, b.y), real_max(a.y, b.y), i};
+    box2 box = edge_box(p, i);
+    for (int32_t run = ring_tree_find(edges, box, i / RING_RUN); run >= 0; run = ring_tree_find(edges, box, run + 1)) {
+        int32_t first = run * RING_RUN, end = first + RING_RUN < p.count ? first + RING_RUN : p.count;
+        for (int32_t j = first > i ? first : i + 1; j < end; j++)
+            if (!edge_is_point(p, j) && edges_touch(p, i, j))
+                return j;
     }
-    qsort(list, (size_t)n, sizeof *list, compare_intervals);
-    return n;
+    return -1;
 }
 
-/* The first pair by a sweep: an edge is tried against those that begin before it ends. */
-static bool touch_by_sweep(polygon p, interval *list, int32_t pair[2])
+/* The first pair by a tree over the edges. */
+static bool touch_by_tree(polygon p, ring_tree *edges, int32_t pair[2])
 {
-    int32_t n = list_intervals(p, list);
-    bool found = false;
-    for (int32_t k = 0; k < n; k++)
-        for (int32_t m = k + 1; m < n && list[m].lo <= list[k].hi; m++) {
-            int32_t i = list[k].edge, j = list[m].edge, a = i < j ? i : j, b = i < j ? j : i;
-            bool later = found && (a > pair[0] || (a == pair[0] && b > pair[1]));
-            if (!later && edges_touch(p, a, b)) {
-                found = true;
-                pair[0] = a;
-                pair[1] = b;
-            }
+    for (int32_t i = 0; i < p.count; i++)
+        if (!edge_is_point(p, i))
+            ring_tree_add(edges, i, edge_box(p, i));
+    ring_tree_close(edges);
+    for (int32_t i = 0; i < p.count; i++) {
+        int32_t j = edge_is_point(p, i) ? -1 : touched_behind(p, edges, i);
+        if (j >= 0) {
+            pair[0] = i;
+            pair[1] = j;
+            return true;
         }
-    return found;
+    }
+    return false;
 }
 
 bool polygon_self_intersects(context *ctx, polygon p, int32_t *edge_a, int32_t *edge_b)
 {
     int32_t pair[2] = {-1, -1};
-    interval *list = p.count < SWEEP_FROM ? NULL : memory_array(ctx, (size_t)p.count, sizeof *list);
-    bool found = list ? touch_by_sweep(p, list, pair) : touch_by_pairs(p, pair);
-    memory_free(ctx, list);
+    ring_tree edges;
+    bool tree = p.count >= TREE_FROM && ring_tree_init(ctx, &edges, p.count);
+    bool found = tree ? touch_by_tree(p, &edges, pair) : touch_by_pairs(p, pair);
+    if (tree)
+        ring_tree_free(ctx, &edges);
     if (found && edge_a)
         *edge_a = pair[0];
     if (found && edge_b)
@@ -123,35 +115,30 @@ static bool near_by_pairs(polygon p, double reach)
     return false;
 }
 
-/* Edges in the order of their lower ends along the sweep, against the vertices from there to their upper ends. */
-static bool near_by_sweep(polygon p, double reach, interval *list)
+/* Every edge against the corners in a box about it that is twice as wide as asked, so that rounding leaves none out. */
+static bool near_by_tree(polygon p, double reach, ring_tree *corners)
 {
-    box2 box = polygon_bounds(p);
-    bool along_x = box.hi.x - box.lo.x >= box.hi.y - box.lo.y;
+    for (int32_t i = 0; i < p.count; i++)
+        ring_tree_add(corners, i, (box2){p.vertex[i], p.vertex[i]});
+    ring_tree_close(corners);
+    vec2 wide = {2 * reach, 2 * reach};
     for (int32_t i = 0; i < p.count; i++) {
-        double at = along_x ? p.vertex[i].x : p.vertex[i].y;
-        list[i] = (interval){at, at, i};
-    }
-    qsort(list, (size_t)p.count, sizeof *list, compare_intervals);
-    for (int32_t i = 0; i < p.count; i++) {
-        /* The neighbours of vertex i in the sorted list, both ways, as far as the edge from it goes. */
-        int32_t edge = list[i].edge;
-        double from = list[i].lo, to = along_x ? edge_end(p, edge).x : edge_end(p, edge).y;
-        double lo = real_min(from, to) - 2 * reach, hi = real_max(from, to) + 2 * reach;
-        for (int32_t k = i; k >= 0 && list[k].lo >= lo; k--)
-            if (is_near(p, edge, list[k].edge, reach))
-                return true;
-        for (int32_t k = i + 1; k < p.count && list[k].lo <= hi; k++)
-            if (is_near(p, edge, list[k].edge, reach))
-                return true;
+        box2 box = edge_box(p, i);
+        box = (box2){vec2_sub(box.lo, wide), vec2_add(box.hi, wide)};
+        for (int32_t run = ring_tree_find(corners, box, 0); run >= 0; run = ring_tree_find(corners, box, run + 1))
+            for (int32_t k = run * RING_RUN; k < (run + 1) * RING_RUN && k < p.count; k++)
+                if (is_near(p, i, k, reach))
+                    return true;
     }
     return false;
 }
 
 bool polygon_has_clearance(context *ctx, polygon p, double reach)
 {
-    interval *list = p.count < SWEEP_FROM ? NULL : memory_array(ctx, (size_t)p.count, sizeof *list);
-    bool near = list ? near_by_sweep(p, reach, list) : near_by_pairs(p, reach);
-    memory_free(ctx, list);
+    ring_tree corners;
+    bool tree = p.count >= TREE_FROM && ring_tree_init(ctx, &corners, p.count);
+    bool near = tree ? near_by_tree(p, reach, &corners) : near_by_pairs(p, reach);
+    if (tree)
+        ring_tree_free(ctx, &corners);
     return !near;
 }

@@ -13,6 +13,7 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
     array_free(ctx, &s->near);
     array_free(ctx, &s->codes);
     array_free(ctx, &s->sides);
+    array_free(ctx, &s->passed);
     array_free(ctx, &s->boxes);
     array_free(ctx, &s->parts);
     array_free(ctx, &s->corners);

@@ -39,7 +39,7 @@ struct patch_scratch {
     box2 reach;            /* of the points, plan view */
     int32_array near;      /* pieces of the floe in reach of the points */
     ARRAY(uint32_t) codes; /* of each such piece: of each point about its sides (patch_kernel.h) */
-    ARRAY(piece_sides) sides;
+    ARRAY(piece_sides) sides, passed;
     ARRAY(box2) boxes; /* of the floe's pieces */
     ARRAY(patch_part) parts;
     ARRAY(vec3) corners;

@@ -11,6 +11,95 @@ static void set_ray(double *rays, int32_t stride, int32_t i, vec3 start, vec3 di
         rays[(ptrdiff_t)k * stride + i] = row[k];
 }
 
+/* Floes of fewer pieces are not worth a look at which of them the rays pass. */
+enum { LOOK_FROM = 16 };
+
+/* Boxes count as wider than they are by this part of how far off they lie: far over rounding. */
+static const double WIDER = 1e-6;
+
+/* Rays of one batch in one direction, in plan: how far aside and ahead their starts lie, and the end of the longest in
+   the slab of the floe. */
+typedef struct ray_bundle {
+    vec3 direction;
+    double aside_from, aside_to; /* of the starts along the left of the direction, times its length in plan */
+    double ahead_from, ahead_to; /* of the starts and of the ends along it, likewise */
+} ray_bundle;
+
+/* The bundles of a batch, whose first ray is `first`; returns how many. */
+static int32_t gather_bundles(const double *rays, int32_t stride, int32_t first, double half_height,
+                              ray_bundle out[BATCH])
+{
+    int32_t count = 0;
+    for (int32_t i = first; i < first + BATCH; i++) {
+        double row[6];
+        for (int k = 0; k < 6; k++)
+            row[k] = rays[(ptrdiff_t)k * stride + i];
+        double x = row[0], y = row[1], dx = row[3], dy = row[4], dz = row[5];
+        double aside = dx * y - dy * x, ahead = dx * x + dy * y,
+               rise = dz > 0 ? half_height - row[2] : half_height + row[2];
+        double end = dz == 0 ? HUGE_VAL : ahead + fmax(rise / fabs(dz), 0) * (dx * dx + dy * dy) * (1 + WIDER);
+        int32_t k = 0;
+        while (k < count && (out[k].direction.x != dx || out[k].direction.y != dy || out[k].direction.z != dz))
+            k++;
+        if (k == count)
+            out[count++] = (ray_bundle){{dx, dy, dz}, aside, aside, ahead, end};
+        out[k].aside_from = fmin(out[k].aside_from, aside);
+        out[k].aside_to = fmax(out[k].aside_to, aside);
+        out[k].ahead_from = fmin(out[k].ahead_from, ahead);
+        out[k].ahead_to = fmax(out[k].ahead_to, end);
+    }
+    return count;
+}
+
+/* No ray of the bundle comes through the box on its way. */
+static bool bundle_misses(const ray_bundle *b, const box2 *box)
+{
+    double cx = 0.5 * (box->lo.x + box->hi.x), cy = 0.5 * (box->lo.y + box->hi.y), dx = b->direction.x,
+           dy = b->direction.y;
+    double rx = 0.5 * (box->hi.x - box->lo.x), ry = 0.5 * (box->hi.y - box->lo.y), ux = fabs(dx), uy = fabs(dy);
+    double aside = dx * cy - dy * cx, ahead = dx * cx + dy * cy;
+    double wide = uy * rx + ux * ry, deep = ux * rx + uy * ry;
+    double slack = WIDER * ((ux + uy) * (fabs(cx) + fabs(cy) + rx + ry));
+    return aside - wide - slack > b->aside_to || aside + wide + slack < b->aside_from ||
+           ahead + deep + slack < b->ahead_from || ahead - deep - slack > b->ahead_to;
+}
+
+/* The sides of the pieces that rays of a batch may come through, in their order.  The others have no say in how far a
+   ray gets. */
+static int32_t take_passed(patch_scratch *s, int32_t pieces, const ray_bundle *bundle, int32_t bundles)
+{
+    int32_t count = 0;
+    for (int32_t p = 0; p < pieces; p++) {
+        bool passed = false;
+        for (int32_t k = 0; k < bundles && !passed; k++)
+            passed = !bundle_misses(&bundle[k], &s->boxes.data[p]);
+        if (passed)
+            s->passed.data[count++] = s->sides.data[p];
+    }
+    return count;
+}
+
+/* Batch by batch: ways of rays out of a floe of many pieces, of which each batch comes through a few. */
+static bool ways_through_few(context *ctx, patch_scratch *s, const patch_floe *floe, const double *rays, int32_t stride,
+                             double *way)
+{
+    int32_t pieces = piece_count_of(floe);
+    if (!array_resize(ctx, &s->boxes, pieces) || !array_resize(ctx, &s->passed, pieces))
+        return false;
+    for (int32_t p = 0; p < pieces; p++)
+        s->boxes.data[p] = polygon_bounds((polygon){s->sides.data[p].vertex, s->sides.data[p].count});
+    for (int32_t i = 0; i < stride; i += BATCH) {
+        ray_bundle bundle[BATCH];
+        double batch[6 * BATCH];
+        int32_t passed = take_passed(s, pieces, bundle, gather_bundles(rays, stride, i, half_height_of(floe), bundle));
+        for (int k = 0; k < 6 * BATCH; k++)
+            batch[k] = rays[(ptrdiff_t)(k / BATCH) * stride + i + k % BATCH];
+        KERNEL_PICK(ctx, patch_ways)
+        (s->passed.data, passed, half_height_of(floe), tolerance_of(floe), &(patch_rays){batch, BATCH}, way + i);
+    }
+    return true;
+}
+
 /* Ways along rays out of a floe. */
 static bool ways_out(context *ctx, patch_scratch *s, const patch_floe *floe, const double *rays, int32_t stride,
                      double *way)
@@ -20,6 +109,8 @@ static bool ways_out(context *ctx, patch_scratch *s, const patch_floe *floe, con
         return false;
     for (int32_t p = 0; p < pieces; p++)
         s->sides.data[p] = sides_of(floe, p);
+    if (pieces >= LOOK_FROM)
+        return ways_through_few(ctx, s, floe, rays, stride, way);
     KERNEL_PICK(ctx, patch_ways)
     (s->sides.data, pieces, half_height_of(floe), tolerance_of(floe), &(patch_rays){rays, stride}, way);
     return true;

@@ -10,6 +10,25 @@ static context plain;
 
 static void setup(void) { context_init(&plain); }
 
+/* What bars an ear is looked for in a tree of boxes where there is memory for one, and along the ring where there is
+   none: the same triangles, which both ways of failing show. */
+static void expect_same_without_tree(polygon p, const index_array *t)
+{
+    enum { TREE = 3, COUNTS = 4 };
+    for (long n = TREE; n <= COUNTS; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        index_array other = {0};
+        ck_assert_int_eq(polygon_triangulate_ears(&ctx, p, &other), FRAM_OK);
+        ck_assert(memory.failed || p.count < 64);
+        ck_assert_int_eq(other.count, t->count);
+        for (int32_t i = 0; i < t->count; i++)
+            ck_assert_int_eq(other.data[i], t->data[i]);
+        array_free(&ctx, &other);
+        ck_assert_int_eq(memory.live, 0);
+    }
+}
+
 /* Triangles have area, and each edge of the outline (repeated vertices skipped) is in one triangle, each inner edge in
    two, opposite ways: what a closed prism needs. */
 static void check_triangles(polygon p, const index_array *t, int32_t expected)
@@ -45,6 +64,7 @@ static void check_outline(const vec2 *vertex, int32_t n, int32_t triangles)
     polygon p = {vertex, n};
     ck_assert_int_eq(polygon_triangulate_ears(&plain, p, &t), FRAM_OK);
     check_triangles(p, &t, triangles);
+    expect_same_without_tree(p, &t);
     array_free(&plain, &t);
 }
 
@@ -111,6 +131,7 @@ START_TEST(random_stars)
         }
         ck_assert_int_eq(polygon_triangulate_ears(&plain, (polygon){v, n}, &t), FRAM_OK);
         check_triangles((polygon){v, n}, &t, n - 2);
+        expect_same_without_tree((polygon){v, n}, &t);
     }
     array_free(&plain, &t);
 }
@@ -131,6 +152,40 @@ START_TEST(staircase_of_lattice_points)
     for (int j = 39; j > 0; j--)
         v[n++] = vec2_make(0, j);
     check_outline(v, n, n - 2);
+}
+END_TEST
+
+/* A rough shore about a rough lake that a bridge joins, every place a multiple of a step: places with two vertices,
+   straight and repeated ones, in a ring long enough for a tree. */
+START_TEST(lakes_with_bridges)
+{
+    setup();
+    random_stream r = random_begin(12, 0, 0);
+    index_array t = {0};
+    int made = 0;
+    for (int round = 0; round < 200; round++) {
+        enum { SHORE = 60, LAKE = 40 };
+        vec2 v[SHORE + LAKE + 2];
+        for (int i = 0; i <= SHORE; i++) {
+            double angle = 2 * PI * i / SHORE, radius = i % SHORE ? random_uniform(&r, 6, 9) : 9;
+            v[i] = i < SHORE ? vec2_make(radius * real_cos(angle), radius * real_sin(angle)) : v[0];
+        }
+        for (int i = 0; i <= LAKE; i++) {
+            double angle = -2 * PI * i / LAKE, radius = i % LAKE ? random_uniform(&r, 2, 5) : 5;
+            vec2 at = {radius * real_cos(angle), radius * real_sin(angle)};
+            v[SHORE + 1 + i] = i < LAKE ? at : v[SHORE + 1];
+        }
+        for (int i = 0; i < SHORE + LAKE + 2; i++)
+            v[i] = vec2_make(floor(8 * v[i].x) / 8, floor(8 * v[i].y) / 8);
+        polygon p = {v, SHORE + LAKE + 2};
+        /* Rounding makes some touch themselves elsewhere. */
+        if (polygon_triangulate_ears(&plain, p, &t) != FRAM_OK)
+            continue;
+        made++;
+        expect_same_without_tree(p, &t);
+    }
+    ck_assert_int_gt(made, 100);
+    array_free(&plain, &t);
 }
 END_TEST
 
@@ -186,6 +241,6 @@ START_TEST(no_memory)
 }
 END_TEST
 
-TEST_MAIN("ear_clip", convex_and_concave_outlines, straight_vertices_are_kept, repeated_vertices_are_skipped,
-          thin_outlines_are_exact, random_stars, staircase_of_lattice_points, outlines_that_touch_themselves,
-          what_is_refused, no_memory)
+TEST_MAIN("ear_clip", lakes_with_bridges, convex_and_concave_outlines, straight_vertices_are_kept,
+          repeated_vertices_are_skipped, thin_outlines_are_exact, random_stars, staircase_of_lattice_points,
+          outlines_that_touch_themselves, what_is_refused, no_memory)

@@ -1,5 +1,6 @@
 /* Patches by shortcuts and in batches, against the plain loops that they stand for. */
 #include "base/random.h"
+#include "geometry/outlines.h"
 #include "ice/patch_parts.h"
 #include "ice/prism_surfaces.h"
 #include "ice_rig.h"
@@ -114,14 +115,19 @@ START_TEST(ways_equal_the_plain_loops)
     random_stream draw = random_begin(32, 0, 0);
     vec2 ring[13];
     draw_regular(ring, 13, 3);
-    const patch_floe floes[] = {{&r.shapes, add_prism(&r, ANGLE, 6, 1)}, {&r.shapes, add_prism(&r, ring, 13, 1)}};
+    vec2 star[90];
+    outline_star(&draw, (vec2){0, 0}, 1.4, 3, 90, star);
+    const patch_floe floes[] = {{&r.shapes, add_prism(&r, ANGLE, 6, 1)},
+                                {&r.shapes, add_prism(&r, ring, 13, 1)},
+                                {&r.shapes, add_prism(&r, star, 90, 1)}};
     patch_scratch *s = patch_scratch_create(&r.ctx);
     ck_assert_int_gt(piece_count_of(&floes[0]), 1);
+    ck_assert_int_gt(piece_count_of(&floes[2]), 30); /* so many that those that a ray passes are picked out */
     int inside = 0;
     for (int i = 0; i < LINES * 8; i++) {
         vec3 start, direction;
         draw_line(&draw, i, &start, &direction);
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < 3; k++) {
             double plain = plain_way(&floes[k], start, direction), way;
             inside += plain > 0;
             for (isa set = ISA_BASELINE; set <= isa_best(); set++) {
