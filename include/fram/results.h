@@ -159,25 +159,33 @@ FRAM_API fram_status fram_pressure(fram_context *context, const char *run, const
 /* ---- Capability ---- */
 
 typedef struct fram_capability_definition {
-    size_t size;                /* of this struct, set by fram_capability_default */
-    const char *folder;         /* for the results; must be named */
-    bool force;                 /* write into a folder that is not empty */
-    bool formula;               /* ice load by a published formula for ships in broken ice, not measured */
-    double measure;             /* 120: simulated seconds of each run that measures the ice load */
-    int directions;             /* 36, evenly round */
-    double speed_step;          /* 0.1 [m/s] */
-    double speed_most;          /* 1 [m/s] */
-    double allowance;           /* 1.25: what mean loads are multiplied by */
-    double line_safety;         /* 2: breaking load over the tension that a line may have, intact */
-    double line_safety_damaged; /* 1.43: after a failure */
-    const volatile int *stop;   /* non-zero: end with FRAM_INTERRUPTED, nothing written; may be NULL */
-    const char *vessel;         /* its name, where the scenario has several, which are left out; otherwise NULL */
+    size_t size;                 /* of this struct, set by fram_capability_default */
+    const char *folder;          /* for the results; must be named */
+    bool force;                  /* write into a folder that is not empty */
+    bool formula;                /* ice load by a published formula for ships in broken ice, not measured */
+    double measure;              /* 120: simulated seconds of each run that measures the ice load */
+    int directions;              /* 36, evenly round */
+    double speed_step;           /* 0.1 [m/s] */
+    double speed_most;           /* 1 [m/s] */
+    double allowance;            /* 1.25: what mean loads are multiplied by */
+    double line_safety;          /* 2: breaking load over the tension that a line may have, intact */
+    double line_safety_damaged;  /* 1.43: after a failure */
+    const volatile int *stop;    /* non-zero: end with FRAM_INTERRUPTED, nothing written; may be NULL */
+    const char *vessel;          /* its name, where the scenario has several, which are left out; otherwise NULL */
+    const char *const *ice_from; /* runs' folders: the ice is made after that which came to the vessel there; or NULL */
+    int ice_from_count;          /* up to 64 */
+    const char *ice_vessel;      /* vessel of the runs that the ice came to; NULL: `vessel`, else as fram_manage */
+    double unbroken_as;          /* ice_from: diameter of floes that stand for unbroken ice [m]; 0: none do */
+    double window; /* ice_from: side of the square of ice about the vessel [m]; 0: three times its length */
 } fram_capability_definition;
 FRAM_API void fram_capability_default(fram_capability_definition *definition, size_t size);
 #define fram_capability_default(definition) fram_capability_default((definition), sizeof *(definition))
 /* From which direction and up to which drift speed the scenario's thrusters and mooring hold its vessel, in a static
    balance, intact and after the worst single failure: capability.csv, capability_use.csv, capability.json,
-   capability.png and capability.svg (with pictures) in the folder.  Nothing is written before all is found. */
+   capability.png and capability.svg (with pictures) in the folder.  Nothing is written before all is found.
+   With ice_from the ice is an endless field of the sizes of floes, the concentration and the thickness that came to a
+   vessel in those runs after their transient, right behind icebreakers where they broke it; FRAM_ERROR_INPUT for a
+   folder without a run or a record, and when more than a twentieth of that ice was unbroken and unbroken_as is 0. */
 FRAM_API fram_status fram_capability(const fram_scenario *scenario, const fram_capability_definition *definition,
                                      fram_result *result, fram_error *error, size_t size);
 #define fram_capability(...) fram_capability(__VA_ARGS__, sizeof(fram_result))

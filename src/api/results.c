@@ -4,6 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "results/export.h"
+#include "results/manage.h"
 #include "results/plot.h"
 #include "results/report.h"
 #include "results/video.h"
@@ -247,6 +248,49 @@ static void fram_capability_fill(fram_capability_definition *definition)
 }
 DEFINITION_DEFAULT(fram_capability, fram_capability_definition)
 
+/* More unbroken ice than this is not left out: a field without it would be another ice. */
+static const double UNBROKEN_MOST = 0.05;
+enum { ICE_RUNS = 64 };
+
+static fram_status check_ice_from(const fram_capability_definition *d, fram_error *error)
+{
+    if (d->ice_from_count < 0 || d->ice_from_count > ICE_RUNS || (d->ice_from_count > 0 && !d->ice_from))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "ice_from", "expected 1 to %d runs, found %d", (int)ICE_RUNS,
+                         d->ice_from_count);
+    if (d->ice_from_count == 0 && (d->ice_vessel || d->unbroken_as != 0 || d->window != 0))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "ice_from",
+                         "expected runs, since something is asked of the ice from them, found none");
+    fram_status status = number_check("unbroken_as", d->unbroken_as, 0, 1e4, error);
+    return status == FRAM_OK ? number_check("window", d->window, 0, 1e5, error) : status;
+}
+
+/* The ice that came to the vessel in all runs together. */
+static fram_status read_met_ice(context *ctx, const fram_capability_definition *d, capability_met_ice *met,
+                                fram_error *error)
+{
+    managed_ice sum = {.windows = 0};
+    fram_status status = FRAM_OK;
+    for (int i = 0; i < d->ice_from_count && status == FRAM_OK; i++)
+        status = REFUSE_NULL(error, {"ice_from", d->ice_from[i]});
+    for (int i = 0; i < d->ice_from_count && status == FRAM_OK; i++)
+        status = manage_met_ice(ctx, d->ice_from[i], d->ice_vessel ? d->ice_vessel : d->vessel, &sum, error);
+    *met = (capability_met_ice){.windows = sum.windows,
+                                .sheet_as = d->unbroken_as > 0 ? d->unbroken_as : (double)NAN,
+                                .side = d->window > 0 ? d->window : (double)NAN,
+                                .runs = d->ice_from,
+                                .run_count = d->ice_from_count};
+    if (status == FRAM_OK)
+        status = managed_law_of(&sum, met->sheet_as, &met->law, error);
+    /* Also where nothing else came, which is an error of the law. */
+    if (met->law.sheet > UNBROKEN_MOST && !(d->unbroken_as > 0))
+        status = error_set(error, FRAM_ERROR_INPUT, d->ice_from[0], 0, "unbroken_as",
+                           "%.3g %% of the ice that came to the vessel was unbroken, of which a field of floes has "
+                           "none: give the diameter of the floes that shall stand for it [m], or runs of better "
+                           "management",
+                           100 * met->law.sheet);
+    return status;
+}
+
 fram_status(fram_capability)(const fram_scenario *from, const fram_capability_definition *definition,
                              fram_result *result, fram_error *error, size_t size)
 {
@@ -261,7 +305,14 @@ fram_status(fram_capability)(const fram_scenario *from, const fram_capability_de
         return status;
     if (!d->folder || !*d->folder)
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a folder for the results must be named");
+    capability_met_ice met;
+    status = check_ice_from(d, error);
+    if (status == FRAM_OK && d->ice_from_count > 0)
+        status = read_met_ice(&from->context->inner, d, &met, error);
+    if (status != FRAM_OK)
+        return status;
     const capability_options options = {.folder = d->folder,
+                                        .met = d->ice_from_count > 0 ? &met : NULL,
                                         .force = d->force,
                                         .formula = d->formula,
                                         .measure = d->measure,

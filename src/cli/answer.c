@@ -25,9 +25,19 @@ int exit_code_of(fram_status status)
 static const struct {
     const char *key, *option;
 } option_names[] = {
-    {"folder", "--output"},       {"until", "--until"},           {"isa", "--isa"},
-    {"time", "--time"},           {"directions", "--directions"}, {"speed_step", "--speed-step"},
-    {"allowance", "--allowance"}, {"measure", "--measure"},
+    {"folder", "--output"},
+    {"until", "--until"},
+    {"isa", "--isa"},
+    {"time", "--time"},
+    {"directions", "--directions"},
+    {"speed_step", "--speed-step"},
+    {"allowance", "--allowance"},
+    {"measure", "--measure"},
+    {"ice_from", "--ice-from"},
+    {"ice_vessel", "--ice-vessel"},
+    {"unbroken_as", "--unbroken-as"},
+    {"window", "--window"},
+    {"formula", "--formula"},
 };
 
 static fram_error in_words_of_command(const fram_error *error)

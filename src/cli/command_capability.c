@@ -37,7 +37,7 @@ static int find(const common_options *common, const char *path, const option_lis
 int command_capability(const command_row *self, int argc, char **argv)
 {
     common_options common;
-    option_list overrides = {0};
+    option_list overrides = {0}, runs = {0};
     const char *path = NULL;
     fram_capability_definition d;
     fram_capability_default(&d);
@@ -46,6 +46,14 @@ int command_capability(const command_row *self, int argc, char **argv)
         {"--output", "-o", OPTION_TEXT, &d.folder, "DIR", "folder for the results (required)"},
         {"--set", NULL, OPTION_LIST, &overrides, "KEY=VALUE", "override a scenario key; may be repeated"},
         {"--vessel", NULL, OPTION_TEXT, &d.vessel, "NAME", "which of several vessels; the others are left out"},
+        {"--ice-from", NULL, OPTION_LIST, &runs, "RUN",
+         "ice as it came to the vessel in a finished run, behind its icebreakers; may be repeated, over seeds say"},
+        {"--ice-vessel", NULL, OPTION_TEXT, &d.ice_vessel, "NAME",
+         "the vessel of those runs that the ice came to (the same name, or the only one without propulsion)"},
+        {"--unbroken-as", NULL, OPTION_REAL, &d.unbroken_as, "M",
+         "diameter of the floes that stand for ice from runs that was still unbroken [m]"},
+        {"--window", NULL, OPTION_REAL, &d.window, "M",
+         "side of the square of ice from runs about the vessel [m] (three times its length)"},
         {"--measure", NULL, OPTION_REAL, &d.measure, "T",
          "simulated seconds of each run that measures the ice load on the fixed hull (120)"},
         {"--formula", NULL, OPTION_FLAG, &d.formula, NULL,
@@ -64,5 +72,7 @@ int command_capability(const command_row *self, int argc, char **argv)
     if (!d.folder)
         return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
     d.force = common.force;
+    d.ice_from = runs.value;
+    d.ice_from_count = runs.count;
     return find(&common, path, &overrides, &d);
 }

@@ -108,7 +108,8 @@ static const command_row commands[] = {
      "capability plot: drift speed from each direction up to which a vessel holds station, intact and after a failure",
      "  fram capability scenes/supply_ship.yaml -o out/capability\n"
      "  fram capability scenes/supply_ship.yaml -o out/measured --measure 300 --speed-most 1.5\n"
-     "  fram capability scenes/turret_ship.yaml -o out/formula --formula --set ice.thickness=1.5\n",
+     "  fram capability scenes/turret_ship.yaml -o out/formula --formula --set ice.thickness=1.5\n"
+     "  fram capability scenes/drillship_one_icebreaker.yaml --vessel drillship --ice-from out/managed -o out/held\n",
      command_capability},
     {"hull", "[FILE]",
      "hydrostatics of a hull, from a mesh file (STL, OBJ, GDF) or from main particulars; draw it, write it",

@@ -34,6 +34,20 @@ void text_format(context *ctx, text_buffer *b, const char *format, ...)
     va_end(again);
 }
 
+void text_quoted(context *ctx, text_buffer *b, const char *text)
+{
+    text_add(ctx, b, "\"");
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\')
+            text_format(ctx, b, "\\%c", *text);
+        else if ((unsigned char)*text < 0x20)
+            text_format(ctx, b, "\\u%04x", (unsigned)*text);
+        else
+            text_format(ctx, b, "%c", *text);
+    }
+    text_add(ctx, b, "\"");
+}
+
 void text_free(context *ctx, text_buffer *b)
 {
     array_free(ctx, b);

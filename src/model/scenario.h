@@ -68,7 +68,8 @@ typedef struct scenario {
     SCENARIO_KEYS(SCENARIO_MEMBER)
 
     /* Not part of what the scenario says: not printed, not hashed. */
-    scenario_text file; /* the file it was read from, or empty */
+    const size_law *sizes; /* of floes, in place of the file of a histogram; NULL: the file */
+    scenario_text file;    /* the file it was read from, or empty */
     ARRAY(scenario_place) places;
 } scenario;
 

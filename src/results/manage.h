@@ -49,6 +49,10 @@ typedef struct manage_summary {
 /* What is told on a terminal, or one JSON object in SI units; numbers that there are not are null. */
 fram_status manage_text(context *ctx, const manage_summary *s, const manage_summary *beside, bool json,
                         text_buffer *out, fram_error *error);
+/* Adds the ice that came to the vessel of a run in each window after the transient, as it was before the hull touched
+   it: right behind the icebreakers where they broke it, else as far upstream as it was seen, else before the hull.
+   name: as manage_options. */
+fram_status manage_met_ice(context *ctx, const char *folder, const char *name, managed_ice *sum, fram_error *error);
 fram_status manage_write(context *ctx, const char *folder, const manage_options *options, manage_summary *summary,
                          manage_summary *beside, fram_error *error);
 

@@ -49,13 +49,16 @@ static void count_in(manage_cover *out, const manage_floe *floe, double part, do
     double size = manage_size(floe->area);
     int k = 0;
     out->ice += part;
+    out->fine.volume += part * floe->thickness;
     if (floe->sheet) {
         out->sheet += part;
+        out->fine.sheet += part;
         return;
     }
     while (k < MANAGE_CLASSES && size > manage_class_size[k])
         k++;
     out->of_class[k] += part;
+    managed_cover_add(&out->fine, size, part);
     out->size_area += part * size;
     out->managed += size <= limit ? part : 0;
     out->largest = fmax(out->largest, size);

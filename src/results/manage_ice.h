@@ -5,13 +5,15 @@
 
 #include "base/context.h"
 #include "geometry/polygon.h"
+#include "ice/managed_ice.h"
 
 /* A floe as it lies at a moment. */
 typedef struct manage_floe {
     polygon outline; /* global plan; may be clockwise or touch itself */
     box2 box;
-    double area; /* [m2] */
-    bool sheet;  /* part of level ice that is still whole: larger than any floe */
+    double area;      /* [m2] */
+    bool sheet;       /* part of level ice that is still whole: larger than any floe */
+    double thickness; /* [m] */
 } manage_floe;
 
 /* A rectangle: `length` along, `width` across. */
@@ -32,6 +34,7 @@ typedef struct manage_cover {
     double of_class[MANAGE_CLASSES + 1]; /* of floes, by size; the sum with `sheet` is `ice` */
     double size_area;                    /* of floes, each times its size [m] */
     double largest;                      /* size of the largest floe of which a part lies in it; 0: none [m] */
+    managed_cover fine;                  /* the same by finer bins of size, with the volume */
 } manage_cover;
 
 double manage_size(double area);

@@ -264,7 +264,8 @@ static fram_status list_floes(manage_run *m, replay *r, ice_now *ice, fram_error
         const replay_body *b = &r->bodies.data[ice->plan.poses.data[i].body];
         polygon ring = polygon_list_get(&ice->plan.outlines, i);
         if (b->material == MATERIAL_ICE &&
-            !array_push(m->ctx, &ice->floes, ((manage_floe){ring, polygon_bounds(ring), b->area, b->level})))
+            !array_push(m->ctx, &ice->floes,
+                        ((manage_floe){ring, polygon_bounds(ring), b->area, b->level, b->thickness})))
             status = error_memory(error);
     }
     return status;

@@ -90,7 +90,7 @@ static fram_status read_population(context *ctx, const scenario *s, overlay *pla
     const scenario_population *p = &s->ice.populations.data[number];
     field_population *out = &f->population[number];
     fram_status status = FRAM_OK;
-    if (p->size == SIZE_HISTOGRAM)
+    if (p->size == SIZE_HISTOGRAM && !s->sizes)
         status = read_histogram(ctx, s, number, f, error);
     if (status == FRAM_OK && p->shape == POPULATION_TEMPLATES)
         status = read_templates(ctx, s, plane, number, &f->templates[number], error);
@@ -108,6 +108,8 @@ static fram_status read_population(context *ctx, const scenario *s, overlay *pla
                                         .most_vertices = (int32_t)p->vertices_max,
                                         .elongation = p->elongation,
                                         .templates = p->shape == POPULATION_TEMPLATES ? &f->templates[number] : NULL}};
+    if (p->size == SIZE_HISTOGRAM && s->sizes)
+        out->size = *s->sizes;
     return status;
 }
 

@@ -5,6 +5,9 @@
 #include "sim/build.h"
 #include "sim/steady_load.h"
 
+#include <stdio.h>
+#include <string.h>
+
 /* A limit is found to this part of a step of speed: 2^-10. */
 enum { HALVINGS = 10 };
 
@@ -229,6 +232,9 @@ static fram_status check(const scenario *s, const capability_options *o, fram_er
     if (!(o->measure >= s->run.time_step && o->measure <= 1e6))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "measure", "expected a time step to 1e6 seconds, found %g",
                          o->measure);
+    if (o->met && o->formula)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "formula",
+                         "expected the formula or ice from runs: the formula knows no sizes of floes");
     if (s->environment.wind_file[0]) {
         error_set(error, FRAM_ERROR_INPUT, NULL, 0, "environment.wind_file",
                   "expected none, since the wind of a capability plot does not change: leave the file out (an empty "
@@ -270,6 +276,26 @@ static fram_status sweep(const scenario *s, world *w, capability *c, fram_error 
     return find_limits(w, &h, c, error);
 }
 
+static fram_status measure_met(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error)
+{
+    const size_law sizes = managed_size_law(&c->options.met->law);
+    scenario_population population;
+    scenario met;
+    c->side = automatic_or(c->options.met->side, CAPABILITY_LENGTHS * w->vessels.length[VESSEL]);
+    fram_status status = capability_met_scenario(s, c->options.met, c->side, &population, &sizes, &met, error);
+    if (status != FRAM_OK)
+        return status;
+    status = capability_ice_measured(ctx, &met, c, error);
+    /* The window's, not the scenario's. */
+    bool input = status == FRAM_ERROR_INPUT && error;
+    if (input && (strcmp(error->key, "domain.band") == 0 || strncmp(error->key, "domain.tile", 11) == 0)) {
+        snprintf(error->key, sizeof error->key, "window");
+        error->file[0] = '\0';
+        error->line = error->column = 0;
+    }
+    return status;
+}
+
 static fram_status find_with_model(context *ctx, const scenario *s, const model *m, capability *c, fram_error *error)
 {
     world w;
@@ -279,7 +305,9 @@ static fram_status find_with_model(context *ctx, const scenario *s, const model 
     status = allocate(ctx, c, error);
     if (status == FRAM_OK) {
         find_media_loads(m, &w, c);
-        if (s->ice.source != ICE_NONE)
+        if (c->options.met)
+            status = measure_met(ctx, s, &w, c, error);
+        else if (s->ice.source != ICE_NONE)
             status = c->options.formula ? capability_ice_formula(ctx, s, &w, c, error)
                                         : capability_ice_measured(ctx, s, c, error);
     }

@@ -7,11 +7,25 @@
 #ifndef SIM_CAPABILITY_H
 #define SIM_CAPABILITY_H
 
+#include "ice/managed_ice.h"
 #include "io/path.h"
 #include "model/world.h"
 #include "vessel/holding.h"
 
 enum { CAPABILITY_DIRECTIONS = 360, CAPABILITY_SPEEDS = 100 };
+
+/* Ice that was measured in runs, in place of the scenario's. */
+typedef struct capability_met_ice {
+    managed_law law;
+    double windows;  /* in which it was measured */
+    double sheet_as; /* size of floes that stand for unbroken ice [m]; NaN: none do */
+    double side;     /* of the square of ice about the vessel [m]; NaN: CAPABILITY_LENGTHS times the hull's length */
+    const char *const *runs; /* their folders */
+    int32_t run_count;
+} capability_met_ice;
+
+/* The side of the square of ice over the hull's length: a length of ice on every side of it. */
+#define CAPABILITY_LENGTHS 3.0
 
 typedef struct capability_options {
     const char *folder;
@@ -23,6 +37,7 @@ typedef struct capability_options {
     double allowance;                        /* what mean loads are multiplied by */
     double line_safety, line_safety_damaged; /* breaking load over allowed tension: intact, after a failure */
     const char *vessel;                      /* its name, where the scenario has several; else NULL */
+    const capability_met_ice *met;           /* NULL: the ice is the scenario's */
     const volatile int *stop;                /* non-zero: FRAM_INTERRUPTED, nothing written; may be NULL */
 } capability_options;
 
@@ -53,6 +68,7 @@ typedef struct capability {
     capability_options options;
     double wind_speed;               /* [m/s] */
     double thickness, concentration; /* of the ice, means over its area; 0 without ice */
+    double side;                     /* of the window of ice that was met [m]; 0: the ice is the scenario's */
     capability_loads loads;
     capability_failure failure[96];
     int32_t failures;
@@ -72,6 +88,12 @@ vec3 capability_ice_between(const vec3 *load, int32_t directions, int32_t speeds
    a run begins with its direction and speed. */
 fram_status capability_ice_formula(context *ctx, const scenario *s, const world *w, capability *c, fram_error *error);
 fram_status capability_ice_measured(context *ctx, const scenario *s, capability *c, fram_error *error);
+/* The scenario, of one vessel, with the ice that was met about it: an endless field of its sizes, concentration and
+   thickness, in a square window of a side [m]; strengths, densities and friction are the scenario's.  It refers to
+   `population`, `sizes` and s, and must not be freed.  FRAM_ERROR_USAGE for an override of a key that the ice gives. */
+fram_status capability_met_scenario(const scenario *s, const capability_met_ice *met, double side,
+                                    scenario_population *population, const size_law *sizes, scenario *out,
+                                    fram_error *error);
 /* Resistance of a ship of breadth b [m] in broken ice of thickness h [m] and concentration S at a speed [m/s] (Zuev's
    formula): rho_i g b h^2 (0.13 b/h + 1.3 F + 0.5 F^2) (2 - S) S^2, F = v / sqrt(g h) [N]. */
 double broken_ice_resistance(double density, double gravity, double breadth, double thickness, double concentration,

@@ -104,6 +104,39 @@ static const char *ice_load_source(const capability *c)
     return c->loads.measured ? "measured" : c->thickness > 0 ? "formula" : "none";
 }
 
+/* What of the runs the ice is made after, and as how much of it. */
+static void met_object(context *ctx, const capability *c, text_buffer *b)
+{
+    const capability_met_ice *met = c->options.met;
+    const managed_law *law = &met->law;
+    text_add(ctx, b, "  \"ice_from\": {\"runs\": [");
+    for (int32_t i = 0; i < met->run_count; i++) {
+        text_add(ctx, b, i > 0 ? ", " : "");
+        text_quoted(ctx, b, met->runs[i]);
+    }
+    text_add(ctx, b, "], \"windows\": ");
+    add_number(ctx, b, met->windows, "null", ", \"concentration\": ");
+    add_number(ctx, b, law->concentration, "null", ", \"thickness_m\": ");
+    add_number(ctx, b, law->thickness, "null", ", \"mean_size_m\": ");
+    add_number(ctx, b, law->mean, "null", ", \"largest_m\": ");
+    add_number(ctx, b, law->largest, "null", ", \"unbroken\": ");
+    add_number(ctx, b, law->sheet, "null", ", \"unbroken_as_m\": ");
+    add_number(ctx, b, met->sheet_as, "null", ", \"window_m\": ");
+    add_number(ctx, b, c->side, "null", "},\n");
+}
+
+/* A histogram as ice.populations takes it. */
+static void sizes_table(context *ctx, const capability *c, text_buffer *b)
+{
+    const managed_law *law = &c->options.met->law;
+    text_add(ctx, b, "diameter_min[m],diameter_max[m],floes[1]\n");
+    for (int32_t i = 0; i < law->bins; i++) {
+        add_number(ctx, b, law->edge[i], "", ",");
+        add_number(ctx, b, law->edge[i + 1], "", ",");
+        add_number(ctx, b, law->weight[i], "", "\n");
+    }
+}
+
 static void compose(context *ctx, const capability *c, text_buffer *b)
 {
     const capability_options *o = &c->options;
@@ -117,6 +150,8 @@ static void compose(context *ctx, const capability *c, text_buffer *b)
     add_member(ctx, b, "line_safety_after_failure", o->line_safety_damaged);
     add_member(ctx, b, "speed_step_m_s", o->speed_step);
     add_member(ctx, b, "speed_most_m_s", c->loads.speeds * c->loads.speed_step);
+    if (o->met)
+        met_object(ctx, c, b);
     text_add(ctx, b, "  \"directions\": [");
     for (int32_t i = 0; i < c->loads.directions; i++) {
         text_format(ctx, b, "%s\n    {\"from_bow_clockwise_deg\": ", i > 0 ? "," : "");
@@ -185,6 +220,9 @@ static void describe(context *ctx, const scenario *s, const capability *c, text_
     if (c->thickness > 0)
         text_format(ctx, b, "Ice: %.3g m, %.3g %%; load %s\n", c->thickness, 100 * c->concentration,
                     c->loads.measured ? "measured in runs of" : "by Zuev's formula");
+    if (o->met)
+        text_format(ctx, b, "Managed ice as in %g windows of %d %s\n  before the vessel; floes of %.3g m by area\n",
+                    o->met->windows, (int)o->met->run_count, o->met->run_count > 1 ? "runs" : "run", o->met->law.mean);
     if (c->loads.measured)
         text_format(ctx, b, "  %g s, highest third of the peaks\n", o->measure);
     text_format(ctx, b, "Wind: %.3g m/s\n", c->wind_speed);
@@ -261,6 +299,8 @@ fram_status capability_write(context *ctx, const scenario *s, const capability_o
         status = write_one(ctx, &c, limits_table, "capability.csv", error);
     if (status == FRAM_OK)
         status = write_one(ctx, &c, use_table, "capability_use.csv", error);
+    if (status == FRAM_OK && o->met)
+        status = write_one(ctx, &c, sizes_table, "capability_floes.csv", error);
     if (status == FRAM_OK)
         status = write_one(ctx, &c, compose, "capability.json", error);
     if (status == FRAM_OK && image_available())

@@ -241,25 +241,10 @@ fram_status run_folder_inputs(context *ctx, const scenario *s, text_buffer *out,
 
 /* ---- summary ---- */
 
-/* A JSON string. */
-static void add_quoted(context *ctx, text_buffer *b, const char *text)
-{
-    text_add(ctx, b, "\"");
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            text_format(ctx, b, "\\%c", *text);
-        else if ((unsigned char)*text < 0x20)
-            text_format(ctx, b, "\\u%04x", (unsigned)*text);
-        else
-            text_format(ctx, b, "%c", *text);
-    }
-    text_add(ctx, b, "\"");
-}
-
 static void add_text_member(context *ctx, text_buffer *b, const char *key, const char *value)
 {
     text_format(ctx, b, "  \"%s\": ", key);
-    add_quoted(ctx, b, value);
+    text_quoted(ctx, b, value);
     text_add(ctx, b, ",\n");
 }
 
@@ -273,7 +258,7 @@ static void add_inputs(context *ctx, text_buffer *b, const char *inputs)
         int length = (int)(end - line) - 66;
         snprintf(path, sizeof path, "%.*s", length, line + 66);
         text_format(ctx, b, "%s{\"sha256\": \"%.64s\", \"file\": ", comma, line);
-        add_quoted(ctx, b, path);
+        text_quoted(ctx, b, path);
         text_add(ctx, b, "}");
         comma = ", ";
         line = end + 1;

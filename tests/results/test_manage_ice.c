@@ -21,7 +21,7 @@ static void add(field *f, double x, double y, double side, bool sheet)
     c[1] = vec2_make(x + h, y - h);
     c[2] = vec2_make(x + h, y + h);
     c[3] = vec2_make(x - h, y + h);
-    f->floe[f->count++] = (manage_floe){{c, 4}, {c[0], c[2]}, side * side, sheet};
+    f->floe[f->count++] = (manage_floe){{c, 4}, {c[0], c[2]}, side * side, sheet, 1};
 }
 
 static manage_cover cover_of(field *f, manage_window w, double limit)
@@ -84,7 +84,7 @@ START_TEST(concave_floes_count_by_area)
     static const vec2 comb[] = {{0, 0}, {30, 0}, {30, 20}, {20, 20}, {20, 5}, {10, 5}, {10, 20}, {0, 20}};
     field f = {.count = 1};
     context_init(&f.ctx);
-    f.floe[0] = (manage_floe){{comb, 8}, {{0, 0}, {30, 20}}, 450, false};
+    f.floe[0] = (manage_floe){{comb, 8}, {{0, 0}, {30, 20}}, 450, false, 1};
     manage_cover c = cover_of(&f, (manage_window){{15, 12.5}, {0, 1}, 5, 40}, 1);
     assert_relative(c.ice, 2 * 10 * 5 / 200.0, 1e-12);
 }

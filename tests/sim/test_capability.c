@@ -104,6 +104,53 @@ START_TEST(measured_ice)
 }
 END_TEST
 
+/* Four fifths of the ice in floes of 4 m, the rest in floes of 9 m: of the field that is made for the vessel as much.
+ */
+START_TEST(ice_that_was_met)
+{
+    scene k;
+    scene_open_with(&k, box, (const char *const[]){"vessel.x=50", "ice.density=900"}, 2);
+    k.s.ice.source = ICE_LEVEL;
+    managed_ice sum = {.windows = 0};
+    for (int i = 0; i < 2; i++) {
+        managed_cover window = {.sheet = 0};
+        managed_cover_add(&window, i ? 4 : 9, i ? 0.6 : 0.3);
+        managed_cover_add(&window, 4, 0.3);
+        window.volume = 0.45;
+        managed_ice_add(&sum, &window, i ? 4 : 9);
+    }
+    capability_met_ice met = {.windows = 2, .sheet_as = (double)NAN};
+    fram_error error = {0};
+    assert_ok(managed_law_of(&sum, (double)NAN, &met.law, &error), error);
+    const size_law sizes = managed_size_law(&met.law);
+    scenario_population population;
+    scenario s;
+    assert_ok(capability_met_scenario(&k.s, &met, 120, &population, &sizes, &s, &error), error);
+    ck_assert_double_eq(s.domain.x_min, -10);
+    ck_assert_double_eq(s.domain.x_max, 110);
+    ck_assert_double_eq(s.domain.y_max, 60);
+    ck_assert_double_eq(s.ice.density, 900);
+    assert_relative(s.ice.thickness, 0.6, 1e-12);
+    model m;
+    world w;
+    field_report report;
+    s.vessel.present = false;
+    assert_ok(build_model(&k.ctx, &s, &m, &error), error);
+    assert_ok(build_world(&k.ctx, &s, &m, &w, &report, &error), error);
+    double small = 0, large = 0;
+    for (int32_t i = 0; i < w.floes.count; i++) {
+        double size = sqrt(4 / PI * w.floes.area[i]);
+        *(size < 6 ? &small : &large) += w.floes.area[i];
+    }
+    assert_relative(report.concentration, 0.75, 0.01);
+    /* The window shows some thirty of the large floes; by numbers, not areas, it would be 20. */
+    assert_relative(small / large, 4, 0.25);
+    world_free(&k.ctx, &w);
+    model_free(&k.ctx, &m);
+    scene_close(&k);
+}
+END_TEST
+
 START_TEST(refusals)
 {
     scene k;
@@ -113,6 +160,12 @@ START_TEST(refusals)
     capability_options o = plain;
     o.directions = 2;
     ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_USAGE);
+    o = plain;
+    const capability_met_ice met = {.windows = 1};
+    o.met = &met;
+    o.formula = true;
+    ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_USAGE);
+    ck_assert_str_eq(error.key, "formula");
     o = plain;
     o.speed_step = 0;
     ck_assert_int_eq(capability_find(&k.ctx, &k.s, &o, &c, &error), FRAM_ERROR_USAGE);
@@ -148,4 +201,5 @@ START_TEST(a_stop_flag_is_seen)
 }
 END_TEST
 
-TEST_MAIN("capability", limits_by_hand, broken_ice_by_formula, measured_ice, refusals, a_stop_flag_is_seen)
+TEST_MAIN("capability", limits_by_hand, broken_ice_by_formula, measured_ice, ice_that_was_met, refusals,
+          a_stop_flag_is_seen)
