@@ -7,6 +7,7 @@ import world
 
 LONG = False
 STRENGTH, CR = 2e6, 2.2e6
+SOURCE = "ISO 19906: p = C_R (h/1 m)^n (w/h)^-0.16, C_R 2.2 MPa (1.8 to 2.8 by region)."
 WIDTHS, THICKNESSES = [1, 2, 5, 10, 20, 50, 100], [0.5, 1.0, 1.5]
 
 
@@ -40,7 +41,7 @@ def case(out):
         5,
         "Load on a vertical wall of 1 to 100 m driven into ice of 0.5 to 1.5 m, with Fram's constant crushing strength "
         "(2 MPa) and with `ice.crushing_exponent` -0.16.",
-        "ISO 19906: p = C_R (h/1 m)^n (w/h)^-0.16, C_R 2.2 MPa (1.8 to 2.8 by region).",
+        SOURCE,
         "Fram's load is sigma_c w h to rounding, and sigma_c (w h)^(1+e) with an exponent. A constant pressure "
         "must be too high for wide structures; how much is what this case is for. With the exponent 0.5 to 1.5 of "
         "the rule is required: a wide bound without a source.",

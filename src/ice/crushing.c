@@ -7,6 +7,7 @@
 #include "ice/patch.h"
 #include "ice/patch_points.h"
 #include "ice/prism_surfaces.h"
+#include "ice/surface_frame.h"
 
 #include <assert.h>
 
@@ -118,9 +119,8 @@ static void set_surface(const job *j, crushing_pair *p)
         p->surface.tree = prism->has_tree ? &prism->tree : NULL;
         p->surface.prism = row;
     }
-    mat3 to_global = quat_matrix(j->bodies->orientation[p->surface_body]);
-    p->surface.rotation = mat3_mul(mat3_transpose(p->rotation), to_global);
-    p->surface.offset = mat3_tmul_vec(p->rotation, vec3_sub(j->bodies->position[p->surface_body], p->position));
+    bool moves = j->settings->parts_by_motion && j->bodies->material[p->surface_body] != MATERIAL_ICE;
+    surface_frame_set(&p->surface, j->bodies, p->surface_body, p->floe_body, &p->rotation, moves, j->settings->skin);
 }
 
 /* Of two bodies that crush: the one whose surface is looked at, see set_pair. */

@@ -44,6 +44,7 @@ typedef struct crushing_settings {
     strength_field strength;  /* how strengths vary over the ice */
     edge_compliance edges;    /* how far edges of level and fixed ice give */
     bool correct_unbreakable; /* comparison switch: a hull pushes unbreakable floes out of itself */
+    bool parts_by_motion;     /* where a hull slides along ice it is another patch than where it moves into it */
     bool top_plane_area;      /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
 } crushing_settings;
 

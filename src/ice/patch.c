@@ -30,6 +30,18 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
 
 /* ---- components ---- */
 
+/* A part slides along the ice where the way that it goes in is under this part of its whole way: 6 degrees, more than a
+   shoulder turns from facet to facet, less than any bow stands to its way [1].  Range 0.01 to 0.2. */
+static const double SLIDING = 0.1;
+
+/* Whether a part of the surface goes into the ice, not along it or away.  At rest none goes anywhere. */
+static bool part_enters(const patch_surface *surface, const patch_part *part)
+{
+    vec3 u = vec3_add(surface->slip, vec3_cross(surface->turn, part->centre));
+    double speed = vec3_length(u);
+    return speed > surface->rest && vec3_dot(u, part->area) > SLIDING * speed * part->surface;
+}
+
 static int32_t find_root(patch_scratch *s, int32_t part)
 {
     patch_part *all = s->parts.data;
@@ -128,15 +140,18 @@ static int32_t find_part(const patch_scratch *s, int32_t face, int32_t piece)
 static void connect_parts(patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
 {
     double tolerance = tolerance_of(floe);
-    const patch_part *part = s->parts.data;
+    patch_part *part = s->parts.data;
+    for (int32_t i = 0; i < s->parts.count; i++)
+        part[i].enters = part_enters(surface, &part[i]);
     for (int32_t i = 0; i < s->parts.count; i++) {
         for (int32_t j = i + 1; j < s->parts.count && part[j].face == part[i].face; j++)
-            if (find_root(s, i) != find_root(s, j) && parts_touch(s, floe, &part[i], &part[j], tolerance))
+            if (part[i].enters == part[j].enters && find_root(s, i) != find_root(s, j) &&
+                parts_touch(s, floe, &part[i], &part[j], tolerance))
                 join(s, i, j);
         for (int k = 0; k < 3; k++) {
             int32_t across = surface->adjacency->neighbour.data[3 * part[i].face + k];
             int32_t other = across > part[i].face ? find_part(s, across, part[i].piece) : -1;
-            if (other < 0 || find_root(s, i) == find_root(s, other))
+            if (other < 0 || part[i].enters != part[other].enters || find_root(s, i) == find_root(s, other))
                 continue;
             const triangle *t = &surface->surface->face.data[part[i].face];
             vec3 a = to_floe(surface, surface->surface->vertex.data[t->v[k]]);

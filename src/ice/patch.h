@@ -14,6 +14,9 @@ typedef struct patch_surface {
     mat3 rotation;
     vec3 offset;
     int32_t prism; /* shape whose surface it is when that is a prism, of the floe's store; -1: any other */
+    /* Its velocity past the floe, floe frame: slip + turn x r [m/s, rad/s]; below `rest` it has no direction [m/s]. */
+    vec3 slip, turn;
+    double rest;
 } patch_surface;
 
 /* The floe: a prism shape of the store, about its centre of mass. */
@@ -40,8 +43,9 @@ void patch_scratch_free(context *ctx, patch_scratch *s);
 /* The components, ordered by their least triangle, made anew in *out (which lives in the scratch).  Triangles are
    clipped by every convex piece of the floe; a triangle that lies in a face of a piece belongs to the piece in front of
    it, so that a surface on a seam counts once and one that just touches the floe counts as touching.  Clipped parts are
-   connected through a seam that one triangle crosses, and through a mesh edge inside a piece.  The result does not
-   depend on how floe or surface are cut, to rounding.  false: no memory.
+   connected through a seam that one triangle crosses, and through a mesh edge inside a piece; where the surface goes
+   into the ice it crushes, where it slides along or leaves it does not, and what does is never one component with what
+   does not.  The result does not depend on how floe or surface are cut, to rounding.  false: no memory.
 
    way is how far the floe has to go along N, on the mean over the patch, until the overlap is gone: the volume that the
    component cuts off the floe over |N|.  The volume is the sum over the parts of their area along N times the way from

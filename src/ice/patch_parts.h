@@ -21,6 +21,7 @@ typedef struct patch_part {
     double surface;       /* its length */
     vec3 centre;
     sym3 moment;  /* integral of (r - centre)(r - centre)^T over the area [m4] */
+    bool enters;  /* moves into the ice */
     int32_t root; /* union-find: a part of the same component, itself at the root; always the least in the end */
     int32_t component;
 } patch_part;

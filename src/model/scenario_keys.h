@@ -139,63 +139,66 @@
       "form file: largest distance of the convex pieces for contact to the mesh; auto: a hundredth of the beam")     \
     X(most_pieces, INTEGER(64, 1, 4096), "1", "form file: most convex pieces")
 
-#define SCENARIO_ICE_KEYS(X)                                                                                          \
-    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level packed"), "",                            \
-      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed "   \
-      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides or drifting; packed: "         \
-      "floes drawn from ice.populations, then brought to places where none overlap")                                  \
-    X(level, SECTION(level), "", "the sheet, for source level")                                                       \
-    X(file, PATH(""), "",                                                                                             \
-      "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "     \
-      "before ice.thickness")                                                                                         \
-    X(file_coordinates, CHOICE(file_coordinates, FILE_PLANAR, "planar degrees"), "",                                  \
-      "file: planar: lengths; degrees: longitude and latitude (WGS 84), laid flat about the centre of all "           \
-      "floes, which goes to file_x, file_y, with y to the north")                                                     \
-    X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                         \
-    X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
-    X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                 \
-    X(file_centre, BOOLEAN(false), "", "file: the centre of all floes goes there instead of its origin")              \
-    X(simplify, REAL(0, 0, 1e6), "m", "file: vertices are left out, moving no edge by more")                          \
-    X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                         \
-      "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts "   \
-      "overlapping floes apart")                                                                                      \
-    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi, packed: ice area over the area free for ice")                 \
-    X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")           \
-    X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                   \
-    X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")      \
-    X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m", "clear distance between the vessel and the field")              \
-    X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                                \
-    X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                                \
-    X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                                 \
-    X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                     \
-    X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                             \
-    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")            \
-    X(strength, SECTION(strength), "", "scatter of both strengths over the ice, drawn by run.seed")                   \
-    X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")    \
-    X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                              \
-    X(cap_ice_ice, BOOLEAN(true), "",                                                                                 \
-      "crushing limits contacts between floes too; false: as if none could be crushed")                               \
-    X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                    \
-    X(ridging_resistance, REAL(0, 0, 1e3), "MN/m",                                                                    \
-      "R of the line load R h^1.25 D^-0.54 at which floes build a ridge; bounds contacts between them; 0: none")      \
-    X(correct_unbreakable, BOOLEAN(false), "",                                                                        \
-      "comparison switch: crushed overlap pushes a hull and unbreakable floes apart again")                           \
-    X(crush_trims, BOOLEAN(true), "",                                                                                 \
-      "level and fixed ice: where the hull has been there is no ice any more; what is cut away is booked as crushed") \
-    X(crush_notches, BOOLEAN(true), "",                                                                               \
-      "floes that float: when a hull draws back, what it had filled over the whole thickness is cut away; deeper "    \
-      "than edge_threshold; booked as crushed")                                                                       \
-    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")   \
-    X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")              \
-    X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")       \
-    X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                     \
-    X(open_water, LIST(opening, 100), "", "voronoi, file, packed: zones without ice at the start")                    \
-    X(open_water_file, PATH(""), "", "more of them, polygons of any shape, in the forms of ice.file, in metres")      \
-    X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                  \
-    X(fracture, SECTION(fracture), "", "how breakable floes break")                                                   \
-    X(populations, LIST(population, 16), "",                                                                          \
-      "packed: the kinds of floes; file: with them, the water that the file leaves is filled to ice.concentration; "  \
-      "voronoi: one, whose laws of size, thickness and strength the floes follow instead of ice.mean_floe_area")      \
+#define SCENARIO_ICE_KEYS(X)                                                                                           \
+    X(source, CHOICE(ice_source, ICE_VORONOI, "voronoi floes none file level packed"), "",                             \
+      "voronoi: managed ice, Voronoi cells; floes: those listed under ice.floes; none: open water; file: observed "    \
+      "floes, cut at the edge of the domain; level: an intact sheet, held by its sides or drifting; packed: "          \
+      "floes drawn from ice.populations, then brought to places where none overlap")                                   \
+    X(level, SECTION(level), "", "the sheet, for source level")                                                        \
+    X(file, PATH(""), "",                                                                                              \
+      "file: floes in planar lengths, as GeoJSON, WKT or lines of x and y; a thickness property of GeoJSON goes "      \
+      "before ice.thickness")                                                                                          \
+    X(file_coordinates, CHOICE(file_coordinates, FILE_PLANAR, "planar degrees"), "",                                   \
+      "file: planar: lengths; degrees: longitude and latitude (WGS 84), laid flat about the centre of all "            \
+      "floes, which goes to file_x, file_y, with y to the north")                                                      \
+    X(file_scale, REAL(1, 1e-9, 1e9), "1", "file: lengths of the file times this are metres")                          \
+    X(file_x, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                  \
+    X(file_y, REAL(0, -1e9, 1e9), "m", "file: where its origin goes")                                                  \
+    X(file_centre, BOOLEAN(false), "", "file: the centre of all floes goes there instead of its origin")               \
+    X(simplify, REAL(0, 0, 1e6), "m", "file: vertices are left out, moving no edge by more")                           \
+    X(bad_rings, CHOICE(import_bad, IMPORT_REFUSE, "refuse drop repair"), "",                                          \
+      "file: what is done with rings that are open, cross themselves, have no area or are holes; repair also cuts "    \
+      "overlapping floes apart")                                                                                       \
+    X(concentration, REAL(0.8, 0.01, 1), "1", "voronoi, packed: ice area over the area free for ice")                  \
+    X(mean_floe_area, REAL(400, 1e-9, 1e8), "m2", "voronoi: mean area of the cells the floes are cut from")            \
+    X(size_deviation, REAL(0.5, 0, 1), "1", "voronoi: scatter of the cells, 0 regular to 1 random")                    \
+    X(roundness, REAL(0, 0, 1), "1", "voronoi: 0 sharp corners to 1 rounded as far as the concentration allows")       \
+    X(keep_out_margin, SCALED(1, 30, 1, 0, 1e4), "m", "clear distance between the vessel and the field")               \
+    X(thickness, REAL(1, 1e-6, 100), "m", "thickness")                                                                 \
+    X(density, REAL(920, 1, 2000), "kg/m3", "density")                                                                 \
+    X(elastic_modulus, REAL(5e9, 1, 1e12), "Pa", "elastic modulus E")                                                  \
+    X(poisson_ratio, REAL(0.3, 0, 0.499), "1", "Poisson's ratio")                                                      \
+    X(flexural_strength, REAL(5e5, 1e-3, 1e9), "Pa", "flexural strength")                                              \
+    X(crushing_strength, REAL(2e6, 1e-3, 1e10), "Pa", "crushing pressure; with an exponent, that on 1 m2")             \
+    X(strength, SECTION(strength), "", "scatter of both strengths over the ice, drawn by run.seed")                    \
+    X(crushing_exponent, REAL(0, -1, 1), "1", "e of the crushing pressure strength * (area / 1 m2)^e; 0 constant")     \
+    X(breakable, BOOLEAN(false), "", "floes may break under the vessel")                                               \
+    X(cap_ice_ice, BOOLEAN(true), "",                                                                                  \
+      "crushing limits contacts between floes too; false: as if none could be crushed")                                \
+    X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                     \
+    X(ridging_resistance, REAL(0, 0, 1e3), "MN/m",                                                                     \
+      "R of the line load R h^1.25 D^-0.54 at which floes build a ridge; bounds contacts between them; 0: none")       \
+    X(correct_unbreakable, BOOLEAN(false), "",                                                                         \
+      "comparison switch: crushed overlap pushes a hull and unbreakable floes apart again")                            \
+    X(crush_trims, BOOLEAN(true), "",                                                                                  \
+      "level and fixed ice: where the hull has been there is no ice any more; what is cut away is booked as crushed")  \
+    X(crush_notches, BOOLEAN(true), "",                                                                                \
+      "floes that float: when a hull draws back, what it had filled over the whole thickness is cut away; deeper "     \
+      "than edge_threshold; booked as crushed")                                                                        \
+    X(parts_by_motion, BOOLEAN(true), "",                                                                              \
+      "where a hull slides along ice and where it moves into it are two contacts; false: one, with one normal, whose " \
+      "friction counts the whole of its area")                                                                         \
+    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")    \
+    X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")               \
+    X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")        \
+    X(edge_threshold, SCALED(5e-3, 1, 1, 0, 1e3), "m", "shorter edges of a new floe are removed")                      \
+    X(open_water, LIST(opening, 100), "", "voronoi, file, packed: zones without ice at the start")                     \
+    X(open_water_file, PATH(""), "", "more of them, polygons of any shape, in the forms of ice.file, in metres")       \
+    X(friction, SECTION(friction), "", "Coulomb friction of the pairs of materials")                                   \
+    X(fracture, SECTION(fracture), "", "how breakable floes break")                                                    \
+    X(populations, LIST(population, 16), "",                                                                           \
+      "packed: the kinds of floes; file: with them, the water that the file leaves is filled to ice.concentration; "   \
+      "voronoi: one, whose laws of size, thickness and strength the floes follow instead of ice.mean_floe_area")       \
     X(floes, LIST(floe, 1000), "", "single floes, for source floes")
 
 #define SCENARIO_FRICTION_KEYS(X)                                                 \

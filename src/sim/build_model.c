@@ -87,6 +87,7 @@ static model settings_of(const scenario *s)
                      .strength = strength_of(s),
                      .edges = compliance_of(s),
                      .correct_unbreakable = s->ice.correct_unbreakable,
+                     .parts_by_motion = s->ice.parts_by_motion,
                      .top_plane_area = s->ice.top_plane_area},
         .fracture = build_fracture_settings(s),
         .brash = s->ice.fracture.brash,

@@ -180,6 +180,86 @@ START_TEST(wall_driven_into_a_static_floe)
 }
 END_TEST
 
+/* A box whose front crushes half of a plate's edge, and whose side slides along what it has cut, askew in the world:
+   the front carries sigma_c w h and nothing to rub against, the side nothing, however far the box has come. */
+START_TEST(a_side_that_slides_carries_nothing)
+{
+    for (int kind = 0; kind < 2; kind++) {
+        ice_rig r;
+        ice_rig_make(&r, 0.01);
+        r.settings.parts_by_motion = true;
+        r.settings.skin = 1e-4;
+        for (int i = 0; i < MATERIAL_COUNT; i++)
+            for (int k = 0; k < MATERIAL_COUNT; k++)
+                r.policies.of[i][k].friction_static = r.policies.of[i][k].friction_kinetic = 0.3;
+        const double yaw = 0.7, width = 3, thickness = 0.8;
+        mat3 turn = quat_matrix(quat_from_roll_pitch_yaw(0, 0, yaw));
+        vec3 ahead = mat3_column(turn, 0);
+        int32_t row = ice_rig_plate(&r, 30, 20, thickness, MOTION_STATIC);
+        ice_rig_place(&r, r.floes.body[row], mat3_mul_vec(turn, (vec3){15, 10, 0}), 0, 0, yaw);
+        int32_t box = ice_rig_box(&r, (vec3){-20, -3, -10}, (vec3){0, width, 10}, MOTION_PRESCRIBED,
+                                  kind ? MATERIAL_WALL : MATERIAL_HULL);
+        ice_rig_place(&r, box, (vec3){0, 0, 0}, 0, 0, yaw);
+        r.bodies.velocity[box] = vec3_scale(ahead, 0.5);
+        ice_rig_pair(&r, r.floes.body[row], box);
+        for (int step = 0; step < 600; step++) {
+            ice_rig_step(&r);
+            assert_vec3_close(ice_rig_force(&r), vec3_scale(ahead, 2e6 * width * thickness), 1);
+        }
+        /* By a hair into the ice aside: nothing stops such a box, so that its side crushes too, each with its own
+           normal and friction along the other. */
+        const double side = 0.5 * 0.01 * 600;
+        r.bodies.velocity[box] = mat3_mul_vec(turn, (vec3){0.5, 1e-3, 0});
+        ice_rig_step(&r);
+        assert_vec3_close(mat3_tmul_vec(turn, ice_rig_force(&r)),
+                          ((vec3){2e6 * thickness * (width + 0.3 * side), 2e6 * thickness * (side + 0.3 * width), 0}),
+                          1);
+        /* A box at rest bears on both. */
+        r.bodies.velocity[box] = mat3_mul_vec(turn, (vec3){9e-4, 0, 0});
+        ice_rig_step(&r);
+        ck_assert_int_eq(r.patches.count, 1);
+        ck_assert(vec3_dot(ice_rig_force(&r), mat3_column(turn, 1)) > 2e6 * thickness * side * 0.5);
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
+/* A box of 1e6 kg that goes ahead through held ice while 1 MN presses it aside: its side bears that 1 MN and no more,
+   with friction on it; the front bears sigma_c w h. */
+START_TEST(a_side_bears_what_presses_on_it)
+{
+    for (double dt = 0.01; dt > 0.004; dt /= 2) {
+        ice_rig r;
+        ice_rig_make(&r, dt);
+        r.solver.kind = SOLVER_ACCURATE;
+        r.settings.parts_by_motion = true;
+        r.settings.skin = 1e-4;
+        for (int i = 0; i < MATERIAL_COUNT; i++)
+            for (int k = 0; k < MATERIAL_COUNT; k++)
+                r.policies.of[i][k].friction_static = r.policies.of[i][k].friction_kinetic = 0.1;
+        const double width = 0.1, thickness = 0.8, aside = 1e6, mass = 1e6, front = 2e6 * width * thickness;
+        int32_t row = ice_rig_plate(&r, 60, 20, thickness, MOTION_STATIC);
+        ice_rig_place(&r, r.floes.body[row], (vec3){27, 10, 0}, 0, 0, 0);
+        int32_t box = ice_rig_box(&r, (vec3){-20, -3, -10}, (vec3){0, width, 10}, MOTION_DYNAMIC, MATERIAL_HULL);
+        r.bodies.mass[box] = mass;
+        r.bodies.inertia[box] = (sym3){1e12, 1e12, 1e12, 0, 0, 0};
+        r.bodies.velocity[box] = (vec3){3, 0, 0};
+        ice_rig_pair(&r, r.floes.body[row], box);
+        for (double t = dt; t < 2; t += dt) {
+            double before = r.bodies.velocity[box].x;
+            r.bodies.velocity[box].y += aside * dt / mass;
+            ice_rig_step(&r);
+            assert_absolute(ice_rig_force(&r).y, aside, 1e-3 * aside);
+            /* Friction of the front takes 0.1 front of what presses aside. */
+            double ahead = (before - r.bodies.velocity[box].x) * mass / dt;
+            assert_absolute(ahead, front + 0.1 * (aside - 0.05 * front), 0.005 * front + 1e-3 * aside);
+            assert_absolute(r.bodies.velocity[box].y, 0, 1e-5);
+        }
+        ice_rig_free(&r);
+    }
+}
+END_TEST
+
 /* A floe that meets the wall askew turns: force and moment are those of the patch, so the path does not depend on how
    the floe is cut into pieces. */
 START_TEST(askew_impact_in_pieces)
@@ -211,5 +291,5 @@ START_TEST(askew_impact_in_pieces)
 END_TEST
 
 TEST_MAIN("crushing oracles", corner_into_wall, corner_with_pressure_area_law, flat_face_into_wall,
-          flat_face_with_a_long_step, wall_driven_into_a_static_floe, crushed_overlap_moves_nothing,
-          askew_impact_in_pieces)
+          flat_face_with_a_long_step, wall_driven_into_a_static_floe, a_side_that_slides_carries_nothing,
+          a_side_bears_what_presses_on_it, crushed_overlap_moves_nothing, askew_impact_in_pieces)

@@ -178,7 +178,8 @@ START_TEST(searched_and_whole_surfaces_have_the_same_patches)
     patch_scratch *s = patch_scratch_create(&r.ctx);
     int found = 0;
     for (int i = 0; i < 200; i++) {
-        patch_surface surface = {&m, &adjacency, &tree, {{{0}}}, draw_vec3(&draw, 4.5, 3.5, 1.5), -1};
+        patch_surface surface = {.surface = &m, .adjacency = &adjacency, .tree = &tree, .prism = -1};
+        surface.offset = draw_vec3(&draw, 4.5, 3.5, 1.5);
         vec3 turn = draw_vec3(&draw, 0.5, 0.5, 3);
         surface.rotation = quat_matrix(quat_from_roll_pitch_yaw(turn.x, turn.y, turn.z));
         const patch_component_array *out;

@@ -1,0 +1,14 @@
+/* Where the surface of a body is in the frame of a floe, and how it moves there (ice/patch.h). */
+#ifndef ICE_SURFACE_FRAME_H
+#define ICE_SURFACE_FRAME_H
+
+#include "bodies/body.h"
+#include "ice/patch.h"
+
+/* Sets rotation and offset of the surface of the body `mover` in the frame of the body `floe`, whose rotation floe to
+   global is given; slip, turn and rest from their velocities of now with moves, 0 without.  skin:
+   run.solver.contact_skin [m]. */
+void surface_frame_set(patch_surface *surface, const body_table *bodies, int32_t mover, int32_t floe,
+                       const mat3 *rotation, bool moves, double skin);
+
+#endif
