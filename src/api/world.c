@@ -275,7 +275,7 @@ fram_status(fram_body_state_get)(const fram_world *w, fram_body_id id, fram_body
         return no_such_body(id, error);
     quat q = b->orientation[id.slot];
     fram_body_state full = {.kind = world_body_kind(b, id.slot),
-                            .dynamic = body_is_dynamic(b, id.slot),
+                            .dynamic = body_is_free(b, id.slot),
                             .mass = b->mass[id.slot],
                             .orientation = {q.w, q.x, q.y, q.z}};
     copy3(full.position, b->position[id.slot]);
@@ -311,7 +311,7 @@ fram_status fram_body_apply_wrench(fram_world *w, fram_body_id id, const double 
         return status;
     if (!is_living(&w->inner.bodies, id))
         return no_such_body(id, error);
-    if (!body_is_dynamic(&w->inner.bodies, id.slot))
+    if (!body_is_free(&w->inner.bodies, id.slot))
         return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "body", "body %d is static or driven: forces do not move it",
                          (int)id.slot);
     wrench load = {{force[0], force[1], force[2]}, {moment[0], moment[1], moment[2]}};

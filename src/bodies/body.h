@@ -13,7 +13,8 @@ typedef enum motion {
     MOTION_STATIC,     /* infinite mass, never moves */
     MOTION_PRESCRIBED, /* infinite mass, velocity set from outside each step */
     MOTION_DYNAMIC,    /* moved by forces and contacts */
-    MOTION_CARRIED     /* as prescribed, and one rigid body with all others that are carried: these never meet */
+    MOTION_CARRIED,    /* as prescribed, and one rigid body with all others that are carried: these never meet */
+    MOTION_ASLEEP      /* dynamic, but at rest and left alone until something wakes it (dynamics/rest.h) */
 } motion;
 
 /* Selects friction and contact treatment of a pair; see dynamics/contact.h. */
@@ -48,6 +49,11 @@ int32_t body_create(context *ctx, body_table *bodies, motion kind, material subs
 void body_remove(body_table *bodies, int32_t slot);
 static inline bool body_is_alive(const body_table *b, int32_t slot) { return b->motion[slot] != MOTION_NONE; }
 static inline bool body_is_dynamic(const body_table *b, int32_t slot) { return b->motion[slot] == MOTION_DYNAMIC; }
+/* Dynamic, awake or asleep. */
+static inline bool body_is_free(const body_table *b, int32_t slot)
+{
+    return b->motion[slot] == MOTION_DYNAMIC || b->motion[slot] == MOTION_ASLEEP;
+}
 
 /* Velocity [m/s] of the body's material point now at `point` (global). */
 vec3 body_point_velocity(const body_table *b, int32_t slot, vec3 point);

@@ -98,10 +98,11 @@ static void forget_box(broad_table *boxes, int32_t slot)
     boxes->orientation[slot] = (quat){0, 0, 0, 0};
 }
 
-/* Two of a rigid whole, the ground or a sheet that is carried, never meet. */
+/* Two of a rigid whole, the ground or a sheet that is carried, never meet; nor do two that are asleep. */
 static uint8_t is_fixed(const body_table *bodies, int32_t i)
 {
-    return bodies->motion[i] == MOTION_STATIC || bodies->motion[i] == MOTION_CARRIED;
+    uint8_t kind = bodies->motion[i];
+    return kind == MOTION_STATIC || kind == MOTION_CARRIED || kind == MOTION_ASLEEP;
 }
 
 /* First pass: what became of each body's box. */

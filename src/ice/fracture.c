@@ -111,7 +111,7 @@ static fram_status commit(const fracture_job *j, const fracture_load *l, fractur
     bool broke;
     polygon_list_clear(&s->piece.outlines);
     array_clear(&s->piece.rows);
-    if (!fracture_gather(j->ctx, s, &s->floe.whole, (motion)j->state->bodies->motion[l->body], 0, 0) ||
+    if (!fracture_gather(j->ctx, s, &s->floe.whole, fracture_motion(j, l->floe), 0, 0) ||
         !fracture_gather(j->ctx, s, &s->floe.wedges, MOTION_DYNAMIC, 0, 1))
         return error_memory(j->error);
     fram_status status = fracture_birth(j, &l->floe, 1, 2, event, &broke);

@@ -226,7 +226,9 @@ static fram_status clean_pieces(const fracture_job *j, double budget, bool *soun
 
 motion fracture_motion(const fracture_job *j, int32_t floe)
 {
-    return (motion)j->state->bodies->motion[j->state->floes->body[floe]];
+    const body_table *b = j->state->bodies;
+    int32_t body = j->state->floes->body[floe];
+    return body_is_free(b, body) ? MOTION_DYNAMIC : (motion)b->motion[body];
 }
 
 bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *rings, motion kind, int32_t tile,

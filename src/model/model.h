@@ -5,6 +5,7 @@
 #define MODEL_MODEL_H
 
 #include "dynamics/collision.h"
+#include "dynamics/rest.h"
 #include "dynamics/solver.h"
 #include "fluid/columns.h"
 #include "fluid/flow_apply.h"
@@ -70,6 +71,7 @@ typedef struct model {
     drift_definition sheet; /* of level ice that drifts; its grid at the start is that of fracture */
     bool brash;             /* what fracture loses goes to the brash account */
     solver_settings solver;
+    rest_settings rest;
     domain_boundary boundary;
     box2 domain;                /* [m] */
     bool drift_given;           /* an endless field goes with `drift`, otherwise with the current at the surface */

@@ -62,6 +62,7 @@ void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT])
         STATE(hull_retreat, hull_retreats),
         STATE(pattern_copy, pattern_copies),
         STATE(flooding, flooding),
+        STATE(rest, rest),
     };
     memcpy(out, list, sizeof list);
 }

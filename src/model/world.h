@@ -5,6 +5,7 @@
 
 #include "dynamics/collision.h"
 #include "dynamics/joint.h"
+#include "dynamics/rest.h"
 #include "dynamics/solver.h"
 #include "fluid/fluid.h"
 #include "ice/crushing.h"
@@ -113,6 +114,7 @@ typedef struct world {
     pattern_copy_table pattern_copies;
     held_drag_table held_drag; /* a row for every eight body slots, where there is water */
     flooding_table flooding;   /* a row for each body slot, with ventilation */
+    rest_table rest;           /* a row for each body slot, where floes may fall asleep */
 
     /* Scratch: written anew each step. */
     struct {
@@ -144,7 +146,7 @@ typedef struct world_table {
     const table_info *info;
     void *table;
 } world_table;
-enum { WORLD_TABLE_COUNT = 35 };
+enum { WORLD_TABLE_COUNT = 36 };
 /* The state tables in their fixed order. */
 void world_tables(const world *w, world_table out[WORLD_TABLE_COUNT]);
 

@@ -16,7 +16,7 @@ typedef struct column_rule {
 #define TILES_AWAY 1000000000
 
 static const column_rule column_rules[] = {
-    {"body", "motion", MOTION_NONE, MOTION_CARRIED, NULL},
+    {"body", "motion", MOTION_NONE, MOTION_ASLEEP, NULL},
     {"body", "material", 0, MATERIAL_COUNT - 1, NULL},
     {"body", "shape", -1, 0, "shape"},
     {"shape", "kind", SHAPE_NONE, SHAPE_SOLID, NULL},
@@ -67,7 +67,7 @@ static const column_rule column_rules[] = {
 static const column_rule count_rules[] = {
     {"clock", NULL, 1, 1, NULL},       {"feeding", NULL, 0, 1, NULL},     {"broad", NULL, 0, 0, "body"},
     {"recorded", NULL, 0, 0, "body"},  {"station", NULL, 0, 0, "vessel"}, {"drift", NULL, 0, 1, NULL},
-    {"held_drag", NULL, 0, 0, "body"}, {"flooding", NULL, 0, 0, "body"},
+    {"held_drag", NULL, 0, 0, "body"}, {"flooding", NULL, 0, 0, "body"},  {"rest", NULL, 0, 0, "body"},
 };
 
 static fram_status refuse(const char *table, int64_t row, const char *column, int64_t found, fram_error *error)
@@ -192,6 +192,8 @@ static fram_status check_bodies(const world *w, fram_error *error)
             return refuse("body", i, "shape", b->shape[i], error);
         if (b->owner[i] < 0 && b->shape[i] >= 0 && b->material[i] != MATERIAL_WALL)
             return refuse("body", i, "owner", b->owner[i], error);
+        if (b->motion[i] == MOTION_ASLEEP && (i >= w->rest.count || w->rest.generation[i] != b->generation[i]))
+            return refuse("body", i, "motion", b->motion[i], error);
     }
     return FRAM_OK;
 }

@@ -93,6 +93,7 @@ static model settings_of(const scenario *s)
         .brash = s->ice.fracture.brash,
         .solver = {v->kind, (int32_t)v->iterations, (int32_t)v->position_iterations, v->warm_start, v->correction_rate,
                    v->contact_skin, v->baumgarte, v->tolerance, (int32_t)v->most_iterations},
+        .rest = {s->ice.sleep_speed, s->ice.sleep_time},
         .boundary = s->domain.boundary,
         .domain = {{s->domain.x_min, s->domain.y_min}, {s->domain.x_max, s->domain.y_max}},
         .drift_given = !is_automatic(s->domain.drift_speed),

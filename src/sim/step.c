@@ -152,13 +152,24 @@ static fram_status external_forces(context *ctx, const model *m, world *w, fram_
     return FRAM_OK;
 }
 
-/* 2. Broad phase, narrow phase. */
+static rest_media rest_media_now(const model *m, const world *w)
+{
+    media now = media_now(m, &w->inputs, w->clock.time[0]);
+    bool calm = vec3_dot(now.wind, now.wind) == 0 && vec3_dot(now.current, now.current) == 0 && now.profile.count == 0;
+    return (rest_media){now.wind, now.current, calm};
+}
+
+/* 2. Broad phase, narrow phase; what moves wakes what sleeps near it. */
 static fram_status detect_contacts(context *ctx, const model *m, world *w, fram_error *error)
 {
+    rest_media around = rest_media_now(m, w);
+    if (!rest_follow(ctx, &m->rest, &around, &w->bodies, &w->boxes, &w->rest))
+        return error_memory(error);
     fram_status status = broad_phase_update(ctx, &w->bodies, &w->shapes, &m->collision, &w->boxes, &w->pairs,
                                             w->scratch.collision, error);
     if (status != FRAM_OK)
         return status;
+    rest_wake_near(&m->rest, &w->bodies, &w->pairs, &w->rest);
     array_clear(&w->scratch.contacts);
     array_clear(&w->scratch.patch_pairs);
     return narrow_phase_run(ctx, &w->bodies, &w->shapes, &m->policies, &w->boxes, &w->pairs, &w->scratch.contacts,
@@ -178,10 +189,12 @@ static fram_status limit_crushing(context *ctx, const model *m, world *w, fram_e
 /* 4. New velocities. */
 static fram_status solve_velocities(context *ctx, const model *m, world *w, fram_error *error)
 {
+    rest_wake_struck(&m->rest, &w->bodies, &w->scratch.contacts, &w->rest);
     fram_status status =
         solver_solve(ctx, w->scratch.solve, &m->solver, m->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
                      &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
     if (status == FRAM_OK) {
+        rest_note(&m->rest, m->time_step, &w->bodies, &w->shapes, &w->scratch.contacts, &w->rest);
         add_carried_mass(m, w);
         feed_load(m, w);
         status = wall_watch(ctx, m, w) ? FRAM_OK : error_memory(error);
@@ -240,7 +253,7 @@ static void remove_strays(const model *m, world *w)
 }
 
 /* What the edge of the domain takes, and gives; then the shapes that nobody has any more go, those of floes that broke
-   in a basin with walls too. */
+   in a basin with walls too.  At last what rests falls asleep. */
 static fram_status cross_edge(context *ctx, const model *m, world *w, fram_error *error)
 {
     if (m->boundary == DOMAIN_OPEN || w->drift.count > 0)
@@ -248,7 +261,11 @@ static fram_status cross_edge(context *ctx, const model *m, world *w, fram_error
     fram_status status = m->boundary == DOMAIN_FEEDING ? feed_step(ctx, m, w, error) : FRAM_OK;
     if (status != FRAM_OK)
         return status;
-    return shape_compact(ctx, &w->shapes) == FRAM_OK ? FRAM_OK : error_memory(error);
+    if (shape_compact(ctx, &w->shapes) != FRAM_OK)
+        return error_memory(error);
+    rest_media around = rest_media_now(m, w);
+    rest_settle(&m->rest, &around, &w->bodies, &w->scratch.contacts, &w->rest);
+    return FRAM_OK;
 }
 
 static bool is_touched(const world *w, int32_t body)
@@ -393,6 +410,7 @@ fram_status world_step(context *ctx, const model *m, world *w, fram_error *error
 
 fram_status world_add_wrench(context *ctx, world *w, int32_t slot, wrench load, fram_error *error)
 {
+    rest_wake(&w->bodies, &w->rest, slot);
     int32_t row = input_row(ctx, &w->inputs, INPUT_WRENCH, slot);
     if (row < 0)
         return error_memory(error);

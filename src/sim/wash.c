@@ -32,7 +32,7 @@ static bool push_floe(const model *m, const world *w, const media *now, const je
 {
     const body_table *b = &w->bodies;
     int32_t shape = b->shape[body];
-    if (!body_is_dynamic(b, body) || shape < 0 || w->shapes.shapes.kind[shape] != SHAPE_PRISM ||
+    if (!body_is_free(b, body) || shape < 0 || w->shapes.shapes.kind[shape] != SHAPE_PRISM ||
         !in_reach(j, b->position[body], w->shapes.shapes.radius[shape]))
         return false;
     fluid_motion state = {b->position[body], quat_matrix(b->orientation[body]), b->velocity[body],
@@ -64,6 +64,7 @@ static fram_status push_floes(context *ctx, const model *m, world *w, const medi
         wash_push push = {.body = w->floes.body[i]};
         if (push.body < 0 || !push_floe(m, w, now, j, push.body, &push.load))
             continue;
+        rest_wake(&w->bodies, &w->rest, push.body);
         sum += push.load.force.x * j->along.x + push.load.force.y * j->along.y;
         if (!array_push(ctx, &w->scratch.wash, push))
             return error_memory(error);

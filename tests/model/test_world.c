@@ -28,11 +28,12 @@ START_TEST(every_table_of_the_state_is_listed_once)
 {
     context_init(&ctx);
     static const char *const names[] = {
-        "clock",    "body",         "shape",     "piece",          "shape_vertex", "floe",         "vessel",
-        "joint",    "pair",         "broad",     "contact_memory", "load_window",  "recorded",     "line",
-        "thruster", "waypoint",     "station",   "event",          "feeding",      "pattern",      "pattern_vertex",
-        "input",    "hull_contact", "drift",     "drift_cell",     "drift_vertex", "propulsion",   "course",
-        "approach", "edge_load",    "held_drag", "edge_support",   "hull_retreat", "pattern_copy", "flooding"};
+        "clock",      "body",         "shape",          "piece",        "shape_vertex",   "floe",
+        "vessel",     "joint",        "pair",           "broad",        "contact_memory", "load_window",
+        "recorded",   "line",         "thruster",       "waypoint",     "station",        "event",
+        "feeding",    "pattern",      "pattern_vertex", "input",        "hull_contact",   "drift",
+        "drift_cell", "drift_vertex", "propulsion",     "course",       "approach",       "edge_load",
+        "held_drag",  "edge_support", "hull_retreat",   "pattern_copy", "flooding",       "rest"};
     ck_assert_int_eq(sizeof names / sizeof *names, WORLD_TABLE_COUNT);
     world w;
     world_table tables[WORLD_TABLE_COUNT];

@@ -106,6 +106,13 @@ static const char *const scenes[] = {
     "ice:\n  concentration: 0.5\n  mean_floe_area: 64\n  thickness: 0.3\n"
     "domain:\n  x_min: -60\n  x_max: 60\n  y_min: -30\n  y_max: 30\n"
     "output:\n  frame_interval: 0.3\n",
+    /* floes that fall asleep and are woken by a hull */
+    "run:\n  duration: 4\n  time_step: 0.02\n  seed: 7\n"
+    "vessel:\n  mode: towed\n  x: -40\n  speed: 3\n  ramp: 0.5\n"
+    "  hull:\n    length: 48\n    beam: 12\n    draught: 4\n    freeboard: 2\n"
+    "ice:\n  concentration: 0.8\n  mean_floe_area: 64\n  sleep_speed: 0.05\n  sleep_time: 0.3\n"
+    "domain:\n  x_min: -80\n  x_max: 64\n  y_min: -40\n  y_max: 40\n"
+    "output:\n  checkpoint_interval: 0.5\n  frame_interval: 0.3\n",
     /* floes without a vessel, crushing each other and the walls */
     "run:\n  duration: 2\n  time_step: 0.01\nvessel:\n  present: false\n"
     "ice:\n  concentration: 0.9\n  mean_floe_area: 30\n  cap_ice_ice: true\n  cap_ice_wall: true\n"

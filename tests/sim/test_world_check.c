@@ -74,6 +74,8 @@ START_TEST(what_names_nothing_is_found)
     snprintf(key, sizeof key, "body[%d].shape", (int)floe);
     FOUND(&k, bodies.shape[floe], w->shapes.shapes.count, key);
     FOUND(&k, bodies.shape[floe], -2, key);
+    snprintf(key, sizeof key, "body[%d].motion", (int)floe);
+    FOUND(&k, bodies.motion[floe], MOTION_ASLEEP, key); /* without a row that tells of it */
     snprintf(key, sizeof key, "body[%d].owner", (int)floe);
     FOUND(&k, bodies.owner[floe], w->floes.count, key);
     FOUND(&k, bodies.owner[floe], -1, key);
