@@ -301,6 +301,13 @@ static fram_status check_populations(const scenario *s, fram_error *error)
     return status;
 }
 
+static fram_status check_water(const scenario *s, fram_error *error)
+{
+    if (s->environment.floe_ventilation && !s->environment.water)
+        return fault(s, error, "environment.floe_ventilation", "expected false, since environment.water is false");
+    return FRAM_OK;
+}
+
 static fram_status check_ice(const scenario *s, fram_error *error)
 {
     const scenario_ice *ice = &s->ice;
@@ -361,6 +368,8 @@ fram_status scenario_check(const scenario *s, fram_error *error)
         status = scenario_check_vessels(s, error);
     if (status == FRAM_OK)
         status = check_speeds(s, error);
+    if (status == FRAM_OK)
+        status = check_water(s, error);
     if (status == FRAM_OK)
         status = check_ice(s, error);
     return status;
