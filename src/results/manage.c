@@ -55,6 +55,22 @@ static void sum_place(const manage_run *m, int place, manage_summary *out)
         out->place[place].share[k] = ice > 0 ? area[k] / ice : (double)NAN;
 }
 
+/* Until when no ice was before the vessel: means after the transient count such windows too. */
+static void sum_wait(const manage_run *m, manage_summary *out)
+{
+    out->first_time = (double)NAN;
+    for (int32_t i = 0; i < m->moments.count; i++) {
+        const manage_moment *at = &m->moments.data[i];
+        if (!counts(m, at, MANAGE_AT))
+            continue;
+        if (at->cover[MANAGE_AT].ice > 0) {
+            out->first_time = at->time;
+            return;
+        }
+        out->empty++;
+    }
+}
+
 static int ascending(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -135,6 +151,7 @@ void manage_sum_up(const manage_run *m, manage_summary *out)
     *out = (manage_summary){.limit = m->limit, .largest_time = (double)NAN};
     for (int p = 0; p < MANAGE_PLACES; p++)
         sum_place(m, p, out);
+    sum_wait(m, out);
     sum_alarms(m, false, &out->alarm_least, &out->alarm_median);
     sum_alarms(m, true, &out->warning_least, &out->warning_median);
     magnitude(m, "ice_force_averaged_x", "ice_force_averaged_y", &out->load_mean, &out->load_most);

@@ -33,6 +33,8 @@ typedef struct manage_summary {
         double share[MANAGE_CLASSES + 1];           /* of the ice, by size */
     } place[MANAGE_PLACES];
     double largest_time;                  /* when that came to the vessel [s] */
+    double first_time;                    /* of the first window at the vessel with ice in it [s]; NaN: none had */
+    double empty;                         /* windows at the vessel before it, after the transient */
     double alarm_least, alarm_median;     /* until unmanaged ice comes [s]; infinity: none in sight */
     double warning_least, warning_median; /* until the largest of it comes [s] */
     double load_mean, load_most;          /* averaged horizontal ice load on the vessel [N] */

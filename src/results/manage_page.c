@@ -47,6 +47,10 @@ static void verdict(page *p)
     if (isnan(managed)) {
         html_verdict_line(&p->html, VERDICT_CAUTION, "No ice came to the vessel after the transient.",
                           "Run longer, or shorten run.transient.");
+        duration_text(s->alarm_least, time);
+        snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
+        if (isfinite(s->alarm_least))
+            html_verdict_line(&p->html, VERDICT_NOTE, text, "");
         html_verdict_end(&p->html);
         return;
     }
@@ -55,6 +59,13 @@ static void verdict(page *p)
         "%.0f %% of the ice that came was managed, that is in floes of at most %.3g m; %.0f %% was unbroken sheet.",
         100 * managed, s->limit, 100 * sheet);
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+    if (s->empty > 0) {
+        char advice[64];
+        snprintf(text, sizeof text, "No ice was before the vessel until %.4g s; means and loads below count that time.",
+                 s->first_time);
+        snprintf(advice, sizeof advice, "Give run.transient %.4g or more.", s->first_time);
+        html_verdict_line(&p->html, VERDICT_CAUTION, text, advice);
+    }
     snprintf(text, sizeof text, "The largest floe that reached it was %.3g m across, at %.0f s.",
              s->place[MANAGE_AT].largest, s->largest_time);
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
@@ -84,7 +95,6 @@ static void place_table(page *p, const manage_summary *s, const char *title)
                                  "unbroken [%]", "mean size [m]", "largest [m]"};
     html_table_begin(&p->html, heads, 7);
     for (int k = 0; k < MANAGE_PLACES; k++) {
-        bool any = s->place[k].windows > 0;
         html_row_begin(&p->html);
         html_cell(&p->html, place_name[k]);
         html_number(&p->html, s->place[k].windows);
@@ -92,7 +102,7 @@ static void place_table(page *p, const manage_summary *s, const char *title)
         html_number(&p->html, 100 * s->place[k].managed);
         html_number(&p->html, 100 * s->place[k].sheet);
         html_number(&p->html, s->place[k].mean);
-        html_number(&p->html, any ? s->place[k].largest : (double)NAN);
+        html_number(&p->html, s->place[k].largest > 0 ? s->place[k].largest : (double)NAN);
         html_row_end(&p->html);
     }
     html_table_end(&p->html);
@@ -213,7 +223,26 @@ static fram_status size_chart(page *p, fram_error *error)
     return html_chart(&p->html, &c, false, error);
 }
 
-/* The field at the end. */
+/* The moment after the transient at which the averaged ice load was largest, so that the plan shows what caused it; the
+   end where there was none.  In words too. */
+static double telling_time(const manage_run *m, char title[64])
+{
+    const double *t = run_channel(&m->d, "time"), *x = run_vessel_channel(&m->d, m->vessel, "ice_force_averaged_x");
+    const double *y = run_vessel_channel(&m->d, m->vessel, "ice_force_averaged_y");
+    double most = 0, time = m->moments.data[m->moments.count - 1].time;
+    snprintf(title, 64, "The field at the end");
+    for (int32_t i = 0; i < m->d.series.rows && t && x && y; i++) {
+        double load = x[i] * x[i] + y[i] * y[i];
+        if (t[i] < m->d.s.run.transient || !(load > most))
+            continue;
+        most = load;
+        time = t[i];
+        snprintf(title, 64, "The field when the ice load was largest");
+    }
+    return time;
+}
+
+/* The field from above then. */
 static fram_status plan(page *p, fram_error *error)
 {
     const manage_run *m = p->m;
@@ -222,23 +251,24 @@ static fram_status plan(page *p, fram_error *error)
     replay_moment now = {0};
     replay_plan shapes = {0};
     text_buffer png = {0};
-    char caption[64];
+    char caption[64], title[64];
+    double time = telling_time(m, title);
     fram_status status = replay_open(m->ctx, m->d.folder, &r, error);
     if (status != FRAM_OK)
         return status;
-    status = replay_moment_at(&r, m->moments.data[m->moments.count - 1].time, &now, error);
+    status = replay_moment_at(&r, time, &now, error);
     if (status == FRAM_OK)
         status = replay_plan_make(&r, &now, PLAN_COLOUR_PLAIN, 0, 1, 0, 0, &shapes, error);
-    snprintf(caption, sizeof caption, "t = %g s", now.time);
+    snprintf(caption, sizeof caption, "t = %.4g s", now.time);
     plan_view view = {.window = {{d->x_min, d->y_min}, {d->x_max, d->y_max}},
-                      .title = "The field at the end",
+                      .title = title,
                       .caption = caption,
                       .shapes = shapes.shapes.data,
                       .shape_count = shapes.shapes.count};
     if (status == FRAM_OK)
         status = plan_view_png(m->ctx, &view, PLAN_PIXELS, &png, error);
     if (status == FRAM_OK)
-        html_picture(&p->html, png.data, (size_t)png.count, caption);
+        html_picture(&p->html, png.data, (size_t)png.count, title);
     text_free(m->ctx, &png);
     replay_plan_free(m->ctx, &shapes);
     replay_moment_free(m->ctx, &now);
@@ -256,6 +286,12 @@ static fram_status compose(page *p, fram_error *error)
     snprintf(title, sizeof title, "Ice management for %s", name ? name : "the vessel");
     html_begin(&p->html, title, m->d.s.title);
     verdict(p);
+    html_section(&p->html, "The field from above, and its floes");
+    html_grid_begin(&p->html);
+    fram_status status = plan(p, error);
+    if (status == FRAM_OK)
+        status = size_chart(p, error);
+    html_grid_end(&p->html);
     html_section(&p->html, "Ice that reached the vessel");
     html_paragraph(
         &p->html,
@@ -272,13 +308,10 @@ static fram_status compose(page *p, fram_error *error)
     html_paragraph(&p->html, "Along the drift at each moment, assuming that it persists; within the recorded domain.");
     alarm_table(p);
     html_grid_begin(&p->html);
-    fram_status status = size_chart(p, error);
     if (status == FRAM_OK)
         status = series_chart(p, false, "Managed ice at the vessel", "part of the ice [%]", error);
     if (status == FRAM_OK)
         status = series_chart(p, true, "Time until the largest unmanaged ice arrives", "time [min]", error);
-    if (status == FRAM_OK)
-        status = plan(p, error);
     html_grid_end(&p->html);
     html_end(&p->html);
     return status == FRAM_OK && p->html.text.failed ? error_memory(error) : status;

@@ -67,6 +67,9 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
     if (!isnan(s->largest_time))
         text_format(ctx, out, "; the largest that came, at %.4g s", s->largest_time);
     text_add(ctx, out, "\n");
+    if (s->empty > 0 && !isnan(s->first_time))
+        text_format(ctx, out, "no ice before the vessel until %.4g s, which the means count: give run.transient %.4g\n",
+                    s->first_time, s->first_time);
     tell_time(ctx, "time until the nearest unmanaged ice arrives, least, median", s->alarm_least, s->alarm_median, out);
     tell_time(ctx, "time until the largest unmanaged ice arrives, least, median", s->warning_least, s->warning_median,
               out);
@@ -94,6 +97,7 @@ static void summary_json(context *ctx, const manage_summary *s, text_buffer *out
         real(ctx, out, "largest", s->place[p].windows > 0 ? s->place[p].largest : (double)NAN, "}, ");
     }
     real(ctx, out, "largest_at_time", s->largest_time, ", ");
+    real(ctx, out, "first_ice_at_time", s->first_time, ", ");
     real(ctx, out, "unmanaged_comes_in_least", s->alarm_least, ", ");
     real(ctx, out, "unmanaged_comes_in_median", s->alarm_median, ", ");
     real(ctx, out, "largest_unmanaged_comes_in_least", s->warning_least, ", ");

@@ -45,8 +45,8 @@ static bool add_shape(const replay *r, const replay_moment *m, int32_t row, plan
     shape.style = b->solid                       ? PLAN_DECK
                   : b->material == MATERIAL_WALL ? PLAN_WALL
                   : b->material == MATERIAL_HULL ? PLAN_DECK
+                  : b->level                     ? PLAN_LEVEL_ICE /* also of a sheet that drifts */
                   : b->moves                     ? PLAN_FLOE
-                  : b->level                     ? PLAN_LEVEL_ICE
                                                  : PLAN_FIXED_ICE;
     if (b->solid)
         shape.height = HUGE_VAL;

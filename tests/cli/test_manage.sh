@@ -65,6 +65,14 @@ number "j['run']['upstream']['windows']" 4
 number "j['run']['behind']['windows']" 4
 number "j['run']['behind']['concentration']" "$(python3 -c 'print(73 / 200)')"
 
+# A window of 2.2 m before the bow has no ice until the floe of 3 m, 4.5 m off at the start, has come into it at 4.6 s.
+expect 0 "$FRAM" manage alone --limit 5 --depth 2.2 --json -q
+number "j['run']['first_ice_at_time']" 5
+expect 0 "$FRAM" manage alone --limit 5 --depth 2.2 -o late.html -q
+says "no ice before the vessel until 5 s, which the means count: give run.transient 5" out
+says "No ice was before the vessel until 5 s" late.html
+says "The field at the end" late.html
+
 # The page and its tables, also of two runs beside each other.
 # Windows without ice have a concentration, and no shares of the ice nor sizes.
 expect 0 "$FRAM" manage both --vessel tender --limit 5 --depth 2 -q

@@ -106,8 +106,12 @@ START_TEST(level_ice_is_known)
     static const char level[] = "run: {duration: 0.04, time_step: 0.02}\nvessel: {present: false}\n"
                                 "ice: {source: level, breakable: true}\n"
                                 "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44, boundary: open}\n";
-    const char *const from[2] = {text, level};
-    for (int k = 0; k < 2; k++) {
+    static const char drifting[] = "run: {duration: 0.04, time_step: 0.02}\nvessel: {present: false}\n"
+                                   "ice: {source: level, breakable: true}\n"
+                                   "domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 44, boundary: feeding,"
+                                   " drift_speed: 0.5}\n";
+    const char *const from[3] = {text, level, drifting};
+    for (int k = 0; k < 3; k++) {
         context ctx;
         char folder[PATH];
         replay r;
