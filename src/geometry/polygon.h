@@ -50,8 +50,8 @@ typedef struct box2 {
 } box2;
 /* Of no vertices: lo is +infinity, hi is -infinity. */
 box2 polygon_bounds(polygon p);
-/* Largest distance between two vertices [m]; over all pairs. */
-double polygon_diameter(polygon p);
+/* Largest distance between two vertices [m], to rounding.  false: no memory. */
+bool polygon_farthest_apart(context *ctx, polygon p, double *out);
 
 /* Inside or on the edge, exactly (geometry/predicate.h).  Any closed ring, by the even-odd rule. */
 bool polygon_contains(polygon p, vec2 point);

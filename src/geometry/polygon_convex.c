@@ -153,6 +153,36 @@ fram_status polygon_oriented_box(context *ctx, polygon p, oriented_box *box)
     return FRAM_OK;
 }
 
+static double square_between(polygon p, int32_t i, int32_t k)
+{
+    vec2 d = vec2_sub(p.vertex[i], p.vertex[k]);
+    return vec2_dot(d, d);
+}
+
+/* Over the hull, whose farthest vertex from an edge goes on round it as the edges do (Shamos 1978). */
+bool polygon_farthest_apart(context *ctx, polygon p, double *out)
+{
+    vec2_array ring = {0};
+    bool good = polygon_convex_hull(ctx, p, &ring);
+    polygon hull = {ring.data, good ? ring.count : 0};
+    double most = hull.count == 2 ? square_between(hull, 0, 1) : 0;
+    int32_t far = 1;
+    for (int32_t i = 0; hull.count > 2 && i < hull.count; i++) {
+        int32_t end = (i + 1) % hull.count;
+        vec2 edge = vec2_sub(hull.vertex[end], hull.vertex[i]);
+        for (int32_t turns = 0; turns < hull.count; turns++) {
+            int32_t next = (far + 1) % hull.count;
+            most = real_max(most, real_max(square_between(hull, i, far), square_between(hull, end, far)));
+            if (vec2_cross(edge, vec2_sub(hull.vertex[next], hull.vertex[far])) <= 0)
+                break;
+            far = next;
+        }
+    }
+    array_free(ctx, &ring);
+    *out = sqrt(most);
+    return good;
+}
+
 /* The edge of a whose outward normal keeps b farthest away: that distance, and the normal. */
 static double edge_separation(polygon a, polygon b, vec2 *normal)
 {

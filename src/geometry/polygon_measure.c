@@ -53,17 +53,6 @@ box2 polygon_bounds(polygon p)
     return b;
 }
 
-double polygon_diameter(polygon p)
-{
-    double most = 0;
-    for (int32_t i = 0; i < p.count; i++)
-        for (int32_t j = 0; j < i; j++) {
-            vec2 d = vec2_sub(p.vertex[i], p.vertex[j]);
-            most = real_max(most, vec2_dot(d, d));
-        }
-    return sqrt(most);
-}
-
 /* Crossings of the ray to the right, an edge being closed at its lower end and open at its upper one. */
 bool polygon_contains(polygon p, vec2 point)
 {

@@ -79,11 +79,13 @@ fram_status import_field_measure(context *ctx, overlay *o, const char *name, con
     out->smallest_area = HUGE_VAL;
     for (int32_t i = 0; i < out->floes; i++) {
         polygon p = polygon_list_get(outlines, i);
-        double area = polygon_area(p);
+        double area = polygon_area(p), diameter;
+        if (!polygon_farthest_apart(ctx, p, &diameter))
+            return error_memory(error);
         out->area += area;
         out->smallest_area = fmin(out->smallest_area, area);
         out->largest_area = fmax(out->largest_area, area);
-        out->largest_diameter = fmax(out->largest_diameter, polygon_diameter(p));
+        out->largest_diameter = fmax(out->largest_diameter, diameter);
         out->concave += !polygon_is_convex(p);
     }
     count_sizes(outlines, out);

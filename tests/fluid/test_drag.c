@@ -1,5 +1,6 @@
 /* Form and skin drag: closed forms (docs/oracles.md, section 5), mesh against prism, and what must hold for any motion.
  */
+#include "geometry/outlines.h"
 #include "samples.h"
 
 static const drag_coefficients form_only = {.water_form = 1}, skin_only = {.water_skin = 0.01};

@@ -1,4 +1,5 @@
 /* Buoyancy of meshes and prisms: closed forms (docs/oracles.md, section 5), and each against the other. */
+#include "geometry/outlines.h"
 #include "samples.h"
 
 static context make_context(void)

@@ -1,6 +1,7 @@
 /* Level floes, eight at a time: against the walk over all faces of a prism, against a fine mesh, and the same bits in
    any company and with any instruction set. */
 #include "fluid/level_kernel.h"
+#include "geometry/outlines.h"
 #include "samples.h"
 
 static const vec2 triangle_outline[] = {{-3, -2}, {4, -2.5}, {-1, 4.5}};

@@ -40,6 +40,16 @@ static inline void outline_snap(vec2 *v, int32_t n, double step)
         v[i] = vec2_make(step * floor(v[i].x / step + 0.5), step * floor(v[i].y / step + 0.5));
 }
 
+/* Largest distance between two vertices, over all pairs. */
+static inline double polygon_diameter(polygon p)
+{
+    double most = 0;
+    for (int32_t i = 0; i < p.count; i++)
+        for (int32_t k = 0; k < i; k++)
+            most = fmax(most, vec2_length(vec2_sub(p.vertex[i], p.vertex[k])));
+    return most;
+}
+
 static inline double list_area(const polygon_list *l)
 {
     double sum = 0;

@@ -6,12 +6,44 @@
 static const vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 static const vec2 ell[] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2}, {0, 2}};
 
+static double diameter_of(polygon p)
+{
+    context ctx;
+    context_init(&ctx);
+    double found;
+    ck_assert(polygon_farthest_apart(&ctx, p, &found));
+    return found;
+}
+
+/* Against all pairs of vertices: rough and smooth rings, long ones, and those on a lattice, with many pairs as far
+   apart and many vertices on a line. */
+START_TEST(diameter_is_that_of_all_pairs)
+{
+    random_stream r = random_begin(23, 0, 0);
+    for (int round = 0; round < 600; round++) {
+        vec2 v[OUTLINE_ROOM];
+        int32_t n = outline_count(&r, 1, 90);
+        outline_star(&r, vec2_make(3, -2), round % 2 ? 5 : 2, 5, n, v);
+        for (int32_t i = 0; round % 3 == 0 && i < n; i++)
+            v[i].x *= 0.01;
+        if (round % 5 == 0)
+            outline_snap(v, n, round % 10 ? 0.5 : 20); /* of 20: all on one place or on a line */
+        assert_absolute(diameter_of((polygon){v, n}), polygon_diameter((polygon){v, n}), 1e-14);
+    }
+    ck_assert(diameter_of((polygon){NULL, 0}) == 0);
+    failing_memory memory;
+    context none = failing_context(&memory, 1);
+    double found;
+    ck_assert(!polygon_farthest_apart(&none, (polygon){square, 4}, &found));
+}
+END_TEST
+
 START_TEST(area_perimeter_bounds_diameter)
 {
     polygon p = {ell, 6};
     assert_absolute(polygon_area(p), 4, 1e-15);
     assert_absolute(polygon_perimeter(p), 10, 1e-15);
-    assert_absolute(polygon_diameter(p), sqrt(13), 1e-15);
+    assert_absolute(diameter_of(p), sqrt(13), 1e-15);
     box2 b = polygon_bounds(p);
     assert_vec2_close(b.lo, vec2_make(0, 0), 0);
     assert_vec2_close(b.hi, vec2_make(3, 2), 0);
@@ -240,7 +272,7 @@ START_TEST(pool_without_memory)
 }
 END_TEST
 
-TEST_MAIN("polygon_measure", area_perimeter_bounds_diameter, moments_of_known_shapes, moments_without_area,
-          moments_add_up_over_triangles, far_from_the_origin, contains_inside_edge_and_vertex,
+TEST_MAIN("polygon_measure", diameter_is_that_of_all_pairs, area_perimeter_bounds_diameter, moments_of_known_shapes,
+          moments_without_area, moments_add_up_over_triangles, far_from_the_origin, contains_inside_edge_and_vertex,
           contains_as_the_triangles_do, nearest_boundary_point, nearest_boundary_against_samples, pool_of_polygons,
           pool_without_memory)

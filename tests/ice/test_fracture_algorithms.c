@@ -2,6 +2,8 @@
    other ways to the same. */
 #include "fracture_rig.h"
 
+#include "geometry/outlines.h"
+
 #include "ice/fracture_parts.h"
 
 enum { ROOM = 64 };
