@@ -31,7 +31,7 @@ void patch_scratch_free(context *ctx, patch_scratch *s)
 /* ---- components ---- */
 
 /* A part slides along the ice where the way that it goes in is under this part of its whole way: 6 degrees, more than a
-   shoulder turns from facet to facet, less than any bow stands to its way [1].  Range 0.01 to 0.2. */
+   shoulder turns from facet to facet, less than most bows stand to their way [1].  Range 0.01 to 0.2. */
 static const double SLIDING = 0.1;
 
 /* Whether a part of the surface goes into the ice, not along it or away.  At rest none goes anywhere. */
