@@ -54,7 +54,10 @@ static void tell(context *ctx, const manage_summary *s, const manage_summary *be
                     "concentration", "managed", "unbroken", "mean [m]", "largest [m]");
         for (int p = 0; p < MANAGE_PLACES; p++)
             tell_place(ctx, a, p, out);
-        text_format(ctx, out, "ice load %.4g kN mean, %.4g kN at most\n", 1e-3 * a->load_mean, 1e-3 * a->load_most);
+        if (isnan(a->load_mean))
+            text_add(ctx, out, "ice load not known: the run ends before run.transient\n");
+        else
+            text_format(ctx, out, "ice load %.4g kN mean, %.4g kN at most\n", 1e-3 * a->load_mean, 1e-3 * a->load_most);
         if (!isnan(a->offset_most))
             text_format(ctx, out, "offset %.3g m at most\n", a->offset_most);
         if (!isnan(a->tension_most))

@@ -4,7 +4,9 @@
 #include "io/file.h"
 #include "results/station_results.h"
 
+#include <errno.h>
 #include <stdio.h>
+#include <unistd.h>
 
 static double step_of(const report *r)
 {
@@ -103,18 +105,17 @@ static fram_status station_picture(report *r, fram_error *error)
 {
     char path[PATH_ROOM], *png = NULL;
     size_t size = 0;
-    fram_error missing;
     vessel_file name = vessel_file_name(&r->d.s, r->vessel, "station", ".png");
     fram_status status = path_join(r->d.folder, name.text, path, error);
     if (status != FRAM_OK)
         return status;
-    status = file_read(r->ctx, path, 64 << 20, &png, &size, &missing);
-    if (status == FRAM_ERROR_MEMORY)
-        return error_memory(error);
+    if (access(path, F_OK) != 0 && errno == ENOENT)
+        return FRAM_OK;
+    status = file_read(r->ctx, path, 64 << 20, &png, &size, error);
     if (status == FRAM_OK)
         html_picture(&r->page, png, size, "Footprint, offsets, heading, loads and lines");
     memory_free(r->ctx, png);
-    return FRAM_OK;
+    return status;
 }
 
 /* Lines and thrusters, by their numbers, as far as the run has channels of them. */

@@ -73,6 +73,11 @@ says "no ice before the vessel until 5 s, which the means count: give run.transi
 says "No ice was before the vessel until 5 s" late.html
 says "The field at the end" late.html
 
+# A run that was stopped before its transient ended has no load to tell.
+expect 0 "$FRAM" run alone/scenario.yaml -o early --set run.transient=3 --until 2 -q
+expect 0 "$FRAM" manage early -q
+says "ice load not known: the run ends before run.transient" out
+
 # The page and its tables, also of two runs beside each other.
 # Windows without ice have a concentration, and no shares of the ice nor sizes.
 expect 0 "$FRAM" manage both --vessel tender --limit 5 --depth 2 -q

@@ -59,6 +59,14 @@ case $("$FRAM" --version) in
     [ -s "$scratch/run/station.png" ] || fail "station.png is missing"
     "$FRAM" report "$scratch/run" 2>/dev/null || fail "the report"
     says 'Station keeping' "$scratch/run/report.html"
+    # A picture that is there and cannot be read is told, never left out; one that is not there is not missed.
+    mv "$scratch/run/station.png" "$scratch/kept.png"
+    mkdir "$scratch/run/station.png"
+    expect 2 "$FRAM" report "$scratch/run"
+    says 'station.png' err
+    rmdir "$scratch/run/station.png"
+    expect 0 "$FRAM" report "$scratch/run"
+    mv "$scratch/kept.png" "$scratch/run/station.png"
     ;;
 esac
 
