@@ -105,7 +105,7 @@ def case(rig, draw, folder):
             now = str(problem)
         # What could not be removed stays, and harms nobody; an old checkpoint that was not listed is not removed.
         names = set(contents) if hit == "unlink" or not isinstance(now, dict) else set(contents) | set(now)
-        if hit == "readdir":
+        if hit in ("opendir", "readdir"):
             names = {n for n in names if n in contents or "/checkpoint-" not in n}
         others = [n for n in sorted(names) if contents.get(n) != now.get(n)] if isinstance(now, dict) else [now]
         if others:
