@@ -1,9 +1,8 @@
 #include "study/conditions.h"
 
-#include "base/number_text.h"
 #include "base/random.h"
-#include "io/csv_read.h"
 #include "io/text_buffer.h"
+#include "study/condition_table.h"
 #include "study/words.h"
 
 #include <math.h>
@@ -194,26 +193,19 @@ static fram_status read_list(const study_source *r, const yaml_node *node)
 
 /* ---- table ---- */
 
-static fram_status add_table(const study_source *r, const yaml_node *node, const csv_table *t)
+static fram_status add_table(const study_source *r, const yaml_node *node, condition_table *t)
 {
-    if (t->rows == 0 || t->columns.count == 0)
-        return study_refuse(r, node, "the table has no rows");
-    fram_status status = count_conditions(r, node, t->rows);
-    for (int32_t k = 0; k < t->columns.count && status == FRAM_OK; k++) {
-        if (strcmp(t->columns.data[k].name, "run.seed") == 0)
+    study *s = r->out;
+    for (int32_t k = 0; k < t->heads.count; k++)
+        if (strcmp(t->heads.data[k], "run.seed") == 0)
             return study_refuse(r, node, "the table has a column run.seed; seeds are given by `seeds`");
-        if (!text_list_add(r->ctx, &r->out->keys, t->columns.data[k].name))
-            status = error_memory(r->error);
-    }
-    for (int32_t row = 0; row < t->rows && status == FRAM_OK; row++) {
-        for (int32_t k = 0; k < t->columns.count && status == FRAM_OK; k++) {
-            char text[NUMBER_TEXT_SIZE];
-            real_to_text(t->columns.data[k].value.data[row], text);
-            if (!text_list_add(r->ctx, &r->out->values, text))
-                status = error_memory(r->error);
-        }
-    }
-    return status;
+    s->conditions = t->line.count;
+    /* What the table has is the study's. */
+    s->keys = t->heads;
+    s->values = t->cells;
+    s->table_line = t->line;
+    *t = (condition_table){0};
+    return FRAM_OK;
 }
 
 static fram_status read_table(const study_source *r, const yaml_node *node)
@@ -226,12 +218,14 @@ static fram_status read_table(const study_source *r, const yaml_node *node)
     if (name[0] != '/' && slash)
         text_add_bytes(r->ctx, &path, r->out->file, (size_t)(slash + 1 - r->out->file));
     text_add(r->ctx, &path, name);
-    csv_table t = {0};
-    fram_status status = path.failed ? error_memory(r->error) : csv_table_read(r->ctx, path.data, &t, r->error);
-    text_free(r->ctx, &path);
+    condition_table t = {0};
+    fram_status status = path.failed ? error_memory(r->error) : condition_table_read(r->ctx, path.data, &t, r->error);
     if (status == FRAM_OK)
         status = add_table(r, node, &t);
-    csv_table_free(r->ctx, &t);
+    if (status == FRAM_OK && !(r->out->table = memory_string(r->ctx, path.data)))
+        status = error_memory(r->error);
+    condition_table_free(r->ctx, &t);
+    text_free(r->ctx, &path);
     return status;
 }
 

@@ -30,6 +30,8 @@ void study_free(context *ctx, study *s)
     array_free(ctx, &s->set);
     text_list_free(ctx, &s->keys);
     text_list_free(ctx, &s->values);
+    memory_free(ctx, s->table);
+    array_free(ctx, &s->table_line);
     array_free(ctx, &s->design.point);
     array_free(ctx, &s->extremes.hours);
     memset(s, 0, sizeof *s);

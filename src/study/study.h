@@ -52,23 +52,25 @@ typedef struct study_extremes {
 } study_extremes;
 
 typedef struct study {
-    char *file;          /* the study file */
-    char *scenario;      /* path of the scenario, to be opened from here */
-    char *vessel;        /* whose figures the tables tell; NULL: the first that is present */
-    int vessel_line;     /* in the study file */
-    assignment_list set; /* for all runs */
-    text_list keys;      /* that the conditions vary */
-    text_list values;    /* conditions x keys, one condition after the other */
-    int32_t conditions;  /* at least 1 */
-    int32_t keys_line;   /* in the study file */
+    char *file;             /* the study file */
+    char *scenario;         /* path of the scenario, to be opened from here */
+    char *vessel;           /* whose figures the tables tell; NULL: the first that is present */
+    int vessel_line;        /* in the study file */
+    assignment_list set;    /* for all runs */
+    text_list keys;         /* that the conditions vary */
+    text_list values;       /* conditions x keys, one condition after the other */
+    int32_t conditions;     /* at least 1 */
+    int32_t keys_line;      /* in the study file */
+    char *table;            /* file that the conditions are of; NULL: the study file */
+    int32_array table_line; /* of each condition there */
     study_seeds seeds;
     study_keep keep;
     study_design design;
     study_extremes extremes;
 } study;
 
-/* Most conditions of a study, and most seeds of a condition: far beyond what anybody waits for. */
-enum { STUDY_CONDITIONS_MOST = 100000, STUDY_SEEDS_MOST = 100000 };
+/* Most conditions of a study, most seeds of a condition, and most runs of all: far beyond what anybody waits for. */
+enum { STUDY_CONDITIONS_MOST = 100000, STUDY_SEEDS_MOST = 100000, STUDY_RUNS_MOST = 10000000 };
 
 void study_free(context *ctx, study *s);
 static inline const char *study_value(const study *s, int32_t condition, int32_t key)

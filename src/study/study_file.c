@@ -153,24 +153,42 @@ static fram_status read_root(const study_source *r)
     }
     if (!r->out->scenario)
         return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, "scenario", "is missing: name a scenario file");
+    int64_t runs = (int64_t)r->out->conditions * r->out->seeds.most;
+    if (runs > STUDY_RUNS_MOST)
+        return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, "seeds",
+                         "found %lld runs, %d conditions with up to %d seeds each: expected at most %d",
+                         (long long)runs, (int)r->out->conditions, (int)r->out->seeds.most, STUDY_RUNS_MOST);
     return study_extremes_check(r->out, r->error);
 }
 
 /* ---- checks of all conditions ---- */
 
-/* An error in a value that the study gave, at its place in the study file. */
+static bool is_varied(const study *s, const char *key)
+{
+    for (int32_t k = 0; k < s->keys.count; k++)
+        if (strcmp(s->keys.data[k], key) == 0)
+            return true;
+    return false;
+}
+
+/* An error in a value that the study gave, at its place in the study file or in the table of conditions. */
 static void place_error(const study *s, int32_t condition, fram_error *error)
 {
     if (!error || strcmp(error->file, SCENARIO_OVERRIDE) != 0)
         return;
-    int line = s->keys_line;
-    for (int32_t i = 0; i < s->set.count; i++)
-        if (strcmp(s->set.data[i].key, error->key) == 0)
-            line = s->set.data[i].line;
+    bool set = false;
+    int line = s->table ? s->table_line.data[condition] : s->keys_line;
+    for (int32_t i = 0; i < s->set.count; i++) {
+        if (strcmp(s->set.data[i].key, error->key) != 0 || is_varied(s, error->key))
+            continue;
+        line = s->set.data[i].line;
+        set = true;
+    }
+    const char *file = s->table && !set ? s->table : s->file;
     char message[sizeof error->message], key[sizeof error->key];
     memcpy(message, error->message, sizeof message);
     memcpy(key, error->key, sizeof key);
-    error_set(error, FRAM_ERROR_INPUT, s->file, line, key, "condition %d: %.400s", (int)condition + 1, message);
+    error_set(error, FRAM_ERROR_INPUT, file, line, key, "condition %d: %.400s", (int)condition + 1, message);
 }
 
 fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,

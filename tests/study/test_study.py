@@ -212,6 +212,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                      "    - {ice.thickness: 1, vessel.speed: 2}\n", "study.yaml:5", "in their order")
         self.refused("vary:\n  table:\n", "study.yaml:3: table", "expected the name of a CSV file")
         self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "study.yaml:2", "seeds are given by")
+        # Texts too, and mistakes at their place in the table; but those of `set` in the study file.
+        (self.at / "c.csv").write_text('vessel.mode,"ice.thickness[m]"\r\n"towed",1\r\n\r\ntowed,-1\r\n')
+        table = "vary: {table: c.csv}\n"
+        self.refused(table, "c.csv:4: ice.thickness", "condition 2", "-1")
+        self.refused("set: {vessel.speed: fast}\n" + table, "study.yaml:2: vessel.speed")
+        self.refused("seeds: 100000\nvary: {latin: {count: 1000, keys: {vessel.speed: [1, 2]}}}\n", "seeds",
+                     "100000000 runs")
 
     def test_ctrl_c_keeps_what_ended(self):
         study = self.write("set: {run.duration: 20}\nseeds: 6\n")

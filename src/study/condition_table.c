@@ -1,0 +1,256 @@
+#include "study/condition_table.h"
+
+#include "io/file.h"
+#include "io/text_buffer.h"
+#include "model/scenario_schema.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Far beyond a table of the most conditions with ten keys each. */
+enum { TABLE_BYTES_MOST = 1 << 26, KEYS_MOST = 1000 };
+#define BYTE_ORDER_MARK "\xef\xbb\xbf"
+
+typedef struct table_reader {
+    context *ctx;
+    const char *name, *at, *end;
+    int32_t line;
+    condition_table *out;
+    fram_error *error;
+    text_buffer cell;
+} table_reader;
+
+static fram_status refuse(const table_reader *r, const char *head, const char *message)
+{
+    return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, head, "%s", message);
+}
+
+static bool at_line_end(const table_reader *r) { return r->at == r->end || *r->at == '\n' || *r->at == '\r'; }
+static bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/* ---- cells ---- */
+
+static void pass_blanks(table_reader *r)
+{
+    while (r->at < r->end && is_blank(*r->at))
+        r->at++;
+}
+
+static fram_status read_quoted(table_reader *r, const char *head)
+{
+    for (r->at++; !at_line_end(r); r->at++) {
+        if (*r->at == '"' && (r->at + 1 == r->end || r->at[1] != '"'))
+            break;
+        r->at += *r->at == '"';
+        text_add_bytes(r->ctx, &r->cell, r->at, 1);
+    }
+    if (at_line_end(r))
+        return refuse(r, head, "the quotation mark that opens here is not closed in its line");
+    r->at++;
+    pass_blanks(r);
+    return at_line_end(r) || *r->at == ',' ? FRAM_OK : refuse(r, head, "expected a comma behind the quotation mark");
+}
+
+static void read_plain(table_reader *r)
+{
+    const char *begin = r->at;
+    while (!at_line_end(r) && *r->at != ',')
+        r->at++;
+    const char *last = r->at;
+    while (last > begin && is_blank(last[-1]))
+        last--;
+    text_add_bytes(r->ctx, &r->cell, begin, (size_t)(last - begin));
+}
+
+/* One cell, to its comma or the end of its line. */
+static fram_status read_cell(table_reader *r, const char *head)
+{
+    fram_status status = FRAM_OK;
+    r->cell.count = 0;
+    text_add(r->ctx, &r->cell, "");
+    pass_blanks(r);
+    if (r->at < r->end && *r->at == '"')
+        status = read_quoted(r, head);
+    else
+        read_plain(r);
+    if (status == FRAM_OK && r->cell.failed)
+        return error_memory(r->error);
+    return status;
+}
+
+/* Behind a line; false at the end of the file. */
+static bool next_line(table_reader *r)
+{
+    if (r->at < r->end && *r->at == '\r')
+        r->at++;
+    if (r->at < r->end && *r->at == '\n')
+        r->at++;
+    r->line++;
+    return r->at < r->end;
+}
+
+/* The next line that has something on it. */
+static bool find_line(table_reader *r)
+{
+    for (bool more = r->at < r->end; more; more = next_line(r)) {
+        const char *begin = r->at;
+        pass_blanks(r);
+        if (!at_line_end(r)) {
+            r->at = begin;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* ---- heads ---- */
+
+/* The key of a path as "vessels[1].hull.length"; NULL when there is none. */
+static const scenario_key *key_of(const char *path)
+{
+    const scenario_section *section = &scenario_schema;
+    const scenario_key *key = NULL;
+    while (*path) {
+        char name[64];
+        size_t length = strcspn(path, ".[");
+        if (!section || length >= sizeof name)
+            return NULL;
+        memcpy(name, path, length);
+        name[length] = '\0';
+        int32_t found = section_find(section, name);
+        if (found < 0)
+            return NULL;
+        key = &section->keys[found];
+        section = key->section;
+        path += length;
+        path += *path == '[' ? strcspn(path, ".") : 0;
+        path += *path == '.';
+    }
+    return key;
+}
+
+/* Takes "[unit]" off a head, and refuses a unit that is not the key's; a number may be that of a list's element. */
+static fram_status take_unit(table_reader *r, char *head)
+{
+    char *open = strrchr(head, '['), *close = head + strlen(head) - 1;
+    if (!open || open == head || *close != ']')
+        return FRAM_OK;
+    bool number = strspn(open + 1, "0123456789") == (size_t)(close - open - 1);
+    *open = '\0';
+    const scenario_key *key = key_of(head);
+    if (number && (!key || key->kind == KEY_LIST)) {
+        *open = '[';
+        return FRAM_OK;
+    }
+    *close = '\0';
+    const char *wanted = key && *key->unit ? key->unit : "1";
+    if (!key || strcmp(wanted, open + 1) == 0)
+        return FRAM_OK;
+    return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, head, "expected the unit %s, found %.40s", wanted,
+                     open + 1);
+}
+
+static fram_status add_head(table_reader *r)
+{
+    char *head = r->cell.data;
+    if (!*head)
+        return refuse(r, "", "expected a scenario key at the head of each column, found an empty one");
+    if (strpbrk(head, ";\t"))
+        return refuse(r, head, "expected columns divided by commas");
+    fram_status status = take_unit(r, head);
+    for (int32_t k = 0; k < r->out->heads.count && status == FRAM_OK; k++)
+        if (strcmp(r->out->heads.data[k], head) == 0)
+            status = refuse(r, head, "expected each key once, found it at the head of two columns");
+    if (status == FRAM_OK && r->out->heads.count == KEYS_MOST)
+        status = refuse(r, head, "the table has too many columns");
+    if (status == FRAM_OK && !text_list_add(r->ctx, &r->out->heads, head))
+        status = error_memory(r->error);
+    return status;
+}
+
+static fram_status read_heads(table_reader *r)
+{
+    if (!find_line(r))
+        return refuse(r, NULL, "the file has no head row");
+    for (;; r->at++) {
+        fram_status status = read_cell(r, NULL);
+        if (status == FRAM_OK)
+            status = add_head(r);
+        if (status != FRAM_OK || at_line_end(r))
+            return status;
+    }
+}
+
+/* ---- rows ---- */
+
+static fram_status read_row(table_reader *r)
+{
+    const text_list *heads = &r->out->heads;
+    for (int32_t k = 0;; k++, r->at++) {
+        if (k == heads->count)
+            return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, NULL,
+                             "expected %d cells, a value for each key, found more", (int)heads->count);
+        fram_status status = read_cell(r, heads->data[k]);
+        if (status == FRAM_OK && !*r->cell.data)
+            status = refuse(r, heads->data[k], "expected a value, found an empty cell");
+        if (status == FRAM_OK && !text_list_add(r->ctx, &r->out->cells, r->cell.data))
+            status = error_memory(r->error);
+        if (status != FRAM_OK)
+            return status;
+        if (!at_line_end(r))
+            continue;
+        if (k + 1 < heads->count)
+            return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, heads->data[k + 1],
+                             "expected %d cells, a value for each key, found %d", (int)heads->count, (int)k + 1);
+        return array_push(r->ctx, &r->out->line, r->line) ? FRAM_OK : error_memory(r->error);
+    }
+}
+
+static fram_status read_all(table_reader *r)
+{
+    if (r->end - r->at >= 3 && memcmp(r->at, BYTE_ORDER_MARK, 3) == 0)
+        r->at += 3;
+    for (const char *c = r->at; c < r->end; c++) {
+        if (!*c)
+            return refuse(r, NULL, "expected text, found a NUL byte");
+    }
+    fram_status status = read_heads(r);
+    while (status == FRAM_OK && next_line(r) && find_line(r)) {
+        if (r->out->line.count == STUDY_CONDITIONS_MOST)
+            return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, NULL,
+                             "expected at most %d conditions, found more", STUDY_CONDITIONS_MOST);
+        status = read_row(r);
+    }
+    return status == FRAM_OK && r->out->line.count == 0 ? refuse(r, NULL, "the table has no rows") : status;
+}
+
+fram_status condition_table_parse(context *ctx, const char *name, const char *data, size_t size, condition_table *out,
+                                  fram_error *error)
+{
+    *out = (condition_table){0};
+    table_reader r = {.ctx = ctx, .name = name, .at = data, .end = data + size, .line = 1, .out = out, .error = error};
+    fram_status status = read_all(&r);
+    text_free(ctx, &r.cell);
+    if (status != FRAM_OK)
+        condition_table_free(ctx, out);
+    return status;
+}
+
+fram_status condition_table_read(context *ctx, const char *path, condition_table *out, fram_error *error)
+{
+    char *data = NULL;
+    size_t size = 0;
+    *out = (condition_table){0};
+    fram_status status = file_read(ctx, path, TABLE_BYTES_MOST, &data, &size, error);
+    if (status == FRAM_OK)
+        status = condition_table_parse(ctx, path, data, size, out, error);
+    memory_free(ctx, data);
+    return status;
+}
+
+void condition_table_free(context *ctx, condition_table *t)
+{
+    text_list_free(ctx, &t->heads);
+    text_list_free(ctx, &t->cells);
+    array_free(ctx, &t->line);
+}

@@ -1,0 +1,80 @@
+/* Conditions from a CSV file: what programs write is read, and what is unclear is refused at its place. */
+#include "testing.h"
+
+#include "study/condition_table.h"
+
+static void parse(const char *text, fram_status expected, condition_table *t, fram_error *error)
+{
+    context ctx;
+    context_init(&ctx);
+    *error = (fram_error){0};
+    ck_assert_msg(condition_table_parse(&ctx, "t.csv", text, strlen(text), t, error) == expected, "%s: %s", text,
+                  error->message);
+}
+
+static void read_as(const char *text, const char *const *cells, int32_t heads, int32_t rows)
+{
+    condition_table t;
+    fram_error error;
+    context ctx;
+    context_init(&ctx);
+    parse(text, FRAM_OK, &t, &error);
+    ck_assert_int_eq(t.heads.count, heads);
+    ck_assert_int_eq(t.line.count, rows);
+    for (int32_t i = 0; i < heads * (rows + 1); i++)
+        ck_assert_str_eq(i < heads ? t.heads.data[i] : t.cells.data[i - heads], cells[i]);
+    condition_table_free(&ctx, &t);
+}
+
+START_TEST(tables_of_any_program_are_read)
+{
+    static const char *const cells[] = {"vessel.speed", "vessel.mode", "1.50", "towed", "2", "free"};
+    read_as("vessel.speed,vessel.mode\n1.50,towed\n2,free\n", cells, 2, 2);
+    read_as("\xef\xbb\xbfvessel.speed[m/s] , \"vessel.mode\"\r\n\r\n 1.50,\t\"towed\" \r\n2,free\r\n\r\n", cells, 2, 2);
+    static const char *const odd[] = {"vessel.name", "ice.concentration", "a, \"b\"", "0.5"};
+    read_as("vessel.name,ice.concentration[1]\n\"a, \"\"b\"\"\",0.5", odd, 2, 1);
+    static const char *const lists[] = {"vessels[1].speed", "2"};
+    read_as("vessels[1].speed[m/s]\n2\n", lists, 1, 1);
+}
+END_TEST
+
+START_TEST(what_is_unclear_is_refused_at_its_place)
+{
+    static const struct {
+        const char *text;
+        int line;
+        const char *key, *says;
+    } bad[] = {
+        {"", 1, "", "no head row"},
+        {"\n \n", 3, "", "no head row"},
+        {"vessel.speed\n\n", 3, "", "no rows"},
+        {"vessel.speed;ice.thickness\n1;2\n", 1, "vessel.speed;ice.thickness", "divided by commas"},
+        {"vessel.speed,\n1,2\n", 1, "", "empty one"},
+        {"vessel.speed,vessel.speed[m/s]\n1,2\n", 1, "vessel.speed", "two columns"},
+        {"vessel.speed[kn]\n1\n", 1, "vessel.speed", "unit m/s, found kn"},
+        {"ice.concentration[2]\n1\n", 1, "ice.concentration", "unit 1, found 2"},
+        {"vessel.speed,ice.thickness\n1,2\n\n1,\n", 4, "ice.thickness", "empty cell"},
+        {"vessel.speed,ice.thickness\n1\n", 2, "ice.thickness", "expected 2 cells"},
+        {"vessel.speed,ice.thickness\n1,2,3\n", 2, "", "found more"},
+        {"vessel.speed\n\"1\n", 2, "vessel.speed", "not closed"},
+        {"vessel.speed\n\"1\"2\n", 2, "vessel.speed", "comma behind"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        condition_table t;
+        fram_error error;
+        parse(bad[i].text, FRAM_ERROR_INPUT, &t, &error);
+        ck_assert_msg(error.line == bad[i].line && strcmp(error.key, bad[i].key) == 0 &&
+                          strstr(error.message, bad[i].says),
+                      "%s: %d: %s: %s", bad[i].text, error.line, error.key, error.message);
+        ck_assert_ptr_null(t.heads.data);
+    }
+    condition_table t;
+    fram_error error = {0};
+    context ctx;
+    context_init(&ctx);
+    ck_assert(condition_table_parse(&ctx, "t.csv", "a\n1\0", 4, &t, &error) == FRAM_ERROR_INPUT);
+    ck_assert_ptr_nonnull(strstr(error.message, "NUL"));
+}
+END_TEST
+
+TEST_MAIN("condition_table", tables_of_any_program_are_read, what_is_unclear_is_refused_at_its_place)
