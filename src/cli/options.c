@@ -139,6 +139,11 @@ static int read_option(word_list *list)
     const char *text = equals ? equals + 1 : list->at < list->count ? list->word[list->at++] : NULL;
     if (!text || !*text)
         return answer_usage(list->common, row->name, text ? "needs a value, found an empty word" : "needs a value");
+    /* "-o --force" forgot a name: it asks for no folder called --force. */
+    if (!equals && strncmp(text, "--", 2) == 0)
+        return answer_usage(
+            list->common, row->name,
+            "needs a value, found an option (a name that begins so is ./--name, another value --option=--value)");
     const char *wrong = store_value(row, text);
     return wrong ? answer_usage(list->common, row->name, wrong) : -1;
 }

@@ -10,7 +10,7 @@
 
 #ifdef FRAM_HAVE_CAIRO
 
-enum { PAGE_WIDTH = 1240, PAGE_HEIGHT = 860, MIDDLE_X = 430, MIDDLE_Y = 470, RADIUS = 330, TEXT_X = 880, LINE = 19 };
+enum { PAGE_WIDTH = 1300, PAGE_HEIGHT = 860, MIDDLE_X = 470, MIDDLE_Y = 470, RADIUS = 330, TEXT_X = 950, LINE = 19 };
 
 static const image_colour ink = {0.2, 0.2, 0.2}, grid = {0.55, 0.57, 0.60}, beyond = {0.62, 0.62, 0.64};
 /* Colour-blind safe (Okabe and Ito 2008). */
@@ -97,8 +97,9 @@ static void draw_outer(cairo_t *page, const polar_chart *p)
         double a = page_angle(p, i), c = real_cos(a), s = real_sin(a);
         image_align align = c > 0.3 ? ALIGN_LEFT : c < -0.3 ? ALIGN_RIGHT : ALIGN_CENTRE;
         double shift = align == ALIGN_CENTRE ? (s > 0 ? 20 : -16) : 0;
-        image_text(page, MIDDLE_X + (RADIUS + 38) * c, MIDDLE_Y + (RADIUS + 26) * s + 4 + shift, 11, align, false,
-                   p->outer[i]);
+        double aside = align == ALIGN_LEFT ? 20 : align == ALIGN_RIGHT ? -20 : 0;
+        image_text(page, MIDDLE_X + (RADIUS + 18) * c + aside, MIDDLE_Y + (RADIUS + 26) * s + 4 + shift, 11, align,
+                   false, p->outer[i]);
     }
 }
 

@@ -134,6 +134,10 @@ expect 0 "$FRAM" check straight/scenario.yaml
 expect 2 "$FRAM" run scene.yaml -o straight
 says "--force" err
 expect 2 "$FRAM" run scene.yaml -o scene.yaml
+# A forgotten name asks for no folder called --force.
+expect 2 "$FRAM" run scene.yaml -o --force
+says "--output: needs a value" err
+[ ! -e ./--force ] || fail "a folder called --force"
 touch straight/failed.fram straight/station.json
 expect 0 "$FRAM" run scene.yaml -o straight --force --json
 same "$(value 'j["state_hash"]')" "$hash" "hash of the second run"
