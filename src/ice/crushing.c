@@ -296,7 +296,11 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
-    patch.contact_count = patch_points(c, normal, point);
+    /* Patches of hulls keep their shape, which loads of panels are made of. */
+    const double *radius = j->shapes->shapes.radius;
+    double smaller = fmin(radius[p->prism.shape], radius[j->bodies->shape[p->surface_body]]);
+    bool floes = j->bodies->material[p->surface_body] == MATERIAL_ICE;
+    patch.contact_count = patch_points(c, normal, floes ? j->settings->small_patch * smaller : 0, point);
     assert(patch.contact_count >= 1 && patch.contact_count <= PATCH_MOST_POINTS);
     assert(fabs(vec3_length(patch.normal) - 1) < UNIT_SLACK);
     assert(c->way >= 0 && patch.area > 0 && patch.horizontal_area <= c->surface * (1 + UNIT_SLACK));
@@ -387,11 +391,10 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
                             .pressure = pair_pressure(j, p, inner, area, area),
                             .contact_first = j->contacts->count,
                             .contact_count = 1};
-    double way_out;
-    if (!patch_way_out(j->ctx, j->room, &p->prism, inner, vec3_neg(normal), &way_out))
-        return error_memory(j->error);
-    double depth = fmin(distance + way_out, thickness);
-    if (!push_contact(j, p, &patch, 0, inner, depth, 1, true) || !array_push(j->ctx, j->patches, patch))
+    double way_out = 0;
+    if (!patch_way_out(j->ctx, j->room, &p->prism, inner, vec3_neg(normal), &way_out) ||
+        !push_contact(j, p, &patch, 0, inner, fmin(distance + way_out, thickness), 1, true) ||
+        !array_push(j->ctx, j->patches, patch))
         return error_memory(j->error);
     return FRAM_OK;
 }

@@ -37,12 +37,13 @@ typedef struct crushing_patch {
 typedef ARRAY(crushing_patch) crushing_patch_array;
 
 typedef struct crushing_settings {
-    double time_step;         /* [s] */
-    double smallest_area;     /* patches under it are dropped [m2] */
-    double skin;              /* bodies nearer than this touch: run.solver.contact_skin [m] */
-    double ridging;           /* R of the ridge-building line load between floes, 0: none (ice/material.h) */
-    strength_field strength;  /* how strengths vary over the ice */
-    edge_compliance edges;    /* how far edges of level and fixed ice give */
+    double time_step;        /* [s] */
+    double smallest_area;    /* patches under it are dropped [m2] */
+    double skin;             /* bodies nearer than this touch: run.solver.contact_skin [m] */
+    double ridging;          /* R of the ridge-building line load between floes, 0: none (ice/material.h) */
+    strength_field strength; /* how strengths vary over the ice */
+    double small_patch;    /* floes: lengths of a patch under this part of the smaller radius turn neither, 0: all do */
+    edge_compliance edges; /* how far edges of level and fixed ice give */
     bool correct_unbreakable; /* comparison switch: a hull pushes unbreakable floes out of itself */
     bool parts_by_motion;     /* where a hull slides along ice it is another patch than where it moves into it */
     bool top_plane_area;      /* comparison switch: the paper's area (cut with the floe's top plane, A_I / cos gamma) */
@@ -54,15 +55,15 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s);
 
 /* Patches of the given pairs (a floe against a body with a solid or a prism shape, which may be another floe), appended
    in pair order together with their contacts, floe first: 1, 2 or 4 points a patch, in the plane through its centroid,
-   of equal weight, with the centroid and the second moments of the patch, so that force and moment are those of the
-   patch; each capped by weight * sigma_c A_c dt.  Between two floes the higher slot counts as the floe, and the weaker
-   one's pressure holds.  depth of the points = mean way of the overlap along the normal (ice/patch.h), continuous in
-   the pose.  correct is false between hull and floe and between floes: their overlap is ice that is crushed or about to
-   break.  With `edges`, breakable ice that does not move freely gives under a hull: the edge is where the load that
-   crushes on what is left of the patch bends it, found by the ice that the patch stood on in the last step (supports,
-   may be NULL: straight edges).  The contacts that the array holds already are given their limits by
-   crushing_limit_sides.  Independent of how hull and floe are cut into convex pieces, to rounding. FRAM_ERROR_USAGE for
-   a pair without ice; without memory the arrays may hold a part of the patches. */
+   of equal weight, with the centroid and the second moments of the patch (but for small_patch), so that force and
+   moment are those of the patch; each capped by weight * sigma_c A_c dt.  Between two floes the higher slot counts as
+   the floe, and the weaker one's pressure holds.  depth of the points = mean way of the overlap along the normal
+   (ice/patch.h), continuous in the pose.  correct is false between hull and floe and between floes: their overlap is
+   ice that is crushed or about to break.  With `edges`, breakable ice that does not move freely gives under a hull: the
+   edge is where the load that crushes on what is left of the patch bends it, found by the ice that the patch stood on
+   in the last step (supports, may be NULL: straight edges).  The contacts that the array holds already are given their
+   limits by crushing_limit_sides.  Independent of how hull and floe are cut into convex pieces, to rounding.
+   FRAM_ERROR_USAGE for a pair without ice; without memory the arrays may hold a part of the patches. */
 fram_status crushing_contacts(context *ctx, crushing_scratch *scratch, const crushing_settings *settings,
                               const body_table *bodies, const shape_store *shapes, const floe_table *floes,
                               const edge_support_table *supports, pair_table *pairs, const index_array *patch_pairs,

@@ -8,8 +8,10 @@ enum { PATCH_MOST_POINTS = 4 };
 
 /* Points of equal weight with the centroid and the second moments of the patch in its plane: centre +- s1 +- s2, with
    s1 and s2 the columns of the symmetric root of its covariance.  On a rectangle they are the points of Gauss's rule.
-   Two points for a patch that is nearly a line, one for a point. Their number is returned; normal: the unit
-   vector along the area of the component, floe frame. */
-int patch_points(const patch_component *c, vec3 normal, vec3 out[PATCH_MOST_POINTS]);
+   Two points for a patch that is nearly a line, one for a point.  Their number is returned; normal: the unit
+   vector along the area of the component, floe frame.
+   small: lengths of gyration under it count as none [m].  The second moment in any direction of the plane is then less
+   than small^2 too small, never too large (docs/decisions/0390). */
+int patch_points(const patch_component *c, vec3 normal, double small, vec3 out[PATCH_MOST_POINTS]);
 
 #endif

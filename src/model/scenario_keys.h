@@ -188,6 +188,9 @@
     X(parts_by_motion, BOOLEAN(true), "",                                                                              \
       "where a hull slides along ice and where it moves into it are two contacts; false: one, with one normal, whose " \
       "friction counts the whole of its area")                                                                         \
+    X(small_patch, REAL(0.01, 0, 0.1), "1",                                                                            \
+      "where two floes touch over less than this part of the smaller one's radius (length of gyration), in one "       \
+      "direction or in both, they touch in two points or in one, without a moment there, not in four; 0: always four") \
     X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")    \
     X(sleep_speed, REAL(0, 0, 10), "m/s",                                                                              \
       "floes that were slower than this for sleep_time, centre and rim together, are put to sleep until something "    \

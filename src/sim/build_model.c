@@ -85,6 +85,7 @@ static model settings_of(const scenario *s)
                      .skin = v->contact_skin,
                      .ridging = s->ice.ridging_resistance,
                      .strength = strength_of(s),
+                     .small_patch = s->ice.small_patch,
                      .edges = compliance_of(s),
                      .correct_unbreakable = s->ice.correct_unbreakable,
                      .parts_by_motion = s->ice.parts_by_motion,
