@@ -1,35 +1,55 @@
 #include "sim/build_propulsion.h"
 
 #include "base/transcendental.h"
+#include "sim/turning.h"
 
 #include <math.h>
 
 /* Where nothing is given, parts of the length: thrust at the stern, the aim, the way back before a ram. */
 static const double STERN = 0.45, LOOKAHEAD = 2.5, RAM = 1;
 
-static double wanted_speed(const scenario_propulsion *p)
+static double wanted_speed(const scenario_propulsion *p, double round)
 {
-    pattern_shape shape = {p->pattern.kind, p->pattern.distance, p->pattern.width};
     if (p->pattern.kind != PATTERN_NONE && !is_automatic(p->pattern.period))
-        return pattern_length(&shape) / p->pattern.period;
+        return round / p->pattern.period;
     return automatic_or(p->speed, HUGE_VAL);
 }
 
-static hull_lift lift_of(const scenario *s, const vessel_model *hull)
+static manoeuvring ship_of(const scenario *s, const vessel_model *hull, const world *w, int32_t body)
 {
     const hull_particulars *h = &hull->particulars;
-    if (!s->environment.water)
-        return (hull_lift){0};
-    return hull_lift_of(h->length, h->beam, h->draught, hull->floats.volume, s->environment.water_density);
+    manoeuvring out = {.mass = w->bodies.mass[body], .inertia = w->bodies.inertia[body].zz};
+    if (hull->has_hydrodynamics) {
+        const matrix6 *a = &hull->hydrodynamics.added_mass;
+        out.a11 = a->m[0][0];
+        out.a22 = a->m[1][1];
+        out.a26 = a->m[1][5];
+        out.inertia += a->m[5][5];
+    }
+    if (s->environment.water) {
+        double density = s->environment.water_density;
+        hull_lift lift = hull_lift_of(h->length, h->beam, h->draught, hull->floats.volume, density);
+        out.whole = hull_lift_moved(lift, h->midships - hull->centre.x);
+    }
+    return out;
 }
 
-static propulsion_settings settings_of(const scenario_propulsion *p, double length, hull_lift lift)
+static rudder rudders_of(const scenario *s, const scenario_propulsion *p, const vessel_model *hull)
+{
+    const hull_particulars *h = &hull->particulars;
+    double block = hull->floats.volume / (h->length * h->beam * h->draught);
+    double area = automatic_or(p->rudder_area, rudder_area(h->length, h->beam, h->draught, block));
+    if (!s->environment.water || !(area > 0))
+        return (rudder){0};
+    return rudder_of(area, (int)p->propellers, hull->wash.diameter, block, s->environment.water_density);
+}
+
+static propulsion_settings settings_of(const scenario_propulsion *p, double length)
 {
     double third = real_pow(p->power, 1.0 / 3);
     return (propulsion_settings){.bollard_pull = p->bollard_pull * third * third,
                                  .open_water_speed = p->open_water_speed * third,
                                  .astern = p->astern,
-                                 .speed = wanted_speed(p),
                                  .steering_most = radians(p->steering_angle_deg),
                                  .steering_rate = radians(p->steering_rate_deg),
                                  .steering_x = automatic_or(p->steering_x, -STERN * length),
@@ -40,8 +60,19 @@ static propulsion_settings settings_of(const scenario_propulsion *p, double leng
                                  .x = p->pattern.x,
                                  .y = p->pattern.y,
                                  .distance = p->pattern.distance,
-                                 .width = p->pattern.width,
-                                 .lift = lift};
+                                 .width = p->pattern.width};
+}
+
+/* The speed that is wanted, and how the ship turns at it.  A period gives the speed by the length of a round, which
+   depends on how the ship turns: found at the speed that a round without turns would have. */
+static void give_speed(context *ctx, const model *m, int32_t vessel, const scenario_propulsion *p,
+                       propulsion_settings *s)
+{
+    pattern_shape shape = {p->pattern.kind, s->distance, s->width};
+    double round = track_of_pattern(&shape, 0).length;
+    s->speed = wanted_speed(p, round);
+    s->turning = turning_ability_of(ctx, m, vessel, s, fmin(s->speed, s->open_water_speed));
+    s->speed = wanted_speed(p, track_of_pattern(&shape, s->turning.corner).length);
 }
 
 fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,
@@ -57,6 +88,10 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
         w->course.vessel[had + i] = vessel;
         w->course.place[had + i] = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
     }
-    propulsion_settings settings = settings_of(p, w->vessels.length[vessel], lift_of(s, &m->vessels.data[vessel]));
+    const vessel_model *hull = &m->vessels.data[vessel];
+    propulsion_settings settings = settings_of(p, w->vessels.length[vessel]);
+    settings.ship = ship_of(s, hull, w, w->vessels.body[vessel]);
+    settings.rudder = rudders_of(s, p, hull);
+    give_speed(ctx, m, vessel, p, &settings);
     return propulsion_add(ctx, &settings, p->pattern.kind, vessel, &w->vessels, &w->bodies, &w->propulsion, error);
 }

@@ -17,6 +17,13 @@ double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec
     return sum;
 }
 
+static wrench drag_now(const model *m, const world *w, int32_t vessel)
+{
+    int32_t row = w->shapes.shapes.solid[w->bodies.shape[w->vessels.body[vessel]]];
+    bool known = m->forces == FORCES_FLUID && row >= 0 && w->scratch.fluid.count > row;
+    return known ? w->scratch.fluid.data[row].water_drag : (wrench){{0, 0, 0}, {0, 0, 0}};
+}
+
 fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     if (w->propulsion.count == 0)
@@ -29,8 +36,12 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
         int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
-        propulsion_moment moment = {w->clock.time[0], m->time_step, water, drift,
-                                    m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0};
+        propulsion_moment moment = {w->clock.time[0],
+                                    m->time_step,
+                                    water,
+                                    drift,
+                                    m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0,
+                                    drag_now(m, w, vessel)};
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,
                                  &w->scratch.loads.data[body], &w->events, error);
     }

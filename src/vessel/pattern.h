@@ -7,7 +7,7 @@
 
 typedef enum pattern_kind {
     PATTERN_NONE = 0,
-    PATTERN_LINE,   /* updrift and back, from `distance` to `distance` + `width` */
+    PATTERN_LINE,   /* updrift and back, `width` long, from `distance` on with its turn */
     PATTERN_ACROSS, /* to and fro across the drift, `width` long, `distance` updrift */
     PATTERN_CIRCLE, /* of diameter `width` about a centre `distance` updrift, counter-clockwise */
     PATTERN_SQUARE, /* of side `width` about that centre, counter-clockwise */
@@ -18,10 +18,5 @@ typedef struct pattern_shape {
     pattern_kind kind;
     double distance, width; /* [m] */
 } pattern_shape;
-
-/* The point at this share of a round, from 0 to 1: updrift and across [m]. */
-vec2 pattern_point(const pattern_shape *p, double share);
-/* Length of a round [m]. */
-double pattern_length(const pattern_shape *p);
 
 #endif

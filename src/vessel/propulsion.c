@@ -11,32 +11,17 @@ TABLE_DEFINE(propulsion, PROPULSION_FIELDS)
 TABLE_DEFINE(course, COURSE_FIELDS)
 #undef TABLE_SELF
 
-/* The autopilot's steering angle per heading error, and its time of turn in lengths over open-water speed: a ship turns
-   at about one length in the time of its own length; published course keepers have 0.5 to 2 (Fossen 2011, 12.2). */
-static const double HEADING_GAIN = 1.5, TURN_LENGTHS = 1.5;
 /* Full thrust is given when the speed is wrong by this part of the open-water speed. */
 static const double SPEED_BAND = 0.05;
 /* A ship counts as stopped by ice only under this part of its bollard pull. */
 static const double PUSHING = 0.5;
-/* The aim goes on along its track by this part of the way to it. */
-static const double AIM_STEP = 0.02;
+/* A ship is on its track once it was within this part of its length of it. */
+static const double JOINED = 0.5;
 
 double propulsion_net_thrust(double bollard_pull, double open_water_speed, double speed)
 {
     double r = fmax(speed, 0) / open_water_speed;
     return bollard_pull * (1 - r / 3 - 2 * r * r / 3);
-}
-
-hull_lift hull_lift_of(double length, double beam, double draught, double volume, double water_density)
-{
-    double flat = PI * (draught / length) * (draught / length), block = volume / (length * beam * draught);
-    double square = 0.5 * water_density * length * length;
-    return (hull_lift){
-        .y_v = -square * flat * (1 + 0.4 * block * beam / draught),
-        .y_r = -square * length * flat * (-0.5 + 2.2 * beam / length - 0.08 * beam / draught),
-        .n_v = -square * length * flat * (0.5 + 2.4 * draught / length),
-        .n_r = -square * length * length * flat * (0.25 + 0.039 * beam / draught - 0.56 * beam / length),
-    };
 }
 
 fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, int32_t vessel,
@@ -51,6 +36,8 @@ fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pa
     out->pattern[row] = (uint8_t)pattern;
     out->axis[row] = quat_roll_pitch_yaw(bodies->orientation[body]).z;
     out->from[row] = vec2_make(bodies->position[body].x, bodies->position[body].y);
+    out->way[row] = -1;
+    out->seen[row].rate = bodies->angular_velocity[body].z;
     return FRAM_OK;
 }
 
@@ -60,57 +47,33 @@ typedef struct pilot {
     int32_t row;
     const propulsion_settings *s;
     const propulsion_moment *now;
-    vec2 place, bow; /* of the centre of mass; unit */
+    vec2 place, speed, bow; /* of the centre of mass; over the ground; unit */
     double heading, turn;
     double over_ground, through_water, in_ice; /* speeds along the bow [m/s] */
     double aside;                              /* through the water, to port [m/s] */
+    double length;                             /* of the ship [m] */
 } pilot;
 
-static pilot pilot_of(propulsion_table *t, int32_t row, const propulsion_moment *now, const body_table *bodies,
-                      int32_t body)
+static pilot pilot_of(propulsion_table *t, int32_t row, const propulsion_moment *now, const vessel_table *vessels,
+                      const body_table *bodies)
 {
     pilot p = {.table = t, .row = row, .s = &t->settings[row], .now = now};
+    int32_t body = vessels->body[t->vessel[row]];
+    p.length = vessels->length[t->vessel[row]];
     vec3 r = bodies->position[body], v = bodies->velocity[body];
     p.place = vec2_make(r.x, r.y);
     p.heading = quat_roll_pitch_yaw(bodies->orientation[body]).z;
     p.bow = vec2_make(real_cos(p.heading), real_sin(p.heading));
     p.turn = bodies->angular_velocity[body].z;
-    vec2 speed = {v.x, v.y};
-    p.over_ground = vec2_dot(speed, p.bow);
-    p.through_water = vec2_dot(vec2_sub(speed, now->water), p.bow);
-    p.aside = vec2_dot(vec2_sub(speed, now->water), vec2_make(-p.bow.y, p.bow.x));
-    p.in_ice = vec2_dot(vec2_sub(speed, now->drift), p.bow);
+    p.speed = vec2_make(v.x, v.y);
+    p.over_ground = vec2_dot(p.speed, p.bow);
+    p.through_water = vec2_dot(vec2_sub(p.speed, now->water), p.bow);
+    p.aside = vec2_dot(vec2_sub(p.speed, now->water), vec2_make(-p.bow.y, p.bow.x));
+    p.in_ice = vec2_dot(vec2_sub(p.speed, now->drift), p.bow);
     return p;
 }
 
 /* ---- where to ---- */
-
-static vec2 pattern_place(const pilot *p, double share)
-{
-    pattern_shape shape = {(pattern_kind)p->table->pattern[p->row], p->s->distance, p->s->width};
-    vec2 at = pattern_point(&shape, share);
-    double c = real_cos(p->table->axis[p->row]), s = real_sin(p->table->axis[p->row]);
-    return vec2_make(p->s->x + c * at.x - s * at.y, p->s->y + s * at.x + c * at.y);
-}
-
-/* The aim runs ahead on the pattern until it is a lookahead away, a round at most in a step. */
-static vec2 aim_on_pattern(const pilot *p)
-{
-    propulsion_table *t = p->table;
-    pattern_shape shape = {(pattern_kind)t->pattern[p->row], p->s->distance, p->s->width};
-    double step = AIM_STEP * p->s->lookahead / pattern_length(&shape), gone = 0;
-    vec2 aim = pattern_place(p, t->share[p->row]);
-    while (gone < 1 && vec2_length(vec2_sub(aim, p->place)) < p->s->lookahead) {
-        t->share[p->row] += step;
-        gone += step;
-        if (t->share[p->row] >= 1) {
-            t->share[p->row] -= 1;
-            t->rounds[p->row]++;
-        }
-        aim = pattern_place(p, t->share[p->row]);
-    }
-    return aim;
-}
 
 /* The n-th way point of a vessel; false: it has no more. */
 static bool way_point(const course_table *course, int32_t vessel, int32_t n, vec2 *place)
@@ -123,43 +86,132 @@ static bool way_point(const course_table *course, int32_t vessel, int32_t n, vec
     return false;
 }
 
-/* Line of sight (Fossen 2011, 10.3): towards the point of the leg that lies a lookahead before the foot of the ship's
-   perpendicular.  After the last way point the last leg goes on. */
-static vec2 aim_on_legs(const pilot *p, const course_table *course)
+/* The pattern's axis turns with the drift; returns how fast [rad/s].  A drift that turns about at once takes the
+   pattern with it, faster than a ship could follow: such a turn is no rate. */
+static double turn_axis(const pilot *p)
+{
+    propulsion_table *t = p->table;
+    if (!(vec2_length(p->now->drift) > 0))
+        return 0;
+    double axis = real_atan2(-p->now->drift.y, -p->now->drift.x);
+    double turn = plane_angle(axis - t->axis[p->row]) / p->now->dt;
+    t->axis[p->row] = axis;
+    double way = vec2_length(vec2_sub(p->place, vec2_make(p->s->x, p->s->y)));
+    return t->way[p->row] >= 0 && fabs(turn) * way < p->s->turning.speed ? turn : 0;
+}
+
+static vec2 turned(vec2 v, double angle)
+{
+    double c = real_cos(angle), s = real_sin(angle);
+    return vec2_make(c * v.x - s * v.y, s * v.x + c * v.y);
+}
+
+static autopilot_view view_of(const pilot *p, vec2 origin, double axis, double frame_turn, double thrust)
+{
+    const wrench *drag = &p->now->drag;
+    vec2 from = vec2_sub(p->place, origin), port = vec2_perp(p->bow);
+    return (autopilot_view){
+        .place = turned(from, -axis),
+        .velocity = turned(vec2_sub(p->speed, vec2_scale(vec2_perp(from), frame_turn)), -axis),
+        .heading = p->heading - axis,
+        .turn = p->turn,
+        .frame_turn = frame_turn,
+        .ahead = p->through_water,
+        .aside = p->aside,
+        .drag_aside = drag->force.x * port.x + drag->force.y * port.y,
+        .drag_moment = drag->moment.z,
+        .thrust = thrust,
+        .lookahead = p->s->lookahead,
+        .lag = autopilot_lag(&p->s->turning, p->length, p->through_water, p->s->steering_most, p->s->steering_rate)};
+}
+
+/* Brings the foot of the ship on a track up to date, and its error. */
+static void follow(const pilot *p, const autopilot_view *v, const track *path)
+{
+    propulsion_table *t = p->table;
+    int32_t row = p->row;
+    double before = t->way[row];
+    t->way[row] = before < 0 && path->closed ? track_join(path, v->place, v->heading, 2 * p->s->turning.radius)
+                                             : track_foot(path, before, v->place);
+    if (before >= 0 && path->closed && t->way[row] < before - 0.5 * path->length)
+        t->rounds[row]++;
+    track_place foot = track_at(path, t->way[row]);
+    double off = t->off[row] = track_off(&foot, v->place);
+    if (foot.turning || (t->off_time[row] == 0 && fabs(off) > JOINED * p->length))
+        return;
+    t->off_most[row] = fmax(t->off_most[row], fabs(off));
+    t->off_square[row] += off * off * p->now->dt;
+    t->off_time[row] += p->now->dt;
+}
+
+/* The leg that is sailed, with the corner at its end; goes on to the next when the corner is behind the ship.  false:
+   no way points. */
+static bool leg_track(const pilot *p, const course_table *course, track *out)
 {
     propulsion_table *t = p->table;
     int32_t vessel = t->vessel[p->row];
-    vec2 to, next;
-    if (!way_point(course, vessel, t->leg[p->row], &to))
-        return vec2_add(p->place, vec2_make(real_cos(t->axis[p->row]), real_sin(t->axis[p->row])));
-    while (way_point(course, vessel, t->leg[p->row] + 1, &next) &&
-           vec2_length(vec2_sub(to, p->place)) < p->s->lookahead) {
-        t->from[p->row] = to;
+    vec2 corner, next;
+    if (!way_point(course, vessel, t->leg[p->row], &corner))
+        return false;
+    /* The bend is straightened out on the leg after it. */
+    double bend = 0.5 * p->s->turning.reach * p->s->turning.reach / p->s->turning.corner;
+    while (way_point(course, vessel, t->leg[p->row] + 1, &next)) {
+        *out = track_of_legs(t->from[p->row], corner, &next, p->s->turning.corner);
+        double foot = track_foot(out, t->way[p->row], p->place);
+        bool rounded = out->count > 1;
+        if (foot < out->length + (rounded ? bend : 0))
+            return true;
+        t->from[p->row] = rounded ? track_at(out, out->length).at : corner;
+        t->way[p->row] = fmax(0, foot - out->length);
         t->leg[p->row]++;
-        to = next;
+        corner = next;
     }
-    vec2 leg = vec2_sub(to, t->from[p->row]);
-    double length = vec2_length(leg);
-    if (!(length > 0))
-        return to;
-    vec2 along = vec2_scale(leg, 1 / length);
-    double foot = vec2_dot(vec2_sub(p->place, t->from[p->row]), along);
-    return vec2_add(t->from[p->row], vec2_scale(along, foot + p->s->lookahead));
+    *out = track_of_legs(t->from[p->row], corner, NULL, 0);
+    return true;
 }
 
-static void steer(const pilot *p, const course_table *course, double length)
+/* What the autopilot sees, and the track that it follows; false: it keeps a heading. */
+static bool look(const pilot *p, const course_table *course, double thrust, autopilot_view *v, track *sailed)
+{
+    const propulsion_settings *s = p->s;
+    propulsion_table *t = p->table;
+    if (t->pattern[p->row] != PATTERN_NONE) {
+        pattern_shape shape = {(pattern_kind)t->pattern[p->row], s->distance, s->width};
+        double turn = turn_axis(p);
+        *sailed = track_of_pattern(&shape, s->turning.corner);
+        *v = view_of(p, vec2_make(s->x, s->y), t->axis[p->row], turn, thrust);
+    } else {
+        *v = view_of(p, vec2_make(0, 0), 0, 0, thrust);
+        t->way[p->row] = fmax(t->way[p->row], 0);
+        if (!leg_track(p, course, sailed))
+            return false;
+    }
+    follow(p, v, sailed);
+    return true;
+}
+
+static void steer(const pilot *p, const course_table *course, double gross)
 {
     propulsion_table *t = p->table;
-    if (t->pattern[p->row] != PATTERN_NONE && vec2_length(p->now->drift) > 0)
-        t->axis[p->row] = real_atan2(-p->now->drift.y, -p->now->drift.x);
-    vec2 aim = t->pattern[p->row] != PATTERN_NONE ? aim_on_pattern(p) : aim_on_legs(p, course);
-    vec2 way = vec2_sub(aim, p->place);
-    double error = plane_angle(real_atan2(way.y, way.x) - p->heading);
-    double rate = TURN_LENGTHS * length / p->s->open_water_speed * p->turn;
-    double most = p->s->steering_most, wanted = HEADING_GAIN * (error - rate);
-    wanted = t->phase[p->row] == PROPULSION_ASTERN ? 0 : fmin(fmax(wanted, -most), most);
-    double step = p->s->steering_rate * p->now->dt, change = wanted - t->steering[p->row];
-    t->steering[p->row] += fmin(fmax(change, -step), step);
+    int32_t row = p->row;
+    const propulsion_settings *s = p->s;
+    motion_observer *seen = &t->seen[row];
+    const steering_gear gear = {&s->ship, &s->rudder, s->steering_x, t->steering[row]};
+    autopilot_view v;
+    track sailed;
+    bool follows = look(p, course, gross, &v, &sailed);
+    double most = s->steering_most, wanted = 0;
+    if (t->phase[row] == PROPULSION_ASTERN) {
+        *seen = (motion_observer){.rate = p->turn};
+    } else {
+        autopilot_observe(&v, &s->turning, &gear, p->now->dt, seen);
+        double rate = follows ? autopilot_rate(&v, &s->turning, seen, &sailed, t->way[row])
+                              : autopilot_rate_to(&v, &s->turning, t->axis[row]);
+        wanted = autopilot_angle(&v, &gear, seen, rate);
+        wanted = fmin(fmax(wanted, -most), most);
+    }
+    double step = s->steering_rate * p->now->dt, change = wanted - t->steering[row];
+    t->steering[row] += fmin(fmax(change, -step), step);
 }
 
 /* ---- how hard ---- */
@@ -213,20 +265,21 @@ fram_status propulsion_step(context *ctx, propulsion_table *propulsion, int32_t 
                             const vessel_table *vessels, const body_table *bodies, const course_table *course,
                             wrench *load, event_table *events, fram_error *error)
 {
-    int32_t vessel = propulsion->vessel[row];
-    pilot p = pilot_of(propulsion, row, now, bodies, vessels->body[vessel]);
+    pilot p = pilot_of(propulsion, row, now, vessels, bodies);
     if (!change_phase(ctx, &p, events))
         return error_memory(error);
-    steer(&p, course, vessels->length[vessel]);
-    double net = net_thrust(&p), gross = net + now->resistance, angle = propulsion->steering[row];
+    double net = net_thrust(&p), gross = net + now->resistance, u = fmax(p.through_water, 0);
+    steer(&p, course, gross);
     propulsion->thrust[row] = net;
-    /* Astern the units do not turn the ship. */
-    double ahead = net < 0 ? gross : gross * real_cos(angle), aside = net < 0 ? 0 : gross * real_sin(angle);
-    const hull_lift *l = &p.s->lift;
-    double u = fmax(p.through_water, 0), lift = u * (l->y_v * p.aside + l->y_r * p.turn) - aside;
-    vec2 port = {-p.bow.y, p.bow.x};
-    load->force.x += ahead * p.bow.x + lift * port.x;
-    load->force.y += ahead * p.bow.y + lift * port.y;
-    load->moment.z += u * (l->n_v * p.aside + l->n_r * p.turn) - p.s->steering_x * aside;
+    /* Astern nothing turns the ship. */
+    double angle = propulsion->phase[row] == PROPULSION_ASTERN ? 0 : propulsion->steering[row];
+    double at_stern = p.aside + p.s->steering_x * p.turn;
+    steering_force f = rudder_force(&p.s->rudder, p.through_water, at_stern, gross, angle);
+    hull_lift l = manoeuvring_lift(&p.s->ship);
+    double aside = u * (l.y_v * p.aside + l.y_r * p.turn) + f.aside;
+    vec2 port = vec2_perp(p.bow);
+    load->force.x += f.ahead * p.bow.x + aside * port.x;
+    load->force.y += f.ahead * p.bow.y + aside * port.y;
+    load->moment.z += u * (l.n_v * p.aside + l.n_r * p.turn) + p.s->steering_x * f.aside;
     return FRAM_OK;
 }

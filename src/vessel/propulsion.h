@@ -6,32 +6,18 @@
    so that a vessel in open water runs at v_ow.  At a share p of full power T_b goes with p^(2/3) and v_ow with p^(1/3).
    The gross thrust, which also turns the ship, is the net one and the water's resistance to the hull.
 
-   The water past a hull that drifts aside or turns lifts it as a wing of low aspect: without that a ship slides on
-   sideways for minutes, and no course can be kept (Clarke, Gedling and Hine 1983).
-
-   The thrust acts at the stern and turns by the steering angle, as an azimuthing unit does: T cos(delta) ahead,
-   T sin(delta) aside.  Knows bodies and vessels; must not know ice: where the ice drifts is told. */
+   The water past a hull that drifts aside or turns lifts it as a wing of low aspect (manoeuvre.h): without that a ship
+   slides on sideways for minutes, and no course can be kept.  Rudders in the race of the propellers turn it (rudder.h),
+   or the thrust itself.  Knows bodies and vessels; must not know ice: where the ice drifts is told. */
 #ifndef VESSEL_PROPULSION_H
 #define VESSEL_PROPULSION_H
 
 #include "bodies/body.h"
+#include "vessel/autopilot.h"
 #include "vessel/event.h"
-#include "vessel/pattern.h"
 #include "vessel/vessel.h"
 
 typedef enum propulsion_phase { PROPULSION_AHEAD = 0, PROPULSION_ASTERN } propulsion_phase;
-
-/* Lift on the hull at a speed u ahead: Y = u (y_v v + y_r r) to port, N = u (n_v v + n_r r) counter-clockwise, for a
-   velocity v to port and a rate of turn r. */
-typedef struct hull_lift {
-    double y_v; /* [kg/m] */
-    double y_r; /* [kg] */
-    double n_v; /* [kg] */
-    double n_r; /* [kg m] */
-} hull_lift;
-/* Of a hull's waterline length, beam, draught and displaced volume, by the regression of Clarke, Gedling and Hine
-   (1983), which was made of merchant hulls. */
-hull_lift hull_lift_of(double length, double beam, double draught, double volume, double water_density);
 
 /* What stays: numbers of one vessel's propulsion. */
 typedef struct propulsion_settings {
@@ -41,31 +27,38 @@ typedef struct propulsion_settings {
     double speed;            /* that is wanted over the ground; infinity: as fast as it goes [m/s] */
     double steering_most;    /* [rad] */
     double steering_rate;    /* [rad/s] */
-    double steering_x;       /* where the thrust acts, forward of the centre of mass [m] */
-    double lookahead;        /* how far ahead on its track the autopilot aims [m] */
+    double steering_x;       /* where rudders and thrust act, forward of the centre of mass [m] */
+    double lookahead;        /* of the autopilot, which takes no less than its ship's lag asks for [m] */
     double beset_speed;      /* in the ice; a ship slower than that under thrust ... [m/s] */
     double beset_time;       /* ... for so long is beset [s] */
     double ram_distance;     /* it backs so far [m] */
     double x, y;             /* place of the pattern [m] */
     double distance, width;  /* of the pattern [m] */
-    hull_lift lift;
+    manoeuvring ship;
+    rudder rudder;
+    turning_ability turning;
 } propulsion_settings;
 
-#define PROPULSION_FIELDS(X)                                                                      \
-    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                    \
-    X(settings, propulsion_settings, FIELD_F64, 19, "SI", "thrust, steering, autopilot, pattern") \
-    X(pattern, uint8_t, FIELD_U8, 1, "1", "enum pattern_kind")                                    \
-    X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                  \
-    X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift")                             \
-    X(share, double, FIELD_F64, 1, "1", "of the pattern's round where the autopilot aims")        \
-    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done")                           \
-    X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                   \
-    X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                      \
-    X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")            \
-    X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                            \
-    X(slow_time, double, FIELD_F64, 1, "s", "under thrust and slower than the beset speed")       \
-    X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                            \
-    X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                        \
+#define PROPULSION_FIELDS(X)                                                                                     \
+    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                                   \
+    X(settings, propulsion_settings, FIELD_F64, 35, "SI", "thrust, steering, autopilot, pattern")                \
+    X(pattern, uint8_t, FIELD_U8, 1, "1", "enum pattern_kind")                                                   \
+    X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                                 \
+    X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift; without a track: heading that is kept")     \
+    X(way, double, FIELD_F64, 1, "m", "along the track to the foot of the ship; negative: not looked for")       \
+    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done")                                          \
+    X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                                  \
+    X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                                     \
+    X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")                           \
+    X(seen, motion_observer, FIELD_F64, 3, "SI", "turn, moment and drift as the autopilot sees them")            \
+    X(off, double, FIELD_F64, 1, "m", "track error: how far the ship is to port of its track")                   \
+    X(off_most, double, FIELD_F64, 1, "m", "largest, turns left out, since it first was within half its length") \
+    X(off_square, double, FIELD_F64, 1, "m2 s", "its square, summed over that time")                             \
+    X(off_time, double, FIELD_F64, 1, "s", "that time; 0: it has not come so near yet")                          \
+    X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                                           \
+    X(slow_time, double, FIELD_F64, 1, "s", "under thrust and slower than the beset speed")                      \
+    X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                                           \
+    X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                                       \
     X(rams, int64_t, FIELD_I64, 1, "1", "times that it came ahead again after backing")
 TABLE_DECLARE(propulsion, PROPULSION_FIELDS)
 
@@ -89,6 +82,7 @@ typedef struct propulsion_moment {
     vec2 water;        /* velocity of the water [m/s] */
     vec2 drift;        /* velocity of the ice far away; 0: the pattern keeps its axis [m/s] */
     double resistance; /* of the water to the hull, against its way ahead [N] */
+    wrench drag;       /* of the water on the hull, without its lift: what the autopilot reckons with */
 } propulsion_moment;
 
 /* Steer, set the thrust, and add it to the load on the hull (about its centre of mass). */

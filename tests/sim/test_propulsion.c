@@ -67,21 +67,22 @@ START_TEST(lift_on_the_hull_is_the_published_regression)
 }
 END_TEST
 
-/* A ship that slides to port as it goes ahead is pushed back to starboard and its bow turned to where it goes; without
-   way on, or astern, nothing of that.  Steering angle and water's drag are 0 here: the load is thrust and lift alone.
- */
+/* A ship that slides to port as it goes ahead is pushed back to starboard, and its bow turned away from where it goes;
+   without way on, or astern, nothing of that.  Steering angle and water's drag are 0 here, and there are no rudders:
+   the load is thrust and lift alone. */
 START_TEST(lift_acts_against_sliding_and_turning)
 {
     static const double ahead[] = {4, 0, -2};
     for (int n = 0; n < 3; n++) {
         scene k;
-        scene_open(&k, SHIP);
+        static const char *const units[] = {"vessel.propulsion.rudder_area=0"};
+        scene_open_with(&k, SHIP, units, 1);
         int32_t body = k.w.vessels.body[0];
         wrench load = {0};
-        propulsion_moment now = {0, 1e-9, {0.3, 0.1}, {0, 0}, 0};
+        propulsion_moment now = {.dt = 1e-9, .water = {0.3, 0.1}};
         k.w.bodies.velocity[body] = vec3_make(ahead[n] + 0.3, 0.5 + 0.1, 0);
         k.w.bodies.angular_velocity[body] = vec3_make(0, 0, -0.01);
-        hull_lift l = k.w.propulsion.settings[0].lift;
+        hull_lift l = k.w.propulsion.settings[0].ship.whole;
         fram_error error = {0};
         assert_ok(propulsion_step(&k.ctx, &k.w.propulsion, 0, &now, &k.w.vessels, &k.w.bodies, &k.w.course, &load,
                                   &k.w.events, &error),
@@ -109,28 +110,6 @@ END_TEST
 
 /* ---- tracks ---- */
 
-START_TEST(patterns_are_closed_lines_of_their_length)
-{
-    for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
-        pattern_shape p = {(pattern_kind)kind, 300, 120};
-        double sum = 0;
-        vec2 last = pattern_point(&p, 0), first = last;
-        for (int i = 1; i <= 4000; i++) {
-            vec2 next = pattern_point(&p, i % 4000 / 4000.0);
-            sum += vec2_length(vec2_sub(next, last));
-            last = next;
-        }
-        assert_relative(sum, pattern_length(&p), 1e-5);
-        ck_assert(vec2_length(vec2_sub(last, first)) < 1e-9);
-    }
-    pattern_shape arc = {PATTERN_SECTOR, 300, 120}, circle = {PATTERN_CIRCLE, 300, 120};
-    for (int i = 0; i < 100; i++) {
-        assert_relative(vec2_length(pattern_point(&arc, i / 100.0)), 300, 1e-12);
-        assert_relative(vec2_length(vec2_sub(pattern_point(&circle, i / 100.0), (vec2){300, 0})), 60, 1e-12);
-    }
-}
-END_TEST
-
 /* Way points: within a lookahead of each of them, then along the last leg's line. */
 START_TEST(follows_way_points)
 {
@@ -152,7 +131,7 @@ START_TEST(follows_way_points)
 }
 END_TEST
 
-/* A circle updrift of a place is gone round; when the drift turns, so does the circle. */
+/* A circle updrift of a place is gone round within a breadth; when the drift turns, so does the circle. */
 START_TEST(goes_round_its_circle)
 {
     static const char *const circle[] = {"vessel.propulsion.pattern.kind=circle",
@@ -173,10 +152,10 @@ START_TEST(goes_round_its_circle)
         vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
         vec2 centre = turned ? (vec2){0, 600} : (vec2){600, 0};
         double off = fabs(vec2_length(vec2_sub((vec2){r.x, r.y}, centre)) - 350);
-        if (i % 12000 > 6000)
+        if (i % 12000 > 8000)
             worst = fmax(worst, off);
     }
-    ck_assert_msg(worst < 35, "%g m off the circle", worst);
+    ck_assert_msg(worst < 14, "%g m off the circle", worst);
     ck_assert_int_ge(k.w.propulsion.rounds[0], 1);
     scene_close(&k);
 }
@@ -318,5 +297,5 @@ END_TEST
 
 TEST_MAIN("propulsion", runs_at_its_open_water_speed, net_thrust_is_the_published_curve,
           lift_on_the_hull_is_the_published_regression, lift_acts_against_sliding_and_turning,
-          keeps_the_speed_that_is_wanted, patterns_are_closed_lines_of_their_length, follows_way_points,
-          goes_round_its_circle, speed_falls_with_thickness, backs_and_rams, refusals_name_their_key)
+          keeps_the_speed_that_is_wanted, follows_way_points, goes_round_its_circle, speed_falls_with_thickness,
+          backs_and_rams, refusals_name_their_key)

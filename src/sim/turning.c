@@ -1,0 +1,139 @@
+#include "sim/turning.h"
+
+#include "base/transcendental.h"
+#include "fluid/hull_load.h"
+
+#include <math.h>
+
+/* Rates of turn that are tried, in speeds over lengths: up to circles of a third of the length. */
+static const double FASTEST = 3;
+enum { RATES = 30, HALVINGS = 20, SWAY_STEPS = 25 };
+/* A turn that begins is followed in steps of this part of the time for a length. */
+static const double TURN_STEP = 0.05;
+enum { TURN_STEPS = 400 };
+/* Corners and loops are sailed with this part of the helm, and are so wide that a ship which takes up their curvature
+   evenly, from before them to within them, cuts them by this part of its beam. */
+static const double EASED = 2.0 / 3, CUT = 0.25;
+
+typedef struct turning_search {
+    context *ctx;
+    const model *m;
+    const vessel_model *hull;
+    const propulsion_settings *s;
+    media water; /* at rest */
+    double speed, angle;
+} turning_search;
+
+/* Drag of the water on the hull without its lift, ship's axes. */
+static wrench drag_of(const turning_search *t, double sway, double rate)
+{
+    if (t->m->forces != FORCES_FLUID || t->hull->solid < 0)
+        return (wrench){{0, 0, 0}, {0, 0, 0}};
+    const mat3 upright = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    fluid_motion moving = {t->hull->centre, upright, {t->speed, sway, 0}, {0, 0, rate}};
+    fluid_load load;
+    fluid_load_solid(t->ctx, &t->water, &t->m->drag[MATERIAL_HULL], &t->m->solids.data[t->hull->solid], &moving, &load);
+    wrench out = load.water_drag;
+    if (t->hull->has_hydrodynamics)
+        out.force.x -= t->hull->hydrodynamics.damping.m[0][0] * t->speed;
+    return out;
+}
+
+typedef struct turning_forces {
+    double aside, moment; /* [N, N m] */
+} turning_forces;
+
+/* Of a ship that keeps its speed at a sway and a rate of turn. */
+static turning_forces forces_of(const turning_search *t, double sway, double rate)
+{
+    const propulsion_settings *s = t->s;
+    const hull_lift *l = &s->ship.whole;
+    double u = t->speed, stern = sway + s->steering_x * rate;
+    wrench drag = drag_of(t, sway, rate);
+    /* What keeps it going through the turn: drag, and the part of the centripetal force that is along the ship. */
+    double asked = -drag.force.x - (s->ship.mass + s->ship.a22) * sway * rate - s->ship.a26 * rate * rate;
+    double most = propulsion_net_thrust(s->bollard_pull, s->open_water_speed, u) - drag.force.x;
+    double thrust = fmin(fmax(asked, 0), most);
+    steering_force f = rudder_force(&s->rudder, u, stern, thrust, t->angle);
+    thrust = fmin(fmax(asked + thrust - f.ahead, 0), most);
+    f = rudder_force(&s->rudder, u, stern, thrust, t->angle);
+    return (turning_forces){u * (l->y_v * sway + l->y_r * rate) + drag.force.y + f.aside - s->ship.mass * u * rate,
+                            u * (l->n_v * sway + l->n_r * rate) + drag.moment.z + s->steering_x * f.aside};
+}
+
+/* The moment at a rate of turn, with the sway at which nothing pushes the ship aside any more. */
+static double moment_at(const turning_search *t, double rate, double *sway_there)
+{
+    double low = -2 * t->speed, high = 2 * t->speed, sway = 0;
+    for (int i = 0; i < SWAY_STEPS; i++) {
+        sway = 0.5 * (low + high);
+        if (forces_of(t, sway, rate).aside > 0)
+            low = sway;
+        else
+            high = sway;
+    }
+    *sway_there = sway;
+    return forces_of(t, sway, rate).moment;
+}
+
+/* Rate of the steady turn to port, and its sway; 0: none. */
+static double steady_rate(const turning_search *t, double *sway)
+{
+    double step = FASTEST * t->speed / t->hull->particulars.length / RATES, low = 0;
+    if (!(moment_at(t, 0, sway) > 0))
+        return 0;
+    for (int i = 1; i <= RATES; i++, low += step) {
+        if (moment_at(t, i * step, sway) > 0)
+            continue;
+        double high = low + step;
+        for (int k = 0; k < HALVINGS; k++) {
+            double middle = 0.5 * (low + high);
+            if (moment_at(t, middle, sway) > 0)
+                low = middle;
+            else
+                high = middle;
+        }
+        return low;
+    }
+    return low;
+}
+
+/* Mean yaw acceleration from a straight course, with the helm put over, to half the rate of the steady turn: the ship
+   turns as fast as its sway builds up. */
+static double yaw_acceleration(const turning_search *t, double rate)
+{
+    const manoeuvring *ship = &t->s->ship;
+    double step = TURN_STEP * t->hull->particulars.length / t->speed, sway = 0, r = 0, time = 0;
+    for (int i = 0; i < TURN_STEPS && r < 0.5 * rate; i++, time += step) {
+        turning_forces f = forces_of(t, sway, r);
+        double turn = (f.moment - manoeuvring_lever(ship) * f.aside) / manoeuvring_inertia(ship);
+        sway += step * (f.aside - ship->a26 * turn) / (ship->mass + ship->a22);
+        r += step * turn;
+    }
+    return r / time;
+}
+
+turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
+                                   double speed)
+{
+    const vessel_model *hull = &m->vessels.data[vessel];
+    double length = hull->particulars.length;
+    turning_search t = {ctx, m, hull, s, m->media, speed, s->steering_most};
+    t.water.current = t.water.wind = (vec3){0, 0, 0};
+    t.water.profile.count = 0;
+    turning_ability out = {length, length, length, 0, speed};
+    if (!(speed > 0))
+        return out;
+    double sway, full = steady_rate(&t, &sway);
+    t.angle = EASED * s->steering_most;
+    double eased = steady_rate(&t, &sway);
+    if (!(full > 0) || !(eased > 0))
+        return out;
+    out.radius = speed / full;
+    out.drift = -sway / eased;
+    /* Taken up over a way w = reach^2 / R a bend is cut by w^2 / (24 R). */
+    out.reach = speed / sqrt(yaw_acceleration(&t, eased));
+    double square = out.reach * out.reach;
+    out.corner = fmax(speed / eased, real_cbrt(square * square / (24 * CUT * hull->particulars.beam)));
+    return out;
+}

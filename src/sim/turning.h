@@ -1,0 +1,14 @@
+/* How tightly a ship that drives itself turns in open water: the steady turn of the same hull, water and rudders as in
+   the run.  Its autopilot, the rounding of corners and `fram check` use it (docs/decisions/0380). */
+#ifndef SIM_TURNING_H
+#define SIM_TURNING_H
+
+#include "model/model.h"
+#include "vessel/propulsion.h"
+
+/* Of a vessel with these settings (all but `turning` are used) at a speed ahead.  Without water, or without a helm that
+   turns the ship, all distances are its length. */
+turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
+                                   double speed);
+
+#endif

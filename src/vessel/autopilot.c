@@ -1,0 +1,141 @@
+#include "vessel/autopilot.h"
+
+#include "vessel/plane_motion.h"
+
+/* The lag is the time for half the helm and this part of the time for a length. */
+static const double LENGTHS = 0.1;
+/* A ship comes back on its course within so many lags. */
+static const double COURSE_LAGS = 3;
+/* Least lookahead in ways of that time: the track error then has the damping 0.7. */
+static const double LEAST_LOOKAHEAD = 2;
+/* A ship slower than this part of the speed that its data are for is taken to have it: stopped in ice it has no lag. */
+static const double SLOWEST = 0.25;
+/* Slower than this over the ground a ship has a heading and no course [m/s]. */
+static const double NO_COURSE = 0.3;
+/* The mean of the drift that is not the turn's goes over the time in which the ship goes so many reaches. */
+static const double DRIFT_REACHES = 2;
+/* Within an arc the nearer its centre the faster a ship goes round; up to so much. */
+static const double LEAST_NEARNESS = 0.5;
+
+static double speed_of(const turning_ability *t, double ahead) { return fmax(ahead, SLOWEST * t->speed); }
+
+double autopilot_lag(const turning_ability *t, double length, double ahead, double steering_most, double steering_rate)
+{
+    return 0.5 * steering_most / steering_rate + LENGTHS * length / speed_of(t, ahead);
+}
+
+/* Past the rate of the steady turn at full helm a ship is told to turn by so much at most. */
+static const double FASTER = 1.2;
+
+static double limited_rate(const autopilot_view *v, const turning_ability *t, double rate)
+{
+    double most = FASTER * speed_of(t, v->ahead) / t->radius;
+    return fmin(fmax(rate, -most), most);
+}
+
+/* The rate of turn by which a course error is taken out: in proportion where it is small, and no faster than the ship
+   can stop turning again where it is large. */
+static double rate_back(const autopilot_view *v, const turning_ability *t, double error)
+{
+    double u = speed_of(t, v->ahead), braking = u * u / (t->reach * t->reach), time = COURSE_LAGS * v->lag;
+    double size = braking * time * (sqrt(1 + 2 * fabs(error) / (braking * time * time)) - 1);
+    return error > 0 ? size : -size;
+}
+
+/* Over the ground, in the track's frame. */
+static vec2 ground_velocity(const autopilot_view *v, vec2 place, vec2 past)
+{
+    return vec2_add(past, vec2_scale(vec2_perp(place), v->frame_turn));
+}
+
+static bool has_course(const autopilot_view *v)
+{
+    return vec2_length(ground_velocity(v, v->place, v->velocity)) > NO_COURSE && v->ahead > 0;
+}
+
+static vec2 unit(double angle) { return vec2_make(real_cos(angle), real_sin(angle)); }
+
+/* How fast the velocity over the ground turns in the track's frame, of a ship that follows the track and turns with it
+   at this rate. */
+static double turn_over_ground(const autopilot_view *v, vec2 place, const track_place *foot, double speed, double rate)
+{
+    vec2 along = vec2_scale(unit(foot->heading), fmax(speed, NO_COURSE)), over = ground_velocity(v, place, along);
+    return (rate + v->frame_turn) * vec2_dot(over, along) / vec2_dot(over, over);
+}
+
+double autopilot_rate(const autopilot_view *v, const turning_ability *t, const motion_observer *seen, const track *path,
+                      double way)
+{
+    double speed = vec2_length(v->velocity), turn = v->turn - v->frame_turn, u = speed_of(t, v->ahead);
+    double course = has_course(v) ? real_atan2(v->velocity.y, v->velocity.x) : v->heading;
+    /* Where the ship is going to be when it turns as it is told now. */
+    vec2 there = vec2_add(v->place, vec2_scale(unit(course + 0.5 * turn * v->lag), speed * v->lag));
+    double ahead = track_foot(path, way + speed * v->lag, there);
+    track_place foot = track_at(path, ahead);
+    double off = track_off(&foot, there);
+    /* A bend is begun before it comes, as early as the ship takes to turn as the bend asks. */
+    double bend = t->reach * t->reach / t->corner, from = ahead - 0.5 * bend, to = ahead + 0.5 * bend;
+    double curvature = (track_turned(path, to) - track_turned(path, from)) / bend;
+    double change = (track_at(path, to).curvature - track_at(path, from).curvature) / bend;
+    /* Back to the track, with the frame, and askew as the ship is in a turn. */
+    double reach = fmax(v->lookahead, fmax(t->reach, LEAST_LOOKAHEAD * u * COURSE_LAGS * v->lag));
+    vec2 over =
+        ground_velocity(v, there, vec2_scale(unit(foot.heading - real_atan2(off, reach)), fmax(speed, NO_COURSE)));
+    double wanted = real_atan2(over.y, over.x) + t->drift * curvature - seen->drift;
+    double error = plane_angle(v->heading + turn * v->lag - wanted);
+    double round = speed * curvature / fmax(1 - curvature * off, LEAST_NEARNESS);
+    double rate = v->frame_turn + turn_over_ground(v, there, &foot, speed, round) + speed * t->drift * change;
+    return limited_rate(v, t, rate - rate_back(v, t, error));
+}
+
+double autopilot_rate_to(const autopilot_view *v, const turning_ability *t, double heading)
+{
+    return limited_rate(v, t, rate_back(v, t, plane_angle(heading - v->heading - v->turn * v->lag)));
+}
+
+/* Force to port and moment, but for that of the rudders and what is left over. */
+static double hull_force(const autopilot_view *v, const manoeuvring *ship)
+{
+    const hull_lift *l = &ship->whole;
+    double u = fmax(v->ahead, 0), r = v->turn;
+    return u * (l->y_v * v->aside + l->y_r * r) + v->drag_aside - ship->mass * v->ahead * r;
+}
+
+static double hull_moment(const autopilot_view *v, const manoeuvring *ship)
+{
+    const hull_lift *l = &ship->whole;
+    double u = fmax(v->ahead, 0);
+    return u * (l->n_v * v->aside + l->n_r * v->turn) + v->drag_moment;
+}
+
+static double rudder_now(const autopilot_view *v, const steering_gear *g)
+{
+    return rudder_force(g->rudder, v->ahead, v->aside + g->x * v->turn, v->thrust, g->angle).aside;
+}
+
+double autopilot_angle(const autopilot_view *v, const steering_gear *g, const motion_observer *seen, double rate)
+{
+    const manoeuvring *ship = g->ship;
+    double lever = manoeuvring_lever(ship), wanted = manoeuvring_inertia(ship) * (rate - v->turn) / v->lag;
+    double acts = hull_moment(v, ship) + seen->moment - lever * hull_force(v, ship);
+    return rudder_angle_for(g->rudder, v->ahead, v->aside + g->x * v->turn, v->thrust, (wanted - acts) / (g->x - lever),
+                            g->angle);
+}
+
+void autopilot_observe(const autopilot_view *v, const turning_ability *t, const steering_gear *g, double dt,
+                       motion_observer *seen)
+{
+    const manoeuvring *ship = g->ship;
+    double inertia = manoeuvring_inertia(ship), aside = rudder_now(v, g), miss = v->turn - seen->rate;
+    double moment = hull_moment(v, ship) + g->x * aside + seen->moment;
+    moment -= manoeuvring_lever(ship) * (hull_force(v, ship) + aside);
+    /* Both poles at the lag. */
+    seen->rate += dt * (moment / inertia + 2 / v->lag * miss);
+    seen->moment += dt * inertia / (v->lag * v->lag) * miss;
+    if (!has_course(v))
+        return;
+    vec2 over = ground_velocity(v, v->place, v->velocity);
+    double u = speed_of(t, v->ahead), drift = plane_angle(real_atan2(over.y, over.x) - v->heading);
+    double of_turn = -t->drift * v->turn / u;
+    seen->drift += dt * u / (DRIFT_REACHES * t->reach) * (drift - of_turn - seen->drift);
+}

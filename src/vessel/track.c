@@ -1,0 +1,175 @@
+#include "vessel/track.h"
+
+#include "base/transcendental.h"
+
+/* A corner that turns by more is left to the steering. */
+static const double SHARPEST = 0.75 * PI;
+/* Steps by which a track is searched, and by which a foot is made better. */
+enum { JOIN_PLACES = 256, FOOT_STEPS = 4 };
+/* 1 - curvature times distance falls to nothing at the centre of an arc. */
+static const double LEAST_NEARNESS = 0.2;
+/* A loop turns away by 60 degrees, goes straight on for 2 cot 60 radii, so that the turn of 240 degrees the other way
+   ends on the line that it came from, and follows that back to where it began. */
+static const double AWAY = PI / 3, ON = 1.1547005383792517, BACK = 2.3094010767585034;
+/* How far such a loop reaches ahead, in radii: 2 sin 60 + 1 + cos 60 ON. */
+static const double LOOP_REACH = 3.3094010767585034;
+
+static void add(track *t, double length, double curvature, bool turning)
+{
+    if (!(length > 0))
+        return;
+    t->piece[t->count++] = (track_piece){length, curvature, turning};
+    t->length += length;
+}
+
+/* side: 1 turns away to port, -1 to starboard. */
+static void add_loop(track *t, double radius, double side)
+{
+    add(t, radius * AWAY, side / radius, true);
+    add(t, radius * ON, 0, true);
+    add(t, radius * (PI + AWAY), -side / radius, true);
+    add(t, radius * BACK, 0, true);
+}
+
+/* Both loops lie to starboard of the way there: updrift of a way to the left. */
+static track there_and_back(vec2 start, double heading, double length, double curvature, double radius)
+{
+    track t = {.start = start, .heading = heading, .closed = true};
+    add(&t, length, curvature, false);
+    add_loop(&t, radius, -1);
+    add(&t, length, -curvature, false);
+    add_loop(&t, radius, 1);
+    return t;
+}
+
+static track square_track(const pattern_shape *p, double radius)
+{
+    double r = fmin(radius, 0.5 * p->width), half = 0.5 * p->width;
+    track t = {.start = {p->distance + half, r - half}, .heading = 0.5 * PI, .closed = true};
+    for (int side = 0; side < 4; side++) {
+        add(&t, p->width - 2 * r, 0, false);
+        add(&t, 0.5 * PI * r, 1 / r, true);
+    }
+    return t;
+}
+
+track track_of_pattern(const pattern_shape *p, double radius)
+{
+    double half;
+    track circle;
+    switch (p->kind) {
+    case PATTERN_LINE:
+        return there_and_back((vec2){p->distance + LOOP_REACH * radius, 0}, 0, p->width, 0, radius);
+    case PATTERN_ACROSS:
+        return there_and_back((vec2){p->distance, -0.5 * p->width}, 0.5 * PI, p->width, 0, radius);
+    case PATTERN_CIRCLE:
+        circle = (track){.start = {p->distance + 0.5 * p->width, 0}, .heading = 0.5 * PI, .closed = true};
+        add(&circle, PI * p->width, 2 / p->width, false);
+        return circle;
+    case PATTERN_SQUARE:
+        return square_track(p, radius);
+    case PATTERN_SECTOR:
+        half = 0.5 * p->width / p->distance;
+        return there_and_back((vec2){p->distance * real_cos(half), -p->distance * real_sin(half)}, 0.5 * PI - half,
+                              p->width, 1 / p->distance, radius);
+    case PATTERN_NONE:
+        break;
+    }
+    return (track){.count = 0};
+}
+
+static double angle_between(double from, double to)
+{
+    double a = to - from;
+    return a - 2 * PI * floor((a + PI) / (2 * PI));
+}
+
+track track_of_legs(vec2 from, vec2 corner, const vec2 *next, double radius)
+{
+    vec2 leg = vec2_sub(corner, from);
+    double length = vec2_length(leg), heading = real_atan2(leg.y, leg.x);
+    track t = {.start = from, .heading = heading};
+    vec2 after = next ? vec2_sub(*next, corner) : leg;
+    double turn = angle_between(heading, real_atan2(after.y, after.x)), sharp = fabs(turn);
+    if (!next || !(sharp > 0) || sharp > SHARPEST) {
+        add(&t, length, 0, false);
+        return t;
+    }
+    double cut = fmin(radius * real_tan(0.5 * sharp), 0.5 * fmin(length, vec2_length(after)));
+    double r = cut / real_tan(0.5 * sharp);
+    add(&t, length - cut, 0, false);
+    if (cut > 0)
+        add(&t, r * sharp, turn > 0 ? 1 / r : -1 / r, true);
+    return t;
+}
+
+static track_place along(const track_place *from, const track_piece *piece, double way)
+{
+    double turn = piece->curvature * way, heading = from->heading, end = heading + turn;
+    track_place out = {.heading = end, .curvature = piece->curvature, .turning = piece->turning};
+    vec2 chord = {real_cos(heading), real_sin(heading)};
+    if (piece->curvature == 0)
+        chord = vec2_scale(chord, way);
+    else
+        chord = vec2_scale((vec2){real_sin(end) - chord.y, chord.x - real_cos(end)}, 1 / piece->curvature);
+    out.at = vec2_add(from->at, chord);
+    return out;
+}
+
+track_place track_at(const track *t, double way)
+{
+    const track_piece straight = {HUGE_VAL, 0, false};
+    track_place p = {t->start, t->heading, 0, false};
+    if (t->closed)
+        way -= t->length * floor(way / t->length);
+    for (int32_t i = 0; i < t->count && way >= 0; i++) {
+        if (way < t->piece[i].length)
+            return along(&p, &t->piece[i], way);
+        p = along(&p, &t->piece[i], t->piece[i].length);
+        way -= t->piece[i].length;
+    }
+    return along(&p, &straight, way);
+}
+
+double track_turned(const track *t, double way)
+{
+    double sum = 0, rest = t->closed ? way - t->length * floor(way / t->length) : way, round = 0;
+    for (int32_t i = 0; i < t->count; i++) {
+        double length = t->piece[i].length;
+        sum += t->piece[i].curvature * fmin(fmax(rest, 0), length);
+        round += t->piece[i].curvature * length;
+        rest -= length;
+    }
+    return t->closed ? sum + round * floor(way / t->length) : sum;
+}
+
+double track_off(const track_place *place, vec2 point)
+{
+    return vec2_cross((vec2){real_cos(place->heading), real_sin(place->heading)}, vec2_sub(point, place->at));
+}
+
+double track_foot(const track *t, double way, vec2 point)
+{
+    for (int i = 0; i < FOOT_STEPS; i++) {
+        track_place p = track_at(t, way);
+        vec2 from = vec2_sub(point, p.at);
+        double ahead = vec2_dot((vec2){real_cos(p.heading), real_sin(p.heading)}, from);
+        way += ahead / fmax(1 - p.curvature * track_off(&p, point), LEAST_NEARNESS);
+    }
+    return t->closed ? way - t->length * floor(way / t->length) : way;
+}
+
+double track_join(const track *t, vec2 point, double heading, double weight)
+{
+    double best = 0, least = HUGE_VAL;
+    for (int i = 0; i < JOIN_PLACES; i++) {
+        double way = t->length * i / JOIN_PLACES;
+        track_place p = track_at(t, way);
+        double cost = vec2_length(vec2_sub(point, p.at)) + 0.5 * weight * (1 - real_cos(heading - p.heading));
+        if (cost < least) {
+            least = cost;
+            best = way;
+        }
+    }
+    return track_foot(t, best, point);
+}

@@ -1,0 +1,59 @@
+/* Tracks of straight lines and arcs: what an autopilot follows (docs/decisions/0380).  A track has a curvature
+   everywhere, so that a helmsman can know of a turn before it comes.  Pure geometry. */
+#ifndef VESSEL_TRACK_H
+#define VESSEL_TRACK_H
+
+#include "base/vec.h"
+#include "vessel/pattern.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { TRACK_PIECES = 10 };
+
+typedef struct track_piece {
+    double length;    /* [m] */
+    double curvature; /* positive turns to port [1/m] */
+    bool turning;     /* of a loop or a rounded corner: room to turn, not a part of what is asked for */
+} track_piece;
+
+typedef struct track {
+    vec2 start;
+    double heading; /* of its first piece where it begins [rad] */
+    int32_t count;
+    track_piece piece[TRACK_PIECES];
+    double length; /* [m] */
+    bool closed;   /* else the ends go on straight */
+} track;
+
+/* A place on a track. */
+typedef struct track_place {
+    vec2 at;
+    double heading;   /* of the track there [rad] */
+    double curvature; /* [1/m] */
+    bool turning;     /* of its piece */
+} track_place;
+
+/* The pattern as a ship can sail it, in the pattern's frame: the corners of a square are rounded by this radius [m], or
+   by half a side where that is less, and each end of a line or an arc is a loop of three arcs of that radius, on which
+   the ship comes back to the same point the other way.  A line is moved updrift by its loop, so that nothing of it is
+   nearer than `distance`.  A circle stays as it is. */
+track track_of_pattern(const pattern_shape *p, double radius);
+/* A leg to a corner, the corner rounded by this radius [m] or by what half the shorter leg leaves room for, and the leg
+   after it; next NULL: the leg alone.  A corner of more than 135 degrees is not rounded. */
+track track_of_legs(vec2 from, vec2 corner, const vec2 *next, double radius);
+
+/* The place after this way along it [m]; past an end or before the start of an open one, straight on. */
+track_place track_at(const track *t, double way);
+/* How far the track has turned from its start to a way; goes on from round to round [rad]. */
+double track_turned(const track *t, double way);
+/* The foot of the perpendicular from a point, near a way from which it is looked for: a way, within the length of a
+   closed track. */
+double track_foot(const track *t, double way, vec2 point);
+/* The way where a ship there with this heading joins a track: the nearest place, where a course that is wrong by 180
+   degrees counts as much as this distance [m]. */
+double track_join(const track *t, vec2 point, double heading, double weight);
+/* How far a point is to port of a place of the track [m]. */
+double track_off(const track_place *place, vec2 point);
+
+#endif

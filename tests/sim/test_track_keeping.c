@@ -1,0 +1,203 @@
+/* An icebreaker keeps its pattern in open water: every kind, in a drift that turns, at several speeds, with two hulls;
+   its room to turn is the one that is told.  Bounds are parts of its breadth. */
+#include "scene.h"
+
+#include "base/transcendental.h"
+
+#include <stdio.h>
+
+#define SEA                                                                            \
+    "ice: {source: none}\n"                                                            \
+    "domain: {x_min: -8000, x_max: 8000, y_min: -8000, y_max: 8000, boundary: open}\n" \
+    "environment: {hull_drag: {water_form: 1}}\n"
+/* That of the ready scenes, and a small one. */
+#define LARGE_WITH(track)                                                                                 \
+    "run: {duration: 9000, time_step: 0.25, scale: 30}\n"                                                 \
+    "vessel:\n  mode: free\n  mass: 1.49e7\n"                                                             \
+    "  hull: {form: icebreaker, length: 121, beam: 25, draught: 8.8, freeboard: 5, stem_angle_deg: 22,\n" \
+    "         entrance_angle_deg: 35, flare_angle_deg: 8, stern_angle_deg: 35, parallel_midbody: 0.45,\n" \
+    "         block_coefficient: 0.546}\n"                                                                \
+    "  hydrodynamics: {source: estimate}\n"                                                               \
+    "  propulsion: {bollard_pull: 2.44e6, open_water_speed: 8.7, propellers: 2" track "}\n" SEA
+static const char *const LARGE = LARGE_WITH("");
+static const char *const SMALL = "run: {duration: 9000, time_step: 0.25, scale: 30}\n"
+                                 "vessel:\n  mode: free\n"
+                                 "  hull: {form: icebreaker, length: 60, beam: 14, draught: 5, freeboard: 4,\n"
+                                 "         stem_angle_deg: 25, entrance_angle_deg: 30, flare_angle_deg: 8,\n"
+                                 "         stern_angle_deg: 30, parallel_midbody: 0.4}\n"
+                                 "  hydrodynamics: {source: estimate}\n"
+                                 "  propulsion: {bollard_pull: 8.0e5, open_water_speed: 7, propellers: 2}\n" SEA;
+
+typedef struct pattern_case {
+    const char *kind;
+    double distance, width; /* in radii of corners */
+    double speed;
+    bool large;
+} pattern_case;
+enum { SETS = 7 };
+static const double STEP = 0.25;
+
+static void open_case(scene *k, const pattern_case *c, double corner, const track_place *start)
+{
+    char key[SETS][80];
+    const char *sets[SETS];
+    for (int i = 0; i < SETS; i++)
+        sets[i] = key[i];
+    snprintf(key[0], sizeof *key, "vessel.propulsion.pattern.kind=%s", c->kind);
+    snprintf(key[1], sizeof *key, "vessel.propulsion.pattern.distance=%.17g", c->distance * corner);
+    snprintf(key[2], sizeof *key, "vessel.propulsion.pattern.width=%.17g", c->width * corner);
+    snprintf(key[3], sizeof *key, "vessel.propulsion.speed=%g", c->speed);
+    snprintf(key[4], sizeof *key, "vessel.x=%.17g", start->at.x);
+    snprintf(key[5], sizeof *key, "vessel.y=%.17g", start->at.y);
+    snprintf(key[6], sizeof *key, "vessel.heading_deg=%.17g", start->heading * 180 / PI);
+    scene_open_with(k, c->large ? LARGE : SMALL, sets, SETS);
+}
+
+/* The ship where its pattern begins. */
+static void open_on_track(scene *k, const pattern_case *c)
+{
+    const track_place nowhere = {.at = {0, 0}};
+    open_case(k, c, 100, &nowhere);
+    double corner = k->w.propulsion.settings[0].turning.corner;
+    pattern_shape shape = {(pattern_kind)k->w.propulsion.pattern[0], c->distance * corner, c->width * corner};
+    scene_close(k);
+    track sailed = track_of_pattern(&shape, corner);
+    track_place start = track_at(&sailed, 0);
+    open_case(k, c, corner, &start);
+    k->m.boundary = DOMAIN_FEEDING; /* no ice: only the drift that the pattern turns with */
+    k->m.drift_given = true;
+}
+
+/* The drift turns by so many degrees within half an hour. */
+static vec2 drift_at(double time, double degrees)
+{
+    double angle = PI + degrees * PI / 180 * fmin(time / 1800, 1);
+    return vec2_make(0.3 * real_cos(angle), 0.3 * real_sin(angle));
+}
+
+static void sail(scene *k, double from, double to, double degrees)
+{
+    for (double time = from; time < to; time += STEP) {
+        k->m.drift = drift_at(time, degrees);
+        scene_steps(k, 1);
+    }
+}
+
+/* Round its pattern, the drift turning for as long as it does: within the ship's breadth where it is at work,
+   loops and rounded corners left out, and within half of it in the mean. */
+static void check_kept(const pattern_case *c, double degrees)
+{
+    scene k;
+    open_on_track(&k, c);
+    propulsion_table *p = &k.w.propulsion;
+    sail(&k, 0, 200, degrees); /* gathers way */
+    p->off_most[0] = p->off_square[0] = p->off_time[0] = 0;
+    const propulsion_settings *s = &p->settings[0];
+    pattern_shape shape = {(pattern_kind)p->pattern[0], s->distance, s->width};
+    double round = track_of_pattern(&shape, s->turning.corner).length / c->speed;
+    sail(&k, 200, 200 + 1.4 * round, degrees);
+    double breadth = c->large ? 25 : 14, rms = sqrt(p->off_square[0] / fmax(p->off_time[0], 1e-9));
+    printf("%s, %s hull, %g m/s, drift turns by %g degrees: %.1f m at most, %.1f m rms, %.2f of the time\n", c->kind,
+           c->large ? "large" : "small", c->speed, degrees, p->off_most[0], rms, p->off_time[0] / (1.4 * round));
+    ck_assert_msg(p->off_most[0] < breadth, "%s: %g m off the track", c->kind, p->off_most[0]);
+    ck_assert_msg(rms < 0.5 * breadth, "%s: %g m rms", c->kind, rms);
+    ck_assert_int_ge(p->rounds[0], 1);
+    ck_assert(p->off_time[0] > 0.2 * round);
+    scene_close(&k);
+}
+
+static const pattern_case CASES[] = {
+    {"circle", 3, 2, 4, true}, {"circle", 3, 1.6, 3, false}, {"square", 4, 5, 3, true}, {"square", 4, 4, 5, false},
+    {"line", 1, 4, 5, true},   {"line", 2, 4, 3, false},     {"across", 3, 4, 3, true}, {"across", 3, 4, 5, false},
+    {"sector", 5, 4, 4, true}, {"sector", 5, 4, 3, false}};
+
+static size_t case_count(void) { return getenv("FRAM_TEST_SHORT") ? 2 : sizeof CASES / sizeof *CASES; }
+
+START_TEST(patterns_are_kept)
+{
+    for (size_t i = 0; i < case_count(); i++)
+        check_kept(&CASES[i], 0);
+}
+END_TEST
+
+/* So fast that the far side of the pattern goes aside at up to a seventh of the ship's speed: more of it leaves no room
+   to turn where ship and pattern go against one another. */
+START_TEST(patterns_are_kept_as_the_drift_turns)
+{
+    for (size_t i = 0; i < case_count(); i++)
+        check_kept(&CASES[i], i % 2 ? 20 : -20);
+}
+END_TEST
+
+/* The circle of the ready scenes, whose drift turns by 60 degrees; it is hardly wider than the ship can turn. */
+START_TEST(the_ready_circle_is_kept)
+{
+    pattern_case ready = {"circle", 420, 300, 4, true};
+    const track_place start = {.at = {570, 0}, .heading = 0.5 * PI};
+    scene k;
+    open_case(&k, &ready, 1, &start);
+    ck_assert(k.w.propulsion.settings[0].turning.radius < 150);
+    k.m.boundary = DOMAIN_FEEDING;
+    k.m.drift_given = true;
+    sail(&k, 0, 200, 60);
+    k.w.propulsion.off_most[0] = 0;
+    sail(&k, 200, 2400, 60);
+    printf("ready circle: %.1f m at most\n", k.w.propulsion.off_most[0]);
+    ck_assert_msg(k.w.propulsion.off_most[0] < 25, "%g m off", k.w.propulsion.off_most[0]);
+    ck_assert_int_ge(k.w.propulsion.rounds[0], 8);
+    scene_close(&k);
+}
+END_TEST
+
+/* A leg past a corner of 90 degrees: round it, and on the next leg within a breadth; mirrored it is the same to
+ * rounding. */
+START_TEST(legs_are_kept_and_mirrored)
+{
+    vec2 end[2];
+    for (int side = 0; side < 2; side++) {
+        static const char *const legs[] = {LARGE_WITH(", waypoints: [{x: 1500, y: 0}, {x: 1500, y: 100000}]"),
+                                           LARGE_WITH(", waypoints: [{x: 1500, y: 0}, {x: 1500, y: -100000}]")};
+        static const char *const sets[] = {"vessel.propulsion.speed=4", "vessel.speed=4"};
+        scene k;
+        scene_open_with(&k, legs[side], sets, 2);
+        double worst = 0, straight = 0;
+        for (int i = 0; i < 3600; i++) {
+            scene_steps(&k, 1);
+            vec3 r = k.w.bodies.position[k.w.vessels.body[0]];
+            straight = r.x < 900 ? fmax(straight, fabs(r.y)) : straight;
+            worst = fabs(r.y) > 700 ? fmax(worst, fabs(r.x - 1500)) : worst;
+            end[side] = vec2_make(r.x, r.y);
+        }
+        printf("straight %.2g m off, after the corner %.1f m\n", straight, worst);
+        ck_assert(straight < 0.1);
+        ck_assert_msg(worst < 12.5 && fabs(end[side].y) > 900, "%g m off, at %g", worst, end[side].y);
+        scene_close(&k);
+    }
+    assert_absolute(end[0].x, end[1].x, 1e-3);
+    assert_absolute(end[0].y, -end[1].y, 1e-3);
+}
+END_TEST
+
+/* The radius that is told is the one on which the ship turns in the end, to either side. */
+START_TEST(turns_as_it_is_told)
+{
+    static const pattern_case any = {"circle", 3, 2, 4, true};
+    for (int side = -1; side <= 1; side += 2) {
+        scene k;
+        open_on_track(&k, &any);
+        propulsion_settings *s = &k.w.propulsion.settings[0];
+        s->steering_rate = 0;
+        k.w.propulsion.steering[0] = side * s->steering_most;
+        sail(&k, 0, 1200, 0);
+        int32_t body = k.w.vessels.body[0];
+        vec3 v = k.w.bodies.velocity[body];
+        double radius = sqrt(v.x * v.x + v.y * v.y) / k.w.bodies.angular_velocity[body].z;
+        printf("turns on %.1f m, told %.1f m; corners %.0f m\n", radius, s->turning.radius, s->turning.corner);
+        assert_relative(side * radius, s->turning.radius, 0.05);
+        scene_close(&k);
+    }
+}
+END_TEST
+
+TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, the_ready_circle_is_kept,
+          legs_are_kept_and_mirrored, turns_as_it_is_told)

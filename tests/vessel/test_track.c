@@ -1,0 +1,127 @@
+/* Tracks of lines and arcs: patterns as they are sailed, feet of perpendiculars, rounded corners. */
+#include "testing.h"
+
+#include "vessel/track.h"
+
+#include "base/transcendental.h"
+
+/* Each pattern is a closed line without kinks, whose length is that of its pieces, and whose curvature is no more than
+   that of its corners. */
+START_TEST(patterns_are_closed_and_smooth)
+{
+    for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
+        pattern_shape p = {(pattern_kind)kind, 900, 600};
+        const double radius = 120;
+        track t = track_of_pattern(&p, radius);
+        enum { PLACES = 20000 };
+        double sum = 0, turned = 0;
+        track_place last = track_at(&t, 0);
+        for (int i = 1; i <= PLACES; i++) {
+            track_place next = track_at(&t, t.length * i / PLACES);
+            double step = vec2_length(vec2_sub(next.at, last.at));
+            double turn = next.heading - last.heading;
+            turn -= 2 * PI * floor((turn + PI) / (2 * PI));
+            ck_assert_msg(fabs(turn) <= step / radius * 1.01 + 1e-9, "kind %d turns by %g in %g m", kind, turn, step);
+            sum += step;
+            turned += turn;
+            last = next;
+        }
+        assert_relative(sum, t.length, 1e-5);
+        ck_assert(vec2_length(vec2_sub(last.at, t.start)) < 1e-9);
+        assert_absolute(turned, track_turned(&t, t.length * (1 - 1e-15)), 1e-6);
+        assert_absolute(fabs(turned), kind == PATTERN_CIRCLE || kind == PATTERN_SQUARE ? 2 * PI : 0, 1e-6);
+    }
+}
+END_TEST
+
+/* What is asked for: circle, arc and straight parts lie where the pattern says, and nothing of a line is nearer than
+   its distance, of nothing that goes to and fro across nearer than its ends. */
+START_TEST(patterns_lie_where_they_are_asked_for)
+{
+    for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
+        pattern_shape p = {(pattern_kind)kind, 900, 600};
+        track t = track_of_pattern(&p, 120);
+        double work = 0, nearest = HUGE_VAL;
+        for (int i = 0; i < 4000; i++) {
+            track_place at = track_at(&t, t.length * i / 4000);
+            nearest = fmin(nearest, at.at.x);
+            if (at.turning)
+                continue;
+            work += t.length / 4000;
+            double x = at.at.x - 900, y = at.at.y, off = 0;
+            off = kind == PATTERN_LINE     ? y
+                  : kind == PATTERN_ACROSS ? x
+                  : kind == PATTERN_CIRCLE ? hypot(x, y) - 300
+                  : kind == PATTERN_SECTOR ? hypot(at.at.x, y) - 900
+                                           : fmax(fabs(x), fabs(y)) - 300;
+            assert_absolute(off, 0, 1e-9);
+        }
+        double sides = kind == PATTERN_CIRCLE ? PI * 600 : kind == PATTERN_SQUARE ? 4 * 360 : 1200;
+        assert_relative(work, sides, 2e-2);
+        ck_assert(kind != PATTERN_LINE || nearest >= 900 - 1e-9);
+        ck_assert(kind != PATTERN_ACROSS || nearest >= 900 - 0.14 * 120);
+    }
+}
+END_TEST
+
+/* The foot of a point beside a track is where the point was put beside it. */
+START_TEST(feet_are_found)
+{
+    for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
+        pattern_shape p = {(pattern_kind)kind, 900, 600};
+        track t = track_of_pattern(&p, 150);
+        for (int i = 0; i < 97; i++) {
+            double way = t.length * i / 97;
+            for (int side = -1; side <= 1; side++) {
+                track_place at = track_at(&t, way);
+                vec2 port = {-real_sin(at.heading), real_cos(at.heading)};
+                vec2 point = vec2_add(at.at, vec2_scale(port, 30.0 * side));
+                double foot = track_foot(&t, way - 8, point);
+                double apart = foot - way - t.length * floor((foot - way) / t.length + 0.5);
+                track_place found = track_at(&t, foot);
+                ck_assert_msg(fabs(apart) < 0.1, "kind %d at %g: %g m apart", kind, way, apart);
+                assert_absolute(track_off(&found, point), 30.0 * side, 0.01);
+            }
+        }
+    }
+}
+END_TEST
+
+/* A ship that comes along the leg back joins that one, though the leg there is as near. */
+START_TEST(joins_the_way_that_it_goes)
+{
+    pattern_shape p = {PATTERN_ACROSS, 900, 600};
+    track t = track_of_pattern(&p, 120);
+    vec2 here = {905, 100};
+    double there = track_join(&t, here, 0.5 * PI, 240), back = track_join(&t, here, -0.5 * PI, 240);
+    assert_absolute(track_at(&t, there).heading, 0.5 * PI, 1e-9);
+    assert_absolute(real_cos(track_at(&t, back).heading + 0.5 * PI), 1, 1e-9);
+    assert_absolute(track_at(&t, back).at.y, 100, 1e-6);
+}
+END_TEST
+
+/* By hand: a corner of 90 degrees with radius 50 begins and ends 50 m from it; one of which a leg has room for 30 m a
+   side is rounded by 30; one of 180 degrees is left to the steering; so is the last. */
+START_TEST(corners_are_rounded)
+{
+    vec2 next = {200, 300};
+    track t = track_of_legs((vec2){0, 0}, (vec2){200, 0}, &next, 50);
+    ck_assert_int_eq(t.count, 2);
+    assert_relative(t.piece[0].length, 150, 1e-12);
+    assert_relative(t.piece[1].curvature, 0.02, 1e-12);
+    track_place end = track_at(&t, t.length);
+    assert_absolute(end.at.x, 200, 1e-9);
+    assert_absolute(end.at.y, 50, 1e-9);
+    assert_absolute(end.heading, 0.5 * PI, 1e-12);
+    next = (vec2){200, -60};
+    t = track_of_legs((vec2){0, 0}, (vec2){200, 0}, &next, 50);
+    assert_relative(t.piece[1].curvature, -1.0 / 30, 1e-12);
+    next = (vec2){0, 0};
+    ck_assert_int_eq(track_of_legs((vec2){0, 0}, (vec2){200, 0}, &next, 50).count, 1);
+    ck_assert_int_eq(track_of_legs((vec2){0, 0}, (vec2){200, 0}, NULL, 50).count, 1);
+    assert_absolute(track_at(&t, -10).at.x, -10, 1e-12);
+}
+END_TEST
+
+TEST_MAIN("track", patterns_are_closed_and_smooth, patterns_lie_where_they_are_asked_for, feet_are_found,
+          joins_the_way_that_it_goes, corners_are_rounded)
