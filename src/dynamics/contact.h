@@ -18,12 +18,26 @@ typedef struct contact {
     double friction_static, friction_kinetic;
     bool correct;        /* false: no position correction at all */
     bool crush_infinite; /* between two bodies of infinite mass: takes impulse_limit while approaching */
-    int32_t patch;       /* row of the crushing patch, -1 without */
-    uint64_t key;        /* names the same geometric feature from step to step, unique within a step; warm start */
-    double impulse[3];   /* result: normal, tangent 1, tangent 2 [N s] */
-    vec3 arm_a, arm_b;   /* set by the solver: point from the centres of mass before they move, global frame [m] */
+    /* Of a body that nothing moves, where it bends upright: velocity along z per impulse of the contact's group, and
+       its velocity past the body without any; 0, 0: it is rigid. */
+    double give;       /* [1/kg] */
+    double recoil;     /* [m/s] */
+    int32_t patch;     /* row of the crushing patch, -1 without */
+    uint64_t key;      /* names the same geometric feature from step to step, unique within a step; warm start */
+    double impulse[3]; /* result: normal, tangent 1, tangent 2 [N s] */
+    vec3 arm_a, arm_b; /* set by the solver: point from the centres of mass before they move, global frame [m] */
 } contact;
 typedef ARRAY(contact) contact_array;
+
+/* Two contacts in a row belong to one group: one pair of bodies, one normal, one friction, one edge. */
+static inline bool contact_same_group(const contact *x, const contact *y)
+{
+    return x->a == y->a && x->b == y->b && x->normal.x == y->normal.x && x->normal.y == y->normal.y &&
+           x->normal.z == y->normal.z && x->friction_static == y->friction_static &&
+           x->friction_kinetic == y->friction_kinetic && x->give == y->give && x->recoil == y->recoil;
+}
+/* A group has no more points. */
+enum { CONTACT_GROUP_POINTS = 4 };
 
 /* The tangents of a normal: the same everywhere, chosen without branching on noise (Duff et al. 2017). */
 void contact_tangents(vec3 normal, vec3 *t1, vec3 *t2);
@@ -67,6 +81,10 @@ TABLE_DECLARE(contact_memory, CONTACT_MEMORY_FIELDS)
 /* Row of the memory with this key, -1 without.  place: where the last search ended, from 0; keys mostly come in the
    memory's order. */
 int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, int32_t *place);
+
+/* What the pair of a contact carried in the last step, on body a of that contact, global frame [N s]: the sum over all
+   contacts of the pair, whatever their names were. */
+vec3 contact_memory_pair(const contact_memory_table *memory, const contact *c);
 
 /* Pairs of bodies whose margins overlap, kept until they part; ascending (a, b), a < b. */
 #define PAIR_FIELDS(X)                                                                              \

@@ -39,6 +39,16 @@ int32_t contact_memory_find(const contact_memory_table *memory, uint64_t key, in
     return *place < memory->count && memory->key[*place] == key ? *place : -1;
 }
 
+vec3 contact_memory_pair(const contact_memory_table *memory, const contact *c)
+{
+    uint64_t pair = contact_key_pair(c->key);
+    vec3 sum = {0, 0, 0};
+    for (int32_t k = memory_place(memory, pair, 0); k < memory->count && contact_key_pair(memory->key[k]) == pair; k++)
+        sum = vec3_add(sum, memory->impulse[k]);
+    /* Contacts only push: where a pair became one of a patch, a and b may have changed places. */
+    return vec3_dot(sum, c->normal) < 0 ? vec3_neg(sum) : sum;
+}
+
 /* ---- recall ---- */
 
 static bool has_key(const contact *contacts, int32_t first, int32_t end, uint64_t key)

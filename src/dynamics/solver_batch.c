@@ -20,6 +20,7 @@ void batch_plan_free(context *ctx, batch_plan *plan)
     array_free(ctx, &plan->groups);
     array_free(ctx, &plan->order);
     array_free(ctx, &plan->slot);
+    array_free(ctx, &plan->edges);
     array_free(ctx, &plan->within);
     array_free(ctx, &plan->batches);
     array_free(ctx, &plan->tasks);
@@ -29,13 +30,6 @@ void batch_plan_free(context *ctx, batch_plan *plan)
 }
 
 /* ---- groups ---- */
-
-static bool same_group(const contact *x, const contact *y)
-{
-    return x->a == y->a && x->b == y->b && x->normal.x == y->normal.x && x->normal.y == y->normal.y &&
-           x->normal.z == y->normal.z && x->friction_static == y->friction_static &&
-           x->friction_kinetic == y->friction_kinetic;
-}
 
 static bool count_touch(context *ctx, batch_plan *plan, const body_table *bodies, int32_t slot)
 {
@@ -51,7 +45,7 @@ static bool continues_group(const batch_plan *plan, const contact_array *contact
         return false;
     const contact_group *last = &plan->groups.data[plan->groups.count - 1];
     return last->first + last->count == i && last->count < BATCH_MOST_POINTS &&
-           same_group(&contacts->data[i - 1], &contacts->data[i]);
+           contact_same_group(&contacts->data[i - 1], &contacts->data[i]);
 }
 
 static bool find_groups(context *ctx, batch_plan *plan, const body_table *bodies, const contact_array *contacts)
@@ -158,6 +152,16 @@ static int32_t task_row(context *ctx, batch_plan *plan, const body_table *bodies
         plan->row.data[slot] = new_row(ctx, plan, slot);
     }
     return plan->row.data[slot];
+}
+
+/* The row of the body of a contact that begins a group; its own where that body bends under it. */
+static int32_t group_row(context *ctx, batch_plan *plan, const body_table *bodies, const contact_array *contacts,
+                         int32_t first, int32_t slot, int32_t task)
+{
+    if (body_is_dynamic(bodies, slot) || contacts->data[first].give == 0)
+        return task_row(ctx, plan, bodies, slot, task);
+    int32_t row = new_row(ctx, plan, slot);
+    return row >= 0 && array_push(ctx, &plan->edges, (bending_edge){row, first}) ? row : -1;
 }
 
 /* ---- tasks ---- */
@@ -350,7 +354,8 @@ static bool make_batches(context *ctx, batch_plan *plan, const body_table *bodie
     for (int32_t i = t->first_group; i < t->end_group; i++) {
         const contact_group *group = &plan->groups.data[plan->order.data[i]];
         const contact *c = &contacts->data[group->first];
-        int32_t a = task_row(ctx, plan, bodies, c->a, task), b = task_row(ctx, plan, bodies, c->b, task), place;
+        int32_t a = group_row(ctx, plan, bodies, contacts, group->first, c->a, task), place;
+        int32_t b = group_row(ctx, plan, bodies, contacts, group->first, c->b, task);
         if (a < 0 || b < 0)
             return false;
         uint64_t taken = (a == hub_row ? 0 : plan->within.data[a]) | (b == hub_row ? 0 : plan->within.data[b]);
@@ -385,6 +390,7 @@ static void assert_lanes_share_nothing(const batch_plan *plan, const contact_bat
 bool batch_plan_make(context *ctx, batch_plan *plan, const body_table *bodies, const contact_array *contacts)
 {
     array_clear(&plan->batches);
+    array_clear(&plan->edges);
     plan->points = 0;
     if (!find_groups(ctx, plan, bodies, contacts) || !find_hubs(ctx, plan))
         return false;

@@ -19,7 +19,7 @@
 #include "bodies/body.h"
 #include "dynamics/contact.h"
 
-enum { BATCH_LANES = 8, BATCH_MOST_POINTS = 4 };
+enum { BATCH_LANES = 8, BATCH_MOST_POINTS = CONTACT_GROUP_POINTS };
 
 /* Places in a body's rows. */
 enum { BODY_VELOCITY = 0, BODY_SPIN = 3, BODY_ROW = 8 }; /* `velocity`: global frame */
@@ -85,6 +85,11 @@ typedef struct contact_group {
     int32_t task;
 } contact_group;
 
+/* The row of a body that nothing moves where it bends under one group. */
+typedef struct bending_edge {
+    int32_t row, contact; /* contact: the first of its group */
+} bending_edge;
+
 typedef struct batch_plan {
     /* of each body slot */
     int32_array degree; /* its groups */
@@ -95,8 +100,9 @@ typedef struct batch_plan {
     int32_array touched; /* slots of movable bodies in order of their first contact */
     int32_array hubs;    /* slots */
     ARRAY(contact_group) groups;
-    int32_array order;      /* groups by task */
-    int32_array slot;       /* of each body row, -1 for the world and for copies of a hub */
+    int32_array order; /* groups by task */
+    int32_array slot;  /* of each body row, -1 for the world and for copies of a hub */
+    ARRAY(bending_edge) edges;
     ARRAY(uint64_t) within; /* of each body row: open batches that hold it */
     ARRAY(contact_batch) batches;
     ARRAY(batch_task) tasks;

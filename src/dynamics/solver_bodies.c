@@ -51,6 +51,22 @@ int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot)
     return s->bodies.count - 1;
 }
 
+int32_t solver_contact_place(solver *s, const body_table *bodies, const contact_array *contacts, int32_t number,
+                             int32_t slot, const contact_row *before)
+{
+    const contact *c = &contacts->data[number];
+    if (body_is_dynamic(bodies, slot) || c->give == 0)
+        return solver_body_place(s, bodies, slot);
+    if (before && before->contact == number - 1 && contact_same_group(c, &contacts->data[number - 1]))
+        return slot == c->a ? before->a : before->b;
+    solver_body edge = {.slot = slot,
+                        .velocity = bodies->velocity[slot],
+                        .angular_velocity = bodies->angular_velocity[slot],
+                        .inverse_mass = {.zz = c->give},
+                        .recoil = c->recoil};
+    return array_push(s->ctx, &s->bodies, edge) ? s->bodies.count - 1 : -1;
+}
+
 fram_status bodies_check(const body_table *bodies, fram_error *error)
 {
     for (int32_t i = 0; i < bodies->count; i++) {
@@ -93,6 +109,7 @@ void solver_bodies_load(solver *s, const body_table *bodies)
         if (b->slot < 0)
             continue;
         b->velocity = bodies->velocity[b->slot];
+        b->velocity.z += b->recoil;
         b->angular_velocity = bodies->angular_velocity[b->slot];
     }
 }

@@ -68,10 +68,11 @@ fram_status contact_rows_make(solver *s, const solver_settings *settings, double
             continue;
         }
         contact_row *row = &s->contacts.data[s->contacts.count++];
+        const contact_row *before = s->contacts.count > 1 ? row - 1 : NULL;
         memset(row, 0, sizeof *row);
         row->contact = i;
-        row->a = solver_body_place(s, bodies, c->a);
-        row->b = solver_body_place(s, bodies, c->b);
+        row->a = solver_contact_place(s, bodies, contacts, i, c->a, before);
+        row->b = solver_contact_place(s, bodies, contacts, i, c->b, before);
         if (row->a < 0 || row->b < 0)
             return error_memory(error);
         c->arm_a = vec3_sub(c->point, bodies->position[c->a]);

@@ -121,10 +121,14 @@ enum { MOST_AFTERWARDS = 32 };
 
 /* A sweep that took no more energy than this changed no velocity by more than the tolerance at any contact: a contact
    takes p^2 / m of its impulse p and reduced mass m, which is at most each body's own. [J] */
-static double negligible_energy(const fast_rows *f, double tolerance)
+static double negligible_energy(const stage *st)
 {
-    double lightest = HUGE_VAL;
+    const fast_rows *f = st->s->fast;
+    double lightest = HUGE_VAL, tolerance = st->settings->tolerance;
     for (int32_t row = 0; row < f->plan.slot.count; row++) {
+        int32_t slot = f->plan.slot.data[row];
+        if (slot >= 0 && !body_is_dynamic(st->bodies, slot))
+            continue; /* an edge that bends */
         const double *m = row_of(&f->mass, row);
         double mass = (m[0] + m[1] + m[2]) / 3;
         lightest = mass > 0 && mass < lightest ? mass : lightest;
@@ -138,7 +142,7 @@ static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), align
 {
     sweep_sums sums = {.energy = HUGE_VAL};
     acceleration *a = &st->s->fast->acceleration;
-    double negligible = negligible_energy(st->s->fast, st->settings->tolerance);
+    double negligible = negligible_energy(st);
     if (!acceleration_begin(st, x, rows))
         return false;
     int32_t next = a->pause;
@@ -259,7 +263,7 @@ fram_status solver_solve_fast(solver *s, const solver_settings *settings, double
         return error_memory(error);
     bodies_accelerate(s->ctx, bodies, loads, dt);
     guided_bodies_drive(s, bodies);
-    fast_velocities_load(f, bodies);
+    fast_velocities_load(f, bodies, contacts);
     fast_velocities_centre(f);
     fast_driven_make(&st);
     st.free_energy = fast_energy(f);

@@ -99,7 +99,7 @@ batch_view fast_view(const fast_rows *f);
 
 /* Rows of the bodies in the plan, and of joints' bodies; velocities as in the table. */
 bool fast_bodies_make(stage *st);
-void fast_velocities_load(fast_rows *f, const body_table *bodies);
+void fast_velocities_load(fast_rows *f, const body_table *bodies, const contact_array *contacts);
 void fast_velocities_store(const fast_rows *f, body_table *bodies);
 /* From here on velocities, those of bodies that nothing moves included, are relative to the mean of all that is
    movable: what is judged by energies is then the same in every frame, and a common drift costs no digits. */

@@ -133,6 +133,21 @@ static void put_guided_bodies(fast_rows *f, const solver *s)
     }
 }
 
+/* Edges that bend: mass along z alone.  The position correction moves nothing that nothing moves. */
+static void put_edges(const stage *st)
+{
+    const fast_rows *f = st->s->fast;
+    for (int32_t i = 0; i < f->plan.edges.count && !st->positions; i++) {
+        const bending_edge *e = &f->plan.edges.data[i];
+        body_rows rows = rows_at(f, e->row);
+        double give = st->contacts->data[e->contact].give;
+        put_tensor(rows.mass, (sym3){.zz = 1 / give}, 1);
+        put_tensor(rows.tensor, (sym3){.zz = give}, 1);
+        rows.inverse[INVERSE_MASS] = give / 3;
+        rows.inverse[INVERSE_GENERAL] = 1;
+    }
+}
+
 bool fast_bodies_make(stage *st)
 {
     context *ctx = st->s->ctx;
@@ -151,14 +166,19 @@ bool fast_bodies_make(stage *st)
         KERNEL_PICK(ctx, solver_masses)(st->bodies, slot, BATCH_LANES, &copies);
     }
     put_guided_bodies(f, st->s);
+    put_edges(st);
     return true;
 }
 
-void fast_velocities_load(fast_rows *f, const body_table *bodies)
+void fast_velocities_load(fast_rows *f, const body_table *bodies, const contact_array *contacts)
 {
     for (int32_t row = 0; row < f->plan.slot.count; row++)
         if (f->plan.slot.data[row] >= 0)
             put_velocity(f, row, bodies, f->plan.slot.data[row]);
+    for (int32_t i = 0; i < f->plan.edges.count; i++) {
+        const bending_edge *e = &f->plan.edges.data[i];
+        row_of(&f->velocity, e->row)[BODY_VELOCITY + 2] += contacts->data[e->contact].recoil;
+    }
 }
 
 void fast_velocities_store(const fast_rows *f, body_table *bodies)
@@ -202,6 +222,8 @@ void fast_driven_make(stage *st)
         if (slot < 0 || !body_is_dynamic(st->bodies, slot))
             memcpy(row_of(&f->driven, row), row_of(&f->velocity, row), BODY_ROW * sizeof(double));
     }
+    for (int32_t i = 0; i < plan->edges.count; i++)
+        row_of(&f->driven, plan->edges.data[i].row)[BODY_VELOCITY + 2] = 0;
     for (int32_t i = 0; i < s->guided.count; i++) {
         const guided_body *g = &s->guided.data[i];
         int32_t row = f->joint_row.data[g->place];

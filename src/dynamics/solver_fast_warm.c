@@ -128,7 +128,7 @@ static void push_joints(stage *st, bool shrink)
 
 void fast_velocities_of_impulses(stage *st)
 {
-    fast_velocities_load(st->s->fast, st->bodies);
+    fast_velocities_load(st->s->fast, st->bodies, st->contacts);
     st->share = NULL;
     stage_run_colours(st, push_task);
     push_joints(st, false);

@@ -15,9 +15,10 @@
 typedef struct solver_body {
     vec3 velocity, angular_velocity;
     sym3 inverse_mass, inverse_inertia;
-    int32_t slot; /* -1: the world */
-    bool guided;  /* only its free mass stands here (solver_guided.c) */
-    double give;  /* of a guided body: added to the inverse mass that a contact's own row sees [1/kg] */
+    int32_t slot;  /* -1: the world */
+    bool guided;   /* only its free mass stands here (solver_guided.c) */
+    double give;   /* of a guided body: added to the inverse mass that a contact's own row sees [1/kg] */
+    double recoil; /* of an edge that bends: along z, added to the velocity of its body [m/s] */
 } solver_body;
 
 /* One direction at a point: relative velocity = direction . (v_a - v_b) + arm_a . w_a - arm_b . w_b. */
@@ -98,6 +99,9 @@ bool solver_bodies_begin(solver *s, const body_table *bodies);
 /* The place of a slot (-1: the world), taken into the list when it is new; -1 without memory.  Its velocity is the one
    before the step until solver_bodies_load. */
 int32_t solver_body_place(solver *s, const body_table *bodies, int32_t slot);
+/* The place of a body at a contact, the row of the one before; its own where that body bends under its group. */
+int32_t solver_contact_place(solver *s, const body_table *bodies, const contact_array *contacts, int32_t number,
+                             int32_t slot, const contact_row *before);
 /* Refuses dynamic bodies without mass or inertia. */
 fram_status bodies_check(const body_table *bodies, fram_error *error);
 /* Velocities of all dynamic bodies after dt under the loads alone; the gyroscopic moment acts in integrate_poses. */

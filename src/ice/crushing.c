@@ -22,10 +22,6 @@ static const double VERTICAL_SIDE = 0.02;
 /* A winding number of a closed surface about a point is 1 inside and 0 outside, to rounding. */
 static const double INSIDE_WINDING = 0.5;
 
-/* The theory of plates of small deflection ends at this part of the thickness (Timoshenko and Woinowsky-Krieger 1959);
-   an edge gives no further. */
-static const double SMALL_DEFLECTION = 0.5;
-
 /* How well the way is found that an edge gives, as part of the largest; and in how many turns at most. */
 static const double GIVE_PRECISION = 1e-13;
 enum { MOST_GIVE_TURNS = 100 };
@@ -239,7 +235,7 @@ static double excess(const job *j, const crushing_pair *p, const loaded_edge *e,
    search too. */
 static double find_give(const job *j, const crushing_pair *p, const loaded_edge *e, bool *balance)
 {
-    double lo = 0, hi = SMALL_DEFLECTION * j->floes->thickness[p->floe], stiffness;
+    double lo = 0, hi = EDGE_SMALL_DEFLECTION * j->floes->thickness[p->floe], stiffness;
     double below = excess(j, p, e, lo, &stiffness), above = excess(j, p, e, hi, &stiffness);
     *balance = above > 0;
     if (!*balance)
@@ -261,7 +257,7 @@ static double find_give(const job *j, const crushing_pair *p, const loaded_edge 
 
 /* What is left of a component when its edge has given, and the pressure there: no more than bends the edge so far. */
 static patch_component give_way(const job *j, const crushing_pair *p, const patch_component *c, int32_t number,
-                                double *pressure)
+                                double *pressure, double *compliance)
 {
     double reach =
         edge_reach(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], fabs(c->area.z));
@@ -277,11 +273,12 @@ static patch_component give_way(const job *j, const crushing_pair *p, const patc
     *pressure = component_pressure(j, p, c, vec3_length(left.area));
     if (balance && give > 0 && left.area.z != 0)
         *pressure = fmin(*pressure, stiffness * give / (fabs(left.area.z) + e.stand.beside));
+    *compliance = left.area.z != 0 ? (1 + e.stand.beside / fabs(left.area.z)) / stiffness : 0;
     return left;
 }
 
 static bool push_patch(const job *j, const crushing_pair *p, const patch_component *c, int32_t number, double area,
-                       double pressure)
+                       double pressure, double compliance)
 {
     vec3 normal = vec3_unit(c->area), point[PATCH_MOST_POINTS];
     crushing_patch patch = {.floe = p->floe,
@@ -293,6 +290,7 @@ static bool push_patch(const job *j, const crushing_pair *p, const patch_compone
                             .horizontal_area = fabs(c->area.z),
                             .surface_area = c->surface,
                             .pressure = pressure,
+                            .compliance = compliance,
                             .plan = c->plan,
                             .contact_first = j->contacts->count,
                             .component = number};
@@ -329,19 +327,19 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
     }
     for (int32_t i = 0; i < found->count; i++) {
         patch_component c = found->data[i];
-        double area = vec3_length(c.area), pressure = 0;
+        double area = vec3_length(c.area), pressure = 0, compliance = 0;
         if (!(area > CLOSED_PATCH * c.surface))
             continue;
         bool gives = edge_gives(j, p) && c.area.z != 0;
         if (gives) {
-            c = give_way(j, p, &found->data[i], i, &pressure);
+            c = give_way(j, p, &found->data[i], i, &pressure, &compliance);
             area = vec3_length(c.area);
         }
         if (j->settings->top_plane_area)
             area = top_plane_share(&c, section_area, horizontal_sum);
         if (!gives)
             pressure = component_pressure(j, p, &c, area);
-        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, &c, i, area, pressure))
+        if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, &c, i, area, pressure, compliance))
             return error_memory(j->error);
     }
     return FRAM_OK;

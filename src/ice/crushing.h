@@ -32,7 +32,8 @@ typedef struct crushing_patch {
     double pressure;        /* sigma_c(A_c), less where the edge gives before it crushes [Pa] */
     box2 plan;              /* bounds of the patch in the floe's own plane [m] */
     int32_t contact_first, contact_count; /* rows of the contact array */
-    int32_t component;                    /* number of the component inside its pair, by least triangle */
+    double compliance; /* deflection of the edge under it over its own vertical load, 0: rigid [m/N] */
+    int32_t component; /* number of the component inside its pair, by least triangle */
 } crushing_patch;
 typedef ARRAY(crushing_patch) crushing_patch_array;
 

@@ -24,8 +24,8 @@ double fracture_loaded_radius(double area, double share, double thickness, bool 
     return a;
 }
 
-edge_stand edge_stand_find(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,
-                           double reach)
+int32_t edge_support_nearest(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,
+                             double reach)
 {
     vec3 at = body_to_local(bodies, surface, place);
     double least = reach;
@@ -39,6 +39,13 @@ edge_stand edge_stand_find(const edge_support_table *supports, const body_table 
             best = i;
         }
     }
+    return best;
+}
+
+edge_stand edge_stand_find(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,
+                           double reach)
+{
+    int32_t best = edge_support_nearest(supports, bodies, surface, place, reach);
     if (best < 0)
         return EDGE_STAND_STRAIGHT;
     return (edge_stand){.wedges = supports->wedges[best],

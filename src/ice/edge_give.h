@@ -22,7 +22,8 @@
     X(beside, double, FIELD_F64, 1, "m2", "horizontal area of what the load has in other tiles")                 \
     X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g") \
     X(load, double, FIELD_F64, 1, "N", "vertical load of the last step, of the whole load")                      \
-    X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")
+    X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")                                \
+    X(own, double, FIELD_F64, 1, "N", "vertical load of this patch on the ice in the last step, up")
 TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)
 
 typedef struct edge_compliance {
@@ -32,6 +33,7 @@ typedef struct edge_compliance {
     double gravity;       /* [m/s2] */
     int32_t wedges;       /* N_wedges */
     bool thick_plate_radius;
+    bool elastic; /* edges give below the crushing limit and under free pieces too: ice/edge_rows.h */
 } edge_compliance;
 
 /* One row of the table, without its place. */
@@ -39,12 +41,19 @@ typedef struct edge_stand {
     double wedges, beside, strip, impulse;
     double rise; /* for how long the load has risen [s] */
 } edge_stand;
+/* The theory of plates of small deflection ends at this part of the thickness (Timoshenko and Woinowsky-Krieger 1959);
+   an edge gives no further. */
+#define EDGE_SMALL_DEFLECTION 0.5
 /* Less ice than this part of a straight edge's is rounding. */
 #define EDGE_LEAST_ICE 1e-6
 
 /* A straight edge under a narrow load that no seam divides. */
 #define EDGE_STAND_STRAIGHT ((edge_stand){.wedges = 1})
 
+/* The row of what stood under a patch with this middle (global [m]) of the surface's body: the nearest within `reach`
+   [m], -1 without one. */
+int32_t edge_support_nearest(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,
+                             double reach);
 /* What stands under a patch with this middle (global [m]) of the surface's body: the nearest row within `reach` [m], a
    straight edge without one. */
 edge_stand edge_stand_find(const edge_support_table *supports, const body_table *bodies, int32_t surface, vec3 place,

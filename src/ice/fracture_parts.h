@@ -75,6 +75,7 @@ typedef struct load_part {
     double level;    /* horizontal area [m2] */
     double sum;      /* of a root: of all parts [m2] */
     double impulse;  /* of the load that was here, up to the last step [N s] */
+    double own;      /* vertical load of the part, up [N] */
 } load_part;
 
 /* How a load has grown. */

@@ -25,7 +25,8 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
                        .floe = l->floe,
                        .surface = l->surface,
                        .place = body_to_local(bodies, l->surface, patches->data[l->patch].centre),
-                       .level = l->horizontal_area};
+                       .level = l->horizontal_area,
+                       .own = l->vector.z};
         if (held && j->settings->edge_inertia && j->state->supports)
             p.impulse = old_impulse(j, l, patches->data[l->patch].centre);
         if (!array_push(j->ctx, &w->parts, p))
@@ -105,6 +106,7 @@ fram_status fracture_keep_supports(const fracture_job *j)
         e->wedges[row] = edge->wedges;
         e->load[row] = w->rises.data[root->load].load;
         e->impulse[row] = w->rises.data[root->load].impulse;
+        e->own[row] = p->own;
         e->beside[row] = root->sum - p->level;
         e->strip[row++] = strip_stiffness(j, p, edge);
     }

@@ -114,6 +114,23 @@ double sheet_edge_deflection(double poisson_ratio)
     return sum / PI;
 }
 
+/* (1/pi) times the integral of wave amplitude times cos(k y) over all k, at multiples of the step, for a Poisson's
+   ratio of 0.3, and nothing at the end. */
+static const double INFLUENCE_STEP = 0.25;
+enum { INFLUENCES = 21 };
+static const double INFLUENCE[INFLUENCES] = {0.4620, 0.4403, 0.3987, 0.3499, 0.2997, 0.2514,  0.2070,
+                                             0.1674, 0.1329, 0.1035, 0.0790, 0.0590, 0.0429,  0.0303,
+                                             0.0205, 0.0132, 0.0078, 0.0040, 0.0014, -0.0003, 0};
+
+double sheet_edge_influence(double y_over_l)
+{
+    double at = fabs(y_over_l) / INFLUENCE_STEP;
+    if (!(at < INFLUENCES - 1))
+        return 0;
+    int i = (int)at;
+    return INFLUENCE[i] + (at - i) * (INFLUENCE[i + 1] - INFLUENCE[i]);
+}
+
 double sheet_stress_closed_form(double a_over_l, double poisson_ratio)
 {
     double nu = poisson_ratio, a2 = a_over_l * a_over_l;

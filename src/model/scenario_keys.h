@@ -231,6 +231,9 @@
     X(edge_compliance, BOOLEAN(true), "",                                                                             \
       "level and fixed ice: a loaded edge goes down or up under its load before it breaks, as Nevel's wedges do on "  \
       "water; false: it is rigid until it breaks")                                                                    \
+    X(edge_elastic, BOOLEAN(true), "",                                                                                \
+      "level and fixed ice, with edge_compliance: loads that crush nothing, of hulls and of free pieces, bend an "    \
+      "edge too as they come and go; false: it is rigid under them")                                                  \
     X(edge_inertia, BOOLEAN(false), "",                                                                               \
       "level and fixed ice, with edge_compliance: ice and the water that moves with it have mass as an edge bends, "  \
       "so that breaking loads rise and pieces shorten with speed; false: both are those of a load at rest")           \

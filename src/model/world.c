@@ -96,6 +96,7 @@ static void scratch_free(context *ctx, world *w)
     array_free(ctx, &w->scratch.fluid);
     array_free(ctx, &w->scratch.contacts);
     array_free(ctx, &w->scratch.patch_pairs);
+    edge_rows_free(ctx, &w->scratch.edge_rows);
     array_free(ctx, &w->scratch.patches);
     array_free(ctx, &w->scratch.ice_loads);
     array_free(ctx, &w->scratch.shares);

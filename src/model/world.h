@@ -10,6 +10,7 @@
 #include "fluid/fluid.h"
 #include "ice/crushing.h"
 #include "ice/drift.h"
+#include "ice/edge_rows.h"
 #include "ice/feeding.h"
 #include "ice/floe.h"
 #include "ice/fracture.h"
@@ -124,6 +125,7 @@ typedef struct world {
         contact_array contacts;
         index_array patch_pairs;
         crushing_patch_array patches;
+        edge_rows_work edge_rows;
         ARRAY(ice_load) ice_loads;      /* one per vessel */
         ARRAY(ice_share) shares;        /* the vessels' contacts with other bodies that carry something */
         int32_array web_first;          /* sim/force_chain.h: one per body slot */

@@ -62,7 +62,8 @@ static edge_compliance compliance_of(const scenario *s)
                              .water_density = s->environment.water_density,
                              .gravity = s->environment.gravity,
                              .wedges = (int32_t)s->ice.fracture.wedges,
-                             .thick_plate_radius = s->ice.fracture.thick_plate_radius};
+                             .thick_plate_radius = s->ice.fracture.thick_plate_radius,
+                             .elastic = s->ice.fracture.edge_compliance && s->ice.fracture.edge_elastic};
 }
 
 static model settings_of(const scenario *s)

@@ -181,9 +181,14 @@ static fram_status limit_crushing(context *ctx, const model *m, world *w, fram_e
 {
     array_clear(&w->scratch.patches);
     fenders_limit(m, w);
-    return crushing_contacts(ctx, w->scratch.crushing, &m->crushing, &w->bodies, &w->shapes, &w->floes,
-                             &w->edge_supports, &w->pairs, &w->scratch.patch_pairs, &m->policies, &w->scratch.patches,
-                             &w->scratch.contacts, error);
+    fram_status status = crushing_contacts(ctx, w->scratch.crushing, &m->crushing, &w->bodies, &w->shapes, &w->floes,
+                                           &w->edge_supports, &w->pairs, &w->scratch.patch_pairs, &m->policies,
+                                           &w->scratch.patches, &w->scratch.contacts, error);
+    edge_job edges = {&m->crushing.edges, m->time_step, &w->bodies, &w->floes, &w->edge_supports, &w->memory};
+    if (status == FRAM_OK &&
+        !edge_rows_set(ctx, &edges, &w->scratch.edge_rows, &w->scratch.patches, &w->scratch.contacts))
+        return error_memory(error);
+    return status;
 }
 
 /* 4. New velocities. */

@@ -5,7 +5,7 @@
 #include "base/transcendental.h"
 #include "books.h"
 #include "dynamics/solver.h"
-#include "ice/crushing.h"
+#include "ice/edge_rows.h"
 #include "testing.h"
 
 typedef struct ice_rig {
@@ -24,6 +24,7 @@ typedef struct ice_rig {
     crushing_patch_array patches;
     contact_array contacts;
     crushing_scratch *scratch;
+    edge_rows_work edge_rows;
     solver *solve;
     solver_settings solver;
     solver_report report;
@@ -76,6 +77,7 @@ static inline void ice_rig_free(ice_rig *r)
     array_free(c, &r->patches);
     array_free(c, &r->contacts);
     crushing_scratch_free(c, r->scratch);
+    edge_rows_free(c, &r->edge_rows);
     if (r->solve)
         solver_free(c, r->solve);
     if (r->plane)
@@ -103,6 +105,13 @@ static inline int32_t ice_rig_plate(ice_rig *r, double length, double width, dou
     double x = length / 2, y = width / 2;
     vec2 corner[4] = {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
     return ice_rig_floe(r, (polygon){corner, 4}, thickness, kind);
+}
+
+/* The same; returns its body. */
+static inline int32_t ice_rig_plate_body(ice_rig *r, double length, double width, double thickness, motion kind)
+{
+    int32_t row = ice_rig_plate(r, length, width, thickness, kind);
+    return r->floes.body[row];
 }
 
 /* Takes the mesh over. */
@@ -235,12 +244,20 @@ static inline void ice_rig_crush(ice_rig *r)
     assert_ok(ice_rig_try(r, &e), e);
 }
 
+/* What edges give in the rows of all contacts. */
+static inline void ice_rig_edges(ice_rig *r)
+{
+    edge_job j = {&r->settings.edges, r->settings.time_step, &r->bodies, &r->floes, &r->supports, &r->memory};
+    ck_assert(edge_rows_set(&r->ctx, &j, &r->edge_rows, &r->patches, &r->contacts));
+}
+
 /* One step without loads. */
 static inline void ice_rig_step(ice_rig *r)
 {
     fram_error e = {0};
     double dt = r->settings.time_step;
     ice_rig_crush(r);
+    ice_rig_edges(r);
     wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
     ck_assert(loads);
     assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, dt, &r->bodies, loads, &r->joints, &r->contacts, &r->memory,

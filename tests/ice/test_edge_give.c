@@ -7,7 +7,7 @@
 #include "ice_rig.h"
 #include "sheet_rig.h"
 
-static const edge_compliance GIVES = {true, false, 1025, 9.81, 3, false};
+static const edge_compliance GIVES = {true, false, 1025, 9.81, 3, false, false};
 static const double FOUNDATION = 1025 * 9.81;
 
 /* A plate 2 m wide that leans by `slope` (x over z), `way` beyond the first touch with ice that begins at x = 0; the
@@ -228,6 +228,7 @@ START_TEST(kept_by_fracture)
         assert_relative(e->wedges[i], WEDGES[i], i == 0 ? 0.1 : 1e-6);
         assert_absolute(e->beside[i], BESIDE[i], 1e-12);
         ck_assert(e->strip[i] == 0);
+        assert_relative(e->own[i], -2e4, 1e-9); /* each its own, not that of the whole load */
     }
     ck_assert_int_eq(fracture_rig_break(&r), 0);
     ck_assert_int_eq(e->count, 0);

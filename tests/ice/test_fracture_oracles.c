@@ -40,7 +40,7 @@ static breaking run_until_broken(double dt, approach a)
 {
     ice_rig r;
     ramp_scene(&r, dt, a.slope, a.speed);
-    r.settings.edges = (edge_compliance){a.gives, a.inertia, 1025, 9.81, 3, false};
+    r.settings.edges = (edge_compliance){a.gives, a.inertia, 1025, 9.81, 3, false, false};
     fracture_scratch *scratch = fracture_scratch_create(&r.ctx);
     fracture_settings settings = {.time_step = dt,
                                   .water_density = 1025,
@@ -154,7 +154,7 @@ typedef struct rising {
 
 static rising march(double speed)
 {
-    const edge_compliance e = {true, true, 1025, 9.81, 3, false};
+    const edge_compliance e = {true, true, 1025, 9.81, 3, false, false};
     const fracture_settings s = {.water_density = 1025, .gravity = 9.81, .wedges = 3};
     const ice_material m = ICE_RIG_MATERIAL;
     double dt = 1e-5 / speed, load = 0, impulse = 0, deflection = 0;

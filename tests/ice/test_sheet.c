@@ -1,5 +1,6 @@
 /* The edge-loaded sheet against Westergaard (1926) and the exact plate (docs/theory.md). */
 #include "base/transcendental.h"
+#include "edge_influence.h"
 #include "ice/sheet.h"
 #include "ice/wedge.h"
 #include "testing.h"
@@ -64,4 +65,20 @@ START_TEST(order_of_events)
 }
 END_TEST
 
-TEST_MAIN("sheet", half_disk, strip, edge_deflection, within_one_percent, closed_form_ends, order_of_events)
+/* The deflection beside a point load: the table beside the integral, its height and its sum along the edge in closed
+   form. */
+START_TEST(influence)
+{
+    assert_absolute(edge_influence(0, 0.3), sheet_edge_deflection(0.3), 1e-4);
+    double sum = 0, step = 0.125;
+    for (int i = -40; i <= 40; i++)
+        sum += step * sheet_edge_influence(i * step);
+    assert_relative(sum, sqrt(2), 0.01);
+    for (double y = 0; y < 8; y += 0.17) {
+        assert_absolute(sheet_edge_influence(y), edge_influence(y, 0.3), 0.004);
+        assert_bits(sheet_edge_influence(-y), sheet_edge_influence(y));
+    }
+}
+END_TEST
+
+TEST_MAIN("sheet", half_disk, strip, edge_deflection, influence, within_one_percent, closed_form_ends, order_of_events)

@@ -48,7 +48,8 @@ END_TEST
    of 4.15 m at rest, 9,000 kg/m2 of which 8 % are ice's. */
 START_TEST(time_of_an_edge)
 {
-    const edge_compliance e = {true, true, 1025, 9.81, 3, false}, massless = {true, false, 1025, 9.81, 3, false};
+    const edge_compliance e = {true, true, 1025, 9.81, 3, false, false};
+    const edge_compliance massless = {true, false, 1025, 9.81, 3, false, false};
     const ice_material m = ICE_RIG_MATERIAL;
     double length = ice_characteristic_length(&m, 1, 1025, 9.81), radius = 0.3, time = 0.2, place = 1;
     double reach = length * wedge_solve(radius / length).x_max;
