@@ -59,12 +59,29 @@ FRAM_API void fram_study_default(fram_study_definition *definition, size_t size)
 
 typedef struct fram_study_result {
     int64_t conditions, runs, failed, made; /* made: runs of this call, the others were there */
+    int64_t failed_condition, failed_seed;  /* of the first run that failed, conditions from 1; 0: none */
+    char reason[256];                       /* of that failure */
 } fram_study_result;
 /* Leaves summary.csv (a row a run) and conditions.csv (a row a condition) in the folder.  A run that fails is a row
    with its reason and stops nothing.  FRAM_INTERRUPTED when stopped. */
 FRAM_API fram_status fram_study_run(const fram_study *study, const fram_study_definition *definition,
                                     fram_study_result *result, fram_error *error, size_t size);
 #define fram_study_run(...) fram_study_run(__VA_ARGS__, sizeof(fram_study_result))
+
+/* How a condition of a study stands. */
+typedef struct fram_study_standing {
+    size_t size;   /* of this struct, as the library has it */
+    int condition; /* from 1 */
+    int64_t runs, failed, wanted;
+    double load_mean, load_mean_half, load_largest; /* over the runs [N]: mean, half its interval, largest; or NaN */
+    const char *keys;                               /* "ice.thickness=0.6 vessel.speed=1", until the function returns */
+    const char *id; /* of FOLDER/conditions/ID.yaml and FOLDER/runs/ID, until the function returns */
+} fram_study_standing;
+typedef void (*fram_study_standing_function)(void *user, const fram_study_standing *standing);
+/* Tell how each condition of the study in a folder stands, in their order, whether or not it is being run.  Nothing is
+   run, written or locked. */
+FRAM_API fram_status fram_study_list(fram_context *context, const char *folder, fram_study_standing_function function,
+                                     void *user, fram_error *error);
 
 #ifdef __cplusplus
 }

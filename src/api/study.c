@@ -7,6 +7,7 @@
 #include "sim/bench.h"
 #include "study/extent.h"
 #include "study/study_file.h"
+#include "study/study_record.h"
 #include "study/study_run.h"
 
 #include <math.h>
@@ -135,9 +136,13 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
                            .runs_least = (int64_t)inner->conditions * inner->seeds.least,
                            .runs_most = (int64_t)inner->conditions * inner->seeds.most};
     int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1;
+    /* What a run says of its start is not asked here. */
+    log_level usual = s->context->inner.verbosity;
+    s->context->inner.verbosity = usual > LOG_WARNING ? LOG_WARNING : usual;
     status = measure_condition(s, 0, &e, error);
     if (status == FRAM_OK && last > 0)
         status = measure_condition(s, last, &e, error);
+    s->context->inner.verbosity = usual;
     if (status != FRAM_OK)
         return status;
     e.run_seconds /= measured;
@@ -249,6 +254,46 @@ fram_status(fram_study_run)(const fram_study *s, const fram_study_definition *de
                                    .slurm = d->on && strcmp(d->on, "slurm") == 0 ? &slurm : NULL};
     study_result inner = {0};
     status = study_run(&s->context->inner, &s->inner, &options, &inner, error);
-    result_give(result, size, &(fram_study_result){inner.conditions, inner.runs, inner.failed, inner.made});
+    fram_study_result out = {.conditions = inner.conditions,
+                             .runs = inner.runs,
+                             .failed = inner.failed,
+                             .made = inner.made,
+                             .failed_condition = inner.failed_condition,
+                             .failed_seed = inner.failed_seed};
+    _Static_assert(sizeof out.reason == sizeof inner.reason, "a reason is told whole");
+    memcpy(out.reason, inner.reason, sizeof out.reason);
+    result_give(result, size, &out);
     return status;
+}
+
+/* ---- how it stands ---- */
+
+typedef struct standing_bridge {
+    fram_study_standing_function function;
+    void *user;
+} standing_bridge;
+
+static void forward_standing(void *user, const condition_standing *c)
+{
+    const standing_bridge *bridge = user;
+    const fram_study_standing out = {.size = sizeof out,
+                                     .condition = c->condition,
+                                     .runs = c->runs,
+                                     .failed = c->failed,
+                                     .wanted = c->wanted,
+                                     .load_mean = c->load_mean,
+                                     .load_mean_half = c->load_mean_half,
+                                     .load_largest = c->load_largest,
+                                     .keys = c->keys,
+                                     .id = c->id};
+    bridge->function(bridge->user, &out);
+}
+
+fram_status fram_study_list(fram_context *c, const char *folder, fram_study_standing_function function, void *user,
+                            fram_error *error)
+{
+    if (!c || !folder || !*folder || !function)
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "folder", "a context, a folder and a function are needed");
+    standing_bridge bridge = {function, user};
+    return study_list(&c->inner, folder, forward_standing, &bridge, error);
 }

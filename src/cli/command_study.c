@@ -24,25 +24,51 @@ static int own_path(const common_options *common, char path[PATH_MAX])
 /* From this ratio on the time of packed ice is told. */
 #define MUCH_LONGER 1.2
 
+/* A duration or an amount in the unit in which it is read most easily. */
+static const char *time_text(double seconds, char out[32])
+{
+    static const struct {
+        double size;
+        const char *name;
+    } units[] = {{86400, "days"}, {3600, "h"}, {60, "min"}, {1, "s"}};
+    size_t i = 0;
+    while (i + 1 < sizeof units / sizeof *units && seconds < 1.5 * units[i].size)
+        i++;
+    snprintf(out, 32, "%.3g %s", seconds / units[i].size, units[i].name);
+    return out;
+}
+
+static const char *bytes_text(double bytes, char out[32])
+{
+    static const char *const units[] = {"kB", "MB", "GB", "TB"};
+    size_t i = 0;
+    for (bytes /= 1e3; i + 1 < sizeof units / sizeof *units && bytes >= 1e3; i++)
+        bytes /= 1e3;
+    snprintf(out, 32, "%.3g %s", bytes, units[i]);
+    return out;
+}
+
 static void print_extent(const fram_study_extent *e, int jobs)
 {
-    double hours = e->run_seconds / jobs / 3600;
+    char one[32], other[32];
+    double least = (double)e->runs_least * e->run_seconds / jobs;
+    double most = (double)e->runs_most * fmax(e->run_seconds, e->run_seconds_packed) / jobs;
     printf("conditions: %d\n", e->conditions);
     if (e->runs_least == e->runs_most)
         printf("runs: %lld\n", (long long)e->runs_least);
     else
         printf("runs: %lld to %lld, until the intervals are narrow enough\n", (long long)e->runs_least,
                (long long)e->runs_most);
-    printf("one run: about %.3g s on one core of this machine, %.3g MB kept\n", e->run_seconds, e->run_bytes / 1e6);
+    printf("one run: about %s on one core of this machine, %s kept\n", time_text(e->run_seconds, one),
+           bytes_text(e->run_bytes, other));
     if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
-        printf(
-            "         up to %.3g s where ice jams or goes on breaking: contacts and pieces take time, few at first\n",
-            e->run_seconds_packed);
-    double most = (double)e->runs_most * fmax(e->run_seconds, e->run_seconds_packed) / jobs / 3600;
-    printf("total: about %.3g h", (double)e->runs_least * hours);
-    if (most > MUCH_LONGER * (double)e->runs_least * hours)
-        printf(" to %.3g h", most);
-    printf(" on %d %s, %.3g MB\n", jobs, jobs == 1 ? "core" : "cores", (double)e->runs_most * e->run_bytes / 1e6);
+        printf("         up to %s where ice jams or goes on breaking: contacts and pieces take time, few at first\n",
+               time_text(e->run_seconds_packed, one));
+    printf("total: about %s", time_text(least, one));
+    if (most > MUCH_LONGER * least)
+        printf(" to %s", time_text(most, one));
+    printf(" on %d %s, %s\n", jobs, jobs == 1 ? "core" : "cores",
+           bytes_text((double)e->runs_most * e->run_bytes, other));
 }
 
 static int answer_extent(const common_options *common, const fram_study *study, int jobs)
@@ -63,6 +89,75 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     json_real(&j, "run_s_packed", e.run_seconds_packed);
     json_real(&j, "run_bytes", e.run_bytes);
     json_end(&j);
+    return EXIT_GOOD;
+}
+
+/* ---- fram study list ---- */
+
+typedef struct list_view {
+    bool json;
+    json out;
+    int64_t conditions, runs, failed, wanted;
+} list_view;
+
+static void list_condition(void *user, const fram_study_standing *c)
+{
+    list_view *view = user;
+    view->runs += c->runs;
+    view->failed += c->failed;
+    view->wanted += c->wanted;
+    bool first = view->conditions++ == 0;
+    if (view->json) {
+        if (first) {
+            view->out = json_begin();
+            json_open_list(&view->out, "list");
+        }
+        json_open(&view->out, NULL);
+        json_integer(&view->out, "condition", c->condition);
+        json_text(&view->out, "id", c->id);
+        json_text(&view->out, "keys", c->keys);
+        json_integer(&view->out, "runs", c->runs);
+        json_integer(&view->out, "wanted", c->wanted);
+        json_integer(&view->out, "failed", c->failed);
+        json_real(&view->out, "load_mean_N", c->load_mean);
+        json_real(&view->out, "load_mean_half_N", c->load_mean_half);
+        json_real(&view->out, "load_largest_N", c->load_largest);
+        json_close(&view->out);
+        return;
+    }
+    if (first)
+        printf("%9s %11s %6s %23s %13s  %s\n", "condition", "runs", "failed", "mean load [kN]", "largest [kN]",
+               "id and keys");
+    char runs[48], mean[32] = "-", largest[32] = "-";
+    snprintf(runs, sizeof runs, "%lld/%lld", (long long)c->runs, (long long)c->wanted);
+    if (isfinite(c->load_mean_half))
+        snprintf(mean, sizeof mean, "%.4g +- %.3g", c->load_mean * 1e-3, c->load_mean_half * 1e-3);
+    else if (isfinite(c->load_mean))
+        snprintf(mean, sizeof mean, "%.4g", c->load_mean * 1e-3);
+    if (isfinite(c->load_largest))
+        snprintf(largest, sizeof largest, "%.4g", c->load_largest * 1e-3);
+    printf("%9d %11s %6lld %23s %13s  %s %s\n", c->condition, runs, (long long)c->failed, mean, largest, c->id,
+           c->keys);
+}
+
+static int answer_list(const common_options *common, fram_context *context, const char *folder)
+{
+    list_view view = {.json = common->json};
+    fram_error error = {0};
+    fram_status status = fram_study_list(context, folder, list_condition, &view, &error);
+    if (view.json && view.conditions > 0) {
+        json_close_list(&view.out);
+        json_integer(&view.out, "conditions", view.conditions);
+        json_integer(&view.out, "runs", view.runs);
+        json_integer(&view.out, "wanted", view.wanted);
+        json_integer(&view.out, "failed", view.failed);
+        json_end(&view.out);
+    }
+    if (status != FRAM_OK)
+        return answer_error(common, &error);
+    if (!view.json)
+        printf("%lld of %lld runs of %lld conditions, %lld failed\n", (long long)view.runs, (long long)view.wanted,
+               (long long)view.conditions, (long long)view.failed);
     return EXIT_GOOD;
 }
 
@@ -89,8 +184,11 @@ static void show(void *user, const fram_study_progress *p)
     fprintf(stderr, "%s%lld of %lld runs", view->terminal ? "\r\033[K" : "", (long long)p->done, (long long)p->planned);
     if (p->failed > 0)
         fprintf(stderr, ", %lld failed", (long long)p->failed);
-    if (p->eta > 0)
-        fprintf(stderr, ", about %.0f s left", p->eta);
+    if (p->eta > 0) {
+        fputs(", about ", stderr);
+        print_duration(p->eta);
+        fputs(" left", stderr);
+    }
     fputs(view->terminal ? "" : "\n", stderr);
     fflush(stderr);
 }
@@ -100,8 +198,11 @@ static int answer_result(const common_options *common, const char *folder, const
     if (!common->quiet)
         fprintf(stderr,
                 "%lld runs of %lld conditions, %lld failed; %lld carried out now\n"
-                "results: %s/summary.csv, %s/conditions.csv\n",
-                (long long)r->runs, (long long)r->conditions, (long long)r->failed, (long long)r->made, folder, folder);
+                "results: %s/study.html is the page, summary.csv and conditions.csv beside it the tables\n",
+                (long long)r->runs, (long long)r->conditions, (long long)r->failed, (long long)r->made, folder);
+    if (r->failed > 0)
+        fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s\n", (long long)r->failed_condition,
+                (long long)r->failed_seed, r->reason);
     if (!common->json)
         return EXIT_GOOD;
     json j = json_begin();
@@ -160,21 +261,25 @@ int command_study(const command_row *self, int argc, char **argv)
         return code;
     d.slurm_options = sbatch.value;
     d.slurm_option_count = sbatch.count;
-    bool check = words[1] && strcmp(words[0], "check") == 0;
-    if (words[1] && !check)
-        return answer_usage(&common, words[0], "expected one study file, or: fram study check STUDY");
-    if (!check && !d.folder)
+    bool check = words[1] && strcmp(words[0], "check") == 0, list = words[1] && strcmp(words[0], "list") == 0;
+    if (words[1] && !check && !list)
+        return answer_usage(&common, words[0],
+                            "expected one study file, or: fram study check STUDY, or: fram study list DIR");
+    if (!check && !list && !d.folder)
         return answer_usage(&common, "--output", "is missing: name the folder for the results, -o DIR");
     if (d.jobs < 0 || d.jobs > 4096)
         return answer_usage(&common, "--jobs", "expected 0 to 4096 processes");
     fram_context *context = NULL;
     work_view work;
-    code = session_open_reading(&common, &work, &context);
+    /* A study that runs has a line of its own for how far it is. */
+    code = check ? session_open_reading(&common, &work, &context) : session_open(&common, &context);
     if (code >= 0)
         return code;
     fram_study *study = NULL;
     fram_error error = {0};
-    if (fram_study_load(context, words[check ? 1 : 0], &study, &error) != FRAM_OK)
+    if (list)
+        code = answer_list(&common, context, words[1]);
+    else if (fram_study_load(context, words[check ? 1 : 0], &study, &error) != FRAM_OK)
         code = answer_error(&common, &error);
     else if (check)
         code = answer_extent(&common, study, d.jobs > 0 ? d.jobs : (int)sysconf(_SC_NPROCESSORS_ONLN));

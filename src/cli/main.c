@@ -27,10 +27,11 @@ static const command_row commands[] = {
      "  fram bench scenes/demo.yaml --threads 2 --json\n"
      "  fram bench --scene bench/scenes/n1000_c90.scene --dt 0.02 --iterations 10 --json\n",
      command_bench},
-    {"study", "[check] STUDY -o DIR",
+    {"study", "[check | list] STUDY -o DIR",
      "run a scenario under many conditions with several seeds each; report means with confidence intervals",
      "  fram study check study.yaml              how many runs, how long, how much disk\n"
      "  fram study study.yaml -o out/study       after a stop, the same command continues\n"
+     "  fram study list out/study                how each condition stands, also while it runs\n"
      "  fram study study.yaml -o out/study --on slurm --partition short --time 1:00:00\n"
      "A study in six lines:\n"
      "  scenario: demo.yaml\n"

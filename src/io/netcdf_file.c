@@ -11,6 +11,8 @@
 
 /* Shuffled and deflated at level 1: columns of slow change shrink to a third, and writing stays bound by the disk. */
 enum { SHUFFLE = 1, DEFLATE = 1, LEVEL = 1 };
+/* Values of a chunk of two dimensions at least: every chunk costs 600 bytes and a write of its own. */
+enum { CHUNK_VALUES = 1024 };
 
 static void keep(netcdf_file *f, int code)
 {
@@ -73,13 +75,15 @@ int netcdf_variable(netcdf_file *f, const char *name, netcdf_type type, const in
     if (f->failed)
         return variable;
     keep(f, nc_def_var(f->id, name, types[type], count, dimensions, &variable));
-    size_t length = 0;
+    size_t length = 0, rows = 0;
     if (!f->failed && count > 0) {
         keep(f, nc_inq_dimlen(f->id, dimensions[count - 1], &length));
         keep(f, nc_def_var_deflate(f->id, variable, SHUFFLE, DEFLATE, LEVEL));
     }
     if (!f->failed && count == 2) {
-        const size_t chunk[2] = {1, length > 0 ? length : 1};
+        keep(f, nc_inq_dimlen(f->id, dimensions[0], &rows));
+        size_t wanted = length > 0 ? (CHUNK_VALUES + length - 1) / length : 1;
+        const size_t chunk[2] = {wanted < rows ? wanted : rows > 0 ? rows : 1, length > 0 ? length : 1};
         keep(f, nc_def_var_chunking(f->id, variable, NC_CHUNKED, chunk));
     }
     put_text(f, variable, "units", units);

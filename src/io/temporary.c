@@ -85,3 +85,11 @@ bool temporary_is_of(const char *name, const char *base)
            strspn(name + length + 1, "0123456789abcdef") == RANDOM_DIGITS &&
            strcmp(name + length + 1 + RANDOM_DIGITS, ending) == 0;
 }
+
+bool temporary_is_name(const char *name)
+{
+    size_t length = strlen(name), rest = 1 + RANDOM_DIGITS + strlen(ending);
+    return length > rest && name[length - rest] == '.' &&
+           strspn(name + length - rest + 1, "0123456789abcdef") == RANDOM_DIGITS &&
+           strcmp(name + length - strlen(ending), ending) == 0;
+}

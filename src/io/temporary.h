@@ -15,5 +15,7 @@ fram_status temporary_folder(context *ctx, const char *path, char **name, fram_e
 /* Whether `name`, without its folder, is that of a temporary file or folder for `base`: what a program that was killed
    left behind. */
 bool temporary_is_of(const char *name, const char *base);
+/* The same for any base. */
+bool temporary_is_name(const char *name);
 
 #endif

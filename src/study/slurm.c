@@ -93,17 +93,31 @@ static void cancel_earlier(slurm_pool *all)
     text_free(all->ctx, &path);
 }
 
+/* What a program says on several lines, as one. */
+static void one_line(text_buffer *b)
+{
+    while (b->data && b->count > 0 && b->data[b->count - 1] == '\n')
+        b->data[--b->count] = '\0';
+    for (int32_t i = 0; b->data && i < b->count; i++)
+        if ((unsigned char)b->data[i] < ' ')
+            b->data[i] = ' ';
+}
+
 static fram_status check_commands(slurm_pool *all, fram_error *error)
 {
     const char *const words[] = {"sbatch", "--version", NULL};
     text_buffer answer = {0};
     int code = 0;
     fram_status status = capture(all->ctx, words, &answer, &code, error);
+    one_line(&answer);
+    if (status != FRAM_OK)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
+                           "the command sbatch is not there: run this on a machine that submits to Slurm");
+    else if (code != 0)
+        status = error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on", "the command sbatch does not work: %.300s",
+                           answer.data ? answer.data : "it says nothing");
     text_free(all->ctx, &answer);
-    if (status == FRAM_OK && code == 0)
-        return FRAM_OK;
-    return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "on",
-                     "the command sbatch is not there or does not work: run this on a machine that submits to Slurm");
+    return status;
 }
 
 fram_status slurm_begin(context *ctx, const slurm_options *options, const char *folder, const char *program,
@@ -165,6 +179,8 @@ static fram_status submit_script(slurm_pool *all, int32_t array, fram_error *err
     int code = 0;
     fram_status status = script ? capture(all->ctx, words, &answer, &code, error) : error_memory(error);
     long long job = status == FRAM_OK && answer.data ? strtoll(answer.data, &end, 10) : 0;
+    if (status == FRAM_OK && (code != 0 || job < 1))
+        one_line(&answer);
     if (status == FRAM_OK && (code != 0 || job < 1))
         status = error_set(error, FRAM_ERROR_USAGE, script, 0, "on", "sbatch refuses the script: %.300s",
                            answer.data ? answer.data : "");
@@ -251,8 +267,8 @@ static bool read_exit(const slurm_pool *all, const slurm_run *run, int *code)
 
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
 {
-    for (int32_t i = 0; i < all->runs.count; i++) {
-        slurm_run *run = &all->runs.data[i];
+    for (; all->looked < all->runs.count; all->looked++) {
+        slurm_run *run = &all->runs.data[all->looked];
         bool ended = read_exit(all, run, exit_code);
         /* A signal is no answer of the run: the node was short of memory, or the task of time. */
         if (ended && *exit_code > SIGNAL_CODES && run->tries < TRIES_MOST) {
@@ -269,6 +285,7 @@ bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
         *run = all->runs.data[--all->runs.count];
         return true;
     }
+    all->looked = 0;
     return false;
 }
 

@@ -27,6 +27,7 @@ typedef struct slurm_pool {
     ARRAY(slurm_run) runs;
     ARRAY(int64_t) jobs; /* Slurm's numbers of the arrays of this call */
     int32_t arrays;      /* number of the last script in the folder */
+    int32_t looked;      /* runs that slurm_ended has looked at since it last said that none ended */
     double asked;        /* when the scheduler was asked last [s] */
 } slurm_pool;
 
@@ -37,7 +38,7 @@ fram_status slurm_begin(context *ctx, const slurm_options *options, const char *
 bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task);
 /* Submits what was added and what was lost. */
 fram_status slurm_submit(slurm_pool *all, fram_error *error);
-/* One run that ended, if any did. */
+/* One run that ended, if any did: until it says no, each run is looked at once. */
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code);
 /* Asks the scheduler, when it is time. */
 void slurm_look(slurm_pool *all);

@@ -8,12 +8,16 @@
 #include "io/temporary.h"
 #include "sim/run_folder.h"
 #include "study/study_file.h"
+#include "study/study_record.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+/* Of a log that is looked at. */
+enum { LOG_MOST = 1 << 20 };
 
 /* ---- names ---- */
 
@@ -42,12 +46,12 @@ char *study_scenario_path(const study_folder *f, int32_t condition)
 /* What decides the result of a run, but for its seed. */
 static fram_status name_condition(study_folder *f, int32_t condition, const scenario *one, fram_error *error)
 {
-    char hash[SHA256_TEXT_SIZE];
+    char hash[SHA256_TEXT_SIZE], of[SHA256_TEXT_SIZE];
     text_buffer b = {0}, inputs = {0};
-    fram_status status = scenario_hash(f->ctx, one, hash, error);
+    fram_status status = scenario_hash(f->ctx, one, of, error);
     if (status == FRAM_OK)
         status = run_folder_inputs(f->ctx, one, &inputs, error);
-    text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? hash : "");
+    text_format(f->ctx, &b, "%s %s", FRAM_VERSION, status == FRAM_OK ? of : "");
     /* Of each line "sha256  path" the hash: the same files elsewhere are the same input. */
     for (const char *line = inputs.data; status == FRAM_OK && line && *line; line = strchr(line, '\n') + 1)
         text_format(f->ctx, &b, " %.64s", line);
@@ -57,10 +61,24 @@ static fram_status name_condition(study_folder *f, int32_t condition, const scen
         sha256_text(b.data, (size_t)b.count, hash);
         memcpy(f->id[condition], hash, CONDITION_ID - 1);
         f->id[condition][CONDITION_ID - 1] = '\0';
+        study_index_row(f, condition, of, inputs.data);
     }
     text_free(f->ctx, &b);
     text_free(f->ctx, &inputs);
     return status;
+}
+
+/* Removes what programs that were killed were about to put in place: only one study writes here at a time. */
+static void sweep(const char *path)
+{
+    DIR *dir = opendir(path);
+    if (!dir)
+        return;
+    int failure; /* what is not listed stays, and harms nobody */
+    for (const char *name = folder_next(dir, &failure); name; name = folder_next(dir, &failure))
+        if (temporary_is_name(name))
+            (void)unlinkat(dirfd(dir), name, 0);
+    closedir(dir);
 }
 
 static fram_status make_folder(const study_folder *f, const char *name, const char *under, fram_error *error)
@@ -70,10 +88,25 @@ static fram_status make_folder(const study_folder *f, const char *name, const ch
     fram_status status = FRAM_OK;
     if (b.failed)
         status = error_memory(error);
-    else if (mkdir(b.data, 0777) != 0 && errno != EEXIST)
+    else if (mkdir(b.data, 0777) == 0)
+        status = FRAM_OK;
+    else if (errno == EEXIST)
+        sweep(b.data);
+    else
         status = file_error(error, b.data, "make the folder", errno);
     text_free(f->ctx, &b);
     return status;
+}
+
+/* Whether the file is there with this text: renaming ten thousand files costs more than reading them. */
+static bool holds(context *ctx, const char *path, const text_buffer *text)
+{
+    char *data = NULL;
+    size_t size = 0;
+    bool same = access(path, F_OK) == 0 && file_read(ctx, path, (uint64_t)text->count, &data, &size, NULL) == FRAM_OK &&
+                size == (size_t)text->count && memcmp(data, text->data, size) == 0;
+    memory_free(ctx, data);
+    return same;
 }
 
 /* The scenario of a condition at seed 0, to be run with other seeds from any folder. */
@@ -91,8 +124,10 @@ static fram_status write_condition(study_folder *f, int32_t condition, fram_erro
     if (status == FRAM_OK)
         status = make_folder(f, "runs", f->id[condition], error);
     char *path = status == FRAM_OK ? study_scenario_path(f, condition) : NULL;
-    if (status == FRAM_OK)
-        status = path ? atomic_file_put(f->ctx, path, text.data, (size_t)text.count, error) : error_memory(error);
+    if (status == FRAM_OK && !path)
+        status = error_memory(error);
+    if (status == FRAM_OK && !holds(f->ctx, path, &text))
+        status = atomic_file_put(f->ctx, path, text.data, (size_t)text.count, error);
     memory_free(f->ctx, path);
     text_free(f->ctx, &text);
     scenario_free(f->ctx, &one);
@@ -146,12 +181,15 @@ static fram_status copy_study(const study_folder *f, fram_error *error)
 
 fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error)
 {
-    *f = (study_folder){ctx, s, path, memory_array(ctx, (size_t)s->conditions, CONDITION_ID), -1};
+    *f = (study_folder){ctx, s, path, memory_array(ctx, (size_t)s->conditions, CONDITION_ID), -1, {0}};
+    study_index_heads(f);
     fram_status status = f->id ? check_folder(ctx, path, error) : error_memory(error);
     if (status == FRAM_OK)
         status = run_folder_make(path, error);
     if (status == FRAM_OK)
         status = run_folder_lock(path, &f->lock, error);
+    if (status == FRAM_OK)
+        sweep(path);
     if (status == FRAM_OK)
         status = copy_study(f, error);
     if (status == FRAM_OK)
@@ -160,6 +198,9 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
         status = make_folder(f, "runs", NULL, error);
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
         status = write_condition(f, c, error);
+    if (status == FRAM_OK)
+        status = study_record_write(f, error);
+    text_free(ctx, &f->index);
     if (status != FRAM_OK)
         study_folder_close(f);
     return status;
@@ -202,13 +243,35 @@ static void remove_but(context *ctx, const char *folder, const char *const *kept
     (void)rmdir(folder);
 }
 
-void study_run_tidy(const study_folder *f, int32_t condition, int64_t seed, study_keep keep)
+void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep)
 {
     static const char *const series[] = {"scenario.yaml", "run.json", "series.csv", "fractures.csv"};
-    if (keep == KEEP_ALL)
-        return;
-    char *folder = study_run_path(f, condition, seed, "");
-    if (folder)
-        remove_but(f->ctx, folder, series, keep == KEEP_SERIES ? 4 : 0);
+    char *log = study_run_path(f, condition, seed, ".log"), *folder = study_run_path(f, condition, seed, "");
+    /* A study that was killed in here finds the log, and goes on. */
+    if (log && folder && access(log, F_OK) == 0) {
+        if (keep != KEEP_ALL)
+            remove_but(f->ctx, folder, series, keep == KEEP_SERIES ? 4 : 0);
+        (void)unlink(log);
+    }
+    memory_free(f->ctx, log);
     memory_free(f->ctx, folder);
+}
+
+fram_status study_run_check_disk(const study_folder *f, int32_t condition, int64_t seed, fram_error *error)
+{
+    static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO};
+    char *path = study_run_path(f, condition, seed, ".log"), *text = NULL;
+    size_t size = 0;
+    fram_status status = FRAM_OK;
+    if (path && file_read(f->ctx, path, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
+        for (size_t i = 0; i < sizeof faults / sizeof *faults && status == FRAM_OK; i++)
+            if (strstr(text, strerror(faults[i])))
+                status = error_set(error, FRAM_ERROR_IO, path, 0, NULL,
+                                   "a run could not write: %s; what ended is kept: mend that, and give the same "
+                                   "command again",
+                                   strerror(faults[i]));
+    }
+    memory_free(f->ctx, text);
+    memory_free(f->ctx, path);
+    return status;
 }

@@ -12,6 +12,7 @@ typedef struct study_folder {
     const char *path;
     char (*id)[CONDITION_ID]; /* of each condition */
     int lock;                 /* -1 */
+    text_buffer index;        /* of index.csv, while the folder is opened */
 } study_folder;
 
 /* Makes the folder with what does not depend on runs, and locks it: FRAM_ERROR_USAGE while another program runs a study
@@ -23,8 +24,11 @@ void study_folder_close(study_folder *f);
 char *study_run_path(const study_folder *f, int32_t condition, int64_t seed, const char *ending);
 /* "DIR/conditions/ID.yaml", to be freed. */
 char *study_scenario_path(const study_folder *f, int32_t condition);
-/* What a run leaves but its row: nothing, its series, or all. */
-void study_run_tidy(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
+/* Of a run that ended well and has its row: what is not kept of its folder goes, and at last its log.  Where there is
+   no log all this was done before. */
+void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
+/* FRAM_ERROR_IO when the log of a run that failed says that the disk did: that is no answer of the scenario. */
+fram_status study_run_check_disk(const study_folder *f, int32_t condition, int64_t seed, fram_error *error);
 
 /* The results of a condition, by seed from the first. */
 typedef struct condition_rows {

@@ -62,6 +62,8 @@ static fram_status load_row(study_work *w, int32_t condition, int32_t index, fra
     memory_free(w->ctx, path);
     const run_row *chosen = found ? run_rows_find(&rows, w->s->vessel) : NULL;
     found = chosen != NULL;
+    if (chosen && !chosen->failed)
+        study_run_finish(&w->folder, condition, w->s->seeds.first + index, w->s->keep);
     if (chosen)
         seed->row = *chosen;
     array_free(w->ctx, &rows);
@@ -226,21 +228,19 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
         return FRAM_OK;
     char *folder = study_run_path(&w->folder, condition, seed, "");
     char *row = study_run_path(&w->folder, condition, seed, ".row");
-    char *log = study_run_path(&w->folder, condition, seed, ".log");
-    fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
+    fram_status status = folder && row ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK && exit_code != 0)
+        status = study_run_check_disk(&w->folder, condition, seed, error);
     if (status == FRAM_OK)
         status = judge_run(w, folder, row, exit_code, &of->row, error);
     if (status == FRAM_OK) {
         of->state = RUN_THERE;
         w->made++;
     }
-    if (status == FRAM_OK && !of->row.failed) {
-        (void)unlink(log);
-        study_run_tidy(&w->folder, condition, seed, w->s->keep);
-    }
+    if (status == FRAM_OK && !of->row.failed)
+        study_run_finish(&w->folder, condition, seed, w->s->keep);
     memory_free(w->ctx, folder);
     memory_free(w->ctx, row);
-    memory_free(w->ctx, log);
     return status == FRAM_OK ? share_result(w, condition, index, error) : status;
 }
 
@@ -302,8 +302,17 @@ static fram_status work_loop(study_work *w, fram_error *error)
 
 /* ---- runs by Slurm ---- */
 
-/* Between looks at the files of a shared folder, which may be far away. */
-enum { LOOK_SECONDS = 1 };
+/* Between looks at the files of a shared folder, which may be far away, at least [s]; and times as long as a look took.
+ */
+#define LOOK_SECONDS 1.0
+#define LOOK_SPARING 20
+
+static void pause_after(double look)
+{
+    double seconds = fmax(LOOK_SECONDS, LOOK_SPARING * look), whole = floor(seconds);
+    const struct timespec pause = {(time_t)whole, (long)((seconds - whole) * 1e9)};
+    nanosleep(&pause, NULL);
+}
 
 static fram_status submit_missing(study_work *w, slurm_pool *queue, fram_error *error)
 {
@@ -330,7 +339,6 @@ static fram_status take_ended(study_work *w, slurm_pool *queue, fram_error *erro
 
 static fram_status slurm_loop(study_work *w, fram_error *error)
 {
-    const struct timespec pause = {LOOK_SECONDS, 0};
     slurm_pool queue;
     fram_status status = slurm_begin(w->ctx, w->options->slurm, w->options->folder, w->options->program, &queue, error);
     if (status != FRAM_OK)
@@ -339,10 +347,11 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
     status = submit_missing(w, &queue, error);
     show_progress(w);
     while (status == FRAM_OK && !dry && queue.runs.count > 0 && !asked_to_stop(w)) {
+        double began = clock_wall();
         status = take_ended(w, &queue, error);
         show_progress(w);
-        if (queue.runs.count > 0)
-            nanosleep(&pause, NULL);
+        if (status == FRAM_OK && queue.runs.count > 0)
+            pause_after(clock_wall() - began);
         slurm_look(&queue);
         if (status == FRAM_OK)
             status = submit_missing(w, &queue, error);
@@ -369,8 +378,13 @@ static fram_status write_tables(const study_work *w, study_result *result, fram_
         for (int32_t i = 0; i < n && status == FRAM_OK; i++) {
             if (!array_push(w->ctx, &rows[c].rows, of->seeds.data[i].row))
                 status = error_memory(error);
+            const run_row *row = &of->seeds.data[i].row;
             result->runs++;
-            result->failed += of->seeds.data[i].row.failed;
+            if (row->failed && result->failed++ == 0) {
+                result->failed_condition = c + 1;
+                result->failed_seed = w->s->seeds.first + i;
+                memcpy(result->reason, row->reason, sizeof result->reason);
+            }
         }
     }
     if (status == FRAM_OK)

@@ -1,6 +1,8 @@
 /* A study run on this machine: its folder, what is left to do, the processes that do it, and the tables at the end.
 
      DIR/study.yaml              the study file as it was read last
+     DIR/effective.yaml          the same with every key and condition, versions and hashes (study/study_record.h)
+     DIR/index.csv               the ID of each condition, the hashes of its scenario and of its files
      DIR/conditions/ID.yaml      the effective scenario of a condition, at seed 0
      DIR/runs/ID/SEED.row        the figures of a run that ended (study/run_row.h)
      DIR/runs/ID/SEED/           its folder, as far as it is kept; of a run that failed, all of it, with SEED.log beside
@@ -15,6 +17,7 @@
 #ifndef STUDY_STUDY_RUN_H
 #define STUDY_STUDY_RUN_H
 
+#include "study/run_row.h"
 #include "study/slurm.h"
 #include "study/study.h"
 
@@ -36,6 +39,9 @@ typedef struct study_options {
 
 typedef struct study_result {
     int32_t conditions, runs, failed, made; /* made: runs that were not there before */
+    int32_t failed_condition;               /* of the first run that failed, from 1 */
+    int64_t failed_seed;
+    char reason[ROW_REASON];
 } study_result;
 
 /* FRAM_INTERRUPTED when stopped: what ended is kept. */

@@ -4,6 +4,7 @@
 #include "fram/study.h"
 
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static fram_context *context_of(void)
@@ -76,6 +77,56 @@ static void count_calls(void *user, const fram_study_progress *p)
     (*(int *)user)++;
 }
 
+typedef struct standing_sum {
+    int conditions;
+    int64_t runs, wanted;
+} standing_sum;
+
+static void add_standing(void *user, const fram_study_standing *c)
+{
+    standing_sum *sum = user;
+    ck_assert_int_eq(c->condition, ++sum->conditions);
+    ck_assert_int_eq((int)strlen(c->id), 12);
+    ck_assert_ptr_nonnull(strchr(c->keys, '='));
+    sum->runs += c->runs;
+    sum->wanted += c->wanted;
+}
+
+/* A program that cannot write, in place of the command: that is no result of its scenario. */
+START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
+{
+    fram_error error = {0};
+    fram_context *c = context_of();
+    fram_study *s = NULL;
+    char folder[256], path[300], out[300], program[300];
+    write_study(folder, path);
+    snprintf(out, sizeof out, "%s/out", folder);
+    snprintf(program, sizeof program, "%s/full", folder);
+    FILE *file = fopen(program, "w");
+    ck_assert_ptr_nonnull(file);
+    fputs("#!/bin/sh\necho 'fram: x/series.csv: cannot write: No space left on device' >&2\nexit 1\n", file);
+    fclose(file);
+    ck_assert_int_eq(chmod(program, 0700), 0);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    standing_sum sum = {0};
+    ck_assert_int_eq(fram_study_list(c, out, add_standing, &sum, &error), FRAM_ERROR_INPUT);
+    fram_study_definition d;
+    fram_study_default(&d);
+    d.folder = out;
+    d.program = program;
+    fram_study_result result = {0};
+    ck_assert_int_eq(fram_study_run(s, &d, &result, &error), FRAM_ERROR_IO);
+    ck_assert_ptr_nonnull(strstr(error.message, "No space left"));
+    ck_assert_msg(fram_study_list(c, out, add_standing, &sum, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(sum.conditions, 3);
+    ck_assert_int_eq(sum.runs, 0);
+    ck_assert_int_eq(sum.wanted, 6);
+    ck_assert_int_eq(fram_study_list(c, out, NULL, &sum, &error), FRAM_ERROR_USAGE);
+    fram_study_destroy(s);
+    fram_context_destroy(c);
+}
+END_TEST
+
 START_TEST(a_study_runs_by_the_command)
 {
     const char *program = getenv("FRAM");
@@ -117,4 +168,4 @@ START_TEST(a_study_runs_by_the_command)
 }
 END_TEST
 
-TEST_MAIN("study", misuse_is_refused, a_study_runs_by_the_command)
+TEST_MAIN("study", misuse_is_refused, a_full_disk_fails_the_study_and_not_its_runs, a_study_runs_by_the_command)

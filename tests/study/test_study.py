@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Studies: the same bytes however they were run, stopped, killed and widened; mistakes told at their place."""
 import csv
+import hashlib
 import json
 import math
 import os
@@ -166,6 +167,85 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             for other in ("many", "killed", "wide"):
                 self.assertEqual((self.at / other / table).read_bytes(), whole, f"{other} {table}")
 
+    def names(self, folder):
+        at = self.at / folder
+        return sorted(str(p.relative_to(at)) for p in at.rglob("*") if p.is_file())
+
+    def test_what_a_kill_leaves_half_done_goes_when_the_study_goes_on(self):
+        study = self.write("set: {run.duration: 0.1, run.transient: 0}\nseeds: 2\n")
+        self.fram(study, "-o", self.at / "out")
+        whole = self.names("out")
+        (run,) = [p.with_suffix("") for p in (self.at / "out" / "runs").glob("*/1.row")]
+        part = "." + "0123456789abcdef" + ".new"
+        for path in (self.at / "out" / "summary.csv", self.at / "out" / "study.nc", run.with_suffix(".row"),
+                     self.at / "out" / "conditions" / f"{run.parent.name}.yaml"):
+            path.with_name(path.name + part).write_text("half")
+        # Killed between the row of a run and the end of its folder: the log is the last thing to go.
+        run.mkdir()
+        (run / "series.csv").write_text("time[s]\n")
+        run.with_suffix(".log").write_text("")
+        # What others have put there stays.
+        (self.at / "out" / "notes.new").write_text("mine")
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
+        self.assertEqual(self.names("out"), sorted([*whole, "notes.new"]))
+        # A folder that is kept stays when less is kept later: its run ended whole.
+        keeps = self.write("set: {run.duration: 0.1, run.transient: 0}\nkeep: series\n")
+        self.fram(keeps, "-o", self.at / "kept")
+        self.fram(self.write("set: {run.duration: 0.1, run.transient: 0}\n"), "-o", self.at / "kept")
+        self.assertEqual(len(list((self.at / "kept" / "runs").glob("*/1/series.csv"))), 1)
+
+    def test_the_effective_study_is_the_study(self):
+        study = self.write("set: {run.duration: 0.2, run.transient: 0.1}\nseeds: {least: 2, first: 3}\n"
+                           "vary: {latin: {count: 3, keys: {vessel.speed: [1, 2], ice.thickness: [0.5, 1]}}}\n"
+                           "extremes: {duration: 1h, levels: [0.7]}\n")
+        self.fram(study, "-o", self.at / "out")
+        effective = self.at / "out" / "effective.yaml"
+        text = effective.read_text()
+        for name in ("study.yaml", "base.yaml"):
+            self.assertRegex(text, f"# .*{name}, sha256 {hashlib.sha256((self.at / name).read_bytes()).hexdigest()}\n")
+        self.fram(effective, "-o", self.at / "again")
+        for table in ("summary.csv", "conditions.csv", "extremes.csv", "index.csv"):
+            self.assertEqual((self.at / "again" / table).read_bytes(), (self.at / "out" / table).read_bytes(), table)
+        rows = self.rows("out", "index.csv")
+        self.assertEqual({r["id"] for r in rows}, {p.name for p in (self.at / "out" / "runs").iterdir()})
+        # How it stands, told from the folder alone, as the tables have it.
+        (self.at / "base.yaml").unlink()
+        told = self.fram("list", self.at / "out")
+        self.assertEqual([told[k] for k in ("conditions", "runs", "wanted", "failed")], [3, 6, 6, 0])
+        for one, row, mean in zip(told["list"], rows, self.rows("out", "conditions.csv")):
+            self.assertEqual((one["id"], one["runs"]), (row["id"], 2))
+            self.assertEqual(one["load_mean_N"], float(mean["load_mean[N]"]))
+        (self.at / "out" / "runs" / rows[1]["id"] / "3.row").unlink()
+        self.assertEqual(self.fram("list", self.at / "out")["runs"], 4)
+        self.assertIn("no study", self.fram("list", self.at, code=2)["error"]["message"])
+
+    def test_many_runs_that_are_there_cost_reading_alone(self):
+        count = 100 if SHORT else 1000
+        study = self.write("set: {run.duration: 0.1, run.transient: 0}\nvary: {latin: {count: %d, keys: "
+                           "{vessel.speed: [1, 2]}}}\n" % count)
+        one = self.write("set: {run.duration: 0.1, run.transient: 0}\n", "one.yaml")
+        self.fram(one, "-o", self.at / "one")
+        (row,) = (self.at / "one" / "runs").glob("*/1.row")
+        # Makes the folder and runs nothing.
+        subprocess.run([FRAM, "study", study, "-o", self.at / "out", "--on", "slurm", "--dry-run"], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        folders = list((self.at / "out" / "runs").iterdir())
+        self.assertEqual(len(folders), count)
+        for folder in folders:
+            shutil.copy(row, folder / "1.row")
+        self.fram(study, "-o", self.at / "out")
+        before = {p: p.stat().st_ino for d in ("conditions", "runs") for p in (self.at / "out" / d).rglob("*")}
+        told = self.fram(study, "-o", self.at / "out")
+        self.assertEqual((told["runs"], told["made"]), (count, 0))
+        # No file of a condition or run was put in place again, and none was added.
+        after = {p: p.stat().st_ino for d in ("conditions", "runs") for p in (self.at / "out" / d).rglob("*")}
+        self.assertEqual(after, before)
+        self.assertEqual(self.fram("list", self.at / "out")["runs"], count)
+        # Bytes a run, beside what an empty file and page have.
+        if (self.at / "out" / "study.nc").exists():
+            self.assertLess((self.at / "out" / "study.nc").stat().st_size, 150000 + 300 * count)
+        self.assertLess((self.at / "out" / "study.html").stat().st_size, 400000 + 500 * count)
+
     def test_a_failure_is_a_row_and_stops_nothing(self):
         # A hull lighter than the water it displaces rises to its waterline, faster than the lower limit allows.
         study = self.write("seeds: 2\nvary: {grid: {run.speed_limit: [2.1, 100], vessel.mass: [1.0e6]}}\n")
@@ -177,6 +257,8 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertEqual(rows[0]["load_mean[N]"], "")
         self.assertEqual(self.rows("out", "conditions.csv")[0]["failed"], "2")
         self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
+        done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], capture_output=True, text=True)
+        self.assertIn("condition 1, seed 1: the simulation went wrong", done.stderr)
         self.assertEqual(self.fram(study, "-o", self.at / "out", "--retry")["made"], 2)
 
     def test_seeds_go_on_until_the_interval_is_narrow(self):

@@ -1,0 +1,148 @@
+/* realpath is not in every standard's stdlib.h. */
+#define _GNU_SOURCE
+#include "study/study_record.h"
+
+#include "base/build.h"
+#include "base/hash.h"
+#include "base/number_text.h"
+#include "fram/version.h"
+#include "io/file.h"
+#include "study/study_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- index.csv ---- */
+
+void study_index_heads(study_folder *f) { text_add(f->ctx, &f->index, "condition,id,scenario_sha256,inputs_sha256\n"); }
+
+void study_index_row(study_folder *f, int32_t condition, const char *scenario_hash, const char *inputs)
+{
+    text_format(f->ctx, &f->index, "%d,%s,%s,", (int)condition + 1, f->id[condition], scenario_hash);
+    for (const char *line = inputs; line && *line; line = strchr(line, '\n') + 1)
+        text_format(f->ctx, &f->index, "%s%.64s", line == inputs ? "" : " ", line);
+    text_add(f->ctx, &f->index, "\n");
+}
+
+/* ---- effective.yaml ---- */
+
+/* The name of a file that was read and the hash of what is in it now. */
+static fram_status add_file(context *ctx, text_buffer *b, const char *what, const char *path, fram_error *error)
+{
+    char *data = NULL, digest[SHA256_TEXT_SIZE];
+    size_t size = 0;
+    fram_status status = file_read(ctx, path, STUDY_FILE_LIMIT, &data, &size, error);
+    if (status != FRAM_OK)
+        return status;
+    sha256_text(data, size, digest);
+    memory_free(ctx, data);
+    text_format(ctx, b, "# %s %s, sha256 %s\n", what, path, digest);
+    return FRAM_OK;
+}
+
+static void add_number(context *ctx, text_buffer *b, const char *key, double value)
+{
+    char text[NUMBER_TEXT_SIZE];
+    real_to_text(value, text);
+    text_format(ctx, b, "%s%s", key, text);
+}
+
+static void add_numbers(context *ctx, text_buffer *b, const char *key, const double *value, int32_t count)
+{
+    if (count == 0)
+        return;
+    text_add(ctx, b, key);
+    for (int32_t i = 0; i < count; i++)
+        add_number(ctx, b, i > 0 ? ", " : "[", value[i]);
+    text_add(ctx, b, "]");
+}
+
+static void add_seeds(context *ctx, text_buffer *b, const study_seeds *s)
+{
+    text_format(ctx, b, "seeds: {first: %lld, least: %d", (long long)s->first, (int)s->least);
+    if (s->most > s->least)
+        text_format(ctx, b, ", most: %d", (int)s->most);
+    if (s->mean_within > 0)
+        add_number(ctx, b, ", mean_within: ", s->mean_within);
+    if (s->largest_within > 0)
+        add_number(ctx, b, ", largest_within: ", s->largest_within);
+    add_number(ctx, b, ", confidence: ", s->confidence);
+    text_add(ctx, b, "}\n");
+}
+
+static void add_extremes(context *ctx, text_buffer *b, const study_extremes *x)
+{
+    if (!x->asked)
+        return;
+    add_number(ctx, b, "extremes: {duration: ", x->duration);
+    text_format(ctx, b, ", method: %s", x->gev ? "gev" : "gumbel");
+    add_number(ctx, b, ", confidence: ", x->confidence);
+    add_numbers(ctx, b, ", levels: ", x->level, x->levels);
+    add_numbers(ctx, b, ", hours: ", x->hours.data, x->hours.count);
+    add_numbers(ctx, b, ", annual: ", x->annual, x->annuals);
+    text_add(ctx, b, "}\n");
+}
+
+static void add_value(context *ctx, text_buffer *b, const char *before, const char *key, const char *value)
+{
+    text_add(ctx, b, before);
+    text_quoted(ctx, b, key);
+    text_add(ctx, b, ": ");
+    text_quoted(ctx, b, value);
+}
+
+static void add_conditions(context *ctx, text_buffer *b, const study *s)
+{
+    static const char *const designs[] = {[DESIGN_SOBOL] = "sobol", [DESIGN_MORRIS] = "morris"};
+    if (s->design.kind != DESIGN_NONE)
+        text_format(ctx, b, "# The points of a design by %s, count %d.\n", designs[s->design.kind],
+                    (int)s->design.count);
+    if (s->keys.count == 0)
+        return;
+    text_add(ctx, b, "vary:\n  list:\n");
+    for (int32_t c = 0; c < s->conditions; c++) {
+        for (int32_t k = 0; k < s->keys.count; k++)
+            add_value(ctx, b, k > 0 ? ", " : "    - {", s->keys.data[k], study_value(s, c, k));
+        text_add(ctx, b, "}\n");
+    }
+}
+
+static fram_status add_study(const study_folder *f, text_buffer *b, fram_error *error)
+{
+    static const char *const keeps[] = {[KEEP_SUMMARY] = "summary", [KEEP_SERIES] = "series", [KEEP_ALL] = "all"};
+    const study *s = f->s;
+    context *ctx = f->ctx;
+    text_format(ctx, b, "# A study with every key and condition, as Fram %s (%s; %s) read it.\n", FRAM_VERSION,
+                build_compiler(), build_parts());
+    fram_status status = add_file(ctx, b, "study file", s->file, error);
+    if (status == FRAM_OK)
+        status = add_file(ctx, b, "scenario", s->scenario, error);
+    if (status == FRAM_OK && s->table)
+        status = add_file(ctx, b, "conditions", s->table, error);
+    char *whole = realpath(s->scenario, NULL);
+    text_add(ctx, b, "scenario: ");
+    text_quoted(ctx, b, whole ? whole : s->scenario);
+    free(whole);
+    if (s->vessel)
+        add_value(ctx, b, "\n", "vessel", s->vessel);
+    for (int32_t i = 0; i < s->set.count; i++)
+        add_value(ctx, b, i > 0 ? ", " : "\nset: {", s->set.data[i].key, s->set.data[i].value);
+    text_add(ctx, b, s->set.count > 0 ? "}\n" : "\n");
+    add_seeds(ctx, b, &s->seeds);
+    text_format(ctx, b, "keep: %s\n", keeps[s->keep]);
+    add_extremes(ctx, b, &s->extremes);
+    add_conditions(ctx, b, s);
+    return status;
+}
+
+fram_status study_record_write(const study_folder *f, fram_error *error)
+{
+    text_buffer b = {0};
+    fram_status status = add_study(f, &b, error);
+    if (status == FRAM_OK)
+        status = study_table_write(f, "effective.yaml", &b, error);
+    if (status == FRAM_OK)
+        status = study_table_write(f, "index.csv", &f->index, error);
+    text_free(f->ctx, &b);
+    return status;
+}
