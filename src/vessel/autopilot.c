@@ -116,10 +116,12 @@ static double rudder_now(const autopilot_view *v, const steering_gear *g)
 double autopilot_angle(const autopilot_view *v, const steering_gear *g, const motion_observer *seen, double rate)
 {
     const manoeuvring *ship = g->ship;
-    double lever = manoeuvring_lever(ship), wanted = manoeuvring_inertia(ship) * (rate - v->turn) / v->lag;
+    double lever = manoeuvring_lever(ship), arm = g->x - lever;
+    if (arm == 0)
+        return 0;
+    double wanted = manoeuvring_inertia(ship) * (rate - v->turn) / v->lag;
     double acts = hull_moment(v, ship) + seen->moment - lever * hull_force(v, ship);
-    return rudder_angle_for(g->rudder, v->ahead, v->aside + g->x * v->turn, v->thrust, (wanted - acts) / (g->x - lever),
-                            g->angle);
+    return rudder_angle_for(g->rudder, v->ahead, v->aside + g->x * v->turn, v->thrust, (wanted - acts) / arm, g->angle);
 }
 
 void autopilot_observe(const autopilot_view *v, const turning_ability *t, const steering_gear *g, double dt,

@@ -22,12 +22,15 @@ static void add(track *t, double length, double curvature, bool turning)
     t->length += length;
 }
 
+/* Of a turn to port (side 1) or starboard (-1); no radius makes an arc of no length. */
+static double curvature_of(double side, double radius) { return radius > 0 ? side / radius : 0; }
+
 /* side: 1 turns away to port, -1 to starboard. */
 static void add_loop(track *t, double radius, double side)
 {
-    add(t, radius * AWAY, side / radius, true);
+    add(t, radius * AWAY, curvature_of(side, radius), true);
     add(t, radius * ON, 0, true);
-    add(t, radius * (PI + AWAY), -side / radius, true);
+    add(t, radius * (PI + AWAY), curvature_of(-side, radius), true);
     add(t, radius * BACK, 0, true);
 }
 
@@ -48,7 +51,7 @@ static track square_track(const pattern_shape *p, double radius)
     track t = {.start = {p->distance + half, r - half}, .heading = 0.5 * PI, .closed = true};
     for (int side = 0; side < 4; side++) {
         add(&t, p->width - 2 * r, 0, false);
-        add(&t, 0.5 * PI * r, 1 / r, true);
+        add(&t, 0.5 * PI * r, curvature_of(1, r), true);
     }
     return t;
 }

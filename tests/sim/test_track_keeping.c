@@ -186,7 +186,7 @@ START_TEST(turns_as_it_is_told)
         scene k;
         open_on_track(&k, &any);
         propulsion_settings *s = &k.w.propulsion.settings[0];
-        s->steering_rate = 0;
+        s->steering_rate = 1e-12;
         k.w.propulsion.steering[0] = side * s->steering_most;
         sail(&k, 0, 1200, 0);
         int32_t body = k.w.vessels.body[0];
