@@ -119,15 +119,18 @@ typedef struct word_list {
     char **word;
 } word_list;
 
+static const option_row *find_option(const word_list *list, const char *word, size_t length)
+{
+    const option_row *row = find_row(list->rows, list->row_count, word, length);
+    return row ? row : find_row(list->shared, COMMON_ROWS, word, length);
+}
+
 /* The option at list->at and its value.  -1 to go on. */
 static int read_option(word_list *list)
 {
     const char *word = list->word[list->at++];
     const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
-    size_t length = equals ? (size_t)(equals - word) : strlen(word);
-    const option_row *row = find_row(list->rows, list->row_count, word, length);
-    if (!row)
-        row = find_row(list->shared, COMMON_ROWS, word, length);
+    const option_row *row = find_option(list, word, equals ? (size_t)(equals - word) : strlen(word));
     if (!row)
         return answer_usage(list->common, word, "is not an option of this command; see --help");
     if (row->kind == OPTION_FLAG) {
@@ -140,10 +143,9 @@ static int read_option(word_list *list)
     if (!text || !*text)
         return answer_usage(list->common, row->name, text ? "needs a value, found an empty word" : "needs a value");
     /* "-o --force" forgot a name: it asks for no folder called --force. */
-    if (!equals && strncmp(text, "--", 2) == 0)
-        return answer_usage(
-            list->common, row->name,
-            "needs a value, found an option (a name that begins so is ./--name, another value --option=--value)");
+    if (!equals && find_option(list, text, strlen(text)))
+        return answer_usage(list->common, row->name,
+                            "needs a value, found an option; a file of that name is ./--name, a value --option=--name");
     const char *wrong = store_value(row, text);
     return wrong ? answer_usage(list->common, row->name, wrong) : -1;
 }
