@@ -297,7 +297,11 @@ fram_status live_view_open(context *ctx, const char *folder, const char *viewer,
                      "this build has no libmicrohttpd, which the live view needs");
 }
 
-const char *live_view_address(const live_view *v) { return v ? "" : ""; }
+const char *live_view_address(const live_view *v)
+{
+    (void)v;
+    return "";
+}
 void live_view_begin(live_view *v) { (void)v; }
 void live_view_end(live_view *v) { (void)v; }
 
