@@ -65,9 +65,24 @@ static bool find_pieces(context *ctx, const edge_job *j, edge_rows_work *w, cons
 static int compare_places(const void *a, const void *b)
 {
     const edge_piece *x = a, *y = b;
-    if (x->place.x != y->place.x)
-        return x->place.x < y->place.x ? -1 : 1;
+    if (x->along != y->along)
+        return x->along < y->along ? -1 : 1;
     return (x->first > y->first) - (x->first < y->first);
+}
+
+/* Sorts along the longer side of what they cover, so that a channel costs the same whichever way it goes. */
+static void sort_pieces(edge_piece_array *work)
+{
+    vec2 lo = work->data[0].place, hi = lo;
+    for (int32_t i = 1; i < work->count; i++) {
+        vec2 p = work->data[i].place;
+        lo = vec2_make(fmin(lo.x, p.x), fmin(lo.y, p.y));
+        hi = vec2_make(fmax(hi.x, p.x), fmax(hi.y, p.y));
+    }
+    bool y_longer = hi.y - lo.y > hi.x - lo.x;
+    for (int32_t i = 0; i < work->count; i++)
+        work->data[i].along = y_longer ? work->data[i].place.y : work->data[i].place.x;
+    qsort(work->data, (size_t)work->count, sizeof *work->data, compare_places);
 }
 
 /* By how much a neighbour's load grows with this one's: in proportion to what both carried, no more than as much. */
@@ -94,9 +109,9 @@ static void find_neighbours(edge_piece_array *work)
     for (int32_t i = 0; i < work->count; i++)
         reach = fmax(reach, SHEET_INFLUENCE_MOST * work->data[i].length);
     if (work->count > 1)
-        qsort(work->data, (size_t)work->count, sizeof *work->data, compare_places);
+        sort_pieces(work);
     for (int32_t i = 0; i < work->count; i++)
-        for (int32_t k = i + 1; k < work->count && work->data[k].place.x < work->data[i].place.x + reach; k++)
+        for (int32_t k = i + 1; k < work->count && work->data[k].along < work->data[i].along + reach; k++)
             add_neighbour(&work->data[i], &work->data[k]);
 }
 

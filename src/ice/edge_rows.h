@@ -18,6 +18,7 @@
 typedef struct edge_piece {
     int32_t first, end, groups; /* contacts */
     vec2 place;                 /* middle of the contacts [m] */
+    double along;               /* place along the longer side of all [m], by which neighbours are found */
     vec2 facing;                /* out of the edge, level part of a unit vector */
     double width;               /* of the contact along the edge [m] */
     double length, stiffness;   /* l [m], rho_w g l^2 [N/m] */

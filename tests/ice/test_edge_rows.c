@@ -25,6 +25,15 @@ static void wall_of(ice_rig *r, int n, double spacing)
     ice_rig_crush(r);
 }
 
+/* The wall with its pieces on both sides of x = 0. */
+static void line_of(ice_rig *r, int n, double spacing)
+{
+    wall_of(r, n, spacing);
+    for (int i = 0; i < n; i++)
+        ice_rig_place(r, r->floes.body[i + 1], (vec3){spacing * (i - n / 2), -0.5, 0}, 0, 0, 0);
+    ice_rig_crush(r);
+}
+
 /* As if the contacts of piece i had carried force[i] down on the wall in the last step. */
 static void remember(ice_rig *r, const double *force)
 {
@@ -80,16 +89,12 @@ START_TEST(point_and_line)
     assert_relative(alone, edge_influence(1 / (3 * length()), 0.3), 0.003);
     assert_relative(down, alone * force[0], 1e-9); /* the edge would go up again */
     ice_rig_free(&r);
-    const double spacing = 1.25;
-    wall_of(&r, MANY, spacing);
-    for (int i = 0; i < MANY; i++)
-        ice_rig_place(&r, r.floes.body[i + 1], (vec3){spacing * (i - MANY / 2), -0.5, 0}, 0, 0, 0);
-    ice_rig_crush(&r);
+    line_of(&r, MANY, 1.25);
     for (int i = 0; i < MANY; i++)
         force[i] = 1e3;
     remember(&r, force);
     ice_rig_edges(&r);
-    assert_relative(influence_of(&r, MANY / 2, &down), sqrt(2) * length() / spacing, 0.01);
+    assert_relative(influence_of(&r, MANY / 2, &down), sqrt(2) * length() / 1.25, 0.01);
     /* A load beside which nothing counts, and one that goes the other way. */
     for (int i = 0; i < MANY; i++)
         force[i] = i == MANY / 2 ? 1e3 : i % 2 ? 1e-6 : -1e3;
@@ -98,6 +103,35 @@ START_TEST(point_and_line)
     ice_rig_edges(&r);
     assert_relative(influence_of(&r, MANY / 2, &down), alone, 1e-6);
     ice_rig_free(&r);
+}
+END_TEST
+
+/* A wall gives the same whichever way it goes, far neighbours and ones that nothing reaches among them. */
+START_TEST(any_direction)
+{
+    enum { MANY = 25 };
+    ice_rig r;
+    double force[MANY], down, along_x[MANY];
+    for (int i = 0; i < MANY; i++)
+        force[i] = 1e3 * (1 + i % 3);
+    for (int turned = 0; turned < 2; turned++) {
+        line_of(&r, MANY, 7.5);
+        for (int32_t i = 0; i <= MANY && turned; i++) {
+            vec3 p = r.bodies.position[r.floes.body[i]];
+            ice_rig_place(&r, r.floes.body[i], vec3_make(-p.y, p.x, p.z), 0, 0, PI / 2);
+        }
+        ice_rig_crush(&r);
+        remember(&r, force);
+        ice_rig_edges(&r);
+        for (int i = 0; i < MANY; i++) {
+            double influence = influence_of(&r, i, &down);
+            if (turned)
+                assert_relative(influence, along_x[i], 1e-9);
+            else
+                along_x[i] = influence;
+        }
+        ice_rig_free(&r);
+    }
 }
 END_TEST
 
@@ -163,4 +197,4 @@ START_TEST(supports_are_shared)
 }
 END_TEST
 
-TEST_MAIN("edge_rows", point_and_line, what_stays_rigid, supports_are_shared)
+TEST_MAIN("edge_rows", point_and_line, any_direction, what_stays_rigid, supports_are_shared)
