@@ -132,5 +132,4 @@ FOUND = (
     "quasi-static and ends with the break, while the formula's breaking grows with speed. A piece that is crushed at "
     "its limit counts as breaking, so that the share of breaking is rather too large than too small. The towed MT "
     "Uikku was measured at 780 kN on average; this is one start over half a ship length, and [its own "
-    "page](uikku.md) has three "
-    "over two.")
+    "page](uikku_campaign.md) has three over two.")
