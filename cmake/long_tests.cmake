@@ -33,6 +33,7 @@ set(fram_long_tests
     "study/extremes_coverage: intervals of ten cases, twenty trials each (FRAM_TEST_LONG: a thousand)"
     "runs/resume:          golden scenes straight and through a checkpoint"
     "study/study:          studies of several runs each: stopped, killed, widened, in parallel"
+    "study/worst:          studies whose worst runs are made again, killed on the way and widened"
     "views/live_view:      a browser beside runs that go on"
     "views/peaks:          a browser opens the page at each peak of several runs"
     "views/playback:       a browser plays several runs, looks at pixels and clicks"

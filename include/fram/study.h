@@ -25,6 +25,8 @@ typedef struct fram_study_extent {
     double run_bytes;              /* on disk, that stay of a run */
     double
         run_seconds_packed; /* the same if the ice were packed all the time, or went on breaking: jams cost as much */
+    int64_t records;        /* of the worst runs, which are made again for them */
+    double record_bytes;    /* of each, with its playback */
 } fram_study_extent;
 FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error,
                                         size_t size);
@@ -33,6 +35,8 @@ FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_exte
 typedef struct fram_study_progress {
     int64_t done, failed, planned; /* runs; more may be planned as intervals turn out wide */
     double wall, eta;              /* [s]; eta is 0 until it can be told */
+    int64_t records_done, records; /* of the worst runs, which are made again for them at the end; 0 before */
+    const char *waits; /* what the scheduler says of tasks that wait, until the function returns; NULL: nothing */
 } fram_study_progress;
 typedef void (*fram_study_progress_function)(void *user, const fram_study_progress *progress);
 

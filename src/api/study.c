@@ -9,6 +9,7 @@
 #include "study/study_file.h"
 #include "study/study_record.h"
 #include "study/study_run.h"
+#include "study/study_worst.h"
 
 #include <math.h>
 #include <string.h>
@@ -53,8 +54,9 @@ enum { START_SETTLES = 10, LOOK_STEPS = 60 };
 #define UP_TO_BREAKING 8.0
 /* A number of series.csv with its comma, and of a row of a summary. */
 enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
-/* Columns of series.csv, about; and bytes of a floe in a frame. */
-enum { SERIES_COLUMNS = 120, POSE_BYTES = 18 };
+/* Columns of series.csv, about; and bytes of a floe in a frame and in the last checkpoint, of the pictures of a run,
+   and of the page that plays it without its record. */
+enum { SERIES_COLUMNS = 120, POSE_BYTES = 18, CHECKPOINT_BYTES = 1500, PICTURE_BYTES = 160000, PAGE_BYTES = 670000 };
 
 static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t floes)
 {
@@ -64,8 +66,18 @@ static double bytes_of(const scenario *s, study_keep keep, double steps, int32_t
     if (keep != KEEP_SUMMARY)
         bytes += rows * SERIES_COLUMNS * NUMBER_BYTES;
     if (keep == KEEP_ALL)
-        bytes += fmin(frames * floes * POSE_BYTES, s->output.record_limit);
+        bytes += fmin(frames * floes * POSE_BYTES, s->output.record_limit) + (double)floes * CHECKPOINT_BYTES +
+                 PICTURE_BYTES;
     return bytes;
+}
+
+/* The whole folder of a run with a record, which its playback has once more. */
+static double record_bytes_of(const scenario *s, double steps, int32_t floes)
+{
+    scenario one = *s;
+    one.output.frame_interval = study_worst_frames(s);
+    double frames = fmin(s->run.duration / one.output.frame_interval * floes * POSE_BYTES, s->output.record_limit);
+    return bytes_of(&one, KEEP_ALL, steps, floes) + frames + PAGE_BYTES;
 }
 
 static fram_status look(context *ctx, const scenario *s, double after, step_look *out, bench_result *r,
@@ -119,6 +131,7 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
         out->run_seconds += build + steps * late.time;
         out->run_seconds_packed += build + steps * fmax(packed_step_time(&early, &late), breaking);
         out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
+        out->record_bytes += record_bytes_of(&one, steps, r.floes);
     }
     scenario_free(ctx, &one);
     return status;
@@ -148,6 +161,8 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
     e.run_seconds /= measured;
     e.run_seconds_packed /= measured;
     e.run_bytes /= measured;
+    e.record_bytes /= measured;
+    e.records = inner->worst.count < e.runs_most ? inner->worst.count : e.runs_most;
     result_give(out, size, &e);
     return FRAM_OK;
 }
@@ -168,7 +183,8 @@ typedef struct study_progress_bridge {
 static void forward_progress(void *user, const study_progress *p)
 {
     const study_progress_bridge *bridge = user;
-    const fram_study_progress out = {p->done, p->failed, p->planned, p->wall, p->eta};
+    const fram_study_progress out = {p->done, p->failed,       p->planned, p->wall,
+                                     p->eta,  p->records_done, p->records, p->waits};
     bridge->function(bridge->user, &out);
 }
 

@@ -64,11 +64,17 @@ static void print_extent(const fram_study_extent *e, int jobs)
     if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
         printf("         up to %s where ice jams or goes on breaking: contacts and pieces take time, few at first\n",
                time_text(e->run_seconds_packed, one));
+    if (e->records > 0) {
+        printf("worst runs: %lld made again with a record and a playback, about %s each\n", (long long)e->records,
+               bytes_text(e->record_bytes, one));
+        least += (double)e->records * e->run_seconds / jobs;
+        most += (double)e->records * fmax(e->run_seconds, e->run_seconds_packed) / jobs;
+    }
     printf("total: about %s", time_text(least, one));
     if (most > MUCH_LONGER * least)
         printf(" to %s", time_text(most, one));
     printf(" on %d %s, %s\n", jobs, jobs == 1 ? "core" : "cores",
-           bytes_text((double)e->runs_most * e->run_bytes, other));
+           bytes_text((double)e->runs_most * e->run_bytes + (double)e->records * e->record_bytes, other));
 }
 
 static int answer_extent(const common_options *common, const fram_study *study, int jobs)
@@ -88,6 +94,8 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     json_real(&j, "run_s", e.run_seconds);
     json_real(&j, "run_s_packed", e.run_seconds_packed);
     json_real(&j, "run_bytes", e.run_bytes);
+    json_integer(&j, "records", e.records);
+    json_real(&j, "record_bytes", e.record_bytes);
     json_end(&j);
     return EXIT_GOOD;
 }
@@ -165,7 +173,7 @@ static int answer_list(const common_options *common, fram_context *context, cons
 
 typedef struct study_view {
     bool terminal;
-    int64_t told; /* runs done when the last line was written, -1 before */
+    int64_t told; /* runs and records done when the last line was written, -1 before */
     double when;  /* wall-clock time of it [s] */
 } study_view;
 
@@ -175,11 +183,12 @@ typedef struct study_view {
 static void show(void *user, const fram_study_progress *p)
 {
     study_view *view = user;
-    bool last = p->done == p->planned && view->told != p->done;
+    int64_t done = p->done + p->records_done;
+    bool last = done == p->planned + p->records && view->told != done;
     bool due = p->wall - view->when >= LINE_INTERVAL || view->told < 0;
-    if (!last && !due && (!view->terminal || view->told == p->done))
+    if (!last && !due && (!view->terminal || view->told == done))
         return;
-    view->told = p->done;
+    view->told = done;
     view->when = p->wall;
     fprintf(stderr, "%s%lld of %lld runs", view->terminal ? "\r\033[K" : "", (long long)p->done, (long long)p->planned);
     if (p->failed > 0)
@@ -189,6 +198,11 @@ static void show(void *user, const fram_study_progress *p)
         print_duration(p->eta);
         fputs(" left", stderr);
     }
+    if (p->records > 0)
+        fprintf(stderr, "; %lld of %lld worst runs made again with a record", (long long)p->records_done,
+                (long long)p->records);
+    if (p->waits)
+        fprintf(stderr, "; %s", p->waits);
     fputs(view->terminal ? "" : "\n", stderr);
     fflush(stderr);
 }

@@ -23,6 +23,17 @@ static const struct {
 #undef RUN_ROW_HEAD
 };
 
+run_figure run_figure_find(const char *name)
+{
+    int i = 0;
+    while (i < ROW_FIGURES && strcmp(figures[i].name, name) != 0)
+        i++;
+    return (run_figure)i;
+}
+
+const char *run_figure_name(run_figure figure) { return figures[figure].name; }
+const char *run_figure_unit(run_figure figure) { return figures[figure].unit; }
+
 /* ---- from a run ---- */
 
 /* Statistics of a channel, or of the magnitude of two. */
@@ -232,21 +243,26 @@ static void number(context *ctx, text_buffer *out, double value)
     text_add(ctx, out, isfinite(value) ? text : "");
 }
 
+void run_rows_text(context *ctx, const run_rows *rows, text_buffer *out)
+{
+    text_format(ctx, out, "%s\n", mark);
+    for (int32_t k = 0; k < rows->count; k++) {
+        const run_row *row = &rows->data[k];
+        text_format(ctx, out, "%s\n%s\n%s\n%s\n", row->failed ? "failed" : "finished", row->vessel, row->reason,
+                    row->state_hash);
+        for (int i = 0; i < ROW_FIGURES; i++) {
+            text_format(ctx, out, "%s ", figures[i].name);
+            number(ctx, out, row->figure[i]);
+            text_add(ctx, out, "\n");
+        }
+    }
+    text_add(ctx, out, "end\n");
+}
+
 fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows, fram_error *error)
 {
     text_buffer text = {0};
-    text_format(ctx, &text, "%s\n", mark);
-    for (int32_t k = 0; k < rows->count; k++) {
-        const run_row *row = &rows->data[k];
-        text_format(ctx, &text, "%s\n%s\n%s\n%s\n", row->failed ? "failed" : "finished", row->vessel, row->reason,
-                    row->state_hash);
-        for (int i = 0; i < ROW_FIGURES; i++) {
-            text_format(ctx, &text, "%s ", figures[i].name);
-            number(ctx, &text, row->figure[i]);
-            text_add(ctx, &text, "\n");
-        }
-    }
-    text_add(ctx, &text, "end\n");
+    run_rows_text(ctx, rows, &text);
     fram_status status =
         text.failed ? error_memory(error) : atomic_file_write(ctx, path, text.data, (size_t)text.count, error);
     text_free(ctx, &text);

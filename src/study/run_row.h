@@ -43,6 +43,11 @@
 typedef enum run_figure { RUN_ROW_FIGURES(RUN_ROW_NAME) ROW_FIGURES } run_figure;
 #undef RUN_ROW_NAME
 
+/* A figure by its name, ROW_FIGURES when there is none; its name and unit as in summary.csv. */
+run_figure run_figure_find(const char *name);
+const char *run_figure_name(run_figure figure);
+const char *run_figure_unit(run_figure figure);
+
 enum { ROW_REASON = 256 };
 typedef struct run_row {
     char vessel[VESSEL_NAME_MOST + 1]; /* that the figures are of; "" where vessels have no names, and of a failure */
@@ -64,6 +69,8 @@ const run_row *run_rows_find(const run_rows *rows, const char *vessel);
 
 /* To and from a small file, so that a run is judged once. found is false when there is none, or one that was not
    written whole by this version; nothing is to be freed then. */
+/* What such a file holds. */
+void run_rows_text(context *ctx, const run_rows *rows, text_buffer *out);
 fram_status run_rows_write(context *ctx, const char *path, const run_rows *rows, fram_error *error);
 fram_status run_rows_read(context *ctx, const char *path, run_rows *rows, bool *found, fram_error *error);
 

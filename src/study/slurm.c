@@ -2,6 +2,7 @@
 #include "study/slurm.h"
 
 #include "base/clock.h"
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "study/capture.h"
 
@@ -12,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Tasks of an array, by Slurm's own default limit (MaxArraySize 1001); of all, when nothing else is asked. */
@@ -37,7 +39,8 @@ static char *array_path(const slurm_pool *all, int32_t array, const char *ending
 static char *exit_path(const slurm_pool *all, const slurm_run *run)
 {
     text_buffer b = {0};
-    text_format(all->ctx, &b, "%s/runs/%s/%lld.exit", all->folder, run->id, (long long)run->seed);
+    text_format(all->ctx, &b, run->frames > 0 ? "%s/worst/%s-%lld.exit" : "%s/runs/%s/%lld.exit", all->folder, run->id,
+                (long long)run->seed);
     char *path = b.failed ? NULL : memory_string(all->ctx, b.data);
     text_free(all->ctx, &b);
     return path;
@@ -161,9 +164,9 @@ void slurm_free(slurm_pool *all)
     array_free(all->ctx, &all->jobs);
 }
 
-bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task)
+bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task, double frames)
 {
-    slurm_run run = {.task = task, .seed = seed, .array = -1};
+    slurm_run run = {.task = task, .seed = seed, .frames = frames, .array = -1};
     snprintf(run.id, sizeof run.id, "%s", id);
     return array_push(all->ctx, &all->runs, run);
 }
@@ -214,7 +217,13 @@ static fram_status submit_array(slurm_pool *all, int32_t each, fram_error *error
         slurm_run *run = &all->runs.data[i];
         if (run->array >= 0)
             continue;
-        text_format(all->ctx, &list, "%s %lld\n", run->id, (long long)run->seed);
+        text_format(all->ctx, &list, "%s %lld", run->id, (long long)run->seed);
+        if (run->frames > 0) {
+            char frames[NUMBER_TEXT_SIZE];
+            real_to_text(run->frames, frames);
+            text_format(all->ctx, &list, " %s", frames);
+        }
+        text_add(all->ctx, &list, "\n");
         run->array = all->jobs.count;
         run->place = n++ / each;
         run->tries++;
@@ -289,15 +298,62 @@ bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code)
     return false;
 }
 
-/* Whether the answer of squeue has the task, "JOB_TASK" on a line of its own. */
+/* ---- what the scheduler says: "JOB_TASK STATE REASON" on a line ---- */
+
+/* Whether the answer has the task. */
 static bool has_task(const char *answer, long long job, int32_t place)
 {
     char word[64];
     int length = snprintf(word, sizeof word, "%lld_%d", job, (int)place);
     for (const char *c = answer; c; c = strchr(c, '\n'), c = c ? c + 1 : NULL)
-        if (strncmp(c, word, (size_t)length) == 0 && (c[length] == '\n' || c[length] == '\0'))
+        if (strncmp(c, word, (size_t)length) == 0 && (c[length] == ' ' || c[length] == '\n' || c[length] == '\0'))
             return true;
     return false;
+}
+
+/* Whether the line is of a job of this call. */
+static bool is_ours(const slurm_pool *all, const char *line)
+{
+    long long job = strtoll(line, NULL, 10);
+    for (int32_t i = 0; i < all->jobs.count; i++)
+        if ((long long)all->jobs.data[i] == job)
+            return true;
+    return false;
+}
+
+/* Tasks of ours that are pending, with the reasons in the order in which they come. */
+static void find_waits(slurm_pool *all, const char *answer)
+{
+    enum { REASON_MOST = 40 };
+    char reasons[64] = "", one[REASON_MOST + 1];
+    int32_t waiting_tasks = 0;
+    for (const char *c = answer; c && *c; c = strchr(c, '\n'), c = c ? c + 1 : NULL) {
+        char state[8] = "";
+        if (sscanf(c, "%*s %7s %40[^\n]", state, one) != 2 || strcmp(state, "PD") != 0 || !is_ours(all, c))
+            continue;
+        waiting_tasks++;
+        size_t used = strlen(reasons);
+        if (!strstr(reasons, one) && used + strlen(one) + 3 < sizeof reasons)
+            snprintf(reasons + used, sizeof reasons - used, "%s%s", used > 0 ? ", " : "", one);
+    }
+    all->waits[0] = '\0';
+    if (waiting_tasks > 0)
+        snprintf(all->waits, sizeof all->waits, "%d %s at Slurm: %s", (int)waiting_tasks,
+                 waiting_tasks == 1 ? "task waits" : "tasks wait", reasons);
+}
+
+const char *slurm_waits(const slurm_pool *all) { return *all->waits ? all->waits : NULL; }
+
+/* Between looks at the files of a shared folder, which may be far away, at least [s]; and times as long as a look took.
+ */
+#define LOOK_SECONDS 1.0
+#define LOOK_SPARING 20
+
+void slurm_pause(double look)
+{
+    double seconds = fmax(LOOK_SECONDS, LOOK_SPARING * look), whole = floor(seconds);
+    const struct timespec pause = {(time_t)whole, (long)((seconds - whole) * 1e9)};
+    nanosleep(&pause, NULL);
 }
 
 void slurm_look(slurm_pool *all)
@@ -306,7 +362,8 @@ void slurm_look(slurm_pool *all)
     if (clock_wall() - all->asked < poll || all->runs.count == 0)
         return;
     all->asked = clock_wall();
-    const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--name=fram-study", "--format=%i", NULL};
+    const char *const words[] = {"squeue", "--noheader", "--array", "--me", "--name=fram-study", "--format=%i %t %r",
+                                 NULL};
     text_buffer answer = {0};
     int code = 0;
     /* A scheduler that does not answer has lost nothing. */
@@ -321,6 +378,7 @@ void slurm_look(slurm_pool *all)
             if (run->missed >= MISSED_MOST)
                 run->array = -1;
         }
+        find_waits(all, answer.data ? answer.data : "");
     }
     text_free(all->ctx, &answer);
 }

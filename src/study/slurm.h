@@ -2,7 +2,8 @@
 
      DIR/slurm/N.sh     script of the N-th array, N.list its runs, "ID SEED" a line; each task takes the same number
      DIR/slurm/N.job    number that Slurm gave it
-     DIR/runs/ID/SEED.exit    exit code of a run, put there by its task when it ended
+     DIR/runs/ID/SEED.exit    exit code of a run, put there by its task when it ended; DIR/worst/ID-SEED.exit of one
+                              that is made again with a record
 
    What ended is seen by these files; the scheduler is asked every half minute at most, which tasks it still has.  Runs
    whose task is gone without an exit code are submitted again. */
@@ -15,6 +16,7 @@ typedef struct slurm_run {
     int32_t task; /* the caller's number */
     char id[16];
     int64_t seed;
+    double frames;        /* of its record [s]; 0: an ordinary run */
     int32_t array, place; /* submitted as this; array -1: not yet */
     int tries, missed;    /* submissions; questions in a row whose answer lacks it */
 } slurm_run;
@@ -29,19 +31,24 @@ typedef struct slurm_pool {
     int32_t arrays;      /* number of the last script in the folder */
     int32_t looked;      /* runs that slurm_ended has looked at since it last said that none ended */
     double asked;        /* when the scheduler was asked last [s] */
+    char waits[96];      /* what it said of tasks that wait; "" */
 } slurm_pool;
 
 /* FRAM_ERROR_USAGE when sbatch is not there.  Arrays that an earlier call left in the queue are cancelled. */
 fram_status slurm_begin(context *ctx, const slurm_options *options, const char *folder, const char *program,
                         slurm_pool *all, fram_error *error);
-/* A run to be submitted next. */
-bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task);
+/* A run to be submitted next; frames > 0: one that is made again with a record, and a frame so often [s]. */
+bool slurm_add(slurm_pool *all, const char *id, int64_t seed, int32_t task, double frames);
 /* Submits what was added and what was lost. */
 fram_status slurm_submit(slurm_pool *all, fram_error *error);
 /* One run that ended, if any did: until it says no, each run is looked at once. */
 bool slurm_ended(slurm_pool *all, int32_t *task, int *exit_code);
 /* Asks the scheduler, when it is time. */
 void slurm_look(slurm_pool *all);
+/* How many tasks the scheduler has not begun yet, and the reasons that it gives, as it said last; NULL: none. */
+const char *slurm_waits(const slurm_pool *all);
+/* Waits between looks at the files, longer where looking at them takes long [s]. */
+void slurm_pause(double look);
 /* Cancels what is submitted. */
 void slurm_stop(slurm_pool *all);
 void slurm_free(slurm_pool *all);

@@ -33,6 +33,14 @@ typedef enum study_keep {
     KEEP_ALL          /* the whole folder */
 } study_keep;
 
+/* Runs that are made again with a record and a playback when all have ended: the worst by a figure of a run. */
+enum { STUDY_WORST_MOST = 100 };
+typedef struct study_worst {
+    int32_t count; /* 0: none */
+    int figure;    /* a run_figure (study/run_row.h), by which the page has its worst runs too */
+    int line;      /* in the study file */
+} study_worst;
+
 /* Conditions that are points of a design of sensitivity (study/sensitivity.h). */
 typedef enum study_design_kind { DESIGN_NONE = 0, DESIGN_SOBOL, DESIGN_MORRIS } study_design_kind;
 typedef struct study_design {
@@ -65,6 +73,7 @@ typedef struct study {
     int32_array table_line; /* of each condition there */
     study_seeds seeds;
     study_keep keep;
+    study_worst worst;
     study_design design;
     study_extremes extremes;
 } study;

@@ -3,8 +3,11 @@
 #include "io/file.h"
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
+#include "results/station_results.h"
 #include "study/conditions.h"
+#include "study/run_row.h"
 #include "study/study_extremes.h"
+#include "study/words.h"
 
 #include <string.h>
 
@@ -114,7 +117,7 @@ static fram_status read_seeds(const study_source *r, const yaml_node *node)
     return FRAM_OK;
 }
 
-static fram_status read_keep(const study_source *r, const yaml_node *node)
+static fram_status read_kept(const study_source *r, const yaml_node *node)
 {
     static const char *const names[] = {[KEEP_SUMMARY] = "summary", [KEEP_SERIES] = "series", [KEEP_ALL] = "all"};
     for (int i = 0; node->kind == YAML_SCALAR && i < (int)(sizeof names / sizeof *names); i++) {
@@ -124,6 +127,61 @@ static fram_status read_keep(const study_source *r, const yaml_node *node)
         }
     }
     return study_refuse(r, node, "expected summary, series or all");
+}
+
+static fram_status read_worst_by(const study_source *r, const yaml_node *k)
+{
+    const char *names[ROW_FIGURES], *text = k->kind == YAML_SCALAR ? yaml_text(r->tree, k->value) : "";
+    for (int i = 0; i < ROW_FIGURES; i++)
+        names[i] = run_figure_name((run_figure)i);
+    r->out->worst.line = k->line;
+    r->out->worst.figure = run_figure_find(text);
+    if (r->out->worst.figure < ROW_FIGURES)
+        return FRAM_OK;
+    const char *near = word_nearest(names, ROW_FIGURES, text);
+    return study_refuse(r, k, "expected a column of summary.csv, as load_largest or line_tension_largest%s%s%s",
+                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
+}
+
+static fram_status read_keep(const study_source *r, const yaml_node *node)
+{
+    static const char *const names[] = {"each", "record_of_worst", "by"};
+    bool by = false;
+    if (node->kind != YAML_MAPPING)
+        return read_kept(r, node);
+    for (const yaml_node *k = study_child(r, node); k; k = study_next(r, k)) {
+        fram_status status = FRAM_OK;
+        int64_t count = 0;
+        if (strcmp(study_key(r, k), "each") == 0) {
+            status = read_kept(r, k);
+        } else if (strcmp(study_key(r, k), "record_of_worst") == 0) {
+            status = study_whole(r, k, 0, STUDY_WORST_MOST, &count);
+            r->out->worst.count = (int32_t)count;
+        } else if (strcmp(study_key(r, k), "by") == 0) {
+            status = read_worst_by(r, k);
+            by = true;
+        } else {
+            status = study_unknown(r, k, names, sizeof names / sizeof *names);
+        }
+        if (status != FRAM_OK)
+            return status;
+    }
+    if (by && r->out->worst.count == 0)
+        return study_refuse(r, node, "by takes record_of_worst: of how many runs the record is kept");
+    return FRAM_OK;
+}
+
+/* A key has one place: `set` is for all runs, `vary` for one condition. */
+static fram_status check_twice(const study *s, fram_error *error)
+{
+    for (int32_t i = 0; i < s->set.count; i++)
+        for (int32_t k = 0; k < s->keys.count; k++)
+            if (strcmp(s->set.data[i].key, s->keys.data[k]) == 0)
+                return error_set(error, FRAM_ERROR_INPUT, s->file, s->set.data[i].line, s->set.data[i].key,
+                                 "stands in `set` and in `vary`%s%s: a key that the conditions vary has no value for "
+                                 "all runs; remove it from one of them",
+                                 s->table ? ", in " : "", s->table ? s->table : "");
+    return FRAM_OK;
 }
 
 static fram_status read_root(const study_source *r)
@@ -158,7 +216,8 @@ static fram_status read_root(const study_source *r)
         return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, "seeds",
                          "found %lld runs, %d conditions with up to %d seeds each: expected at most %d",
                          (long long)runs, (int)r->out->conditions, (int)r->out->seeds.most, STUDY_RUNS_MOST);
-    return study_extremes_check(r->out, r->error);
+    fram_status twice = check_twice(r->out, r->error);
+    return twice == FRAM_OK ? study_extremes_check(r->out, r->error) : twice;
 }
 
 /* ---- checks of all conditions ---- */
@@ -235,24 +294,41 @@ static fram_status check_vessel(context *ctx, const study *s, int32_t condition,
     return status;
 }
 
+/* Whether runs of the scenario have the figure by which the worst are chosen. */
+static bool has_worst(const study *s, const scenario *one)
+{
+    int32_t vessel = s->vessel ? scenario_find_vessel(one, s->vessel) : 0;
+    bool of_station = s->worst.figure >= ROW_offset_mean && s->worst.figure <= ROW_thruster_power_mean;
+    return !(of_station || s->worst.figure == ROW_line_tension_range_equivalent) || station_has_results(one, vessel);
+}
+
 static fram_status check_conditions(context *ctx, const study *s, fram_error *error)
 {
     fram_status status = FRAM_OK;
+    bool worst = false;
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++) {
         scenario one = {0};
         status = study_scenario(ctx, s, c, s->seeds.first, &one, error);
         if (status == FRAM_OK) {
             status = check_vessel(ctx, s, c, &one, error);
+            worst = worst || has_worst(s, &one);
             scenario_free(ctx, &one);
         }
     }
+    if (status == FRAM_OK && !worst)
+        status = error_set(error, FRAM_ERROR_INPUT, s->file, s->worst.line, "by",
+                           "no run of this study has %s: its vessel keeps no station, without mooring and positioning; "
+                           "take load_largest",
+                           run_figure_name((run_figure)s->worst.figure));
     return status;
 }
 
 fram_status study_parse(context *ctx, const char *name, const char *data, size_t size, study *s, fram_error *error)
 {
     yaml_tree tree = {0};
-    *s = (study){.conditions = 1, .seeds = {.first = 1, .least = 1, .most = 1, .confidence = 0.95}};
+    *s = (study){.conditions = 1,
+                 .worst = {.figure = ROW_load_largest},
+                 .seeds = {.first = 1, .least = 1, .most = 1, .confidence = 0.95}};
     fram_status status = set_text(ctx, &s->file, name) ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK)
         status = yaml_tree_parse(ctx, name, data, size, STUDY_DEPTH_LIMIT, &tree, error);

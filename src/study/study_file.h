@@ -10,7 +10,8 @@
          list: [{ice.thickness: 0.6, vessel.speed: 1}, ...]
          table: conditions.csv                    a column a key
          latin: {count: 50, seed: 1, keys: {ice.thickness: [0.5, 1.5]}}
-       keep: summary                              or series, all
+       keep: summary                              or series, all; or {each: series, record_of_worst: 3,
+                                                      by: line_tension_largest}
 
    Every condition is checked as a scenario; an error names file, line and key. */
 #ifndef STUDY_STUDY_FILE_H

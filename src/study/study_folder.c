@@ -257,21 +257,30 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
     memory_free(f->ctx, folder);
 }
 
-fram_status study_run_check_disk(const study_folder *f, int32_t condition, int64_t seed, fram_error *error)
+void study_folder_remove(context *ctx, const char *folder) { remove_but(ctx, folder, NULL, 0); }
+
+bool study_folder_is_busy(const char *folder)
+{
+    int lock = -1;
+    bool busy = access(folder, F_OK) == 0 && run_folder_lock(folder, &lock, NULL) != FRAM_OK;
+    run_folder_unlock(lock);
+    return busy;
+}
+
+fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error)
 {
     static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO};
-    char *path = study_run_path(f, condition, seed, ".log"), *text = NULL;
+    char *text = NULL;
     size_t size = 0;
     fram_status status = FRAM_OK;
-    if (path && file_read(f->ctx, path, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
+    if (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
         for (size_t i = 0; i < sizeof faults / sizeof *faults && status == FRAM_OK; i++)
             if (strstr(text, strerror(faults[i])))
-                status = error_set(error, FRAM_ERROR_IO, path, 0, NULL,
+                status = error_set(error, FRAM_ERROR_IO, log, 0, NULL,
                                    "a run could not write: %s; what ended is kept: mend that, and give the same "
                                    "command again",
                                    strerror(faults[i]));
     }
-    memory_free(f->ctx, text);
-    memory_free(f->ctx, path);
+    memory_free(ctx, text);
     return status;
 }

@@ -28,7 +28,11 @@ char *study_scenario_path(const study_folder *f, int32_t condition);
    no log all this was done before. */
 void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);
 /* FRAM_ERROR_IO when the log of a run that failed says that the disk did: that is no answer of the scenario. */
-fram_status study_run_check_disk(const study_folder *f, int32_t condition, int64_t seed, fram_error *error);
+fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error);
+/* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */
+bool study_folder_is_busy(const char *folder);
+/* A folder with all that is in it. */
+void study_folder_remove(context *ctx, const char *folder);
 
 /* The results of a condition, by seed from the first. */
 typedef struct condition_rows {

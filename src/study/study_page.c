@@ -5,6 +5,7 @@
 #include "model/mechanism.h"
 #include "study/seeds.h"
 #include "study/study_answers.h"
+#include "study/study_worst.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -344,59 +345,61 @@ static void add_heats(study_page *p, const bool *has)
 
 /* ---- the worst runs ---- */
 
-typedef struct worst_run {
-    int32_t condition, index;
-    double load;
-} worst_run;
-
-static int32_t find_worst(const study_page *p, worst_run out[WORST])
+/* A figure in the unit of the page, or as in summary.csv. */
+static page_figure figure_of(run_figure figure)
 {
-    int32_t count = 0;
-    for (int32_t c = 0; c < p->f->s->conditions; c++) {
-        for (int32_t i = 0; i < p->conditions[c].rows.count; i++) {
-            double load = p->conditions[c].rows.data[i].figure[ROW_load_largest];
-            int32_t at = count < WORST ? count : WORST;
-            while (at > 0 && load > out[at - 1].load)
-                at--;
-            if (!isfinite(load) || at == WORST)
-                continue;
-            count += count < WORST;
-            memmove(out + at + 1, out + at, (size_t)(count - at - 1) * sizeof *out);
-            out[at] = (worst_run){c, i, load};
-        }
-    }
-    return count;
+    for (int i = 0; i < SHOWN; i++)
+        if (shown[i].figure == figure)
+            return shown[i];
+    return (page_figure){figure, run_figure_name(figure), run_figure_unit(figure), 1};
+}
+
+/* The link to the playback where it is there, or else the command that makes it. */
+static void add_playback(study_page *p, const worst_run *run)
+{
+    const char *id = p->f->id[run->condition];
+    long long seed = (long long)p->f->s->seeds.first + run->index;
+    text_buffer *text = &p->page.text;
+    if (study_worst_has_playback(p->f, run))
+        text_format(p->f->ctx, text, "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>", id, seed);
+    else
+        text_format(p->f->ctx, text,
+                    "<td><code>fram run conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 -o "
+                    "worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code>, then "
+                    "<a href=\"worst/%s-%lld/playback.html\">playback</a></td>",
+                    id, seed, id, seed, id, seed, id, seed);
 }
 
 static void add_worst(study_page *p)
 {
-    static const char *const heads[] = {"condition",      "seed",     "largest load [kN]",
-                                        "mean load [kN]", "playback", "makes it"};
-    worst_run worst[WORST];
-    int32_t count = find_worst(p, worst);
+    const study *s = p->f->s;
+    worst_run worst[STUDY_WORST_MOST];
+    char text[32], name[80];
+    page_figure by = figure_of((run_figure)s->worst.figure);
+    bool load = by.figure == ROW_load_largest;
+    int32_t most = s->worst.count > WORST ? s->worst.count : WORST;
+    int32_t count = study_worst_find(p->f, p->conditions, by.figure, most, worst);
+    snprintf(name, sizeof name, "%s [%s]", by.name, by.unit);
+    const char *heads[] = {"condition", "seed", name, load ? "Mean load [kN]" : "Largest load [kN]", "playback"};
     html_section(&p->page, "Worst runs");
-    html_paragraph(&p->page,
-                   "The command, given in the folder of this page, makes a run again with a record and its playback "
-                   "(worst/...), which the link then opens.");
+    if (s->worst.count < count)
+        html_paragraph(
+            &p->page,
+            "A command, given in the folder of this page, makes a run again with a record and its playback, "
+            "which the link then opens; \"keep: {record_of_worst: %d}\" in the study has them made at its end.",
+            WORST);
     wide_begin(p);
-    html_table_begin(&p->page, heads, 6);
+    html_table_begin(&p->page, heads, sizeof heads / sizeof *heads);
     for (int32_t i = 0; i < count; i++) {
         const run_row *row = &p->conditions[worst[i].condition].rows.data[worst[i].index];
-        const char *id = p->f->id[worst[i].condition];
-        long long seed = (long long)p->f->s->seeds.first + worst[i].index;
-        char text[32];
         html_row_begin(&p->page);
         snprintf(text, sizeof text, "%d", (int)worst[i].condition + 1);
         html_cell(&p->page, text);
-        snprintf(text, sizeof text, "%lld", seed);
+        snprintf(text, sizeof text, "%lld", (long long)s->seeds.first + worst[i].index);
         html_cell(&p->page, text);
-        html_number(&p->page, worst[i].load * 1e-3);
-        html_number(&p->page, row->figure[ROW_load_mean] * 1e-3);
-        text_format(p->f->ctx, &p->page.text,
-                    "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>"
-                    "<td><code>fram run conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 -o "
-                    "worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code></td>",
-                    id, seed, id, seed, id, seed, id, seed);
+        html_number(&p->page, worst[i].value * by.factor);
+        html_number(&p->page, row->figure[load ? ROW_load_mean : ROW_load_largest] * 1e-3);
+        add_playback(p, &worst[i]);
         html_row_end(&p->page);
     }
     html_table_end(&p->page);

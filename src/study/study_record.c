@@ -129,7 +129,11 @@ static fram_status add_study(const study_folder *f, text_buffer *b, fram_error *
         add_value(ctx, b, i > 0 ? ", " : "\nset: {", s->set.data[i].key, s->set.data[i].value);
     text_add(ctx, b, s->set.count > 0 ? "}\n" : "\n");
     add_seeds(ctx, b, &s->seeds);
-    text_format(ctx, b, "keep: %s\n", keeps[s->keep]);
+    if (s->worst.count > 0)
+        text_format(ctx, b, "keep: {each: %s, record_of_worst: %d, by: %s}\n", keeps[s->keep], (int)s->worst.count,
+                    run_figure_name((run_figure)s->worst.figure));
+    else
+        text_format(ctx, b, "keep: %s\n", keeps[s->keep]);
     add_extremes(ctx, b, &s->extremes);
     add_conditions(ctx, b, s);
     return status;

@@ -1,10 +1,11 @@
 #include "study/study_run.h"
 
 #include "base/clock.h"
-#include "sim/run_folder.h"
 #include "study/processes.h"
 #include "study/seeds.h"
+#include "study/study_answers.h"
 #include "study/study_folder.h"
+#include "study/study_worst.h"
 #include "study/twins.h"
 
 #include <math.h>
@@ -131,13 +132,10 @@ static fram_status start_run(study_work *w, int32_t condition, int32_t index, fr
     return status;
 }
 
-/* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */
 static bool is_busy(const study_work *w, int32_t condition, int32_t index)
 {
     char *folder = study_run_path(&w->folder, condition, w->s->seeds.first + index, "");
-    int lock = -1;
-    bool busy = folder && access(folder, F_OK) == 0 && run_folder_lock(folder, &lock, NULL) != FRAM_OK;
-    run_folder_unlock(lock);
+    bool busy = folder && study_folder_is_busy(folder);
     memory_free(w->ctx, folder);
     return busy;
 }
@@ -228,9 +226,10 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
         return FRAM_OK;
     char *folder = study_run_path(&w->folder, condition, seed, "");
     char *row = study_run_path(&w->folder, condition, seed, ".row");
-    fram_status status = folder && row ? FRAM_OK : error_memory(error);
+    char *log = study_run_path(&w->folder, condition, seed, ".log");
+    fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK && exit_code != 0)
-        status = study_run_check_disk(&w->folder, condition, seed, error);
+        status = study_log_check_disk(w->ctx, log, error);
     if (status == FRAM_OK)
         status = judge_run(w, folder, row, exit_code, &of->row, error);
     if (status == FRAM_OK) {
@@ -241,12 +240,13 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
         study_run_finish(&w->folder, condition, seed, w->s->keep);
     memory_free(w->ctx, folder);
     memory_free(w->ctx, row);
+    memory_free(w->ctx, log);
     return status == FRAM_OK ? share_result(w, condition, index, error) : status;
 }
 
-static void show_progress(const study_work *w)
+static void show_progress(const study_work *w, const char *waits)
 {
-    study_progress p = {.wall = clock_wall() - w->started};
+    study_progress p = {.wall = clock_wall() - w->started, .waits = waits};
     for (int32_t c = 0; c < w->s->conditions; c++) {
         const study_condition *of = &w->conditions[c];
         p.planned += of->wanted;
@@ -270,7 +270,7 @@ static fram_status work_loop(study_work *w, fram_error *error)
 {
     const struct timespec pause = {0, LOOK_NANOSECONDS};
     fram_status status = fill_pool(w, error);
-    show_progress(w);
+    show_progress(w, NULL);
     double told = clock_wall();
     while (status == FRAM_OK && (w->pool.running.count > 0 || w->busy > 0) && !asked_to_stop(w)) {
         int32_t task = 0;
@@ -279,7 +279,7 @@ static fram_status work_loop(study_work *w, fram_error *error)
             nanosleep(&pause, NULL);
             if (clock_wall() - told >= TELL_SECONDS) {
                 told = clock_wall();
-                show_progress(w);
+                show_progress(w, NULL);
             }
             if (w->pool.running.count == 0) {
                 look_again(w);
@@ -291,7 +291,7 @@ static fram_status work_loop(study_work *w, fram_error *error)
                              exit_code, error);
         if (status == FRAM_OK && !asked_to_stop(w))
             status = fill_pool(w, error);
-        show_progress(w);
+        show_progress(w, NULL);
     }
     processes_stop(&w->pool);
     if (status == FRAM_OK && asked_to_stop(w))
@@ -302,24 +302,12 @@ static fram_status work_loop(study_work *w, fram_error *error)
 
 /* ---- runs by Slurm ---- */
 
-/* Between looks at the files of a shared folder, which may be far away, at least [s]; and times as long as a look took.
- */
-#define LOOK_SECONDS 1.0
-#define LOOK_SPARING 20
-
-static void pause_after(double look)
-{
-    double seconds = fmax(LOOK_SECONDS, LOOK_SPARING * look), whole = floor(seconds);
-    const struct timespec pause = {(time_t)whole, (long)((seconds - whole) * 1e9)};
-    nanosleep(&pause, NULL);
-}
-
 static fram_status submit_missing(study_work *w, slurm_pool *queue, fram_error *error)
 {
     int32_t condition = 0, index = 0;
     while (next_run(w, &condition, &index)) {
         if (!array_push(w->ctx, &w->task, (int64_t)condition << 32 | index) ||
-            !slurm_add(queue, w->folder.id[condition], w->s->seeds.first + index, w->task.count - 1))
+            !slurm_add(queue, w->folder.id[condition], w->s->seeds.first + index, w->task.count - 1, 0))
             return error_memory(error);
         w->conditions[condition].seeds.data[index].state = RUN_GOING;
     }
@@ -345,13 +333,13 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
         return status;
     bool dry = w->options->slurm->dry_run;
     status = submit_missing(w, &queue, error);
-    show_progress(w);
+    show_progress(w, NULL);
     while (status == FRAM_OK && !dry && queue.runs.count > 0 && !asked_to_stop(w)) {
         double began = clock_wall();
         status = take_ended(w, &queue, error);
-        show_progress(w);
+        show_progress(w, slurm_waits(&queue));
         if (status == FRAM_OK && queue.runs.count > 0)
-            pause_after(clock_wall() - began);
+            slurm_pause(clock_wall() - began);
         slurm_look(&queue);
         if (status == FRAM_OK)
             status = submit_missing(w, &queue, error);
@@ -367,7 +355,8 @@ static fram_status slurm_loop(study_work *w, fram_error *error)
 
 /* ---- all ---- */
 
-static fram_status write_tables(const study_work *w, study_result *result, fram_error *error)
+/* The tables of what is there; of a study that is whole also the records of its worst runs, to which its page leads. */
+static fram_status write_results(const study_work *w, bool whole, study_result *result, fram_error *error)
 {
     condition_rows *rows = memory_array(w->ctx, (size_t)w->s->conditions, sizeof *rows);
     fram_status status = rows ? FRAM_OK : error_memory(error);
@@ -389,6 +378,13 @@ static fram_status write_tables(const study_work *w, study_result *result, fram_
     }
     if (status == FRAM_OK)
         status = study_tables_write(&w->folder, rows, error);
+    bool changed = false;
+    if (status == FRAM_OK && whole)
+        status = study_worst_record(&w->folder, rows, w->options, &changed, error);
+    if (changed) {
+        fram_status written = study_page_write(&w->folder, rows, status == FRAM_OK ? error : NULL);
+        status = status == FRAM_OK ? written : status;
+    }
     for (int32_t c = 0; rows && c < w->s->conditions; c++)
         array_free(w->ctx, &rows[c].rows);
     memory_free(w->ctx, rows);
@@ -411,9 +407,10 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
         status = update_wanted(&w, c, error);
     if (status == FRAM_OK)
         status = options->slurm ? slurm_loop(&w, error) : work_loop(&w, error);
-    /* The tables of what is there, also of a study that was stopped. */
+    /* Also of a study that was stopped. */
     if (status == FRAM_OK || status == FRAM_INTERRUPTED) {
-        fram_status written = write_tables(&w, result, status == FRAM_OK ? error : NULL);
+        bool whole = status == FRAM_OK && !(options->slurm && options->slurm->dry_run);
+        fram_status written = write_results(&w, whole, result, status == FRAM_OK ? error : NULL);
         status = status == FRAM_OK ? written : status;
     }
     for (int32_t c = 0; w.conditions && c < s->conditions; c++)

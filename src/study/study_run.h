@@ -6,6 +6,7 @@
      DIR/conditions/ID.yaml      the effective scenario of a condition, at seed 0
      DIR/runs/ID/SEED.row        the figures of a run that ended (study/run_row.h)
      DIR/runs/ID/SEED/           its folder, as far as it is kept; of a run that failed, all of it, with SEED.log beside
+     DIR/worst/                  the worst runs with their playback (study/study_worst.h)
      DIR/slurm/                  scripts and lists of the arrays that were submitted to Slurm (study/slurm.h)
      DIR/summary.csv             a row a run, by condition and seed
      DIR/conditions.csv          a row a condition: number of seeds, means over them with their confidence intervals
@@ -24,6 +25,8 @@
 typedef struct study_progress {
     int32_t done, failed, planned; /* runs; more may be planned as intervals turn out wide */
     double wall, eta;              /* [s]; eta is 0 until it can be told */
+    int32_t records_done, records; /* the worst runs, made again with a record when all have ended; 0 before */
+    const char *waits;             /* what the scheduler says of tasks that wait, or NULL */
 } study_progress;
 
 typedef struct study_options {

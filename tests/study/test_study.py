@@ -4,52 +4,17 @@ import csv
 import hashlib
 import json
 import math
-import os
-import pathlib
 import re
 import shutil
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-FRAM = os.environ["FRAM"]
-# Under sanitizers a run takes twenty times as long: fewer there.
-SHORT = "FRAM_TEST_SHORT" in os.environ
-BASE = """
-run: {duration: 3, time_step: 0.02, transient: 1}
-vessel: {mode: towed, x: -30, speed: 2, ramp: 0.5, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
-ice: {concentration: 0.8, mean_floe_area: 64}
-domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
-"""
+from studies import BASE, FRAM, SHORT, StudyTest
 
 
-class Studies(unittest.TestCase):
-    def setUp(self):
-        self.at = pathlib.Path(tempfile.mkdtemp(prefix="fram-study-"))
-        self.addCleanup(shutil.rmtree, self.at)
-        (self.at / "base.yaml").write_text(BASE)
-
-    def write(self, text, name="study.yaml"):
-        path = self.at / name
-        path.write_text("scenario: base.yaml\n" + text)
-        return path
-
-    def fram(self, *words, code=0):
-        done = subprocess.run([FRAM, "study", *map(str, words), "--json"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return json.loads(done.stdout.splitlines()[-1])
-
-    def rows(self, folder, name="summary.csv"):
-        with open(self.at / folder / name, newline="") as file:
-            return list(csv.DictReader(file))
-
-    def refused(self, text, *said):
-        error = self.fram("check", self.write(text), code=2)["error"]
-        for word in said:
-            self.assertIn(word, f"{error['file']}:{error['line']}: {error['key']}: {error['message']}")
-
+class Studies(StudyTest):
     def test_a_row_for_each_run_and_its_numbers_are_those_of_the_run(self):
         study = self.write("seeds: {least: 2, first: 5}\nkeep: series\n"
                            "vary: {grid: {ice.thickness: [0.5, 1], vessel.speed: [1.5, 2]}}\n")
@@ -331,7 +296,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertTrue(words in page, words)
         self.assertNotIn("thruster power", page)
         # The command of the worst run makes what its link opens.
-        link, command = re.search('href="(worst/[^"]*)">playback</a></td><td><code>([^<]*)</code>', page).groups()
+        command, link = re.search('<code>([^<]*)</code>, then <a href="(worst/[^"]*)">playback</a>', page).groups()
         command = command.replace("&amp;&amp;", "&&").replace("fram ", FRAM + " ").replace("-o ", "--quiet -o ")
         done = subprocess.run(command, shell=True, cwd=self.at / "out", capture_output=True, text=True)
         if "make viewer" not in done.stderr:

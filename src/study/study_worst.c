@@ -1,0 +1,458 @@
+#include "study/study_worst.h"
+
+#include "base/clock.h"
+#include "base/number_text.h"
+#include "io/atomic_file.h"
+#include "io/folder.h"
+#include "study/processes.h"
+#include "study/study_file.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Between frames of a run whose scenario asks for none [s]. */
+#define FRAMES_USUAL 1.0
+/* Between looks at the processes, and between calls of progress [s]. */
+enum { LOOK_NANOSECONDS = 5000000 };
+#define TELL_SECONDS 1.0
+/* Exit code of a run that was interrupted, which is none of its own. */
+enum { INTERRUPTED = 130 };
+/* Of a file of rows. */
+enum { ROW_FILE_MOST = 1 << 16 };
+
+/* ---- which ---- */
+
+static bool is_among(const study_folder *f, const worst_run *all, int32_t count, int32_t condition, int32_t index)
+{
+    for (int32_t i = 0; i < count; i++)
+        if (all[i].index == index && memcmp(f->id[all[i].condition], f->id[condition], CONDITION_ID) == 0)
+            return true;
+    return false;
+}
+
+int32_t study_worst_find(const study_folder *f, const condition_rows *conditions, run_figure figure, int32_t most,
+                         worst_run *out)
+{
+    int32_t count = 0;
+    for (int32_t c = 0; c < f->s->conditions; c++) {
+        for (int32_t i = 0; i < conditions[c].rows.count; i++) {
+            const run_row *row = &conditions[c].rows.data[i];
+            double value = row->failed ? (double)NAN : row->figure[figure];
+            int32_t at = count;
+            while (at > 0 && value > out[at - 1].value)
+                at--;
+            if (!isfinite(value) || at >= most || is_among(f, out, count, c, i))
+                continue;
+            count += count < most;
+            memmove(out + at + 1, out + at, (size_t)(count - at - 1) * sizeof *out);
+            out[at] = (worst_run){c, i, value};
+        }
+    }
+    return count;
+}
+
+/* "ID-SEED", the name of a run among the worst. */
+enum { NAME_ROOM = CONDITION_ID + 24 };
+static void name_of(const study_folder *f, const worst_run *run, char out[NAME_ROOM])
+{
+    snprintf(out, NAME_ROOM, "%s-%lld", f->id[run->condition], (long long)f->s->seeds.first + run->index);
+}
+
+static char *path_of(const study_folder *f, const char *name, const char *ending)
+{
+    text_buffer b = {0};
+    text_format(f->ctx, &b, "%s/worst%s%s%s", f->path, *name ? "/" : "", name, ending);
+    char *path = b.failed ? NULL : memory_string(f->ctx, b.data);
+    text_free(f->ctx, &b);
+    return path;
+}
+
+char *study_worst_path(const study_folder *f, const worst_run *run, const char *ending)
+{
+    char name[NAME_ROOM];
+    name_of(f, run, name);
+    return path_of(f, name, ending);
+}
+
+static bool is_there(context *ctx, char *path)
+{
+    bool there = path && access(path, F_OK) == 0;
+    memory_free(ctx, path);
+    return there;
+}
+
+bool study_worst_has_playback(const study_folder *f, const worst_run *run)
+{
+    return is_there(f->ctx, study_worst_path(f, run, "/playback.html"));
+}
+
+/* ---- work ---- */
+
+typedef enum worst_stage { WORST_RUN = 0, WORST_VIEW, WORST_DONE } worst_stage;
+typedef struct worst_entry {
+    worst_run run;
+    worst_stage stage;
+    bool going;
+} worst_entry;
+
+typedef struct worst_work {
+    const study_folder *f;
+    const study_options *options;
+    worst_entry *entry;
+    int32_t count;
+    int64_t runs; /* of the study */
+    process_pool pool;
+    double started;
+    bool changed;
+} worst_work;
+
+static void tell(const worst_work *w, const char *waits)
+{
+    study_progress p = {.wall = clock_wall() - w->started, .records = w->count, .waits = waits};
+    p.done = p.planned = (int32_t)w->runs;
+    for (int32_t i = 0; i < w->count; i++)
+        p.records_done += w->entry[i].stage == WORST_DONE;
+    if (w->options->progress)
+        w->options->progress(w->options->progress_user, &p);
+}
+
+/* The figures of a run as its first time left them. */
+static fram_status read_row(const study_folder *f, const worst_run *run, char **text, size_t *size, fram_error *error)
+{
+    char *path = study_run_path(f, run->condition, f->s->seeds.first + run->index, ".row");
+    fram_status status = path ? file_read(f->ctx, path, ROW_FILE_MOST, text, size, error) : error_memory(error);
+    memory_free(f->ctx, path);
+    return status;
+}
+
+/* A run is there when its figures are those that stand in the table now. */
+static fram_status find_stage(const study_folder *f, worst_entry *e, fram_error *error)
+{
+    char *first = NULL, *again = NULL, *path = study_worst_path(f, &e->run, ".row");
+    char *log = study_worst_path(f, &e->run, ".log");
+    size_t size = 0, other = 0;
+    fram_status status = path && log ? read_row(f, &e->run, &first, &size, error) : error_memory(error);
+    e->stage = WORST_RUN;
+    if (status == FRAM_OK && access(path, F_OK) == 0 &&
+        file_read(f->ctx, path, ROW_FILE_MOST, &again, &other, NULL) == FRAM_OK && size == other &&
+        memcmp(first, again, size) == 0)
+        e->stage = study_worst_has_playback(f, &e->run) ? WORST_DONE : WORST_VIEW;
+    /* Of another time: a task of Slurm would take the run as made. */
+    if (status == FRAM_OK && e->stage == WORST_RUN)
+        (void)unlink(path);
+    /* A study that was killed behind the last page left it. */
+    if (status == FRAM_OK && e->stage == WORST_DONE)
+        (void)unlink(log);
+    memory_free(f->ctx, first);
+    memory_free(f->ctx, again);
+    memory_free(f->ctx, path);
+    memory_free(f->ctx, log);
+    return status;
+}
+
+/* ---- what is no longer among them ---- */
+
+static void remove_run(const study_folder *f, const char *name)
+{
+    static const char *const marks[] = {".exit", ".log", ".row"};
+    char *folder = path_of(f, name, "");
+    if (folder)
+        study_folder_remove(f->ctx, folder);
+    memory_free(f->ctx, folder);
+    /* The marks go last: without them the folder would be somebody else's. */
+    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++) {
+        char *mark = path_of(f, name, marks[i]);
+        if (mark)
+            (void)unlink(mark);
+        memory_free(f->ctx, mark);
+    }
+}
+
+static void prune(worst_work *w)
+{
+    char *path = path_of(w->f, "", "");
+    DIR *dir = path ? opendir(path) : NULL;
+    memory_free(w->f->ctx, path);
+    if (!dir)
+        return;
+    int failure; /* what is not listed stays */
+    for (const char *file = folder_next(dir, &failure); file; file = folder_next(dir, &failure)) {
+        char name[NAME_ROOM], own[NAME_ROOM];
+        const char *dot = strrchr(file, '.');
+        bool kept = !dot || dot - file >= NAME_ROOM ||
+                    (strcmp(dot, ".row") != 0 && strcmp(dot, ".log") != 0 && strcmp(dot, ".exit") != 0);
+        if (kept)
+            continue;
+        snprintf(name, sizeof name, "%.*s", (int)(dot - file), file);
+        for (int32_t i = 0; i < w->count && !kept; i++) {
+            name_of(w->f, &w->entry[i].run, own);
+            kept = strcmp(name, own) == 0;
+        }
+        if (kept)
+            continue;
+        remove_run(w->f, name);
+        w->changed = true;
+    }
+    closedir(dir);
+}
+
+/* ---- a run again ---- */
+
+double study_worst_frames(const scenario *s)
+{
+    return s->output.frame_interval > 0 ? s->output.frame_interval : FRAMES_USUAL;
+}
+
+static fram_status frames_of(const worst_work *w, const worst_entry *e, double *out, fram_error *error)
+{
+    scenario one = {0};
+    fram_status status = study_scenario(w->f->ctx, w->f->s, e->run.condition, w->f->s->seeds.first, &one, error);
+    if (status != FRAM_OK)
+        return status;
+    *out = study_worst_frames(&one);
+    scenario_free(w->f->ctx, &one);
+    return FRAM_OK;
+}
+
+/* The figures of the second time are those of the first, or the record shows another run. */
+static fram_status judge(const worst_work *w, worst_entry *e, const char *folder, fram_error *error)
+{
+    context *ctx = w->f->ctx;
+    run_rows rows = {0};
+    text_buffer again = {0};
+    char *first = NULL, *row = study_worst_path(w->f, &e->run, ".row");
+    size_t size = 0;
+    fram_status status = row ? run_rows_of(ctx, folder, &rows, error) : error_memory(error);
+    if (status == FRAM_OK) {
+        run_rows_text(ctx, &rows, &again);
+        status = again.failed ? error_memory(error) : read_row(w->f, &e->run, &first, &size, error);
+    }
+    if (status == FRAM_OK && (size != (size_t)again.count || memcmp(first, again.data, size) != 0))
+        status = error_set(error, FRAM_ERROR_INPUT, folder, 0, "record_of_worst",
+                           "made again for its record, the run has other figures than its row runs/%s/%lld.row: the "
+                           "command fram is not the one that made the row; give the study a new folder",
+                           w->f->id[e->run.condition], (long long)w->f->s->seeds.first + e->run.index);
+    if (status == FRAM_OK)
+        status = atomic_file_write(ctx, row, again.data, (size_t)again.count, error);
+    if (status == FRAM_OK)
+        e->stage = WORST_VIEW;
+    array_free(ctx, &rows);
+    text_free(ctx, &again);
+    memory_free(ctx, first);
+    memory_free(ctx, row);
+    return status;
+}
+
+/* A run or a view that ended. */
+static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error *error)
+{
+    context *ctx = w->f->ctx;
+    char *folder = study_worst_path(w->f, &e->run, ""), *log = study_worst_path(w->f, &e->run, ".log");
+    fram_status status = folder && log ? FRAM_OK : error_memory(error);
+    e->going = false;
+    if (status == FRAM_OK && exit_code == INTERRUPTED && !w->options->slurm) {
+        /* It is made when the study goes on. */
+    } else if (status == FRAM_OK && exit_code != 0) {
+        status = study_log_check_disk(ctx, log, error);
+        if (status == FRAM_OK && e->stage == WORST_RUN)
+            status = error_set(error, FRAM_ERROR_IO, log, 0, "record_of_worst",
+                               "made again for its record, a run ended with exit code %d; the tables are whole, and "
+                               "the same command tries again",
+                               exit_code);
+        /* Without its page a record can still be played. */
+        if (status == FRAM_OK) {
+            log_write(ctx, LOG_WARNING, "%s: no playback was made (exit code %d, %s says why)", folder, exit_code, log);
+            e->stage = WORST_DONE;
+        }
+    } else if (status == FRAM_OK && exit_code == 0 && e->stage == WORST_RUN) {
+        status = judge(w, e, folder, error);
+    } else if (status == FRAM_OK && exit_code == 0) {
+        e->stage = WORST_DONE;
+        (void)unlink(log);
+    }
+    w->changed = true;
+    memory_free(ctx, folder);
+    memory_free(ctx, log);
+    return status;
+}
+
+/* ---- on this machine ---- */
+
+static fram_status start(worst_work *w, int32_t at, fram_error *error)
+{
+    worst_entry *e = &w->entry[at];
+    context *ctx = w->f->ctx;
+    char seed[48], frames[NUMBER_TEXT_SIZE + 32] = "output.frame_interval=";
+    double interval = 0;
+    char *scenario_file = study_scenario_path(w->f, e->run.condition);
+    char *folder = study_worst_path(w->f, &e->run, ""), *log = study_worst_path(w->f, &e->run, ".log");
+    fram_status status = scenario_file && folder && log ? frames_of(w, e, &interval, error) : error_memory(error);
+    real_to_text(interval, frames + strlen(frames));
+    snprintf(seed, sizeof seed, "run.seed=%lld", (long long)w->f->s->seeds.first + e->run.index);
+    const char *const run[] = {
+        w->options->program, "run", scenario_file, "-o",      folder, "--set", seed, "--set", frames,
+        "--threads",         "1",   "--force",     "--quiet", NULL};
+    const char *const view[] = {w->options->program, "view", folder, "--force", "--quiet", NULL};
+    if (status == FRAM_OK)
+        status = processes_start(ctx, &w->pool, e->stage == WORST_RUN ? run : view, log, at, error);
+    e->going = status == FRAM_OK;
+    memory_free(ctx, scenario_file);
+    memory_free(ctx, folder);
+    memory_free(ctx, log);
+    return status;
+}
+
+/* Starts what can be; *left: what cannot yet, since a program of a study that was killed still makes it, or for want of
+   cores. */
+static fram_status fill(worst_work *w, int jobs, bool *left, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    *left = false;
+    for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
+        worst_entry *e = &w->entry[i];
+        if (e->going || e->stage == WORST_DONE)
+            continue;
+        char *folder = study_worst_path(w->f, &e->run, "");
+        bool free_now = w->pool.running.count < jobs && folder && !study_folder_is_busy(folder);
+        memory_free(w->f->ctx, folder);
+        *left = *left || !free_now;
+        if (free_now)
+            status = start(w, i, error);
+    }
+    return status;
+}
+
+static fram_status record_here(worst_work *w, fram_error *error)
+{
+    const struct timespec pause = {0, LOOK_NANOSECONDS};
+    int jobs = w->options->jobs > 0 ? w->options->jobs : processes_cores();
+    bool left = false;
+    fram_status status = fill(w, jobs, &left, error);
+    double told = clock_wall();
+    while (status == FRAM_OK && (left || w->pool.running.count > 0) && !stop_is_asked(w->options->stop)) {
+        int32_t at = 0;
+        int exit_code = 0;
+        if (processes_ended(&w->pool, &at, &exit_code)) {
+            status = take(w, &w->entry[at], exit_code, error);
+            tell(w, NULL);
+        } else {
+            nanosleep(&pause, NULL);
+        }
+        if (clock_wall() - told >= TELL_SECONDS) {
+            told = clock_wall();
+            tell(w, NULL);
+        }
+        if (status == FRAM_OK && !stop_is_asked(w->options->stop))
+            status = fill(w, jobs, &left, error);
+    }
+    processes_stop(&w->pool);
+    return status;
+}
+
+/* ---- on Slurm ---- */
+
+/* The runs alone: their pages are made here, a few seconds each. */
+static fram_status record_by_slurm(worst_work *w, fram_error *error)
+{
+    slurm_pool queue;
+    fram_status status = slurm_begin(w->f->ctx, w->options->slurm, w->f->path, w->options->program, &queue, error);
+    if (status != FRAM_OK)
+        return status;
+    for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
+        double frames = 0;
+        if (w->entry[i].stage != WORST_RUN)
+            continue;
+        status = frames_of(w, &w->entry[i], &frames, error);
+        if (status == FRAM_OK && !slurm_add(&queue, w->f->id[w->entry[i].run.condition],
+                                            w->f->s->seeds.first + w->entry[i].run.index, i, frames))
+            status = error_memory(error);
+    }
+    if (status == FRAM_OK)
+        status = slurm_submit(&queue, error);
+    while (status == FRAM_OK && queue.runs.count > 0 && !stop_is_asked(w->options->stop)) {
+        int32_t at = 0;
+        int exit_code = 0;
+        double began = clock_wall();
+        while (status == FRAM_OK && slurm_ended(&queue, &at, &exit_code))
+            status = take(w, &w->entry[at], exit_code, error);
+        tell(w, slurm_waits(&queue));
+        if (status == FRAM_OK && queue.runs.count > 0)
+            slurm_pause(clock_wall() - began);
+        slurm_look(&queue);
+        if (status == FRAM_OK)
+            status = slurm_submit(&queue, error);
+    }
+    if (status != FRAM_OK || queue.runs.count > 0)
+        slurm_stop(&queue);
+    slurm_free(&queue);
+    return status;
+}
+
+/* ---- all ---- */
+
+static fram_status find_entries(worst_work *w, const condition_rows *conditions, fram_error *error)
+{
+    context *ctx = w->f->ctx;
+    int32_t most = w->f->s->worst.count;
+    worst_run *all = memory_array(ctx, (size_t)most + 1, sizeof *all);
+    w->entry = memory_array(ctx, (size_t)most + 1, sizeof *w->entry);
+    fram_status status = all && w->entry ? FRAM_OK : error_memory(error);
+    if (status == FRAM_OK && most > 0)
+        w->count = study_worst_find(w->f, conditions, (run_figure)w->f->s->worst.figure, most, all);
+    for (int32_t i = 0; i < w->count && status == FRAM_OK; i++) {
+        w->entry[i] = (worst_entry){.run = all[i]};
+        status = find_stage(w->f, &w->entry[i], error);
+    }
+    for (int32_t c = 0; c < w->f->s->conditions; c++)
+        w->runs += conditions[c].rows.count;
+    memory_free(ctx, all);
+    return status;
+}
+
+static fram_status make_folder(const worst_work *w, fram_error *error)
+{
+    char *path = path_of(w->f, "", "");
+    fram_status status = !path ? error_memory(error)
+                         : mkdir(path, 0777) == 0 || errno == EEXIST
+                             ? FRAM_OK
+                             : file_error(error, path, "make the folder", errno);
+    memory_free(w->f->ctx, path);
+    return status;
+}
+
+static int32_t left_of(const worst_work *w, worst_stage up_to)
+{
+    int32_t n = 0;
+    for (int32_t i = 0; i < w->count; i++)
+        n += w->entry[i].stage <= up_to;
+    return n;
+}
+
+fram_status study_worst_record(const study_folder *f, const condition_rows *conditions, const study_options *options,
+                               bool *changed, fram_error *error)
+{
+    worst_work w = {.f = f, .options = options, .started = clock_wall()};
+    fram_status status = find_entries(&w, conditions, error);
+    if (status == FRAM_OK)
+        prune(&w);
+    if (status == FRAM_OK && left_of(&w, WORST_VIEW) > 0) {
+        status = make_folder(&w, error);
+        tell(&w, NULL);
+        if (status == FRAM_OK && options->slurm && left_of(&w, WORST_RUN) > 0)
+            status = record_by_slurm(&w, error);
+        if (status == FRAM_OK && !stop_is_asked(options->stop))
+            status = record_here(&w, error);
+    }
+    if (status == FRAM_OK && left_of(&w, WORST_VIEW) > 0 && stop_is_asked(options->stop))
+        status = error_set(error, FRAM_INTERRUPTED, NULL, 0, NULL,
+                           "interrupted; what ended is kept, continue with the same command");
+    *changed = w.changed;
+    processes_free(f->ctx, &w.pool);
+    memory_free(f->ctx, w.entry);
+    return status;
+}

@@ -1,0 +1,45 @@
+"""What tests of studies share: a small scenario, and the command."""
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+FRAM = os.environ["FRAM"]
+# Under sanitizers a run takes twenty times as long: fewer there.
+SHORT = "FRAM_TEST_SHORT" in os.environ
+BASE = """
+run: {duration: 3, time_step: 0.02, transient: 1}
+vessel: {mode: towed, x: -30, speed: 2, ramp: 0.5, hull: {length: 48, beam: 12, draught: 4, freeboard: 2}}
+ice: {concentration: 0.8, mean_floe_area: 64}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+"""
+
+
+class StudyTest(unittest.TestCase):
+    def setUp(self):
+        self.at = pathlib.Path(tempfile.mkdtemp(prefix="fram-study-"))
+        self.addCleanup(shutil.rmtree, self.at)
+        (self.at / "base.yaml").write_text(BASE)
+
+    def write(self, text, name="study.yaml"):
+        path = self.at / name
+        path.write_text("scenario: base.yaml\n" + text)
+        return path
+
+    def fram(self, *words, code=0):
+        done = subprocess.run([FRAM, "study", *map(str, words), "--json"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return json.loads(done.stdout.splitlines()[-1])
+
+    def rows(self, folder, name="summary.csv"):
+        with open(self.at / folder / name, newline="") as file:
+            return list(csv.DictReader(file))
+
+    def refused(self, text, *said):
+        error = self.fram("check", self.write(text), code=2)["error"]
+        for word in said:
+            self.assertIn(word, f"{error['file']}:{error['line']}: {error['key']}: {error['message']}")
