@@ -7,6 +7,7 @@
 #include "model/scenario_vessel.h"
 #include "results/rainflow.h"
 #include "results/replay_plan.h"
+#include "results/track_results.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -34,6 +35,17 @@ static void duration_text(double seconds, char out[32])
 
 /* ---- the first words ---- */
 
+static void judge_tracks(page *p)
+{
+    const run_note *n = &p->m->d.note;
+    for (int32_t i = 0; i < n->tracks.count; i++) {
+        char text[240];
+        track_text(&n->tracks.data[i], text, sizeof text);
+        html_verdict_line(&p->html, track_was_kept(&n->tracks.data[i]) ? VERDICT_NOTE : VERDICT_CAUTION, text,
+                          track_remedy(&n->tracks.data[i]));
+    }
+}
+
 static void verdict(page *p)
 {
     const manage_summary *s = p->s;
@@ -51,6 +63,7 @@ static void verdict(page *p)
         snprintf(text, sizeof text, "At its nearest, unmanaged ice was %s of drift away.", time);
         if (isfinite(s->alarm_least))
             html_verdict_line(&p->html, VERDICT_NOTE, text, "");
+        judge_tracks(p);
         html_verdict_end(&p->html);
         return;
     }
@@ -84,6 +97,7 @@ static void verdict(page *p)
             100 * s->load_most / p->os->load_most, 100 * s->load_mean / p->os->load_mean);
         html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     }
+    judge_tracks(p);
     html_verdict_end(&p->html);
 }
 
@@ -304,6 +318,7 @@ static fram_status compose(page *p, fram_error *error)
         place_table(p, p->os, "comparison run");
     html_section(&p->html, "Loads");
     load_table(p);
+    track_table(&p->html, &m->d.note);
     html_section(&p->html, "Warning");
     html_paragraph(&p->html, "Along the drift at each moment, assuming that it persists; within the recorded domain.");
     alarm_table(p);

@@ -4,6 +4,7 @@
 #include "io/scenario_file.h"
 #include "results/report_parts.h"
 #include "results/station_results.h"
+#include "results/track_results.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -266,6 +267,7 @@ static fram_status compose(report *r, fram_error *error)
         status = key_figures(r, error);
     scenario_table(r);
     events(r);
+    track_table(&r->page, &r->d.note);
     for (int32_t v = 0; v < scenario_vessel_count(&r->d.s) && status == FRAM_OK; v++) {
         status = report_choose_vessel(r, v, error);
         if (status == FRAM_OK)

@@ -5,6 +5,7 @@
 #include "base/transcendental.h"
 #include "results/mechanism_curve.h"
 #include "results/station_results.h"
+#include "results/track_results.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,6 +90,17 @@ static void judge_walls(verdict *v)
                  "run.duration or give another course.",
                  "%s%s ran into a wall of the domain at %.4g s.", e->vessel[0] ? "Vessel " : "The vessel", e->vessel,
                  e->time);
+    }
+}
+
+static void judge_tracks(verdict *v)
+{
+    const run_note *n = &v->r->d.note;
+    for (int32_t i = 0; i < n->tracks.count; i++) {
+        const run_track *t = &n->tracks.data[i];
+        char text[TEXT_SIZE];
+        track_text(t, text, sizeof text);
+        find(v, track_was_kept(t) ? VERDICT_GOOD : VERDICT_CAUTION, track_remedy(t), "%s", text);
     }
 }
 
@@ -379,6 +391,7 @@ fram_status report_verdict(report *r, fram_error *error)
     fram_status status = FRAM_OK;
     judge_end(&v);
     judge_walls(&v);
+    judge_tracks(&v);
     for (int32_t i = 0; i < scenario_vessel_count(&r->d.s) && status == FRAM_OK; i++) {
         status = report_choose_vessel(r, i, error);
         if (status == FRAM_OK)

@@ -21,7 +21,20 @@ typedef struct note_member {
     double *number;
 } note_member;
 
-static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
+static fram_status read_named(json_walk *w, const char *key, const note_member *members, size_t count,
+                              fram_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(key, members[i].name) != 0)
+            continue;
+        return members[i].text ? json_walk_text(w, members[i].text, members[i].room, error)
+                               : json_walk_number(w, members[i].number, error);
+    }
+    return json_walk_skip(w, error);
+}
+
+/* What it has of these. */
+static fram_status read_object(json_walk *w, const note_member *members, size_t count, fram_error *error)
 {
     char key[64];
     bool more = true;
@@ -30,18 +43,18 @@ static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
         status = json_walk_member(w, first, key, sizeof key, &more, error);
         if (status != FRAM_OK || !more)
             break;
-        if (strcmp(key, "time_s") == 0)
-            status = json_walk_number(w, &e->time, error);
-        else if (strcmp(key, "kind") == 0)
-            status = json_walk_text(w, e->kind, sizeof e->kind, error);
-        else if (strcmp(key, "vessel") == 0)
-            status = json_walk_text(w, e->vessel, sizeof e->vessel, error);
-        else if (strcmp(key, "text") == 0)
-            status = json_walk_text(w, e->text, sizeof e->text, error);
-        else
-            status = json_walk_skip(w, error);
+        status = read_named(w, key, members, count, error);
     }
     return status;
+}
+
+static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
+{
+    const note_member members[] = {{"time_s", NULL, 0, &e->time},
+                                   {"kind", e->kind, sizeof e->kind, NULL},
+                                   {"vessel", e->vessel, sizeof e->vessel, NULL},
+                                   {"text", e->text, sizeof e->text, NULL}};
+    return read_object(w, members, sizeof members / sizeof *members, error);
 }
 
 static fram_status read_events(context *ctx, json_walk *w, run_note *n, fram_error *error)
@@ -60,8 +73,37 @@ static fram_status read_events(context *ctx, json_walk *w, run_note *n, fram_err
     return status;
 }
 
+static fram_status read_track(json_walk *w, run_track *t, fram_error *error)
+{
+    const note_member members[] = {{"vessel", t->vessel, sizeof t->vessel, NULL},
+                                   {"limit_m", NULL, 0, &t->limit},
+                                   {"largest_m", NULL, 0, &t->largest},
+                                   {"rms_m", NULL, 0, &t->rms},
+                                   {"time_s", NULL, 0, &t->time},
+                                   {"rounds", NULL, 0, &t->rounds}};
+    return read_object(w, members, sizeof members / sizeof *members, error);
+}
+
+static fram_status read_tracks(context *ctx, json_walk *w, run_note *n, fram_error *error)
+{
+    bool more = true;
+    fram_status status = json_walk_enter(w, JSON_ARRAY, error);
+    for (bool first = true; status == FRAM_OK; first = false) {
+        run_track t = {0};
+        status = json_walk_element(w, first, &more, error);
+        if (status != FRAM_OK || !more)
+            break;
+        status = read_track(w, &t, error);
+        if (status == FRAM_OK && !array_push(ctx, &n->tracks, t))
+            status = error_memory(error);
+    }
+    return status;
+}
+
 static fram_status read_member(context *ctx, json_walk *w, const char *key, run_note *n, fram_error *error)
 {
+    if (strcmp(key, "tracks") == 0)
+        return read_tracks(ctx, w, n, error);
     if (strcmp(key, "events") == 0)
         return read_events(ctx, w, n, error);
     const note_member members[] = {
@@ -84,13 +126,7 @@ static fram_status read_member(context *ctx, json_walk *w, const char *key, run_
         {"step_wall_longest_ms", NULL, 0, &n->step_longest},
         {"events_left_out", NULL, 0, &n->events_left_out},
     };
-    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
-        if (strcmp(key, members[i].name) != 0)
-            continue;
-        return members[i].text ? json_walk_text(w, members[i].text, members[i].room, error)
-                               : json_walk_number(w, members[i].number, error);
-    }
-    return json_walk_skip(w, error);
+    return read_named(w, key, members, sizeof members / sizeof *members, error);
 }
 
 static fram_status read_note(context *ctx, const char *folder, run_note *n, fram_error *error)
@@ -188,6 +224,7 @@ fram_status run_data_read(context *ctx, const char *folder, bool with_field, run
         status = scenario_read(ctx, path, NULL, &d->s, error);
     if (status != FRAM_OK) {
         array_free(ctx, &d->note.events);
+        array_free(ctx, &d->note.tracks);
         return status;
     }
     status = path_join(folder, "series.csv", path, error);
@@ -208,6 +245,7 @@ void run_data_free(context *ctx, run_data *d)
 {
     scenario_free(ctx, &d->s);
     array_free(ctx, &d->note.events);
+    array_free(ctx, &d->note.tracks);
     csv_table_free(ctx, &d->series);
     csv_table_free(ctx, &d->fractures);
     array_free(ctx, &d->before.areas);

@@ -14,6 +14,13 @@ typedef struct run_event {
     char vessel[25], kind[24], text[160];
 } run_event;
 
+/* How a ship that drives itself kept its track. */
+typedef struct run_track {
+    char vessel[25];
+    double limit, largest, rms; /* track error: beyond which it is off, most, and in the mean [m] */
+    double time, rounds;        /* that counts, 0: it never came to its track [s]; of its pattern */
+} run_track;
+
 /* Texts of run.json; "" for those that are missing. */
 typedef struct run_note {
     char version[32], compiler[96], libraries[256], isa[16], status[16], message[512];
@@ -21,6 +28,7 @@ typedef struct run_note {
     double threads, steps, time, wall, recording, events_left_out;
     double step_median, step_p99, step_p999, step_longest; /* wall time [ms]; 0: not told */
     ARRAY(run_event) events;
+    ARRAY(run_track) tracks;
 } run_note;
 
 /* The ice of one frame. */

@@ -44,7 +44,7 @@ static rudder rudders_of(const scenario *s, const scenario_propulsion *p, const 
     return rudder_of(area, (int)p->propellers, hull->wash.diameter, block, s->environment.water_density);
 }
 
-static propulsion_settings settings_of(const scenario_propulsion *p, double length)
+static propulsion_settings settings_of(const scenario_propulsion *p, double length, double beam)
 {
     double third = real_pow(p->power, 1.0 / 3);
     return (propulsion_settings){.bollard_pull = p->bollard_pull * third * third,
@@ -60,7 +60,8 @@ static propulsion_settings settings_of(const scenario_propulsion *p, double leng
                                  .x = p->pattern.x,
                                  .y = p->pattern.y,
                                  .distance = p->pattern.distance,
-                                 .width = p->pattern.width};
+                                 .width = p->pattern.width,
+                                 .track_limit = automatic_or(p->track_limit, beam)};
 }
 
 /* The speed that is wanted, and how the ship turns at it.  A period gives the speed by the length of a round, which
@@ -72,6 +73,7 @@ static void give_speed(context *ctx, const model *m, int32_t vessel, const scena
     double round = track_of_pattern(&shape, 0).length;
     s->speed = wanted_speed(p, round);
     s->turning = turning_ability_of(ctx, m, vessel, s, fmin(s->speed, s->open_water_speed));
+    s->turning.corner = fmax(s->turning.corner, automatic_or(p->turning_radius, 0));
     s->speed = wanted_speed(p, track_of_pattern(&shape, s->turning.corner).length);
 }
 
@@ -89,7 +91,8 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
         w->course.place[had + i] = vec2_make(p->waypoints.data[i].x, p->waypoints.data[i].y);
     }
     const vessel_model *hull = &m->vessels.data[vessel];
-    propulsion_settings settings = settings_of(p, w->vessels.length[vessel]);
+    propulsion_settings settings = settings_of(p, w->vessels.length[vessel], hull->particulars.beam);
+    settings.transient = s->run.transient;
     settings.ship = ship_of(s, hull, w, w->vessels.body[vessel]);
     settings.rudder = rudders_of(s, p, hull);
     give_speed(ctx, m, vessel, p, &settings);

@@ -290,6 +290,29 @@ static void add_events(context *ctx, text_buffer *b, const scenario *s, const ev
     text_format(ctx, b, "],\n  \"events_left_out\": %d,\n", (int)(events->count - shown));
 }
 
+/* How ships that drive themselves kept their tracks. */
+static void add_tracks(context *ctx, text_buffer *b, const scenario *s, const propulsion_table *p)
+{
+    const char *comma = "";
+    text_add(ctx, b, "  \"tracks\": [");
+    for (int32_t i = 0; i < p->count; i++) {
+        const scenario_propulsion *keys = &scenario_vessel_entry(s, p->vessel[i]).keys->propulsion;
+        const char *name = scenario_vessel_name(s, p->vessel[i]);
+        if (keys->pattern.kind == PATTERN_NONE && keys->waypoints.count == 0)
+            continue;
+        text_format(ctx, b, "%s\n    {", comma);
+        if (name)
+            text_format(ctx, b, "\"vessel\": \"%s\", ", name);
+        text_format(
+            ctx, b,
+            "\"limit_m\": %.17g, \"largest_m\": %.17g, \"rms_m\": %.17g, \"time_s\": %.17g, \"rounds\": %" PRId64 "}",
+            p->settings[i].track_limit, p->off_most[i],
+            p->off_time[i] > 0 ? sqrt(p->off_square[i] / p->off_time[i]) : 0, p->off_time[i], p->rounds[i]);
+        comma = ",";
+    }
+    text_add(ctx, b, "],\n");
+}
+
 /* Wall times of steps, to the digits that their bins have. */
 static void add_step_times(context *ctx, text_buffer *b, const time_ranks *t)
 {
@@ -323,6 +346,7 @@ fram_status run_folder_write_summary(context *ctx, const char *folder, const sce
         add_text_member(ctx, &b, "message", summary->message);
     text_format(ctx, &b, "  \"steps\": %" PRId64 ",\n  \"time_s\": %.17g,\n", w->clock.step[0], w->clock.time[0]);
     add_events(ctx, &b, s, &w->events);
+    add_tracks(ctx, &b, s, &w->propulsion);
     text_format(ctx, &b, "  \"wall_s\": %.3f,\n  \"recording_s\": %.4f,\n  \"recording_end_s\": %.4f,\n", summary->wall,
                 summary->recording, summary->recording_end);
     add_step_times(ctx, &b, summary->step_times);

@@ -112,6 +112,7 @@ static void tell_thruster(const teller *t, int32_t i)
 /* In lengths of the ship. */
 #define LOOKAHEAD_LEAST 0.2
 #define LOOKAHEAD_MOST 50.0
+#define STEERING_MOST 0.75 /* overhang and all */
 #define RAM_LEAST 0.05
 #define RAM_MOST 20.0
 
@@ -146,6 +147,9 @@ static void tell_propulsion(const teller *t)
                    "%s.propulsion.steering_x: %.4g m is ahead of the centre of mass, so that the ship turns the wrong "
                    "way: give a negative number",
                    t->e->path, p->steering_x);
+    if (sanity_own_hull(v) && fabs(automatic_or(p->steering_x, 0)) > STEERING_MOST * v->hull.length)
+        sanity_say(t->tell, t->to, "%s.propulsion.steering_x: %.4g m is outside of a hull of %.4g m: give metres",
+                   t->e->path, p->steering_x, v->hull.length);
     double d = p->propeller_diameter, disc = p->bollard_pull / ((double)p->propellers * PI / 4 * d * d);
     double pressure = sanity_at_scale(t->s, 1);
     if (!is_automatic(d) && (disc > DISC_MOST * fmax(1, pressure) || disc < DISC_LEAST * fmin(1, pressure)))

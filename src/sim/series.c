@@ -21,7 +21,7 @@ typedef struct vessel_channels {
     double thruster_power, line_tension_max;
     int32_t lines_parted, thrusters_failed, saturated;
     vec3 wash;
-    double net_thrust, steering_deg, besets, rams, rounds; /* of a ship that drives itself */
+    double net_thrust, steering_deg, besets, rams, rounds, off; /* of a ship that drives itself */
 } vessel_channels;
 
 /* What keeps a vessel on station. */
@@ -64,6 +64,7 @@ static void add_propulsion(const world *w, int32_t v, vessel_channels *c)
         c->besets = (double)p->besets[i];
         c->rams = (double)p->rams[i];
         c->rounds = (double)p->rounds[i];
+        c->off = p->off[i];
     }
 }
 
@@ -197,6 +198,7 @@ static count_channels counts_of(const world *w)
     V("besets", "1", c.besets)                                        \
     V("rams", "1", c.rams)                                            \
     V("pattern_rounds", "1", c.rounds)                                \
+    V("track_error", "m", c.off)                                      \
     V("wash_force_x", "N", c.wash.x)                                  \
     V("wash_force_y", "N", c.wash.y)                                  \
     W("bodies", "1", n.bodies)                                        \

@@ -129,10 +129,14 @@ turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel,
     double eased = steady_rate(&t, &sway);
     if (!(full > 0) || !(eased > 0))
         return out;
+    /* Odd data may have it turn the other way at first: of such a ship nothing is known. */
+    double begins = yaw_acceleration(&t, eased);
+    if (!(begins > 0 && isfinite(begins)))
+        return out;
     out.radius = speed / full;
     out.drift = -sway / eased;
     /* Taken up over a way w = reach^2 / R a bend is cut by w^2 / (24 R). */
-    out.reach = speed / sqrt(yaw_acceleration(&t, eased));
+    out.reach = speed / sqrt(begins);
     double square = out.reach * out.reach;
     out.corner = fmax(speed / eased, real_cbrt(square * square / (24 * CUT * hull->particulars.beam)));
     return out;

@@ -7,7 +7,7 @@
 #include "vessel/propulsion.h"
 
 /* Of a vessel with these settings (all but `turning` are used) at a speed ahead.  Without water, or without a helm that
-   turns the ship, all distances are its length. */
+   turns the ship as it should, all distances are its length. */
 turning_ability turning_ability_of(context *ctx, const model *m, int32_t vessel, const propulsion_settings *s,
                                    double speed);
 

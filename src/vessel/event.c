@@ -38,6 +38,8 @@ const char *event_name(station_event kind)
         "approach",
         "approach_over",
         "wall",
+        "off_track",
+        "on_track",
     };
     return (int)kind >= 0 && kind < EVENT_COUNT ? names[kind] : "unknown";
 }
@@ -84,6 +86,12 @@ void event_text(const event_table *events, int32_t row, const char *other, char 
         return;
     case EVENT_APPROACH_OVER:
         snprintf(out, size, "vessel %s is clear again: it came as near as %.4g m", other ? other : name, value);
+        return;
+    case EVENT_OFF_TRACK:
+        snprintf(out, size, "off its track by %.4g m", value);
+        return;
+    case EVENT_ON_TRACK:
+        snprintf(out, size, "back on its track: it was off by %.4g m at most", value);
         return;
     case EVENT_WALL:
         if (value > 0)

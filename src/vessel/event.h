@@ -16,7 +16,9 @@ typedef enum station_event {
     EVENT_RAM,           /* it has backed and comes again; value: how far it backed [m] */
     EVENT_APPROACH,      /* another vessel is going to pass closer than the limit; value: predicted distance [m] */
     EVENT_APPROACH_OVER, /* value: least distance that there was [m] */
-    EVENT_WALL, /* the hull met a wall, for the first time; value: normal force [N], 0 where its motion is given */
+    EVENT_WALL,      /* the hull met a wall, for the first time; value: normal force [N], 0 where its motion is given */
+    EVENT_OFF_TRACK, /* a ship that drives itself came off its track; value: track error [m] */
+    EVENT_ON_TRACK,  /* it is back; value: largest track error until then [m] */
     EVENT_COUNT
 } station_event;
 

@@ -17,6 +17,8 @@ static const double SPEED_BAND = 0.05;
 static const double PUSHING = 0.5;
 /* A ship is on its track once it was within this part of its length of it. */
 static const double JOINED = 0.5;
+/* It is back on it within this part of the limit beyond which it is off it. */
+static const double BACK = 0.5;
 
 double propulsion_net_thrust(double bollard_pull, double open_water_speed, double speed)
 {
@@ -125,7 +127,8 @@ static autopilot_view view_of(const pilot *p, vec2 origin, double axis, double f
         .lag = autopilot_lag(&p->s->turning, p->length, p->through_water, p->s->steering_most, p->s->steering_rate)};
 }
 
-/* Brings the foot of the ship on a track up to date, and its error. */
+/* Brings the foot of the ship on a track up to date, and its error, which counts after the transient, from when the
+   ship first is near its track, and not where the track turns about. */
 static void follow(const pilot *p, const autopilot_view *v, const track *path)
 {
     propulsion_table *t = p->table;
@@ -137,7 +140,7 @@ static void follow(const pilot *p, const autopilot_view *v, const track *path)
         t->rounds[row]++;
     track_place foot = track_at(path, t->way[row]);
     double off = t->off[row] = track_off(&foot, v->place);
-    if (foot.turning || (t->off_time[row] == 0 && fabs(off) > JOINED * p->length))
+    if (foot.turning || p->now->time < p->s->transient || (t->off_time[row] == 0 && fabs(off) > JOINED * p->length))
         return;
     t->off_most[row] = fmax(t->off_most[row], fabs(off));
     t->off_square[row] += off * off * p->now->dt;
@@ -234,6 +237,26 @@ static bool tell(context *ctx, const pilot *p, station_event kind, double value,
     return event_add(ctx, events, kind, p->now->time, p->table->vessel[p->row], -1, value);
 }
 
+/* Whether the track error, where it counts, has passed its limit. */
+static bool tell_track(context *ctx, const pilot *p, event_table *events)
+{
+    propulsion_table *t = p->table;
+    int32_t row = p->row;
+    double off = fabs(t->off[row]), most = t->astray[row];
+    if (most == 0 && off > p->s->track_limit) {
+        t->astray[row] = off;
+        return tell(ctx, p, EVENT_OFF_TRACK, off, events);
+    }
+    if (most == 0)
+        return true;
+    if (off > BACK * p->s->track_limit) {
+        t->astray[row] = fmax(most, off);
+        return true;
+    }
+    t->astray[row] = 0;
+    return tell(ctx, p, EVENT_ON_TRACK, most, events);
+}
+
 /* Beset: backs; backed far enough, or stuck astern too: rams. */
 static bool change_phase(context *ctx, const pilot *p, event_table *events)
 {
@@ -269,7 +292,10 @@ fram_status propulsion_step(context *ctx, propulsion_table *propulsion, int32_t 
     if (!change_phase(ctx, &p, events))
         return error_memory(error);
     double net = net_thrust(&p), gross = net + now->resistance, u = fmax(p.through_water, 0);
+    double counted = propulsion->off_time[row];
     steer(&p, course, gross);
+    if (propulsion->off_time[row] > counted && !tell_track(ctx, &p, events))
+        return error_memory(error);
     propulsion->thrust[row] = net;
     /* Astern nothing turns the ship. */
     double angle = propulsion->phase[row] == PROPULSION_ASTERN ? 0 : propulsion->steering[row];

@@ -34,31 +34,34 @@ typedef struct propulsion_settings {
     double ram_distance;     /* it backs so far [m] */
     double x, y;             /* place of the pattern [m] */
     double distance, width;  /* of the pattern [m] */
+    double track_limit;      /* track error beyond which it is off its track [m] */
+    double transient;        /* until when the track error does not count [s] */
     manoeuvring ship;
     rudder rudder;
     turning_ability turning;
 } propulsion_settings;
 
-#define PROPULSION_FIELDS(X)                                                                                     \
-    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                                   \
-    X(settings, propulsion_settings, FIELD_F64, 35, "SI", "thrust, steering, autopilot, pattern")                \
-    X(pattern, uint8_t, FIELD_U8, 1, "1", "enum pattern_kind")                                                   \
-    X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                                 \
-    X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift; without a track: heading that is kept")     \
-    X(way, double, FIELD_F64, 1, "m", "along the track to the foot of the ship; negative: not looked for")       \
-    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done")                                          \
-    X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                                  \
-    X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                                     \
-    X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")                           \
-    X(seen, motion_observer, FIELD_F64, 3, "SI", "turn, moment and drift as the autopilot sees them")            \
-    X(off, double, FIELD_F64, 1, "m", "track error: how far the ship is to port of its track")                   \
-    X(off_most, double, FIELD_F64, 1, "m", "largest, turns left out, since it first was within half its length") \
-    X(off_square, double, FIELD_F64, 1, "m2 s", "its square, summed over that time")                             \
-    X(off_time, double, FIELD_F64, 1, "s", "that time; 0: it has not come so near yet")                          \
-    X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                                           \
-    X(slow_time, double, FIELD_F64, 1, "s", "under thrust and slower than the beset speed")                      \
-    X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                                           \
-    X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                                       \
+#define PROPULSION_FIELDS(X)                                                                                 \
+    X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                               \
+    X(settings, propulsion_settings, FIELD_F64, 37, "SI", "thrust, steering, autopilot, pattern")            \
+    X(pattern, uint8_t, FIELD_U8, 1, "1", "enum pattern_kind")                                               \
+    X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                             \
+    X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift; without a track: heading that is kept") \
+    X(way, double, FIELD_F64, 1, "m", "along the track to the foot of the ship; negative: not looked for")   \
+    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done")                                      \
+    X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                              \
+    X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                                 \
+    X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")                       \
+    X(seen, motion_observer, FIELD_F64, 3, "SI", "turn, moment and drift as the autopilot sees them")        \
+    X(off, double, FIELD_F64, 1, "m", "track error: how far the ship is to port of its track")               \
+    X(off_most, double, FIELD_F64, 1, "m", "largest that counts (follow() in propulsion.c)")                 \
+    X(off_square, double, FIELD_F64, 1, "m2 s", "its square, summed over that time")                         \
+    X(off_time, double, FIELD_F64, 1, "s", "that time; 0: it has not come so near yet")                      \
+    X(astray, double, FIELD_F64, 1, "m", "largest since it was told to be off its track; 0: it is on it")    \
+    X(thrust, double, FIELD_F64, 1, "N", "net thrust")                                                       \
+    X(slow_time, double, FIELD_F64, 1, "s", "under thrust and slower than the beset speed")                  \
+    X(backed, double, FIELD_F64, 1, "m", "way astern in this backing")                                       \
+    X(besets, int64_t, FIELD_I64, 1, "1", "times that the ice stopped it")                                   \
     X(rams, int64_t, FIELD_I64, 1, "1", "times that it came ahead again after backing")
 TABLE_DECLARE(propulsion, PROPULSION_FIELDS)
 

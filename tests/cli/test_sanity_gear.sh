@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Thirty-two more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and remedy.
+# Thirty-three more slips of a pen, in the gear of a ship and in the writing: each is told or refused with key and
+# remedy.
 . "$FRAM_SOURCE/tests/cli/slips.sh"
 
 cat >drive.yaml <<'YAML'
@@ -28,6 +29,7 @@ done
 told drive.yaml "propulsion.bollard_pull: 80 N|not kN or tonnes" --set vessel.propulsion.bollard_pull=80
 told drive.yaml "propulsion.open_water_speed: 15 m/s|knot" --set vessel.propulsion.open_water_speed=15
 told drive.yaml "propulsion.speed: 12 m/s is more than the ship makes|7 m/s" --set vessel.propulsion.speed=12
+told drive.yaml "propulsion.steering_x: -600 m is outside of a hull of 60 m" --set vessel.propulsion.steering_x=-600
 told drive.yaml "propeller_diameter: 6 m|draught, 4 m" --set vessel.propulsion.propeller_diameter=6
 told drive.yaml "waypoints[0]: (150, 0) m lies outside of the domain" --set "vessel.propulsion.waypoints[0].x=150"
 told ship.yaml "lines[0].stiffness: EA of 8e+05 N is 0.1 breaking loads|newtons" \

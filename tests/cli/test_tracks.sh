@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# How a ship keeps its track is told before, during and after a run; the same on one and two threads and after a resume.
+. "$FRAM_SOURCE/tests/cli/common.sh"
+
+# A small icebreaker on an arc across thin ice that drifts against a ship which is held.
+cat >scene.yaml <<'YAML'
+title: A pattern in ice
+run: {duration: 14, time_step: 0.04, scale: 30, transient: 2.02}
+vessels:
+  - name: ship
+    mode: prescribed
+    hull: {form: box, length: 40, beam: 10, draught: 4, freeboard: 2}
+  - name: breaker
+    mode: free
+    x: 60
+    y: -80
+    speed: 4
+    hull: {form: icebreaker, length: 40, beam: 10, draught: 4, freeboard: 3}
+    hydrodynamics: {source: estimate}
+    propulsion:
+      bollard_pull: 5.0e5
+      open_water_speed: 7
+      rudder_area: 0
+      speed: 4
+      track_limit: 0.05
+      pattern: {kind: circle, distance: 60, width: 160}
+ice:
+  source: level
+  thickness: 0.25
+  breakable: true
+  smallest_floe_area: 4
+  fracture: {brash: true}
+  level: {openings: [{x: 60, y: -80, length: 60, width: 16}, {x: 0, y: 0, length: 60, width: 20}]}
+domain: {boundary: feeding, x_min: -60, x_max: 180, y_min: -120, y_max: 120, drift_speed: 0.3, drift_direction_deg: 180}
+output: {csv_interval: 0.2, frame_interval: 1}
+YAML
+expect 0 "$FRAM" check scene.yaml
+holds "vessel breaker turns on a radius of .* m at full helm in open water at 4 m/s, in ice on a larger one" err
+grep '^warning.*pattern' err && fail "a warning without reason"
+expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.width=8
+holds "vessels\[1\].propulsion.pattern.width: 8 m asks for a radius of 4 m.*it cannot keep this pattern" err
+expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.distance=160
+holds "pattern: at 0 s it leads to .*outside of the domain" err
+expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.kind=square \
+    --set vessels.breaker.propulsion.pattern.width=100 --set vessels.breaker.propulsion.turning_radius=90
+says "corners of 90 m radius leave nothing straight of a side of 100 m" err
+
+expect 0 "$FRAM" run scene.yaml -o one -q --threads 1
+expect 0 "$FRAM" run scene.yaml -o two -q --threads 2
+expect 0 "$FRAM" run scene.yaml -o parts -q --until 7
+expect 0 "$FRAM" resume parts -q
+python3 - <<'PY' || fail "what run.json tells of the track is wrong"
+import csv, json, math, sys
+
+notes = [json.load(open(f"{name}/run.json")) for name in ("one", "two", "parts")]
+assert notes[0]["state_hash"] == notes[1]["state_hash"] == notes[2]["state_hash"], "states differ"
+assert notes[0]["tracks"] == notes[1]["tracks"] == notes[2]["tracks"], "tracks differ"
+(track,) = notes[0]["tracks"]
+rows = [{k.split("[")[0]: float(v) for k, v in r.items()} for r in csv.DictReader(open("one/series.csv"))]
+errors = [r["breaker.track_error"] for r in rows if r["time"] > 2]
+assert all(r["ship.track_error"] == 0 for r in rows)
+# A row tells the error at the begin of its step, 0.16 m of way earlier than the place that it tells.
+for r in rows:
+    off = 80 - math.hypot(r["breaker.position_x"] - 60, r["breaker.position_y"])
+    assert abs(r["breaker.track_error"] - off) < 0.2, (r["time"], off)
+most = max(map(abs, errors))
+assert most <= track["largest_m"] < most + 0.1, (most, track)
+assert abs(track["rms_m"] - math.sqrt(sum(e * e for e in errors) / len(errors))) < 0.1 * track["rms_m"] + 0.01, track
+assert track["vessel"] == "breaker" and track["limit_m"] == 0.05 and abs(track["time_s"] - 11.96) < 1e-6, track
+first = next(e for e in notes[0]["events"] if e["kind"] == "off_track")
+assert first["vessel"] == "breaker" and 0.05 < first["value"] < 2 and first["time_s"] > 2, first
+assert "off its track by" in first["text"], first
+PY
+expect 0 "$FRAM" report one -o report.html
+holds "Vessel breaker did not keep its track: .* m off at most" report.html
+says "Tracks that were sailed" report.html
+expect 0 "$FRAM" manage one -o manage.html -q
+holds "Vessel breaker did not keep its track: .* m off at most" manage.html
+says "Tracks that were sailed" manage.html
+finish "tracks are told: before, during and after a run, on any threads and after a resume"
