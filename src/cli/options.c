@@ -24,9 +24,24 @@ static void common_rows(common_options *c, option_row rows[COMMON_ROWS])
     rows[6] = (option_row){"--help", "-h", OPTION_FLAG, &c->help, NULL, "this text"};
 }
 
-static void print_rows(const option_row *rows, int count)
+static const option_row *find_row(const option_row *rows, int count, const char *word, size_t length)
 {
     for (int i = 0; i < count; i++) {
+        const option_row *r = &rows[i];
+        if (strlen(r->name) == length && strncmp(r->name, word, length) == 0)
+            return r;
+        if (r->short_name && strlen(r->short_name) == length && strncmp(r->short_name, word, length) == 0)
+            return r;
+    }
+    return NULL;
+}
+
+/* Rows without those that a command has for itself under the same name. */
+static void print_rows(const option_row *rows, int count, const option_row *own, int own_count)
+{
+    for (int i = 0; i < count; i++) {
+        if (find_row(own, own_count, rows[i].name, strlen(rows[i].name)))
+            continue;
         char name[64];
         snprintf(name, sizeof name, "%s%s%s%s%s", rows[i].short_name ? rows[i].short_name : "",
                  rows[i].short_name ? ", " : "", rows[i].name, rows[i].argument ? " " : "",
@@ -40,20 +55,8 @@ static void print_command_help(const command_row *command, const option_row *row
 {
     printf("fram %s %s\n  %s\n\n", command->name, command->arguments, command->summary);
     printf("Examples:\n%s\nOptions:\n", command->examples);
-    print_rows(rows, row_count);
-    print_rows(common, COMMON_ROWS);
-}
-
-static const option_row *find_row(const option_row *rows, int count, const char *word, size_t length)
-{
-    for (int i = 0; i < count; i++) {
-        const option_row *r = &rows[i];
-        if (strlen(r->name) == length && strncmp(r->name, word, length) == 0)
-            return r;
-        if (r->short_name && strlen(r->short_name) == length && strncmp(r->short_name, word, length) == 0)
-            return r;
-    }
-    return NULL;
+    print_rows(rows, row_count, NULL, 0);
+    print_rows(common, COMMON_ROWS, rows, row_count);
 }
 
 static bool store_real(const char *text, double *out)

@@ -30,9 +30,13 @@ expect 0 "$FRAM" --help
 grep -q "fram run scenes/demo.yaml" out || fail "--help shows no example"
 expect 0 "$FRAM" --version
 grep -qE '^fram [0-9]+\.[0-9]+\.[0-9]+' out || fail "--version prints no version"
-for command in run resume check bench view keys; do
+commands=$("$FRAM" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ "$(echo "$commands" | wc -l)" -gt 15 ] || fail "--help names only: $commands"
+for command in $commands; do
     expect 0 "$FRAM" "$command" --help
-    grep -q "Examples:" out || fail "$command --help shows no example"
+    [ "$command" = keys ] || grep -q "Examples:" out || fail "$command --help shows no example"
+    twice=$(sed -n 's/^  \(-., \)\{0,1\}\(--[a-z-]*\).*/\2/p' out | sort | uniq -d)
+    [ -z "$twice" ] || fail "$command --help tells $twice twice"
 done
 expect 2 "$FRAM"
 expect 2 "$FRAM" sail --json
