@@ -51,7 +51,8 @@ typedef struct extreme_sample {
     double location;                    /* threshold of peaks */
     double exposure;                    /* blocks in the duration; of peaks: the duration over the time of the sample */
     const weibull_jackknife *jackknife; /* of Weibull's law */
-    double survival;                    /* of Pareto's: the part of all values over the threshold; 0: not known */
+    const series_set *series;           /* that the values are of; NULL: the values are all there is */
+    double survival;                    /* the part of the series over the law's location; 0: not known */
 } extreme_sample;
 
 static double law_level(const extreme_law *law, const extreme_sample *s, double exponent)
@@ -91,9 +92,12 @@ static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_reque
 /* The end towards which the limit of the tail may lie is moved by what the fit leaves out. */
 static void add_penultimate(const extreme_sample *s, const extreme_law *law, double exponent, level_interval *i)
 {
-    if (s->kind != LAW_PARETO || !(s->survival > 0))
+    if (!(s->survival > 0))
         return;
-    double shift = penultimate_shift(law, s->survival, real_log(fmax(s->exposure * s->value.count / exponent, 1)));
+    /* The logarithm of how much rarer the level is than the location: of peaks that is every one's threshold, of
+       maxima the level that a block reaches once on the average. */
+    double times = s->kind == LAW_GEV ? s->exposure : s->exposure * s->value.count;
+    double shift = penultimate_shift(law, s->survival, real_log(fmax(times / exponent, 1)));
     i->low += fmin(shift, 0);
     i->high += fmax(shift, 0);
 }
@@ -162,8 +166,20 @@ double extreme_level_of_period(const extreme_result *r, double period)
     return extreme_law_level(&r->law, real_log(fmax(period * r->sample / r->time, 1)));
 }
 
+/* The part of all values over a level. */
+static double survival_of(const series_set *s, double level)
+{
+    int64_t over = 0, all = 0;
+    for (int32_t p = 0; p < s->count; p++) {
+        for (int32_t i = 0; i < s->parts[p].count; i++)
+            over += s->parts[p].value[i] > level;
+        all += s->parts[p].count;
+    }
+    return (double)over / (double)all;
+}
+
 /* Fit and levels of a sorted sample. */
-static fram_status answer_sample(context *ctx, const extreme_sample *s, const extreme_request *ask, extreme_result *out,
+static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_request *ask, extreme_result *out,
                                  fram_error *error)
 {
     out->sample = s->value.count;
@@ -174,6 +190,8 @@ static fram_status answer_sample(context *ctx, const extreme_sample *s, const ex
     bool peaks = s->kind == LAW_PARETO || s->kind == LAW_WEIBULL;
     if (peaks && !(s->exposure * s->value.count > 1 / real_exp(1)))
         return extremes_refuse(out, "fewer than one peak is expected in the duration: ask for a longer one");
+    if (s->series && (s->kind == LAW_PARETO || s->kind == LAW_GEV))
+        s->survival = survival_of(s->series, out->law.location);
     keep_points(s, ask, out);
     bool good = sample_levels(ctx, s, ask, out);
     if (s->kind == LAW_GUMBEL)
@@ -224,7 +242,7 @@ static int32_t steps_of(const series_work *w, double time)
 static fram_status answer_blocks(const series_work *w)
 {
     extreme_result *out = w->out;
-    extreme_sample s = {.kind = out->method == EXTREME_GEV ? LAW_GEV : LAW_GUMBEL};
+    extreme_sample s = {.kind = out->method == EXTREME_GEV ? LAW_GEV : LAW_GUMBEL, .series = w->s};
     double usual = fmax(w->time / BLOCKS, SCALES_OF_BLOCK * w->nature.time_scale);
     int32_t length = steps_of(w, w->ask->block > 0 ? w->ask->block : usual);
     out->block = length * w->s->step;
@@ -290,23 +308,12 @@ static bool choose_threshold(const series_work *w, extreme_sample *s, double *ou
     return true;
 }
 
-/* The part of all values over a level. */
-static double survival_of(const series_work *w, double level)
-{
-    int64_t over = 0;
-    for (int32_t p = 0; p < w->s->count; p++)
-        for (int32_t i = 0; i < w->s->parts[p].count; i++)
-            over += w->s->parts[p].value[i] > level;
-    return (double)over / (double)w->nature.values;
-}
-
 static fram_status answer_peaks(const series_work *w)
 {
-    extreme_sample s = {.kind = LAW_PARETO, .exposure = w->ask->duration / w->time};
+    extreme_sample s = {.kind = LAW_PARETO, .exposure = w->ask->duration / w->time, .series = w->s};
     double threshold = w->ask->threshold;
     bool good = !isnan(threshold) || choose_threshold(w, &s, &threshold);
     good = good && (!w->ask->stability || add_stability(w, threshold, &s)) && peaks_over(w, threshold, &s);
-    s.survival = survival_of(w, threshold);
     w->out->threshold = threshold;
     fram_status status = good ? answer_sample(w->ctx, &s, w->ask, w->out, w->error) : error_memory(w->error);
     array_free(w->ctx, &s.value);

@@ -112,8 +112,10 @@ double penultimate_shift(const extreme_law *law, double survival, double rare)
     double begin = -real_log(survival), shape = law->shape;
     if (!(survival > 0 && survival < 1 && begin > 0 && rare > 0))
         return 0;
-    /* shape(h) = power/h, h = -log survival, is that of the fit in the mean over the peaks, whose h is exponential. */
-    double power = shape * (begin + 1), end = begin + rare, exact;
+    /* shape(h) = power/h, h = -log survival, is that of the fit in the mean over the values: what their h has over that
+       of the location is exponential of peaks, and of maxima Gumbel's. */
+    double mean = law->kind == LAW_GEV ? EULER_GAMMA : 1;
+    double power = shape * (begin + mean), end = begin + rare, exact;
     if (fabs(power + 1) < 1e-9)
         exact = begin * real_log(end / begin);
     else

@@ -13,15 +13,13 @@ typedef struct answer_figure {
     run_figure figure;
     const char *name, *unit;
 } answer_figure;
-static const answer_figure rare[] = {{ROW_load_largest, "load_largest", "N"},
-                                     {ROW_offset_largest, "offset_largest", "m"},
-                                     {ROW_line_tension_largest, "line_tension_largest", "N"}};
+const run_figure study_rare[STUDY_RARE] = {ROW_load_largest, ROW_offset_largest, ROW_line_tension_largest};
 static const answer_figure moved[] = {{ROW_load_mean, "load_mean", "N"},
                                       {ROW_load_significant, "load_significant", "N"},
                                       {ROW_load_largest, "load_largest", "N"},
                                       {ROW_offset_largest, "offset_largest", "m"},
                                       {ROW_line_tension_largest, "line_tension_largest", "N"}};
-enum { RARE = sizeof rare / sizeof *rare, MOVED = sizeof moved / sizeof *moved };
+enum { MOVED = sizeof moved / sizeof *moved };
 
 static void add_number(const study_folder *f, text_buffer *b, double value)
 {
@@ -39,33 +37,68 @@ static void add_interval(const study_folder *f, text_buffer *b, const level_inte
 
 /* ---- extremes ---- */
 
-/* Values of a figure of the runs of each condition. */
-static fram_status collect(const study_folder *f, const condition_rows *conditions, run_figure figure,
-                           condition_maxima *out, fram_error *error)
+/* Values of a figure of the runs of a condition. */
+static fram_status collect_one(const study_folder *f, const condition_rows *conditions, int32_t condition,
+                               run_figure figure, double_array *out, fram_error *error)
 {
-    for (int32_t c = 0; c < f->s->conditions; c++) {
-        array_clear(&out[c].value);
-        for (int32_t i = 0; i < conditions[c].rows.count; i++) {
-            double x = conditions[c].rows.data[i].figure[figure];
-            if (isfinite(x) && !array_push(f->ctx, &out[c].value, x))
-                return error_memory(error);
-        }
+    array_clear(out);
+    for (int32_t i = 0; i < conditions[condition].rows.count; i++) {
+        double x = conditions[condition].rows.data[i].figure[figure];
+        if (isfinite(x) && !array_push(f->ctx, out, x))
+            return error_memory(error);
     }
     return FRAM_OK;
 }
 
-/* How long the runs of each condition are after their transient. */
-static fram_status find_blocks(const study_folder *f, condition_maxima *out, fram_error *error)
+static fram_status collect(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                           condition_maxima *out, fram_error *error)
 {
-    for (int32_t c = 0; c < f->s->conditions; c++) {
+    fram_status status = FRAM_OK;
+    for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++)
+        status = collect_one(f, conditions, c, figure, &out[c].value, error);
+    return status;
+}
+
+fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
+{
+    double *block = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *block);
+    fram_status status = block ? FRAM_OK : error_memory(error);
+    for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++) {
         scenario one = {0};
-        fram_status status = study_scenario(f->ctx, f->s, c, f->s->seeds.first, &one, error);
+        status = study_scenario(f->ctx, f->s, c, f->s->seeds.first, &one, error);
         if (status != FRAM_OK)
-            return status;
-        out[c].block = fmax(one.run.duration - one.run.transient, one.run.time_step);
+            break;
+        block[c] = fmax(one.run.duration - one.run.transient, one.run.time_step);
         scenario_free(f->ctx, &one);
     }
-    return FRAM_OK;
+    *out = block;
+    return status;
+}
+
+static fram_status ask_extreme(const study_folder *f, const double_array *of, double block, extreme_result *out,
+                               fram_error *error)
+{
+    const study_extremes *x = &f->s->extremes;
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = x->duration;
+    ask.confidence = x->confidence;
+    ask.levels = x->levels;
+    memcpy(ask.probability, x->level, sizeof x->level);
+    return extremes_of_maxima(f->ctx, of->data, of->count, block, x->gev ? EXTREME_GEV : EXTREME_GUMBEL, &ask, out,
+                              error);
+}
+
+fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
+                          double block, extreme_result *out, fram_error *error)
+{
+    double_array value = {0};
+    *out = (extreme_result){.answered = false};
+    fram_status status = collect_one(f, conditions, condition, figure, &value, error);
+    if (status == FRAM_OK && value.count > 0)
+        status = ask_extreme(f, &value, block, out, error);
+    array_free(f->ctx, &value);
+    return status;
 }
 
 static bool any_values(const study_folder *f, const condition_maxima *of)
@@ -87,25 +120,17 @@ static void extremes_heads(const study_folder *f, text_buffer *b)
     text_add(f->ctx, b, ",note\n");
 }
 
-static fram_status add_extremes(const study_folder *f, const answer_figure *figure, const condition_maxima *of,
-                                text_buffer *b, fram_error *error)
+static fram_status add_extremes(const study_folder *f, run_figure figure, const condition_maxima *of, text_buffer *b,
+                                fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
-    extreme_request ask;
-    extreme_request_default(&ask);
-    ask.duration = x->duration;
-    ask.confidence = x->confidence;
-    ask.levels = x->levels;
-    memcpy(ask.probability, x->level, sizeof x->level);
-    extreme_method method = x->gev ? EXTREME_GEV : EXTREME_GUMBEL;
     for (int32_t c = 0; c < f->s->conditions; c++) {
         extreme_result r;
-        fram_status status =
-            extremes_of_maxima(f->ctx, of[c].value.data, of[c].value.count, of[c].block, method, &ask, &r, error);
+        fram_status status = ask_extreme(f, &of[c].value, of[c].block, &r, error);
         if (status != FRAM_OK)
             return status;
-        text_format(f->ctx, b, "%d,%s,%s,%s,%d", (int)c + 1, figure->name, figure->unit, extreme_method_name(method),
-                    (int)of[c].value.count);
+        text_format(f->ctx, b, "%d,%s,%s,%s,%d", (int)c + 1, run_figure_name(figure), run_figure_unit(figure),
+                    extreme_method_name(r.method), (int)of[c].value.count);
         add_number(f, b, of[c].block);
         add_number(f, b, x->duration);
         add_interval(f, b, &r.most_probable);
@@ -116,20 +141,26 @@ static fram_status add_extremes(const study_folder *f, const answer_figure *figu
     return FRAM_OK;
 }
 
-static fram_status add_annual(const study_folder *f, const answer_figure *figure, const condition_maxima *of,
-                              text_buffer *b, fram_error *error)
+static fram_status add_annual(const study_folder *f, run_figure figure, const condition_maxima *of, text_buffer *b,
+                              fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
     level_interval level[STUDY_LEVELS_MOST];
-    int32_t missing = -1;
-    fram_status status = annual_levels(f->ctx, x, of, f->s->conditions, level, &missing, error);
+    annual_lack lack[STUDY_LEVELS_MOST];
+    fram_status status = annual_levels(f->ctx, x, of, f->s->conditions, level, lack, error);
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
-        text_format(f->ctx, b, "%s,%s,%s", figure->name, figure->unit, x->gev ? "gev" : "gumbel");
+        text_format(f->ctx, b, "%s,%s,%s", run_figure_name(figure), run_figure_unit(figure), x->gev ? "gev" : "gumbel");
         add_number(f, b, x->annual[i]);
         add_interval(f, b, &level[i]);
-        if (missing >= 0)
+        if (lack[i].condition >= 0 && lack[i].runs > 0)
+            text_format(
+                f->ctx, b,
+                ",\"No answer: the data do not carry this level by gev: it is so rare that %d runs of condition "
+                "%d, which has %d, would tell the shape of its tail; more seeds, or gumbel.\"\n",
+                (int)lack[i].runs, (int)lack[i].condition + 1, (int)lack[i].there);
+        else if (lack[i].condition >= 0)
             text_format(f->ctx, b, ",\"No answer: condition %d occurs and has no fit: more seeds.\"\n",
-                        (int)missing + 1);
+                        (int)lack[i].condition + 1);
         else
             text_add(f->ctx, b, ",\n");
     }
@@ -140,16 +171,20 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
 {
     text_buffer table = {0}, year = {0};
     condition_maxima *of = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *of);
-    fram_status status = of ? find_blocks(f, of, error) : error_memory(error);
+    double *block = NULL;
+    fram_status status = of ? study_blocks(f, &block, error) : error_memory(error);
+    for (int32_t c = 0; status == FRAM_OK && c < f->s->conditions; c++)
+        of[c].block = block[c];
+    memory_free(f->ctx, block);
     extremes_heads(f, &table);
     text_add(f->ctx, &year, "figure,unit,method,annual_probability,level,low,high,note\n");
-    for (int i = 0; i < RARE && status == FRAM_OK; i++) {
-        status = collect(f, conditions, rare[i].figure, of, error);
+    for (int i = 0; i < STUDY_RARE && status == FRAM_OK; i++) {
+        status = collect(f, conditions, study_rare[i], of, error);
         if (status != FRAM_OK || !any_values(f, of))
             continue;
-        status = add_extremes(f, &rare[i], of, &table, error);
+        status = add_extremes(f, study_rare[i], of, &table, error);
         if (status == FRAM_OK)
-            status = add_annual(f, &rare[i], of, &year, error);
+            status = add_annual(f, study_rare[i], of, &year, error);
     }
     if (status == FRAM_OK)
         status = study_table_write(f, "extremes.csv", &table, error);

@@ -3,12 +3,22 @@
 #ifndef STUDY_STUDY_ANSWERS_H
 #define STUDY_STUDY_ANSWERS_H
 
+#include "study/extremes.h"
 #include "study/study_folder.h"
 
 /* study.nc, NetCDF-4 with the dimensions condition and seed; nothing in a build without NetCDF. */
 fram_status study_netcdf_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* study.html, the page of the study. */
 fram_status study_page_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+
+/* What the largest values of the runs of conditions say of rare loads. */
+enum { STUDY_RARE = 3 };
+extern const run_figure study_rare[STUDY_RARE]; /* figures that have extremes */
+/* How long the runs of each condition are after their transient [s], to be freed with memory_free. */
+fram_status study_blocks(const study_folder *f, double **out, fram_error *error);
+/* Of one condition; `block` from there.  No values at all: not answered, and the note is "". */
+fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
+                          double block, extreme_result *out, fram_error *error);
 
 /* The other tables, as far as the study asks for them. */
 fram_status study_answers_write(const study_folder *f, const condition_rows *conditions, fram_error *error);

@@ -1,15 +1,17 @@
 #include "study/study_extremes.h"
 
+#include "base/near.h"
 #include "base/random.h"
 #include "base/transcendental.h"
 #include "study/pivot.h"
+#include "study/special.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Stream of random numbers of this file: draws of runs. */
-enum { STREAM_RUNS = 921, ANNUAL_REPLICATES = 999 };
+enum { STREAM_RUNS = 921, STREAM_SAMPLES = 922, ANNUAL_REPLICATES = 999 };
 #define HOUR 3600.0
 #define HOURS_OF_YEAR 8784.0
 
@@ -151,6 +153,7 @@ typedef struct year_source {
     const double *value;
     int32_t count;
     bool occurs;
+    extreme_law law;
     gumbel_pivot pivot;
 } year_source;
 
@@ -158,9 +161,11 @@ typedef struct year_work {
     context *ctx;
     const study_extremes *ask;
     int32_t conditions;
+    int32_t occur; /* conditions that do */
     year_part *part;
     year_source *source;
     double_array drawn, level[STUDY_LEVELS_MOST]; /* level: of all replicates */
+    double_array student[STUDY_LEVELS_MOST];      /* of replicates from the fits: error over deviation */
 } year_work;
 
 /* The fits.  The first condition that occurs and has none, or -1. */
@@ -182,6 +187,8 @@ static int32_t fit_year(year_work *w, const condition_maxima *of)
         else if (!extreme_law_fit(w->ask->gev ? LAW_GEV : LAW_GUMBEL, FIT_LIKELIHOOD, s->value, n, 0, &w->part[c].law))
             return c;
         s->occurs = w->part[c].blocks > 0;
+        w->occur += s->occurs;
+        s->law = w->part[c].law;
         if (s->occurs && !w->ask->gev)
             gumbel_pivot_make(s->value, n, &w->part[c].law, &s->pivot);
     }
@@ -220,43 +227,152 @@ static fram_status replicate_year(year_work *w, int32_t replicate, const double 
     return FRAM_OK;
 }
 
-static fram_status answer_year(year_work *w, const condition_maxima *of, level_interval *out, int32_t *missing)
+/* Deviation of the level x of a year that the samples of all conditions give it: that of each one's own level at x, of
+   Gumbel's law (the inverse of its information, Johnson, Kotz and Balakrishnan 1995, 22.9), by its part in how the rate
+   falls there. */
+static double deviation_at(const year_work *w, double x)
 {
-    double exponent[STUDY_LEVELS_MOST] = {0};
-    fram_status status = FRAM_OK;
-    *missing = fit_year(w, of);
-    if (*missing >= 0)
-        return FRAM_OK;
-    for (int i = 0; i < w->ask->annuals; i++) {
-        exponent[i] = -real_log(1 - w->ask->annual[i]);
-        out[i].level = solve_year(w->part, w->conditions, exponent[i]);
+    double variance = 0, fall = 0;
+    for (int32_t c = 0; c < w->conditions; c++) {
+        if (!w->source[c].occurs)
+            continue;
+        const extreme_law *law = &w->part[c].law;
+        double y = (x - law->location) / law->scale;
+        double part = w->part[c].blocks * extreme_law_exponent(law, x) / law->scale, g = 1 - EULER_GAMMA + y;
+        variance += part * part * law->scale * law->scale * (1 + 6 / (PI * PI) * g * g) / w->source[c].count;
+        fall += part;
     }
+    return sqrt(variance) / fall;
+}
+
+/* Error over deviation of the level of one replicate, whose samples are of the fitted laws. */
+static fram_status replicate_student(year_work *w, int32_t replicate, const double *exponent, const level_interval *of)
+{
+    for (int32_t c = 0; c < w->conditions; c++) {
+        const year_source *s = &w->source[c];
+        if (!s->occurs)
+            continue;
+        random_stream random = random_begin((uint64_t)c, STREAM_SAMPLES, (uint32_t)replicate);
+        if (!array_resize(w->ctx, &w->drawn, s->count))
+            return FRAM_ERROR_MEMORY;
+        for (int32_t i = 0; i < s->count; i++)
+            w->drawn.data[i] = s->law.location - s->law.scale * near_log(-near_log(1 - random_unit(&random)));
+        values_sort(&w->drawn);
+        if (!extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, w->drawn.data, s->count, 0, &w->part[c].law))
+            return FRAM_OK;
+    }
+    for (int i = 0; i < w->ask->annuals; i++) {
+        double x = solve_year(w->part, w->conditions, exponent[i]);
+        if (!array_push(w->ctx, &w->student[i], (x - of[i].level) / deviation_at(w, x)))
+            return FRAM_ERROR_MEMORY;
+    }
+    return FRAM_OK;
+}
+
+/* By gev the shape alone, whose deviation is sqrt(0.4767/n) near 0 (Prescott and Walden 1980), moves a level y scales
+   of logarithm beyond the location by y^2/2 times that.  Two such deviations must not be more than the way from the
+   location to the level: n from 0.4767 y^2 on.  Judged by the question and the number of runs alone: of samples that
+   have too few, those with a narrow interval are the ones whose fitted tail ends too early. */
+#define SHAPE_VARIANCE 0.4767
+
+static annual_lack lack_of_shape(const year_work *w, double exponent)
+{
+    annual_lack out = {.condition = -1};
+    for (int32_t c = 0; c < w->conditions; c++) {
+        if (!w->source[c].occurs || !w->ask->gev)
+            continue;
+        double y = real_log(fmax(w->part[c].blocks / exponent, 1)), runs = ceil(SHAPE_VARIANCE * y * y);
+        if (w->source[c].count < runs && runs > out.runs)
+            out = (annual_lack){c, (int32_t)runs, w->source[c].count};
+    }
+    return out;
+}
+
+static void take_quantiles(const year_work *w, double_array *value, double *low, double *high)
+{
+    *low = *high = (double)NAN;
+    if (value->count <= ANNUAL_REPLICATES / 2)
+        return;
+    values_sort(value);
+    *low = sorted_quantile(value->data, value->count, 0.5 - 0.5 * w->ask->confidence);
+    *high = sorted_quantile(value->data, value->count, 0.5 + 0.5 * w->ask->confidence);
+}
+
+/* What both ways of asking the samples allow (docs/decisions/0411-levels-of-a-year.md).  part: the fits. */
+static void widen_by_student(year_work *w, int level, level_interval *out)
+{
+    double low, high;
+    take_quantiles(w, &w->student[level], &low, &high);
+    double deviation = deviation_at(w, out->level);
+    out->low = fmin(out->low, out->level - high * deviation);
+    out->high = fmax(out->high, out->level - low * deviation);
+}
+
+static fram_status answer_many(year_work *w, const double *exponent, level_interval *out)
+{
+    fram_status status = FRAM_OK;
     for (int32_t i = 0; status == FRAM_OK && i < ANNUAL_REPLICATES; i++)
         status = replicate_year(w, i, exponent);
+    for (int32_t i = 0; status == FRAM_OK && !w->ask->gev && i < ANNUAL_REPLICATES; i++)
+        status = replicate_student(w, i, exponent, out);
+    for (int32_t c = 0; c < w->conditions; c++)
+        w->part[c].law = w->source[c].law;
     for (int i = 0; i < w->ask->annuals && status == FRAM_OK; i++) {
-        if (w->level[i].count <= ANNUAL_REPLICATES / 2)
-            continue;
-        values_sort(&w->level[i]);
-        out[i].low = sorted_quantile(w->level[i].data, w->level[i].count, 0.5 - 0.5 * w->ask->confidence);
-        out[i].high = sorted_quantile(w->level[i].data, w->level[i].count, 0.5 + 0.5 * w->ask->confidence);
+        take_quantiles(w, &w->level[i], &out[i].low, &out[i].high);
+        if (!w->ask->gev)
+            widen_by_student(w, i, &out[i]);
     }
     return status;
 }
 
+static fram_status answer_year(year_work *w, const condition_maxima *of, level_interval *out, annual_lack *lack)
+{
+    const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
+    double exponent[STUDY_LEVELS_MOST] = {0};
+    int32_t missing = fit_year(w, of), only = 0;
+    for (int i = 0; i < w->ask->annuals; i++) {
+        exponent[i] = -real_log(1 - w->ask->annual[i]);
+        lack[i] = missing >= 0 ? (annual_lack){.condition = missing} : lack_of_shape(w, exponent[i]);
+        if (missing < 0)
+            out[i].level = solve_year(w->part, w->conditions, exponent[i]);
+    }
+    if (missing >= 0)
+        return FRAM_OK;
+    for (int i = 0; i < w->ask->annuals && w->occur == 0; i++)
+        out[i].low = out[i].high = out[i].level;
+    while (only < w->conditions && !w->source[only].occurs)
+        only++;
+    /* Of one condition the interval is exact. */
+    for (int i = 0; i < w->ask->annuals && w->occur == 1 && !w->ask->gev; i++)
+        out[i] = gumbel_pivot_interval(&w->source[only].pivot, exponent[i] / w->part[only].blocks, w->ask->confidence);
+    bool any = false;
+    for (int i = 0; i < w->ask->annuals; i++)
+        any = any || lack[i].condition < 0;
+    bool many = w->occur > 1 || (w->occur == 1 && w->ask->gev);
+    fram_status status = any && many ? answer_many(w, exponent, out) : FRAM_OK;
+    for (int i = 0; i < w->ask->annuals; i++)
+        if (lack[i].condition >= 0)
+            out[i] = none;
+    return status;
+}
+
 fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
-                          level_interval *out, int32_t *missing, fram_error *error)
+                          level_interval *out, annual_lack *lack, fram_error *error)
 {
     year_work w = {.ctx = ctx, .ask = ask, .conditions = conditions};
-    for (int i = 0; i < ask->annuals; i++)
+    for (int i = 0; i < ask->annuals; i++) {
         out[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
-    *missing = -1;
+        lack[i] = (annual_lack){.condition = -1};
+    }
     if (ask->annuals == 0)
         return FRAM_OK;
     w.part = memory_array(ctx, (size_t)conditions, sizeof *w.part);
     w.source = memory_array(ctx, (size_t)conditions, sizeof *w.source);
-    fram_status status = w.part && w.source ? answer_year(&w, of, out, missing) : FRAM_ERROR_MEMORY;
-    for (int i = 0; i < STUDY_LEVELS_MOST; i++)
+    fram_status status = w.part && w.source ? answer_year(&w, of, out, lack) : FRAM_ERROR_MEMORY;
+    for (int i = 0; i < STUDY_LEVELS_MOST; i++) {
         array_free(ctx, &w.level[i]);
+        array_free(ctx, &w.student[i]);
+    }
     array_free(ctx, &w.drawn);
     memory_free(ctx, w.part);
     memory_free(ctx, w.source);

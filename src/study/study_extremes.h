@@ -19,13 +19,19 @@ typedef struct condition_maxima {
     double block;
 } condition_maxima;
 
+/* Why there is no level: a condition has no fit, or by gev fewer runs than the level takes. */
+typedef struct annual_lack {
+    int32_t condition;   /* from 0; -1: the level is there */
+    int32_t runs, there; /* that it takes and has; 0: no fit at all */
+} annual_lack;
+
 /* Levels that are exceeded with the probabilities ask->annual in a year, where conditions last their hours in it: the
    rates of exceedance add up (Naess 1984).  Intervals by Gumbel's law are generalized confidence intervals (Weerahandi
-   1993, J. Am. Stat. Assoc. 88, 899) from the exact joint law of location and scale of each condition, and so the exact
-   ones where one condition alone occurs; by the generalized law they are a bootstrap over the runs.  out: ask->annuals,
-   NaN when a condition that occurs has no fit: *missing is the first of them, else -1.  The values of `of` are left in
-   ascending order. */
+   1993, J. Am. Stat. Assoc. 88, 899) from the exact joint law of location and scale of each condition, widened to what
+   a studentized bootstrap from the fits allows (Davison and Hinkley 1997, 5.2.1), and the exact ones where one
+   condition alone occurs; by the generalized law they are a bootstrap over the runs, of those levels that enough runs
+   carry.  out and lack: ask->annuals each; NaN where lack says why.  The values of `of` are left in ascending order. */
 fram_status annual_levels(context *ctx, const study_extremes *ask, const condition_maxima *of, int32_t conditions,
-                          level_interval *out, int32_t *missing, fram_error *error);
+                          level_interval *out, annual_lack *lack, fram_error *error);
 
 #endif

@@ -1,45 +1,29 @@
 /* study.html: what a study says, for people: conditions with intervals, charts, seeds, the worst runs. */
 #include "io/atomic_file.h"
-#include "io/csv_read.h"
-#include "io/html_page.h"
 #include "model/mechanism.h"
-#include "study/seeds.h"
-#include "study/study_answers.h"
+#include "study/study_page_parts.h"
+#include "study/study_series.h"
 #include "study/study_worst.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Figures of the page, in its units. */
-typedef struct page_figure {
-    run_figure figure;
-    const char *name, *unit;
-    double factor;
-} page_figure;
-static const page_figure shown[] = {{ROW_load_mean, "Mean load", "kN", 1e-3},
-                                    {ROW_load_significant, "Significant load", "kN", 1e-3},
-                                    {ROW_load_largest, "Largest load", "kN", 1e-3},
-                                    {ROW_offset_largest, "Largest offset", "m", 1},
-                                    {ROW_line_tension_largest, "Largest line tension", "kN", 1e-3},
-                                    {ROW_line_tension_range_equivalent, "Equivalent tension range", "kN", 1e-3},
-                                    {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
-enum { SHOWN = sizeof shown / sizeof *shown, WORST = 10, CONDITIONS_OF_TABLE = 500 };
-/* More dots than that nobody tells apart, and the page grows by hundreds of bytes with each. */
-enum { DOTS_MOST = 2000 };
+const page_figure page_figures[PAGE_FIGURES] = {
+    {ROW_load_mean, "Mean load", "kN", 1e-3},
+    {ROW_load_significant, "Significant load", "kN", 1e-3},
+    {ROW_load_largest, "Largest load", "kN", 1e-3},
+    {ROW_offset_largest, "Largest offset", "m", 1},
+    {ROW_line_tension_largest, "Largest line tension", "kN", 1e-3},
+    {ROW_line_tension_range_equivalent, "Equivalent tension range", "kN", 1e-3},
+    {ROW_thruster_power_mean, "Mean thruster power", "kW", 1e-3}};
+enum { WORST = 10 };
 /* An interval wider than this part of the mean calls for more seeds. */
 #define WIDE 0.1
 
-typedef struct study_page {
-    const study_folder *f;
-    const condition_rows *conditions;
-    html_page page;
-    double_array x, mean, low, high, seed_x, seed_y; /* of the chart in hand */
-} study_page;
-
 /* ---- numbers ---- */
 
-static seed_interval interval_of(const study_page *p, int32_t condition, const page_figure *figure)
+seed_interval page_interval(const study_page *p, int32_t condition, const page_figure *figure)
 {
     const condition_rows *of = &p->conditions[condition];
     seed_interval out = {(double)NAN, (double)NAN};
@@ -52,10 +36,67 @@ static seed_interval interval_of(const study_page *p, int32_t condition, const p
     return out;
 }
 
+page_figure page_figure_of(run_figure figure)
+{
+    for (int i = 0; i < PAGE_FIGURES; i++)
+        if (page_figures[i].figure == figure)
+            return page_figures[i];
+    return (page_figure){figure, run_figure_name(figure), run_figure_unit(figure), 1};
+}
+
+/* Decimals that leave so many significant digits, at most six; negative: of a number that is larger. */
+static int decimals_of(double value, int digits)
+{
+    double size = fabs(value);
+    int before = 0;
+    if (!(size > 0) || !isfinite(size))
+        return 0;
+    while (size >= 10) {
+        size /= 10;
+        before++;
+    }
+    while (size < 1 && before > -6) {
+        size *= 10;
+        before--;
+    }
+    return digits - 1 - before;
+}
+
+static double power_of_ten(int n)
+{
+    double out = 1;
+    for (; n > 0; n--)
+        out *= 10;
+    return out;
+}
+
+static double rounded_at(double value, int decimals)
+{
+    double unit = power_of_ten(decimals < 0 ? -decimals : decimals);
+    return decimals < 0 ? floor(value / unit + 0.5) * unit : floor(value * unit + 0.5) / unit;
+}
+
+double page_three_digits(double value) { return isfinite(value) ? rounded_at(value, decimals_of(value, 3)) : value; }
+
+/* To `decimals`, which may be negative. */
+static void number_at(double value, int decimals, char out[HTML_NUMBER_SIZE])
+{
+    snprintf(out, HTML_NUMBER_SIZE, "%.*f", decimals > 0 ? decimals : 0, rounded_at(value, decimals));
+}
+
+void page_key_text(const char *value, char out[PAGE_KEY_SIZE])
+{
+    double number;
+    if (study_series_number(value, &number) && strlen(value) > 6)
+        snprintf(out, PAGE_KEY_SIZE, "%.4g", number);
+    else
+        snprintf(out, PAGE_KEY_SIZE, "%s", value);
+}
+
 static bool has_figure(const study_page *p, const page_figure *figure)
 {
     for (int32_t c = 0; c < p->f->s->conditions; c++) {
-        double mean = interval_of(p, c, figure).mean;
+        double mean = page_interval(p, c, figure).mean;
         /* Vessels without thrusters have no power. */
         if (isfinite(mean) && (figure->figure != ROW_thruster_power_mean || mean > 0))
             return true;
@@ -63,13 +104,64 @@ static bool has_figure(const study_page *p, const page_figure *figure)
     return false;
 }
 
-/* Tables of many columns keep numbers in one piece, and are moved sideways where the window is narrow. */
+/* ---- tables ---- */
+
+enum { HEADS_MOST = 128, HEAD_ROOM = 128 };
+
+/* A head may be broken behind a dot or a low line: a space of no width stands there. */
+static void breakable(const char *head, char out[HEAD_ROOM])
+{
+    size_t n = 0;
+    for (const char *c = head; *c && n + 5 < HEAD_ROOM; c++) {
+        out[n++] = *c;
+        if (*c == '.' || *c == '_') {
+            memcpy(out + n, "\xe2\x80\x8b", 3);
+            n += 3;
+        }
+    }
+    out[n] = '\0';
+}
+
 static void wide_begin(study_page *p) { text_add(p->f->ctx, &p->page.text, "<div class=\"wide\">"); }
-static void wide_end(study_page *p) { text_add(p->f->ctx, &p->page.text, "</div>\n"); }
+
+void page_table_begin(study_page *p, const char *const *heads, int32_t count)
+{
+    const char *all[HEADS_MOST] = {"no."};
+    char key[HEADS_MOST / 2][HEAD_ROOM];
+    int32_t n = 1;
+    wide_begin(p);
+    for (int32_t k = 0; k < p->f->s->keys.count && k < HEADS_MOST / 2; k++) {
+        breakable(p->f->s->keys.data[k], key[k]);
+        all[n++] = key[k];
+    }
+    for (int32_t i = 0; i < count && n < HEADS_MOST; i++)
+        all[n++] = heads[i];
+    html_table_begin(&p->page, all, n);
+}
+
+void page_row_begin(study_page *p, int32_t condition)
+{
+    char text[PAGE_KEY_SIZE];
+    html_row_begin(&p->page);
+    snprintf(text, sizeof text, "%d", (int)condition + 1);
+    html_cell(&p->page, text);
+    for (int32_t k = 0; k < p->f->s->keys.count && k < HEADS_MOST / 2; k++) {
+        page_key_text(study_value(p->f->s, condition, k), text);
+        html_cell(&p->page, text);
+    }
+}
+
+static void wide_end(study_page *p)
+{
+    html_table_end(&p->page);
+    text_add(p->f->ctx, &p->page.text, "</div>\n");
+}
+
+void page_table_end(study_page *p) { wide_end(p); }
 
 /* ---- head and table ---- */
 
-static void count_runs(const study_page *p, int64_t *runs, int64_t *failed)
+void page_count_runs(const study_page *p, int64_t *runs, int64_t *failed)
 {
     *runs = *failed = 0;
     for (int32_t c = 0; c < p->f->s->conditions; c++) {
@@ -83,7 +175,7 @@ static void add_head(study_page *p)
 {
     char text[64];
     int64_t runs, failed;
-    count_runs(p, &runs, &failed);
+    page_count_runs(p, &runs, &failed);
     const char *slash = strrchr(p->f->s->scenario, '/');
     html_begin(&p->page, "Study", slash ? slash + 1 : p->f->s->scenario);
     html_figures_begin(&p->page);
@@ -103,9 +195,12 @@ static void add_head(study_page *p)
 
 static void add_interval(study_page *p, seed_interval i)
 {
-    char mean[HTML_NUMBER_SIZE], half[HTML_NUMBER_SIZE], text[80];
-    html_number_text(i.mean, mean);
-    html_number_text(i.half, half);
+    char mean[HTML_NUMBER_SIZE] = "–", half[HTML_NUMBER_SIZE], text[80];
+    /* The uncertainty, to two digits, decides how many the mean has; alone it has three. */
+    bool known = isfinite(i.half) && i.half > 0;
+    int decimals = known ? decimals_of(i.half, 2) : decimals_of(i.mean, 3);
+    number_at(i.mean, decimals, mean);
+    number_at(i.half, decimals, half);
     snprintf(text, sizeof text, "%s ± %s", mean, half);
     html_cell(&p->page, isfinite(i.half) ? text : isfinite(i.mean) ? mean : "–");
 }
@@ -113,49 +208,40 @@ static void add_interval(study_page *p, seed_interval i)
 /* Half the interval of the mean load is a large part of it. */
 static bool wants_seeds(const study_page *p, int32_t condition)
 {
-    seed_interval of = interval_of(p, condition, &shown[0]);
+    seed_interval of = page_interval(p, condition, &page_figures[0]);
     return isfinite(of.mean) && of.mean != 0 && !(of.half <= WIDE * fabs(of.mean));
 }
 
 static void add_row(study_page *p, int32_t condition, const bool *has)
 {
     char text[48];
-    html_row_begin(&p->page);
-    snprintf(text, sizeof text, "%d", (int)condition + 1);
-    html_cell(&p->page, text);
-    for (int32_t k = 0; k < p->f->s->keys.count; k++)
-        html_cell(&p->page, study_value(p->f->s, condition, k));
+    page_row_begin(p, condition);
     snprintf(text, sizeof text, "%d%s", (int)p->conditions[condition].rows.count,
              wants_seeds(p, condition) ? ", more" : "");
     html_cell(&p->page, text);
-    for (int i = 0; i < SHOWN; i++)
+    for (int i = 0; i < PAGE_FIGURES; i++)
         if (has[i])
-            add_interval(p, interval_of(p, condition, &shown[i]));
+            add_interval(p, page_interval(p, condition, &page_figures[i]));
     html_row_end(&p->page);
 }
 
 static void add_table(study_page *p, const bool *has)
 {
-    const char *heads[128] = {"no."};
-    char names[SHOWN][64];
+    const char *heads[PAGE_FIGURES + 1] = {"seeds"};
+    char names[PAGE_FIGURES][64];
     int32_t count = 1;
     html_section(&p->page, "Conditions");
     text_add(p->f->ctx, &p->page.text,
              "<style>.wide{overflow-x:auto}.wide td,.wide code{overflow-wrap:normal;white-space:nowrap}</style>\n");
-    wide_begin(p);
-    for (int32_t k = 0; k < p->f->s->keys.count && count < 100; k++)
-        heads[count++] = p->f->s->keys.data[k];
-    heads[count++] = "seeds";
-    for (int i = 0; i < SHOWN; i++) {
-        snprintf(names[i], sizeof names[i], "%s [%s]", shown[i].name, shown[i].unit);
+    for (int i = 0; i < PAGE_FIGURES; i++) {
+        snprintf(names[i], sizeof names[i], "%s [%s]", page_figures[i].name, page_figures[i].unit);
         if (has[i])
             heads[count++] = names[i];
     }
-    html_table_begin(&p->page, heads, count);
+    page_table_begin(p, heads, count);
     for (int32_t c = 0; c < p->f->s->conditions && c < CONDITIONS_OF_TABLE; c++)
         add_row(p, c, has);
-    html_table_end(&p->page);
-    wide_end(p);
+    page_table_end(p);
     html_paragraph(&p->page, "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean.",
                    100 * WIDE);
     if (p->f->s->conditions > CONDITIONS_OF_TABLE)
@@ -171,13 +257,9 @@ static const page_figure shares[MECHANISM_COUNT] = {ICE_MECHANISMS(SHARE_FIGURE)
 static void add_share_row(study_page *p, int32_t condition)
 {
     char text[32];
-    html_row_begin(&p->page);
-    snprintf(text, sizeof text, "%d", (int)condition + 1);
-    html_cell(&p->page, text);
-    for (int32_t k = 0; k < p->f->s->keys.count; k++)
-        html_cell(&p->page, study_value(p->f->s, condition, k));
+    page_row_begin(p, condition);
     for (int m = 0; m < (int)MECHANISM_COUNT; m++) {
-        seed_interval of = interval_of(p, condition, &shares[m]);
+        seed_interval of = page_interval(p, condition, &shares[m]);
         if (isfinite(of.half))
             snprintf(text, sizeof text, "%.1f ± %.1f", of.mean, of.half);
         else
@@ -190,79 +272,20 @@ static void add_share_row(study_page *p, int32_t condition)
 /* Which mechanism makes how much of the load, of studies whose runs met ice. */
 static void add_shares(study_page *p)
 {
-    const char *heads[128] = {"no."};
-    int32_t count = 1, rows = p->f->s->conditions < CONDITIONS_OF_TABLE ? p->f->s->conditions : CONDITIONS_OF_TABLE;
+    const char *heads[MECHANISM_COUNT];
+    int32_t rows = p->f->s->conditions < CONDITIONS_OF_TABLE ? p->f->s->conditions : CONDITIONS_OF_TABLE;
     if (!has_figure(p, &shares[0]))
         return;
     html_section(&p->page, "Mechanisms of the load");
-    for (int32_t k = 0; k < p->f->s->keys.count && count < 100; k++)
-        heads[count++] = p->f->s->keys.data[k];
     for (int m = 0; m < (int)MECHANISM_COUNT; m++)
-        heads[count++] = shares[m].name;
-    wide_begin(p);
-    html_table_begin(&p->page, heads, count);
+        heads[m] = shares[m].name;
+    page_table_begin(p, heads, MECHANISM_COUNT);
     for (int32_t c = 0; c < rows; c++)
         add_share_row(p, c);
-    html_table_end(&p->page);
-    wide_end(p);
+    page_table_end(p);
     html_paragraph(&p->page,
                    "Parts of the mean load vector along it [%%], mean over the seeds: those of a condition add "
                    "up to 100. A part may be negative, and says nothing where loads from all sides cancel.");
-}
-
-/* ---- charts: seeds as points, means with their bands ---- */
-
-static bool collect(study_page *p, const page_figure *figure)
-{
-    int64_t runs, failed;
-    count_runs(p, &runs, &failed);
-    context *ctx = p->f->ctx;
-    double_array *all[] = {&p->x, &p->mean, &p->low, &p->high, &p->seed_x, &p->seed_y};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        array_clear(all[i]);
-    for (int32_t c = 0; c < p->f->s->conditions; c++) {
-        seed_interval of = interval_of(p, c, figure);
-        double half = isfinite(of.half) ? of.half : 0;
-        if (!array_push(ctx, &p->x, c + 1.0) || !array_push(ctx, &p->mean, of.mean) ||
-            !array_push(ctx, &p->low, of.mean - half) || !array_push(ctx, &p->high, of.mean + half))
-            return false;
-        for (int32_t i = 0; i < p->conditions[c].rows.count; i++) {
-            double y = p->conditions[c].rows.data[i].figure[figure->figure] * figure->factor;
-            if (runs <= DOTS_MOST && isfinite(y) &&
-                (!array_push(ctx, &p->seed_x, c + 1.0) || !array_push(ctx, &p->seed_y, y)))
-                return false;
-        }
-    }
-    return true;
-}
-
-static fram_status add_chart(study_page *p, const page_figure *figure, fram_error *error)
-{
-    char label[64];
-    if (!collect(p, figure))
-        return error_memory(error);
-    chart_line lines[3] = {chart_line_make("interval", p->x.data, p->low.data, p->x.count, false),
-                           chart_line_make("seeds", p->seed_x.data, p->seed_y.data, p->seed_x.count, false),
-                           chart_line_make("mean over seeds", p->x.data, p->mean.data, p->x.count, true)};
-    lines[0].style = CHART_BAND;
-    lines[0].y2 = p->high.data;
-    lines[1].style = CHART_POINTS;
-    snprintf(label, sizeof label, "%s [%s]", figure->name, figure->unit);
-    chart c = chart_make(figure->name, p->seed_x.count > 0 ? "a dot is a run" : "too many runs for dots", "condition",
-                         label, lines, 3);
-    return html_chart(&p->page, &c, false, error);
-}
-
-static fram_status add_charts(study_page *p, const bool *has, fram_error *error)
-{
-    fram_status status = FRAM_OK;
-    html_section(&p->page, "Seeds and means");
-    html_grid_begin(&p->page);
-    for (int i = 0; i < SHOWN && status == FRAM_OK; i++)
-        if (has[i])
-            status = add_chart(p, &shown[i], error);
-    html_grid_end(&p->page);
-    return status;
 }
 
 /* ---- heat maps, of grids over two keys ---- */
@@ -296,7 +319,7 @@ static void add_heat_cell(study_page *p, double value, double greatest)
 {
     char text[HTML_NUMBER_SIZE];
     int part = greatest > 0 && value > 0 ? (int)(value / greatest * 100) : 0;
-    html_number_text(value, text);
+    html_number_text(page_three_digits(value), text);
     text_format(p->f->ctx, &p->page.text,
                 "<td style=\"text-align:center;background:color-mix(in srgb,#d1603d %d%%,#fff)\">%s</td>", part, text);
 }
@@ -308,7 +331,7 @@ static void add_heat(study_page *p, const page_figure *figure, int32_t rows, int
     const study *s = p->f->s;
     double greatest = 0;
     for (int32_t c = 0; c < s->conditions; c++)
-        greatest = fmax(greatest, interval_of(p, c, figure).mean);
+        greatest = fmax(greatest, page_interval(p, c, figure).mean);
     html_paragraph(&p->page, "%s [%s]: %s downwards, %s across", figure->name, figure->unit, s->keys.data[0],
                    s->keys.data[1]);
     text_add(p->f->ctx, &p->page.text, "<table><tr><th></th>");
@@ -318,7 +341,7 @@ static void add_heat(study_page *p, const page_figure *figure, int32_t rows, int
     for (int32_t r = 0; r < rows; r++) {
         text_format(p->f->ctx, &p->page.text, "<tr><th>%s</th>", study_value(s, r * columns, 0));
         for (int32_t c = 0; c < columns; c++)
-            add_heat_cell(p, interval_of(p, r * columns + c, figure).mean, greatest);
+            add_heat_cell(p, page_interval(p, r * columns + c, figure).mean, greatest);
         text_add(p->f->ctx, &p->page.text, "</tr>\n");
     }
     text_add(p->f->ctx, &p->page.text, "</table>\n");
@@ -338,21 +361,12 @@ static void add_heats(study_page *p, const bool *has)
             strpbrk(study_value(s, c, 0), "<>&") || strpbrk(study_value(s, c, 1), "<>&"))
             return;
     html_section(&p->page, "Heat maps");
-    for (int i = 0; i < SHOWN; i++)
+    for (int i = 0; i < PAGE_FIGURES; i++)
         if (has[i])
-            add_heat(p, &shown[i], rows, columns);
+            add_heat(p, &page_figures[i], rows, columns);
 }
 
 /* ---- the worst runs ---- */
-
-/* A figure in the unit of the page, or as in summary.csv. */
-static page_figure figure_of(run_figure figure)
-{
-    for (int i = 0; i < SHOWN; i++)
-        if (shown[i].figure == figure)
-            return shown[i];
-    return (page_figure){figure, run_figure_name(figure), run_figure_unit(figure), 1};
-}
 
 /* The link to the playback where it is there, or else the command that makes it. */
 static void add_playback(study_page *p, const worst_run *run)
@@ -364,9 +378,9 @@ static void add_playback(study_page *p, const worst_run *run)
         text_format(p->f->ctx, text, "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>", id, seed);
     else
         text_format(p->f->ctx, text,
-                    "<td><code>fram run conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 -o "
-                    "worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code>, then "
-                    "<a href=\"worst/%s-%lld/playback.html\">playback</a></td>",
+                    "<td><a href=\"worst/%s-%lld/playback.html\">playback</a>, when made by <code>fram run "
+                    "conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 -o worst/%s-%lld &amp;&amp; "
+                    "fram view worst/%s-%lld</code></td>",
                     id, seed, id, seed, id, seed, id, seed);
 }
 
@@ -375,7 +389,7 @@ static void add_worst(study_page *p)
     const study *s = p->f->s;
     worst_run worst[STUDY_WORST_MOST];
     char text[32], name[80];
-    page_figure by = figure_of((run_figure)s->worst.figure);
+    page_figure by = page_figure_of((run_figure)s->worst.figure);
     bool load = by.figure == ROW_load_largest;
     int32_t most = s->worst.count > WORST ? s->worst.count : WORST;
     int32_t count = study_worst_find(p->f, p->conditions, by.figure, most, worst);
@@ -397,12 +411,11 @@ static void add_worst(study_page *p)
         html_cell(&p->page, text);
         snprintf(text, sizeof text, "%lld", (long long)s->seeds.first + worst[i].index);
         html_cell(&p->page, text);
-        html_number(&p->page, worst[i].value * by.factor);
-        html_number(&p->page, row->figure[load ? ROW_load_mean : ROW_load_largest] * 1e-3);
+        html_number(&p->page, page_three_digits(worst[i].value * by.factor));
+        html_number(&p->page, page_three_digits(row->figure[load ? ROW_load_mean : ROW_load_largest] * 1e-3));
         add_playback(p, &worst[i]);
         html_row_end(&p->page);
     }
-    html_table_end(&p->page);
     wide_end(p);
 }
 
@@ -410,15 +423,18 @@ static void add_worst(study_page *p)
 
 static fram_status make_page(study_page *p, fram_error *error)
 {
-    bool has[SHOWN];
-    for (int i = 0; i < SHOWN; i++)
-        has[i] = has_figure(p, &shown[i]);
+    bool has[PAGE_FIGURES];
+    for (int i = 0; i < PAGE_FIGURES; i++)
+        has[i] = has_figure(p, &page_figures[i]);
     add_head(p);
     add_table(p, has);
     add_shares(p);
-    fram_status status = add_charts(p, has, error);
-    if (status == FRAM_OK) {
+    fram_status status = page_add_charts(p, has, error);
+    if (status == FRAM_OK)
         add_heats(p, has);
+    if (status == FRAM_OK)
+        status = page_add_extremes(p, error);
+    if (status == FRAM_OK) {
         add_worst(p);
         html_end(&p->page);
     }
@@ -435,9 +451,6 @@ fram_status study_page_write(const study_folder *f, const condition_rows *condit
         status = error_memory(error);
     if (status == FRAM_OK)
         status = atomic_file_write(f->ctx, path.data, p.page.text.data, (size_t)p.page.text.count, error);
-    double_array *all[] = {&p.x, &p.mean, &p.low, &p.high, &p.seed_x, &p.seed_y};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        array_free(f->ctx, all[i]);
     text_free(f->ctx, &path);
     html_free(&p.page);
     return status;

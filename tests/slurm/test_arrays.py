@@ -24,6 +24,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
 STUDY = """
 scenario: base.yaml
 seeds: {seeds}
+keep: {{record_of_worst: 2}}
 vary: {{list: [{{run.speed_limit: 100, vessel.mass: 1.8e6}}, {{run.speed_limit: 2.1, vessel.mass: 1.0e6}},
        {{run.speed_limit: 90, vessel.mass: 1.8e6}}]}}
 """
@@ -90,6 +91,16 @@ class Arrays(unittest.TestCase):
         result = json.loads(out.splitlines()[-1])
         self.assertEqual(result["failed"] * 3, result["runs"])
         self.assertEqual(self.tables("there"), self.tables("here"))
+        # Its worst runs have their record, made by tasks of their own.
+        records = [sorted(str(p.relative_to(self.at / d)) for p in self.at.glob(f"{d}/worst/*/record.fram"))
+                   for d in ("there", "here")]
+        self.assertEqual(len(records[0]), 2)
+        self.assertEqual(*records)
+        for path in records[0]:
+            self.assertEqual((self.at / "there" / path).read_bytes(), (self.at / "here" / path).read_bytes())
+        self.assertEqual(list(self.at.glob("there/worst/*.exit*")), [])
+        pages = [(self.at / d / "study.html").read_bytes() for d in ("there", "here")]
+        self.assertEqual(*pages)
         self.assertEqual(list(self.at.glob("there/runs/*/*.exit*")), [])
         # What is there is not run again, and nothing is submitted.
         again = self.fram("there", "--on", "slurm", environment=slurm.environment)

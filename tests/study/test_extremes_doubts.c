@@ -6,6 +6,7 @@
 #include "study/extremes.h"
 #include "study/extremes_notes.h"
 #include "study/extremes_spread.h"
+#include "study/special.h"
 
 enum { VALUES = 20000 };
 
@@ -66,7 +67,38 @@ START_TEST(the_limit_of_a_weibull_tail)
         double truth = real_pow(begin + rare, 1 / c);
         double told = extreme_law_level(&law, rare) + penultimate_shift(&law, real_exp(-begin), rare);
         assert_relative(told, truth, 1e-9);
+        /* Of maxima, whose mean lies Euler's constant beyond their location. */
+        law = (extreme_law){LAW_GEV, place, place / (begin * c), (1 / c - 1) / (begin + EULER_GAMMA)};
+        told = extreme_law_level(&law, real_exp(-rare)) + penultimate_shift(&law, real_exp(-begin), rare);
+        assert_relative(told, truth, 1e-9);
     }
+}
+END_TEST
+
+/* Maxima of blocks of a Gaussian series are on their way to the limit; the same maxima alone say nothing of it. */
+START_TEST(maxima_of_a_series_know_of_their_limit)
+{
+    enum { LONG = 5000, BLOCK = 100 };
+    static double value[LONG], most[LONG / BLOCK];
+    random_stream r = random_begin(6, 93, 0);
+    for (int i = 0; i < LONG; i++) {
+        value[i] = random_normal(&r);
+        most[i / BLOCK] = i % BLOCK == 0 ? value[i] : fmax(most[i / BLOCK], value[i]);
+    }
+    const series_part part = {value, LONG};
+    const series_set set = {&part, 1, 1};
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = 3 * LONG;
+    ask.block = BLOCK;
+    static extreme_result of_series, alone;
+    context ctx;
+    context_init(&ctx);
+    ck_assert(extremes_of_series(&ctx, &set, EXTREME_GEV, &ask, &of_series, NULL) == FRAM_OK);
+    ck_assert(extremes_of_maxima(&ctx, most, LONG / BLOCK, BLOCK, EXTREME_GEV, &ask, &alone, NULL) == FRAM_OK);
+    assert_relative(of_series.level[1].level, alone.level[1].level, 1e-12);
+    ck_assert(of_series.law.shape < 0 && of_series.level[1].high > 1.005 * alone.level[1].high);
+    assert_relative(of_series.level[1].low, alone.level[1].low, 1e-12);
 }
 END_TEST
 
@@ -114,4 +146,4 @@ START_TEST(independent_peaks_keep_their_bound)
 END_TEST
 
 TEST_MAIN("extremes_doubts", a_tail_that_changes_is_told, draws_without_a_fit_are_told, the_limit_of_a_weibull_tail,
-          independent_peaks_keep_their_bound)
+          maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)

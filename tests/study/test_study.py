@@ -295,8 +295,14 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                       f"-{worst['seed']}/playback.html\">"):
             self.assertTrue(words in page, words)
         self.assertNotIn("thruster power", page)
+        # The uncertainty, to two digits, decides how many digits a mean has.
+        mean, half = (float(last[n]) * 1e-3 for n in ("load_mean[N]", "load_mean_half[N]"))
+        decimals = 1 - math.floor(math.log10(half))
+        shown = [f"{round(x, decimals):.{max(decimals, 0)}f}" for x in (mean, half)]
+        self.assertIn(f"<td>{shown[0]} ± {shown[1]}<", page)
+        self.assertNotIn("Rare loads", page)
         # The command of the worst run makes what its link opens.
-        command, link = re.search('<code>([^<]*)</code>, then <a href="(worst/[^"]*)">playback</a>', page).groups()
+        link, command = re.search('<a href="(worst/[^"]*)">playback</a>, when made by <code>([^<]*)</', page).groups()
         command = command.replace("&amp;&amp;", "&&").replace("fram ", FRAM + " ").replace("-o ", "--quiet -o ")
         done = subprocess.run(command, shell=True, cwd=self.at / "out", capture_output=True, text=True)
         if "make viewer" not in done.stderr:
@@ -335,6 +341,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertAlmostEqual(float(rows[1][name]) / level["level"], 1, delta=1e-12)
         self.assertLess(float(rows[1]["low"]), float(rows[1]["most_probable"]))
         self.assertLess(float(rows[1]["most_probable"]), float(rows[1]["high"]))
+        # The page has the same, to three digits, and a plot of each condition.
+        page = (self.at / "out" / "study.html").read_text()
+        cell = "%.3g (%.3g to %.3g)" % tuple(float(rows[1][n]) * 1e-3 for n in ("most_probable", "low", "high"))
+        self.assertIn(f"<td>{cell}</td>", page[page.index("Rare loads"):])
+        self.assertIn("Levels of 10 min by Gumbel", page)
         year = self.rows("out", "annual.csv")
         self.assertEqual([float(r["annual_probability"]) for r in year], [1e-2, 1e-4])
         # By hand: the level where 180,000 and 36,000 blocks expect -log(1 - p) exceedances.
@@ -356,6 +367,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                              "extremes: {duration: 10min, method: gumbel, levels: [0.9]}\n"), "-o", self.at / "out")
         self.assertEqual(self.rows("out", "extremes.csv"), rows)
         self.assertFalse((self.at / "out" / "annual.csv").exists())
+        # By gev twelve runs do not tell the shape of a tail as far out as that.
+        self.fram(self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
+                             "extremes: {method: gev, hours: [100, 20], annual: [1e-2]}\n"), "-o", self.at / "out")
+        (year,) = self.rows("out", "annual.csv")
+        self.assertEqual((year["level"], year["high"]), ("", ""))
+        # 0.4767 log(180,000/0.01005)^2 = 132.8.
+        self.assertIn("133 runs of condition 1, which has 12", year["note"])
         few = self.write("set: {run.duration: 1, run.transient: 0.5}\nseeds: 3\n"
                          "extremes: {hours: [10], annual: [0.1]}\n")
         self.fram(few, "-o", self.at / "few")

@@ -1,0 +1,48 @@
+/* Parts of the page of a study that share it.  One module with study_page. */
+#ifndef STUDY_STUDY_PAGE_PARTS_H
+#define STUDY_STUDY_PAGE_PARTS_H
+
+#include "io/html_page.h"
+#include "study/seeds.h"
+#include "study/study_answers.h"
+
+/* A figure in the unit of the page. */
+typedef struct page_figure {
+    run_figure figure;
+    const char *name, *unit;
+    double factor;
+} page_figure;
+enum { PAGE_FIGURES = 7, CONDITIONS_OF_TABLE = 500 };
+extern const page_figure page_figures[PAGE_FIGURES];
+
+typedef struct study_page {
+    const study_folder *f;
+    const condition_rows *conditions;
+    html_page page;
+} study_page;
+
+/* The figure as the page has it, or as in summary.csv. */
+page_figure page_figure_of(run_figure figure);
+/* Mean over the seeds of a condition and half its interval, in the unit of the page. */
+seed_interval page_interval(const study_page *p, int32_t condition, const page_figure *figure);
+void page_count_runs(const study_page *p, int64_t *runs, int64_t *failed);
+
+/* Tables of many columns keep numbers in one piece, and are moved sideways where the window is narrow: begin with the
+   number of a condition and the keys as heads, then these; each row begins with them too. */
+void page_table_begin(study_page *p, const char *const *heads, int32_t count);
+void page_row_begin(study_page *p, int32_t condition);
+void page_table_end(study_page *p);
+
+/* Rounded to three significant digits. */
+double page_three_digits(double value);
+/* A value of a key, a number to four significant digits. */
+enum { PAGE_KEY_SIZE = 48 };
+void page_key_text(const char *value, char out[PAGE_KEY_SIZE]);
+
+/* "Seeds and means": a dot a run, means with their intervals; lines along a key where the conditions are series over
+   it (study/study_series.h). */
+fram_status page_add_charts(study_page *p, const bool *has, fram_error *error);
+/* Rare loads, where the study asks for them: a table of levels, and probability plots. */
+fram_status page_add_extremes(study_page *p, fram_error *error);
+
+#endif
