@@ -127,6 +127,8 @@ int triangle_clip_below(const vec3 in[3], double level, vec3 out[4]);
 /* The part of a convex polygon of n vertices with dot(normal, x) <= d; out has room for n + 1 and may
    not be `in`; returns the count (1 or 2 where the polygon only touches). */
 int facet_clip(const vec3 *in, int n, vec3 normal, double d, vec3 *out);
+/* The same where the distances dot(normal, x) - d of its vertices are known. */
+int facet_clip_at(const vec3 *in, int n, const double *distance, vec3 *out);
 
 /* Where a segment meets a plane, from its inner end (distance < 0) to its outer one (distance >= 0).  Always asked in
    this direction, so that two triangles cut their common edge at the same point to the bit. */

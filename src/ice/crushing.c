@@ -107,15 +107,18 @@ static void set_surface(const job *j, crushing_pair *p)
         p->surface.surface = &body->surface;
         p->surface.adjacency = &body->adjacency;
         p->surface.tree = &body->tree;
+        p->surface.faces = NULL;
         p->surface.prism = -1;
     } else {
         const prism_surface *prism = prism_surfaces_find(j->prisms, row);
         p->surface.surface = &prism->surface;
         p->surface.adjacency = &prism->adjacency;
         p->surface.tree = prism->has_tree ? &prism->tree : NULL;
+        p->surface.faces = prism->has_tree ? NULL : &prism->faces;
         p->surface.prism = row;
     }
-    bool moves = j->settings->parts_by_motion && j->bodies->material[p->surface_body] != MATERIAL_ICE;
+    p->surface.rough_way = j->bodies->material[p->surface_body] == MATERIAL_ICE; /* nothing is corrected by it */
+    bool moves = j->settings->parts_by_motion && !p->surface.rough_way;
     surface_frame_set(&p->surface, j->bodies, p->surface_body, p->floe_body, &p->rotation, moves, j->settings->skin);
 }
 
@@ -219,8 +222,7 @@ typedef struct loaded_edge {
     double sign; /* of the way that it gives, along the floe's z */
 } loaded_edge;
 
-/* What bears the edge after it has given by this much, less what crushes on it then [N]; of the whole load, with what
- * seams divide off. */
+/* What bears the edge after it gave by this much, less what crushes on it then [N]; with what seams divide off. */
 static double excess(const job *j, const crushing_pair *p, const loaded_edge *e, double give, double *stiffness)
 {
     vec3 left = patch_area_left(j->room, &p->prism, e->number, e->sign * give);

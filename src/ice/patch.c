@@ -73,7 +73,7 @@ static bool piece_holds(const piece_sides *piece, vec3 point, double tolerance)
     return true;
 }
 
-/* Two parts of one triangle touch along a seam: both ends of what they share are corners of one of them. */
+/* Two parts of one face touch along a seam: both ends of what they share are corners of one of them. */
 static bool parts_touch(const patch_scratch *s, const patch_floe *floe, const patch_part *a, const patch_part *b,
                         double tolerance)
 {
@@ -100,12 +100,15 @@ static bool parts_touch(const patch_scratch *s, const patch_floe *floe, const pa
 static void segment_cut(vec3 a, vec3 b, half_space h, double tolerance, double *lo, double *hi)
 {
     double da = vec3_dot(h.n, a) - h.d - tolerance, db = vec3_dot(h.n, b) - h.d - tolerance;
-    if (da > 0 && db > 0)
+    if (da > 0 && db > 0) {
         *hi = -1;
-    else if (da > 0)
-        *lo = fmax(*lo, da / (da - db));
-    else if (db > 0)
-        *hi = fmin(*hi, da / (da - db));
+    } else if (da > 0) {
+        double t = da / (da - db);
+        *lo = t > *lo ? t : *lo;
+    } else if (db > 0) {
+        double t = da / (da - db);
+        *hi = t < *hi ? t : *hi;
+    }
 }
 
 /* Something of a mesh edge runs inside the piece. */
@@ -141,21 +144,23 @@ static void connect_parts(patch_scratch *s, const patch_surface *surface, const 
 {
     double tolerance = tolerance_of(floe);
     patch_part *part = s->parts.data;
+    bool moves = vec3_dot(surface->slip, surface->slip) > 0 || vec3_dot(surface->turn, surface->turn) > 0;
     for (int32_t i = 0; i < s->parts.count; i++)
-        part[i].enters = part_enters(surface, &part[i]);
+        part[i].enters = moves && part_enters(surface, &part[i]);
     for (int32_t i = 0; i < s->parts.count; i++) {
         for (int32_t j = i + 1; j < s->parts.count && part[j].face == part[i].face; j++)
             if (part[i].enters == part[j].enters && find_root(s, i) != find_root(s, j) &&
                 parts_touch(s, floe, &part[i], &part[j], tolerance))
                 join(s, i, j);
-        for (int k = 0; k < 3; k++) {
-            int32_t across = surface->adjacency->neighbour.data[3 * part[i].face + k];
+        patch_face face = face_of(surface, part[i].face);
+        for (int32_t k = 0; k < face.count; k++) {
+            int32_t across = face.neighbour[k];
             int32_t other = across > part[i].face ? find_part(s, across, part[i].piece) : -1;
             if (other < 0 || part[i].enters != part[other].enters || find_root(s, i) == find_root(s, other))
                 continue;
-            const triangle *t = &surface->surface->face.data[part[i].face];
-            vec3 a = to_floe(surface, surface->surface->vertex.data[t->v[k]]);
-            vec3 b = to_floe(surface, surface->surface->vertex.data[t->v[k == 2 ? 0 : k + 1]]);
+            const vec3 *vertex = surface->surface->vertex.data;
+            vec3 a = to_floe(surface, vertex[face.corner[k]]);
+            vec3 b = to_floe(surface, vertex[face.corner[k + 1 < face.count ? k + 1 : 0]]);
             if (edge_in_piece(floe, part[i].piece, a, b, tolerance))
                 join(s, i, other);
         }

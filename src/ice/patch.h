@@ -4,6 +4,7 @@
 #define ICE_PATCH_H
 
 #include "bodies/shape.h"
+#include "ice/prism_faces.h"
 
 /* A closed surface in the coordinates of its body, and the way from there into the floe's frame:
    r_floe = rotation r_surface + offset. */
@@ -11,12 +12,14 @@ typedef struct patch_surface {
     const mesh *surface;
     const mesh_adjacency *adjacency;
     const mesh_bvh *tree; /* may be NULL for a surface of few triangles: all of them are looked at */
+    const prism_faces *faces; /* of a prism, without a tree: looked at instead of triangles; may be NULL */
     mat3 rotation;
     vec3 offset;
     int32_t prism; /* shape whose surface it is when that is a prism, of the floe's store; -1: any other */
     /* Its velocity past the floe, floe frame: slip + turn x r [m/s, rad/s]; below `rest` it has no direction [m/s]. */
     vec3 slip, turn;
     double rest;
+    bool rough_way; /* ways at the centroids of parts alone */
 } patch_surface;
 
 /* The floe: a prism shape of the store, about its centre of mass. */
@@ -40,10 +43,10 @@ typedef struct patch_scratch patch_scratch;
 patch_scratch *patch_scratch_create(context *ctx);
 void patch_scratch_free(context *ctx, patch_scratch *s);
 
-/* The components, ordered by their least triangle, made anew in *out (which lives in the scratch).  Triangles are
-   clipped by every convex piece of the floe; a triangle that lies in a face of a piece belongs to the piece in front of
-   it, so that a surface on a seam counts once and one that just touches the floe counts as touching.  Clipped parts are
-   connected through a seam that one triangle crosses, and through a mesh edge inside a piece; where the surface goes
+/* The components, ordered by their least face (of a prism, else triangle), made anew in *out (which lives in the
+   scratch).  Faces are clipped by every convex piece of the floe; one that lies in a face of a piece belongs to the
+   piece in front of it, so that a surface on a seam counts once and one that just touches the floe counts as touching.
+   Clipped parts are connected through a seam that one face crosses, and through an edge inside a piece; where it goes
    into the ice it crushes, where it slides along or leaves it does not, and what does is never one component with what
    does not.  The result does not depend on how floe or surface are cut, to rounding.  false: no memory.
 
@@ -53,7 +56,7 @@ void patch_scratch_free(context *ctx, patch_scratch *s);
    prism, whichever is shorter; of any other surface those that face away count against the others.  Volume and N are
    continuous in the pose of convex bodies, and so is their quotient while the area vectors do not cancel; it is never
    more than the floe's diameter.  The way is taken at the centroids of triangles about the centroid of each part: exact
-   where it is linear over them. */
+   where it is linear over them; with rough_way at the centroid of the part: exact where it is linear over that. */
 bool patch_components(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe,
                       const patch_component_array **out);
 

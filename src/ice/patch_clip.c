@@ -1,6 +1,6 @@
-/* The parts of a surface's triangles inside the pieces of a floe; see patch.h.
+/* The parts of a surface's faces inside the pieces of a floe; see patch.h.
 
-   What is cut away, and what nothing is cut from, is found for all points of the surface at once first: a triangle
+   What is cut away, and what nothing is cut from, is found for all points of the surface at once first: a face
    whose corners lie outside of one side has no part, and a side that all corners lie inside of cuts nothing.  "Outside"
    and "inside" are meant by a margin that is far over rounding, so that the cuts which are left give the same bits as
    all. */
@@ -19,7 +19,7 @@ _Static_assert((int)PIECE_MOST_VERTICES <= (int)PATCH_INSIDE, "a code has a bit 
 typedef struct facet {
     vec3 corner[2][PATCH_MOST_CORNERS]; /* filled and spare, in turn */
     int side, count;
-    vec3 normal; /* of the triangle it came from, any length */
+    vec3 normal; /* of the face it came from, any length */
 } facet;
 
 /* Cut by one half space.  A facet in the boundary plane belongs to the side that its outward normal points to: there is
@@ -27,11 +27,12 @@ typedef struct facet {
 static void facet_cut(facet *f, half_space h, double tolerance)
 {
     const vec3 *v = f->corner[f->side];
-    double least = HUGE_VAL, most = -HUGE_VAL;
+    double distance[PATCH_MOST_CORNERS], least = HUGE_VAL, most = -HUGE_VAL;
     for (int i = 0; i < f->count; i++) {
-        double distance = vec3_dot(h.n, v[i]) - h.d;
-        least = distance < least ? distance : least;
-        most = distance > most ? distance : most;
+        double d = vec3_dot(h.n, v[i]) - h.d;
+        distance[i] = d;
+        least = d < least ? d : least;
+        most = d > most ? d : most;
     }
     if (least >= -tolerance && most <= tolerance) {
         if (vec3_dot(f->normal, h.n) >= 0)
@@ -39,40 +40,39 @@ static void facet_cut(facet *f, half_space h, double tolerance)
     } else if (least >= 0) {
         f->count = 0;
     } else if (most > 0) {
-        f->count = facet_clip(v, f->count, h.n, h.d, f->corner[1 - f->side]);
+        f->count = facet_clip_at(v, f->count, distance, f->corner[1 - f->side]);
         f->side = 1 - f->side;
     }
 }
 
 void patch_part_measure(const vec3 *v, int32_t count, patch_part *part)
 {
-    vec3 area = {0, 0, 0}, first = {0, 0, 0};
-    double surface = 0;
+    vec3 twice = {0, 0, 0};
+    for (int32_t i = 1; i + 1 < count; i++)
+        twice = vec3_add(twice, vec3_cross(vec3_sub(v[i], v[0]), vec3_sub(v[i + 1], v[0])));
+    double length = vec3_length(twice), surface = 0;
+    vec3 unit = vec3_scale(twice, length > 0 ? 1 / length : 0), first = {0, 0, 0};
+    sym3 m = {0};
+    /* About v[0], which is a corner of all triangles: the integrals of r and of r r^T over one with the sides a and b
+       are A/3 (a + b) and A/12 (a a^T + b b^T + (a + b)(a + b)^T). */
     for (int32_t i = 1; i + 1 < count; i++) {
-        vec3 n = vec3_scale(vec3_cross(vec3_sub(v[i], v[0]), vec3_sub(v[i + 1], v[0])), 0.5);
-        double a = vec3_length(n);
-        area = vec3_add(area, n);
-        surface += a;
-        first = vec3_mad(first, vec3_add(vec3_sub(v[i], v[0]), vec3_sub(v[i + 1], v[0])), a / 3);
+        vec3 a = vec3_sub(v[i], v[0]), b = vec3_sub(v[i + 1], v[0]), s = vec3_add(a, b);
+        double area = 0.5 * vec3_dot(vec3_cross(a, b), unit), share = area / 12;
+        surface += area;
+        first = vec3_mad(first, s, area / 3);
+        m.xx += share * (a.x * a.x + b.x * b.x + s.x * s.x);
+        m.yy += share * (a.y * a.y + b.y * b.y + s.y * s.y);
+        m.zz += share * (a.z * a.z + b.z * b.z + s.z * s.z);
+        m.xy += share * (a.x * a.y + b.x * b.y + s.x * s.y);
+        m.xz += share * (a.x * a.z + b.x * b.z + s.x * s.z);
+        m.yz += share * (a.y * a.z + b.y * b.z + s.y * s.z);
     }
-    part->area = area;
+    part->area = vec3_scale(twice, 0.5);
     part->surface = surface;
-    part->centre = surface > 0 ? vec3_mad(v[0], first, 1 / surface) : v[0];
-    part->moment = (sym3){0};
-    /* Integral of r r^T over a triangle: A/12 (sum of v v^T + s s^T) with s the sum of its corners. */
-    for (int32_t i = 1; i + 1 < count; i++) {
-        vec3 p[3] = {vec3_sub(v[0], part->centre), vec3_sub(v[i], part->centre), vec3_sub(v[i + 1], part->centre)};
-        double a = vec3_length(vec3_cross(vec3_sub(p[1], p[0]), vec3_sub(p[2], p[0]))) / 24;
-        vec3 term[4] = {p[0], p[1], p[2], vec3_add(vec3_add(p[0], p[1]), p[2])};
-        for (int k = 0; k < 4; k++) {
-            part->moment.xx += a * term[k].x * term[k].x;
-            part->moment.yy += a * term[k].y * term[k].y;
-            part->moment.zz += a * term[k].z * term[k].z;
-            part->moment.xy += a * term[k].x * term[k].y;
-            part->moment.xz += a * term[k].x * term[k].z;
-            part->moment.yz += a * term[k].y * term[k].z;
-        }
-    }
+    vec3 c = vec3_scale(first, surface > 0 ? 1 / surface : 0);
+    part->centre = vec3_add(v[0], c);
+    part->moment = (sym3){m.xx - surface * c.x * c.x, m.yy - surface * c.y * c.y, m.zz - surface * c.z * c.z,
+                          m.xy - surface * c.x * c.y, m.xz - surface * c.x * c.z, m.yz - surface * c.y * c.z};
 }
 
 static bool push_part(context *ctx, patch_scratch *s, const facet *f, int32_t face, int32_t piece, double tolerance)
@@ -180,16 +180,25 @@ static bool take_pieces(context *ctx, patch_scratch *s, const patch_floe *floe)
     return true;
 }
 
-/* ---- triangles ---- */
+/* ---- faces ---- */
 
-/* What is true of all three corners about the sides of a piece in reach. */
-static uint32_t code_of(const patch_scratch *s, int32_t near, const int32_t v[3])
+/* The corners of a face among the points. */
+typedef struct point_ring {
+    const int32_t *at;
+    int32_t count;
+} point_ring;
+
+/* What is true of all corners about the sides of a piece in reach. */
+static uint32_t code_of(const patch_scratch *s, int32_t near, point_ring v)
 {
     const uint32_t *code = s->codes.data + (ptrdiff_t)near * s->points.count;
-    return code[v[0]] & code[v[1]] & code[v[2]];
+    uint32_t all = ~0u;
+    for (int32_t i = 0; i < v.count; i++)
+        all &= code[v.at[i]];
+    return all;
 }
 
-static bool any_piece_meets(const patch_scratch *s, const int32_t v[3])
+static bool any_piece_meets(const patch_scratch *s, point_ring v)
 {
     for (int32_t k = 0; k < s->near.count; k++)
         if (!(code_of(s, k, v) & PATCH_OUTSIDE_BITS))
@@ -197,17 +206,20 @@ static bool any_piece_meets(const patch_scratch *s, const int32_t v[3])
     return false;
 }
 
-/* The triangle between the planes of top and bottom, given what is true of its corners about them; whether anything was
+/* The face between the planes of top and bottom, given what is true of its corners about them; whether anything was
    cut off. */
-static bool make_slab(const patch_scratch *s, const int32_t v[3], unsigned caps, double half_height, double tolerance,
+static bool make_slab(const patch_scratch *s, point_ring v, unsigned caps, double half_height, double tolerance,
                       facet *slab)
 {
     slab->side = 0;
-    slab->count = 3;
+    slab->count = v.count;
+    slab->normal = (vec3){0, 0, 0};
     vec3 *corner = slab->corner[0];
-    for (int k = 0; k < 3; k++)
-        corner[k] = s->points.data[v[k]];
-    slab->normal = vec3_cross(vec3_sub(corner[1], corner[0]), vec3_sub(corner[2], corner[0]));
+    for (int k = 0; k < v.count; k++)
+        corner[k] = s->points.data[v.at[k]];
+    for (int k = 1; k + 1 < v.count; k++)
+        slab->normal = vec3_add(slab->normal,
+                                vec3_cross(vec3_sub(corner[k], corner[0]), vec3_sub(corner[k + 1], corner[0])));
     if (!(caps & BELOW_TOP))
         facet_cut(slab, prism_cap(half_height, 0), tolerance);
     if (!(caps & ABOVE_BOTTOM))
@@ -215,7 +227,7 @@ static bool make_slab(const patch_scratch *s, const int32_t v[3], unsigned caps,
     return (caps & (BELOW_TOP | ABOVE_BOTTOM)) != (BELOW_TOP | ABOVE_BOTTOM);
 }
 
-/* The slab's codes about a piece: those of the triangle, or of what is left of it. */
+/* The slab's codes about a piece, those of what is left of a face. */
 static uint32_t slab_code(context *ctx, const facet *slab, const piece_sides *piece, double margin)
 {
     uint32_t code[PATCH_MOST_CORNERS], all = ~0u;
@@ -238,10 +250,12 @@ static void cut_by_piece(const facet *slab, const piece_sides *piece, uint32_t c
             facet_cut(part, piece_side(piece, k), tolerance);
 }
 
-/* The parts of one triangle in all pieces; v: its corners among the points. */
-static bool clip_face(context *ctx, patch_scratch *s, const patch_floe *floe, int32_t face, const int32_t v[3])
+/* The parts of one face in all pieces; v: its corners among the points. */
+static bool clip_face(context *ctx, patch_scratch *s, const patch_floe *floe, int32_t face, point_ring v)
 {
-    unsigned caps = (unsigned)s->caps.data[v[0]] & s->caps.data[v[1]] & s->caps.data[v[2]];
+    unsigned caps = OUTSIDE_CAPS | BELOW_TOP | ABOVE_BOTTOM;
+    for (int32_t i = 0; i < v.count; i++)
+        caps &= s->caps.data[v.at[i]];
     if ((caps & OUTSIDE_CAPS) || !any_piece_meets(s, v))
         return true;
     double tolerance = tolerance_of(floe);
@@ -276,11 +290,16 @@ bool patch_clip(context *ctx, patch_scratch *s, const patch_surface *surface, co
     if (s->near.count == 0)
         return true;
     bool whole = is_whole(surface);
-    int32_t count = whole ? surface->surface->face.count : s->faces.count;
+    int32_t count = !whole ? s->faces.count : surface->faces ? prism_faces_count(surface->faces)
+                                                             : surface->surface->face.count;
     for (int32_t i = 0; i < count; i++) {
         const int32_t own[3] = {3 * i, 3 * i + 1, 3 * i + 2};
-        const int32_t *v = whole ? surface->surface->face.data[i].v : own;
-        if (!clip_face(ctx, s, floe, whole ? i : s->faces.data[i], v))
+        point_ring ring = {own, 3};
+        if (whole) {
+            patch_face face = face_of(surface, i);
+            ring = (point_ring){face.corner, face.count};
+        }
+        if (!clip_face(ctx, s, floe, whole ? i : s->faces.data[i], ring))
             return false;
     }
     return true;

@@ -9,11 +9,26 @@
 /* What counts as the same place, as part of the floe's size: far over rounding, far under anything of interest. */
 #define PATCH_SAME_PLACE 1e-10
 
-/* Corners of a clipped part at most: a triangle, cut by top and bottom and the edges of a piece, each of which adds
+/* Corners of a clipped part at most: a face, cut by top and bottom and the edges of a piece, each of which adds
    one; and one more that facet_clip may write. */
-enum { PATCH_MOST_CORNERS = 3 + 2 + PIECE_MOST_VERTICES + 1 };
+enum { PATCH_MOST_CORNERS = PRISM_FACE_MOST_CORNERS + 2 + PIECE_MOST_VERTICES + 1 };
 
-/* What one triangle has inside one piece. */
+/* A face of a surface: its corners among the vertices, and the faces across the edges from each to the next. */
+typedef struct patch_face {
+    const int32_t *corner, *neighbour;
+    int32_t count;
+} patch_face;
+
+static inline patch_face face_of(const patch_surface *s, int32_t face)
+{
+    if (!s->faces)
+        return (patch_face){s->surface->face.data[face].v, s->adjacency->neighbour.data + 3 * (ptrdiff_t)face, 3};
+    int32_t first = s->faces->first.data[face];
+    return (patch_face){s->faces->corner.data + first, s->faces->neighbour.data + first,
+                        s->faces->first.data[face + 1] - first};
+}
+
+/* What one face has inside one piece. */
 typedef struct patch_part {
     int32_t face, piece;
     int32_t first, count; /* corners in the pool */
@@ -93,7 +108,7 @@ static inline void box_take(box2 *b, vec3 r)
 
 static inline box2 box_of_nothing(void) { return (box2){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}}; }
 
-/* The parts of all triangles in all pieces of the floe, by triangle and piece. */
+/* The parts of all faces in all pieces of the floe, by face and piece. */
 bool patch_clip(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe);
 
 /* Area vector, centroid and second moments of a plane convex part, by its triangles about the first corner. */

@@ -136,6 +136,13 @@ vec3 patch_inner_point(const patch_floe *floe)
     return vec3_scale(sum, 1.0 / piece.count);
 }
 
+/* One of those lines, for an area along the normal; what faces away counts against that, but on a prism. */
+static void add_line(patch_scratch *s, const patch_surface *surface, patch_line line)
+{
+    if (line.weight > 0 || (line.weight < 0 && surface->prism < 0))
+        s->lines.data[s->lines.count++] = line;
+}
+
 /* The lines by which the volume between one part and where they leave the overlap is found, along -normal.  The places
    lie inside the part, never on its edge, where a line along a face of the floe could end at once. */
 static bool add_lines(context *ctx, patch_scratch *s, const patch_surface *surface, int32_t number, vec3 normal)
@@ -145,15 +152,25 @@ static bool add_lines(context *ctx, patch_scratch *s, const patch_surface *surfa
     vec3 back = vec3_neg(normal);
     if (!array_reserve(ctx, &s->lines, s->lines.count + part->count))
         return false;
+    if (surface->rough_way) {
+        add_line(s, surface, (patch_line){part->centre, back, vec3_dot(part->area, normal), number});
+        return true;
+    }
     for (int32_t i = 0; i < part->count; i++) {
         vec3 a = v[i], b = v[i + 1 < part->count ? i + 1 : 0];
         vec3 area = vec3_scale(vec3_cross(vec3_sub(a, part->centre), vec3_sub(b, part->centre)), 0.5);
         vec3 middle = vec3_scale(vec3_add(part->centre, vec3_add(a, b)), 1.0 / 3);
-        double along = vec3_dot(area, normal);
-        if (along > 0 || (along < 0 && surface->prism < 0))
-            s->lines.data[s->lines.count++] = (patch_line){middle, back, along, number};
+        add_line(s, surface, (patch_line){middle, back, vec3_dot(area, normal), number});
     }
     return true;
+}
+
+/* What is left of the last batch takes the last ray again. */
+static void fill_batch(double *rays, int32_t stride, int32_t count)
+{
+    for (int k = 0; k < 6; k++)
+        for (int32_t i = count; i < stride; i++)
+            rays[(ptrdiff_t)k * stride + i] = rays[(ptrdiff_t)k * stride + count - 1];
 }
 
 /* Lengths of all lines out of the floe, and out of the surface's prism where it is one, whichever is shorter. */
@@ -163,19 +180,19 @@ static bool measure_lines(context *ctx, patch_scratch *s, const patch_surface *s
     if (!array_resize(ctx, &s->rays, 6 * stride) || !array_resize(ctx, &s->ways, 2 * stride))
         return false;
     double *rays = s->rays.data, *way = s->ways.data, *other_way = way + stride;
-    for (int32_t i = 0; i < stride; i++) {
-        const patch_line *line = &s->lines.data[i < count ? i : count - 1];
-        set_ray(rays, stride, i, line->start, line->direction);
-    }
+    for (int32_t i = 0; i < count; i++)
+        set_ray(rays, stride, i, s->lines.data[i].start, s->lines.data[i].direction);
+    fill_batch(rays, stride, count);
     if (!ways_out(ctx, s, floe, rays, stride, way))
         return false;
     if (surface->prism < 0)
         return true;
-    for (int32_t i = 0; i < stride; i++) {
-        const patch_line *line = &s->lines.data[i < count ? i : count - 1];
+    for (int32_t i = 0; i < count; i++) {
+        const patch_line *line = &s->lines.data[i];
         set_ray(rays, stride, i, mat3_tmul_vec(surface->rotation, vec3_sub(line->start, surface->offset)),
                 mat3_tmul_vec(surface->rotation, line->direction));
     }
+    fill_batch(rays, stride, count);
     if (!ways_out(ctx, s, &(patch_floe){floe->shapes, surface->prism}, rays, stride, other_way))
         return false;
     for (int32_t i = 0; i < count; i++)

@@ -16,6 +16,7 @@ void prism_surfaces_free(context *ctx, prism_surfaces *s)
         mesh_free(ctx, &p->surface);
         mesh_adjacency_free(ctx, &p->adjacency);
         mesh_bvh_free(ctx, &p->tree);
+        prism_faces_free(ctx, &p->faces);
     }
     array_free(ctx, &s->kept);
     array_free(ctx, &s->place);
@@ -36,7 +37,8 @@ static fram_status make(context *ctx, prism_surface *p, polygon outline, double 
         return status;
     p->has_tree = p->surface.vertex.count > VERTICES_WITHOUT_TREE;
     if (mesh_adjacency_build(ctx, &p->surface, &p->adjacency) != FRAM_OK ||
-        (p->has_tree && mesh_bvh_build(ctx, &p->surface, &p->tree) != FRAM_OK) ||
+        (p->has_tree ? mesh_bvh_build(ctx, &p->surface, &p->tree) != FRAM_OK
+                     : !prism_faces_make(ctx, &p->surface, &p->faces)) ||
         !array_resize(ctx, &p->outline, outline.count))
         return error_memory(error);
     memcpy(p->outline.data, outline.vertex, (size_t)outline.count * sizeof *outline.vertex);

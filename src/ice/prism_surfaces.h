@@ -4,13 +4,15 @@
 #define ICE_PRISM_SURFACES_H
 
 #include "bodies/shape.h"
+#include "ice/prism_faces.h"
 
 typedef struct prism_surface {
     vec2_array outline; /* and height, which it was made of */
     double half_height;
     mesh surface;
     mesh_adjacency adjacency;
-    mesh_bvh tree; /* empty for few triangles */
+    mesh_bvh tree;     /* empty for few triangles */
+    prism_faces faces; /* empty for many */
     bool has_tree;
 } prism_surface;
 
