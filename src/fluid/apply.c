@@ -97,7 +97,7 @@ static void dry_level_faces(const fluid_work *w, int32_t first, int32_t end, con
     }
 }
 
-/* Level floes together, all others one by one. */
+/* Level and sunken floes together, all others one by one. */
 static void apply_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
@@ -107,7 +107,8 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
     if (end > w->bodies->count)
         end = w->bodies->count;
     double own[LEVEL_BLOCK];
-    const level_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL};
+    const level_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL,
+                              d->flooding != NULL};
     int32_t left =
         level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, w->held, first, end, &out, rest);
     dry_level_faces(w, first, end, rest, left);

@@ -233,21 +233,22 @@ static void pack_batch(const level_work *w, const level_list *list, int32_t from
         pack(w, b, lane, list->slot[from + lane < last ? from + lane : last]);
 }
 
-/* Floes that are not level go to rest. */
+/* Floes that are neither level nor sunken go to rest. */
 static int32_t run_batch(context *ctx, const level_work *w, const level_list *list, int32_t from, level_batch *b,
                          int32_t first, const level_output *out, int32_t *rest, int32_t left)
 {
     KERNEL_PICK(ctx, level_loads)(b);
     for (int32_t k = from; k < list->count && k < from + LEVEL_LANES; k++) {
         int32_t slot = list->slot[k];
-        if (b->level >> (k - from) & 1) {
+        bool level = b->level >> (k - from) & 1;
+        if (level || b->sunken >> (k - from) & 1)
             unpack(b, (int)(k - from), out, slot - first);
-            if (w->held)
-                hold(w, b, (int)(k - from), slot);
-        } else {
+        else
             rest[left++] = slot;
+        if (!level)
             forget(w, slot);
-        }
+        else if (w->held)
+            hold(w, b, (int)(k - from), slot);
     }
     return left;
 }
@@ -270,6 +271,7 @@ int32_t level_block(context *ctx, const media *m, const drag_coefficients coeffi
     int32_t left = find_floes(&w, served, first, end, &list, rest);
     level_batch batch;
     batch.weight = m->water_density * m->gravity;
+    batch.level_only = out->level_only;
     for (int32_t i = 0; i < list.count; i += LEVEL_LANES) {
         pack_batch(&w, &list, i, &batch);
         left = run_batch(ctx, &w, &list, i, &batch, first, out, rest, left);

@@ -45,6 +45,7 @@ typedef struct level_floes {
     int at;       /* first lane of the part */
     real r[3][3]; /* rotation, body to global */
     real half;
+    mask sunken;
     real water0, waterx, watery; /* height of the water plane in the body's z: water0 + waterx x + watery y */
     real3 spin;
     real x[LEVEL_VERTICES + 1], y[LEVEL_VERTICES + 1]; /* outline */
@@ -120,6 +121,16 @@ V8_INLINE unsigned find_waterline(const level_batch *b, const level_floes *f, re
     return v8_part_bits(between & less(zero(), f->r[2][2]));
 }
 
+/* Which floes have their highest corner in the water, whichever side is up. */
+V8_INLINE mask find_sunken(const level_batch *b, const level_floes *f)
+{
+    real high = set(-HUGE_VAL);
+    for (int32_t k = 0; k <= b->sides; k++)
+        high = maximum(high, f->r[2][0] * f->x[k] + f->r[2][1] * f->y[k]);
+    real rise = f->half * maximum(f->r[2][2], -f->r[2][2]);
+    return less_equal(load(b->height, f->at) + high + rise, b->level_only ? set(-HUGE_VAL) : zero());
+}
+
 /* ---- hydrostatics ---- */
 
 /* Integrals over the outline, about the body's axis, of 1, x, y, x^2, y^2 and x y. */
@@ -153,7 +164,7 @@ V8_INLINE level_moments outline_moments(const level_batch *b, const level_floes 
 }
 
 /* Columns over the outline from the lower cap to the water plane: their lengths, and half the difference of the squares
-   of their ends. */
+   of their ends; from cap to cap of what is sunken. */
 V8_INLINE void add_hydrostatics(const level_batch *b, const level_floes *f, const level_moments *m, level_batch *out)
 {
     real depth = f->water0 + f->half, s = f->waterx, t = f->watery;
@@ -162,7 +173,11 @@ V8_INLINE void add_hydrostatics(const level_batch *b, const level_floes *f, cons
     real h = f->water0;
     real squares = m->area * (h * h - f->half * f->half) + 2 * h * (s * m->x + t * m->y) +
                    (s * s * m->xx + 2 * s * t * m->xy + t * t * m->yy);
-    first.z = 0.5 * squares;
+    first.z = choose(f->sunken, zero(), 0.5 * squares);
+    real thickness = 2 * f->half;
+    volume = choose(f->sunken, thickness * m->area, volume);
+    first.x = choose(f->sunken, thickness * m->x, first.x);
+    first.y = choose(f->sunken, thickness * m->y, first.y);
     real gx = f->r[0][0] * first.x + f->r[0][1] * first.y + f->r[0][2] * first.z;
     real gy = f->r[1][0] * first.x + f->r[1][1] * first.y + f->r[1][2] * first.z;
     store(out->volume, f->at, volume);
@@ -409,6 +424,22 @@ V8_INLINE level_sum drag_of(const level_batch *b, const level_floes *f, const le
     return sum;
 }
 
+V8_INLINE real3 choose3(mask m, real3 a, real3 b)
+{
+    return (real3){choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
+}
+
+/* What the water does to the upper caps of sunken floes, added. */
+V8_INLINE void add_sunken_caps(const level_batch *b, const level_floes *f, const level_moments *m, level_sum *water)
+{
+    level_sum whole = *water;
+    real3 velocity = to_body(f, load_vec(b->water.velocity, f->at));
+    add_cap_form(b, f, velocity, load(b->water.form, f->at), 1, &whole);
+    add_cap_skin(b, f, m, velocity, load(b->water.skin, f->at), 1, &whole);
+    water->force = choose3(f->sunken, whole.force, water->force);
+    water->moment = choose3(f->sunken, whole.moment, water->moment);
+}
+
 V8_INLINE void store_vec(level_lane *out, int at, real3 v)
 {
     store(out[0], at, v.x);
@@ -437,31 +468,41 @@ V8_INLINE void store_state(const level_batch *b, const level_floes *f, const lev
     store_vec(out->through_air, f->at, b->dry ? to_body(f, load_vec(b->air.velocity, f->at)) : none);
 }
 
-/* The floes of one part; bit i of the result: floe at + i is level. */
-static unsigned part_loads(level_batch *b, int at)
+/* The floes of one part. */
+static void part_loads(level_batch *b, int at)
 {
     level_floes f;
     f.at = at;
     read_floes(b, &f);
     real line[LEVEL_VERTICES + 1];
     unsigned level = find_waterline(b, &f, line);
-    if (level == 0)
-        return 0;
+    f.sunken = find_sunken(b, &f);
+    unsigned sunken = v8_part_bits(f.sunken);
+    level &= ~sunken;
+    b->level |= level << at;
+    b->sunken |= sunken << at;
+    if ((level | sunken) == 0)
+        return;
+    for (int32_t k = 0; k <= b->sides && sunken; k++)
+        line[k] = choose(f.sunken, f.half, line[k]);
     level_moments m = outline_moments(b, &f);
     add_hydrostatics(b, &f, &m, b);
     store_state(b, &f, &m, &b->state);
     const level_sum none = {{zero(), zero(), zero()}, {zero(), zero(), zero()}};
     level_sum water = b->wet ? drag_of(b, &f, &m, &b->water, line, -1) : none;
+    if (b->wet && sunken)
+        add_sunken_caps(b, &f, &m, &water);
     store_drag(&f, &water, &b->water_drag, &b->state.water_drag);
-    level_sum air = b->dry ? drag_of(b, &f, &m, &b->air, line, 1) : none;
+    level_sum air = b->dry && level ? drag_of(b, &f, &m, &b->air, line, 1) : none;
+    air.force = choose3(f.sunken, none.force, air.force);
+    air.moment = choose3(f.sunken, none.moment, air.moment);
     store_drag(&f, &air, &b->air_drag, &b->state.air_drag);
     add_up(b, b, at);
-    return level;
 }
 
 void KERNEL(level_loads)(level_batch *batch)
 {
-    batch->level = 0;
+    batch->level = batch->sunken = 0;
     for (int at = 0; at < LEVEL_LANES; at += PART_LANES)
-        batch->level |= part_loads(batch, at) << at;
+        part_loads(batch, at);
 }

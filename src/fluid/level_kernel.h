@@ -1,8 +1,9 @@
-/* Fluid on eight level floes at once: prisms that stand upright and whose sides alone the water plane cuts, one cap
-   wholly wet and the other wholly dry, as nearly all floes of a field are.  Inside fluid; knows no tables.
+/* Fluid on eight floes at once: level ones, prisms that stand upright and whose sides alone the water plane cuts, one
+   cap wholly wet and the other wholly dry, as nearly all floes of a field are; and sunken ones in any pose, as pieces
+   under a hull are.  Inside fluid; knows no tables.
 
    Everything is done in the body's axes, where the wet part of a side is a trapezium between the wet cap and the
-   waterline, and the caps are the outline itself.
+   waterline, or the whole side, and the caps are the outline itself.
 
    Hydrostatics are exact, from the second moments of the outline (docs/oracles.md, section 5).
    Form drag of the caps is exact for any motion: the inflow f = L + g . r is linear, and where it changes its sign the
@@ -45,6 +46,7 @@ typedef struct level_state {
 typedef struct level_batch {
     int32_t sides;      /* edges of the longest outline; shorter ones are padded with their last point */
     bool wet, dry;      /* whether drag of that medium is wanted */
+    bool level_only;    /* none counts as sunken */
     double weight;      /* rho g of the water [N/m3] */
     level_lane height;  /* of the centre of mass over still water [m] */
     level_lane turn[4]; /* orientation w x y z */
@@ -54,8 +56,8 @@ typedef struct level_batch {
     vec2 corner[LEVEL_VERTICES + 1][LEVEL_LANES]; /* outline, closed by its first vertex [m] */
 
     /* Out. */
-    unsigned level;                                 /* bit i: floe i floats level; the loads of others mean nothing */
-    level_lane volume;                              /* submerged [m3] */
+    unsigned level, sunken; /* bit i: floe i floats level, lies wholly in the water; other floes' loads mean nothing */
+    level_lane volume;      /* submerged [m3] */
     level_wrench hydrostatic, water_drag, air_drag; /* drag: only where it is wanted */
     level_wrench total;
     level_state state;

@@ -11,7 +11,7 @@
 typedef struct patch_surface {
     const mesh *surface;
     const mesh_adjacency *adjacency;
-    const mesh_bvh *tree; /* may be NULL for a surface of few triangles: all of them are looked at */
+    const mesh_bvh *tree;     /* may be NULL for a surface of few triangles: all of them are looked at */
     const prism_faces *faces; /* of a prism, without a tree: looked at instead of triangles; may be NULL */
     mat3 rotation;
     vec3 offset;

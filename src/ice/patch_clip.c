@@ -218,8 +218,8 @@ static bool make_slab(const patch_scratch *s, point_ring v, unsigned caps, doubl
     for (int k = 0; k < v.count; k++)
         corner[k] = s->points.data[v.at[k]];
     for (int k = 1; k + 1 < v.count; k++)
-        slab->normal = vec3_add(slab->normal,
-                                vec3_cross(vec3_sub(corner[k], corner[0]), vec3_sub(corner[k + 1], corner[0])));
+        slab->normal =
+            vec3_add(slab->normal, vec3_cross(vec3_sub(corner[k], corner[0]), vec3_sub(corner[k + 1], corner[0])));
     if (!(caps & BELOW_TOP))
         facet_cut(slab, prism_cap(half_height, 0), tolerance);
     if (!(caps & ABOVE_BOTTOM))
@@ -290,8 +290,9 @@ bool patch_clip(context *ctx, patch_scratch *s, const patch_surface *surface, co
     if (s->near.count == 0)
         return true;
     bool whole = is_whole(surface);
-    int32_t count = !whole ? s->faces.count : surface->faces ? prism_faces_count(surface->faces)
-                                                             : surface->surface->face.count;
+    int32_t count = !whole           ? s->faces.count
+                    : surface->faces ? prism_faces_count(surface->faces)
+                                     : surface->surface->face.count;
     for (int32_t i = 0; i < count; i++) {
         const int32_t own[3] = {3 * i, 3 * i + 1, 3 * i + 2};
         point_ring ring = {own, 3};

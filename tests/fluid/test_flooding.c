@@ -407,7 +407,9 @@ START_TEST(the_next_body_of_a_slot)
     apply(&f, true, 0.02);
     wrench fresh = f.loads[slot], other = f.loads[slot + 2];
     apply(&f, false, 0.02);
-    assert_array_bits(&fresh.force.x, &f.loads[slot].force.x, 6);
+    /* Without flooding it is one of the sunken floes, which are summed up in another order. */
+    assert_vec3_close(fresh.force, f.loads[slot].force, 1e-8);
+    assert_vec3_close(fresh.moment, f.loads[slot].moment, 1e-8);
     ck_assert(f.flooding.drowned[slot] == 1 && f.flooding.drowned[slot + 2] == 0);
     ck_assert(other.force.z > f.loads[slot + 2].force.z);
     field_close(&f);

@@ -232,6 +232,8 @@ START_TEST(company_and_instructions)
     /* Tilts up to where a good part is no longer level. */
     for (int i = 0; i < FLOES; i++)
         add_floe(&f, &r, i % OUTLINES, i % 7 ? 0.03 : 0.2, 0.3);
+    for (int i = 0; i < FLOES; i += 5)
+        f.bodies.position[i].z -= 12; /* sunken, among them floes of all kinds */
     fluid_load *together = apply(&f, &still_water, all_kinds);
     const isa best = isa_best();
     for (int set = ISA_BASELINE; set <= (int)best; set++) {
@@ -288,4 +290,129 @@ START_TEST(no_jump)
 }
 END_TEST
 
-TEST_MAIN("level", hydrostatics, form_drag, form_drag_of_caps, skin_drag, company_and_instructions, no_jump)
+/* ---- sunken floes ---- */
+
+/* Floes wholly in the water in any pose, between 2 and 12 m deep; half of them do not turn. */
+static void add_sunken(field *f, random_stream *r, int count, double spin)
+{
+    for (int i = 0; i < count; i++) {
+        int32_t slot = add_floe(f, r, i % OUTLINES, 3, i % 2 ? spin : 0);
+        f->bodies.position[slot].z = -12 - random_uniform(r, 0, 10);
+    }
+}
+
+/* Hydrostatics to rounding; form drag of what does not turn too.  Of what turns, the sides' part that moves into the
+   water is found at the middle of their height: the error is of the square of the turn over the thickness.  Nothing of
+   the air. */
+START_TEST(sunken_form_drag)
+{
+    field f;
+    field_open(&f);
+    random_stream r = random_begin(18, 0, 0);
+    add_sunken(&f, &r, FLOES, 0.3);
+    static const drag_coefficients c[MATERIAL_COUNT] = {{.water_form = 1, .air_form = 0.8}};
+    media moving = still_water;
+    moving.current = vec3_make(0.3, -0.2, 0);
+    fluid_load *loads = apply(&f, &moving, c);
+    double worst = 0, mean = 0;
+    for (int i = 0; i < FLOES; i++) {
+        fluid_motion state = motion_of(&f, i);
+        polygon outline = outline_of(i % OUTLINES);
+        fluid_load expected;
+        fluid_load_prism(&moving, c, outline, half_height, &state, &expected);
+        double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, moving.current, reach);
+        double size = 0.5 * 1025 * polygon_area(outline) * speed * speed, weight = expected.hydrostatic.force.z;
+        ck_assert_double_lt(apart(&loads[i].hydrostatic, &expected.hydrostatic, reach), 1e-12 * weight);
+        assert_relative(loads[i].submerged_volume, expected.submerged_volume, 1e-14);
+        ck_assert(vec3_length(loads[i].wind_drag.force) == 0 && vec3_length(loads[i].wind_drag.moment) == 0);
+        double water = apart(&loads[i].water_drag, &expected.water_drag, reach) / size;
+        if (i % 2 == 0)
+            ck_assert_msg(water < 1e-13, "floe %d: %g", i, water);
+        worst = fmax(worst, water);
+        mean += water / FLOES;
+    }
+    ck_assert_msg(worst < 2e-4 && mean < 1e-5, "worst %g, mean %g", worst, mean);
+    free(loads);
+    field_close(&f);
+}
+END_TEST
+
+/* A floe upside down with a part over the water is not sunken. */
+START_TEST(capsized_floes_float)
+{
+    field f;
+    field_open(&f);
+    random_stream r = random_begin(21, 0, 0);
+    for (int i = 0; i < OUTLINES; i++) {
+        add_floe(&f, &r, i, 0, 0.3);
+        f.bodies.position[i].z = -0.3;
+        f.bodies.orientation[i] = quat_from_roll_pitch_yaw(PI, 0.01, 0.3);
+    }
+    fluid_load *loads = apply(&f, &still_water, all_kinds);
+    for (int i = 0; i < OUTLINES; i++) {
+        fluid_motion state = motion_of(&f, i);
+        fluid_load expected;
+        fluid_load_prism(&still_water, all_kinds, outline_of(i), half_height, &state, &expected);
+        assert_vec3_close(loads[i].hydrostatic.force, expected.hydrostatic.force, 0);
+        assert_vec3_close(loads[i].wind_drag.force, expected.wind_drag.force, 0);
+    }
+    free(loads);
+    field_close(&f);
+}
+END_TEST
+
+/* Skin drag of sunken floes as of level ones. */
+START_TEST(sunken_skin_drag)
+{
+    field f;
+    field_open(&f);
+    random_stream r = random_begin(19, 0, 0);
+    add_sunken(&f, &r, FLOES, 0.5);
+    static const drag_coefficients c[MATERIAL_COUNT] = {{.water_skin = 0.01}};
+    fluid_load *loads = apply(&f, &still_water, c);
+    double worst = 0, mean = 0;
+    for (int i = 0; i < FLOES; i++) {
+        fluid_motion state = motion_of(&f, i);
+        polygon outline = outline_of(i % OUTLINES);
+        fluid_load expected;
+        fluid_load_prism(&still_water, c, outline, half_height, &state, &expected);
+        double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, vec3_make(0, 0, 0), reach);
+        double size = 0.5 * 1025 * 0.01 * polygon_area(outline) * speed * speed;
+        double water = apart(&loads[i].water_drag, &expected.water_drag, reach) / size;
+        if (i % 2 == 0)
+            ck_assert_msg(water < 1e-13, "floe %d: %g", i, water);
+        worst = fmax(worst, water);
+        mean += water / FLOES;
+    }
+    ck_assert_msg(worst < 3e-2 && mean < 3e-3, "worst %g, mean %g", worst, mean);
+    free(loads);
+    field_close(&f);
+}
+END_TEST
+
+/* Where the last corner goes under, a floe that floats is as one that has sunk. */
+START_TEST(no_jump_where_it_sinks)
+{
+    field f;
+    field_open(&f);
+    random_stream r = random_begin(20, 0, 0);
+    for (int i = 0; i < 2000; i++) {
+        add_floe(&f, &r, 0, 0, 0);
+        f.bodies.position[i] = vec3_make(0, 0, -0.59 - 1e-5 * i);
+        f.bodies.orientation[i] = quat_from_roll_pitch_yaw(0, 0, 0);
+        f.bodies.velocity[i] = vec3_make(0.3, 0.1, -0.05);
+        f.bodies.angular_velocity[i] = vec3_make(0.01, 0.02, 0.05);
+    }
+    static const drag_coefficients sides[MATERIAL_COUNT] = {{.water_form = 1}};
+    fluid_load *loads = apply(&f, &still_water, sides);
+    for (int i = 1; i < 2000; i++) {
+        assert_absolute(loads[i].hydrostatic.force.z, loads[i - 1].hydrostatic.force.z, 15);
+        assert_absolute(loads[i].water_drag.force.x, loads[i - 1].water_drag.force.x, 0.5);
+    }
+    free(loads);
+    field_close(&f);
+}
+END_TEST
+
+TEST_MAIN("level", hydrostatics, form_drag, form_drag_of_caps, skin_drag, company_and_instructions, no_jump,
+          sunken_form_drag, capsized_floes_float, sunken_skin_drag, no_jump_where_it_sinks)
