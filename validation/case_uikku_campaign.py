@@ -144,10 +144,10 @@ def case(out):
         "MT Uikku, five tests",
         6,
         "Five published towing tests (full-scale values of a 1:31.56 model): resistance averaged over 0.5 s at full "
-        f"scale, over {LENGTHS} ship lengths from where the whole hull is in the ice, from three starts that differ by "
-        "a third of R_bending; mean, standard deviation and largest are the means of the starts'. For tests 103 "
-        "and 303 the mean over the first of these ship lengths also with stem and entrance angle -5 and +5 degrees and "
-        "friction 0.05 and 0.15.",
+        f"scale, over {LENGTHS} ship lengths from where the whole hull is in the ice, from {len(STARTS)} starts that "
+        "differ by a third of R_bending; mean, standard deviation and largest are the means of the starts'."
+        + (" For tests 103 and 303 the mean over the first of these ship lengths also with stem and entrance angle -5 "
+           "and +5 degrees and friction 0.05 and 0.15." if SPREAD else ""),
         "Hu and Zhou (2016), IJNAOE 8:169-176. Hull angles (30 and 21 degrees), friction 0.1 and ice density 920 "
         "are not published there and were fixed in `scenes/uikku_303.yaml` before the first run. Beside it "
         "Lindqvist (1989) with the same inputs, and the best constant.",

@@ -64,7 +64,7 @@ for r in rows:
     off = 80 - math.hypot(r["breaker.position_x"] - 60, r["breaker.position_y"])
     assert abs(r["breaker.track_error"] - off) < 0.2, (r["time"], off)
 most = max(map(abs, errors))
-assert most <= track["largest_m"] < most + 0.1, (most, track)
+assert most - 1e-6 <= track["largest_m"] < most + 0.1, (most, track)  # the table rounds
 assert abs(track["rms_m"] - math.sqrt(sum(e * e for e in errors) / len(errors))) < 0.1 * track["rms_m"] + 0.01, track
 assert track["vessel"] == "breaker" and track["limit_m"] == 0.05 and abs(track["time_s"] - 11.96) < 1e-6, track
 first = next(e for e in notes[0]["events"] if e["kind"] == "off_track")
