@@ -135,7 +135,7 @@ static fram_status read_worst_by(const study_source *r, const yaml_node *k)
     for (int i = 0; i < ROW_FIGURES; i++)
         names[i] = run_figure_name((run_figure)i);
     r->out->worst.line = k->line;
-    r->out->worst.figure = run_figure_find(text);
+    r->out->worst.figure = (int)run_figure_find(text);
     if (r->out->worst.figure < ROW_FIGURES)
         return FRAM_OK;
     const char *near = word_nearest(names, ROW_FIGURES, text);
