@@ -132,6 +132,8 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
         out->run_seconds_packed += build + steps * fmax(packed_step_time(&early, &late), breaking);
         out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
         out->record_bytes += record_bytes_of(&one, steps, r.floes);
+    } else if (status == FRAM_ERROR_INPUT) {
+        study_place_error(&s->inner, condition, error);
     }
     scenario_free(ctx, &one);
     return status;

@@ -50,7 +50,7 @@ static const char *bytes_text(double bytes, char out[32])
 
 static void print_extent(const fram_study_extent *e, int jobs)
 {
-    char one[32], other[32];
+    char one[32], other[32], page[BESIDE_SIZE];
     double least = (double)e->runs_least * e->run_seconds / jobs;
     double most = (double)e->runs_most * fmax(e->run_seconds, e->run_seconds_packed) / jobs;
     printf("conditions: %d\n", e->conditions);
@@ -65,8 +65,11 @@ static void print_extent(const fram_study_extent *e, int jobs)
         printf("         up to %s where ice jams or goes on breaking: contacts and pieces take time, few at first\n",
                time_text(e->run_seconds_packed, one));
     if (e->records > 0) {
-        printf("worst runs: %lld made again with a record and a playback, about %s each\n", (long long)e->records,
+        printf("worst runs: %lld made again with a record and their playback, about %s each\n", (long long)e->records,
                bytes_text(e->record_bytes, one));
+        if (!viewer_page_find(page))
+            printf("            without playbacks: the viewer's page is not beside this command (make viewer); "
+                   "fram view makes them later, of the records\n");
         least += (double)e->records * e->run_seconds / jobs;
         most += (double)e->records * fmax(e->run_seconds, e->run_seconds_packed) / jobs;
     }
@@ -81,6 +84,7 @@ static int answer_extent(const common_options *common, const fram_study *study, 
 {
     fram_study_extent e;
     fram_error error = {0};
+    char page[BESIDE_SIZE];
     if (fram_study_measure(study, &e, &error) != FRAM_OK)
         return answer_error(common, &error);
     if (!common->json) {
@@ -96,6 +100,7 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     json_real(&j, "run_bytes", e.run_bytes);
     json_integer(&j, "records", e.records);
     json_real(&j, "record_bytes", e.record_bytes);
+    json_integer(&j, "playbacks", viewer_page_find(page) ? e.records : 0);
     json_end(&j);
     return EXIT_GOOD;
 }

@@ -8,7 +8,7 @@
 
 /* Streams of random numbers of this file. */
 enum { STREAM_STRATA = 911, STREAM_PLACES, STREAM_PATHS, STREAM_ROWS };
-enum { ROWS_LEAST = 10, REPLICATES = 499 };
+enum { REPLICATES = 499 };
 
 /* ---- points ---- */
 
@@ -103,8 +103,26 @@ static void estimate(const sobol_rows *s, int32_t key, double *first, double *to
     *total = e / variance;
 }
 
+/* Whether any two answers of A and B differ: a variance that is computed of equal ones need not be 0. */
+static bool varies(const sobol_rows *s)
+{
+    for (int32_t i = 0; i < s->count; i++)
+        if (at(s, 0, i) != at(s, 0, 0) || at(s, 1, i) != at(s, 0, 0))
+            return true;
+    return false;
+}
+
+/* Of the draws that have indices, if most do. */
 static void percentiles(double_array *a, double *low, double *high)
 {
+    int32_t n = 0;
+    for (int32_t i = 0; i < a->count; i++)
+        if (isfinite(a->data[i]))
+            a->data[n++] = a->data[i];
+    *low = *high = (double)NAN;
+    if (2 * n <= a->count)
+        return;
+    a->count = n;
     values_sort(a);
     *low = sorted_quantile(a->data, a->count, 0.025);
     *high = sorted_quantile(a->data, a->count, 0.975);
@@ -121,7 +139,9 @@ static bool bootstrap(context *ctx, const sobol_rows *s, int32_t key, sobol_inde
         for (int32_t i = 0; i < s->count; i++)
             row.data[i] = s->row[(int32_t)(random_unit(&random) * s->count)];
         const sobol_rows drawn = {s->answer, row.data, s->n, s->k, s->count};
-        estimate(&drawn, key, &first.data[b], &total.data[b]);
+        first.data[b] = total.data[b] = (double)NAN;
+        if (varies(&drawn))
+            estimate(&drawn, key, &first.data[b], &total.data[b]);
     }
     if (good) {
         percentiles(&first, &out->first_low, &out->first_high);
@@ -143,13 +163,13 @@ static bool row_is_whole(const double *answer, int32_t n, int32_t k, int32_t row
 
 int32_t sobol_indices(context *ctx, const double *answer, int32_t n, int32_t k, sobol_index *out)
 {
-    double none = (double)NAN, mean = 0;
+    double none = (double)NAN;
     int32_array row = {0};
     bool good = true;
     for (int32_t i = 0; i < n && good; i++)
         good = !row_is_whole(answer, n, k, i) || array_push(ctx, &row, i);
     const sobol_rows s = {answer, row.data, n, k, row.count};
-    bool carries = row.count >= ROWS_LEAST && variance_of(&s, &mean) > 0;
+    bool carries = row.count >= SOBOL_ROWS_LEAST && varies(&s);
     for (int32_t key = 0; key < k && good; key++) {
         out[key] = (sobol_index){none, none, none, none, none, none};
         if (!carries)

@@ -12,7 +12,7 @@
 
 #include "base/context.h"
 
-enum { SENSITIVITY_KEYS_MOST = 64, SENSITIVITY_LEVELS_MOST = 1000 };
+enum { SOBOL_ROWS_LEAST = 10, SENSITIVITY_KEYS_MOST = 64, SENSITIVITY_LEVELS_MOST = 1000 };
 
 /* Points in the unit cube, point after point: all of A, all of B, then A with the first coordinate of B, and so on.
    x: N (k + 2) x k.  A and B are Latin hypercubes. */
@@ -24,8 +24,8 @@ typedef struct sobol_index {
     double first, first_low, first_high, total, total_low, total_high;
 } sobol_index;
 /* answers: in the order of the points; rows with an answer that is NaN are left out.  95 % intervals are percentiles of
-   a bootstrap over rows.  Returns the number of rows that counted: with fewer than 10, or without variance, all is NaN;
-   -1: no memory. */
+   a bootstrap over rows, NaN where most of its draws have no variance.  Returns the number of rows that counted: with
+   fewer than SOBOL_ROWS_LEAST, or of answers that are all equal, all is NaN; -1: no memory. */
 int32_t sobol_indices(context *ctx, const double *answer, int32_t n, int32_t k, sobol_index *out);
 
 typedef struct morris_effect {

@@ -215,6 +215,22 @@ static void average(const study_folder *f, const condition_rows *conditions, run
     }
 }
 
+/* Why there are no indices. */
+static void add_sobol_note(const study_folder *f, int32_t rows, const sobol_index *of, text_buffer *b)
+{
+    if (isfinite(of->first) && isfinite(of->first_low))
+        text_add(f->ctx, b, ",\n");
+    else if (isfinite(of->first))
+        text_add(f->ctx, b, ",\"No interval: too few rows have values that differ: a larger count.\"\n");
+    else if (rows < SOBOL_ROWS_LEAST)
+        text_format(f->ctx, b,
+                    ",\"No answer: %d rows of the design have a value under each of their %d conditions: expected "
+                    "%d or more.\"\n",
+                    (int)rows, (int)f->s->keys.count + 2, SOBOL_ROWS_LEAST);
+    else
+        text_add(f->ctx, b, ",\"No answer: all values are equal: no key moves them.\"\n");
+}
+
 static void add_sobol(const study_folder *f, const answer_figure *figure, int32_t rows, const sobol_index *of,
                       text_buffer *b)
 {
@@ -224,7 +240,7 @@ static void add_sobol(const study_folder *f, const answer_figure *figure, int32_
         text_format(f->ctx, b, "%s,%s,%d", figure->name, f->s->keys.data[k], (int)rows);
         add_interval(f, b, &first);
         add_interval(f, b, &total);
-        text_add(f->ctx, b, "\n");
+        add_sobol_note(f, rows, &of[k], b);
     }
 }
 
@@ -235,7 +251,10 @@ static void add_morris(const study_folder *f, const answer_figure *figure, const
         add_number(f, b, of[k].mu);
         add_number(f, b, of[k].mu_star);
         add_number(f, b, of[k].sigma);
-        text_add(f->ctx, b, "\n");
+        text_add(f->ctx, b,
+                 of[k].count == 0   ? ",\"No answer: no step of this key has values at both of its ends.\"\n"
+                 : of[k].count == 1 ? ",\"No sigma: there is one effect, it takes two.\"\n"
+                                    : ",\n");
     }
 }
 
@@ -246,8 +265,8 @@ static fram_status write_sensitivity(const study_folder *f, const condition_rows
     double *answer = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *answer);
     fram_status status = answer ? FRAM_OK : error_memory(error);
     text_add(f->ctx, &b,
-             d->kind == DESIGN_SOBOL ? "figure,key,rows,first,first_low,first_high,total,total_low,total_high\n"
-                                     : "figure,key,effects,mu,mu_star,sigma\n");
+             d->kind == DESIGN_SOBOL ? "figure,key,rows,first,first_low,first_high,total,total_low,total_high,note\n"
+                                     : "figure,key,effects,mu,mu_star,sigma,note\n");
     for (int i = 0; i < MOVED && status == FRAM_OK; i++) {
         sobol_index sobol[SENSITIVITY_KEYS_MOST];
         morris_effect morris[SENSITIVITY_KEYS_MOST];

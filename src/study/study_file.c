@@ -9,6 +9,7 @@
 #include "study/study_extremes.h"
 #include "study/words.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static bool set_text(context *ctx, char **out, const char *text)
@@ -230,24 +231,52 @@ static bool is_varied(const study *s, const char *key)
     return false;
 }
 
-/* An error in a value that the study gave, at its place in the study file or in the table of conditions. */
-static void place_error(const study *s, int32_t condition, fram_error *error)
+/* "condition 3 (ice.thickness=1, vessel.speed=2): "; nothing where there is but one way to run. */
+enum { CONDITION_ROOM = 160 };
+static void name_condition(const study *s, int32_t condition, char out[CONDITION_ROOM])
 {
-    if (!error || strcmp(error->file, SCENARIO_OVERRIDE) != 0)
+    size_t used = 0;
+    out[0] = '\0';
+    if (s->keys.count == 0)
         return;
-    bool set = false;
-    int line = s->table ? s->table_line.data[condition] : s->keys_line;
-    for (int32_t i = 0; i < s->set.count; i++) {
-        if (strcmp(s->set.data[i].key, error->key) != 0 || is_varied(s, error->key))
-            continue;
-        line = s->set.data[i].line;
-        set = true;
+    used += (size_t)snprintf(out, CONDITION_ROOM, "condition %d (", (int)condition + 1);
+    for (int32_t k = 0; k < s->keys.count; k++) {
+        char one[CONDITION_ROOM];
+        int length = snprintf(one, sizeof one, "%s%.60s=%.60s", k > 0 ? ", " : "", s->keys.data[k],
+                              study_value(s, condition, k));
+        /* What has no room is told by conditions.csv. */
+        bool fits = used + (size_t)length + sizeof ", ...): " <= CONDITION_ROOM;
+        used += (size_t)snprintf(out + used, CONDITION_ROOM - used, "%s", fits ? one : ", ...");
+        if (!fits)
+            break;
     }
-    const char *file = s->table && !set ? s->table : s->file;
-    char message[sizeof error->message], key[sizeof error->key];
+    snprintf(out + used, CONDITION_ROOM - used, "): ");
+}
+
+/* A value that the study gave has its place in the study file or in the table of conditions. */
+void study_place_error(const study *s, int32_t condition, fram_error *error)
+{
+    if (!error)
+        return;
+    char file[sizeof error->file], message[sizeof error->message], key[sizeof error->key], name[CONDITION_ROOM];
+    int line = error->line, column = error->column;
+    memcpy(file, error->file, sizeof file);
     memcpy(message, error->message, sizeof message);
     memcpy(key, error->key, sizeof key);
-    error_set(error, FRAM_ERROR_INPUT, file, line, key, "condition %d: %.400s", (int)condition + 1, message);
+    if (strcmp(file, SCENARIO_OVERRIDE) == 0) {
+        bool set = false;
+        line = s->table ? s->table_line.data[condition] : s->keys_line;
+        for (int32_t i = 0; i < s->set.count; i++) {
+            if (strcmp(s->set.data[i].key, key) != 0 || is_varied(s, key))
+                continue;
+            line = s->set.data[i].line;
+            set = true;
+        }
+        snprintf(file, sizeof file, "%s", s->table && !set ? s->table : s->file);
+    }
+    name_condition(s, condition, name);
+    error_set(error, FRAM_ERROR_INPUT, file, line, key, "%s%s", name, message);
+    error->column = column;
 }
 
 fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,
@@ -270,7 +299,7 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
     const scenario_overrides overrides = {(const char *const *)items.data, items.count};
     fram_status status = good ? scenario_read(ctx, s->scenario, &overrides, out, error) : error_memory(error);
     if (status == FRAM_ERROR_INPUT)
-        place_error(s, condition, error);
+        study_place_error(s, condition, error);
     text_list_free(ctx, &items);
     text_free(ctx, &text);
     return status;
@@ -286,10 +315,10 @@ static fram_status check_vessel(context *ctx, const study *s, int32_t condition,
         const char *name = scenario_vessel_entry(one, v).keys->name;
         text_format(ctx, &there, "%s%s", v > 0 ? ", " : "", name[0] ? name : "one without a name");
     }
-    fram_status status =
-        error_set(error, FRAM_ERROR_INPUT, s->file, s->vessel_line, "vessel",
-                  "condition %d: expected the name of a vessel that is present (%.300s), found \"%.40s\"",
-                  (int)condition + 1, there.data ? there.data : "there is none", s->vessel);
+    fram_status status = error_set(error, FRAM_ERROR_INPUT, s->file, s->vessel_line, "vessel",
+                                   "expected the name of a vessel that is present (%.200s), found \"%.40s\"",
+                                   there.data ? there.data : "there is none", s->vessel);
+    study_place_error(s, condition, error);
     text_free(ctx, &there);
     return status;
 }

@@ -31,5 +31,8 @@ fram_status study_parse(context *ctx, const char *name, const char *data, size_t
 /* The scenario of one run; on success free with scenario_free. */
 fram_status study_scenario(context *ctx, const study *s, int32_t condition, int64_t seed, scenario *out,
                            fram_error *error);
+/* An error of a condition's scenario, or of the run that is made of it: tells the condition and its values, and, where
+   the study gave the value, the place in the study file or its table. */
+void study_place_error(const study *s, int32_t condition, fram_error *error);
 
 #endif

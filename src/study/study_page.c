@@ -368,7 +368,7 @@ static void add_heats(study_page *p, const bool *has)
 
 /* ---- the worst runs ---- */
 
-/* The link to the playback where it is there, or else the command that makes it. */
+/* The link to the playback where it is there, or else the command that makes it: from the record, or run anew. */
 static void add_playback(study_page *p, const worst_run *run)
 {
     const char *id = p->f->id[run->condition];
@@ -376,12 +376,14 @@ static void add_playback(study_page *p, const worst_run *run)
     text_buffer *text = &p->page.text;
     if (study_worst_has_playback(p->f, run))
         text_format(p->f->ctx, text, "<td><a href=\"worst/%s-%lld/playback.html\">playback</a></td>", id, seed);
+    else if (study_worst_has_record(p->f, run))
+        text_format(p->f->ctx, text, "<td><code>fram view worst/%s-%lld</code> makes it from the record</td>", id,
+                    seed);
     else
         text_format(p->f->ctx, text,
-                    "<td><a href=\"worst/%s-%lld/playback.html\">playback</a>, when made by <code>fram run "
-                    "conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 -o worst/%s-%lld &amp;&amp; "
-                    "fram view worst/%s-%lld</code></td>",
-                    id, seed, id, seed, id, seed, id, seed);
+                    "<td><code>fram run conditions/%s.yaml --set run.seed=%lld --set output.frame_interval=1 "
+                    "-o worst/%s-%lld &amp;&amp; fram view worst/%s-%lld</code></td>",
+                    id, seed, id, seed, id, seed);
 }
 
 static void add_worst(study_page *p)
@@ -400,7 +402,8 @@ static void add_worst(study_page *p)
         html_paragraph(
             &p->page,
             "A command, given in the folder of this page, makes a run again with a record and its playback, "
-            "which the link then opens; \"keep: {record_of_worst: %d}\" in the study has them made at its end.",
+            "playback.html in the folder that it names; \"keep: {record_of_worst: %d}\" in the study has them made at "
+            "its end, with links from here.",
             WORST);
     wide_begin(p);
     html_table_begin(&p->page, heads, sizeof heads / sizeof *heads);

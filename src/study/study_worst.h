@@ -26,7 +26,8 @@ int32_t study_worst_find(const study_folder *f, const condition_rows *conditions
                          worst_run *out);
 /* "DIR/worst/ID-SEED" and an ending, to be freed; NULL without memory. */
 char *study_worst_path(const study_folder *f, const worst_run *run, const char *ending);
-/* Whether its playback is there, whoever made it. */
+/* Whether its record, its playback are there, whoever made them. */
+bool study_worst_has_record(const study_folder *f, const worst_run *run);
 bool study_worst_has_playback(const study_folder *f, const worst_run *run);
 
 /* Between frames of a record of the scenario [s]: its own interval, or 1 s. */

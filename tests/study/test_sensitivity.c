@@ -89,4 +89,26 @@ START_TEST(effects_of_a_polynomial)
 }
 END_TEST
 
-TEST_MAIN("sensitivity", indices_of_ishigamis_function, samples_are_hypercubes, effects_of_a_polynomial)
+/* Answers that are all equal, though sums of them round, move by no key; where but one differs, most draws of the
+   bootstrap have no variance. */
+START_TEST(equal_answers_have_no_indices)
+{
+    enum { N = 10, K = 2 };
+    context ctx;
+    context_init(&ctx);
+    double y[N * (K + 2)];
+    sobol_index s[K];
+    for (int i = 0; i < N * (K + 2); i++)
+        y[i] = 0.1;
+    ck_assert_int_eq(sobol_indices(&ctx, y, N, K, s), N);
+    ck_assert(isnan(s[0].first) && isnan(s[1].total) && isnan(s[0].first_low));
+    /* Row 3 of B and of its mixture: 65 % of draws have it. */
+    y[N + 3] = y[3 * N + 3] = 0.2;
+    ck_assert_int_eq(sobol_indices(&ctx, y, N, K, s), N);
+    assert_absolute(s[0].total, 0, 0);
+    ck_assert(s[1].total > 0.5 && isfinite(s[1].first_low) && isfinite(s[1].total_high));
+}
+END_TEST
+
+TEST_MAIN("sensitivity", equal_answers_have_no_indices, indices_of_ishigamis_function, samples_are_hypercubes,
+          effects_of_a_polynomial)

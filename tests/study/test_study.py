@@ -292,7 +292,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         cells = [f"{100 * float(last[f'share_{n}[1]']):.1f} ± {100 * float(last[f'share_{n}_half[1]']):.1f}"
                  for n in names]
         for words in ("Heat maps", "Worst runs", "</td><td>".join(cells), "<b>8", "Largest load", "image/svg",
-                      f"-{worst['seed']}/playback.html\">"):
+                      f"--set run.seed={worst['seed']} --set output.frame_interval=1"):
             self.assertTrue(words in page, words)
         self.assertNotIn("thruster power", page)
         # The uncertainty, to two digits, decides how many digits a mean has.
@@ -301,13 +301,16 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         shown = [f"{round(x, decimals):.{max(decimals, 0)}f}" for x in (mean, half)]
         self.assertIn(f"<td>{shown[0]} ± {shown[1]}<", page)
         self.assertNotIn("Rare loads", page)
-        # The command of the worst run makes what its link opens.
-        link, command = re.search('<a href="(worst/[^"]*)">playback</a>, when made by <code>([^<]*)</', page).groups()
+        # The command of the worst run makes its record and playback; given again, the study links to it.
+        command, name = re.search("<code>(fram run [^<]* fram view worst/([^<]*))</code>", page).groups()
         command = command.replace("&amp;&amp;", "&&").replace("fram ", FRAM + " ").replace("-o ", "--quiet -o ")
         done = subprocess.run(command, shell=True, cwd=self.at / "out", capture_output=True, text=True)
         if "make viewer" not in done.stderr:
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertTrue((self.at / "out" / link).exists())
+            self.assertTrue((self.at / "out" / "worst" / name / "playback.html").exists())
+        self.fram(study, "-o", self.at / "out")
+        self.assertIn(f'<a href="worst/{name}/playback.html">playback</a>' if done.returncode == 0 else
+                      f"<code>fram view worst/{name}</code> makes it", (self.at / "out" / "study.html").read_text())
         if not (self.at / "out" / "study.nc").exists():
             self.skipTest("this build has no NetCDF")
         read = ("import sys, xarray; d = xarray.open_dataset(sys.argv[1]);"
@@ -409,6 +412,14 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         # How often frames are recorded moves no load.
         self.assertEqual([float(r["mu_star"]) for r in rows if r["key"] == "output.frame_interval"],
                          [0] * (len(rows) // 2))
+        self.assertTrue(all(r["note"] == "" for r in rows if r["key"] == "vessel.speed"))
+        # Where nothing moves the table says so.
+        study = self.write("set: {run.duration: 0.1, run.transient: 0, ice.concentration: 0.1}\n"
+                           "vary: {sobol: {count: 10, keys: {output.frame_interval: [0.1, 0.4]}}}\n")
+        self.fram(study, "-o", self.at / "none")
+        for row in self.rows("none", "sensitivity.csv"):
+            self.assertEqual((row["first"], row["total"]), ("", ""))
+            self.assertIn("all values are equal", row["note"])
         self.refused("vary: {sobol: {count: 5, keys: {vessel.speed: [1, 2]}}}\n", "study.yaml:2: count", "10")
         self.refused("vary: {morris: {count: 5, levels: 3, keys: {vessel.speed: [1, 2]}}}\n", "levels", "even")
         self.refused("vary: {morris: {count: 5, keys: {vessel.speed: [1, 1]}}}\n", "vessel.speed", "wider")
@@ -423,8 +434,18 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("seed: 3\n", "seed", "did you mean seeds?")
 
     def test_mistakes_are_told_at_their_place(self):
-        self.refused("vary: {grid: {ice.thicknes: [1]}}\n", "study.yaml:2: ice.thicknes", "condition 1")
+        self.refused("vary: {grid: {ice.thicknes: [1]}}\n", "study.yaml:2: ice.thicknes",
+                     "condition 1 (ice.thicknes=1): ")
+        # One of several conditions is told with its values, wherever the mistake is: in a value of the study, in a key
+        # of the scenario that the value makes wrong, and in what is only found when the field is made.
+        self.refused("vary: {grid: {ice.thickness: [1, 2], domain.x_min: [-64, 0]}}\n", "base.yaml:3: vessel.x: "
+                     "condition 2 (ice.thickness=1, domain.x_min=0): expected vessel.x")
+        self.refused("vary:\n  grid: {ice.concentration: [0.5, 0.9999]}\n", "study.yaml:3: ice.concentration: "
+                     "condition 2 (ice.concentration=0.9999): concentration")
         self.refused("set:\n  run.duration: -1\n", "study.yaml:3: run.duration")
+        for wrong, right in (("extreme_within", "largest_within"), ("max_within", "largest_within"),
+                             ("min", "least"), ("maximum", "most"), ("mean_witin", "mean_within")):
+            self.refused(f"seeds: {{{wrong}: 2}}\n", f"study.yaml:2: {wrong}", f"did you mean {right}?")
         self.refused("seeds: 0\n", "study.yaml:2: seeds")
         self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
         self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")

@@ -4,6 +4,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import time
 import unittest
@@ -106,6 +107,26 @@ class Worst(StudyTest):
         row.write_text(text)
         self.fram(study, "-o", self.at / "out")
         self.check("out", self.worst_of("out", 1))
+
+    def test_without_the_page_of_the_viewer_the_record_stays_and_nothing_is_promised(self):
+        alone = self.at / "bin" / "fram"
+        alone.parent.mkdir()
+        shutil.copy(FRAM, alone)
+        study = self.write("seeds: 1\nkeep: {record_of_worst: 2}\n" + VARY)
+        call = lambda *words: subprocess.run([alone, "study", *map(str, words)], capture_output=True, text=True)
+        self.assertIn("without playbacks: the viewer's page is not beside", call("check", study).stdout)
+        self.assertEqual(json.loads(call("check", study, "--json").stdout)["playbacks"], 0)
+        done = call(study, "-o", self.at / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("its playback was not made: --page: the viewer's page is not there", done.stderr)
+        names, page = self.worst_of("out", 2), (self.at / "out" / "study.html").read_text()
+        for name in names:
+            self.assertIn(f"<code>fram view worst/{name}</code> makes it from the record", page)
+            self.assertTrue((self.at / "out" / "worst" / name / "record.fram").exists())
+        # No link leads to what is not there; runs without a record have the command that makes one.
+        for link in re.findall('href="([^"#:]*)"', page):
+            self.assertTrue((self.at / "out" / link).exists(), link)
+        self.assertEqual(page.count("&amp;&amp; fram view worst/"), 2)
 
     def test_what_it_takes_is_told_and_mistakes_are_refused(self):
         study = self.write("seeds: 3\nkeep: {each: series, record_of_worst: 2}\n")
