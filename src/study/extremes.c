@@ -53,6 +53,7 @@ typedef struct extreme_sample {
     const weibull_jackknife *jackknife; /* of Weibull's law */
     const series_set *series;           /* that the values are of; NULL: the values are all there is */
     double survival;                    /* the part of the series over the law's location; 0: not known */
+    extreme_law values;                 /* of peaks of a series: of all values over the location; scale 0: none */
 } extreme_sample;
 
 static double law_level(const extreme_law *law, const extreme_sample *s, double exponent)
@@ -89,7 +90,10 @@ static bool bootstrap(context *ctx, const extreme_sample *s, const extreme_reque
     return good;
 }
 
-/* The end towards which the limit of the tail may lie is moved by what the fit leaves out. */
+/* The ends towards which the limit of the tail may lie are moved by what the fit leaves out.  The theory of that limit
+   is one of the law of the values, to which that of cluster maxima tends (Leadbetter 1991); under the limit they have
+   another one, since more values find together in a cluster over a low threshold than over a high one (Eastoe and Tawn
+   2012).  What either tail tells is allowed. */
 static void add_penultimate(const extreme_sample *s, const extreme_law *law, double exponent, level_interval *i)
 {
     if (!(s->survival > 0))
@@ -98,8 +102,11 @@ static void add_penultimate(const extreme_sample *s, const extreme_law *law, dou
        maxima the level that a block reaches once on the average. */
     double times = s->kind == LAW_GEV ? s->exposure : s->exposure * s->value.count;
     double shift = penultimate_shift(law, s->survival, real_log(fmax(times / exponent, 1)));
-    i->low += fmin(shift, 0);
-    i->high += fmax(shift, 0);
+    double other = shift;
+    if (s->values.scale > 0)
+        other = penultimate_level(&s->values, s->survival, real_log(fmax(times / exponent, 1))) - i->level;
+    i->low += fmin(fmin(shift, other), 0);
+    i->high += fmax(fmax(shift, other), 0);
 }
 
 static bool sample_level(context *ctx, const extreme_sample *s, const extreme_request *ask, const extreme_law *law,
@@ -178,6 +185,22 @@ static double survival_of(const series_set *s, double level)
     return (double)over / (double)all;
 }
 
+/* The law of all values over the location, for the limit of the tail. */
+static bool fit_values(context *ctx, extreme_sample *s)
+{
+    double_array over = {0};
+    bool good = true;
+    for (int32_t p = 0; p < s->series->count && good; p++)
+        for (int32_t i = 0; i < s->series->parts[p].count && good; i++)
+            if (s->series->parts[p].value[i] > s->location)
+                good = array_push(ctx, &over, s->series->parts[p].value[i]);
+    values_sort(&over);
+    if (good && !extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, over.data, over.count, s->location, &s->values))
+        s->values.scale = 0;
+    array_free(ctx, &over);
+    return good;
+}
+
 /* Fit and levels of a sorted sample. */
 static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_request *ask, extreme_result *out,
                                  fram_error *error)
@@ -192,6 +215,8 @@ static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_
         return extremes_refuse(out, "fewer than one peak is expected in the duration: ask for a longer one");
     if (s->series && (s->kind == LAW_PARETO || s->kind == LAW_GEV))
         s->survival = survival_of(s->series, out->law.location);
+    if (s->series && s->kind == LAW_PARETO && !fit_values(ctx, s))
+        return error_memory(error);
     keep_points(s, ask, out);
     bool good = sample_levels(ctx, s, ask, out);
     if (s->kind == LAW_GUMBEL)

@@ -107,11 +107,17 @@ double jackknife_bound(const weibull_jackknife *j, const extreme_law *law, int32
     return student_quantile(confidence, j->groups - 1) * sqrt(spread / fitted_variance(law, count, fmax(rare, 1e-3)));
 }
 
-double penultimate_shift(const extreme_law *law, double survival, double rare)
+/* Way from the location to the level of the fit, in scales. */
+static double fitted_way(const extreme_law *law, double rare)
+{
+    return fabs(law->shape) < 1e-9 ? rare : (real_exp(law->shape * rare) - 1) / law->shape;
+}
+
+double penultimate_level(const extreme_law *law, double survival, double rare)
 {
     double begin = -real_log(survival), shape = law->shape;
     if (!(survival > 0 && survival < 1 && begin > 0 && rare > 0))
-        return 0;
+        return law->location + law->scale * fitted_way(law, rare);
     /* shape(h) = power/h, h = -log survival, is that of the fit in the mean over the values: what their h has over that
        of the location is exponential of peaks, and of maxima Gumbel's. */
     double mean = law->kind == LAW_GEV ? EULER_GAMMA : 1;
@@ -120,6 +126,10 @@ double penultimate_shift(const extreme_law *law, double survival, double rare)
         exact = begin * real_log(end / begin);
     else
         exact = begin / (power + 1) * (real_pow(end / begin, power + 1) - 1);
-    double constant = fabs(shape) < 1e-9 ? rare : (real_exp(shape * rare) - 1) / shape;
-    return law->scale * (exact - constant);
+    return law->location + law->scale * exact;
+}
+
+double penultimate_shift(const extreme_law *law, double survival, double rare)
+{
+    return penultimate_level(law, survival, rare) - law->location - law->scale * fitted_way(law, rare);
 }

@@ -25,11 +25,13 @@ bool jackknife_weibull(context *ctx, const series_set *s, const series_nature *n
 double jackknife_bound(const weibull_jackknife *j, const extreme_law *law, int32_t count, double exponent,
                        double confidence);
 
-/* What the level of a Pareto law over a threshold, or of a law of maxima over its location, leaves out [its unit] when
-   the tail of the parent is Weibull's, as that of Gaussian loads is: then its shape goes to 0 with the inverse of the
-   logarithm of the survival (Smith 1987), and the fit takes it as constant.  Positive where the fit is too low.
-   survival: the part of all values over the threshold or location.  rare: the logarithm of the number of peaks, or
-   blocks, over the number of exceedances asked for. */
+/* The level of a Pareto law over a threshold, or of a law of maxima over its location, when the tail of the parent is
+   Weibull's, as that of Gaussian loads is: then its shape goes to 0 with the inverse of the logarithm of the survival
+   (Smith 1987), where the fit takes it as constant; that of the fit where the survival tells nothing.  survival: the
+   part of all values over the threshold or location.  rare: the logarithm of the number of peaks, or blocks, over the
+   number of exceedances asked for. */
+double penultimate_level(const extreme_law *law, double survival, double rare);
+/* What the level of the fit leaves out of that one [its unit]; positive where the fit is too low. */
 double penultimate_shift(const extreme_law *law, double survival, double rare);
 
 #endif

@@ -6,6 +6,8 @@
 #include "study/extremes.h"
 #include "study/extremes_notes.h"
 #include "study/extremes_spread.h"
+#include "study/peaks.h"
+#include "study/profile.h"
 #include "study/special.h"
 
 enum { VALUES = 20000 };
@@ -145,5 +147,52 @@ START_TEST(independent_peaks_keep_their_bound)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", a_tail_that_changes_is_told, draws_without_a_fit_are_told, the_limit_of_a_weibull_tail,
-          maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)
+/* Over a threshold that is low the greatest values of clusters have another law than the values (Eastoe and Tawn 2012):
+   the interval goes as far as the tail of either tells. */
+START_TEST(intervals_of_peaks_go_as_far_as_the_tail_of_the_values)
+{
+    enum { LONG = 20000 };
+    static double value[LONG];
+    random_stream r = random_begin(11, 7, 1);
+    double x = random_normal(&r), exponent = 1;
+    for (int i = 0; i < LONG; i++) {
+        value[i] = x;
+        x = 0.8 * x + 0.6 * random_normal(&r);
+    }
+    const series_part part = {value, LONG};
+    const series_set set = {&part, 1, 1};
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = 3 * LONG;
+    ask.stability = false;
+    static extreme_result told;
+    context ctx;
+    context_init(&ctx);
+    ck_assert(extremes_of_series(&ctx, &set, EXTREME_POT, &ask, &told, NULL) == FRAM_OK);
+    double_array peaks = {0}, over = {0};
+    ck_assert(cluster_peaks(&ctx, &set, told.threshold, (int)floor(told.separation + 0.5), &peaks));
+    for (int i = 0; i < LONG; i++)
+        if (value[i] > told.threshold)
+            ck_assert(array_push(&ctx, &over, value[i]));
+    values_sort(&peaks);
+    values_sort(&over);
+    ck_assert_int_eq(peaks.count, told.sample);
+    extreme_law law;
+    ck_assert(extreme_law_fit(LAW_PARETO, FIT_LIKELIHOOD, over.data, over.count, told.threshold, &law));
+    profile_question q = {&told.law, peaks.data, peaks.count, 3, exponent, 0.95, .ctx = &ctx};
+    level_interval scatter = profile_interval(&q);
+    double survival = (double)over.count / LONG, rare = real_log(3.0 * peaks.count);
+    double of_clusters = penultimate_shift(&told.law, survival, rare);
+    double of_values = penultimate_level(&law, survival, rare) - scatter.level;
+    ck_assert(of_values > of_clusters + 0.01 && of_clusters > 0);
+    assert_relative(told.most_probable.high, scatter.high + of_values, 1e-12);
+    assert_relative(told.most_probable.low, scatter.low, 1e-12);
+    assert_relative(told.most_probable.level, scatter.level, 1e-12);
+    array_free(&ctx, &peaks);
+    array_free(&ctx, &over);
+}
+END_TEST
+
+TEST_MAIN("extremes_doubts", intervals_of_peaks_go_as_far_as_the_tail_of_the_values, a_tail_that_changes_is_told,
+          draws_without_a_fit_are_told, the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit,
+          independent_peaks_keep_their_bound)
