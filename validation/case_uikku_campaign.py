@@ -17,7 +17,7 @@ ROWS = {103: (0.77, 724, 1748, 929, 0.2, 480, 130, 920, 100), 104: (0.76, 844, 2
 STEPS = {0.2: 0.05, 0.5: 0.04, 1.0: 0.02}
 ASKED = (-85.0, -83.4, -81.7)  # vessel.x [m]: 0, 1/3 and 2/3 of R_bending, 4.9 m in test 303
 # A start costs an hour of one core: FRAM_UIKKU_STARTS=1 makes a page of one start, without the variants, and says so.
-STARTS = ASKED[:int(os.environ.get("FRAM_UIKKU_STARTS", len(ASKED)))]
+STARTS = ASKED[:ladder.whole_number("FRAM_UIKKU_STARTS", 1, len(ASKED))]
 LENGTHS = 2  # ship lengths that count, from where the whole hull is in the ice
 # Tests that are run with the variants too, over the first of these ship lengths from one start.
 SPREAD = (103, 303) if STARTS == ASKED else ()

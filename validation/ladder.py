@@ -47,6 +47,14 @@ class Case:
         return bool(self.checks) and all(good for _, good in self.checks)
 
 
+def whole_number(variable, least, most):
+    """What a variable of the environment asks for; the most where it is not set."""
+    text = os.environ.get(variable, str(most))
+    if text not in [str(n) for n in range(least, most + 1)]:
+        raise SystemExit(f"{variable}: expected {least} to {most}, found '{text}'")
+    return int(text)
+
+
 def answer(*words):
     """The JSON object with which a Fram command ends."""
     done = subprocess.run([str(FRAM), *map(str, words), "--json"], capture_output=True, text=True)

@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "io/file.h"
+#include "io/utf8.h"
 
 #include <errno.h>
 #include <math.h>
@@ -10,8 +11,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* That some programs begin a text with. */
-#define BYTE_ORDER_MARK "\xef\xbb\xbf"
+/* What may stand about a number, and alone in a line that counts for none. */
+#define BLANKS " \t"
 
 /* A header cell is the name, or "name[unit]" in the unit that is asked for, if one is: no other unit is taken for it.
  */
@@ -37,6 +38,7 @@ static fram_status find_columns(const char *path, const char *header, const char
         at[k] = -1;
         int32_t column = 0;
         for (const char *c = header;; c++, column++) {
+            c += strspn(c, BLANKS);
             size_t length = strcspn(c, ",["), whole = strcspn(c, ",");
             while (length > 0 && c[length - 1] == ' ')
                 length--;
@@ -108,7 +110,9 @@ static fram_status read_row(context *ctx, const char *path, int line, const char
         }
         char *end;
         double value = real_read(c, &end);
-        if (end == c || (*end != ',' && *end != '\0'))
+        bool number = end > c;
+        end += strspn(end, BLANKS);
+        if (!number || (*end != ',' && *end != '\0'))
             return error_set(error, FRAM_ERROR_INPUT, path, line, NULL, "column %d: expected a number",
                              (int)column + 1);
         if (column == asked) {
@@ -208,7 +212,7 @@ static fram_status read_stream(context *ctx, line_buffer *b, uint64_t size, cons
             work_tell(ctx, "reading rows", done, (double)size);
         done += (double)length;
         trim_end(line, length);
-        const char *text = number == 1 && strncmp(line, BYTE_ORDER_MARK, 3) == 0 ? line + 3 : line;
+        const char *text = number == 1 ? line + utf8_mark(line, strlen(line)) : line;
         status = reader->read(reader->user, path, number, text, error);
         if (status != FRAM_OK)
             return status;
@@ -249,6 +253,8 @@ typedef struct column_reader {
 static fram_status read_columns(void *user, const char *path, int line, const char *text, fram_error *error)
 {
     column_reader *r = user;
+    if (line > 1 && text[strspn(text, BLANKS)] == '\0')
+        return FRAM_OK;
     return line == 1 ? find_columns(path, text, r->names, r->count, r->at, error)
                      : read_row(r->ctx, path, line, text, r->at, r->count, r->columns, error);
 }

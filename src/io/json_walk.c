@@ -12,8 +12,7 @@ enum { NUMBER_LENGTH_MOST = 400 };
 json_walk json_walk_begin(const char *name, const char *data, size_t size, int32_t depth_limit)
 {
     json_walk w = {name, data, data + size, data, 1, 0, depth_limit};
-    if (size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0)
-        w.at = w.line_start = data + 3;
+    w.at = w.line_start = data + utf8_mark(data, size);
     return w;
 }
 

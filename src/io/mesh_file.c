@@ -5,6 +5,7 @@
 #include "geometry/mesh_repair.h"
 #include "io/atomic_file.h"
 #include "io/mesh_reader.h"
+#include "io/utf8.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -20,12 +21,8 @@ static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c ==
 
 word_reader word_reader_begin(const char *data, size_t size)
 {
-    static const char byte_order_mark[] = "\xef\xbb\xbf";
-    if (size >= 3 && memcmp(data, byte_order_mark, 3) == 0) {
-        data += 3;
-        size -= 3;
-    }
-    return (word_reader){.at = data, .end = data + size, .line = 1, .word = data, .word_line = 1};
+    const char *first = data + utf8_mark(data, size);
+    return (word_reader){.at = first, .end = data + size, .line = 1, .word = first, .word_line = 1};
 }
 
 static bool continues(const word_reader *r)

@@ -1,6 +1,6 @@
 /* Decoding by the table of well-formed sequences (Unicode 15, table 3-7). */
 #include "io/utf8.h"
-#include <stddef.h>
+#include <string.h>
 
 int32_t utf8_next(const char **at, const char *end)
 {
@@ -25,6 +25,13 @@ int32_t utf8_next(const char **at, const char *end)
         return -1;
     *at += more + 1;
     return code;
+}
+
+size_t utf8_mark(const char *text, size_t size)
+{
+    static const char mark[] = "\xef\xbb\xbf";
+    size_t length = sizeof mark - 1;
+    return size >= length && memcmp(text, mark, length) == 0 ? length : 0;
 }
 
 bool utf8_is_printable(int32_t code)

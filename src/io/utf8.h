@@ -3,11 +3,14 @@
 #define IO_UTF8_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* The code point at *at, which moves behind it; -1 when the bytes are not UTF-8 (also overlong forms, surrogates and
    values over 0x10ffff), *at is then not moved.  *at < end. */
 int32_t utf8_next(const char **at, const char *end);
+/* Bytes of the byte order mark that some programs begin a text with: 3, or 0 where there is none. */
+size_t utf8_mark(const char *text, size_t size);
 /* Neither a control character nor a line break, byte order mark or non-character. */
 bool utf8_is_printable(int32_t code);
 

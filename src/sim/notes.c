@@ -73,6 +73,21 @@ static void note_ice(const note_taker *n, const scenario *s)
 /* The smaller of the areas of contact that are shown, over the square of the thickness; the other is 1. */
 #define SMALL_CONTACT 0.1
 
+/* Of the speed that a ship makes under its own power: about what is left of it in ice that it breaks well. */
+#define OWN_POWER_IN_ICE 0.5
+
+/* About how fast vessel and ice meet, the faster of the two counting [m/s].  What files of drift and current say is not
+   known here. */
+static double speed_in_ice(const scenario *s, const scenario_vessel *v)
+{
+    const scenario_domain *d = &s->domain;
+    double current = s->environment.water ? s->environment.current_speed : 0;
+    double drift = d->boundary == DOMAIN_FEEDING ? automatic_or(d->drift_speed, current) : current;
+    bool own = v->mode == VESSEL_FREE && !is_automatic(v->propulsion.bollard_pull);
+    double ship = own ? fmax(v->speed, OWN_POWER_IN_ICE * vessel_fastest(v)) : vessel_fastest(v);
+    return fmax(ship, drift);
+}
+
 /* What breaks the ice at its edge, by the loads that fracture compares (docs/theory.md). */
 static void note_fracture(const note_taker *n, const scenario *s)
 {
@@ -100,12 +115,14 @@ static void note_fracture(const note_taker *n, const scenario *s)
     double needed = e.wedge_capacity / (sigma * h);
     for (int32_t v = 0; v < scenario_vessel_count(s); v++) {
         vessel_entry entry = scenario_vessel_entry(s, v);
-        double speed = entry.keys->speed, depth = speed * s->run.time_step;
+        double speed = speed_in_ice(s, entry.keys), depth = speed * s->run.time_step;
+        note_fact(n, "fracture: steps of %g s are short for %s up to %.3g m/s", s->run.time_step,
+                  vessel_title_of(&entry).text, BREAKING_STEP * needed / s->run.time_step);
         if (depth > BREAKING_STEP * needed)
             note_warning(n,
-                         "%s moves %.3g m in a step, and ice as wide as it is thick breaks after about "
-                         "%.3g m of crushing; take run.time_step under %.3g s",
-                         vessel_title_of(&entry).text, depth, needed, BREAKING_STEP * needed / speed);
+                         "%s and the ice move %.3g m past each other in a step at %.4g m/s, and ice as wide as it is "
+                         "thick breaks after about %.3g m of crushing; take run.time_step under %.3g s",
+                         vessel_title_of(&entry).text, depth, speed, needed, BREAKING_STEP * needed / speed);
     }
 }
 
@@ -113,12 +130,12 @@ static void note_vessel(const note_taker *n, const scenario *s, const vessel_ent
 {
     const scenario_vessel *v = entry->keys;
     vessel_title title = vessel_title_of(entry);
-    double way = v->speed * s->run.time_step;
+    double speed = speed_in_ice(s, v), way = speed * s->run.time_step;
     if (s->ice.source != ICE_NONE && way > THICKNESS_STEP * s->ice.thickness)
         note_warning(n,
-                     "%s moves %.2g of the ice thickness in a step; crushing patches grow in jumps. "
-                     "Take run.time_step under %.3g s",
-                     title.text, way / s->ice.thickness, THICKNESS_STEP * s->ice.thickness / v->speed);
+                     "%s and the ice move %.2g of its thickness past each other in a step at %.4g m/s; crushing "
+                     "patches grow in jumps. Take run.time_step under %.3g s",
+                     title.text, way / s->ice.thickness, speed, THICKNESS_STEP * s->ice.thickness / speed);
     double far = vessel_fastest(v) * s->run.duration, course = radians(automatic_or(v->course_deg, v->heading_deg));
     double x = v->x + far * real_cos(course), y = v->y + far * real_sin(course);
     bool inside = x > s->domain.x_min && x < s->domain.x_max && y > s->domain.y_min && y < s->domain.y_max;

@@ -261,7 +261,7 @@ static void tell_times(const teller *t)
     if (r->duration / r->time_step > MOST_STEPS)
         sanity_say(t->tell, t->to, "run.time_step: %g s makes %.3g steps of the run: give seconds", r->time_step,
                    r->duration / r->time_step);
-    if (o->frame_interval < r->time_step)
+    if (o->frame_interval > 0 && o->frame_interval < r->time_step)
         sanity_say(t->tell, t->to,
                    "output.frame_interval: %g s is shorter than run.time_step, %g s: a frame every step",
                    o->frame_interval, r->time_step);

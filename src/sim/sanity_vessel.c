@@ -94,8 +94,9 @@ static void tell_propulsion(const teller *t)
 #define SCOPE_LEAST 0.05
 /* Length of line that the breaking load carries [m]: 5 km of chain, 15 km of wire. */
 #define OWN_WEIGHT 1e3
-/* Freeboards to which fairleads go up. */
+/* Freeboards to which fairleads go up, and draughts to which they go down: chains leave the bottom of a turret. */
 #define MOST_HEIGHT 2.0
+#define MOST_SINKING 2.0
 /* A full turn with what rounding leaves of a spacing [deg]. */
 #define FULL_CIRCLE 360.5
 
@@ -136,6 +137,11 @@ static void tell_line(const teller *t, int32_t i)
                    "%s.mooring.z: fairleads %.4g m above the design waterline, over a deck at %.4g m: give metres, "
                    "negative under water",
                    t->e->path, v->mooring.z, v->hull.freeboard);
+    if (sanity_own_hull(v) && -v->mooring.z > MOST_SINKING * v->hull.draught)
+        sanity_say(t->tell, t->to,
+                   "%s.mooring.z: fairleads %.4g m under the design waterline, far under a keel at %.4g m: give metres "
+                   "from the waterline, not from the bottom or the deck",
+                   t->e->path, -v->mooring.z, v->hull.draught);
     if (!is_automatic(l->release_time) && l->release_time > 0 && l->release_time < r->transient)
         sanity_say(t->tell, t->to,
                    "%s.mooring.lines[%d].release_time: it is let go at %g s, in the transient of %g s that statistics "

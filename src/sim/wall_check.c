@@ -35,11 +35,23 @@ static double way_left(double lo, double hi, double least, double most, double d
     return direction < 0 ? (least - lo) / direction : HUGE_VAL;
 }
 
+/* Between the points of a path: 0 without one. */
+static double fastest_on_path(const scenario_vessel *v)
+{
+    double most = 0;
+    for (int32_t i = 1; i < v->path.count; i++) {
+        const scenario_path_point *a = &v->path.data[i - 1], *b = &v->path.data[i];
+        double x = b->x - a->x, y = b->y - a->y;
+        most = fmax(most, sqrt(x * x + y * y) / (b->time - a->time));
+    }
+    return most;
+}
+
 double vessel_fastest(const scenario_vessel *v)
 {
     const scenario_propulsion *p = &v->propulsion;
     if (v->mode != VESSEL_FREE || is_automatic(p->bollard_pull))
-        return v->speed;
+        return fmax(v->speed, fastest_on_path(v));
     /* As the key of the power says. */
     double most = p->open_water_speed * real_pow(p->power, 1.0 / 3);
     return fmax(v->speed, fmin(most, automatic_or(p->speed, HUGE_VAL)));

@@ -17,7 +17,8 @@ bool wall_watch(context *ctx, const model *m, world *w);
 /* At the end of a run, to the log: which vessels met a wall, and when. */
 void wall_remind(context *ctx, const model *m, const world *w);
 
-/* The fastest that a vessel goes by itself or on its carriage [m/s]: an upper bound for one under its own power. */
+/* The fastest that a vessel goes by itself, on its path or on its carriage [m/s]: an upper bound for one under its own
+ * power. */
 double vessel_fastest(const scenario_vessel *v);
 /* Whether it goes on along its course: on a carriage, or under its own power where nothing says otherwise. */
 bool vessel_keeps_course(const scenario_vessel *v);

@@ -2,6 +2,7 @@
 
 #include "io/file.h"
 #include "io/text_buffer.h"
+#include "io/utf8.h"
 #include "model/scenario_schema.h"
 
 #include <stdlib.h>
@@ -9,7 +10,6 @@
 
 /* Far beyond a table of the most conditions with ten keys each. */
 enum { TABLE_BYTES_MOST = 1 << 26, KEYS_MOST = 1000 };
-#define BYTE_ORDER_MARK "\xef\xbb\xbf"
 
 typedef struct table_reader {
     context *ctx;
@@ -208,8 +208,7 @@ static fram_status read_row(table_reader *r)
 
 static fram_status read_all(table_reader *r)
 {
-    if (r->end - r->at >= 3 && memcmp(r->at, BYTE_ORDER_MARK, 3) == 0)
-        r->at += 3;
+    r->at += utf8_mark(r->at, (size_t)(r->end - r->at));
     for (const char *c = r->at; c < r->end; c++) {
         if (!*c)
             return refuse(r, NULL, "expected text, found a NUL byte");

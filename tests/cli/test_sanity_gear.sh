@@ -38,6 +38,7 @@ told ship.yaml "lines[0].distance: an anchor 0.9 m off|metres" --set "vessel.moo
 told ship.yaml "lines[0].spacing_deg: 8 lines at 90 degrees" --set "vessel.mooring.lines[0].spacing_deg=90"
 told ship.yaml "fairleads 800 m from amidships" --set "vessel.mooring.lines[0].fairlead_distance=800"
 told ship.yaml "fairleads 400 m from amidships" --set vessel.mooring.x=400
+told ship.yaml "mooring.z: fairleads 50 m under the design waterline|keel at 6.5 m" --set vessel.mooring.z=-50
 told ship.yaml "lines[0].release_time: 3600 s is after the end" --set "vessel.mooring.lines[0].release_time=3600"
 told ship.yaml "lines[0].weight: 1.5 N/m|not kg/m or kN/m" --set "vessel.mooring.lines[0].weight=1.5"
 told ship.yaml "thrusters[0].failure_time: 3600 s is after the end" --set "vessel.thrusters[0].failure_time=3600"
@@ -51,7 +52,14 @@ told ship.yaml "centre_of_gravity_x: the vessel trims" --set vessel.centre_of_gr
 told ship.yaml "centre_of_gravity_y: the vessel heels" --set vessel.centre_of_gravity_y=5
 told ship.yaml "vessel.mass is 0.106" --set vessel.mass=5.5e5
 
-# Times.
+# Times; how fast vessel and ice meet, by the drift, a path or half of what the ship's own power gives.
+told ship.yaml "the vessel and the ice move 0.11 of its thickness past each other in a step at 0.4 m/s" \
+    --set run.time_step=0.2
+told drive.yaml "the vessel and the ice move 0.11 of its thickness past each other in a step at 1.5 m/s" \
+    --set run.time_step=0.05
+sed 's/free/prescribed/; s/^  propulsion.*/  path: [{time: 0}, {time: 60, x: 60}]/' drive.yaml >path.yaml
+told path.yaml "the vessel and the ice move 0.14 of its thickness past each other in a step at 1 m/s" \
+    --set run.time_step=0.1
 told ship.yaml "run.time_step: 1e-06 s makes 6e+08 steps" --set run.time_step=1e-6
 told ship.yaml "frame_interval: 0.01 s is shorter than run.time_step" --set output.frame_interval=0.01
 told ship.yaml "checkpoint_interval: 0.001 s is shorter than run.time_step" --set output.checkpoint_interval=0.001

@@ -88,6 +88,27 @@ static double apart(const wrench *a, const wrench *b, double reach)
 
 enum { FLOES = 600 };
 
+/* How far a floe's load is from the prism's own: drag over that of a face at the floe's largest speed and one
+   coefficient, hydrostatics over the weight. */
+typedef struct load_error {
+    double water, air, hydrostatic, volume;
+} load_error;
+
+static load_error error_of(const field *f, const media *m, const drag_coefficients *c, double coefficient,
+                           const fluid_load *load, int i)
+{
+    fluid_motion state = motion_of(f, i);
+    polygon outline = outline_of(i % OUTLINES);
+    fluid_load expected;
+    fluid_load_prism(m, c, outline, half_height, &state, &expected);
+    double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, m->current, reach);
+    double size = 0.5 * 1025 * coefficient * polygon_area(outline) * speed * speed;
+    return (load_error){apart(&load->water_drag, &expected.water_drag, reach) / size,
+                        apart(&load->wind_drag, &expected.wind_drag, reach) / size,
+                        apart(&load->hydrostatic, &expected.hydrostatic, reach) / expected.hydrostatic.force.z,
+                        fabs(load->submerged_volume / expected.submerged_volume - 1)};
+}
+
 /* Hydrostatics to rounding. */
 START_TEST(hydrostatics)
 {
@@ -133,17 +154,10 @@ START_TEST(form_drag)
     fluid_load *loads = apply(&f, &moving, c);
     double worst = 0;
     for (int i = 0; i < FLOES; i++) {
-        fluid_motion state = motion_of(&f, i);
-        polygon outline = outline_of(i % OUTLINES);
-        fluid_load expected;
-        fluid_load_prism(&moving, c, outline, half_height, &state, &expected);
-        double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, moving.current, reach);
-        double size = 0.5 * 1025 * polygon_area(outline) * speed * speed;
-        double water = apart(&loads[i].water_drag, &expected.water_drag, reach) / size;
-        double air = apart(&loads[i].wind_drag, &expected.wind_drag, reach) / size;
+        load_error e = error_of(&f, &moving, c, 1, &loads[i], i);
         if (i % 2)
-            ck_assert_msg(water < 1e-14 && air < 1e-16, "floe %d: %g, %g", i, water, air);
-        worst = fmax(worst, fmax(water, air));
+            ck_assert_msg(e.water < 1e-14 && e.air < 1e-16, "floe %d: %g, %g", i, e.water, e.air);
+        worst = fmax(worst, fmax(e.water, e.air));
     }
     ck_assert_msg(worst < 1e-4, "worst %g", worst);
     free(loads);
@@ -301,6 +315,25 @@ static void add_sunken(field *f, random_stream *r, int count, double spin)
     }
 }
 
+/* All loads of sunken floes: hydrostatics to rounding, nothing of the air, drag of what does not turn to rounding and
+   of what turns within bounds. */
+static void assert_sunken(const field *f, const media *m, const drag_coefficients *c, double coefficient,
+                          const fluid_load *loads, double worst_bound, double mean_bound)
+{
+    double worst = 0, mean = 0;
+    for (int i = 0; i < FLOES; i++) {
+        load_error e = error_of(f, m, c, coefficient, &loads[i], i);
+        ck_assert_double_lt(e.hydrostatic, 1e-12);
+        ck_assert_double_lt(e.volume, 1e-14);
+        ck_assert(vec3_length(loads[i].wind_drag.force) == 0 && vec3_length(loads[i].wind_drag.moment) == 0);
+        if (i % 2 == 0)
+            ck_assert_msg(e.water < 1e-13, "floe %d: %g", i, e.water);
+        worst = fmax(worst, e.water);
+        mean += e.water / FLOES;
+    }
+    ck_assert_msg(worst < worst_bound && mean < mean_bound, "worst %g, mean %g", worst, mean);
+}
+
 /* Hydrostatics to rounding; form drag of what does not turn too.  Of what turns, the sides' part that moves into the
    water is found at the middle of their height: the error is of the square of the turn over the thickness.  Nothing of
    the air. */
@@ -314,24 +347,7 @@ START_TEST(sunken_form_drag)
     media moving = still_water;
     moving.current = vec3_make(0.3, -0.2, 0);
     fluid_load *loads = apply(&f, &moving, c);
-    double worst = 0, mean = 0;
-    for (int i = 0; i < FLOES; i++) {
-        fluid_motion state = motion_of(&f, i);
-        polygon outline = outline_of(i % OUTLINES);
-        fluid_load expected;
-        fluid_load_prism(&moving, c, outline, half_height, &state, &expected);
-        double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, moving.current, reach);
-        double size = 0.5 * 1025 * polygon_area(outline) * speed * speed, weight = expected.hydrostatic.force.z;
-        ck_assert_double_lt(apart(&loads[i].hydrostatic, &expected.hydrostatic, reach), 1e-12 * weight);
-        assert_relative(loads[i].submerged_volume, expected.submerged_volume, 1e-14);
-        ck_assert(vec3_length(loads[i].wind_drag.force) == 0 && vec3_length(loads[i].wind_drag.moment) == 0);
-        double water = apart(&loads[i].water_drag, &expected.water_drag, reach) / size;
-        if (i % 2 == 0)
-            ck_assert_msg(water < 1e-13, "floe %d: %g", i, water);
-        worst = fmax(worst, water);
-        mean += water / FLOES;
-    }
-    ck_assert_msg(worst < 2e-4 && mean < 1e-5, "worst %g, mean %g", worst, mean);
+    assert_sunken(&f, &moving, c, 1, loads, 2e-4, 1e-5);
     free(loads);
     field_close(&f);
 }
@@ -370,21 +386,7 @@ START_TEST(sunken_skin_drag)
     add_sunken(&f, &r, FLOES, 0.5);
     static const drag_coefficients c[MATERIAL_COUNT] = {{.water_skin = 0.01}};
     fluid_load *loads = apply(&f, &still_water, c);
-    double worst = 0, mean = 0;
-    for (int i = 0; i < FLOES; i++) {
-        fluid_motion state = motion_of(&f, i);
-        polygon outline = outline_of(i % OUTLINES);
-        fluid_load expected;
-        fluid_load_prism(&still_water, c, outline, half_height, &state, &expected);
-        double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, vec3_make(0, 0, 0), reach);
-        double size = 0.5 * 1025 * 0.01 * polygon_area(outline) * speed * speed;
-        double water = apart(&loads[i].water_drag, &expected.water_drag, reach) / size;
-        if (i % 2 == 0)
-            ck_assert_msg(water < 1e-13, "floe %d: %g", i, water);
-        worst = fmax(worst, water);
-        mean += water / FLOES;
-    }
-    ck_assert_msg(worst < 3e-2 && mean < 3e-3, "worst %g, mean %g", worst, mean);
+    assert_sunken(&f, &still_water, c, 0.01, loads, 3e-2, 3e-3);
     free(loads);
     field_close(&f);
 }

@@ -71,6 +71,22 @@ START_TEST(ends_of_lines_do_not_matter)
 }
 END_TEST
 
+/* As people type and spreadsheets pad: blanks about numbers, lines with nothing in them, at the end too. */
+START_TEST(blanks_do_not_matter)
+{
+    static const char text[] = "time[s] , force[N]\n 0.25 ,\t1 \n\n0.5\t, -2500\n  \r\n\n";
+    double_array columns[COLUMNS] = {0};
+    fram_error error;
+    ck_assert_msg(read_text(text, sizeof text - 1, columns, &error) == FRAM_OK, "%s", error.message);
+    ck_assert_int_eq(columns[0].count, 2);
+    ck_assert_int_eq(columns[1].count, 2);
+    assert_bits(columns[0].data[0], 0.25);
+    assert_bits(columns[1].data[0], 1);
+    assert_bits(columns[1].data[1], -2500);
+    free_columns(columns);
+}
+END_TEST
+
 START_TEST(what_is_wrong_is_refused_at_its_line)
 {
     ASSERT_REFUSED("", 1, "no header");
@@ -79,7 +95,8 @@ START_TEST(what_is_wrong_is_refused_at_its_line)
     ASSERT_REFUSED("time[s],force[kN]\n1,2\n", 1, "expected the unit [N], found [kN]");
     ASSERT_REFUSED("time[s],force[N]\n1\n1,2\n", 2, "has 1 values");
     ASSERT_REFUSED("time[s],force[N]\n1,2\n1", 3, "has 1 values");
-    ASSERT_REFUSED("time[s],force[N]\n1,2\n\n", 3, "has 0 values");
+    ASSERT_REFUSED("time[s],force[N]\n1,2\n,\n", 3, "expected a number");
+    ASSERT_REFUSED("time[s],force[N]\n1 1,2\n", 2, "expected a number");
     ASSERT_REFUSED("time[s],force[N]\n1,2\0,3\n", 2, "NUL");
 }
 END_TEST
@@ -152,5 +169,5 @@ START_TEST(rows_go_over_the_parts_of_a_buffer)
 }
 END_TEST
 
-TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter,
+TEST_MAIN("csv_read", columns_are_found_by_name_in_any_order, ends_of_lines_do_not_matter, blanks_do_not_matter,
           what_is_wrong_is_refused_at_its_line, hundreds_of_columns_are_read, rows_go_over_the_parts_of_a_buffer)
