@@ -199,21 +199,62 @@ fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_er
     return status;
 }
 
+static void replace_controls(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ')
+            *c = ' ';
+}
+
+enum { LOG_MOST = 1 << 20 };
+bool run_log_reason(context *ctx, const char *log, char out[ROW_REASON])
+{
+    static const char error[] = "fram: ", conditions[] = "/conditions/";
+    char *text = NULL;
+    size_t size = 0;
+    bool found = false;
+    if (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
+        while (size > 0 && text[size - 1] == '\n')
+            text[--size] = '\0';
+        const char *line = strrchr(text, '\n');
+        line = line ? line + 1 : text;
+        found = strncmp(line, error, sizeof error - 1) == 0;
+        if (found) {
+            line += sizeof error - 1;
+            const char *file = strstr(line, conditions), *place = strstr(line, ": ");
+            snprintf(out, ROW_REASON, "%s", file && place && file < place ? file + sizeof conditions - 1 : line);
+            replace_controls(out);
+        }
+    }
+    memory_free(ctx, text);
+    return found;
+}
+
+/* Without a run.json the scenario was none, and the log beside the folder says why. */
+static void read_log_beside(context *ctx, const char *folder, char out[ROW_REASON])
+{
+    text_buffer log = {0};
+    text_format(ctx, &log, "%s.log", folder);
+    if (!log.failed)
+        (void)run_log_reason(ctx, log.data, out);
+    text_free(ctx, &log);
+}
+
 static void fill_failure(context *ctx, const char *folder, int exit_code, run_row *out)
 {
     run_data d;
     begin_row(out);
     out->failed = true;
     snprintf(out->reason, sizeof out->reason, "it ended with exit code %d", exit_code);
-    if (run_data_read(ctx, folder, false, &d, NULL) != FRAM_OK)
+    if (run_data_read(ctx, folder, false, &d, NULL) != FRAM_OK) {
+        read_log_beside(ctx, folder, out->reason);
         return;
+    }
     if (d.note.message[0])
         snprintf(out->reason, sizeof out->reason, "%.255s", d.note.message);
     out->figure[ROW_time] = d.note.time;
     run_data_free(ctx, &d);
-    for (char *c = out->reason; *c; c++)
-        if ((unsigned char)*c < ' ')
-            *c = ' ';
+    replace_controls(out->reason);
 }
 
 fram_status run_rows_failed(context *ctx, const char *folder, int exit_code, run_rows *out, fram_error *error)

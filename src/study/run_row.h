@@ -61,7 +61,10 @@ typedef ARRAY(run_row) run_rows;
 
 /* From the folder of a run that finished. */
 fram_status run_rows_of(context *ctx, const char *folder, run_rows *out, fram_error *error);
-/* Of a run that failed: from its run.json, or else from its exit code. */
+/* What a program said last in its log, if that is why it ended; the folder of the study, which is no part of the
+   reason, is left out.  false: it said nothing. */
+bool run_log_reason(context *ctx, const char *log, char out[ROW_REASON]);
+/* Of a run that failed: from its run.json, or else from FOLDER.log, or else from its exit code. */
 fram_status run_rows_failed(context *ctx, const char *folder, int exit_code, run_rows *out, fram_error *error);
 /* The row of a vessel; NULL: the first.  A failure has one row, whoever is asked for.  NULL: there is no such vessel.
  */

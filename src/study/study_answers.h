@@ -1,5 +1,5 @@
-/* What a study leaves beside its two tables: extremes.csv, annual.csv, sensitivity.csv, study.nc, study.html.  No
-   wall-clock times. */
+/* What a study leaves beside its two tables: differences.csv, extremes.csv, annual.csv, sensitivity.csv, study.nc,
+   study.html.  No wall-clock times. */
 #ifndef STUDY_STUDY_ANSWERS_H
 #define STUDY_STUDY_ANSWERS_H
 
@@ -20,6 +20,8 @@ fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                           double block, extreme_result *out, fram_error *error);
 
+/* differences.csv, where conditions differ in one key alone (study/differences.h). */
+fram_status study_differences_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* The other tables, as far as the study asks for them. */
 fram_status study_answers_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 

@@ -323,6 +323,33 @@ static fram_status check_vessel(context *ctx, const study *s, int32_t condition,
     return status;
 }
 
+/* Who is told of where the study names nobody: the first vessel that is present, the same one under all conditions, or
+   a condition without a vessel would be compared with one that has another. */
+typedef struct first_vessel {
+    char *name; /* NULL before the first condition */
+    bool everywhere;
+} first_vessel;
+
+static fram_status take_first(context *ctx, const study *s, int32_t condition, const scenario *one, first_vessel *first,
+                              fram_error *error)
+{
+    if (s->vessel || scenario_vessel_count(one) == 0) {
+        first->everywhere = false;
+        return FRAM_OK;
+    }
+    const char *name = scenario_vessel_entry(one, 0).keys->name;
+    if (!first->name)
+        return set_text(ctx, &first->name, name) ? FRAM_OK : error_memory(error);
+    if (strcmp(name, first->name) == 0)
+        return FRAM_OK;
+    fram_status status = error_set(error, FRAM_ERROR_INPUT, s->file, s->keys_line, "vessel",
+                                   "the first vessel that is present is \"%.40s\", and \"%.40s\" in condition 1: name "
+                                   "the one whose figures are told, as vessel: %.40s",
+                                   name, first->name, name);
+    study_place_error(s, condition, error);
+    return status;
+}
+
 /* Whether runs of the scenario have the figure by which the worst are chosen. */
 static bool has_worst(const study *s, const scenario *one)
 {
@@ -331,19 +358,25 @@ static bool has_worst(const study *s, const scenario *one)
     return !(of_station || s->worst.figure == ROW_line_tension_range_equivalent) || station_has_results(one, vessel);
 }
 
-static fram_status check_conditions(context *ctx, const study *s, fram_error *error)
+static fram_status check_conditions(context *ctx, study *s, fram_error *error)
 {
     fram_status status = FRAM_OK;
+    first_vessel first = {.everywhere = true};
     bool worst = false;
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++) {
         scenario one = {0};
         status = study_scenario(ctx, s, c, s->seeds.first, &one, error);
         if (status == FRAM_OK) {
             status = check_vessel(ctx, s, c, &one, error);
+            if (status == FRAM_OK)
+                status = take_first(ctx, s, c, &one, &first, error);
             worst = worst || has_worst(s, &one);
             scenario_free(ctx, &one);
         }
     }
+    if (status == FRAM_OK && first.everywhere && first.name && *first.name && !set_text(ctx, &s->vessel, first.name))
+        status = error_memory(error);
+    memory_free(ctx, first.name);
     if (status == FRAM_OK && !worst)
         status = error_set(error, FRAM_ERROR_INPUT, s->file, s->worst.line, "by",
                            "no run of this study has %s: its vessel keeps no station, without mooring and positioning; "

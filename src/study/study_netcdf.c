@@ -15,7 +15,7 @@ static const struct {
 #undef FIGURE_HEAD
 };
 
-/* Values of a key, NaN for those that are no numbers. */
+/* Values of a key: 1 and 0 for true and false, NaN for other words. */
 static void key_values(const study_folder *f, int32_t key, double *out)
 {
     for (int32_t c = 0; c < f->s->conditions; c++) {
@@ -23,7 +23,7 @@ static void key_values(const study_folder *f, int32_t key, double *out)
         char *end = NULL;
         out[c] = strtod(text, &end);
         if (end == text || *end)
-            out[c] = (double)NAN;
+            out[c] = strcmp(text, "true") == 0 ? 1 : strcmp(text, "false") == 0 ? 0 : (double)NAN;
     }
 }
 
@@ -71,6 +71,8 @@ static void put_all(const study_folder *f, netcdf_file *nc, const condition_rows
                          netcdf_dimension(nc, "seed", (size_t)seeds)};
     netcdf_attribute(nc, "title", "study of Fram");
     netcdf_attribute(nc, "fram_version", FRAM_VERSION);
+    if (f->s->vessel)
+        netcdf_attribute(nc, "vessel", f->s->vessel);
     for (int32_t c = 0; c < f->s->conditions; c++)
         state[c] = c + 1;
     netcdf_put_i32(nc, netcdf_variable(nc, "condition", NETCDF_I32, &over[0], 1, "1", "number, as in summary.csv"),

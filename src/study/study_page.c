@@ -189,20 +189,29 @@ static void add_head(study_page *p)
     html_figure(&p->page, "confidence of the intervals", text, "%");
     html_figures_end(&p->page);
     html_paragraph(&p->page,
-                   "Loads are the horizontal ice force on the vessel, averaged over output.averaging_window, after the "
-                   "transient. A mean over seeds stands with half the width of its interval (Student's t).");
+                   "Loads are the horizontal ice force on %s, averaged over output.averaging_window, after the "
+                   "transient. A mean over seeds stands with half the width of its interval (Student's t).",
+                   p->f->s->vessel ? p->f->s->vessel : "the vessel");
 }
 
-static void add_interval(study_page *p, seed_interval i)
+void page_interval_text(seed_interval i, char out[PAGE_INTERVAL_SIZE])
 {
-    char mean[HTML_NUMBER_SIZE] = "–", half[HTML_NUMBER_SIZE], text[80];
-    /* The uncertainty, to two digits, decides how many the mean has; alone it has three. */
+    char mean[HTML_NUMBER_SIZE] = "–", half[HTML_NUMBER_SIZE];
     bool known = isfinite(i.half) && i.half > 0;
     int decimals = known ? decimals_of(i.half, 2) : decimals_of(i.mean, 3);
     number_at(i.mean, decimals, mean);
     number_at(i.half, decimals, half);
-    snprintf(text, sizeof text, "%s ± %s", mean, half);
-    html_cell(&p->page, isfinite(i.half) ? text : isfinite(i.mean) ? mean : "–");
+    if (isfinite(i.half))
+        snprintf(out, PAGE_INTERVAL_SIZE, "%s ± %s", mean, half);
+    else
+        snprintf(out, PAGE_INTERVAL_SIZE, "%s", isfinite(i.mean) ? mean : "–");
+}
+
+static void add_interval(study_page *p, seed_interval i)
+{
+    char text[PAGE_INTERVAL_SIZE];
+    page_interval_text(i, text);
+    html_cell(&p->page, text);
 }
 
 /* Half the interval of the mean load is a large part of it. */
@@ -431,8 +440,10 @@ static fram_status make_page(study_page *p, fram_error *error)
         has[i] = has_figure(p, &page_figures[i]);
     add_head(p);
     add_table(p, has);
+    fram_status status = page_add_differences(p, has, error);
     add_shares(p);
-    fram_status status = page_add_charts(p, has, error);
+    if (status == FRAM_OK)
+        status = page_add_charts(p, has, error);
     if (status == FRAM_OK)
         add_heats(p, has);
     if (status == FRAM_OK)

@@ -33,6 +33,10 @@ void page_table_begin(study_page *p, const char *const *heads, int32_t count);
 void page_row_begin(study_page *p, int32_t condition);
 void page_table_end(study_page *p);
 
+/* "1.23 ± 0.45": the uncertainty, to two digits, decides how many the mean has; alone it has three. */
+enum { PAGE_INTERVAL_SIZE = 80 };
+void page_interval_text(seed_interval i, char out[PAGE_INTERVAL_SIZE]);
+
 /* Rounded to three significant digits. */
 double page_three_digits(double value);
 /* A value of a key, a number to four significant digits. */
@@ -42,6 +46,8 @@ void page_key_text(const char *value, char out[PAGE_KEY_SIZE]);
 /* "Seeds and means": a dot a run, means with their intervals; lines along a key where the conditions are series over
    it (study/study_series.h). */
 fram_status page_add_charts(study_page *p, const bool *has, fram_error *error);
+/* "Differences" of conditions that differ in one key, where they have two runs each. */
+fram_status page_add_differences(study_page *p, const bool *has, fram_error *error);
 /* Rare loads, where the study asks for them: a table of levels, and probability plots. */
 fram_status page_add_extremes(study_page *p, fram_error *error);
 

@@ -253,27 +253,6 @@ static fram_status judge(const worst_work *w, worst_entry *e, const char *folder
     return status;
 }
 
-/* The last line of a log, where a program says why it ended; without the program's name. */
-enum { WHY_ROOM = 400, LOG_MOST = 1 << 20 };
-static void read_why(context *ctx, const char *log, char out[WHY_ROOM])
-{
-    static const char program[] = "fram: ";
-    char *text = NULL;
-    size_t size = 0;
-    snprintf(out, WHY_ROOM, "it says nothing");
-    if (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK) {
-        while (size > 0 && text[size - 1] == '\n')
-            text[--size] = '\0';
-        const char *line = strrchr(text, '\n');
-        line = line ? line + 1 : text;
-        if (strncmp(line, program, sizeof program - 1) == 0)
-            line += sizeof program - 1;
-        if (*line)
-            snprintf(out, WHY_ROOM, "%s", line);
-    }
-    memory_free(ctx, text);
-}
-
 /* A run or a view that ended. */
 static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error *error)
 {
@@ -292,8 +271,9 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
                                exit_code);
         /* Without its page a record can still be played. */
         if (status == FRAM_OK) {
-            char why[WHY_ROOM];
-            read_why(ctx, log, why);
+            char why[ROW_REASON] = "";
+            if (!run_log_reason(ctx, log, why))
+                snprintf(why, sizeof why, "exit code %d", exit_code);
             log_write(ctx, LOG_WARNING, "%s: the record is there, its playback was not made: %s", folder, why);
             e->stage = WORST_DONE;
         }

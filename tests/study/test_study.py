@@ -7,6 +7,7 @@ import math
 import re
 import shutil
 import signal
+import statistics
 import subprocess
 import time
 import unittest
@@ -102,6 +103,55 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         tension = max(float(r["moored.line_tension_max[N]"]) for r in lines)
         self.assertAlmostEqual(float(rows["moored"]["line_tension_largest[N]"]), tension, delta=1e-6 * tension)
         self.assertEqual(rows["east"]["line_tension_largest[N]"], "")
+
+    def test_a_ship_with_another_one_and_without_it(self):
+        (self.at / "two.yaml").write_text("""
+run: {duration: 3, time_step: 0.02, transient: 1}
+vessels:
+  - {name: breaker, mode: towed, x: 12, speed: 2, ramp: 0.5, hull: {length: 24, beam: 8, draught: 3, freeboard: 2}}
+  - {name: ship, mode: towed, x: -30, speed: 2, ramp: 0.5, hull: {length: 40, beam: 10, draught: 4, freeboard: 2}}
+ice: {concentration: 0.8, mean_floe_area: 64}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+""")
+        study = self.at / "study.yaml"
+        vary = "vary: {grid: {vessels.breaker.present: [false, true]}}\n"
+        # Without a name the first that is present would be one ship here and the other one there.
+        study.write_text("scenario: two.yaml\nseeds: 4\n" + vary)
+        error = self.fram("check", study, code=2)["error"]
+        self.assertEqual(error["key"], "vessel")
+        self.assertIn("condition 2 (vessels.breaker.present=true): the first vessel", error["message"])
+        study.write_text("scenario: two.yaml\nvessel: ship\nseeds: 4\n" + vary)
+        self.assertEqual(self.fram(study, "-o", self.at / "out")["failed"], 0)
+        page = (self.at / "out" / "study.html").read_text()
+        self.assertIn("the horizontal ice force on ship, averaged", page)
+        # The table of differences is that of the runs, seed by seed, and means without pairs.
+        runs = [float(r["load_mean[N]"]) for r in self.rows("out")]
+        row = next(r for r in self.rows("out", "differences.csv") if r["figure"] == "load_mean")
+        self.assertEqual((row["condition"], row["less"], row["key"], row["pairs"]),
+                         ("2", "1", "vessels.breaker.present", "4"))
+        by_seed = [b - a for a, b in zip(runs[:4], runs[4:])]
+        mean, half = sum(by_seed) / 4, 3.182446305284263 * statistics.stdev(by_seed) / 2
+        self.assertAlmostEqual(float(row["difference"]), mean, delta=1e-9 * max(runs))
+        self.assertAlmostEqual(float(row["half"]), half, delta=1e-9 * max(runs))
+        self.assertAlmostEqual(float(row["means_difference"]), mean, delta=1e-9 * max(runs))
+        self.assertGreater(half, 0)
+        told = re.search(r"vessels\.breaker\.present</td><td>(-?[0-9.]+) ± ([0-9.]+)(, higher|, lower|)<",
+                         page.replace("\u200b", "")).groups()
+        self.assertAlmostEqual(float(told[1]), half * 1e-3, delta=0.06 * half * 1e-3)
+        self.assertEqual(told[2], ", higher" if mean > half else ", lower" if mean < -half else "")
+        # What is found only as a run begins is its reason, the same wherever the study lies.
+        study.write_text("scenario: two.yaml\nvessel: ship\nset: {vessels.breaker.hull.length: 14}\n" + vary)
+        for folder in ("here", "elsewhere"):
+            self.assertEqual(self.fram(study, "-o", self.at / folder)["failed"], 1)
+        self.assertEqual((self.at / "here" / "summary.csv").read_bytes(),
+                         (self.at / "elsewhere" / "summary.csv").read_bytes())
+        reason = self.rows("here")[1]["reason"]
+        self.assertRegex(reason, r"^[0-9a-f]+\.yaml:[0-9:]+: vessels\[0\]\.hull\.parallel_midbody: no parallel body")
+        # A scenario with several ships whose first one is always the same needs no name; the study has it.
+        study.write_text("scenario: two.yaml\n")
+        self.fram(study, "-o", self.at / "one")
+        self.assertIn('"vessel": "breaker"', (self.at / "one" / "effective.yaml").read_text())
+        self.assertFalse((self.at / "one" / "differences.csv").exists())
 
     def test_a_vessel_that_is_not_there_is_refused(self):
         (self.at / "base.yaml").write_text(BASE.replace("vessel: {", "vessel: {name: alone, "))

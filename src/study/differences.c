@@ -1,0 +1,93 @@
+#include "study/differences.h"
+
+#include "study/student.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- which ---- */
+
+/* Number of keys in which two conditions differ; *key: the last of them. */
+static int32_t keys_apart(const study *s, int32_t a, int32_t b, int32_t *key)
+{
+    int32_t n = 0;
+    for (int32_t k = 0; k < s->keys.count; k++) {
+        if (strcmp(study_value(s, a, k), study_value(s, b, k)) == 0)
+            continue;
+        n++;
+        *key = k;
+    }
+    return n;
+}
+
+bool study_pairs(context *ctx, const study *s, condition_pairs *out)
+{
+    array_clear(out);
+    if (s->design.kind != DESIGN_NONE || s->conditions > COMPARED_MOST)
+        return true;
+    for (int32_t c = 1; c < s->conditions; c++) {
+        for (int32_t k = 0; k < s->keys.count; k++) {
+            for (int32_t r = 0; r < c; r++) {
+                int32_t key = -1;
+                if (keys_apart(s, c, r, &key) != 1 || key != k)
+                    continue;
+                if (!array_push(ctx, out, ((condition_pair){c, r, k})))
+                    return false;
+                break;
+            }
+        }
+    }
+    int32_t key = -1;
+    if (s->conditions == 2 && keys_apart(s, 1, 0, &key) > 1)
+        return array_push(ctx, out, ((condition_pair){1, 0, -1}));
+    return true;
+}
+
+/* ---- how much ---- */
+
+/* Mean and sum of squares about it, of what is a number (Welford 1962). */
+typedef struct spread {
+    double mean, square;
+    int32_t count;
+} spread;
+
+static void spread_add(spread *s, double x)
+{
+    if (!isfinite(x))
+        return;
+    double before = x - s->mean;
+    s->mean += before / ++s->count;
+    s->square += before * (x - s->mean);
+}
+
+seed_interval difference_of_pairs(const double *a, const double *b, int32_t count, double confidence, int32_t *pairs)
+{
+    spread s = {0};
+    for (int32_t i = 0; i < count; i++)
+        spread_add(&s, a[i] - b[i]);
+    *pairs = s.count;
+    seed_interval out = {s.count > 0 ? s.mean : (double)NAN, (double)NAN};
+    if (s.count > 1)
+        out.half = student_quantile(confidence, s.count - 1) * sqrt(s.square / (s.count - 1) / s.count);
+    return out;
+}
+
+seed_interval difference_of_means(const double *a, int32_t a_count, const double *b, int32_t b_count, double confidence,
+                                  int32_t *freedom)
+{
+    spread x = {0}, y = {0};
+    for (int32_t i = 0; i < a_count; i++)
+        spread_add(&x, a[i]);
+    for (int32_t i = 0; i < b_count; i++)
+        spread_add(&y, b[i]);
+    *freedom = 0;
+    seed_interval out = {x.count > 0 && y.count > 0 ? x.mean - y.mean : (double)NAN, (double)NAN};
+    if (x.count < 2 || y.count < 2)
+        return out;
+    double of_x = x.square / (x.count - 1) / x.count, of_y = y.square / (y.count - 1) / y.count, both = of_x + of_y;
+    double degrees = both * both / (of_x * of_x / (x.count - 1) + of_y * of_y / (y.count - 1));
+    /* Samples without any scatter differ for certain. */
+    *freedom = both > 0 ? (int32_t)degrees : x.count + y.count - 2;
+    out.half = student_quantile(confidence, *freedom) * sqrt(both);
+    return out;
+}
