@@ -62,7 +62,7 @@ static double kinetic_energy(const body_table *b, int32_t slot, vec3 momentum, v
 
 void body_books_add(const body_table *b, int32_t slot, body_books *sum)
 {
-    if (!body_is_dynamic(b, slot))
+    if (!body_is_free(b, slot))
         return;
     mat3 r = quat_matrix(b->orientation[slot]);
     vec3 spin = mat3_tmul_vec(r, b->angular_velocity[slot]);

@@ -75,7 +75,7 @@ typedef struct body_books {
     vec3 momentum, angular_momentum;
     double mass;
 } body_books;
-/* Adds one body's to the books, when it is dynamic. */
+/* Adds one body's to the books, when it is dynamic, awake or asleep. */
 void body_books_add(const body_table *b, int32_t slot, body_books *sum);
 
 #endif

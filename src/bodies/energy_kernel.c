@@ -22,7 +22,7 @@ double KERNEL(energy_sum)(const body_table *bodies)
         double energy[V8_LANES];
         v8_store(energy, energies(bodies, slot));
         for (int32_t i = 0; i < V8_LANES && slot + i < bodies->count; i++)
-            sum += body_is_dynamic(bodies, slot + i) ? energy[i] : 0;
+            sum += body_is_free(bodies, slot + i) ? energy[i] : 0;
     }
     return sum;
 }

@@ -38,9 +38,12 @@ static void integrate_block(void *arg, int32_t block, int32_t thread)
     int32_t end = first + MOTION_GROUPS < groups ? first + MOTION_GROUPS : groups;
     (void)thread;
     KERNEL_PICK(work->ctx, motion_advance)(bodies, work->dt, first, end);
-    for (int32_t i = V8_LANES * first; i < V8_LANES * end && i < bodies->count; i++)
+    for (int32_t i = V8_LANES * first; i < V8_LANES * end && i < bodies->count; i++) {
         if (bodies->motion[i] == MOTION_PRESCRIBED || bodies->motion[i] == MOTION_CARRIED)
             body_move(bodies, i, bodies->velocity[i], bodies->angular_velocity[i], work->dt);
+        else if (bodies->motion[i] == MOTION_ASLEEP)
+            bodies->position[i] = vec3_mad(bodies->position[i], bodies->velocity[i], work->dt);
+    }
 }
 
 void integrate_poses(context *ctx, body_table *bodies, double dt)

@@ -40,7 +40,16 @@ void rest_wake(body_table *bodies, rest_table *rest, int32_t slot)
 
 /* ---- what has changed since the last step ---- */
 
-static bool is_same(vec3 a, vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+static bool is_within(double most, vec3 a, vec3 b) { return vec3_length(vec3_sub(a, b)) <= most; }
+
+/* The media pass it as when it fell asleep, and the ground goes on as it did: its velocity is still that of the last
+   step. */
+static bool is_undisturbed(const rest_media *media, const body_table *bodies, const rest_table *rest, int32_t i)
+{
+    return is_within(media->slack, rest->wind[i], media->wind) &&
+           is_within(media->slack, rest->current[i], media->current) &&
+           is_within(media->swerve, bodies->velocity[i], media->ground);
+}
 
 static void wake_in(body_table *bodies, const broad_table *boxes, rest_table *rest, int32_t gone)
 {
@@ -69,7 +78,11 @@ bool rest_follow(context *ctx, const rest_settings *settings, const rest_media *
         if (rest->generation[i] != now)
             forget(rest, i);
         rest->generation[i] = now;
-        if (is_asleep(bodies, i) && !(is_same(rest->wind[i], media->wind) && is_same(rest->current[i], media->current)))
+        if (!is_asleep(bodies, i))
+            continue;
+        if (is_undisturbed(media, bodies, rest, i))
+            bodies->velocity[i] = media->ground;
+        else
             rest_wake(bodies, rest, i);
     }
     for (int32_t i = 0; i < boxes->count && i < bodies->count; i++)
@@ -80,14 +93,14 @@ bool rest_follow(context *ctx, const rest_settings *settings, const rest_media *
 
 /* ---- what comes near ---- */
 
-/* A body that keeps others awake wherever it may reach them: of another material and able to move, or driven. */
+/* A body that keeps others awake wherever it may reach them: of another material and able to move, or driven by
+   itself.  A sheet that is carried is the ground. */
 static bool stirs(const body_table *b, int32_t slot)
 {
     switch ((motion)b->motion[slot]) {
     case MOTION_DYNAMIC:
         return b->material[slot] != MATERIAL_ICE;
     case MOTION_PRESCRIBED:
-    case MOTION_CARRIED:
         return true;
     default:
         return false;
@@ -112,34 +125,35 @@ void rest_wake_near(const rest_settings *settings, body_table *bodies, const pai
     }
 }
 
-static bool is_faster(double least, const body_table *bodies, int32_t slot, vec3 point)
+static bool is_faster(double least, vec3 ground, const body_table *bodies, int32_t slot, vec3 point)
 {
-    return vec3_length(body_point_velocity(bodies, slot, point)) > least;
+    return !is_within(least, body_point_velocity(bodies, slot, point), ground);
 }
 
-static void strike(double least, body_table *bodies, rest_table *rest, int32_t sleeper, int32_t other, vec3 point)
+static void strike(double least, vec3 ground, body_table *bodies, rest_table *rest, int32_t sleeper, int32_t other,
+                   vec3 point)
 {
-    if (is_asleep(bodies, sleeper) && is_faster(least, bodies, other, point))
+    if (is_asleep(bodies, sleeper) && is_faster(least, ground, bodies, other, point))
         rest_wake(bodies, rest, sleeper);
 }
 
-void rest_wake_struck(const rest_settings *settings, body_table *bodies, const contact_array *contacts,
-                      rest_table *rest)
+void rest_wake_struck(const rest_settings *settings, const rest_media *media, body_table *bodies,
+                      const contact_array *contacts, rest_table *rest)
 {
     if (!(settings->speed > 0))
         return;
     double least = STRIKING * settings->speed;
     for (int32_t i = 0; i < contacts->count; i++) {
         const contact *c = &contacts->data[i];
-        strike(least, bodies, rest, c->a, c->b, c->point);
-        strike(least, bodies, rest, c->b, c->a, c->point);
+        strike(least, media->ground, bodies, rest, c->a, c->b, c->point);
+        strike(least, media->ground, bodies, rest, c->b, c->a, c->point);
     }
 }
 
 /* ---- what a step did ---- */
 
-static void note_motion(const rest_settings *settings, double dt, const body_table *b, const shape_store *shapes,
-                        rest_table *rest, int32_t i)
+static void note_motion(const rest_settings *settings, vec3 ground, double dt, const body_table *b,
+                        const shape_store *shapes, rest_table *rest, int32_t i)
 {
     rest->touch[i] = 0;
     if (!may_sleep(b, i)) {
@@ -148,16 +162,17 @@ static void note_motion(const rest_settings *settings, double dt, const body_tab
         return;
     }
     double rim = vec3_length(b->angular_velocity[i]) * shapes->shapes.radius[b->shape[i]];
-    rest->still[i] = vec3_length(b->velocity[i]) + rim < settings->speed ? rest->still[i] + dt : 0;
+    bool slow = vec3_length(vec3_sub(b->velocity[i], ground)) + rim < settings->speed;
+    rest->still[i] = slow ? rest->still[i] + dt : 0;
 }
 
 /* What the other body of a contact is to one that is awake. */
-static void note_touch(double least, const body_table *b, rest_table *rest, int32_t slot, int32_t other,
+static void note_touch(double least, vec3 ground, const body_table *b, rest_table *rest, int32_t slot, int32_t other,
                        const contact *c)
 {
     if (!may_sleep(b, slot))
         return;
-    bool stirred = stirs(b, other) || is_faster(least, b, other, c->point);
+    bool stirred = stirs(b, other) || is_faster(least, ground, b, other, c->point);
     rest->touch[slot] |= (uint8_t)((stirred ? REST_BUSY : 0) | (c->impulse[0] > 0 ? REST_HELD : 0));
 }
 
@@ -194,20 +209,20 @@ static double missed_speed(const body_table *b, const shape_store *shapes, const
                 vec3_length(rest->spin[i]) * shapes->shapes.radius[b->shape[i]] / least);
 }
 
-void rest_note(const rest_settings *settings, double dt, body_table *bodies, const shape_store *shapes,
-               const contact_array *contacts, rest_table *rest)
+void rest_note(const rest_settings *settings, const rest_media *media, double dt, body_table *bodies,
+               const shape_store *shapes, const contact_array *contacts, rest_table *rest)
 {
     if (!(settings->speed > 0))
         return;
     double least = STRIKING * settings->speed;
     for (int32_t i = 0; i < rest->count; i++) {
-        note_motion(settings, dt, bodies, shapes, rest, i);
+        note_motion(settings, media->ground, dt, bodies, shapes, rest, i);
         rest->push[i] = rest->turn[i] = (vec3){0, 0, 0};
     }
     for (int32_t i = 0; i < contacts->count; i++) {
         const contact *c = &contacts->data[i];
-        note_touch(least, bodies, rest, c->a, c->b, c);
-        note_touch(least, bodies, rest, c->b, c->a, c);
+        note_touch(least, media->ground, bodies, rest, c->a, c->b, c);
+        note_touch(least, media->ground, bodies, rest, c->b, c->a, c);
         if (!(c->impulse[0] > 0) || is_asleep(bodies, c->a) == is_asleep(bodies, c->b))
             continue;
         vec3 impulse = contact_impulse(c);
@@ -237,7 +252,8 @@ static void fall_asleep(const rest_media *media, body_table *b, rest_table *rest
 {
     const vec3 none = {0, 0, 0};
     b->motion[i] = MOTION_ASLEEP;
-    b->velocity[i] = b->angular_velocity[i] = none;
+    b->velocity[i] = media->ground;
+    b->angular_velocity[i] = none;
     rest->wind[i] = media->wind;
     rest->current[i] = media->current;
     rest->age[i] = 0;

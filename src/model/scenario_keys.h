@@ -194,7 +194,8 @@
     X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")    \
     X(sleep_speed, REAL(0, 0, 10), "m/s",                                                                              \
       "floes that were slower than this for sleep_time, centre and rim together, are put to sleep until something "    \
-      "wakes them: they cost nothing, as in the channel behind a ship; 0: none")                                       \
+      "wakes them: they cost nothing, as in the channel behind a ship; where level ice drifts, slower past "           \
+      "the sheet, which carries them along; 0: none")                                                                  \
     X(sleep_time, SCALED(5, 30, 0.5, 1e-3, 1e6), "s", "how long a floe must have been slow before it sleeps")          \
     X(smallest_floe_area, SCALED(2e-4, 1, 2, 0, 1e8), "m2", "smaller floes are not made or are removed")               \
     X(smallest_piece_area, SCALED(1e-5, 1, 2, 0, 1e8), "m2", "smaller triangles of a concave floe are dropped")        \

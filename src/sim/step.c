@@ -152,11 +152,23 @@ static fram_status external_forces(context *ctx, const model *m, world *w, fram_
     return FRAM_OK;
 }
 
+/* What rests rests on the sheet where one drifts, which goes its way of the step.  Nothing that is slower than a floe
+   may be as it falls asleep is told apart from rest then: the current that carries a sheet is its velocity a step
+   ago. */
 static rest_media rest_media_now(const model *m, const world *w)
 {
     media now = media_now(m, &w->inputs, w->clock.time[0]);
-    bool calm = vec3_dot(now.wind, now.wind) == 0 && vec3_dot(now.current, now.current) == 0 && now.profile.count == 0;
-    return (rest_media){now.wind, now.current, calm};
+    bool drifts = w->drift.count > 0;
+    vec2 way = drifts ? w->drift.way[0] : (vec2){0, 0};
+    vec3 ground = vec3_make(way.x / m->time_step, way.y / m->time_step, 0);
+    rest_media around = {.wind = vec3_sub(now.wind, ground),
+                         .current = vec3_sub(now.current, ground),
+                         .ground = ground,
+                         .slack = drifts ? m->rest.speed : 0,
+                         .swerve = 2 * m->rest.speed * m->time_step / m->rest.time};
+    around.calm = vec3_dot(now.wind, now.wind) == 0 && vec3_length(around.current) <= 0.5 * around.slack &&
+                  now.profile.count == 0;
+    return around;
 }
 
 /* 2. Broad phase, narrow phase; what moves wakes what sleeps near it. */
@@ -194,12 +206,13 @@ static fram_status limit_crushing(context *ctx, const model *m, world *w, fram_e
 /* 4. New velocities. */
 static fram_status solve_velocities(context *ctx, const model *m, world *w, fram_error *error)
 {
-    rest_wake_struck(&m->rest, &w->bodies, &w->scratch.contacts, &w->rest);
+    rest_media around = rest_media_now(m, w);
+    rest_wake_struck(&m->rest, &around, &w->bodies, &w->scratch.contacts, &w->rest);
     fram_status status =
         solver_solve(ctx, w->scratch.solve, &m->solver, m->time_step, &w->bodies, w->scratch.loads.data, &w->joints,
                      &w->scratch.contacts, &w->memory, &w->scratch.solver, error);
     if (status == FRAM_OK) {
-        rest_note(&m->rest, m->time_step, &w->bodies, &w->shapes, &w->scratch.contacts, &w->rest);
+        rest_note(&m->rest, &around, m->time_step, &w->bodies, &w->shapes, &w->scratch.contacts, &w->rest);
         add_carried_mass(m, w);
         feed_load(m, w);
         status = wall_watch(ctx, m, w) ? FRAM_OK : error_memory(error);
