@@ -96,8 +96,7 @@ static bool push_part(context *ctx, patch_scratch *s, const facet *f, int32_t fa
 
 /* ---- the triangles near the floe ---- */
 
-/* Those that meet the box around its oriented box, between the planes of top and bottom.
- */
+/* Those that meet the box around its oriented box, between the planes of top and bottom. */
 static bool query_faces(context *ctx, patch_scratch *s, const patch_surface *surface, const patch_floe *floe)
 {
     double tolerance = tolerance_of(floe), half_height = half_height_of(floe) + tolerance;
