@@ -170,8 +170,11 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
     *trimmed = true;
     if (body < s->broken.count)
         s->broken.data[body] = 1;
+    /* What cleaning takes off goes with the crushed ice; what it adds was not crushed before. */
     if (j->state->crushed)
-        *j->state->crushed += line * (area - event.piece_area);
+        *j->state->crushed += line * (area - (event.piece_area - event.area_gained));
+    if (j->state->gained)
+        *j->state->gained += event.mass_gained;
     return tile ? fracture_sheet_changed(j) : FRAM_OK;
 }
 

@@ -223,9 +223,10 @@ static fram_status solve_velocities(context *ctx, const model *m, world *w, fram
 /* 5. Fracture of breakable floes, from the solved impulses. */
 static fram_status break_floes(context *ctx, const model *m, world *w, fram_error *error)
 {
-    fracture_state state = {
-        &w->bodies,         &w->shapes,           &w->floes,      &w->scratch.contacts, &w->memory,
-        w->clock.next_floe, w->clock.ice_crushed, &w->edge_loads, &w->edge_supports,    &w->hull_retreats};
+    fracture_state state = {&w->bodies,           &w->shapes,          &w->floes,
+                            &w->scratch.contacts, &w->memory,          w->clock.next_floe,
+                            w->clock.ice_crushed, w->clock.ice_gained, &w->edge_loads,
+                            &w->edge_supports,    &w->hull_retreats};
     fracture_settings settings = m->fracture;
     settings.tiles = feed_grid(m, w);
     array_clear(&w->scratch.fractures);

@@ -85,9 +85,13 @@ seed_interval difference_of_means(const double *a, int32_t a_count, const double
     if (x.count < 2 || y.count < 2)
         return out;
     double of_x = x.square / (x.count - 1) / x.count, of_y = y.square / (y.count - 1) / y.count, both = of_x + of_y;
-    double degrees = both * both / (of_x * of_x / (x.count - 1) + of_y * of_y / (y.count - 1));
     /* Samples without any scatter differ for certain. */
-    *freedom = both > 0 ? (int32_t)degrees : x.count + y.count - 2;
+    *freedom = x.count + y.count - 2;
+    if (both > 0) {
+        /* By shares: squares of small variances vanish. */
+        double share = of_x / both;
+        *freedom = (int32_t)(1 / (share * share / (x.count - 1) + (1 - share) * (1 - share) / (y.count - 1)));
+    }
     out.half = student_quantile(confidence, *freedom) * sqrt(both);
     return out;
 }

@@ -25,7 +25,7 @@ typedef struct fracture_rig {
     fracture_scratch *scratch;
     overlay *plane;
     int32_t next_number, hull;
-    double crushed;
+    double crushed, gained;
 } fracture_rig;
 
 static const ice_material FRACTURE_RIG_ICE = {
@@ -144,8 +144,8 @@ static inline bool fracture_rig_widen(fracture_rig *r, vec2 half)
 
 static inline fram_status fracture_rig_try(fracture_rig *r, fram_error *e)
 {
-    fracture_state state = {&r->bodies,      &r->shapes,  &r->floes,      &r->contacts, &r->memory,
-                            &r->next_number, &r->crushed, &r->edge_loads, &r->supports, &r->retreats};
+    fracture_state state = {&r->bodies,  &r->shapes, &r->floes,      &r->contacts, &r->memory,  &r->next_number,
+                            &r->crushed, &r->gained, &r->edge_loads, &r->supports, &r->retreats};
     array_clear(&r->events);
     return fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, e);
 }

@@ -159,7 +159,7 @@ typedef struct ram {
     edge_load_table edge_loads;
     hull_retreat_table retreats;
     int32_t hull;
-    double crushed;
+    double crushed, gained;
 } ram;
 
 static const double DT = 0.005, HULL_WIDTH = 4, HULL_HALF = 10;
@@ -216,8 +216,8 @@ static double ram_step(ram *t)
     double force = 0;
     for (int32_t i = 0; i < r->contacts.count; i++)
         force += r->contacts.data[i].impulse[0] / DT;
-    fracture_state state = {&r->bodies,      &r->shapes,  &r->floes,      &r->contacts, &r->memory,
-                            &r->next_number, &t->crushed, &t->edge_loads, NULL,         &t->retreats};
+    fracture_state state = {&r->bodies,  &r->shapes, &r->floes,      &r->contacts, &r->memory,  &r->next_number,
+                            &t->crushed, &t->gained, &t->edge_loads, NULL,         &t->retreats};
     assert_ok(fracture_run(&r->ctx, t->scratch, &t->settings, r->plane, &r->patches, &state, &events, &e), e);
     array_free(&r->ctx, &events);
     integrate_poses(&r->ctx, &r->bodies, DT);

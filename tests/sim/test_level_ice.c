@@ -151,6 +151,30 @@ START_TEST(ram_back_off_return)
 }
 END_TEST
 
+/* A box that runs into a wall of ice and draws back slowly: outlines that cleaning makes larger give nothing back of
+   what was crushed. */
+START_TEST(crushed_ice_is_never_less)
+{
+    scene k;
+    scene_open(&k, "run: {duration: 10, time_step: 0.091287093, scale: 100}\n"
+                   "vessel: {mode: free, speed: 3.832034, hull: {form: box, length: 160, beam: 40}}\n"
+                   "ice: {source: level, mean_floe_area: 1197.660818713, thickness: 3.841864, level: {x_min: 100}}\n"
+                   "domain: {x_min: -213.33333333333334, x_max: 213.33333333333334, y_min: -106.66666666666667,\n"
+                   "         y_max: 106.66666666666667}\n");
+    double mass = ice_mass(&k), before = 0;
+    for (int i = 0; i < 100; i++) {
+        scene_steps(&k, 1);
+        double crushed = k.w.clock.ice_crushed[0];
+        ck_assert_msg(crushed >= before, "%.9g kg are crushed in step %d, %.9g before it", crushed, i, before);
+        before = crushed;
+    }
+    ck_assert(before > 1e4);
+    ck_assert(k.w.clock.ice_gained[0] > 0);
+    assert_relative(ice_mass(&k) + booked_mass(&k), mass, 1e-12);
+    scene_close(&k);
+}
+END_TEST
+
 /* What a pressing hull trims is nothing that carries: the load is the same with and without. */
 START_TEST(trimming_keeps_the_load)
 {
@@ -341,5 +365,5 @@ START_TEST(fixed_cone)
 }
 END_TEST
 
-TEST_MAIN("level_ice", a_channel_as_wide_as_the_hull, ram_back_off_return, trimming_keeps_the_load, dead_shapes_go,
-          the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
+TEST_MAIN("level_ice", a_channel_as_wide_as_the_hull, ram_back_off_return, crushed_ice_is_never_less,
+          trimming_keeps_the_load, dead_shapes_go, the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
