@@ -16,12 +16,12 @@ enum { CSV_LINE_MOST = 1 << 20 };
 fram_status csv_read(context *ctx, const char *path, const char *const *names, int32_t count, double_array *columns,
                      fram_error *error);
 
-/* Bytes of the text of a unit. */
-enum { UNIT_SIZE = 16 };
+/* Bytes of the text of a unit, and of a column's name: a vessel's, and what is told of it. */
+enum { UNIT_SIZE = 16, COLUMN_NAME_SIZE = 80 };
 
 /* A whole file: every column with its name and unit. */
 typedef struct csv_table_column {
-    char name[48], unit[UNIT_SIZE];
+    char name[COLUMN_NAME_SIZE], unit[UNIT_SIZE];
     double_array value;
 } csv_table_column;
 typedef struct csv_table {

@@ -242,13 +242,14 @@ static bool is_name_letter(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
 }
 
-/* Names stand in headers of columns, in keys beside numbers of items, and in names of files. */
+/* Names stand in headers of columns, in keys beside numbers of items, in names of files and of variables of NetCDF;
+   words of a command that begin with - are options. */
 static fram_status check_name(const scenario *s, const vessel_entry *e, fram_error *error)
 {
-    static const char *const rule = "letters a to z, digits, - and _, one of them a letter at least";
+    static const char *const rule = "letters a to z, digits, - and _, one of them a letter at least and - not the first";
     const char *name = e->keys->name;
     size_t size = strlen(name);
-    bool letters = false, fits = size <= VESSEL_NAME_MOST;
+    bool letters = false, fits = size <= VESSEL_NAME_MOST && name[0] != '-';
     for (size_t i = 0; i < size; i++) {
         fits = fits && is_name_letter(name[i]);
         letters = letters || (name[i] | 32) >= 'a';

@@ -19,8 +19,8 @@ static void put_table(netcdf_file *f, const csv_table *t, const char *dimension,
     int over = netcdf_dimension(f, dimension, (size_t)t->rows);
     for (int32_t k = 0; k < t->columns.count; k++) {
         const csv_table_column *c = &t->columns.data[k];
-        char name[64];
-        snprintf(name, sizeof name, "%s%s", prefix, c->name);
+        char name[COLUMN_NAME_SIZE + 16];
+        snprintf(name, sizeof name, "%.15s%s", prefix, c->name);
         int variable = netcdf_variable(f, name, NETCDF_F64, &over, 1, c->unit, "");
         if (t->rows > 0)
             netcdf_put_f64(f, variable, c->value.data);

@@ -14,7 +14,7 @@ fram_status report_write(context *ctx, const char *folder, const char *output, n
 
 /* One quantity of two runs. */
 typedef struct compare_row {
-    char name[64], unit[UNIT_SIZE];
+    char name[COLUMN_NAME_SIZE], unit[UNIT_SIZE];
     double a, b; /* a NaN: the run does not have it */
 } compare_row;
 enum { COMPARE_ROWS_MOST = 640 };

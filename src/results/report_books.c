@@ -42,9 +42,9 @@ static void book_row(report *r, const char *name, double value, const char *unit
 }
 
 /* "ice_mass_left" as "ice mass left". */
-static void spoken(const char *name, char out[64])
+static void spoken(const char *name, char out[COLUMN_NAME_SIZE])
 {
-    snprintf(out, 64, "%s", name);
+    snprintf(out, COLUMN_NAME_SIZE, "%s", name);
     for (char *c = out; *c; c++)
         *c = *c == '_' ? ' ' : *c;
 }
@@ -57,7 +57,7 @@ static void book_channels(report *r, const char *begins, const char *ends, doubl
         size_t length = strlen(name), tail = strlen(ends);
         bool fits = (*begins && strncmp(name, begins, strlen(begins)) == 0) ||
                     (*ends && length >= tail && strcmp(name + length - tail, ends) == 0);
-        char text[64];
+        char text[COLUMN_NAME_SIZE];
         spoken(name, text);
         if (fits)
             book_row(r, text, last_of(r, name) * factor, unit);

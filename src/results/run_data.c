@@ -258,6 +258,8 @@ const double *run_channel(const run_data *d, const char *name)
     return c ? c->value.data : NULL;
 }
 
+_Static_assert(COLUMN_NAME_SIZE >= sizeof((vessel_channel *)0)->text, "columns of any vessel can be read");
+
 const double *run_vessel_channel(const run_data *d, int32_t vessel, const char *name)
 {
     const double *own = NULL;

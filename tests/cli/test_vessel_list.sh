@@ -73,6 +73,19 @@ expect 2 "$FRAM" capability "$scene" -o "$scratch/a" --formula --vessel barge
 "$FRAM" capability "$scene" -o "$scratch/ship" --formula --vessel ship --directions 4 --speed-step 0.5 --quiet ||
     fail "there is no capability of the ship"
 
+# The longest names are read again; a name that begins as an option does is refused.
+long=an-ice_breaker-of-1977-x
+"$FRAM" run "$scene" -o "$scratch/long" --quiet --set run.duration=0.1 --set run.transient=0 \
+    --set vessels.icebreaker.name=$long || fail "a vessel has not a name of ${#long} characters"
+! built_with cairo || "$FRAM" plot "$scratch/long" $long.mechanism_accumulation_moment_x -o "$scratch/l.svg" --quiet ||
+    fail "the longest column of a vessel cannot be read"
+"$FRAM" compare "$scratch/long" "$run" -o "$scratch/l.html" --quiet || fail "there is no comparison of long names"
+"$FRAM" report "$scratch/long" --quiet || fail "there is no report of long names"
+! built_with netcdf || "$FRAM" export "$scratch/long" --netcdf --quiet || fail "there is no export of long names"
+expect 2 "$FRAM" check "$scene" --set vessels.icebreaker.name=${long}l
+expect 2 "$FRAM" check "$scene" --set vessels.icebreaker.name=-tug
+says "- not the first" err
+
 # Results of vessels that are gone do not stay beside those of a new run.
 "$FRAM" run "$scene" -o "$run" --force --quiet --set run.duration=0.1 --set run.transient=0 \
     --set vessels.tug.present=false || fail "the second run failed"
