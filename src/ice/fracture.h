@@ -97,7 +97,7 @@ typedef struct fracture_state {
     contact_memory_table *memory;
     int32_t *next_number;
     double *crushed;              /* mass of ice that was trimmed [kg], added to; may be NULL without crush_trims */
-    double *gained;               /* what cleaning added to outlines that were trimmed [kg], likewise */
+    double *gained;               /* where cleaning added more than was trimmed [kg], likewise */
     edge_load_table *edge_loads;  /* what floes feel; may be NULL with EDGE_LOAD_STEP */
     edge_support_table *supports; /* what patches stand on; may be NULL without edges_give */
     hull_retreat_table *retreats; /* of further hulls; may be NULL without crush_trims and crush_notches */

@@ -170,11 +170,10 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
     *trimmed = true;
     if (body < s->broken.count)
         s->broken.data[body] = 1;
-    /* What cleaning takes off goes with the crushed ice; what it adds was not crushed before. */
-    if (j->state->crushed)
-        *j->state->crushed += line * (area - (event.piece_area - event.area_gained));
-    if (j->state->gained)
-        *j->state->gained += event.mass_gained;
+    /* What cleaning takes off goes with the crushed ice.  Where it adds more than was cut away nothing was crushed. */
+    double less = area - event.piece_area, *kept = less >= 0 ? j->state->crushed : j->state->gained;
+    if (kept)
+        *kept += line * fabs(less);
     return tile ? fracture_sheet_changed(j) : FRAM_OK;
 }
 
