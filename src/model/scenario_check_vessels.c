@@ -246,7 +246,7 @@ static bool is_name_letter(char c)
    words of a command that begin with - are options. */
 static fram_status check_name(const scenario *s, const vessel_entry *e, fram_error *error)
 {
-    static const char *const rule = "letters a to z, digits, - and _, one of them a letter at least and - not the first";
+    static const char *const rule = "letters a to z, digits, - and _, a letter at least and - not the first";
     const char *name = e->keys->name;
     size_t size = strlen(name);
     bool letters = false, fits = size <= VESSEL_NAME_MOST && name[0] != '-';
