@@ -6,7 +6,7 @@ import world
 LONG = False
 END = 12.0
 SCENES = {"managed_ice": {}, "level_ice": {}, "breaking floes": {"ice__breakable": "true", "ice__thickness": 0.5}}
-PARTS = ("capped", "elastic", "friction")
+PARTS = ("capped", "below_cap", "friction")
 ZONES = ("bow", "shoulder", "midbody", "stern", "bottom")
 AXES = ("x", "y", "z")
 
@@ -105,7 +105,7 @@ def case(out):
         for part in PARTS:
             top = [b - f / 1e3 for b, f in zip(bottom, curve[f"ice_force_{part}_x"])]
             axes.fill_between(curve["time"], bottom, top, label={"capped": "normal, at the crushing limit",
-                              "elastic": "normal, below it", "friction": "friction"}[part], lw=0)
+                              "below_cap": "normal, below it", "friction": "friction"}[part], lw=0)
             bottom = top
         axes.plot(curve["time"], [-f / 1e3 for f in curve["ice_force_x"]], "k", lw=0.5, label="all")
         axes.set(xlabel="time [s]", ylabel="resistance [kN]")

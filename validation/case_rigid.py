@@ -60,9 +60,9 @@ def meet(dt):
 
 
 def corner(dt):
-    """Speed and spin after one corner of a 10 x 10 m floe at 1 m/s meets the end of a frictionless face."""
+    """Speed and spin after a corner of a 10 x 10 m floe at 1 m/s meets a face without friction or crushing."""
     text = (OPEN + "environment: {water: false}\nvessel: {present: false}\nice:\n  source: floes\n  density: 920\n"
-            "  friction: {ice_ice_static: 0, ice_ice_kinetic: 0}\n  floes:\n"
+            "  cap_ice_ice: false\n  friction: {ice_ice_static: 0, ice_ice_kinetic: 0}\n  floes:\n"
             "    - {length: 10, width: 10, x: 0, elevation: 0, velocity_x: 1}\n"
             "    - {length: 4, width: 20, x: 7.001, y: 14.9995, elevation: 0, fixed: true}\n")
     with world.World(text, "rigid", run__time_step=dt, run__solver__kind="accurate",
