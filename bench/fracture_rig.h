@@ -101,8 +101,12 @@ static inline void add_load(rig *r, int32_t row, vec2 place, double load, double
 static inline void break_loaded(rig *r)
 {
     fram_error e = {0};
-    fracture_state state = {&r->bodies, &r->shapes, &r->floes, &r->contacts, &r->memory, &r->next_number,
-                            NULL,       NULL,       NULL,      NULL,         NULL};
+    fracture_state state = {.bodies = &r->bodies,
+                            .shapes = &r->shapes,
+                            .floes = &r->floes,
+                            .contacts = &r->contacts,
+                            .memory = &r->memory,
+                            .next_number = &r->next_number};
     array_clear(&r->events);
     if (fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, &e) != FRAM_OK)
         stop(e.message);

@@ -223,10 +223,17 @@ static fram_status solve_velocities(context *ctx, const model *m, world *w, fram
 /* 5. Fracture of breakable floes, from the solved impulses. */
 static fram_status break_floes(context *ctx, const model *m, world *w, fram_error *error)
 {
-    fracture_state state = {&w->bodies,           &w->shapes,          &w->floes,
-                            &w->scratch.contacts, &w->memory,          w->clock.next_floe,
-                            w->clock.ice_crushed, w->clock.ice_gained, &w->edge_loads,
-                            &w->edge_supports,    &w->hull_retreats};
+    fracture_state state = {.bodies = &w->bodies,
+                            .shapes = &w->shapes,
+                            .floes = &w->floes,
+                            .contacts = &w->scratch.contacts,
+                            .memory = &w->memory,
+                            .next_number = w->clock.next_floe,
+                            .crushed = w->clock.ice_crushed,
+                            .gained = w->clock.ice_gained,
+                            .edge_loads = &w->edge_loads,
+                            .supports = &w->edge_supports,
+                            .retreats = &w->hull_retreats};
     fracture_settings settings = m->fracture;
     settings.tiles = feed_grid(m, w);
     array_clear(&w->scratch.fractures);

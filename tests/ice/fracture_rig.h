@@ -142,10 +142,24 @@ static inline bool fracture_rig_widen(fracture_rig *r, vec2 half)
     return array_push(&r->ctx, &r->contacts, second);
 }
 
+static inline fracture_state fracture_rig_state(fracture_rig *r)
+{
+    return (fracture_state){.bodies = &r->bodies,
+                            .shapes = &r->shapes,
+                            .floes = &r->floes,
+                            .contacts = &r->contacts,
+                            .memory = &r->memory,
+                            .next_number = &r->next_number,
+                            .crushed = &r->crushed,
+                            .gained = &r->gained,
+                            .edge_loads = &r->edge_loads,
+                            .supports = &r->supports,
+                            .retreats = &r->retreats};
+}
+
 static inline fram_status fracture_rig_try(fracture_rig *r, fram_error *e)
 {
-    fracture_state state = {&r->bodies,  &r->shapes, &r->floes,      &r->contacts, &r->memory,  &r->next_number,
-                            &r->crushed, &r->gained, &r->edge_loads, &r->supports, &r->retreats};
+    fracture_state state = fracture_rig_state(r);
     array_clear(&r->events);
     return fracture_run(&r->ctx, r->scratch, &r->settings, r->plane, &r->patches, &state, &r->events, e);
 }

@@ -6,6 +6,7 @@
 #include "books.h"
 #include "dynamics/solver.h"
 #include "ice/edge_rows.h"
+#include "ice/fracture.h"
 #include "testing.h"
 
 typedef struct ice_rig {
@@ -275,6 +276,17 @@ static inline vec3 ice_rig_force(const ice_rig *r)
     for (int32_t i = 0; i < r->contacts.count; i++)
         sum = vec3_mad(sum, contact_impulse(&r->contacts.data[i]), 1 / r->settings.time_step);
     return sum;
+}
+
+/* What fracture changes of it; what a test keeps itself is to be added. */
+static inline fracture_state ice_rig_fracture_state(ice_rig *r)
+{
+    return (fracture_state){.bodies = &r->bodies,
+                            .shapes = &r->shapes,
+                            .floes = &r->floes,
+                            .contacts = &r->contacts,
+                            .memory = &r->memory,
+                            .next_number = &r->next_number};
 }
 
 #endif

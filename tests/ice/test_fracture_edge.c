@@ -7,8 +7,7 @@
 /* Ice under a load at a place of a floe's frame, or of the global plan on a sheet. */
 static edge_ice ice_under(fracture_rig *r, int32_t row, vec2 place, double area)
 {
-    fracture_state state = {&r->bodies,  &r->shapes, &r->floes, &r->contacts, &r->memory,  &r->next_number,
-                            &r->crushed, &r->gained, NULL,      NULL,         &r->retreats};
+    fracture_state state = fracture_rig_state(r);
     fram_error error = {0};
     fracture_job j = {&r->ctx, r->scratch, &r->settings, r->plane, &state, &r->events, &error};
     fracture_load l = {.body = r->floes.body[row],

@@ -92,8 +92,7 @@ START_TEST(without_a_radial_crack_no_floe_splits)
     const double area = 0.5, length = 9;
     fracture_rig r;
     fracture_rig_make(&r);
-    fracture_state state = {&r.bodies,  &r.shapes, &r.floes, &r.contacts, &r.memory,  &r.next_number,
-                            &r.crushed, &r.gained, NULL,     NULL,        &r.retreats};
+    fracture_state state = fracture_rig_state(&r);
     fram_error error = {0};
     fracture_job j = {&r.ctx, r.scratch, &r.settings, r.plane, &state, &r.events, &error};
     for (int turn = 0; turn < 2; turn++) {

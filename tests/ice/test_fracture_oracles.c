@@ -66,8 +66,8 @@ static breaking run_until_broken(double dt, approach a)
         memory_free(&r.ctx, loads);
         b.force = ice_rig_force(&r);
         b.time = step * dt;
-        fracture_state state = {&r.bodies, &r.shapes, &r.floes, &r.contacts, &r.memory, &r.next_number,
-                                NULL,      NULL,      NULL,     &r.supports, NULL};
+        fracture_state state = ice_rig_fracture_state(&r);
+        state.supports = &r.supports;
         assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
         integrate_poses(&r.ctx, &r.bodies, dt);
     }

@@ -360,8 +360,7 @@ START_TEST(no_convex_part)
         fracture_rig r;
         fracture_rig_make(&r);
         sheet_make(&r, (box2){{0, 0}, {40, 20}}, 20, NULL);
-        fracture_state state = {&r.bodies,  &r.shapes, &r.floes, &r.contacts, &r.memory,  &r.next_number,
-                                &r.crushed, &r.gained, NULL,     NULL,        &r.retreats};
+        fracture_state state = fracture_rig_state(&r);
         fram_error e = {0};
         fracture_job j = {&r.ctx, r.scratch, &r.settings, r.plane, &state, &r.events, &e};
         polygon ragged = {RAGGED, 7}, other = turn == 0 ? (polygon){BESIDE, 9} : (polygon){FAR, 4};

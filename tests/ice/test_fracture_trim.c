@@ -216,8 +216,11 @@ static double ram_step(ram *t)
     double force = 0;
     for (int32_t i = 0; i < r->contacts.count; i++)
         force += r->contacts.data[i].impulse[0] / DT;
-    fracture_state state = {&r->bodies,  &r->shapes, &r->floes,      &r->contacts, &r->memory,  &r->next_number,
-                            &t->crushed, &t->gained, &t->edge_loads, NULL,         &t->retreats};
+    fracture_state state = ice_rig_fracture_state(r);
+    state.crushed = &t->crushed;
+    state.gained = &t->gained;
+    state.edge_loads = &t->edge_loads;
+    state.retreats = &t->retreats;
     assert_ok(fracture_run(&r->ctx, t->scratch, &t->settings, r->plane, &r->patches, &state, &events, &e), e);
     array_free(&r->ctx, &events);
     integrate_poses(&r->ctx, &r->bodies, DT);

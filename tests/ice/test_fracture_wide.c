@@ -44,8 +44,7 @@ static breaking plate_breaks(double width, double dt)
                                &r.report, &e),
                   e);
         memory_free(&r.ctx, loads);
-        fracture_state state = {&r.bodies, &r.shapes, &r.floes, &r.contacts, &r.memory, &r.next_number,
-                                NULL,      NULL,      NULL,     NULL,        NULL};
+        fracture_state state = ice_rig_fracture_state(&r);
         assert_ok(fracture_run(&r.ctx, scratch, &settings, r.plane, &r.patches, &state, &events, &e), e);
         integrate_poses(&r.ctx, &r.bodies, dt);
     }
