@@ -21,12 +21,14 @@ typedef struct fram_study_extent {
     int conditions;
     int64_t runs_least, runs_most; /* equal unless seeds go on until an interval is narrow */
     double run_seconds;            /* processor time of one run, told by steps of the first and the last condition on
-                                      this machine: thousands of steps into it, or at the end of a shorter run */
+                                      this machine, some seconds of computing into it, or at the end of a shorter run */
     double run_bytes;              /* on disk, that stay of a run */
     double
         run_seconds_packed; /* the same if the ice were packed all the time, or went on breaking: jams cost as much */
     int64_t records;        /* of the worst runs, which are made again for them */
     double record_bytes;    /* of each, with its playback */
+    double seen; /* part of a run that was looked at to tell this, 0 to 1, the less of the two conditions: some seconds
+                    of computing, so that steps that grow later are not known */
 } fram_study_extent;
 FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error,
                                         size_t size);

@@ -4,7 +4,7 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "base/clock.h"
-#include "sim/bench.h"
+#include "sim/bench_looks.h"
 #include "study/extent.h"
 #include "study/study_file.h"
 #include "study/study_record.h"
@@ -47,11 +47,9 @@ void fram_study_destroy(fram_study *s)
 
 /* ---- what it will take ---- */
 
-/* Steps of a look: the first ones of the run settle, the others are measured. */
-enum { START_SETTLES = 10, LOOK_STEPS = 60 };
-/* Computing up to the second look [s], and up to a third where ice breaks: it may be far from the hull at first. */
-#define BETWEEN_LOOKS 0.5
-#define UP_TO_BREAKING 8.0
+/* Computing before the looks at a run [s]: at its start and on its way. */
+enum { LOOKS = 2 };
+static const double looks_after[LOOKS] = {0, 5};
 /* A number of series.csv with its comma, and of a row of a summary. */
 enum { NUMBER_BYTES = 9, ROW_BYTES = 1200 };
 /* Columns of series.csv, about; and bytes of a floe in a frame and in the last checkpoint, of the pictures of a run,
@@ -80,15 +78,6 @@ static double record_bytes_of(const scenario *s, double steps, int32_t floes)
     return bytes_of(&one, KEEP_ALL, steps, floes) + frames + PAGE_BYTES;
 }
 
-static fram_status look(context *ctx, const scenario *s, double after, step_look *out, bench_result *r,
-                        fram_error *error)
-{
-    double dt = s->run.time_step;
-    fram_status status = bench_scenario(ctx, s, after * dt, LOOK_STEPS * dt, r, error);
-    *out = (step_look){r->cpu_median, r->contact_points, r->floes, after};
-    return status;
-}
-
 /* Steps that the ice stays in a domain that it drifts through. */
 static double steps_of_stay(const scenario *s)
 {
@@ -99,13 +88,9 @@ static double steps_of_stay(const scenario *s)
     return fmax(d->x_max - d->x_min, d->y_max - d->y_min) / speed / s->run.time_step;
 }
 
-/* A later look at the run, after so much computing at the pace of the last one; that one again where the run is
- * shorter. */
-static fram_status look_later(context *ctx, const scenario *s, double steps, double computing, step_look *last,
-                              bench_result *r, fram_error *error)
+static step_look step_look_of(const bench_look *l)
 {
-    double after = fmin(floor(computing / fmax(last->time, 1e-9)), steps - LOOK_STEPS);
-    return after > last->at + LOOK_STEPS ? look(ctx, s, after, last, r, error) : FRAM_OK;
+    return (step_look){l->time, l->contacts, l->floes, (double)l->at};
 }
 
 /* Time and bytes of a run of one condition, added to those of the others. */
@@ -113,25 +98,21 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
 {
     context *ctx = &s->context->inner;
     scenario one = {0};
-    bench_result r = {0};
-    step_look early, late;
+    bench_look found[LOOKS] = {{0}};
+    double build = 0;
     fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
     if (status != FRAM_OK)
         return status;
-    double steps = ceil(one.run.duration / one.run.time_step), began = clock_processor();
-    status = look(ctx, &one, START_SETTLES, &early, &r, error);
-    double build = fmax(clock_processor() - began - (START_SETTLES + LOOK_STEPS) * early.time, 0);
-    late = early;
-    if (status == FRAM_OK)
-        status = look_later(ctx, &one, steps, BETWEEN_LOOKS, &late, &r, error);
-    if (status == FRAM_OK && one.ice.breakable)
-        status = look_later(ctx, &one, steps, UP_TO_BREAKING, &late, &r, error);
+    status = bench_looks(ctx, &one, looks_after, LOOKS, found, &build, error);
     if (status == FRAM_OK) {
+        step_look early = step_look_of(&found[0]), late = step_look_of(&found[1]);
+        double steps = ceil(one.run.duration / one.run.time_step);
         double breaking = breaking_step_time(&early, &late, steps, steps_of_stay(&one));
         out->run_seconds += build + steps * late.time;
         out->run_seconds_packed += build + steps * fmax(packed_step_time(&early, &late), breaking);
-        out->run_bytes += bytes_of(&one, s->inner.keep, steps, r.floes);
-        out->record_bytes += record_bytes_of(&one, steps, r.floes);
+        out->run_bytes += bytes_of(&one, s->inner.keep, steps, late.floes);
+        out->record_bytes += record_bytes_of(&one, steps, late.floes);
+        out->seen = fmin(out->seen, (double)(found[1].at + found[1].steps) / steps);
     } else if (status == FRAM_ERROR_INPUT) {
         study_place_error(&s->inner, condition, error);
     }
@@ -149,7 +130,8 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
     const study *inner = &s->inner;
     fram_study_extent e = {.conditions = inner->conditions,
                            .runs_least = (int64_t)inner->conditions * inner->seeds.least,
-                           .runs_most = (int64_t)inner->conditions * inner->seeds.most};
+                           .runs_most = (int64_t)inner->conditions * inner->seeds.most,
+                           .seen = 1};
     int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1;
     /* What a run says of its start is not asked here. */
     log_level usual = s->context->inner.verbosity;

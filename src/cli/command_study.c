@@ -21,8 +21,9 @@ static int own_path(const common_options *common, char path[PATH_MAX])
 
 /* ---- fram study check ---- */
 
-/* From this ratio on the time of packed ice is told. */
+/* From this ratio on the time of packed ice is told; and up to this part of a run, that no more of it was looked at. */
 #define MUCH_LONGER 1.2
+#define MUCH_LESS 0.8
 
 /* A duration or an amount in the unit in which it is read most easily. */
 static const char *time_text(double seconds, char out[32])
@@ -48,11 +49,14 @@ static const char *bytes_text(double bytes, char out[32])
     return out;
 }
 
+/* Runs that each process makes, one after another: the most of them. */
+static double turns(int64_t runs, int jobs) { return ceil((double)runs / jobs); }
+
 static void print_extent(const fram_study_extent *e, int jobs)
 {
     char one[32], other[32], page[BESIDE_SIZE];
-    double least = (double)e->runs_least * e->run_seconds / jobs;
-    double most = (double)e->runs_most * fmax(e->run_seconds, e->run_seconds_packed) / jobs;
+    double least = turns(e->runs_least, jobs) * e->run_seconds;
+    double most = turns(e->runs_most, jobs) * fmax(e->run_seconds, e->run_seconds_packed);
     printf("conditions: %d\n", e->conditions);
     if (e->runs_least == e->runs_most)
         printf("runs: %lld\n", (long long)e->runs_least);
@@ -64,14 +68,17 @@ static void print_extent(const fram_study_extent *e, int jobs)
     if (e->run_seconds_packed > MUCH_LONGER * e->run_seconds)
         printf("         up to %s where ice jams or goes on breaking: contacts and pieces take time, few at first\n",
                time_text(e->run_seconds_packed, one));
+    if (e->seen < MUCH_LESS)
+        printf("         told by the first %.2g %% of it, after seconds of computing: what comes later is not known\n",
+               100 * e->seen);
     if (e->records > 0) {
         printf("worst runs: %lld made again with a record and their playback, about %s each\n", (long long)e->records,
                bytes_text(e->record_bytes, one));
         if (!viewer_page_find(page))
             printf("            without playbacks: the viewer's page is not beside this command (make viewer); "
                    "fram view makes them later, of the records\n");
-        least += (double)e->records * e->run_seconds / jobs;
-        most += (double)e->records * fmax(e->run_seconds, e->run_seconds_packed) / jobs;
+        least += turns(e->records, jobs) * e->run_seconds;
+        most += turns(e->records, jobs) * fmax(e->run_seconds, e->run_seconds_packed);
     }
     printf("total: about %s", time_text(least, one));
     if (most > MUCH_LONGER * least)
@@ -98,6 +105,7 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     json_real(&j, "run_s", e.run_seconds);
     json_real(&j, "run_s_packed", e.run_seconds_packed);
     json_real(&j, "run_bytes", e.run_bytes);
+    json_real(&j, "run_seen", e.seen);
     json_integer(&j, "records", e.records);
     json_real(&j, "record_bytes", e.record_bytes);
     json_integer(&j, "playbacks", viewer_page_find(page) ? e.records : 0);

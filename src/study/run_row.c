@@ -137,8 +137,9 @@ static void add_shares(const run_data *d, int32_t vessel, run_row *out)
         all_y += y[m];
     }
     double square = all_x * all_x + all_y * all_y;
+    /* Nothing of a load that points backwards is 0, not -0. */
     for (int m = 0; m < MECHANISM_COUNT && square > 0; m++)
-        out->figure[ROW_share_splitting + m] = (x[m] * all_x + y[m] * all_y) / square;
+        out->figure[ROW_share_splitting + m] = (x[m] * all_x + y[m] * all_y) / square + 0.0;
 }
 
 _Static_assert(ROW_share_friction - ROW_share_splitting == (int)MECHANISM_FRICTION - (int)MECHANISM_SPLITTING &&

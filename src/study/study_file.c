@@ -172,9 +172,25 @@ static fram_status read_keep(const study_source *r, const yaml_node *node)
     return FRAM_OK;
 }
 
-/* A key has one place: `set` is for all runs, `vary` for one condition. */
-static fram_status check_twice(const study *s, fram_error *error)
+/* "=" ends a key where keys and values stand together: what has one would be another key, with the rest in its value.
+ */
+static fram_status check_key(const char *file, int line, const char *key, fram_error *error)
 {
+    if (!strchr(key, '='))
+        return FRAM_OK;
+    return error_set(error, FRAM_ERROR_INPUT, file, line, key, "expected a key of the scenario, found a text with =");
+}
+
+/* A key has one place: `set` is for all runs, `vary` for one condition. */
+static fram_status check_keys(const study *s, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < s->set.count && status == FRAM_OK; i++)
+        status = check_key(s->file, s->set.data[i].line, s->set.data[i].key, error);
+    for (int32_t k = 0; k < s->keys.count && status == FRAM_OK; k++)
+        status = check_key(s->table ? s->table : s->file, s->table ? 0 : s->keys_line, s->keys.data[k], error);
+    if (status != FRAM_OK)
+        return status;
     for (int32_t i = 0; i < s->set.count; i++)
         for (int32_t k = 0; k < s->keys.count; k++)
             if (strcmp(s->set.data[i].key, s->keys.data[k]) == 0)
@@ -217,8 +233,8 @@ static fram_status read_root(const study_source *r)
         return error_set(r->error, FRAM_ERROR_INPUT, r->out->file, 1, "seeds",
                          "found %lld runs, %d conditions with up to %d seeds each: expected at most %d",
                          (long long)runs, (int)r->out->conditions, (int)r->out->seeds.most, STUDY_RUNS_MOST);
-    fram_status twice = check_twice(r->out, r->error);
-    return twice == FRAM_OK ? study_extremes_check(r->out, r->error) : twice;
+    fram_status keys_good = check_keys(r->out, r->error);
+    return keys_good == FRAM_OK ? study_extremes_check(r->out, r->error) : keys_good;
 }
 
 /* ---- checks of all conditions ---- */

@@ -53,6 +53,7 @@ class Studies(StudyTest):
             self.assertAlmostEqual(float(means[3][f"share_{name}[1]"]), sum(pair) / 2, delta=1e-9)
         for row in rows:
             shares = [row[f"share_{n}[1]"] for n in names]
+            self.assertNotIn("-0", shares)
             if float(row["load_mean[N]"]) > 0:
                 self.assertAlmostEqual(sum(map(float, shares)), 1, delta=1e-6)
             else:
@@ -288,6 +289,21 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertGreater(extent["run_s"], 0)
         self.assertGreaterEqual(extent["run_s_packed"], extent["run_s"])
 
+    def test_what_a_study_takes_is_told_for_what_can_be_done_at_once(self):
+        def told(text, jobs):
+            done = subprocess.run([FRAM, "study", "check", self.write(text), "--jobs", str(jobs)], check=True,
+                                  capture_output=True, text=True)
+            scale = {"s": 1, "min": 60, "h": 3600, "days": 86400}
+            one, total = (re.search(name + ": about ([0-9.e+-]+) ([a-z]+)", done.stdout).groups()
+                          for name in ("one run", "total"))
+            return float(total[0]) * scale[total[1]] / (float(one[0]) * scale[one[1]]), done.stdout
+        # One run is no faster on four cores; the fifth of five waits.
+        for seeds, jobs, turns in ((1, 4, 1), (5, 4, 2), (6, 2, 3)):
+            ratio, text = told(f"seeds: {seeds}\n", jobs)
+            self.assertAlmostEqual(ratio, turns, delta=0.02 * turns, msg=text)
+            self.assertNotIn("told by the first", text)
+        self.assertEqual(self.fram("check", self.at / "study.yaml")["run_seen"], 1)
+
     def test_conditions_of_a_list_a_table_and_a_hypercube(self):
         study = self.write("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
                            "    - {vessel.speed: 2, ice.thickness: 1}\n")
@@ -496,6 +512,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         for wrong, right in (("extreme_within", "largest_within"), ("max_within", "largest_within"),
                              ("min", "least"), ("maximum", "most"), ("mean_witin", "mean_within")):
             self.refused(f"seeds: {{{wrong}: 2}}\n", f"study.yaml:2: {wrong}", f"did you mean {right}?")
+        # Not taken for the key before the sign, with a value that begins behind it.
+        self.refused("set: {title=a: b}\n", "study.yaml:2: title=a: expected a key")
+        self.refused("vary: {grid: {title=a: [b, c]}}\n", "study.yaml:2: title=a: expected a key")
+        (self.at / "c.csv").write_text("title=a\nb\n")
+        self.refused("vary: {table: c.csv}\n", "c.csv:0: title=a: expected a key")
         self.refused("seeds: 0\n", "study.yaml:2: seeds")
         self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
         self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")

@@ -1,0 +1,94 @@
+#include "sim/bench_looks.h"
+
+#include "base/clock.h"
+#include "sim/bench_measure.h"
+#include "sim/build.h"
+
+#include <math.h>
+
+/* Steps that settle, and steps of a look: fewer where they take longer than this [s]. */
+enum { SETTLES = 10, LOOK_MOST = 60, LOOK_LEAST = 3 };
+#define LOOK_SECONDS 0.5
+
+/* A run that is looked at. */
+typedef struct looked_run {
+    context *ctx;
+    const model *m;
+    world *w;
+    int64_t done, steps; /* made, and all of the run */
+    double began, end;   /* processor time of the first step; what all steps may take [s] */
+} looked_run;
+
+/* Until steps have taken so much processor time [s], or the last look of the run is due; the mean time of these steps
+   in *pace, which stays where there are none. */
+static fram_status step_on(looked_run *run, double until, double *pace, fram_error *error)
+{
+    double start = clock_processor() - run->began, now = start;
+    int64_t before = run->done;
+    fram_status status = FRAM_OK;
+    while (status == FRAM_OK && run->done < run->steps - LOOK_MOST &&
+           (now < until || (run->done < SETTLES && now < LOOK_SECONDS))) {
+        status = work_continue(run->ctx, "measuring", fmin(now, run->end), run->end, error);
+        if (status == FRAM_OK)
+            status = world_step(run->ctx, run->m, run->w, error);
+        run->done++;
+        now = clock_processor() - run->began;
+    }
+    if (run->done > before)
+        *pace = (now - start) / (double)(run->done - before);
+    return status;
+}
+
+static fram_status look(looked_run *run, double pace, bench_look *out, fram_error *error)
+{
+    int64_t steps = (int64_t)fmin(fmax(LOOK_SECONDS / fmax(pace, 1e-9), LOOK_LEAST), LOOK_MOST);
+    bench_result r;
+    /* How far it is was told by time, not by the steps of this look. */
+    work_function told = run->ctx->work;
+    run->ctx->work = NULL;
+    fram_status status = bench_measure(run->ctx, run->m, run->w, -1, 0, steps, &r, error);
+    run->ctx->work = told;
+    *out = (bench_look){r.cpu_median, r.contact_points, 0, run->done, steps};
+    for (int32_t i = 0; i < run->w->floes.count; i++)
+        out->floes += run->w->floes.body[i] >= 0;
+    run->done += steps;
+    return status;
+}
+
+static fram_status look_at_world(looked_run *run, const double *after, int count, bench_look *out, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    double pace = 0;
+    run->began = clock_processor();
+    run->end = after[count - 1];
+    for (int i = 0; i < count && status == FRAM_OK; i++) {
+        int64_t before = run->done;
+        status = step_on(run, after[i], &pace, error);
+        if (status == FRAM_OK && (i == 0 || run->done > before))
+            status = look(run, pace, &out[i], error);
+        else if (i > 0)
+            out[i] = out[i - 1];
+    }
+    return status;
+}
+
+fram_status bench_looks(context *ctx, const scenario *s, const double *after, int count, bench_look *out, double *build,
+                        fram_error *error)
+{
+    model m;
+    world w;
+    field_report report;
+    double began = clock_processor();
+    fram_status status = build_model(ctx, s, &m, error);
+    if (status != FRAM_OK)
+        return status;
+    status = build_world(ctx, s, &m, &w, &report, error);
+    *build = clock_processor() - began;
+    if (status == FRAM_OK) {
+        looked_run run = {ctx, &m, &w, 0, (int64_t)ceil(s->run.duration / s->run.time_step), 0, 0};
+        status = look_at_world(&run, after, count, out, error);
+        world_free(ctx, &w);
+    }
+    model_free(ctx, &m);
+    return status;
+}
