@@ -178,7 +178,7 @@ fram_status run_folder_lock(const char *folder, int *lock, fram_error *error)
     run_folder_unlock(*lock);
     *lock = -1;
     return error_set(error, FRAM_ERROR_USAGE, folder, 0, NULL,
-                     "another run is writing into this folder; wait for its end, or name another folder");
+                     RUN_FOLDER_TAKEN "; wait for its end, or name another folder");
 }
 
 void run_folder_unlock(int lock)

@@ -13,6 +13,8 @@
 fram_status run_folder_make(const char *folder, fram_error *error);
 /* FRAM_ERROR_USAGE for a folder that is not empty, without `force`; nothing is touched. */
 fram_status run_folder_check(const char *folder, bool force, fram_error *error);
+/* What the error of run_folder_lock begins with while another run writes there. */
+#define RUN_FOLDER_TAKEN "another run is writing into this folder"
 /* That no other run writes into the folder: FRAM_ERROR_USAGE while one does.  *lock is for run_folder_unlock; the lock
    ends with the process too, and a file system without locks gives none.  What a run that was killed left half-written
    goes. */

@@ -267,6 +267,16 @@ bool study_folder_is_busy(const char *folder)
     return busy;
 }
 
+bool study_run_met_another(context *ctx, const char *folder, const char *log)
+{
+    char *text = NULL;
+    size_t size = 0;
+    bool met = study_folder_is_busy(folder) ||
+               (file_read(ctx, log, LOG_MOST, &text, &size, NULL) == FRAM_OK && strstr(text, RUN_FOLDER_TAKEN));
+    memory_free(ctx, text);
+    return met;
+}
+
 fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error)
 {
     static const int faults[] = {ENOSPC, EDQUOT, EROFS, EIO};

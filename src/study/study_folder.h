@@ -31,6 +31,9 @@ void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, st
 fram_status study_log_check_disk(context *ctx, const char *log, fram_error *error);
 /* Whether a program still writes into the folder of a run: one whose study was killed goes on to its end. */
 bool study_folder_is_busy(const char *folder);
+/* Whether a run that failed met such a program, which had been started and had not yet locked the folder: no answer of
+   its scenario. */
+bool study_run_met_another(context *ctx, const char *folder, const char *log);
 /* A folder with all that is in it. */
 void study_folder_remove(context *ctx, const char *folder);
 

@@ -230,18 +230,21 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK && exit_code != 0)
         status = study_log_check_disk(w->ctx, log, error);
-    if (status == FRAM_OK)
+    /* Made when the other one has ended.  Slurm does not give two programs one run. */
+    bool again =
+        status == FRAM_OK && exit_code != 0 && !w->options->slurm && study_run_met_another(w->ctx, folder, log);
+    if (status == FRAM_OK && !again)
         status = judge_run(w, folder, row, exit_code, &of->row, error);
-    if (status == FRAM_OK) {
+    if (status == FRAM_OK && !again) {
         of->state = RUN_THERE;
         w->made++;
     }
-    if (status == FRAM_OK && !of->row.failed)
+    if (of->state == RUN_THERE && !of->row.failed)
         study_run_finish(&w->folder, condition, seed, w->s->keep);
     memory_free(w->ctx, folder);
     memory_free(w->ctx, row);
     memory_free(w->ctx, log);
-    return status == FRAM_OK ? share_result(w, condition, index, error) : status;
+    return of->state == RUN_THERE ? share_result(w, condition, index, error) : status;
 }
 
 static void show_progress(const study_work *w, const char *waits)

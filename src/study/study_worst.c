@@ -262,6 +262,8 @@ static fram_status take(worst_work *w, worst_entry *e, int exit_code, fram_error
     e->going = false;
     if (status == FRAM_OK && exit_code == INTERRUPTED && !w->options->slurm) {
         /* It is made when the study goes on. */
+    } else if (status == FRAM_OK && exit_code != 0 && !w->options->slurm && study_run_met_another(ctx, folder, log)) {
+        /* And this one when the other program has ended. */
     } else if (status == FRAM_OK && exit_code != 0) {
         status = study_log_check_disk(ctx, log, error);
         if (status == FRAM_OK && e->stage == WORST_RUN)

@@ -127,6 +127,48 @@ START_TEST(a_full_disk_fails_the_study_and_not_its_runs)
 }
 END_TEST
 
+/* A study that was killed as it had started its programs leaves them: the same study, given again, meets them in
+   folders that were free a moment before.  Each run meets one here, once, and the run that is made again for its
+   record. */
+START_TEST(a_program_of_a_killed_study_is_waited_for)
+{
+    const char *command = getenv("FRAM");
+    if (!command)
+        return; /* a build without the command */
+    fram_error error = {0};
+    fram_context *c = context_of();
+    fram_study *s = NULL;
+    char folder[256], path[300], out[300], program[300];
+    write_study(folder, path);
+    FILE *file = fopen(path, "a");
+    ck_assert_ptr_nonnull(file);
+    fputs("keep: {record_of_worst: 1, by: time}\n", file);
+    fclose(file);
+    snprintf(out, sizeof out, "%s/out", folder);
+    snprintf(program, sizeof program, "%s/met", folder);
+    file = fopen(program, "w");
+    ck_assert_ptr_nonnull(file);
+    fprintf(file,
+            "#!/bin/sh\n[ $1 != run ] || [ -e \"$4.met\" ] || { : >\"$4.met\"\n"
+            "echo \"fram: $4: another run is writing into this folder; wait\" >&2; exit 2; }\nexec '%s' \"$@\"\n",
+            command);
+    fclose(file);
+    ck_assert_int_eq(chmod(program, 0700), 0);
+    ck_assert_int_eq(fram_study_load(c, path, &s, &error), FRAM_OK);
+    fram_study_definition d;
+    fram_study_default(&d);
+    d.folder = out;
+    d.program = program;
+    fram_study_result result = {0};
+    ck_assert_msg(fram_study_run(s, &d, &result, &error) == FRAM_OK, "%s: %s", error.file, error.message);
+    ck_assert_int_eq(result.runs, 6);
+    ck_assert_int_eq(result.made, 6);
+    ck_assert_msg(result.failed == 0, "%s", result.reason);
+    fram_study_destroy(s);
+    fram_context_destroy(c);
+}
+END_TEST
+
 START_TEST(a_study_runs_by_the_command)
 {
     const char *program = getenv("FRAM");
@@ -168,4 +210,5 @@ START_TEST(a_study_runs_by_the_command)
 }
 END_TEST
 
-TEST_MAIN("study", misuse_is_refused, a_full_disk_fails_the_study_and_not_its_runs, a_study_runs_by_the_command)
+TEST_MAIN("study", misuse_is_refused, a_full_disk_fails_the_study_and_not_its_runs,
+          a_program_of_a_killed_study_is_waited_for, a_study_runs_by_the_command)
