@@ -3,7 +3,7 @@
 #include "io/file.h"
 #include "io/text_buffer.h"
 #include "io/utf8.h"
-#include "model/scenario_schema.h"
+#include "study/key_names.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -105,30 +105,6 @@ static bool find_line(table_reader *r)
 
 /* ---- heads ---- */
 
-/* The key of a path as "vessels[1].hull.length"; NULL when there is none. */
-static const scenario_key *key_of(const char *path)
-{
-    const scenario_section *section = &scenario_schema;
-    const scenario_key *key = NULL;
-    while (*path) {
-        char name[64];
-        size_t length = strcspn(path, ".[");
-        if (!section || length >= sizeof name)
-            return NULL;
-        memcpy(name, path, length);
-        name[length] = '\0';
-        int32_t found = section_find(section, name);
-        if (found < 0)
-            return NULL;
-        key = &section->keys[found];
-        section = key->section;
-        path += length;
-        path += *path == '[' ? strcspn(path, ".") : 0;
-        path += *path == '.';
-    }
-    return key;
-}
-
 /* Takes "[unit]" off a head, and refuses a unit that is not the key's; a number may be that of a list's element. */
 static fram_status take_unit(table_reader *r, char *head)
 {
@@ -137,7 +113,7 @@ static fram_status take_unit(table_reader *r, char *head)
         return FRAM_OK;
     bool number = strspn(open + 1, "0123456789") == (size_t)(close - open - 1);
     *open = '\0';
-    const scenario_key *key = key_of(head);
+    const scenario_key *key = key_of_path(head);
     if (number && (!key || key->kind == KEY_LIST)) {
         *open = '[';
         return FRAM_OK;

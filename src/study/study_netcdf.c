@@ -1,6 +1,7 @@
 /* study.nc: all figures of all runs over the dimensions condition and seed, NaN where there is no run. */
 #include "fram/version.h"
 #include "io/netcdf_file.h"
+#include "study/key_names.h"
 #include "study/study_answers.h"
 
 #include <math.h>
@@ -36,7 +37,8 @@ static void put_keys(const study_folder *f, netcdf_file *nc, int over, double *v
             name[n++] = *c;
         name[n] = '\0';
         key_values(f, k, value);
-        int variable = netcdf_variable(nc, name, NETCDF_F64, &over, 1, "", "scenario key of the conditions");
+        int variable = netcdf_variable(nc, name, NETCDF_F64, &over, 1, key_unit(f->s->keys.data[k]),
+                                       "scenario key of the conditions");
         netcdf_put_f64(nc, variable, value);
     }
 }

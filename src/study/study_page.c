@@ -1,6 +1,7 @@
 /* study.html: what a study says, for people: conditions with intervals, charts, seeds, the worst runs. */
 #include "io/atomic_file.h"
 #include "model/mechanism.h"
+#include "study/key_names.h"
 #include "study/study_page_parts.h"
 #include "study/study_series.h"
 #include "study/study_worst.h"
@@ -131,7 +132,9 @@ void page_table_begin(study_page *p, const char *const *heads, int32_t count)
     int32_t n = 1;
     wide_begin(p);
     for (int32_t k = 0; k < p->f->s->keys.count && k < HEADS_MOST / 2; k++) {
-        breakable(p->f->s->keys.data[k], key[k]);
+        char text[KEY_TEXT_SIZE];
+        key_with_unit(p->f->s->keys.data[k], text);
+        breakable(text, key[k]);
         all[n++] = key[k];
     }
     for (int32_t i = 0; i < count && n < HEADS_MOST; i++)
@@ -338,11 +341,13 @@ enum { HEAT_MOST = 12 };
 static void add_heat(study_page *p, const page_figure *figure, int32_t rows, int32_t columns)
 {
     const study *s = p->f->s;
+    char down[KEY_TEXT_SIZE], across[KEY_TEXT_SIZE];
     double greatest = 0;
+    key_with_unit(s->keys.data[0], down);
+    key_with_unit(s->keys.data[1], across);
     for (int32_t c = 0; c < s->conditions; c++)
         greatest = fmax(greatest, page_interval(p, c, figure).mean);
-    html_paragraph(&p->page, "%s [%s]: %s downwards, %s across", figure->name, figure->unit, s->keys.data[0],
-                   s->keys.data[1]);
+    html_paragraph(&p->page, "%s [%s]: %s downwards, %s across", figure->name, figure->unit, down, across);
     text_add(p->f->ctx, &p->page.text, "<table><tr><th></th>");
     for (int32_t c = 0; c < columns; c++)
         text_format(p->f->ctx, &p->page.text, "<th style=\"text-align:center\">%s</th>", study_value(s, c, 1));

@@ -1,4 +1,5 @@
 /* Charts of the page of a study: runs as dots, means with their intervals. */
+#include "study/key_names.h"
 #include "study/study_page_parts.h"
 #include "study/study_series.h"
 
@@ -42,11 +43,12 @@ static void name_group(study_charts *w, int32_t g)
     of->name[0] = '\0';
     for (int32_t k = 0; k < s->keys.count && w->is_series && used < NAME_ROOM; k++) {
         char value[PAGE_KEY_SIZE];
+        const char *unit = key_unit(s->keys.data[k]);
         if (k == w->series.key || !study_series_is_group_key(s, &w->series, k))
             continue;
         page_key_text(study_value(s, g * w->series.length, k), value);
-        used += (size_t)snprintf(of->name + used, NAME_ROOM - used, "%s%s %s", used > 0 ? ", " : "", s->keys.data[k],
-                                 value);
+        used += (size_t)snprintf(of->name + used, NAME_ROOM - used, "%s%s %s%s%s", used > 0 ? ", " : "",
+                                 s->keys.data[k], value, *unit ? " " : "", unit);
     }
     if (!of->name[0])
         snprintf(of->name, NAME_ROOM, "mean over seeds");
@@ -119,7 +121,7 @@ static int32_t group_lines(const study_charts *w, int32_t g, chart_line *out)
 
 static fram_status add_chart(study_charts *w, const page_figure *figure, fram_error *error)
 {
-    char label[64];
+    char label[64], across[KEY_TEXT_SIZE] = "condition";
     chart_line lines[SERIES_MOST * LINES_OF_GROUP];
     int32_t count = 0;
     if (!collect(w, figure))
@@ -128,8 +130,10 @@ static fram_status add_chart(study_charts *w, const page_figure *figure, fram_er
         count += group_lines(w, g, lines + count);
     snprintf(label, sizeof label, "%s [%s]", figure->name, figure->unit);
     const study *s = w->p->f->s;
-    chart c = chart_make(figure->name, w->dots ? "a dot is a run" : "too many runs for dots",
-                         w->is_series ? s->keys.data[w->series.key] : "condition", label, lines, count);
+    if (w->is_series)
+        key_with_unit(s->keys.data[w->series.key], across);
+    chart c =
+        chart_make(figure->name, w->dots ? "a dot is a run" : "too many runs for dots", across, label, lines, count);
     return html_chart(&w->p->page, &c, false, error);
 }
 

@@ -361,6 +361,9 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
                       f"--set run.seed={worst['seed']} --set output.frame_interval=1"):
             self.assertTrue(words in page, words)
         self.assertNotIn("thruster power", page)
+        # Keys have their units in heads and over heat maps.
+        for words in (">ice.thickness [m]</th>", "ice.thickness [m] downwards, vessel.speed [m/s] across"):
+            self.assertTrue(words in page.replace("\u200b", ""), words)
         # The uncertainty, to two digits, decides how many digits a mean has.
         mean, half = (float(last[n]) * 1e-3 for n in ("load_mean[N]", "load_mean_half[N]"))
         decimals = 1 - math.floor(math.log10(half))
@@ -381,14 +384,14 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.skipTest("this build has no NetCDF")
         read = ("import sys, xarray; d = xarray.open_dataset(sys.argv[1]);"
                 "print(repr(float(d.load_largest.sel(condition=3, seed=5))), d.load_largest.units,"
-                "float(d['ice.thickness'].sel(condition=3)), int(d.status.min()))")
+                "float(d['ice.thickness'].sel(condition=3)), int(d.status.min()), d['ice.thickness'].units)")
         done = subprocess.run(["/usr/bin/python3", "-c", read, self.at / "out" / "study.nc"], capture_output=True,
                               text=True)
         if done.returncode:
             self.skipTest("python3-xarray or python3-netcdf4 is not installed")
-        value, unit, thickness, status = done.stdout.split()
-        self.assertEqual((float(value), unit, float(thickness), status),
-                         (float(rows[5]["load_largest[N]"]), "N", 1.0, "1"))
+        value, unit, thickness, status, metres = done.stdout.split()
+        self.assertEqual((float(value), unit, float(thickness), status, metres),
+                         (float(rows[5]["load_largest[N]"]), "N", 1.0, "1", "m"))
 
     def test_extremes_of_conditions_and_of_a_year(self):
         study = self.write("seeds: 12\nvary: {grid: {vessel.speed: [2, 2.5]}}\n"
