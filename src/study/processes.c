@@ -6,9 +6,13 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <sched.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,6 +23,25 @@ int processes_cores(void)
         return CPU_COUNT(&set);
     long online = sysconf(_SC_NPROCESSORS_ONLN);
     return online > 0 ? (int)online : 1;
+}
+
+double processes_memory(void)
+{
+    char line[128];
+    double kilobytes = 0;
+    FILE *file = fopen("/proc/meminfo", "re");
+    while (file && kilobytes == 0 && fgets(line, sizeof line, file))
+        if (strncmp(line, "MemAvailable:", 13) == 0)
+            kilobytes = strtod(line + 13, NULL);
+    if (file)
+        fclose(file);
+    return kilobytes * 1024;
+}
+
+int processes_that_fit(int cores, double memory, double bytes)
+{
+    double fit = memory > 0 && bytes > 0 ? floor(memory / bytes) : cores;
+    return fit < 1 ? 1 : fit < cores ? (int)fit : cores;
 }
 
 fram_status processes_start(context *ctx, process_pool *all, const char *const *words, const char *log, int32_t task,

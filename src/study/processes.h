@@ -16,6 +16,10 @@ typedef struct process_pool {
 
 /* Cores that this process may use. */
 int processes_cores(void);
+/* Memory that programs can still take without anything being swapped [bytes]; 0: not known. */
+double processes_memory(void);
+/* How many at a time on so many cores, when each takes so many bytes of the memory: one at least. */
+int processes_that_fit(int cores, double memory, double bytes);
 /* Start `words` (ended by NULL; the first is the program's path) without input, standard output and error into the file
    `log`. */
 fram_status processes_start(context *ctx, process_pool *all, const char *const *words, const char *log, int32_t task,

@@ -7,10 +7,13 @@
 #include "io/scenario_file.h"
 #include "io/temporary.h"
 #include "sim/run_folder.h"
+#include "sim/scene_size.h"
+#include "study/processes.h"
 #include "study/study_file.h"
 #include "study/study_record.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -118,6 +121,7 @@ static fram_status write_condition(study_folder *f, int32_t condition, fram_erro
     fram_status status = study_scenario(f->ctx, f->s, condition, 0, &one, error);
     if (status != FRAM_OK)
         return status;
+    f->run_bytes = fmax(f->run_bytes, scene_size_of(&one).bytes);
     status = name_condition(f, condition, &one, error);
     if (status == FRAM_OK)
         status = scenario_print(f->ctx, &one, &options, &text, error);
@@ -181,7 +185,7 @@ static fram_status copy_study(const study_folder *f, fram_error *error)
 
 fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error)
 {
-    *f = (study_folder){ctx, s, path, memory_array(ctx, (size_t)s->conditions, CONDITION_ID), -1, {0}};
+    *f = (study_folder){ctx, s, path, memory_array(ctx, (size_t)s->conditions, CONDITION_ID), -1, {0}, 0};
     study_index_heads(f);
     fram_status status = f->id ? check_folder(ctx, path, error) : error_memory(error);
     if (status == FRAM_OK)
@@ -212,6 +216,20 @@ void study_folder_close(study_folder *f)
     f->lock = -1;
     memory_free(f->ctx, f->id);
     f->id = NULL;
+}
+
+int study_folder_jobs(const study_folder *f, int jobs)
+{
+    if (jobs > 0)
+        return jobs;
+    int cores = processes_cores();
+    double memory = processes_memory();
+    int fit = processes_that_fit(cores, memory, f->run_bytes);
+    if (fit < cores)
+        log_write(f->ctx, LOG_WARNING,
+                  "%d of %d cores: a run takes about %.2g GB, and %.2g GB of memory are free; --jobs N takes more", fit,
+                  cores, f->run_bytes * 1e-9, memory * 1e-9);
+    return fit;
 }
 
 /* ---- what stays of a run ---- */

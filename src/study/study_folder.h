@@ -13,12 +13,16 @@ typedef struct study_folder {
     char (*id)[CONDITION_ID]; /* of each condition */
     int lock;                 /* -1 */
     text_buffer index;        /* of index.csv, while the folder is opened */
+    double run_bytes;         /* of memory that a run takes, about: the largest of all conditions */
 } study_folder;
 
 /* Makes the folder with what does not depend on runs, and locks it: FRAM_ERROR_USAGE while another program runs a study
    in it, or when it holds something else. */
 fram_status study_folder_open(context *ctx, const study *s, const char *path, study_folder *f, fram_error *error);
 void study_folder_close(study_folder *f);
+
+/* Processes at a time: `jobs` where that is not 0, else the cores of this machine, or as many as its memory holds. */
+int study_folder_jobs(const study_folder *f, int jobs);
 
 /* "DIR/runs/ID/SEED" and an ending, to be freed; NULL without memory. */
 char *study_run_path(const study_folder *f, int32_t condition, int64_t seed, const char *ending);

@@ -398,10 +398,10 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
                       fram_error *error)
 {
     study_work w = {.ctx = ctx, .s = s, .options = options, .started = clock_wall()};
-    w.jobs = options->jobs > 0 ? options->jobs : processes_cores();
     fram_status status = study_folder_open(ctx, s, options->folder, &w.folder, error);
     if (status != FRAM_OK)
         return status;
+    w.jobs = options->slurm && options->jobs == 0 ? processes_cores() : study_folder_jobs(&w.folder, options->jobs);
     w.conditions = memory_array(ctx, (size_t)s->conditions, sizeof *w.conditions);
     w.first_of = twins_find(ctx, &w.folder);
     if (!w.conditions || !w.first_of)

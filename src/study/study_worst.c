@@ -340,7 +340,7 @@ static fram_status fill(worst_work *w, int jobs, bool *left, fram_error *error)
 static fram_status record_here(worst_work *w, fram_error *error)
 {
     const struct timespec pause = {0, LOOK_NANOSECONDS};
-    int jobs = w->options->jobs > 0 ? w->options->jobs : processes_cores();
+    int jobs = study_folder_jobs(w->f, w->options->jobs);
     bool left = false;
     fram_status status = fill(w, jobs, &left, error);
     double told = clock_wall();

@@ -123,5 +123,19 @@ START_TEST(processes_tell_how_they_ended)
 }
 END_TEST
 
+/* As many at a time as memory holds, where that is known; one always. */
+START_TEST(processes_fit_the_memory)
+{
+    ck_assert_int_eq(processes_that_fit(8, 32e9, 10e9), 3);
+    ck_assert_int_eq(processes_that_fit(8, 32e9, 4e9), 8);
+    ck_assert_int_eq(processes_that_fit(8, 32e9, 1e6), 8);
+    ck_assert_int_eq(processes_that_fit(8, 1e9, 10e9), 1);
+    ck_assert_int_eq(processes_that_fit(8, 0, 10e9), 8);
+    ck_assert_int_eq(processes_that_fit(8, 32e9, 0), 8);
+    ck_assert_double_gt(processes_memory(), 1e7);
+    ck_assert_double_lt(processes_memory(), 1e15);
+}
+END_TEST
+
 TEST_MAIN("run row", a_row_comes_back_whole_or_not_at_all, quotation_marks_are_doubled_in_a_line,
-          processes_tell_how_they_ended)
+          processes_tell_how_they_ended, processes_fit_the_memory)
