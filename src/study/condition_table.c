@@ -105,16 +105,22 @@ static bool find_line(table_reader *r)
 
 /* ---- heads ---- */
 
-/* Takes "[unit]" off a head, and refuses a unit that is not the key's; a number may be that of a list's element. */
+/* Takes "[unit]" off a head, with blanks before it, and refuses a unit that is not the key's; a number may be that of a
+ * list's element. */
 static fram_status take_unit(table_reader *r, char *head)
 {
     char *open = strrchr(head, '['), *close = head + strlen(head) - 1;
     if (!open || open == head || *close != ']')
         return FRAM_OK;
     bool number = strspn(open + 1, "0123456789") == (size_t)(close - open - 1);
-    *open = '\0';
+    char *name_end = open;
+    while (name_end > head && is_blank(name_end[-1]))
+        name_end--;
+    bool blank = name_end < open;
+    *name_end = *open = '\0';
     const scenario_key *key = key_of_path(head);
     if (number && (!key || key->kind == KEY_LIST)) {
+        *name_end = blank ? ' ' : '[';
         *open = '[';
         return FRAM_OK;
     }
@@ -182,14 +188,26 @@ static fram_status read_row(table_reader *r)
     }
 }
 
+/* UTF-8 without a NUL byte: what is told of a table is text too. */
+static fram_status check_text(table_reader *r)
+{
+    for (const char *c = r->at; c < r->end;) {
+        int32_t code = utf8_next(&c, r->end);
+        if (code <= 0)
+            return refuse(r, NULL,
+                          code < 0 ? "expected UTF-8 text, found other bytes" : "expected text, found a NUL byte");
+        r->line += code == '\n';
+    }
+    r->line = 1;
+    return FRAM_OK;
+}
+
 static fram_status read_all(table_reader *r)
 {
     r->at += utf8_mark(r->at, (size_t)(r->end - r->at));
-    for (const char *c = r->at; c < r->end; c++) {
-        if (!*c)
-            return refuse(r, NULL, "expected text, found a NUL byte");
-    }
-    fram_status status = read_heads(r);
+    fram_status status = check_text(r);
+    if (status == FRAM_OK)
+        status = read_heads(r);
     while (status == FRAM_OK && next_line(r) && find_line(r)) {
         if (r->out->line.count == STUDY_CONDITIONS_MOST)
             return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, NULL,

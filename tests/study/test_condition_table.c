@@ -33,6 +33,10 @@ START_TEST(tables_of_any_program_are_read)
     read_as("\xef\xbb\xbfvessel.speed[m/s] , \"vessel.mode\"\r\n\r\n 1.50,\t\"towed\" \r\n2,free\r\n\r\n", cells, 2, 2);
     static const char *const odd[] = {"vessel.name", "ice.concentration", "a, \"b\"", "0.5"};
     read_as("vessel.name,ice.concentration[1]\n\"a, \"\"b\"\"\",0.5", odd, 2, 1);
+    /* As the page of a study has its heads. */
+    read_as("vessel.name,ice.concentration [1]\n\"a, \"\"b\"\"\",0.5", odd, 2, 1);
+    static const char *const speed[] = {"vessel.speed", "\xc3\xa9"};
+    read_as("vessel.speed  [m/s]\n\xc3\xa9\n", speed, 1, 1);
     static const char *const lists[] = {"vessels[1].speed", "2"};
     read_as("vessels[1].speed[m/s]\n2\n", lists, 1, 1);
 }
@@ -51,6 +55,8 @@ START_TEST(what_is_unclear_is_refused_at_its_place)
         {"vessel.speed;ice.thickness\n1;2\n", 1, "vessel.speed;ice.thickness", "divided by commas"},
         {"vessel.speed,\n1,2\n", 1, "", "empty one"},
         {"vessel.speed,vessel.speed[m/s]\n1,2\n", 1, "vessel.speed", "two columns"},
+        {"vessel.speed\n1\n\xe9\n", 3, "", "UTF-8"},
+        {"vessel.speed [kn]\n1\n", 1, "vessel.speed", "unit m/s, found kn"},
         {"vessel.speed[kn]\n1\n", 1, "vessel.speed", "unit m/s, found kn"},
         {"ice.concentration[2]\n1\n", 1, "ice.concentration", "unit 1, found 2"},
         {"vessel.speed,ice.thickness\n1,2\n\n1,\n", 4, "ice.thickness", "empty cell"},
