@@ -169,8 +169,7 @@ void page_count_runs(const study_page *p, int64_t *runs, int64_t *failed)
     *runs = *failed = 0;
     for (int32_t c = 0; c < p->f->s->conditions; c++) {
         *runs += p->conditions[c].rows.count;
-        for (int32_t i = 0; i < p->conditions[c].rows.count; i++)
-            *failed += p->conditions[c].rows.data[i].failed;
+        *failed += page_failed_of(p, c);
     }
 }
 
@@ -226,9 +225,11 @@ static bool wants_seeds(const study_page *p, int32_t condition)
 
 static void add_row(study_page *p, int32_t condition, const bool *has)
 {
-    char text[48];
+    char text[64], failed[32] = "";
     page_row_begin(p, condition);
-    snprintf(text, sizeof text, "%d%s", (int)p->conditions[condition].rows.count,
+    if (page_failed_of(p, condition) > 0)
+        snprintf(failed, sizeof failed, ", %d failed", (int)page_failed_of(p, condition));
+    snprintf(text, sizeof text, "%d%s%s", (int)p->conditions[condition].rows.count, failed,
              wants_seeds(p, condition) ? ", more" : "");
     html_cell(&p->page, text);
     for (int i = 0; i < PAGE_FIGURES; i++)
@@ -445,6 +446,7 @@ static fram_status make_page(study_page *p, fram_error *error)
         has[i] = has_figure(p, &page_figures[i]);
     add_head(p);
     add_table(p, has);
+    page_add_failed(p);
     fram_status status = page_add_differences(p, has, error);
     add_shares(p);
     if (status == FRAM_OK)

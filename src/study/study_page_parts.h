@@ -27,6 +27,10 @@ page_figure page_figure_of(run_figure figure);
 seed_interval page_interval(const study_page *p, int32_t condition, const page_figure *figure);
 void page_count_runs(const study_page *p, int64_t *runs, int64_t *failed);
 
+/* Runs of a condition that failed; and "Failed runs", with their reasons, where there are some. */
+int32_t page_failed_of(const study_page *p, int32_t condition);
+void page_add_failed(study_page *p);
+
 /* Tables of many columns keep numbers in one piece, and are moved sideways where the window is narrow: begin with the
    number of a condition and the keys as heads, then these; each row begins with them too. */
 void page_table_begin(study_page *p, const char *const *heads, int32_t count);

@@ -272,6 +272,10 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertIn("run.speed_limit", rows[0]["reason"])
         self.assertEqual(rows[0]["load_mean[N]"], "")
         self.assertEqual(self.rows("out", "conditions.csv")[0]["failed"], "2")
+        page = (self.at / "out" / "study.html").read_text()
+        self.assertTrue("<td>2, 2 failed</td>" in page)
+        for seed in (1, 2):
+            self.assertTrue(f"<td>1</td><td>{seed}</td><td>the simulation went wrong" in page)
         self.assertEqual(self.fram(study, "-o", self.at / "out")["made"], 0)
         done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], capture_output=True, text=True)
         self.assertIn("condition 1, seed 1: the simulation went wrong", done.stderr)
