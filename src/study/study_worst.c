@@ -4,6 +4,7 @@
 #include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "io/folder.h"
+#include "io/temporary.h"
 #include "study/processes.h"
 #include "study/study_file.h"
 
@@ -189,6 +190,9 @@ static void prune(worst_work *w)
     for (const char *file = folder_next(dir, &failure); file; file = folder_next(dir, &failure)) {
         char name[NAME_ROOM], own[NAME_ROOM];
         const char *dot = strrchr(file, '.');
+        /* What a study that was killed was about to put in place. */
+        if (temporary_is_name(file))
+            (void)unlinkat(dirfd(dir), file, 0);
         bool kept = !dot || dot - file >= NAME_ROOM ||
                     (strcmp(dot, ".row") != 0 && strcmp(dot, ".log") != 0 && strcmp(dot, ".exit") != 0);
         if (kept)

@@ -65,10 +65,14 @@ class Worst(StudyTest):
         self.assertEqual({p: p.stat().st_mtime_ns for p in before}, before)
         # By another figure, and fewer: what is no longer among them goes, what somebody else put there stays.
         (self.at / "out" / "worst" / "mine").mkdir()
+        # And what a study that was killed had half written.
+        half = self.at / "out" / "worst" / "0123456789ab-1.row.0123456789abcdef.new"
+        half.write_text("fram study")
         self.fram(self.write("seeds: 3\nset: {output.frame_interval: 0}\n"
                              "keep: {record_of_worst: 2, by: fractures}\n" + VARY), "-o", self.at / "out")
         self.assertTrue((self.at / "out" / "worst" / "mine").is_dir())
         (self.at / "out" / "worst" / "mine").rmdir()
+        self.assertFalse(half.exists())
         # Of equal values the first.
         ids = [r["id"] for r in self.rows("out", "index.csv")]
         self.check("out", [f"{ids[0]}-1", f"{ids[0]}-2"])
