@@ -165,7 +165,7 @@ static rest_media rest_media_now(const model *m, const world *w)
                          .current = vec3_sub(now.current, ground),
                          .ground = ground,
                          .slack = drifts ? m->rest.speed : 0,
-                         .swerve = 2 * m->rest.speed * m->time_step / m->rest.time};
+                         .swerve = m->rest.speed > 0 ? 2 * m->rest.speed * m->time_step / m->rest.time : 0};
     around.calm = vec3_dot(now.wind, now.wind) == 0 && vec3_length(around.current) <= 0.5 * around.slack &&
                   now.profile.count == 0;
     return around;
