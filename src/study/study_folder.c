@@ -227,8 +227,9 @@ int study_folder_jobs(const study_folder *f, int jobs)
     int fit = processes_that_fit(cores, memory, f->run_bytes);
     if (fit < cores)
         log_write(f->ctx, LOG_WARNING,
-                  "%d of %d cores: a run takes about %.2g GB, and %.2g GB of memory are free; --jobs N takes more", fit,
-                  cores, f->run_bytes * 1e-9, memory * 1e-9);
+                  "%d of %d cores: a run takes about %.2g GB, and %.2g GB of memory are free; "
+                  "a number of jobs that is given takes more",
+                  fit, cores, f->run_bytes * 1e-9, memory * 1e-9);
     return fit;
 }
 
