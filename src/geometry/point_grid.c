@@ -51,6 +51,14 @@ void point_grid_free(context *ctx, point_grid *g)
     g->bucket = NULL;
 }
 
+/* Within the distance; squares alone would call points one whose differences are too small to have any. */
+static bool is_near(const point_grid *g, vec3 a, vec3 b)
+{
+    vec3 d = vec3_sub(a, b);
+    double most = fmax(fmax(fabs(d.x), fabs(d.y)), fabs(d.z));
+    return most <= g->distance && vec3_dot(d, d) <= g->distance * g->distance;
+}
+
 /* A cell is at least twice the distance wide, so that a ball reaches into two of them at most along each axis. */
 int32_t point_grid_find(const point_grid *g, vec3 p)
 {
@@ -60,11 +68,9 @@ int32_t point_grid_find(const point_grid *g, vec3 p)
     for (int32_t x = lo.x; x <= hi.x; x++)
         for (int32_t y = lo.y; y <= hi.y; y++)
             for (int32_t z = lo.z; z <= hi.z; z++)
-                for (int32_t i = g->bucket[bucket_of(g, (cell){x, y, z})]; i >= 0; i = g->before.data[i]) {
-                    vec3 d = vec3_sub(g->point.data[i], p);
-                    if (vec3_dot(d, d) <= g->distance * g->distance && (best < 0 || i < best))
+                for (int32_t i = g->bucket[bucket_of(g, (cell){x, y, z})]; i >= 0; i = g->before.data[i])
+                    if ((best < 0 || i < best) && is_near(g, g->point.data[i], p))
                         best = i;
-                }
     return best;
 }
 

@@ -136,6 +136,19 @@ START_TEST(points_that_rounding_set_apart_are_one)
 }
 END_TEST
 
+/* Points so near that the square of their distance is 0 are two, and the triangle between them stays. */
+START_TEST(only_equal_points_are_one)
+{
+    context ctx;
+    context_init(&ctx);
+    mesh_file f = parse(&ctx, "t.obj", OBJ_POINTS "v 0 -1e-301 0\nf 1 3 2\nf 1 4 5\nf 2 3 4\n");
+    ck_assert_int_eq(f.surface.vertex.count, 5);
+    ck_assert_int_eq(f.surface.face.count, 3);
+    ck_assert_int_eq(f.element.count, 3);
+    mesh_file_free(&ctx, &f);
+}
+END_TEST
+
 START_TEST(polygons)
 {
     context ctx;
@@ -262,5 +275,5 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
-TEST_MAIN("mesh_file", tetrahedra, places, flat_facets_are_dropped, points_that_rounding_set_apart_are_one, polygons,
-          symmetry_planes, round_trips, files_that_cannot_be_read, memory_runs_out)
+TEST_MAIN("mesh_file", tetrahedra, places, flat_facets_are_dropped, points_that_rounding_set_apart_are_one,
+          only_equal_points_are_one, polygons, symmetry_planes, round_trips, files_that_cannot_be_read, memory_runs_out)
