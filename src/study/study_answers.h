@@ -1,5 +1,5 @@
-/* What a study leaves beside its two tables: differences.csv, extremes.csv, annual.csv, sensitivity.csv, study.nc,
-   study.html.  No wall-clock times. */
+/* What a study leaves beside its two tables: differences.csv, station.csv, extremes.csv, annual.csv, sensitivity.csv,
+   study.nc, study.html.  No wall-clock times. */
 #ifndef STUDY_STUDY_ANSWERS_H
 #define STUDY_STUDY_ANSWERS_H
 
@@ -22,6 +22,8 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
 
 /* differences.csv, where conditions differ in one key alone (study/differences.h). */
 fram_status study_differences_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+/* station.csv, where a vessel is on a station and something is required of that. */
+fram_status study_station_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* The other tables, as far as the study asks for them. */
 fram_status study_answers_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 

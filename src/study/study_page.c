@@ -3,7 +3,6 @@
 #include "model/mechanism.h"
 #include "study/key_names.h"
 #include "study/study_page_parts.h"
-#include "study/study_series.h"
 #include "study/study_worst.h"
 
 #include <math.h>
@@ -301,86 +300,6 @@ static void add_shares(study_page *p)
                    "up to 100. A part may be negative, and says nothing where loads from all sides cancel.");
 }
 
-/* ---- heat maps, of grids over two keys ---- */
-
-/* Number of the value among those that came before, in the order in which they appear. */
-static int32_t place_of(const study *s, int32_t key, int32_t condition)
-{
-    int32_t place = 0;
-    for (int32_t c = 0; c <= condition; c++) {
-        bool fresh = true;
-        for (int32_t d = 0; d < c && fresh; d++)
-            fresh = strcmp(study_value(s, d, key), study_value(s, c, key)) != 0;
-        if (strcmp(study_value(s, c, key), study_value(s, condition, key)) == 0)
-            return place;
-        place += fresh;
-    }
-    return place;
-}
-
-static int32_t values_of(const study *s, int32_t key)
-{
-    int32_t most = 0;
-    for (int32_t c = 0; c < s->conditions; c++) {
-        int32_t place = place_of(s, key, c);
-        most = place > most ? place : most;
-    }
-    return most + 1;
-}
-
-static void add_heat_cell(study_page *p, double value, double greatest)
-{
-    char text[HTML_NUMBER_SIZE];
-    int part = greatest > 0 && value > 0 ? (int)(value / greatest * 100) : 0;
-    html_number_text(page_three_digits(value), text);
-    text_format(p->f->ctx, &p->page.text,
-                "<td style=\"text-align:center;background:color-mix(in srgb,#d1603d %d%%,#fff)\">%s</td>", part, text);
-}
-
-enum { HEAT_MOST = 12 };
-
-static void add_heat(study_page *p, const page_figure *figure, int32_t rows, int32_t columns)
-{
-    const study *s = p->f->s;
-    char down[KEY_TEXT_SIZE], across[KEY_TEXT_SIZE];
-    double greatest = 0;
-    key_with_unit(s->keys.data[0], down);
-    key_with_unit(s->keys.data[1], across);
-    for (int32_t c = 0; c < s->conditions; c++)
-        greatest = fmax(greatest, page_interval(p, c, figure).mean);
-    html_paragraph(&p->page, "%s [%s]: %s downwards, %s across", figure->name, figure->unit, down, across);
-    text_add(p->f->ctx, &p->page.text, "<table><tr><th></th>");
-    for (int32_t c = 0; c < columns; c++)
-        text_format(p->f->ctx, &p->page.text, "<th style=\"text-align:center\">%s</th>", study_value(s, c, 1));
-    text_add(p->f->ctx, &p->page.text, "</tr>\n");
-    for (int32_t r = 0; r < rows; r++) {
-        text_format(p->f->ctx, &p->page.text, "<tr><th>%s</th>", study_value(s, r * columns, 0));
-        for (int32_t c = 0; c < columns; c++)
-            add_heat_cell(p, page_interval(p, r * columns + c, figure).mean, greatest);
-        text_add(p->f->ctx, &p->page.text, "</tr>\n");
-    }
-    text_add(p->f->ctx, &p->page.text, "</table>\n");
-}
-
-/* Only of a grid over two keys, whose conditions are in its order; its values are numbers or plain words. */
-static void add_heats(study_page *p, const bool *has)
-{
-    const study *s = p->f->s;
-    if (s->keys.count != 2 || s->conditions < 4 || s->conditions > HEAT_MOST * HEAT_MOST)
-        return;
-    int32_t rows = values_of(s, 0), columns = values_of(s, 1);
-    if (rows < 2 || columns < 2 || rows > HEAT_MOST || columns > HEAT_MOST || rows * columns != s->conditions)
-        return;
-    for (int32_t c = 0; c < s->conditions; c++)
-        if (place_of(s, 0, c) != c / columns || place_of(s, 1, c) != c % columns ||
-            strpbrk(study_value(s, c, 0), "<>&") || strpbrk(study_value(s, c, 1), "<>&"))
-            return;
-    html_section(&p->page, "Heat maps");
-    for (int i = 0; i < PAGE_FIGURES; i++)
-        if (has[i])
-            add_heat(p, &page_figures[i], rows, columns);
-}
-
 /* ---- the worst runs ---- */
 
 /* The link to the playback where it is there, or else the command that makes it: from the record, or run anew. */
@@ -448,11 +367,13 @@ static fram_status make_page(study_page *p, fram_error *error)
     add_table(p, has);
     page_add_failed(p);
     fram_status status = page_add_differences(p, has, error);
+    if (status == FRAM_OK)
+        status = page_add_station(p, error);
     add_shares(p);
     if (status == FRAM_OK)
         status = page_add_charts(p, has, error);
     if (status == FRAM_OK)
-        add_heats(p, has);
+        page_add_heats(p, has);
     if (status == FRAM_OK)
         status = page_add_extremes(p, error);
     if (status == FRAM_OK) {

@@ -1,19 +1,18 @@
 /* Charts of the page of a study: runs as dots, means with their intervals. */
 #include "study/key_names.h"
 #include "study/study_page_parts.h"
-#include "study/study_series.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* More dots than that nobody tells apart, and the page grows by hundreds of bytes with each. */
-enum { DOTS_MOST = 2000, BARS_MOST = 500, NAME_ROOM = 96 };
+enum { DOTS_MOST = 2000, BARS_MOST = 500 };
 
 /* Of one group of conditions, or of all where they are no series. */
 typedef struct chart_group {
     double_array x, mean, low, high, seed_x, seed_y, bar_x, bar_y;
-    char name[NAME_ROOM];
+    char name[PAGE_GROUP_SIZE];
 } chart_group;
 
 typedef struct study_charts {
@@ -35,23 +34,29 @@ static void groups_free(study_charts *w)
     }
 }
 
-static void name_group(study_charts *w, int32_t g)
+void page_group_name(const study *s, const study_series *of, int32_t group, char out[PAGE_GROUP_SIZE])
 {
-    const study *s = w->p->f->s;
-    chart_group *of = &w->group[g];
     size_t used = 0;
-    of->name[0] = '\0';
-    for (int32_t k = 0; k < s->keys.count && w->is_series && used < NAME_ROOM; k++) {
+    out[0] = '\0';
+    for (int32_t k = 0; k < s->keys.count && used < PAGE_GROUP_SIZE; k++) {
         char value[PAGE_KEY_SIZE];
         const char *unit = key_unit(s->keys.data[k]);
-        if (k == w->series.key || !study_series_is_group_key(s, &w->series, k))
+        if (k == of->key || !study_series_is_group_key(s, of, k))
             continue;
-        page_key_text(study_value(s, g * w->series.length, k), value);
-        used += (size_t)snprintf(of->name + used, NAME_ROOM - used, "%s%s %s%s%s", used > 0 ? ", " : "",
+        page_key_text(study_value(s, group * of->length, k), value);
+        used += (size_t)snprintf(out + used, PAGE_GROUP_SIZE - used, "%s%s %s%s%s", used > 0 ? ", " : "",
                                  s->keys.data[k], value, *unit ? " " : "", unit);
     }
-    if (!of->name[0])
-        snprintf(of->name, NAME_ROOM, "mean over seeds");
+}
+
+static void name_group(study_charts *w, int32_t g)
+{
+    char *name = w->group[g].name;
+    name[0] = '\0';
+    if (w->is_series)
+        page_group_name(w->p->f->s, &w->series, g, name);
+    if (!name[0])
+        snprintf(name, PAGE_GROUP_SIZE, "mean over seeds");
 }
 
 /* A condition at x: its mean, its interval as a band's rows and as an upright bar, and its runs. */

@@ -5,6 +5,7 @@
 #include "io/html_page.h"
 #include "study/seeds.h"
 #include "study/study_answers.h"
+#include "study/study_series.h"
 
 /* A figure in the unit of the page. */
 typedef struct page_figure {
@@ -47,11 +48,29 @@ double page_three_digits(double value);
 enum { PAGE_KEY_SIZE = 48 };
 void page_key_text(const char *value, char out[PAGE_KEY_SIZE]);
 
+/* Maps of a grid over two keys: rows by the first, columns by the second, conditions row by row. */
+enum { HEAT_SIDE = 12, PAGE_HEAT_MOST = HEAT_SIDE * HEAT_SIDE };
+typedef struct page_heat {
+    int32_t rows, columns;
+} page_heat;
+/* false: the conditions are no such grid, or too large a one. */
+bool page_heat_find(const study *s, page_heat *out);
+/* One map, of a value a condition; a NaN is a dash. */
+void page_add_heat(study_page *p, const page_heat *of, const char *name, const double *value);
+/* "Heat maps" of the figures. */
+void page_add_heats(study_page *p, const bool *has);
+
+/* What tells a group of a series from the others: "ice.thickness 0.6 m"; "" where there is one group. */
+enum { PAGE_GROUP_SIZE = 96 };
+void page_group_name(const study *s, const study_series *of, int32_t group, char out[PAGE_GROUP_SIZE]);
+
 /* "Seeds and means": a dot a run, means with their intervals; lines along a key where the conditions are series over
    it (study/study_series.h). */
 fram_status page_add_charts(study_page *p, const bool *has, fram_error *error);
 /* "Differences" of conditions that differ in one key, where they have two runs each. */
 fram_status page_add_differences(study_page *p, const bool *has, fram_error *error);
+/* "Station": in how many runs each condition kept what was required, where vessels are on a station. */
+fram_status page_add_station(study_page *p, fram_error *error);
 /* Rare loads, where the study asks for them: a table of levels, and probability plots. */
 fram_status page_add_extremes(study_page *p, fram_error *error);
 

@@ -11,7 +11,8 @@
      DIR/summary.csv             a row a run, by condition and seed
      DIR/conditions.csv          a row a condition: number of seeds, means over them with their confidence intervals
 
-     DIR/differences.csv, extremes.csv, annual.csv, sensitivity.csv, study.nc, study.html  (study/study_answers.h)
+     DIR/differences.csv, station.csv, extremes.csv, annual.csv, sensitivity.csv, study.nc, study.html
+                                 (study/study_answers.h)
 
    ID names what decides a run's result: the effective scenario, the contents of its files and the version of Fram.  A
    study that is widened finds the runs that are there, and one whose inputs changed runs anew. */

@@ -127,6 +127,8 @@ fram_status study_tables_write(const study_folder *f, const condition_rows *cond
     if (status == FRAM_OK)
         status = study_differences_write(f, conditions, error);
     if (status == FRAM_OK)
+        status = study_station_write(f, conditions, error);
+    if (status == FRAM_OK)
         status = study_answers_write(f, conditions, error);
     if (status == FRAM_OK)
         status = study_netcdf_write(f, conditions, error);

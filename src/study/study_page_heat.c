@@ -1,0 +1,98 @@
+/* Heat maps of the page of a study, of grids over two keys. */
+#include "study/key_names.h"
+#include "study/study_page_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Number of the value among those that came before, in the order in which they appear. */
+static int32_t place_of(const study *s, int32_t key, int32_t condition)
+{
+    int32_t place = 0;
+    for (int32_t c = 0; c <= condition; c++) {
+        bool fresh = true;
+        for (int32_t d = 0; d < c && fresh; d++)
+            fresh = strcmp(study_value(s, d, key), study_value(s, c, key)) != 0;
+        if (strcmp(study_value(s, c, key), study_value(s, condition, key)) == 0)
+            return place;
+        place += fresh;
+    }
+    return place;
+}
+
+static int32_t values_of(const study *s, int32_t key)
+{
+    int32_t most = 0;
+    for (int32_t c = 0; c < s->conditions; c++) {
+        int32_t place = place_of(s, key, c);
+        most = place > most ? place : most;
+    }
+    return most + 1;
+}
+
+static void add_heat_cell(study_page *p, double value, double greatest)
+{
+    char text[HTML_NUMBER_SIZE];
+    int part = greatest > 0 && value > 0 ? (int)(value / greatest * 100) : 0;
+    html_number_text(page_three_digits(value), text);
+    text_format(p->f->ctx, &p->page.text,
+                "<td style=\"text-align:center;background:color-mix(in srgb,#d1603d %d%%,#fff)\">%s</td>", part, text);
+}
+
+/* The values are numbers or plain words, and the conditions in the order of a grid. */
+bool page_heat_find(const study *s, page_heat *out)
+{
+    if (s->keys.count != 2 || s->conditions < 4 || s->conditions > PAGE_HEAT_MOST)
+        return false;
+    *out = (page_heat){values_of(s, 0), values_of(s, 1)};
+    if (out->rows < 2 || out->columns < 2 || out->rows > HEAT_SIDE || out->columns > HEAT_SIDE ||
+        out->rows * out->columns != s->conditions)
+        return false;
+    for (int32_t c = 0; c < s->conditions; c++)
+        if (place_of(s, 0, c) != c / out->columns || place_of(s, 1, c) != c % out->columns ||
+            strpbrk(study_value(s, c, 0), "<>&") || strpbrk(study_value(s, c, 1), "<>&"))
+            return false;
+    return true;
+}
+
+void page_add_heat(study_page *p, const page_heat *of, const char *name, const double *value)
+{
+    const study *s = p->f->s;
+    char down[KEY_TEXT_SIZE], across[KEY_TEXT_SIZE];
+    double greatest = 0;
+    key_with_unit(s->keys.data[0], down);
+    key_with_unit(s->keys.data[1], across);
+    for (int32_t c = 0; c < s->conditions; c++)
+        greatest = fmax(greatest, value[c]);
+    html_paragraph(&p->page, "%s: %s downwards, %s across", name, down, across);
+    text_add(p->f->ctx, &p->page.text, "<table><tr><th></th>");
+    for (int32_t c = 0; c < of->columns; c++)
+        text_format(p->f->ctx, &p->page.text, "<th style=\"text-align:center\">%s</th>", study_value(s, c, 1));
+    text_add(p->f->ctx, &p->page.text, "</tr>\n");
+    for (int32_t r = 0; r < of->rows; r++) {
+        text_format(p->f->ctx, &p->page.text, "<tr><th>%s</th>", study_value(s, r * of->columns, 0));
+        for (int32_t c = 0; c < of->columns; c++)
+            add_heat_cell(p, value[r * of->columns + c], greatest);
+        text_add(p->f->ctx, &p->page.text, "</tr>\n");
+    }
+    text_add(p->f->ctx, &p->page.text, "</table>\n");
+}
+
+void page_add_heats(study_page *p, const bool *has)
+{
+    page_heat of;
+    double value[PAGE_HEAT_MOST] = {0};
+    char name[80];
+    if (!page_heat_find(p->f->s, &of))
+        return;
+    html_section(&p->page, "Heat maps");
+    for (int i = 0; i < PAGE_FIGURES; i++) {
+        if (!has[i])
+            continue;
+        for (int32_t c = 0; c < p->f->s->conditions; c++)
+            value[c] = page_interval(p, c, &page_figures[i]).mean;
+        snprintf(name, sizeof name, "%s [%s]", page_figures[i].name, page_figures[i].unit);
+        page_add_heat(p, &of, name, value);
+    }
+}

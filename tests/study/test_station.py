@@ -1,0 +1,105 @@
+"""In how many runs of a study a vessel keeps its station: station.csv and the page, by the runs themselves."""
+import unittest
+
+from studies import StudyTest
+
+MOORED = """
+run: {duration: 5, time_step: 0.04, transient: 1}
+vessel:
+  mode: free
+  speed: 2
+  hull: {length: 48, beam: 12, draught: 4, freeboard: 2}
+  mooring:
+    depth: 50
+    lines: [{kind: spring, count: 4, spacing_deg: 90, direction_deg: 45, pretension: 1e5, stiffness: 2e4}]
+ice: {concentration: 0.8, mean_floe_area: 64}
+domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
+"""
+OFFSET, HEADING, LINES = "offset_largest[m]", "heading_deviation_largest[deg]", "lines_parted[1]"
+# Clopper and Pearson's 95 % of 4 runs: 1 - 0.025^(1/4) at the end, and the root of the tail of two of four.
+INTERVAL = {0: (0, 0.602365), 2: (0.067586, 0.932414), 4: (0.397635, 1)}
+
+
+class StationTest(StudyTest):
+    def setUp(self):
+        super().setUp()
+        (self.at / "base.yaml").write_text(MOORED)
+
+    def between(self, figure):
+        """A limit that half of the runs of the plain study stay below."""
+        sizes = sorted(float(r[figure]) for r in self.rows("plain"))
+        self.assertLess(sizes[1], sizes[2])
+        return 0.5 * (sizes[1] + sizes[2])
+
+    def plain(self):
+        self.fram(self.write("seeds: 4\n"), "-o", self.at / "plain")
+
+    def page(self, folder):
+        return (self.at / folder / "study.html").read_text().replace("\u200b", "")
+
+    def test_runs_are_counted_by_what_is_required(self):
+        self.plain()
+        self.assertFalse((self.at / "plain" / "station.csv").exists())
+        self.assertIn("Nothing is required of the station", self.page("plain"))
+        offset, heading = self.between(OFFSET), self.between(HEADING)
+        study = self.write(f"seeds: 4\nvary: {{grid: {{vessel.station.heading_limit_deg: [{heading!r}, 180],"
+                           f" vessel.station.offset_limit: [{offset!r}, 1000]}}}}\n")
+        self.fram(study, "-o", self.at / "out")
+        runs, told = self.rows("out"), self.rows("out", "station.csv")
+        self.assertEqual(len(told), 4)
+        for row, limits in zip(told, ((heading, offset), (heading, 1000), (180, offset), (180, 1000))):
+            of = [r for r in runs if r["condition"] == row["condition"]]
+            far = [float(r[OFFSET]) > limits[1] for r in of]
+            turned = [float(r[HEADING]) > limits[0] for r in of]
+            kept = sum(not a and not b for a, b in zip(far, turned))
+            self.assertEqual((float(row["heading_limit[deg]"]), float(row["offset_limit[m]"])), limits)
+            self.assertEqual([int(row[k]) for k in ("runs", "kept", "beyond_offset", "beyond_heading", "lines_parted")],
+                             [4, kept, sum(far), sum(turned), 0])
+            self.assertEqual(float(row["share[1]"]), kept / 4)
+            for end, is_end in zip(INTERVAL.get(kept, ()), ("low[1]", "high[1]")):
+                self.assertAlmostEqual(float(row[is_end]), end, delta=1e-6)
+        self.assertEqual([int(r["kept"]) for r in told][2:], [2, 4])
+        page = self.page("out")
+        self.assertIn(">50 (7 to 93)<", page)
+        self.assertIn(">100 (40 to 100)<", page)
+        self.assertIn("Runs that kept station [%]", page)
+        self.assertIn("station was not kept in all runs at vessel.station.offset_limit", page)
+        # Without limits the table of the study before goes.
+        self.fram(self.write("seeds: 4\n"), "-o", self.at / "out")
+        self.assertFalse((self.at / "out" / "station.csv").exists())
+
+    def test_a_line_that_parts_loses_the_station_and_one_that_is_let_go_does_not(self):
+        self.plain()
+        load = self.between("line_tension_largest[N]")
+        text = MOORED.replace("stiffness:", "breaking_load: 1e9, stiffness:")
+        let_go = "{kind: spring, distance: 200, stiffness: 1e3, pretension: 1e4, release_time: 2}"
+        (self.at / "base.yaml").write_text(text.replace("lines: [", f"lines: [{let_go}, "))
+        study = self.write(f"seeds: 4\nvary: {{list: [{{vessel.mooring.lines.1.breaking_load: {load!r}}},"
+                           " {vessel.mooring.lines.1.breaking_load: 1e9}]}\n")
+        self.fram(study, "-o", self.at / "out")
+        parted = [float(r[LINES]) > 1 for r in self.rows("out")]
+        self.assertTrue(any(parted[:4]))
+        self.assertEqual([float(r[LINES]) for r in self.rows("out")][4:], [1] * 4)
+        told = self.rows("out", "station.csv")
+        self.assertEqual([int(r["kept"]) for r in told], [4 - sum(parted[:4]), 4])
+        self.assertEqual([int(r["lines_parted"]) for r in told], [sum(parted[:4]), 0])
+
+    def test_a_series_tells_how_far_the_station_is_kept(self):
+        self.plain()
+        most = max(float(r[OFFSET]) for r in self.rows("plain"))
+        study = self.write(f"seeds: 4\nset: {{vessel.station.offset_limit: {most * 1.001!r}}}\n"
+                           "vary: {grid: {vessel.speed: [1, 2, 4]}}\n")
+        self.fram(study, "-o", self.at / "out")
+        self.assertEqual([int(r["kept"]) for r in self.rows("out", "station.csv")], [4, 4, 0])
+        self.assertIn("Station was kept in all runs up to vessel.speed 2 m/s.", self.page("out"))
+
+    def test_a_vessel_without_a_station_has_no_part_on_the_page(self):
+        (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +
+                                           MOORED[MOORED.index("ice:"):])
+        self.fram(self.write("seeds: 2\n"), "-o", self.at / "out")
+        self.assertNotIn("<h2>Station", self.page("out"))
+        self.assertFalse((self.at / "out" / "station.csv").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
