@@ -198,7 +198,8 @@ static void add_head(study_page *p)
 void page_interval_text(seed_interval i, char out[PAGE_INTERVAL_SIZE])
 {
     char mean[HTML_NUMBER_SIZE] = "–", half[HTML_NUMBER_SIZE];
-    bool known = isfinite(i.half) && i.half > 0;
+    /* Less is rounding alone, of runs that nothing of chance reaches. */
+    bool known = isfinite(i.half) && i.half > 1e-9 * fabs(i.mean);
     int decimals = known ? decimals_of(i.half, 2) : decimals_of(i.mean, 3);
     number_at(i.mean, decimals, mean);
     number_at(i.half, decimals, half);

@@ -86,12 +86,15 @@ class StationTest(StudyTest):
 
     def test_a_series_tells_how_far_the_station_is_kept(self):
         self.plain()
-        most = max(float(r[OFFSET]) for r in self.rows("plain"))
-        study = self.write(f"seeds: 4\nset: {{vessel.station.offset_limit: {most * 1.001!r}}}\n"
+        most = 1.01 * max(float(r[OFFSET]) for r in self.rows("plain"))
+        study = self.write(f"seeds: 6\nset: {{vessel.station.offset_limit: {most!r}}}\n"
                            "vary: {grid: {vessel.speed: [1, 2, 4]}}\n")
         self.fram(study, "-o", self.at / "out")
-        self.assertEqual([int(r["kept"]) for r in self.rows("out", "station.csv")], [4, 4, 0])
-        self.assertIn("Station was kept in all runs up to vessel.speed 2 m/s.", self.page("out"))
+        self.assertEqual([int(r["kept"]) for r in self.rows("out", "station.csv")], [6, 6, 0])
+        page = self.page("out")
+        self.assertIn("Station was kept in all runs up to vessel.speed 2 m/s.", page)
+        # The slowest meets no ice: its runs differ in nothing but rounding, and have no digits of that.
+        self.assertRegex(page, r"<td>[0-9]\.[0-9]{2} ± 0\.00<")
 
     def test_a_vessel_without_a_station_has_no_part_on_the_page(self):
         (self.at / "base.yaml").write_text(MOORED[:MOORED.index("  mooring")].replace("mode: free", "mode: towed") +
