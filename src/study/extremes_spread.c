@@ -113,15 +113,21 @@ static double fitted_way(const extreme_law *law, double rare)
     return fabs(law->shape) < 1e-9 ? rare : (real_exp(law->shape * rare) - 1) / law->shape;
 }
 
+/* Where along h = -log survival, from the location on, a fit finds its shape.  Of maxima: where the likelihood of
+   Gumbel's law weighs a shape that changes slowly (x = g + shape'(h) g^3/6, of the reduced variate g, by Fisher's
+   information of 1, g and g^2/2).  Of peaks: the mean of the exponential law; the likelihood weighs them at 2, and
+   intervals of samples of some hundred peaks would then hold less than they say (docs/decisions/0311). */
+#define MAXIMA_SHAPE_PLACE 1.1312120
+#define PEAKS_SHAPE_PLACE 1
+
 double penultimate_level(const extreme_law *law, double survival, double rare)
 {
     double begin = -real_log(survival), shape = law->shape;
     if (!(survival > 0 && survival < 1 && begin > 0 && rare > 0))
         return law->location + law->scale * fitted_way(law, rare);
-    /* shape(h) = power/h, h = -log survival, is that of the fit in the mean over the values: what their h has over that
-       of the location is exponential of peaks, and of maxima Gumbel's. */
-    double mean = law->kind == LAW_GEV ? EULER_GAMMA : 1;
-    double power = shape * (begin + mean), end = begin + rare, exact;
+    /* shape(h) = power/h, h = -log survival, is that of the fit at the h by which the fit tells it. */
+    double place = law->kind == LAW_GEV ? MAXIMA_SHAPE_PLACE : PEAKS_SHAPE_PLACE;
+    double power = shape * (begin + place), end = begin + rare, exact;
     if (fabs(power + 1) < 1e-9)
         exact = begin * real_log(end / begin);
     else

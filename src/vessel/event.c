@@ -81,6 +81,12 @@ void event_text(const event_table *events, int32_t row, const char *other, char 
         snprintf(out, size, "backed %.4g m, and rams", value);
         return;
     case EVENT_APPROACH:
+        /* What is nearest now is found by halving, to rounding. */
+        if (events->ahead[row] < 1e-3) {
+            snprintf(out, size, "vessel %s is at %.4g m, and comes no nearer at present velocities",
+                     other ? other : name, value);
+            return;
+        }
         snprintf(out, size, "vessel %s is going to pass at %.4g m, in %.4g s at present velocities",
                  other ? other : name, value, events->ahead[row]);
         return;

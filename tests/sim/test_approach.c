@@ -95,6 +95,10 @@ START_TEST(an_approach_begins_and_ends)
     char text[160];
     event_text(e, 0, "west", text, sizeof text);
     ck_assert_msg(strstr(text, "vessel west is going to pass at") != NULL, "%s", text);
+    e->ahead[0] = 3e-9;
+    e->value[0] = 12;
+    event_text(e, 0, "west", text, sizeof text);
+    ck_assert_str_eq(text, "vessel west is at 12 m, and comes no nearer at present velocities");
     event_text(e, 1, NULL, text, sizeof text);
     ck_assert_str_eq(text, "vessel 2 is clear again: it came as near as 40 m");
     scene_close(&k);
