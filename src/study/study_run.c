@@ -230,9 +230,8 @@ static fram_status take_result(study_work *w, int32_t condition, int32_t index, 
     fram_status status = folder && row && log ? FRAM_OK : error_memory(error);
     if (status == FRAM_OK && exit_code != 0)
         status = study_log_check_disk(w->ctx, log, error);
-    /* Made when the other one has ended.  Slurm does not give two programs one run. */
-    bool again =
-        status == FRAM_OK && exit_code != 0 && !w->options->slurm && study_run_met_another(w->ctx, folder, log);
+    /* Made when the other one has ended: a program of a study that was killed, here or on a node. */
+    bool again = status == FRAM_OK && exit_code != 0 && study_run_met_another(w->ctx, folder, log);
     if (status == FRAM_OK && !again)
         status = judge_run(w, folder, row, exit_code, &of->row, error);
     if (status == FRAM_OK && !again) {

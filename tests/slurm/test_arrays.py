@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Studies by a real Slurm: the same bytes as here, though a node is killed and a run fails; no cluster, no words."""
+import fcntl
 import json
 import os
 import pathlib
@@ -105,6 +106,31 @@ class Arrays(unittest.TestCase):
         # What is there is not run again, and nothing is submitted.
         again = self.fram("there", "--on", "slurm", environment=slurm.environment)
         self.assertEqual(json.loads(again)["made"], 0)
+
+    def test_a_run_that_a_killed_study_left_is_waited_for(self):
+        why = cluster.missing()
+        if why:
+            self.skipTest(why)
+        self.study.write_text("scenario: base.yaml\nseeds: 2\n")
+        self.fram("here")
+        made = next((self.at / "here").glob("runs/*/1.row"))
+        held = self.at / "there" / made.relative_to(self.at / "here").with_suffix("")
+        self.fram("there", "--on", "slurm", "--dry-run")
+        held.mkdir(parents=True)
+        slurm = cluster.Cluster(1)
+        self.addCleanup(slurm.stop)
+        process = subprocess.Popen(self.words("there", "--on", "slurm", "--poll", "2", "--json"),
+                                   env=slurm.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        # As the program of a run that was left does, for longer than a task tries.
+        lock = os.open(held, os.O_RDONLY)
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        time.sleep(14)
+        os.close(lock)
+        out, error = process.communicate(timeout=200)
+        self.assertEqual(process.returncode, 0, error)
+        result = json.loads(out.splitlines()[-1])
+        self.assertEqual((result["failed"], result["made"]), (0, 2))
+        self.assertEqual(self.tables("there"), self.tables("here"))
 
 
 if __name__ == "__main__":
