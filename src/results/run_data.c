@@ -51,6 +51,7 @@ static fram_status read_object(json_walk *w, const note_member *members, size_t 
 static fram_status read_event(json_walk *w, run_event *e, fram_error *error)
 {
     const note_member members[] = {{"time_s", NULL, 0, &e->time},
+                                   {"value", NULL, 0, &e->value},
                                    {"kind", e->kind, sizeof e->kind, NULL},
                                    {"vessel", e->vessel, sizeof e->vessel, NULL},
                                    {"text", e->text, sizeof e->text, NULL}};

@@ -10,7 +10,7 @@
 
 /* What befell a vessel, as run.json has it. */
 typedef struct run_event {
-    double time; /* [s] */
+    double time, value; /* [s], what the kind says (vessel/event.h) */
     char vessel[25], kind[24], text[160];
 } run_event;
 

@@ -56,6 +56,18 @@ fram_status extremes_refuse_few(extreme_result *out)
     return FRAM_OK;
 }
 
+void extremes_cut(extreme_result *out, int levels, double least, const char *why)
+{
+    const level_interval none = {(double)NAN, (double)NAN, (double)NAN};
+    if (out->most_probable.level >= least)
+        out->most_probable = none;
+    for (int i = 0; i < levels; i++)
+        if (out->level[i].level >= least)
+            out->level[i] = none;
+    out->answered = out->answered && isfinite(out->most_probable.level);
+    say(out, "%s", why);
+}
+
 static void doubt_interval(extreme_result *out, const level_interval *i)
 {
     if (!isfinite(i->low) || !isfinite(i->high))

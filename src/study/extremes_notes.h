@@ -9,6 +9,8 @@ void extremes_begin(extreme_result *out, extreme_method method, const extreme_re
 /* No answer, and why; returns FRAM_OK: that the data do not carry an answer is one. */
 fram_status extremes_refuse(extreme_result *out, const char *why);
 fram_status extremes_refuse_few(extreme_result *out);
+/* Values are known up to `least` only, in some runs: levels from there on are not told, and `why` is (a sentence). */
+void extremes_cut(extreme_result *out, int levels, double least, const char *why);
 /* What speaks against an answer that was found, of data that are `time` long [s]. */
 void extremes_doubt(extreme_result *out, const extreme_request *ask, double time);
 /* Where the sample (ascending) speaks for another tail than Gumbel's: the ratio of likelihoods (Coles 2001, 3.3). */

@@ -8,6 +8,7 @@
 #include "results/rainflow.h"
 #include "results/run_data.h"
 #include "results/station_results.h"
+#include "vessel/event.h"
 
 #include <errno.h>
 #include <math.h>
@@ -85,6 +86,21 @@ static fram_status fatigue(context *ctx, const run_data *d, int32_t vessel, cons
     return good ? FRAM_OK : error_memory(error);
 }
 
+/* The largest tension of a line as it parted [N], after the transient; 0 without.  Series have what came before and
+   after that step. */
+static double tension_of_parting(const run_data *d, int32_t vessel)
+{
+    const char *name = scenario_vessel_name(&d->s, vessel);
+    double most = 0;
+    for (int32_t i = 0; i < d->note.events.count; i++) {
+        const run_event *e = &d->note.events.data[i];
+        if (e->time >= d->s.run.transient && strcmp(e->kind, event_name(EVENT_LINE_BREAK)) == 0 &&
+            strcmp(e->vessel, name ? name : "") == 0)
+            most = fmax(most, e->value);
+    }
+    return most;
+}
+
 static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, run_row *out, fram_error *error)
 {
     channel_statistics offset, heading, tension, power, parted;
@@ -106,7 +122,7 @@ static fram_status add_station(context *ctx, const run_data *d, int32_t vessel, 
     out->figure[ROW_offset_largest] = offset.greatest;
     out->figure[ROW_heading_deviation_largest] = heading.greatest;
     out->figure[ROW_line_tension_significant] = tension.significant;
-    out->figure[ROW_line_tension_largest] = tension.greatest;
+    out->figure[ROW_line_tension_largest] = fmax(tension.greatest, tension_of_parting(d, vessel));
     out->figure[ROW_lines_parted] = parted.greatest;
     out->figure[ROW_thruster_power_mean] = power.mean;
     return FRAM_OK;

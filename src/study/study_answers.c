@@ -1,11 +1,13 @@
 #include "study/study_answers.h"
 
 #include "base/number_text.h"
+#include "study/extremes_notes.h"
 #include "study/sensitivity.h"
 #include "study/study_extremes.h"
 #include "study/study_file.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Figures that have extremes, and those that inputs move. */
@@ -89,6 +91,23 @@ static fram_status ask_extreme(const study_folder *f, const double_array *of, do
                               error);
 }
 
+/* A line holds no more than its breaking load: what the ice asks for above that is not in the tensions of such runs. */
+static fram_status cut_at_parting(const study_folder *f, const condition_rows *conditions, int32_t condition,
+                                  extreme_result *out, fram_error *error)
+{
+    parted_lines parted;
+    char why[160];
+    fram_status status = study_parted_lines(f, conditions, condition, &parted, error);
+    if (status != FRAM_OK || parted.runs == 0)
+        return status;
+    snprintf(why, sizeof why,
+             "Lines parted in %d of %d runs, and hold no more: levels from %.3g kN on are not told. Lines without "
+             "breaking_load tell them.",
+             (int)parted.runs, (int)conditions[condition].rows.count, parted.least * 1e-3);
+    extremes_cut(out, f->s->extremes.levels, parted.least, why);
+    return FRAM_OK;
+}
+
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                           double block, extreme_result *out, fram_error *error)
 {
@@ -97,6 +116,8 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
     fram_status status = collect_one(f, conditions, condition, figure, &value, error);
     if (status == FRAM_OK && value.count > 0)
         status = ask_extreme(f, &value, block, out, error);
+    if (status == FRAM_OK && value.count > 0 && figure == ROW_line_tension_largest)
+        status = cut_at_parting(f, conditions, condition, out, error);
     array_free(f->ctx, &value);
     return status;
 }
@@ -120,13 +141,13 @@ static void extremes_heads(const study_folder *f, text_buffer *b)
     text_add(f->ctx, b, ",note\n");
 }
 
-static fram_status add_extremes(const study_folder *f, run_figure figure, const condition_maxima *of, text_buffer *b,
-                                fram_error *error)
+static fram_status add_extremes(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                                const condition_maxima *of, text_buffer *b, fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
     for (int32_t c = 0; c < f->s->conditions; c++) {
         extreme_result r;
-        fram_status status = ask_extreme(f, &of[c].value, of[c].block, &r, error);
+        fram_status status = study_extreme(f, conditions, c, figure, of[c].block, &r, error);
         if (status != FRAM_OK)
             return status;
         text_format(f->ctx, b, "%d,%s,%s,%s,%d", (int)c + 1, run_figure_name(figure), run_figure_unit(figure),
@@ -141,18 +162,46 @@ static fram_status add_extremes(const study_folder *f, run_figure figure, const 
     return FRAM_OK;
 }
 
-static fram_status add_annual(const study_folder *f, run_figure figure, const condition_maxima *of, text_buffer *b,
-                              fram_error *error)
+/* The first condition that occurs in which lines part below the level, and how; -1 without. */
+static fram_status find_parting(const study_folder *f, const condition_rows *conditions, double level, int32_t *found,
+                                parted_lines *parted, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    *found = -1;
+    for (int32_t c = 0; c < f->s->conditions && *found < 0 && status == FRAM_OK; c++) {
+        if (!(f->s->extremes.hours.data[c] > 0))
+            continue;
+        status = study_parted_lines(f, conditions, c, parted, error);
+        if (status == FRAM_OK && parted->runs > 0 && level >= parted->least)
+            *found = c;
+    }
+    return status;
+}
+
+static fram_status add_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                              const condition_maxima *of, text_buffer *b, fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
     level_interval level[STUDY_LEVELS_MOST];
     annual_lack lack[STUDY_LEVELS_MOST];
     fram_status status = annual_levels(f->ctx, x, of, f->s->conditions, level, lack, error);
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
+        int32_t parting = -1;
+        parted_lines parted;
+        if (figure == ROW_line_tension_largest)
+            status = find_parting(f, conditions, level[i].level, &parting, &parted, error);
+        if (parting >= 0)
+            level[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
         text_format(f->ctx, b, "%s,%s,%s", run_figure_name(figure), run_figure_unit(figure), x->gev ? "gev" : "gumbel");
         add_number(f, b, x->annual[i]);
         add_interval(f, b, &level[i]);
-        if (lack[i].condition >= 0 && lack[i].runs > 0)
+        if (parting >= 0)
+            text_format(
+                f->ctx, b,
+                ",\"No answer: lines parted in %d runs of condition %d, and hold no more than %.3g kN there; lines "
+                "without breaking_load tell it.\"\n",
+                (int)parted.runs, (int)parting + 1, parted.least * 1e-3);
+        else if (lack[i].condition >= 0 && lack[i].runs > 0)
             text_format(
                 f->ctx, b,
                 ",\"No answer: the data do not carry this level by gev: it is so rare that %d runs of condition "
@@ -182,9 +231,9 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
         status = collect(f, conditions, study_rare[i], of, error);
         if (status != FRAM_OK || !any_values(f, of))
             continue;
-        status = add_extremes(f, study_rare[i], of, &table, error);
+        status = add_extremes(f, conditions, study_rare[i], of, &table, error);
         if (status == FRAM_OK)
-            status = add_annual(f, study_rare[i], of, &year, error);
+            status = add_annual(f, conditions, study_rare[i], of, &year, error);
     }
     if (status == FRAM_OK)
         status = study_table_write(f, "extremes.csv", &table, error);

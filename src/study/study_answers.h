@@ -22,6 +22,14 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
 
 /* differences.csv, where conditions differ in one key alone (study/differences.h). */
 fram_status study_differences_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+/* Runs of a condition in which lines parted, but for those that are let go, and the least of the largest tensions of
+   such runs: up to that one the tensions are known [N]. */
+typedef struct parted_lines {
+    int32_t runs;
+    double least; /* HUGE_VAL without such a run */
+} parted_lines;
+fram_status study_parted_lines(const study_folder *f, const condition_rows *conditions, int32_t condition,
+                               parted_lines *out, fram_error *error);
 /* station.csv, where a vessel is on a station and something is required of that. */
 fram_status study_station_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* The other tables, as far as the study asks for them. */

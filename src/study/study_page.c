@@ -252,11 +252,16 @@ static void add_table(study_page *p, const bool *has)
             heads[count++] = names[i];
     }
     page_table_begin(p, heads, count);
-    for (int32_t c = 0; c < p->f->s->conditions && c < CONDITIONS_OF_TABLE; c++)
+    bool wide = false;
+    for (int32_t c = 0; c < p->f->s->conditions && c < CONDITIONS_OF_TABLE; c++) {
         add_row(p, c, has);
+        wide = wide || wants_seeds(p, c);
+    }
     page_table_end(p);
-    html_paragraph(&p->page, "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean.",
-                   100 * WIDE);
+    if (wide)
+        html_paragraph(&p->page,
+                       "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean.",
+                       100 * WIDE);
     if (p->f->s->conditions > CONDITIONS_OF_TABLE)
         html_paragraph(&p->page, "The first %d conditions; conditions.csv has all.", CONDITIONS_OF_TABLE);
 }

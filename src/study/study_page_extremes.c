@@ -76,19 +76,25 @@ static fram_status add_plots(study_page *p, const page_figure *figure, const dou
     char quantity[64];
     int32_t drawn = 0;
     snprintf(quantity, sizeof quantity, "%s [%s]", figure->name, figure->unit);
-    html_grid_begin(&p->page);
     for (int32_t c = 0; c < p->f->s->conditions && drawn < PLOTS_MOST && status == FRAM_OK; c++) {
         extreme_result r;
         extremes_plot room;
         status = study_extreme(p->f, p->conditions, c, figure->figure, block[c], &r, error);
         if (status != FRAM_OK || !r.answered)
             continue;
+        if (drawn++ == 0) {
+            html_paragraph(&p->page,
+                           "Probability plots of %s: values that lie on the line speak for the law; the bar is the "
+                           "most probable largest value with its interval.%s",
+                           figure->name, p->f->s->conditions > PLOTS_MOST ? " Of the first conditions." : "");
+            html_grid_begin(&p->page);
+        }
         chart plot = extremes_chart_make(&r, quantity, figure->factor, p->f->s->extremes.duration, &room);
         snprintf(room.title, sizeof room.title, "Condition %d, %s", (int)c + 1, extreme_method_name(r.method));
         status = html_chart(&p->page, &plot, false, error);
-        drawn++;
     }
-    html_grid_end(&p->page);
+    if (drawn > 0)
+        html_grid_end(&p->page);
     return status;
 }
 
@@ -125,10 +131,6 @@ fram_status page_add_extremes(study_page *p, fram_error *error)
     }
     if (status == FRAM_OK) {
         page_figure figure = page_figure_of(study_rare[most_wanted(has)]);
-        html_paragraph(&p->page,
-                       "Probability plots of %s: values that lie on the line speak for the law; the bar is the most "
-                       "probable largest value with its interval.%s",
-                       figure.name, p->f->s->conditions > PLOTS_MOST ? " Of the first conditions." : "");
         status = add_plots(p, &figure, block, error);
     }
     if (status == FRAM_OK && x->annuals > 0)

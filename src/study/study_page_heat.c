@@ -31,13 +31,14 @@ static int32_t values_of(const study *s, int32_t key)
     return most + 1;
 }
 
-static void add_heat_cell(study_page *p, double value, double greatest)
+static void add_heat_cell(study_page *p, page_heat_scale scale, double value)
 {
     char text[HTML_NUMBER_SIZE];
-    int part = greatest > 0 && value > 0 ? (int)(value / greatest * 100) : 0;
+    int part = scale.full > 0 && value > 0 ? (int)(value / scale.full * 100) : 0;
     html_number_text(page_three_digits(value), text);
     text_format(p->f->ctx, &p->page.text,
-                "<td style=\"text-align:center;background:color-mix(in srgb,#d1603d %d%%,#fff)\">%s</td>", part, text);
+                "<td style=\"text-align:center;background:color-mix(in srgb,%s %d%%,#fff)\">%s</td>", scale.colour,
+                part, text);
 }
 
 /* The values are numbers or plain words, and the conditions in the order of a grid. */
@@ -56,15 +57,12 @@ bool page_heat_find(const study *s, page_heat *out)
     return true;
 }
 
-void page_add_heat(study_page *p, const page_heat *of, const char *name, const double *value)
+void page_add_heat(study_page *p, const page_heat *of, const char *name, page_heat_scale scale, const double *value)
 {
     const study *s = p->f->s;
     char down[KEY_TEXT_SIZE], across[KEY_TEXT_SIZE];
-    double greatest = 0;
     key_with_unit(s->keys.data[0], down);
     key_with_unit(s->keys.data[1], across);
-    for (int32_t c = 0; c < s->conditions; c++)
-        greatest = fmax(greatest, value[c]);
     html_paragraph(&p->page, "%s: %s downwards, %s across", name, down, across);
     text_add(p->f->ctx, &p->page.text, "<table><tr><th></th>");
     for (int32_t c = 0; c < of->columns; c++)
@@ -73,7 +71,7 @@ void page_add_heat(study_page *p, const page_heat *of, const char *name, const d
     for (int32_t r = 0; r < of->rows; r++) {
         text_format(p->f->ctx, &p->page.text, "<tr><th>%s</th>", study_value(s, r * of->columns, 0));
         for (int32_t c = 0; c < of->columns; c++)
-            add_heat_cell(p, value[r * of->columns + c], greatest);
+            add_heat_cell(p, scale, value[r * of->columns + c]);
         text_add(p->f->ctx, &p->page.text, "</tr>\n");
     }
     text_add(p->f->ctx, &p->page.text, "</table>\n");
@@ -90,9 +88,12 @@ void page_add_heats(study_page *p, const bool *has)
     for (int i = 0; i < PAGE_FIGURES; i++) {
         if (!has[i])
             continue;
-        for (int32_t c = 0; c < p->f->s->conditions; c++)
+        page_heat_scale scale = {"#d1603d", 0};
+        for (int32_t c = 0; c < p->f->s->conditions; c++) {
             value[c] = page_interval(p, c, &page_figures[i]).mean;
+            scale.full = fmax(scale.full, value[c]);
+        }
         snprintf(name, sizeof name, "%s [%s]", page_figures[i].name, page_figures[i].unit);
-        page_add_heat(p, &of, name, value);
+        page_add_heat(p, &of, name, scale, value);
     }
 }

@@ -53,16 +53,21 @@ enum { HEAT_SIDE = 12, PAGE_HEAT_MOST = HEAT_SIDE * HEAT_SIDE };
 typedef struct page_heat {
     int32_t rows, columns;
 } page_heat;
+typedef struct page_heat_scale {
+    const char *colour;
+    double full; /* the value that has all of it */
+} page_heat_scale;
 /* false: the conditions are no such grid, or too large a one. */
 bool page_heat_find(const study *s, page_heat *out);
 /* One map, of a value a condition; a NaN is a dash. */
-void page_add_heat(study_page *p, const page_heat *of, const char *name, const double *value);
+void page_add_heat(study_page *p, const page_heat *of, const char *name, page_heat_scale scale, const double *value);
 /* "Heat maps" of the figures. */
 void page_add_heats(study_page *p, const bool *has);
 
-/* What tells a group of a series from the others: "ice.thickness 0.6 m"; "" where there is one group. */
+/* What tells a group of a series from the others: "ice.thickness 0.6 m", brief "thickness 0.6 m"; "" where there is one
+   group. */
 enum { PAGE_GROUP_SIZE = 96 };
-void page_group_name(const study *s, const study_series *of, int32_t group, char out[PAGE_GROUP_SIZE]);
+void page_group_name(const study *s, const study_series *of, int32_t group, bool brief, char out[PAGE_GROUP_SIZE]);
 
 /* "Seeds and means": a dot a run, means with their intervals; lines along a key where the conditions are series over
    it (study/study_series.h). */

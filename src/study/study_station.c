@@ -72,6 +72,27 @@ static void count_runs(const condition_rows *of, station_count *out)
     }
 }
 
+fram_status study_parted_lines(const study_folder *f, const condition_rows *conditions, int32_t condition,
+                               parted_lines *out, fram_error *error)
+{
+    const condition_rows *of = &conditions[condition];
+    station_count limits = {.released = -1};
+    fram_status status = FRAM_OK;
+    *out = (parted_lines){0, HUGE_VAL};
+    for (int32_t i = 0; i < of->rows.count && status == FRAM_OK; i++) {
+        const double *figure = of->rows.data[i].figure;
+        if (!(figure[ROW_lines_parted] > 0))
+            continue;
+        if (limits.released < 0)
+            status = read_limits(f, condition, &limits, error);
+        if (!(figure[ROW_lines_parted] > limits.released))
+            continue;
+        out->runs++;
+        out->least = fmin(out->least, figure[ROW_line_tension_largest]);
+    }
+    return status;
+}
+
 typedef struct station_counts {
     station_count *of; /* each condition; memory_free */
     bool on_station, judged;
@@ -161,6 +182,7 @@ static void add_row(study_page *p, int32_t condition, const station_count *c)
 {
     char text[64];
     const int32_t number[] = {c->kept, c->beyond_offset, c->beyond_heading, c->parted};
+    const bool asked[] = {true, isfinite(c->offset_limit), isfinite(c->heading_limit), c->lines};
     proportion kept = kept_of(p->f, c);
     page_row_begin(p, condition);
     html_number(&p->page, isfinite(c->offset_limit) ? c->offset_limit : (double)NAN);
@@ -169,7 +191,7 @@ static void add_row(study_page *p, int32_t condition, const station_count *c)
     html_cell(&p->page, text);
     for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
         snprintf(text, sizeof text, "%d of %d", (int)number[i], (int)c->runs);
-        html_cell(&p->page, text);
+        html_cell(&p->page, asked[i] ? text : "–");
     }
     html_row_end(&p->page);
 }
@@ -200,7 +222,7 @@ static void add_map(study_page *p, const station_counts *counts)
         return;
     for (int32_t c = 0; c < p->f->s->conditions; c++)
         value[c] = 100 * kept_of(p->f, &counts->of[c]).share;
-    page_add_heat(p, &of, "Runs that kept station [%]", value);
+    page_add_heat(p, &of, "Runs that kept station [%]", (page_heat_scale){"#2e7d4f", 100}, value);
 }
 
 /* Conditions of a group, from its first on, all of whose runs kept station. */
@@ -225,7 +247,7 @@ static void add_ends(study_page *p, const station_counts *counts)
     for (int32_t g = 0; g < series.groups; g++) {
         char group[PAGE_GROUP_SIZE], value[PAGE_KEY_SIZE];
         int32_t kept = kept_length(&series, g, counts), last = kept > 0 ? kept - 1 : 0;
-        page_group_name(s, &series, g, group);
+        page_group_name(s, &series, g, false, group);
         page_key_text(study_value(s, g * series.length + last, series.key), value);
         const char *unit = key_unit(s->keys.data[series.key]);
         html_paragraph(&p->page, "%s%s %s %s %s%s%s%s.", group, *group ? ": station" : "Station",

@@ -84,6 +84,30 @@ class StationTest(StudyTest):
         self.assertEqual([int(r["kept"]) for r in told], [4 - sum(parted[:4]), 4])
         self.assertEqual([int(r["lines_parted"]) for r in told], [sum(parted[:4]), 0])
 
+    def test_a_tension_that_parts_a_line_is_known_and_levels_beyond_it_are_not_told(self):
+        self.plain()
+        # Little more than what half of the runs reach.
+        load = self.between("line_tension_largest[N]")
+        (self.at / "base.yaml").write_text(MOORED.replace("stiffness:", f"breaking_load: {load!r}, stiffness:"))
+        study = self.write("seeds: 14\nextremes: {duration: 3h, levels: [0.9], hours: [100], annual: [1e-2]}\n")
+        self.fram(study, "-o", self.at / "out")
+        parted = [r for r in self.rows("out") if float(r[LINES]) > 0]
+        whole = [r for r in self.rows("out") if float(r[LINES]) == 0]
+        self.assertTrue(parted and whole)
+        self.assertTrue(all(float(r["line_tension_largest[N]"]) > load for r in parted))
+        self.assertTrue(all(float(r["line_tension_largest[N]"]) <= load for r in whole))
+        told = {r["figure"]: r for r in self.rows("out", "extremes.csv")}
+        self.assertGreater(float(told["load_largest"]["most_probable"]), 0)
+        self.assertNotIn("parted", told["load_largest"]["note"])
+        tension = told["line_tension_largest"]
+        self.assertEqual([tension[k] for k in ("most_probable", "low", "high", "below_0.9")], [""] * 4)
+        self.assertIn(f"Lines parted in {len(parted)} of 14 runs", tension["note"])
+        self.assertIn(f"Lines parted in {len(parted)} of 14 runs", self.page("out"))
+        year = {r["figure"]: r for r in self.rows("out", "annual.csv")}
+        self.assertNotEqual(year["load_largest"]["level"], "")
+        self.assertEqual(year["line_tension_largest"]["level"], "")
+        self.assertIn("lines parted in", year["line_tension_largest"]["note"])
+
     def test_a_series_tells_how_far_the_station_is_kept(self):
         self.plain()
         most = 1.01 * max(float(r[OFFSET]) for r in self.rows("plain"))
