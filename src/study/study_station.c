@@ -225,19 +225,19 @@ static void add_map(study_page *p, const station_counts *counts)
     page_add_heat(p, &of, "Runs that kept station [%]", (page_heat_scale){"#2e7d4f", 100}, value);
 }
 
-/* Conditions of a group, from its first on, all of whose runs kept station. */
-static int32_t kept_length(const study_series *s, int32_t group, const station_counts *counts)
+/* Conditions of a group, from its first on or from its last back, all of whose runs kept station. */
+static int32_t kept_length(const study_series *s, int32_t group, bool back, const station_counts *counts)
 {
     int32_t n = 0;
     for (; n < s->length; n++) {
-        const station_count *c = &counts->of[group * s->length + n];
+        const station_count *c = &counts->of[group * s->length + (back ? s->length - 1 - n : n)];
         if (c->runs == 0 || c->kept < c->runs)
             break;
     }
     return n;
 }
 
-/* Up to which value of the key of a series all runs kept station. */
+/* Up to which value of the key of a series all runs kept station; or from which on, as of limits and lines. */
 static void add_ends(study_page *p, const station_counts *counts)
 {
     study_series series;
@@ -246,14 +246,19 @@ static void add_ends(study_page *p, const station_counts *counts)
         return;
     for (int32_t g = 0; g < series.groups; g++) {
         char group[PAGE_GROUP_SIZE], value[PAGE_KEY_SIZE];
-        int32_t kept = kept_length(&series, g, counts), last = kept > 0 ? kept - 1 : 0;
+        int32_t kept = kept_length(&series, g, false, counts), last = kept > 0 ? kept - 1 : 0;
+        int32_t above = kept > 0 ? 0 : kept_length(&series, g, true, counts);
+        last = above > 0 ? series.length - above : last;
         page_group_name(s, &series, g, false, group);
         page_key_text(study_value(s, g * series.length + last, series.key), value);
         const char *unit = key_unit(s->keys.data[series.key]);
         html_paragraph(&p->page, "%s%s %s %s %s%s%s%s.", group, *group ? ": station" : "Station",
-                       kept > 0 ? "was kept in all runs up to" : "was not kept in all runs at",
+                       kept > 0    ? "was kept in all runs up to"
+                       : above > 0 ? "was kept in all runs from"
+                                   : "was not kept in all runs at",
                        s->keys.data[series.key], value, *unit ? " " : "", unit,
                        kept == series.length ? ", the largest"
+                       : above > 0           ? " on"
                        : kept == 0           ? ", the smallest"
                                              : "");
     }

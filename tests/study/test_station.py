@@ -117,6 +117,10 @@ class StationTest(StudyTest):
         self.assertEqual([int(r["kept"]) for r in self.rows("out", "station.csv")], [6, 6, 0])
         page = self.page("out")
         self.assertIn("Station was kept in all runs up to vessel.speed 2 m/s.", page)
+        limits = f"{{vessel.station.offset_limit: [{most / 1e6!r}, {most!r}, 100]}}"
+        limits = self.write(f"seeds: 6\nvary: {{grid: {limits}}}\n")
+        self.fram(limits, "-o", self.at / "limits")
+        self.assertRegex(self.page("limits"), r"Station was kept in all runs from vessel.station.offset_limit \S+ m on")
         # The slowest meets no ice: its runs differ in nothing but rounding, and have no digits of that.
         self.assertRegex(page, r"<td>[0-9]\.[0-9]{2} ± 0\.00<")
 
