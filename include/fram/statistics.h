@@ -96,7 +96,8 @@ typedef struct fram_fatigue_definition {
     fram_series_source source;
     double slope[FRAM_SLOPES]; /* m of S-N lines; 3, 5 */
     int slopes;
-    double frequency; /* of the equivalent cycles, 1 [Hz] */
+    double frequency;   /* of the equivalent cycles, 1 [Hz] */
+    const char *cycles; /* write all cycles there, CSV with a row each; NULL */
 } fram_fatigue_definition;
 FRAM_API void fram_fatigue_default(fram_fatigue_definition *definition, size_t size);
 #define fram_fatigue_default(definition) fram_fatigue_default((definition), sizeof *(definition))

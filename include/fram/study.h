@@ -19,7 +19,8 @@ FRAM_API void fram_study_destroy(fram_study *study);
 /* What a study will take. */
 typedef struct fram_study_extent {
     int conditions;
-    int64_t runs_least, runs_most; /* equal unless seeds go on until an interval is narrow */
+    int64_t runs_least, runs_most; /* equal unless seeds go on until an interval is narrow; those of conditions that are
+                                      the same scenario are made once */
     double run_seconds;            /* processor time of one run, told by steps of the first and the last condition on
                                       this machine, some seconds of computing into it, or at the end of a shorter run */
     double run_bytes;              /* on disk, that stay of a run */
@@ -29,6 +30,8 @@ typedef struct fram_study_extent {
     double record_bytes;    /* of each, with its playback */
     double seen; /* part of a run that was looked at to tell this, 0 to 1, the less of the two conditions: some seconds
                     of computing, so that steps that grow later are not known */
+    int jobs;    /* processes at a time, as fram_study_run takes by itself: cores, as far as free memory holds them */
+    int differ;  /* conditions that are different scenarios */
 } fram_study_extent;
 FRAM_API fram_status fram_study_measure(const fram_study *study, fram_study_extent *extent, fram_error *error,
                                         size_t size);

@@ -3,9 +3,12 @@
 
 #include "api/arguments.h"
 #include "api/handles.h"
+#include "io/atomic_file.h"
+#include "io/text_buffer.h"
 #include "results/rainflow.h"
 #include "study/extremes.h"
 #include "study/extremes_chart.h"
+#include "study/extremes_notes.h"
 #include "study/series_file.h"
 
 #include <math.h>
@@ -97,7 +100,10 @@ static fram_status take_extremes(const fram_extremes_definition *given, fram_ext
     if (status == FRAM_OK)
         status = number_check("levels", d->levels, 0, FRAM_EXTREME_LEVELS, error);
     for (int i = 0; status == FRAM_OK && i < d->levels; i++)
-        status = number_check("probability", d->probability[i], 1e-6, 1 - 1e-9, error);
+        if (!(d->probability[i] >= 1e-6 && d->probability[i] <= 1 - 1e-9))
+            status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, "probability",
+                               "expected probabilities above 0 and below 1, from 1e-6 to 1 - 1e-9, found %.12g",
+                               d->probability[i]);
     return status;
 }
 
@@ -110,6 +116,7 @@ static extreme_request request_of(const fram_extremes_definition *d)
                          .separation = d->separation,
                          .order = d->order,
                          .fit = d->moments ? FIT_MOMENTS : FIT_LIKELIHOOD,
+                         .stability = true,
                          .levels = d->levels};
     memcpy(r.probability, d->probability, sizeof r.probability);
     return r;
@@ -205,6 +212,8 @@ fram_status(fram_extremes_find)(fram_context *c, const fram_extremes_definition 
                      ? extremes_of_maxima(&c->inner, all.data, all.count, d->block, methods[i], &ask, &r[i], error)
                      : extremes_of_series(&c->inner, &data.set, methods[i], &ask, &r[i], error);
         if (status == FRAM_OK)
+            extremes_doubt_parted(&r[i], data.parted, data.count);
+        if (status == FRAM_OK)
             answer(&r[i], &out->method[out->methods++]);
     }
     if (status == FRAM_OK && d->draw)
@@ -255,6 +264,21 @@ static fram_status count_cycles(fram_context *c, const series_data *data, rain_c
     return good ? FRAM_OK : error_memory(error);
 }
 
+/* A row a cycle. */
+static fram_status write_cycles(context *ctx, const char *path, const rain_cycles *all, const char *unit,
+                                fram_error *error)
+{
+    text_buffer b = {0};
+    text_format(ctx, &b, "range[%s],mean[%s],count[1]\n", unit, unit);
+    for (int32_t i = 0; i < all->list.count; i++) {
+        const rain_cycle *of = &all->list.data[i];
+        text_format(ctx, &b, "%.9g,%.9g,%.1f\n", of->range, of->mean, of->count);
+    }
+    fram_status status = b.failed ? error_memory(error) : atomic_file_write(ctx, path, b.data, (size_t)b.count, error);
+    text_free(ctx, &b);
+    return status;
+}
+
 /* `list` is to be freed: a struct that ends before its count never was. */
 static fram_status fatigue_check(const fram_fatigue *result, size_t size, fram_error *error)
 {
@@ -293,10 +317,14 @@ fram_status(fram_fatigue_find)(fram_context *c, const fram_fatigue_definition *d
     out->count = status == FRAM_OK ? cycles.list.count : 0;
     for (int i = 0; status == FRAM_OK && i < d->slopes; i++)
         out->equivalent[i] = equivalent_range(&cycles, d->slope[i], d->frequency * out->series.time);
+    if (status == FRAM_OK && d->cycles)
+        status = write_cycles(&c->inner, d->cycles, &cycles, data.unit, error);
     rainflow_free(&c->inner, &cycles);
     series_free(&c->inner, &data);
     if (status == FRAM_OK)
         result_give(result, size, out);
+    else
+        memory_free(&c->inner, out->list);
     return status;
 }
 

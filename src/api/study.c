@@ -4,12 +4,17 @@
 #include "api/arguments.h"
 #include "api/handles.h"
 #include "base/clock.h"
+#include "base/hash.h"
+#include "io/scenario_file.h"
 #include "sim/bench_looks.h"
+#include "sim/scene_size.h"
 #include "study/extent.h"
+#include "study/processes.h"
 #include "study/study_file.h"
 #include "study/study_record.h"
 #include "study/study_run.h"
 #include "study/study_worst.h"
+#include "study/twins.h"
 
 #include <math.h>
 #include <string.h>
@@ -120,6 +125,48 @@ static fram_status measure_condition(const fram_study *s, int32_t condition, fra
     return status;
 }
 
+/* Builds the vessels of a condition, and takes its name and the most that a run may take of memory. */
+static fram_status look_at_condition(const fram_study *s, int32_t condition, char id[CONDITION_ID], double *bytes,
+                                     fram_error *error)
+{
+    context *ctx = &s->context->inner;
+    scenario one = {0};
+    char hash[SHA256_TEXT_SIZE] = "";
+    fram_status status = study_scenario(ctx, &s->inner, condition, s->inner.seeds.first, &one, error);
+    if (status != FRAM_OK)
+        return status;
+    *bytes = fmax(*bytes, scene_size_of(&one).bytes);
+    status = study_build_check(ctx, &s->inner, condition, &one, error);
+    if (status == FRAM_OK)
+        status = scenario_hash(ctx, &one, hash, error);
+    memcpy(id, hash, CONDITION_ID - 1);
+    id[CONDITION_ID - 1] = '\0';
+    scenario_free(ctx, &one);
+    return status;
+}
+
+/* All conditions, for those that are not measured: how many differ, and how many of their runs go at a time. */
+static fram_status look_at_conditions(const fram_study *s, int32_t *differ, int *jobs, fram_error *error)
+{
+    context *ctx = &s->context->inner;
+    int32_t count = s->inner.conditions;
+    double bytes = 0;
+    char(*id)[CONDITION_ID] = memory_array(ctx, (size_t)count, CONDITION_ID);
+    fram_status status = id ? FRAM_OK : error_memory(error);
+    for (int32_t c = 0; c < count && status == FRAM_OK; c++)
+        status = look_at_condition(s, c, id[c], &bytes, error);
+    int32_t *first = status == FRAM_OK ? twins_find(ctx, id, count) : NULL;
+    if (status == FRAM_OK && !first)
+        status = error_memory(error);
+    *differ = 0;
+    for (int32_t c = 0; first && c < count; c++)
+        *differ += first[c] == c;
+    *jobs = processes_that_fit(processes_cores(), processes_memory(), bytes);
+    memory_free(ctx, first);
+    memory_free(ctx, id);
+    return status;
+}
+
 fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fram_error *error, size_t size)
 {
     if (!s || !out)
@@ -128,20 +175,22 @@ fram_status(fram_study_measure)(const fram_study *s, fram_study_extent *out, fra
     if (status != FRAM_OK)
         return status;
     const study *inner = &s->inner;
-    fram_study_extent e = {.conditions = inner->conditions,
-                           .runs_least = (int64_t)inner->conditions * inner->seeds.least,
-                           .runs_most = (int64_t)inner->conditions * inner->seeds.most,
-                           .seen = 1};
-    int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1;
+    fram_study_extent e = {.conditions = inner->conditions, .seen = 1};
+    int32_t last = inner->conditions - 1, measured = last > 0 ? 2 : 1, differ = 0;
     /* What a run says of its start is not asked here. */
     log_level usual = s->context->inner.verbosity;
     s->context->inner.verbosity = usual > LOG_WARNING ? LOG_WARNING : usual;
-    status = measure_condition(s, 0, &e, error);
+    status = look_at_conditions(s, &differ, &e.jobs, error);
+    if (status == FRAM_OK)
+        status = measure_condition(s, 0, &e, error);
     if (status == FRAM_OK && last > 0)
         status = measure_condition(s, last, &e, error);
     s->context->inner.verbosity = usual;
     if (status != FRAM_OK)
         return status;
+    e.differ = differ;
+    e.runs_least = (int64_t)differ * inner->seeds.least;
+    e.runs_most = (int64_t)differ * inner->seeds.most;
     e.run_seconds /= measured;
     e.run_seconds_packed /= measured;
     e.run_bytes /= measured;

@@ -29,6 +29,7 @@ static const struct {
     {"until", "--until"},
     {"isa", "--isa"},
     {"time", "--time"},
+    {"probability", "--level"},
     {"directions", "--directions"},
     {"speed_step", "--speed-step"},
     {"allowance", "--allowance"},

@@ -96,7 +96,10 @@ bool find_beside(const char *const *places, size_t count, char out[BESIDE_SIZE])
 
 /* --- outputs.c --- */
 
-/* A file that a command writes: the option that names it, and the endings of the names of its kind, "png svg" (NULL:
+/* The kinds of pictures.  A name with another ending is refused. */
+#define PICTURE_ENDINGS "png svg"
+
+/* A file that a command writes: the option that names it, and the endings of the names of its kind, "stl obj" (NULL:
    any).  NULL as path: none is asked for. */
 typedef struct output_file {
     const char *option, *path, *endings;

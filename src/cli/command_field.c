@@ -125,8 +125,8 @@ static int check_words(const common_options *common, field_words *w)
     if (w->cell != 0 && !w->cover)
         return answer_usage(common, "--cell", "is the size of the cells of --cover FILE, which is missing");
     const command_files files = {.inputs = {w->path},
-                                 .outputs = {{"--draw", w->draw, "png svg"},
-                                             {"--cover", w->cover, "png svg"},
+                                 .outputs = {{"--draw", w->draw, PICTURE_ENDINGS},
+                                             {"--cover", w->cover, PICTURE_ENDINGS},
                                              {"--table", w->table, "csv"},
                                              {"--output", w->output, "geojson json"}}};
     return refuse_outputs(common, &files);

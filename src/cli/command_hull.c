@@ -359,8 +359,8 @@ int command_hull(const command_row *self, int argc, char **argv)
     if (!w.ship && !w.path && !(isnan(w.particulars.bilge_radius) && isnan(w.particulars.transom)))
         return answer_usage(&common, isnan(w.particulars.transom) ? "--bilge-radius" : "--transom",
                             "applies to a ship: add --ship");
-    const command_files files = {.inputs = {w.path},
-                                 .outputs = {{"--draw", w.draw, "png svg"}, {"--output", w.output, "stl obj gdf"}}};
+    const command_files files = {
+        .inputs = {w.path}, .outputs = {{"--draw", w.draw, PICTURE_ENDINGS}, {"--output", w.output, "stl obj gdf"}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

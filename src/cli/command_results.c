@@ -108,7 +108,7 @@ int command_plot(const command_row *self, int argc, char **argv)
         count++;
     if (count > 0 && !output)
         return answer_usage(&common, "--output", "is missing: name the picture, -o FILE.png or FILE.svg");
-    const command_files files = {.runs = {word[0]}, .outputs = {{"--output", output, "png svg"}}};
+    const command_files files = {.runs = {word[0]}, .outputs = {{"--output", output, PICTURE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

@@ -290,7 +290,7 @@ int command_extremes(const command_row *self, int argc, char **argv)
         code = answer_usage(&common, "--block", "is missing: the length of the blocks that the maxima are of");
     d.moments = fit && strcmp(fit, "moments") == 0;
     for (int i = 0; i < d.source.file_count && code < 0; i++) {
-        const command_files touched = {.inputs = {files[i]}, .outputs = {{"--draw", d.draw, "png svg"}}};
+        const command_files touched = {.inputs = {files[i]}, .outputs = {{"--draw", d.draw, PICTURE_ENDINGS}}};
         code = refuse_outputs(&common, &touched);
     }
     return code >= 0 ? code : answer_extremes(&common, &d);
@@ -341,25 +341,13 @@ static void json_fatigue(const fram_fatigue_definition *d, const fram_fatigue *f
     json_end(&j);
 }
 
-/* A row a cycle. */
-static int write_cycles(const common_options *common, const char *path, const fram_fatigue *f)
-{
-    FILE *file = fopen(path, "w");
-    bool good = file && fprintf(file, "range[%s],mean[%s],count[1]\n", f->series.unit, f->series.unit) > 0;
-    for (int64_t i = 0; good && i < f->count; i++)
-        good = fprintf(file, "%.9g,%.9g,%.1f\n", f->list[i].range, f->list[i].mean, f->list[i].count) > 0;
-    if (file && fclose(file) != 0)
-        good = false;
-    return good ? EXIT_GOOD : answer_usage(common, path, "the cycles cannot be written");
-}
-
 int command_fatigue(const command_row *self, int argc, char **argv)
 {
     common_options common;
     fram_fatigue_definition d;
     series_words words = {0};
     option_list slopes = {0};
-    const char *files[STATISTICS_FILES] = {0}, *output = NULL;
+    const char *files[STATISTICS_FILES] = {0};
     fram_fatigue_default(&d);
     option_row rows[] = {
         {0},
@@ -368,7 +356,7 @@ int command_fatigue(const command_row *self, int argc, char **argv)
         {0},
         {"--slope", NULL, OPTION_LIST, &slopes, "M,M...", "slopes m of S-N curves (3,5)"},
         {"--frequency", NULL, OPTION_REAL, &d.frequency, "F", "frequency of the equivalent cycles [Hz] (1)"},
-        {"--output", "-o", OPTION_TEXT, &output, "FILE", "write all cycles as CSV"},
+        {"--output", "-o", OPTION_TEXT, &d.cycles, "FILE", "write all cycles as CSV"},
     };
     series_rows(&words, rows);
     int code =
@@ -378,7 +366,7 @@ int command_fatigue(const command_row *self, int argc, char **argv)
     if (code < 0)
         code = take_numbers(&common, "--slope", &slopes, d.slope, FRAM_SLOPES, &d.slopes);
     if (code < 0) {
-        const command_files used = {.inputs = {files[0]}, .outputs = {{"--output", output, "csv"}}};
+        const command_files used = {.inputs = {files[0]}, .outputs = {{"--output", d.cycles, "csv"}}};
         code = refuse_outputs(&common, &used);
     }
     fram_context *context = NULL;
@@ -392,10 +380,10 @@ int command_fatigue(const command_row *self, int argc, char **argv)
     if (fram_fatigue_find(context, &d, &f, &error) != FRAM_OK) {
         code = answer_error(&common, &error);
     } else {
-        code = output ? write_cycles(&common, output, &f) : EXIT_GOOD;
-        if (code == EXIT_GOOD && common.json)
+        code = EXIT_GOOD;
+        if (common.json)
             json_fatigue(&d, &f);
-        else if (code == EXIT_GOOD)
+        else
             print_fatigue(&d, &f);
         fram_fatigue_free(context, &f);
     }

@@ -57,7 +57,10 @@ static void print_extent(const fram_study_extent *e, int jobs)
     char one[32], other[32], page[BESIDE_SIZE];
     double least = turns(e->runs_least, jobs) * e->run_seconds;
     double most = turns(e->runs_most, jobs) * fmax(e->run_seconds, e->run_seconds_packed);
-    printf("conditions: %d\n", e->conditions);
+    printf("conditions: %d", e->conditions);
+    if (e->differ < e->conditions)
+        printf(", %d of them different scenarios: the runs of the others are theirs", e->differ);
+    printf("\n");
     if (e->runs_least == e->runs_most)
         printf("runs: %lld\n", (long long)e->runs_least);
     else
@@ -87,6 +90,7 @@ static void print_extent(const fram_study_extent *e, int jobs)
            bytes_text((double)e->runs_most * e->run_bytes + (double)e->records * e->record_bytes, other));
 }
 
+/* jobs: 0 for as many as the study takes by itself */
 static int answer_extent(const common_options *common, const fram_study *study, int jobs)
 {
     fram_study_extent e;
@@ -95,13 +99,15 @@ static int answer_extent(const common_options *common, const fram_study *study, 
     if (fram_study_measure(study, &e, &error) != FRAM_OK)
         return answer_error(common, &error);
     if (!common->json) {
-        print_extent(&e, jobs);
+        print_extent(&e, jobs > 0 ? jobs : e.jobs);
         return EXIT_GOOD;
     }
     json j = json_begin();
     json_integer(&j, "conditions", e.conditions);
+    json_integer(&j, "different", e.differ);
     json_integer(&j, "runs_least", e.runs_least);
     json_integer(&j, "runs_most", e.runs_most);
+    json_integer(&j, "jobs", jobs > 0 ? jobs : e.jobs);
     json_real(&j, "run_s", e.run_seconds);
     json_real(&j, "run_s_packed", e.run_seconds_packed);
     json_real(&j, "run_bytes", e.run_bytes);
@@ -230,8 +236,9 @@ static int answer_result(const common_options *common, const char *folder, const
     if (r->failed > 0)
         fprintf(stderr, "the first that failed: condition %lld, seed %lld: %s\n", (long long)r->failed_condition,
                 (long long)r->failed_seed, r->reason);
+    int code = r->runs > 0 && r->failed == r->runs ? EXIT_RUN_FAILED : EXIT_GOOD;
     if (!common->json)
-        return EXIT_GOOD;
+        return code;
     json j = json_begin();
     json_integer(&j, "conditions", r->conditions);
     json_integer(&j, "runs", r->runs);
@@ -239,7 +246,7 @@ static int answer_result(const common_options *common, const char *folder, const
     json_integer(&j, "made", r->made);
     json_text(&j, "folder", folder);
     json_end(&j);
-    return EXIT_GOOD;
+    return code;
 }
 
 static int run_study(const common_options *common, const fram_study *study, fram_study_definition *d)
@@ -309,7 +316,7 @@ int command_study(const command_row *self, int argc, char **argv)
     else if (fram_study_load(context, words[check ? 1 : 0], &study, &error) != FRAM_OK)
         code = answer_error(&common, &error);
     else if (check)
-        code = answer_extent(&common, study, d.jobs > 0 ? d.jobs : (int)sysconf(_SC_NPROCESSORS_ONLN));
+        code = answer_extent(&common, study, d.jobs);
     else
         code = run_study(&common, study, &d);
     fram_study_destroy(study);

@@ -5,17 +5,9 @@
 
 #include <limits.h>
 #include <math.h>
-#include <string.h>
-#include <strings.h>
 
 /* --peak was not given. */
 enum { PEAK_NONE = INT_MIN };
-
-static bool is_picture(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && (strcasecmp(dot, ".png") == 0 || strcasecmp(dot, ".svg") == 0);
-}
 
 int command_why(const command_row *self, int argc, char **argv)
 {
@@ -42,9 +34,7 @@ int command_why(const command_row *self, int argc, char **argv)
         return answer_usage(&common, "--peak", "or --time is required, but not both");
     if (d.time != d.time && peak < 1)
         return answer_usage(&common, "--peak", "expected 1, the largest, or more");
-    if (d.picture && !is_picture(d.picture))
-        return answer_usage(&common, "--output", "expected a picture's name that ends in .png or .svg");
-    const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, "png svg"}}};
+    const command_files files = {.runs = {run}, .outputs = {{"--output", d.picture, PICTURE_ENDINGS}}};
     code = refuse_outputs(&common, &files);
     if (code >= 0)
         return code;

@@ -25,7 +25,7 @@ static bool is_of_run(const char *run, const char *path)
     return false;
 }
 
-/* Whether a name ends in one of the endings, "png svg". */
+/* Whether a name ends in one of the endings, PICTURE_ENDINGS. */
 static bool has_ending(const char *path, const char *endings)
 {
     const char *dot = strrchr(path, '.');
@@ -35,6 +35,14 @@ static bool has_ending(const char *path, const char *endings)
             return true;
     }
     return false;
+}
+
+/* Pictures are of the kind that their name tells; what goes into a device has no kind. */
+static bool is_no_picture(const output_file *o)
+{
+    struct stat about;
+    bool device = stat(o->path, &about) == 0 && !S_ISREG(about.st_mode);
+    return !device && o->endings && strcmp(o->endings, PICTURE_ENDINGS) == 0 && !has_ending(o->path, o->endings);
 }
 
 /* A file with something in it that a name does not tell to be of the kind that is to be written. */
@@ -67,6 +75,8 @@ int refuse_outputs(const common_options *common, const command_files *files)
             if (files->outputs[k].path && is_one_file(files->outputs[k].path, o->path))
                 return answer_usage(common, o->option, "names another output too; give it a file of its own");
         }
+        if (is_no_picture(o))
+            return answer_usage(common, o->option, "expected a picture's name that ends in .png or .svg");
         if (!common->force && is_of_another_kind(o))
             return answer_usage(common, o->option,
                                 "names a file that is there and, by its name, of another kind; give it another name, "

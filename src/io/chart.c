@@ -73,6 +73,14 @@ static void settle(double *lo, double *hi, bool logarithmic)
     }
 }
 
+static bool has_points(const chart *c)
+{
+    for (int32_t k = 0; k < c->line_count; k++)
+        if (c->lines[k].style == CHART_POINTS && c->lines[k].count > 0)
+            return true;
+    return false;
+}
+
 static void find_range(const chart *c, frame *f)
 {
     f->log_x = c->log_x, f->log_y = c->log_y;
@@ -91,6 +99,10 @@ static void find_range(const chart *c, frame *f)
         }
     }
     settle(&f->x0, &f->x1, c->log_x);
+    /* The frame would cut the first and the last dot. */
+    double side = has_points(c) && !c->log_x ? 0.02 * (f->x1 - f->x0) : 0;
+    f->x0 -= side;
+    f->x1 += side;
     settle(&f->y0, &f->y1, c->log_y);
     double pad = c->log_y ? 0 : 0.05 * (f->y1 - f->y0);
     f->y1 += f->y1 > 0 || c->free_y ? pad : 0;

@@ -1,5 +1,6 @@
 #include "model/scenario_vessel.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -128,4 +129,15 @@ fram_status vessel_fault(const scenario *s, const vessel_entry *entry, const cha
     fram_status status = error_set(error, FRAM_ERROR_INPUT, NULL, 0, member, "%s", message);
     vessel_name_error(s, entry, error);
     return status;
+}
+
+int32_t scenario_released_lines(const scenario_vessel *v, double time)
+{
+    int32_t count = 0;
+    for (int32_t i = 0; i < v->mooring.lines.count; i++) {
+        const scenario_mooring_line *line = &v->mooring.lines.data[i];
+        if (automatic_or(line->release_time, HUGE_VAL) <= time)
+            count += (int32_t)line->count;
+    }
+    return count;
 }

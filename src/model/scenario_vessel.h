@@ -47,6 +47,9 @@ typedef struct vessel_file {
 } vessel_file;
 vessel_file vessel_file_name(const scenario *s, int32_t index, const char *stem, const char *ending);
 
+/* Mooring lines that the scenario lets go by this time. */
+int32_t scenario_released_lines(const scenario_vessel *v, double time);
+
 /* FRAM_ERROR_INPUT for a key of a vessel ("mode", "hull.file"; "" for the vessel itself), with its place. */
 fram_status vessel_fault(const scenario *s, const vessel_entry *entry, const char *member, fram_error *error,
                          const char *format, ...) __attribute__((format(printf, 5, 6)));

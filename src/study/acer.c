@@ -111,20 +111,12 @@ bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32
 
 void acer_free(context *ctx, acer_rates *r) { array_free(ctx, &r->count); }
 
-static int64_t exceedances_of(const acer_rates *r, int32_t level)
+int64_t acer_exceedances(const acer_rates *r, int32_t level)
 {
     int64_t sum = 0;
     for (int32_t b = 0; b < r->batches; b++)
         sum += r->count.data[(int64_t)b * ACER_LEVELS + level];
     return sum;
-}
-
-double acer_rate(const acer_rates *r, int32_t level, int64_t *exceedances)
-{
-    int64_t n = exceedances_of(r, level);
-    if (exceedances)
-        *exceedances = n;
-    return (double)n / ((double)r->batches * r->per_batch);
 }
 
 /* ---- the law of the tail ---- */
@@ -204,7 +196,7 @@ static tail_points points_of(const acer_rates *r)
 {
     tail_points t = {.count = 0};
     for (int32_t l = 0; l < r->levels; l++)
-        add_point(&t, r->level[l], exceedances_of(r, l), (double)r->batches * r->per_batch);
+        add_point(&t, r->level[l], acer_exceedances(r, l), (double)r->batches * r->per_batch);
     return t;
 }
 

@@ -28,8 +28,8 @@ typedef struct acer_tail {
    acer_free. */
 bool acer_count(context *ctx, const series_set *s, int32_t k, double tail, int32_t batch, acer_rates *out);
 void acer_free(context *ctx, acer_rates *r);
-/* The rate at a level and its number of exceedances, over all batches. */
-double acer_rate(const acer_rates *r, int32_t level, int64_t *exceedances);
+/* How often a level is exceeded, over all batches. */
+int64_t acer_exceedances(const acer_rates *r, int32_t level);
 
 /* Fit by the weights of Naess and Gaidai, of logarithms of rates whose 95 % interval is bounded from below.  false:
    there are fewer than five such levels, or no law fits. */

@@ -89,16 +89,18 @@ static bool next_line(table_reader *r)
     return r->at < r->end;
 }
 
-/* The next line that has something on it. */
+/* The next line that has something on it but a comment, which begins with "#". */
 static bool find_line(table_reader *r)
 {
     for (bool more = r->at < r->end; more; more = next_line(r)) {
         const char *begin = r->at;
         pass_blanks(r);
-        if (!at_line_end(r)) {
+        if (!at_line_end(r) && *r->at != '#') {
             r->at = begin;
             return true;
         }
+        while (!at_line_end(r))
+            r->at++;
     }
     return false;
 }

@@ -221,6 +221,8 @@ static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_
     bool good = sample_levels(ctx, s, ask, out);
     if (s->kind == LAW_GUMBEL)
         extremes_doubt_gumbel(out, s->value.data, s->value.count);
+    if (s->kind == LAW_WEIBULL)
+        extremes_doubt_largest(out, s->value.data, s->value.count);
     out->answered = good;
     return good ? FRAM_OK : error_memory(error);
 }
@@ -367,9 +369,7 @@ static fram_status answer_weibull(const series_work *w)
 static fram_status answer_tail(const series_work *w, const acer_rates *rates)
 {
     extreme_result *out = w->out;
-    int64_t exceedances = 0;
-    if (rates->levels > 0)
-        (void)acer_rate(rates, 0, &exceedances);
+    int64_t exceedances = rates->levels > 0 ? acer_exceedances(rates, 0) : 0;
     out->sample = (int32_t)(exceedances < INT32_MAX ? exceedances : INT32_MAX);
     if (rates->batches < ACER_BATCHES_LEAST)
         return extremes_refuse(out, "the data are too short for a bootstrap: fewer than 20 batches of 20 time scales");
@@ -377,11 +377,11 @@ static fram_status answer_tail(const series_work *w, const acer_rates *rates)
         return extremes_refuse_few(out);
     if (!acer_fit(rates, &out->tail))
         return extremes_refuse(out, "no law of the tail fits: fewer than five levels are exceeded often enough");
+    double counted = (double)rates->batches * rates->per_batch * w->s->step;
     for (int32_t i = 0; i < rates->levels && out->points < EXTREME_POINTS_MOST; i++) {
-        int64_t n = 0;
-        double rate = acer_rate(rates, i, &n);
+        int64_t n = acer_exceedances(rates, i);
         if (n > 0)
-            out->point[out->points++] = (extreme_point){w->s->step / rate, rates->level[i]};
+            out->point[out->points++] = (extreme_point){counted / (double)n, rates->level[i]};
     }
     double exponent[EXTREME_LEVELS_MOST + 1] = {1};
     level_interval level[EXTREME_LEVELS_MOST + 1];

@@ -50,18 +50,73 @@ chart extremes_chart_make(const extreme_result *r, const char *quantity, double 
     return c;
 }
 
+/* Where the answer's own threshold lies, from the least to the greatest of what is shown. */
+static chart_line taken_line(const extreme_result *r, const double *low, const double *high, int32_t count,
+                             stability_plot *room, int c)
+{
+    double *of = room->taken_y[c];
+    room->taken[0] = room->taken[1] = r->threshold;
+    of[0] = HUGE_VAL;
+    of[1] = -HUGE_VAL;
+    for (int32_t i = 0; i < count; i++) {
+        of[0] = fmin(of[0], low[i]);
+        of[1] = fmax(of[1], high[i]);
+    }
+    return chart_line_make("threshold of the answer", room->taken, of, 2, false);
+}
+
+bool stability_chart_make(const extreme_result *r, const char *quantity, stability_plot *room,
+                          chart out[STABILITY_CHARTS])
+{
+    double low[STABILITY_MOST], high[STABILITY_MOST];
+    int32_t n = r->stability_rows;
+    for (int32_t i = 0; i < n; i++) {
+        const threshold_row *row = &r->stability[i];
+        room->threshold[i] = row->threshold;
+        room->value[0][i] = row->shape;
+        room->value[1][i] = row->scale_star;
+        low[i] = row->shape - row->shape_half;
+        high[i] = row->shape + row->shape_half;
+        for (int k = 0; k < 3; k++)
+            room->bar_x[3 * i + k] = row->threshold;
+        room->bar_y[3 * i] = low[i];
+        room->bar_y[3 * i + 1] = high[i];
+        room->bar_y[3 * i + 2] = (double)NAN;
+    }
+    snprintf(room->across, sizeof room->across, "threshold of %s", quantity);
+    snprintf(room->scale, sizeof room->scale, "scale - shape x threshold, of %s", quantity);
+    for (int c = 0; c < STABILITY_CHARTS; c++) {
+        chart_line *lines = room->lines[c];
+        const double *value = room->value[c];
+        bool bars = c == 0;
+        lines[0] = taken_line(r, bars ? low : value, bars ? high : value, n, room, c);
+        lines[1] = chart_line_make(bars ? "95 % interval" : "", room->bar_x, room->bar_y, bars ? 3 * n : 0, true);
+        lines[2] = chart_line_make("fit", room->threshold, value, n, false);
+        lines[2].style = CHART_POINTS;
+        lines[2].colour = 2;
+        out[c] = chart_make("pot, threshold stability", "stays the same above thresholds where the law holds",
+                            room->across, bars ? "shape [1]" : room->scale, lines, STABILITY_LINES);
+        out[c].free_y = true;
+    }
+    return n > 1;
+}
+
 fram_status extremes_chart_write(context *ctx, const extreme_result *results, int32_t count, const char *quantity,
                                  double duration, const char *path, fram_error *error)
 {
-    chart charts[EXTREME_METHODS];
+    chart charts[EXTREME_METHODS + STABILITY_CHARTS];
+    stability_plot stability;
     int32_t drawn = 0;
-    extremes_plot *p = memory_array(ctx, EXTREME_METHODS, sizeof *p);
+    extremes_plot *p = memory_array(ctx, EXTREME_METHODS + STABILITY_CHARTS, sizeof *p);
     if (!p)
         return error_memory(error);
-    for (int32_t i = 0; i < count && drawn < EXTREME_METHODS; i++) {
+    for (int32_t i = 0; i < count; i++) {
         if (results[i].answered && results[i].points > 0) {
             charts[drawn] = extremes_chart_make(&results[i], quantity, 1, duration, &p[drawn]);
             drawn++;
+            if (results[i].method == EXTREME_POT &&
+                stability_chart_make(&results[i], quantity, &stability, &charts[drawn]))
+                drawn += STABILITY_CHARTS;
         }
     }
     fram_status status = drawn == 0

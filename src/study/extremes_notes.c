@@ -1,5 +1,7 @@
 #include "study/extremes_notes.h"
 
+#include "base/transcendental.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -103,6 +105,33 @@ void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t co
         say(out,
             "The maxima speak against Gumbel's law (shape %.2g by gev, likelihood ratio at 5 %%): its levels are %s.",
             any.shape, any.shape < 0 ? "too high" : "too low");
+}
+
+/* Expected numbers of peaks above the largest that was seen: with more it is as low as that once in a thousand samples,
+   with less as high. */
+#define ABOVE_MOST 6.907755278982137
+#define ABOVE_LEAST 1e-3
+
+void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t count)
+{
+    double largest = sorted[count - 1], above = count * real_exp(-extreme_law_exponent(&out->law, largest));
+    if (above > ABOVE_MOST)
+        say(out, "By this law %.3g peaks would lie above the largest that was seen, %.4g: its levels are too high.",
+            above, largest);
+    else if (above < ABOVE_LEAST)
+        say(out,
+            "By this law the largest peak that was seen, %.4g, is passed once in %.2g samples as large as this one: "
+            "its levels are too low.",
+            largest, 1 / above);
+}
+
+void extremes_doubt_parted(extreme_result *out, int32_t parted, int32_t runs)
+{
+    if (parted > 0)
+        say(out,
+            "Lines parted in %d of %d runs, and hold no more than that: what the ice asks for above it is not in the "
+            "series. Lines without breaking_load tell it.",
+            (int)parted, (int)runs);
 }
 
 /* So many of the draws of a bootstrap must have a fit. */

@@ -15,6 +15,11 @@ void extremes_cut(extreme_result *out, int levels, double least, const char *why
 void extremes_doubt(extreme_result *out, const extreme_request *ask, double time);
 /* Where the sample (ascending) speaks for another tail than Gumbel's: the ratio of likelihoods (Coles 2001, 3.3). */
 void extremes_doubt_gumbel(extreme_result *out, const double *sorted, int32_t count);
+/* Where the largest of the sample (ascending) is one that the law of peaks hardly ever has, or passes far more often.
+ */
+void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t count);
+/* Tensions of runs in which lines parted. */
+void extremes_doubt_parted(extreme_result *out, int32_t parted, int32_t runs);
 /* The same of the series: halves that differ. */
 void extremes_doubt_series(extreme_result *out, const series_set *s);
 

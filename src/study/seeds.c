@@ -29,12 +29,21 @@ static bool is_narrow(const double *value, int32_t count, double within, double 
     return !(within > 0) || i.half <= within * fabs(i.mean);
 }
 
+/* Two runs or more, and all of them failed: more would tell no more. */
+static bool has_none(const double *value, int32_t count)
+{
+    bool none = count > 1;
+    for (int32_t i = 0; i < count; i++)
+        none = none && isnan(value[i]);
+    return none;
+}
+
 int32_t seeds_wanted(const study_seeds *rule, const double *mean, const double *largest, int32_t count)
 {
     int32_t n = rule->least;
     while (n <= count && n < rule->most) {
-        if (is_narrow(mean, n, rule->mean_within, rule->confidence) &&
-            is_narrow(largest, n, rule->largest_within, rule->confidence))
+        if (has_none(mean, n) || (is_narrow(mean, n, rule->mean_within, rule->confidence) &&
+                                  is_narrow(largest, n, rule->largest_within, rule->confidence)))
             break;
         int32_t batch = n / 4 > 1 ? n / 4 : 1;
         n = n + batch < rule->most ? n + batch : rule->most;

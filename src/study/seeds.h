@@ -13,7 +13,7 @@ seed_interval seed_interval_of(const double *value, int32_t count, double confid
 
 /* Seeds that a condition takes, given the figures of its first `count` seeds in their order (a NaN for a run that
    failed, which counts as a seed and adds nothing): more than `count` as long as it needs more, then a batch of a
-   quarter more at a time, which is the same for any number of processes. */
+   quarter more at a time, which is the same for any number of processes.  No more where all failed, two or more. */
 int32_t seeds_wanted(const study_seeds *rule, const double *mean, const double *largest, int32_t count);
 
 #endif

@@ -222,8 +222,22 @@ static fram_status take_channel(context *ctx, const run_data *d, const char *nam
     return FRAM_OK;
 }
 
+/* Whether the channel is one of a vessel's line tensions, and lines of it parted that nobody let go. */
+static bool has_parted(const run_data *d, const char *name)
+{
+    for (int32_t v = 0; v < scenario_vessel_count(&d->s); v++) {
+        const vessel_channel own = vessel_channel_name(&d->s, v, "line_");
+        const double *parted = run_vessel_channel(d, v, "lines_parted");
+        if (parted && d->series.rows > 0 && strncmp(name, own.text, strlen(own.text)) == 0 && strstr(name, "tension"))
+            return parted[d->series.rows - 1] >
+                   scenario_released_lines(scenario_vessel_entry(&d->s, v).keys, d->s.run.duration);
+    }
+    return false;
+}
+
 static fram_status read_run(context *ctx, const char *folder, const series_source *source, double_array *time,
-                            double_array *value, char unit[UNIT_SIZE], double *from, fram_error *error)
+                            double_array *value, series_data *out, char unit[UNIT_SIZE], double *from,
+                            fram_error *error)
 {
     run_data d;
     fram_status status = run_data_read(ctx, folder, false, &d, error);
@@ -236,6 +250,7 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     for (int32_t i = 0; status == FRAM_OK && i < time->count; i++)
         time->data[i] = t[i];
     *from = d.s.run.transient;
+    out->parted += status == FRAM_OK && source->channel && has_parted(&d, source->channel);
     run_data_free(ctx, &d);
     return status;
 }
@@ -291,7 +306,7 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
     fram_status status = FRAM_OK;
     char unit[UNIT_SIZE];
     if (is_folder(path) && !source->maxima)
-        status = read_run(ctx, path, source, &time, value, unit, &from, error);
+        status = read_run(ctx, path, source, &time, value, out, unit, &from, error);
     else
         status = read_csv(ctx, path, source, &time, value, unit, error);
     if (status == FRAM_OK && i > 0 && strcmp(unit, out->unit) != 0)
@@ -314,6 +329,9 @@ static fram_status read_file(context *ctx, const series_source *source, int32_t 
 fram_status series_read(context *ctx, const series_source *source, series_data *out, fram_error *error)
 {
     *out = (series_data){.count = source->count};
+    if (source->channel && strcmp(source->channel, "time") == 0 && !source->maxima && !(source->step > 0))
+        return error_set(error, FRAM_ERROR_USAGE, NULL, 0, "channel",
+                         "`time` tells when the values of the others were taken: name one of those");
     out->parts = memory_array(ctx, (size_t)source->count, sizeof *out->parts);
     out->values = memory_array(ctx, (size_t)source->count, sizeof *out->values);
     fram_status status = out->parts && out->values ? FRAM_OK : error_memory(error);

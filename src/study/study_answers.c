@@ -2,7 +2,6 @@
 
 #include "base/number_text.h"
 #include "study/extremes_notes.h"
-#include "study/sensitivity.h"
 #include "study/study_extremes.h"
 #include "study/study_file.h"
 
@@ -10,18 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Figures that have extremes, and those that inputs move. */
-typedef struct answer_figure {
-    run_figure figure;
-    const char *name, *unit;
-} answer_figure;
+/* Figures that have extremes. */
 const run_figure study_rare[STUDY_RARE] = {ROW_load_largest, ROW_offset_largest, ROW_line_tension_largest};
-static const answer_figure moved[] = {{ROW_load_mean, "load_mean", "N"},
-                                      {ROW_load_significant, "load_significant", "N"},
-                                      {ROW_load_largest, "load_largest", "N"},
-                                      {ROW_offset_largest, "offset_largest", "m"},
-                                      {ROW_line_tension_largest, "line_tension_largest", "N"}};
-enum { MOVED = sizeof moved / sizeof *moved };
 
 static void add_number(const study_folder *f, text_buffer *b, double value)
 {
@@ -247,108 +236,12 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
     return status;
 }
 
-/* ---- sensitivity ---- */
-
-/* Mean over the seeds of each condition; NaN without any. */
-static void average(const study_folder *f, const condition_rows *conditions, run_figure figure, double *out)
-{
-    for (int32_t c = 0; c < f->s->conditions; c++) {
-        double sum = 0;
-        int32_t n = 0;
-        for (int32_t i = 0; i < conditions[c].rows.count; i++) {
-            double x = conditions[c].rows.data[i].figure[figure];
-            sum += isfinite(x) ? x : 0;
-            n += isfinite(x);
-        }
-        out[c] = n > 0 ? sum / n : (double)NAN;
-    }
-}
-
-/* Why there are no indices. */
-static void add_sobol_note(const study_folder *f, int32_t rows, const sobol_index *of, text_buffer *b)
-{
-    if (isfinite(of->first) && isfinite(of->first_low))
-        text_add(f->ctx, b, ",\n");
-    else if (isfinite(of->first))
-        text_add(f->ctx, b, ",\"No interval: too few rows have values that differ: a larger count.\"\n");
-    else if (rows < SOBOL_ROWS_LEAST)
-        text_format(f->ctx, b,
-                    ",\"No answer: %d rows of the design have a value under each of their %d conditions: expected "
-                    "%d or more.\"\n",
-                    (int)rows, (int)f->s->keys.count + 2, SOBOL_ROWS_LEAST);
-    else
-        text_add(f->ctx, b, ",\"No answer: all values are equal: no key moves them.\"\n");
-}
-
-static void add_sobol(const study_folder *f, const answer_figure *figure, int32_t rows, const sobol_index *of,
-                      text_buffer *b)
-{
-    for (int32_t k = 0; k < f->s->keys.count; k++) {
-        const level_interval first = {of[k].first, of[k].first_low, of[k].first_high};
-        const level_interval total = {of[k].total, of[k].total_low, of[k].total_high};
-        text_format(f->ctx, b, "%s,%s,%d", figure->name, f->s->keys.data[k], (int)rows);
-        add_interval(f, b, &first);
-        add_interval(f, b, &total);
-        add_sobol_note(f, rows, &of[k], b);
-    }
-}
-
-static void add_morris(const study_folder *f, const answer_figure *figure, const morris_effect *of, text_buffer *b)
-{
-    for (int32_t k = 0; k < f->s->keys.count; k++) {
-        text_format(f->ctx, b, "%s,%s,%d", figure->name, f->s->keys.data[k], (int)of[k].count);
-        add_number(f, b, of[k].mu);
-        add_number(f, b, of[k].mu_star);
-        add_number(f, b, of[k].sigma);
-        text_add(f->ctx, b,
-                 of[k].count == 0   ? ",\"No answer: no step of this key has values at both of its ends.\"\n"
-                 : of[k].count == 1 ? ",\"No sigma: there is one effect, it takes two.\"\n"
-                                    : ",\n");
-    }
-}
-
-static fram_status write_sensitivity(const study_folder *f, const condition_rows *conditions, fram_error *error)
-{
-    const study_design *d = &f->s->design;
-    text_buffer b = {0};
-    double *answer = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *answer);
-    fram_status status = answer ? FRAM_OK : error_memory(error);
-    text_add(f->ctx, &b,
-             d->kind == DESIGN_SOBOL ? "figure,key,rows,first,first_low,first_high,total,total_low,total_high,note\n"
-                                     : "figure,key,effects,mu,mu_star,sigma,note\n");
-    for (int i = 0; i < MOVED && status == FRAM_OK; i++) {
-        sobol_index sobol[SENSITIVITY_KEYS_MOST];
-        morris_effect morris[SENSITIVITY_KEYS_MOST];
-        bool any = false;
-        average(f, conditions, moved[i].figure, answer);
-        for (int32_t c = 0; c < f->s->conditions; c++)
-            any = any || isfinite(answer[c]);
-        if (!any)
-            continue;
-        if (d->kind == DESIGN_MORRIS) {
-            morris_effects(answer, d->point.data, d->count, f->s->keys.count, morris);
-            add_morris(f, &moved[i], morris, &b);
-            continue;
-        }
-        int32_t rows = sobol_indices(f->ctx, answer, d->count, f->s->keys.count, sobol);
-        if (rows < 0)
-            status = error_memory(error);
-        else
-            add_sobol(f, &moved[i], rows, sobol, &b);
-    }
-    if (status == FRAM_OK)
-        status = study_table_write(f, "sensitivity.csv", &b, error);
-    memory_free(f->ctx, answer);
-    text_free(f->ctx, &b);
-    return status;
-}
-
 fram_status study_answers_write(const study_folder *f, const condition_rows *conditions, fram_error *error)
 {
     fram_status status = FRAM_OK;
     if (f->s->extremes.asked)
         status = write_extremes(f, conditions, error);
     if (status == FRAM_OK && f->s->design.kind != DESIGN_NONE)
-        status = write_sensitivity(f, conditions, error);
+        status = study_sensitivity_write(f, conditions, error);
     return status;
 }

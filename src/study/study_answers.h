@@ -32,6 +32,8 @@ fram_status study_parted_lines(const study_folder *f, const condition_rows *cond
                                parted_lines *out, fram_error *error);
 /* station.csv, where a vessel is on a station and something is required of that. */
 fram_status study_station_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
+/* sensitivity.csv, of a study whose conditions are a design for it (study/sensitivity.h). */
+fram_status study_sensitivity_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* The other tables, as far as the study asks for them. */
 fram_status study_answers_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 

@@ -4,6 +4,7 @@
 #include "io/scenario_file.h"
 #include "model/scenario_vessel.h"
 #include "results/station_results.h"
+#include "sim/build.h"
 #include "study/conditions.h"
 #include "study/run_row.h"
 #include "study/study_extremes.h"
@@ -318,6 +319,17 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
         study_place_error(s, condition, error);
     text_list_free(ctx, &items);
     text_free(ctx, &text);
+    return status;
+}
+
+fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, fram_error *error)
+{
+    log_level usual = ctx->verbosity;
+    ctx->verbosity = LOG_ERROR;
+    fram_status status = build_check(ctx, one, error);
+    ctx->verbosity = usual;
+    if (status == FRAM_ERROR_INPUT)
+        study_place_error(s, condition, error);
     return status;
 }
 

@@ -34,5 +34,8 @@ fram_status study_scenario(context *ctx, const study *s, int32_t condition, int6
 /* An error of a condition's scenario, or of the run that is made of it: tells the condition and its values, and, where
    the study gave the value, the place in the study file or its table. */
 void study_place_error(const study *s, int32_t condition, fram_error *error);
+/* Whether the vessels of a condition's scenario can be built, for what only shows then: a hull that closes nowhere, a
+   mass that sinks.  Warnings are not told: a run tells them. */
+fram_status study_build_check(context *ctx, const study *s, int32_t condition, const scenario *one, fram_error *error);
 
 #endif

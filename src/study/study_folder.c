@@ -1,5 +1,6 @@
 #include "study/study_folder.h"
 
+#include "base/clock.h"
 #include "base/hash.h"
 #include "fram/version.h"
 #include "io/atomic_file.h"
@@ -17,6 +18,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Of a log that is looked at. */
@@ -125,12 +127,15 @@ static fram_status write_condition(study_folder *f, int32_t condition, fram_erro
     status = name_condition(f, condition, &one, error);
     if (status == FRAM_OK)
         status = scenario_print(f->ctx, &one, &options, &text, error);
-    if (status == FRAM_OK)
-        status = make_folder(f, "runs", f->id[condition], error);
     char *path = status == FRAM_OK ? study_scenario_path(f, condition) : NULL;
     if (status == FRAM_OK && !path)
         status = error_memory(error);
-    if (status == FRAM_OK && !holds(f->ctx, path, &text))
+    bool fresh = status == FRAM_OK && !holds(f->ctx, path, &text);
+    if (fresh)
+        status = study_build_check(f->ctx, f->s, condition, &one, error);
+    if (status == FRAM_OK)
+        status = make_folder(f, "runs", f->id[condition], error);
+    if (status == FRAM_OK && fresh)
         status = atomic_file_put(f->ctx, path, text.data, (size_t)text.count, error);
     memory_free(f->ctx, path);
     text_free(f->ctx, &text);
@@ -167,19 +172,54 @@ static fram_status check_folder(context *ctx, const char *path, fram_error *erro
     return status;
 }
 
+/* A study of another scenario in the folder: nothing that was computed is lost, but the tables are. */
+static void tell_other(const study_folder *f, const char *path, const char *data, size_t size)
+{
+    study other;
+    /* What is written differently, or by another version, is of no scenario that can be told. */
+    if (study_parse(f->ctx, f->s->file, data, size, &other, NULL) != FRAM_OK)
+        return;
+    if (strcmp(other.scenario, f->s->scenario) != 0)
+        log_write(f->ctx, LOG_WARNING,
+                  "%s was of a study of %s: its runs stay, but the tables and the page are of this study now; give the "
+                  "other one again to have them back",
+                  path, other.scenario);
+    study_free(f->ctx, &other);
+}
+
 static fram_status copy_study(const study_folder *f, fram_error *error)
 {
-    char *data = NULL;
-    size_t size = 0;
+    char *data = NULL, *before = NULL;
+    size_t size = 0, before_size = 0;
     text_buffer path = {0};
     text_format(f->ctx, &path, "%s/study.yaml", f->path);
     fram_status status = path.failed ? error_memory(error) : FRAM_OK;
     if (status == FRAM_OK)
         status = file_read(f->ctx, f->s->file, STUDY_FILE_LIMIT, &data, &size, error);
+    if (status == FRAM_OK && file_is_readable(path.data) &&
+        file_read(f->ctx, path.data, STUDY_FILE_LIMIT, &before, &before_size, NULL) == FRAM_OK)
+        tell_other(f, f->path, before, before_size);
+    memory_free(f->ctx, before);
     if (status == FRAM_OK)
         status = atomic_file_write(f->ctx, path.data, data, size, error);
     memory_free(f->ctx, data);
     text_free(f->ctx, &path);
+    return status;
+}
+
+/* A program that is being started holds what its starter held until it is another program: a study that was killed in
+   that moment has its folder a little longer than itself. */
+#define LOCK_SECONDS 1.0
+enum { LOCK_NANOSECONDS = 10000000 };
+static fram_status lock_folder(const char *path, int *lock, fram_error *error)
+{
+    const struct timespec pause = {0, LOCK_NANOSECONDS};
+    double began = clock_wall();
+    fram_status status = run_folder_lock(path, lock, error);
+    while (status == FRAM_ERROR_USAGE && clock_wall() - began < LOCK_SECONDS) {
+        nanosleep(&pause, NULL);
+        status = run_folder_lock(path, lock, error);
+    }
     return status;
 }
 
@@ -191,7 +231,7 @@ fram_status study_folder_open(context *ctx, const study *s, const char *path, st
     if (status == FRAM_OK)
         status = run_folder_make(path, error);
     if (status == FRAM_OK)
-        status = run_folder_lock(path, &f->lock, error);
+        status = lock_folder(path, &f->lock, error);
     if (status == FRAM_OK)
         sweep(path);
     if (status == FRAM_OK)

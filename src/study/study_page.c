@@ -260,7 +260,8 @@ static void add_table(study_page *p, const bool *has)
     page_table_end(p);
     if (wide)
         html_paragraph(&p->page,
-                       "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean.",
+                       "Seeds with \"more\": half the interval of the mean load is wider than %g %% of the mean, or "
+                       "not known, of one seed.",
                        100 * WIDE);
     if (p->f->s->conditions > CONDITIONS_OF_TABLE)
         html_paragraph(&p->page, "The first %d conditions; conditions.csv has all.", CONDITIONS_OF_TABLE);
@@ -279,9 +280,9 @@ static void add_share_row(study_page *p, int32_t condition)
     for (int m = 0; m < (int)MECHANISM_COUNT; m++) {
         seed_interval of = page_interval(p, condition, &shares[m]);
         if (isfinite(of.half))
-            snprintf(text, sizeof text, "%.1f ± %.1f", of.mean, of.half);
+            snprintf(text, sizeof text, "%.1f ± %.1f", rounded_at(of.mean, 1), of.half);
         else
-            snprintf(text, sizeof text, "%.1f", of.mean);
+            snprintf(text, sizeof text, "%.1f", rounded_at(of.mean, 1));
         html_cell(&p->page, isfinite(of.mean) ? text : "–");
     }
     html_row_end(&p->page);
@@ -375,6 +376,8 @@ static fram_status make_page(study_page *p, fram_error *error)
     fram_status status = page_add_differences(p, has, error);
     if (status == FRAM_OK)
         status = page_add_station(p, error);
+    if (status == FRAM_OK)
+        status = page_add_sensitivity(p, error);
     add_shares(p);
     if (status == FRAM_OK)
         status = page_add_charts(p, has, error);

@@ -66,9 +66,11 @@ static bool add_condition(study_charts *w, chart_group *g, int32_t condition, do
     const condition_rows *of = &w->p->conditions[condition];
     seed_interval i = page_interval(w->p, condition, figure);
     double half = isfinite(i.half) ? i.half : 0, none = (double)NAN;
-    const double bar_x[3] = {x, x, x}, bar_y[3] = {i.mean - half, i.mean + half, none};
-    bool good = array_push(ctx, &g->x, x) && array_push(ctx, &g->mean, i.mean) &&
-                array_push(ctx, &g->low, i.mean - half) && array_push(ctx, &g->high, i.mean + half);
+    /* Of sizes, whose means are none below 0. */
+    double low = fmax(i.mean - half, fmin(i.mean, 0));
+    const double bar_x[3] = {x, x, x}, bar_y[3] = {low, i.mean + half, none};
+    bool good = array_push(ctx, &g->x, x) && array_push(ctx, &g->mean, i.mean) && array_push(ctx, &g->low, low) &&
+                array_push(ctx, &g->high, i.mean + half);
     for (int k = 0; k < 3 && good && half > 0 && w->p->f->s->conditions <= BARS_MOST; k++)
         good = array_push(ctx, &g->bar_x, bar_x[k]) && array_push(ctx, &g->bar_y, bar_y[k]);
     /* A single run is its mean. */

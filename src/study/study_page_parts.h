@@ -76,6 +76,8 @@ fram_status page_add_charts(study_page *p, const bool *has, fram_error *error);
 fram_status page_add_differences(study_page *p, const bool *has, fram_error *error);
 /* "Station": in how many runs each condition kept what was required, where vessels are on a station. */
 fram_status page_add_station(study_page *p, fram_error *error);
+/* "Sensitivity": which key moves which figure, where the conditions are a design for it. */
+fram_status page_add_sensitivity(study_page *p, fram_error *error);
 /* Rare loads, where the study asks for them: a table of levels, and probability plots. */
 fram_status page_add_extremes(study_page *p, fram_error *error);
 

@@ -402,7 +402,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
         return status;
     w.jobs = options->slurm && options->jobs == 0 ? processes_cores() : study_folder_jobs(&w.folder, options->jobs);
     w.conditions = memory_array(ctx, (size_t)s->conditions, sizeof *w.conditions);
-    w.first_of = twins_find(ctx, &w.folder);
+    w.first_of = twins_find(ctx, w.folder.id, s->conditions);
     if (!w.conditions || !w.first_of)
         status = error_memory(error);
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)

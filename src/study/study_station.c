@@ -25,9 +25,8 @@ static void take_lines(const scenario_vessel *v, double duration, station_count 
     for (int32_t i = 0; i < v->mooring.lines.count; i++) {
         const scenario_mooring_line *line = &v->mooring.lines.data[i];
         out->lines |= !is_automatic(line->breaking_load);
-        if (automatic_or(line->release_time, HUGE_VAL) <= duration)
-            out->released += (int32_t)line->count;
     }
+    out->released = scenario_released_lines(v, duration);
 }
 
 static fram_status read_limits(const study_folder *f, int32_t condition, station_count *out, fram_error *error)
@@ -208,7 +207,7 @@ static void add_table(study_page *p, const station_counts *counts)
     html_paragraph(
         &p->page,
         "A run keeps station where, after the transient, offset and heading stay within station.offset_limit "
-        "and station.heading_limit_deg, as far as the scenario gives them, and no line parts. In brackets "
+        "and station.heading_limit_deg, as far as the scenario gives them, and no line has parted. In brackets "
         "the interval of %g %% of the chance to keep it (exact: Clopper and Pearson 1934). Runs that failed "
         "are not counted. station.csv has all of it.",
         100 * p->f->s->seeds.confidence);

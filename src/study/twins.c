@@ -15,9 +15,8 @@ static int by_name(const void *a, const void *b)
     return order != 0 ? order : (x->condition > y->condition) - (x->condition < y->condition);
 }
 
-int32_t *twins_find(context *ctx, const study_folder *f)
+int32_t *twins_find(context *ctx, char (*id)[CONDITION_ID], int32_t count)
 {
-    int32_t count = f->s->conditions;
     named *list = memory_array(ctx, (size_t)count, sizeof *list);
     int32_t *first = memory_array(ctx, (size_t)count, sizeof *first);
     if (!list || !first) {
@@ -26,7 +25,7 @@ int32_t *twins_find(context *ctx, const study_folder *f)
         return NULL;
     }
     for (int32_t c = 0; c < count; c++) {
-        memcpy(list[c].id, f->id[c], sizeof list[c].id);
+        memcpy(list[c].id, id[c], sizeof list[c].id);
         list[c].condition = c;
     }
     qsort(list, (size_t)count, sizeof *list, by_name);

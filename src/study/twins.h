@@ -7,6 +7,6 @@
 
 /* For each condition the first one with the same name, itself where there is none before it; to be freed.  NULL: no
    memory. */
-int32_t *twins_find(context *ctx, const study_folder *f);
+int32_t *twins_find(context *ctx, char (*id)[CONDITION_ID], int32_t count);
 
 #endif

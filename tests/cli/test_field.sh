@@ -205,7 +205,7 @@ cp floes.geojson keep.geojson
 ln -s keep.geojson link.geojson
 expect 2 "$FRAM" field keep.geojson --bad drop -o link.geojson
 says "--output" err
-expect 2 "$FRAM" field keep.geojson --bad drop --draw one --table one
+expect 2 "$FRAM" field keep.geojson --bad drop --draw one.svg --table one.svg
 says "--table" err
 cmp -s floes.geojson keep.geojson || fail "the input was written over"
 expect 2 "$FRAM" field keep.geojson --cell 5

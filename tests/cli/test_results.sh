@@ -55,12 +55,25 @@ for words in "view run --page page.html -o page.html" "hull b.stl -o ./b.stl" "h
     says "of its own" err
 done
 cmp -s b.stl kept.stl || fail "a hull was written over by itself"
-for words in "report run -o" "compare run thin -o" "plot run roll -o" "export run --netcdf -o" "video run -o" \
-    "hull kept.stl --draw" "export run --geojson --time 1 -o"; do
+for words in "report run -o" "compare run thin -o" "export run --netcdf -o" "video run -o" \
+    "export run --geojson --time 1 -o"; do
     # shellcheck disable=SC2086
     expect 2 "$FRAM" $words b.stl
     says "--force" err
 done
+# A picture's kind is that of its name.
+for words in "plot run roll" "hull kept.stl" "why run --peak 1"; do
+    option=-o
+    [ "$words" = "hull kept.stl" ] && option=--draw
+    for file in b.stl new.pdf none; do
+        # shellcheck disable=SC2086
+        expect 2 "$FRAM" $words $option $file --force
+        says "ends in .png or .svg" err
+    done
+    # shellcheck disable=SC2086
+    expect 0 "$FRAM" $words $option new.SVG
+done
+[ ! -e new.pdf ] || fail "a picture of no kind was made"
 cmp -s b.stl kept.stl || fail "a file of another kind was written over"
 expect 0 "$FRAM" report run -o b.stl --force -q
 holds "<html" b.stl

@@ -137,6 +137,43 @@ START_TEST(maxima_of_a_series_know_of_their_limit)
 }
 END_TEST
 
+/* Peaks of Weibull's law between crossings of the mean, 0, say nothing against it; some that are larger than it has,
+   or all of them cut below what it has, do. */
+static const char *note_of_peaks(bool large, bool cut, extreme_result *out)
+{
+    enum { PEAKS = 4000 };
+    static double value[2 * PEAKS];
+    random_stream r = random_begin(7, 95, 0);
+    double sum = 0;
+    for (int i = 0; i < PEAKS; i++) {
+        double peak = sqrt(2 * exponential(&r));
+        peak = cut ? fmin(peak, 2.6) : large && i % 800 == 400 ? 2.5 * peak + 4 : peak;
+        value[2 * i] = peak;
+        sum += peak;
+    }
+    for (int i = 0; i < PEAKS; i++)
+        value[2 * i + 1] = -sum / PEAKS;
+    const series_part part = {value, 2 * PEAKS};
+    const series_set set = {&part, 1, 1};
+    extreme_request ask;
+    extreme_request_default(&ask);
+    ask.duration = 2.0 * PEAKS;
+    context ctx;
+    context_init(&ctx);
+    ck_assert(extremes_of_series(&ctx, &set, EXTREME_WEIBULL, &ask, out, NULL) == FRAM_OK);
+    ck_assert_msg(out->answered, "%s", out->note);
+    return out->note;
+}
+
+START_TEST(a_largest_peak_that_the_law_does_not_have_is_told)
+{
+    static extreme_result r;
+    ck_assert_msg(!strstr(note_of_peaks(false, false, &r), "this law"), "%s", r.note);
+    ck_assert_msg(strstr(note_of_peaks(true, false, &r), "levels are too low"), "%s", r.note);
+    ck_assert_msg(strstr(note_of_peaks(false, true, &r), "levels are too high"), "%s", r.note);
+}
+END_TEST
+
 /* Independent Weibull peaks over a mean that is far from them: the jackknife's bound is that of the fit. */
 START_TEST(independent_peaks_keep_their_bound)
 {
@@ -226,6 +263,6 @@ START_TEST(intervals_of_peaks_go_as_far_as_the_tail_of_the_values)
 }
 END_TEST
 
-TEST_MAIN("extremes_doubts", intervals_of_peaks_go_as_far_as_the_tail_of_the_values, a_tail_that_changes_is_told,
-          draws_without_a_fit_are_told, the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit,
-          independent_peaks_keep_their_bound)
+TEST_MAIN("extremes_doubts", intervals_of_peaks_go_as_far_as_the_tail_of_the_values,
+          a_largest_peak_that_the_law_does_not_have_is_told, a_tail_that_changes_is_told, draws_without_a_fit_are_told,
+          the_limit_of_a_weibull_tail, maxima_of_a_series_know_of_their_limit, independent_peaks_keep_their_bound)

@@ -63,6 +63,13 @@ START_TEST(seeds_go_on_until_the_interval_is_narrow)
     /* What later seeds say changes nothing that was decided before them. */
     calm[20] = 1e9;
     ck_assert_int_eq(seeds_wanted(&rule, calm, calm, 40), 4);
+    /* Where all failed no other would tell more; one that ended well is asked on. */
+    double failed[40];
+    for (int i = 0; i < 40; i++)
+        failed[i] = (double)NAN;
+    ck_assert_int_eq(seeds_wanted(&rule, failed, failed, 40), 4);
+    failed[2] = 1;
+    ck_assert_int_gt(seeds_wanted(&rule, failed, failed, 4), 4);
     const study_seeds fixed = {.first = 1, .least = 7, .most = 7, .confidence = 0.95};
     ck_assert_int_eq(seeds_wanted(&fixed, wide, wide, 40), 7);
 }

@@ -1,7 +1,9 @@
 """In how many runs of a study a vessel keeps its station: station.csv and the page, by the runs themselves."""
+import json
+import subprocess
 import unittest
 
-from studies import StudyTest
+from studies import FRAM, StudyTest
 
 MOORED = """
 run: {duration: 5, time_step: 0.04, transient: 1}
@@ -89,7 +91,8 @@ class StationTest(StudyTest):
         # Little more than what half of the runs reach.
         load = self.between("line_tension_largest[N]")
         (self.at / "base.yaml").write_text(MOORED.replace("stiffness:", f"breaking_load: {load!r}, stiffness:"))
-        study = self.write("seeds: 14\nextremes: {duration: 3h, levels: [0.9], hours: [100], annual: [1e-2]}\n")
+        study = self.write("seeds: 14\nkeep: series\nextremes: {duration: 3h, levels: [0.9], "
+                           "hours: [100], annual: [1e-2]}\n")
         self.fram(study, "-o", self.at / "out")
         parted = [r for r in self.rows("out") if float(r[LINES]) > 0]
         whole = [r for r in self.rows("out") if float(r[LINES]) == 0]
@@ -103,6 +106,13 @@ class StationTest(StudyTest):
         self.assertEqual([tension[k] for k in ("most_probable", "low", "high", "below_0.9")], [""] * 4)
         self.assertIn(f"Lines parted in {len(parted)} of 14 runs", tension["note"])
         self.assertIn(f"Lines parted in {len(parted)} of 14 runs", self.page("out"))
+        # The same of their series, one by one.
+        run = [str(next((self.at / "out" / "runs").iterdir()) / r["seed"]) for r in (parted[0], whole[0])]
+        for channel, tells in (("line_tension_max", True), ("line_1_tension", True), ("load", False)):
+            done = subprocess.run([FRAM, "extremes", *run, "--channel", channel, "--json"], check=True,
+                                  capture_output=True, text=True)
+            for method in json.loads(done.stdout)["methods"]:
+                self.assertEqual("Lines parted in 1 of 2 runs" in method["note"], tells, method)
         year = {r["figure"]: r for r in self.rows("out", "annual.csv")}
         self.assertNotEqual(year["load_largest"]["level"], "")
         self.assertEqual(year["line_tension_largest"]["level"], "")

@@ -5,6 +5,7 @@ import math
 import os
 import pathlib
 import random
+import re
 import shutil
 import subprocess
 import tempfile
@@ -100,6 +101,8 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(got["cycles"], 100, delta=0.51)
         for equivalent in got["equivalent"]:
             self.assertAlmostEqual(equivalent["range"], 4, delta=0.02)
+        failed = self.fram("fatigue", file, "--channel", "x", "-o", self.at / "none" / "cycles.csv", code=2)
+        self.assertIn("none/cycles.csv", failed["error"]["file"])
         self.assertEqual((self.at / "cycles.csv").read_text().splitlines()[0], "range[m],mean[m],count[1]")
         self.assertAlmostEqual(self.fram("extremes", file, "--channel", "x", "--minima", "--method", "gumbel")
                                ["series"]["greatest"], -3, delta=1e-9)
@@ -135,11 +138,23 @@ class Statistics(unittest.TestCase):
         self.fram(*words, self.at / "plot.svg", "--duration", "20a")
         drawn = (self.at / "plot.svg").read_text()
         self.assertIn("<svg", drawn)
+        series = self.write("time,x\n" + "".join(f"{i},{random.Random(i).expovariate(1)}\n" for i in range(2000)))
+        heights = []
+        for method in ("pot", "gev"):
+            (told,) = self.fram("extremes", series, "--channel", "x", "--method", method, "--draw",
+                                self.at / "one.svg")["methods"]
+            self.assertEqual(len(told["thresholds"]) >= 10, method == "pot")
+            heights.append(int(re.search(r'<svg[^>]* height="(\d+)', (self.at / "one.svg").read_text()).group(1)))
+        # Below the probability plot stand shape and scale over the threshold.
+        self.assertEqual(heights[0], 3 * heights[1])
         file = self.write("time,x\n" + "".join(f"{i},{i % 3}\n" for i in range(30)))
         self.refused(("extremes", file, "--channel", "x", "--method", "gev", "--draw", self.at / "none.png"),
                      "none.png", "no method has an answer")
         self.assertFalse((self.at / "none.png").exists())
         self.refused(("extremes", file, "--channel", "x", "--draw", file), "--draw")
+        # A picture is of the kind that its name tells.
+        self.refused(("extremes", file, "--channel", "x", "--draw", self.at / "a.pdf", "--force"), "--draw", ".svg")
+        self.assertFalse((self.at / "a.pdf").exists())
 
     def refused(self, words, *said):
         error = self.fram(*words, code=2)["error"]
@@ -155,7 +170,9 @@ class Statistics(unittest.TestCase):
         self.refused(("extremes", file, "--channel", "tension", "--method", "gumble"), "method", "gumble")
         self.refused(("extremes", file, "--channel", "tension", "--duration", "3 hours"), "--duration")
         self.refused(("extremes", file, "--channel", "tension", "--duration", "-3h"), "duration")
-        self.refused(("extremes", file, "--channel", "tension", "--level", "1"), "probability")
+        self.refused(("extremes", file, "--channel", "tension", "--level", "1"),
+                     "--level", "below 1", "found 1")
+        self.refused(("extremes", file, "--channel", "time"), "channel", "name one of those")
         self.refused(("extremes", file, "--channel", "tension", "--level", "0.5;0.9"), "--level")
         self.refused(("extremes", file, "--channel", "tension", "--maxima"), "--block")
         self.refused(("fatigue", file, "--channel", "tension", "--slope", "0"), "slope")

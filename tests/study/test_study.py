@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 import math
+import os
 import re
 import shutil
 import signal
@@ -141,13 +142,13 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertAlmostEqual(float(told[1]), half * 1e-3, delta=0.06 * half * 1e-3)
         self.assertEqual(told[2], ", higher" if mean > half else ", lower" if mean < -half else "")
         # What is found only as a run begins is its reason, the same wherever the study lies.
-        study.write_text("scenario: two.yaml\nvessel: ship\nset: {vessels.breaker.hull.length: 14}\n" + vary)
+        study.write_text("scenario: two.yaml\nvessel: ship\nvary: {grid: {ice.concentration: [0.8, 0.9999]}}\n")
         for folder in ("here", "elsewhere"):
             self.assertEqual(self.fram(study, "-o", self.at / folder)["failed"], 1)
         self.assertEqual((self.at / "here" / "summary.csv").read_bytes(),
                          (self.at / "elsewhere" / "summary.csv").read_bytes())
         reason = self.rows("here")[1]["reason"]
-        self.assertRegex(reason, r"^[0-9a-f]+\.yaml:[0-9:]+: vessels\[0\]\.hull\.parallel_midbody: no parallel body")
+        self.assertRegex(reason, r"^[0-9a-f]+\.yaml:[0-9:]+: ice\.concentration: concentration")
         # A scenario with several ships whose first one is always the same needs no name; the study has it.
         study.write_text("scenario: two.yaml\n")
         self.fram(study, "-o", self.at / "one")
@@ -281,6 +282,32 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertIn("condition 1, seed 1: the simulation went wrong", done.stderr)
         self.assertEqual(self.fram(study, "-o", self.at / "out", "--retry")["made"], 2)
 
+    def test_what_fails_throughout_is_no_success_and_asks_for_no_more_seeds(self):
+        study = self.write("seeds: {least: 2, most: 9, mean_within: 0.1}\n"
+                           "set: {run.speed_limit: 2.1, vessel.mass: 1.0e6}\n")
+        result = self.fram(study, "-o", self.at / "out", code=1)
+        self.assertEqual((result["runs"], result["failed"]), (2, 2))
+
+    def test_vessels_that_cannot_be_built_are_told_before_anything_runs(self):
+        study = self.write("seeds: 2\nvary:\n  grid: {vessel.mass: [1.0e6, 1.0e8, 1.2e6]}\n")
+        for words in (("check", study), (study, "-o", self.at / "out")):
+            error = self.fram(*words, code=2)["error"]
+            self.assertEqual((error["file"], error["line"], error["key"]), (str(study), 4, "vessel.mass"))
+            self.assertIn("condition 2 (vessel.mass=1.0e8)", error["message"])
+        self.assertEqual(list(self.at.glob("out/runs/*/*")), [])
+
+    def test_a_folder_of_a_study_of_another_scenario_is_told(self):
+        short = "set: {run.duration: 0.1, run.transient: 0}\nseeds: 1\n"
+        self.fram(self.write(short), "-o", self.at / "out")
+        (self.at / "other.yaml").write_text((self.at / "base.yaml").read_text())
+        study = self.write(short)
+        for name, tells in (("base.yaml", False), ("other.yaml", True), ("other.yaml", False)):
+            study.write_text(f"scenario: {name}\n{short}# {name}\n")
+            done = subprocess.run([FRAM, "study", study, "-o", self.at / "out"], check=True, capture_output=True,
+                                  text=True)
+            self.assertEqual("was of a study of " in done.stderr, tells, done.stderr)
+            self.assertEqual("base.yaml" in done.stderr, tells)
+
     def test_seeds_go_on_until_the_interval_is_narrow(self):
         study = self.write("seeds: {least: 2, most: 9, mean_within: 0.08, confidence: 0.9}\n")
         rows = self.fram(study, "-o", self.at / "out")["runs"]
@@ -307,6 +334,15 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertAlmostEqual(ratio, turns, delta=0.02 * turns, msg=text)
             self.assertNotIn("told by the first", text)
         self.assertEqual(self.fram("check", self.at / "study.yaml")["run_seen"], 1)
+        # Conditions that are the same scenario take their runs once; without a number of jobs it is that of the run.
+        study = self.write("seeds: 3\nvary: {list: [{vessel.speed: 1.5}, {vessel.speed: 2}, {vessel.speed: 1.50}]}\n")
+        told = self.fram("check", study)
+        self.assertEqual([told[k] for k in ("conditions", "different", "runs_least", "runs_most")], [3, 2, 6, 6])
+        self.assertLessEqual(told["jobs"], len(os.sched_getaffinity(0)))
+        core = str(min(os.sched_getaffinity(0)))
+        one = subprocess.run(["taskset", "-c", core, FRAM, "study", "check", study, "--json"], check=True,
+                             capture_output=True, text=True)
+        self.assertEqual(json.loads(one.stdout)["jobs"], 1)
 
     def test_conditions_of_a_list_a_table_and_a_hypercube(self):
         study = self.write("vary:\n  list:\n    - {vessel.speed: 1.5, ice.thickness: 0.5}\n"
@@ -471,20 +507,30 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
             self.assertEqual([t["state_hash"] for t in twins], 2 * [first["state_hash"]])
 
     def test_which_input_moves_the_load(self):
-        base = "set: {run.duration: 0.6, run.transient: 0.1}\n"
         if not SHORT:  # its sums stand in tests/study/test_sensitivity.c
-            study = self.write(base + "vary: {sobol: {count: 10, keys: {vessel.speed: [1, 2], output.averaging_window: "
+            study = self.write("vary: {sobol: {count: 10, keys: {vessel.speed: [1, 2], output.averaging_window: "
                                "[0.1, 0.2]}}}\n")
             self.assertEqual(self.fram(study, "-o", self.at / "sobol")["runs"], 40)
             rows = self.rows("sobol", "sensitivity.csv")
             self.assertEqual([r["key"] for r in rows[:2]], ["vessel.speed", "output.averaging_window"])
-        study = self.write(base + "vary: {morris: {count: 3, levels: 4, keys: {vessel.speed: [1, 2], "
-                           "output.frame_interval: [0.1, 0.4]}}}\n")
-        self.assertEqual(self.fram(study, "-o", self.at / "morris")["runs"], 9)
+            self.assertGreater(float(rows[0]["total"]), 0)
+        study = self.write("vary: {morris: {count: 3, levels: 4, keys: {vessel.speed: [1, 2], "
+                           "output.averaging_window: [0.1, 0.3], output.frame_interval: [0.1, 0.4]}}}\n")
+        self.assertEqual(self.fram(study, "-o", self.at / "morris")["runs"], 12)
         rows = self.rows("morris", "sensitivity.csv")
+        page = (self.at / "morris" / "study.html").read_text()
+        self.assertIn("Morris' effects", page)
+        # A longer window makes the largest load smaller.
+        row = next(r for r in rows if r["figure"] == "load_largest" and r["key"] == "output.averaging_window")
+        self.assertLess(float(row["mu"]), 0)
+        cells = "<td[^>]*>([^<]*)</td>" * 3
+        shown = re.search("<td>Largest load</td><td>output.averaging_window</td><td>kN</td>" + cells, page).groups()
+        for text, name in zip(shown, ("mu_star", "mu", "sigma")):
+            value = float(row[name]) / 1000
+            self.assertAlmostEqual(float(text), value, delta=0.006 * abs(value))
         # How often frames are recorded moves no load.
         self.assertEqual([float(r["mu_star"]) for r in rows if r["key"] == "output.frame_interval"],
-                         [0] * (len(rows) // 2))
+                         [0] * (len(rows) // 3))
         self.assertTrue(all(r["note"] == "" for r in rows if r["key"] == "vessel.speed"))
         # Where nothing moves the table says so.
         study = self.write("set: {run.duration: 0.1, run.transient: 0, ice.concentration: 0.1}\n"
