@@ -315,10 +315,15 @@ static void draw_legend(cairo_t *page, const chart *c, const frame *f)
         bool band = c->lines[k].style == CHART_BAND;
         image_colour colour = colour_of(&c->lines[k], k);
         cairo_set_source_rgba(page, colour.r, colour.g, colour.b, band && !c->lines[k].solid ? BAND_OPACITY : 1);
-        cairo_set_line_width(page, band ? 10 : 3);
-        cairo_move_to(page, x - 26, f->top - 12);
-        cairo_line_to(page, x - 6, f->top - 12);
-        cairo_stroke(page);
+        if (c->lines[k].style == CHART_POINTS) {
+            cairo_arc(page, x - 16, f->top - 12, 3.5, 0, 2 * PI);
+            cairo_fill(page);
+        } else {
+            cairo_set_line_width(page, band ? 10 : 3);
+            cairo_move_to(page, x - 26, f->top - 12);
+            cairo_line_to(page, x - 6, f->top - 12);
+            cairo_stroke(page);
+        }
         x -= 44;
     }
 }

@@ -3,6 +3,7 @@
 #include "base/channel_statistics.h"
 #include "base/random.h"
 #include "base/transcendental.h"
+#include "study/averaged.h"
 #include "study/extremes_notes.h"
 #include "study/extremes_spread.h"
 #include "study/pivot.h"
@@ -53,6 +54,8 @@ typedef struct extreme_sample {
     const weibull_jackknife *jackknife; /* of Weibull's law */
     const series_set *series;           /* that the values are of; NULL: the values are all there is */
     double survival;                    /* the part of the series over the law's location; 0: not known */
+    extreme_law any;                    /* the generalized law of a series' maxima; scale 0: none */
+    double weight;                      /* of Gumbel's law beside it */
     extreme_law values;                 /* of peaks of a series: of all values over the location; scale 0: none */
 } extreme_sample;
 
@@ -122,9 +125,12 @@ static bool sample_level(context *ctx, const extreme_sample *s, const extreme_re
                           .ctx = ctx};
     if (s->jackknife)
         q.bound = jackknife_bound(s->jackknife, law, s->value.count, exponent, ask->confidence);
-    if (pivot)
+    if (pivot) {
         *out = gumbel_pivot_interval(pivot, exponent / s->exposure, ask->confidence);
-    else if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
+        q.law = &s->any;
+        if (s->any.scale > 0)
+            *out = averaged_interval(pivot, *out, &q, s->weight);
+    } else if (ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL)
         return bootstrap(ctx, s, ask, exponent, law, out);
     else
         *out = profile_interval(&q);
@@ -140,7 +146,8 @@ static bool sample_levels(context *ctx, const extreme_sample *s, const extreme_r
     bool good = sample_level(ctx, s, ask, &out->law, exact, real_exp(-1), &out->most_probable);
     for (int i = 0; good && i < ask->levels; i++)
         good = sample_level(ctx, s, ask, &out->law, exact, ask->probability[i], &out->level[i]);
-    out->interval = exact                                               ? "exact, conditional on the sample"
+    out->interval = s->any.scale > 0 ? "averaged over Gumbel's and the generalized law by their weights"
+                    : exact          ? "exact, conditional on the sample"
                     : ask->fit == FIT_MOMENTS && s->kind != LAW_WEIBULL ? "bootstrap of the sample, percentiles"
                     : s->jackknife    ? "profile likelihood, scaled by a jackknife over groups"
                     : s->survival > 0 ? "profile likelihood, widened by the slow limit of the tail"
@@ -217,6 +224,12 @@ static fram_status answer_sample(context *ctx, extreme_sample *s, const extreme_
         s->survival = survival_of(s->series, out->law.location);
     if (s->series && s->kind == LAW_PARETO && !fit_values(ctx, s))
         return error_memory(error);
+    /* How long blocks of a series must be for Gumbel's law nobody knows: what their maxima say beyond it counts too. */
+    if (s->series && s->kind == LAW_GUMBEL &&
+        extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, s->value.data, s->value.count, 0, &s->any))
+        s->weight = averaged_weight(&out->law, &s->any, s->value.data, s->value.count);
+    else
+        s->any.scale = 0;
     keep_points(s, ask, out);
     bool good = sample_levels(ctx, s, ask, out);
     if (s->kind == LAW_GUMBEL)

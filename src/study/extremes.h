@@ -4,7 +4,8 @@
 
      acer        average conditional exceedance rates (Naess and Gaidai 2009), interval by bootstrap over batches
      upcrossing  the same of crossings upwards, order 2 (Naess and Gaidai 2008)
-     gumbel      block maxima, Gumbel's law, the exact interval conditional on the sample (Lawless 1978)
+     gumbel      block maxima, Gumbel's law, the exact interval conditional on the sample (Lawless 1978), of a series
+                 averaged over this law and the generalized one (study/averaged.h)
      gev         block maxima, generalized extreme value law (Coles 2001), profile likelihood, of a series widened by
                  what a slow limit leaves out
      pot         declustered peaks over a threshold, generalized Pareto law (Davison and Smith 1990), the same

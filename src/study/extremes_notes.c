@@ -125,9 +125,16 @@ void extremes_doubt_largest(extreme_result *out, const double *sorted, int32_t c
             largest, 1 / above);
 }
 
-void extremes_doubt_parted(extreme_result *out, int32_t parted, int32_t runs)
+void extremes_doubt_parted(extreme_result *out, int32_t parted, int32_t runs, bool offset, int levels)
 {
-    if (parted > 0)
+    char why[200];
+    snprintf(why, sizeof why,
+             "Lines parted in %d of %d runs, and the vessel drifted on from there: levels of its offset are not told. "
+             "Lines without breaking_load tell them.",
+             (int)parted, (int)runs);
+    if (parted > 0 && offset)
+        extremes_cut(out, levels, -HUGE_VAL, why);
+    else if (parted > 0)
         say(out,
             "Lines parted in %d of %d runs, and hold no more than that: what the ice asks for above it is not in the "
             "series. Lines without breaking_load tell it.",

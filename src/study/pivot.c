@@ -112,6 +112,11 @@ static double quantile(const gumbel_pivot *p, double log_exponent, double part)
     return hi;
 }
 
+double gumbel_pivot_below(const gumbel_pivot *p, double exponent, double x)
+{
+    return below(p, real_log(exponent), (x - p->location) / p->scale);
+}
+
 level_interval gumbel_pivot_interval(const gumbel_pivot *p, double exponent, double confidence)
 {
     double log_exponent = real_log(exponent);

@@ -23,6 +23,8 @@ typedef struct gumbel_pivot {
 
 /* Of values in any order and a fit to them, by likelihood or L-moments: the interval does not depend on which. */
 void gumbel_pivot_make(const double *value, int32_t count, const extreme_law *fit, gumbel_pivot *out);
+/* How sure the sample is that the level with `exponent` expected exceedances a block lies below x. */
+double gumbel_pivot_below(const gumbel_pivot *p, double exponent, double x);
 /* Of the level with `exponent` expected exceedances a block. */
 level_interval gumbel_pivot_interval(const gumbel_pivot *p, double exponent, double confidence);
 

@@ -119,19 +119,30 @@ static double end_of(const profile_question *q, double level, double first, doub
     return isnan(root_outside) ? first * (double)INFINITY : next;
 }
 
+/* Degrees of freedom of Student's t. */
+static int freedom_of(const profile_question *q) { return q->count - (q->law->kind == LAW_GEV ? 3 : 2); }
+
+double profile_least(const profile_question *q)
+{
+    double x[2] = {0, q->law->shape};
+    return cost_at(q, level_of(q), x);
+}
+
+double profile_beyond(const profile_question *q, double least, double x, bool above)
+{
+    double from[2] = {0, q->law->shape};
+    double outside = 0.5 - 0.5 * student_within(sqrt(2 * fmax(cost_at(q, x, from) - least, 0)), freedom_of(q));
+    return above == (x > level_of(q)) ? outside : 1 - outside;
+}
+
 /* Bound of the root of the deviance.  For large samples that of the normal law (Wilks 1938); as the mean of a normal
    sample, where it is exact, small ones take Student's of as many degrees as values are left. */
-static double root_bound(const profile_question *q)
-{
-    int parameters = q->law->kind == LAW_GEV ? 3 : 2;
-    return student_quantile(q->confidence, q->count - parameters);
-}
+static double root_bound(const profile_question *q) { return student_quantile(q->confidence, freedom_of(q)); }
 
 level_interval profile_interval(const profile_question *q)
 {
     level_interval out = {.level = level_of(q)};
-    double x[2] = {0, q->law->shape}, z = q->bound > 0 ? q->bound : root_bound(q);
-    double least = cost_at(q, out.level, x);
+    double z = q->bound > 0 ? q->bound : root_bound(q), least = profile_least(q);
     double first = q->law->kind == LAW_WEIBULL ? 0.02 * (out.level - q->law->location) : 0.2 * q->law->scale;
     out.low = end_of(q, out.level, -first, least, z);
     out.high = end_of(q, out.level, first, least, z);

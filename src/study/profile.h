@@ -27,4 +27,9 @@ typedef struct level_interval {
    peaks as known. */
 level_interval profile_interval(const profile_question *q);
 
+/* The cost at the level of the law, against which that of others is measured. */
+double profile_least(const profile_question *q);
+/* The part of a level's law, as the profile tells it, that lies beyond x: above it, or below. */
+double profile_beyond(const profile_question *q, double least, double x, bool above);
+
 #endif

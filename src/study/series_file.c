@@ -222,13 +222,20 @@ static fram_status take_channel(context *ctx, const run_data *d, const char *nam
     return FRAM_OK;
 }
 
-/* Whether the channel is one of a vessel's line tensions, and lines of it parted that nobody let go. */
-static bool has_parted(const run_data *d, const char *name)
+static bool is_channel_of(const run_data *d, int32_t vessel, const char *begin, const char *name)
+{
+    const vessel_channel own = vessel_channel_name(&d->s, vessel, begin);
+    return strncmp(name, own.text, strlen(own.text)) == 0;
+}
+
+/* Whether the channel is one of a vessel's line tensions or its offset, and lines of it parted that nobody let go. */
+static bool has_parted(const run_data *d, const char *name, bool *offset)
 {
     for (int32_t v = 0; v < scenario_vessel_count(&d->s); v++) {
-        const vessel_channel own = vessel_channel_name(&d->s, v, "line_");
         const double *parted = run_vessel_channel(d, v, "lines_parted");
-        if (parted && d->series.rows > 0 && strncmp(name, own.text, strlen(own.text)) == 0 && strstr(name, "tension"))
+        *offset = is_channel_of(d, v, "offset_", name);
+        bool tension = is_channel_of(d, v, "line_", name) && strstr(name, "tension");
+        if (parted && d->series.rows > 0 && (*offset || tension))
             return parted[d->series.rows - 1] >
                    scenario_released_lines(scenario_vessel_entry(&d->s, v).keys, d->s.run.duration);
     }
@@ -250,7 +257,7 @@ static fram_status read_run(context *ctx, const char *folder, const series_sourc
     for (int32_t i = 0; status == FRAM_OK && i < time->count; i++)
         time->data[i] = t[i];
     *from = d.s.run.transient;
-    out->parted += status == FRAM_OK && source->channel && has_parted(&d, source->channel);
+    out->parted += status == FRAM_OK && source->channel && has_parted(&d, source->channel, &out->offset);
     run_data_free(ctx, &d);
     return status;
 }

@@ -23,7 +23,9 @@ typedef struct series_data {
     series_part *parts; /* a file each; owned, as the values */
     double_array *values;
     int32_t count;
-    int32_t parted; /* runs of a channel of line tension in which lines parted, but for those that are let go */
+    /* Runs of a channel of line tension or offset in which lines parted, but for those that are let go. */
+    int32_t parted;
+    bool offset; /* of such a run's channel */
     char unit[UNIT_SIZE];
 } series_data;
 

@@ -23,7 +23,8 @@ typedef struct study_seeds {
     int32_t least, most;   /* equal: a fixed number */
     double mean_within;    /* half width of the interval of the mean load over that mean; 0: not asked */
     double largest_within; /* the same for the largest load of a run; 0: not asked */
-    double confidence;     /* of the intervals, 0.95 */
+    double extreme_within; /* the same for the most probable largest load of `extremes`; 0: not asked */
+    double confidence;     /* of the intervals of means, 0.95 */
 } study_seeds;
 
 /* What stays of a run that ended well. */

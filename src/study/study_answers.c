@@ -28,9 +28,8 @@ static void add_interval(const study_folder *f, text_buffer *b, const level_inte
 
 /* ---- extremes ---- */
 
-/* Values of a figure of the runs of a condition. */
-static fram_status collect_one(const study_folder *f, const condition_rows *conditions, int32_t condition,
-                               run_figure figure, double_array *out, fram_error *error)
+fram_status study_values(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
+                         double_array *out, fram_error *error)
 {
     array_clear(out);
     for (int32_t i = 0; i < conditions[condition].rows.count; i++) {
@@ -46,23 +45,7 @@ static fram_status collect(const study_folder *f, const condition_rows *conditio
 {
     fram_status status = FRAM_OK;
     for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++)
-        status = collect_one(f, conditions, c, figure, &out[c].value, error);
-    return status;
-}
-
-fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
-{
-    double *block = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *block);
-    fram_status status = block ? FRAM_OK : error_memory(error);
-    for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++) {
-        scenario one = {0};
-        status = study_scenario(f->ctx, f->s, c, f->s->seeds.first, &one, error);
-        if (status != FRAM_OK)
-            break;
-        block[c] = fmax(one.run.duration - one.run.transient, one.run.time_step);
-        scenario_free(f->ctx, &one);
-    }
-    *out = block;
+        status = study_values(f, conditions, c, figure, &out[c].value, error);
     return status;
 }
 
@@ -80,20 +63,29 @@ static fram_status ask_extreme(const study_folder *f, const double_array *of, do
                               error);
 }
 
-/* A line holds no more than its breaking load: what the ice asks for above that is not in the tensions of such runs. */
+/* A line holds no more than its breaking load: what the ice asks for above that is not in the tensions of such runs.
+   And a vessel whose line has parted is held by the others, or drifts: its offsets are those of the time until a run
+   ends. */
 static fram_status cut_at_parting(const study_folder *f, const condition_rows *conditions, int32_t condition,
-                                  extreme_result *out, fram_error *error)
+                                  run_figure figure, extreme_result *out, fram_error *error)
 {
+    bool tension = figure == ROW_line_tension_largest;
     parted_lines parted;
-    char why[160];
+    char why[200];
     fram_status status = study_parted_lines(f, conditions, condition, &parted, error);
     if (status != FRAM_OK || parted.runs == 0)
         return status;
-    snprintf(why, sizeof why,
-             "Lines parted in %d of %d runs, and hold no more: levels from %.3g kN on are not told. Lines without "
-             "breaking_load tell them.",
-             (int)parted.runs, (int)conditions[condition].rows.count, parted.least * 1e-3);
-    extremes_cut(out, f->s->extremes.levels, parted.least, why);
+    int used = snprintf(why, sizeof why, "Lines parted in %d of %d runs, ", (int)parted.runs,
+                        (int)conditions[condition].rows.count);
+    if (tension)
+        snprintf(why + used, sizeof why - (size_t)used,
+                 "and hold no more: levels from %.3g kN on are not told. Lines without breaking_load tell them.",
+                 parted.least * 1e-3);
+    else
+        snprintf(why + used, sizeof why - (size_t)used,
+                 "and the vessel drifted on from there: levels of its offset are not told. Lines without breaking_load "
+                 "tell them.");
+    extremes_cut(out, f->s->extremes.levels, tension ? parted.least : -HUGE_VAL, why);
     return FRAM_OK;
 }
 
@@ -102,11 +94,11 @@ fram_status study_extreme(const study_folder *f, const condition_rows *condition
 {
     double_array value = {0};
     *out = (extreme_result){.answered = false};
-    fram_status status = collect_one(f, conditions, condition, figure, &value, error);
+    fram_status status = study_values(f, conditions, condition, figure, &value, error);
     if (status == FRAM_OK && value.count > 0)
         status = ask_extreme(f, &value, block, out, error);
-    if (status == FRAM_OK && value.count > 0 && figure == ROW_line_tension_largest)
-        status = cut_at_parting(f, conditions, condition, out, error);
+    if (status == FRAM_OK && value.count > 0 && figure != ROW_load_largest)
+        status = cut_at_parting(f, conditions, condition, figure, out, error);
     array_free(f->ctx, &value);
     return status;
 }
@@ -151,56 +143,17 @@ static fram_status add_extremes(const study_folder *f, const condition_rows *con
     return FRAM_OK;
 }
 
-/* The first condition that occurs in which lines part below the level, and how; -1 without. */
-static fram_status find_parting(const study_folder *f, const condition_rows *conditions, double level, int32_t *found,
-                                parted_lines *parted, fram_error *error)
-{
-    fram_status status = FRAM_OK;
-    *found = -1;
-    for (int32_t c = 0; c < f->s->conditions && *found < 0 && status == FRAM_OK; c++) {
-        if (!(f->s->extremes.hours.data[c] > 0))
-            continue;
-        status = study_parted_lines(f, conditions, c, parted, error);
-        if (status == FRAM_OK && parted->runs > 0 && level >= parted->least)
-            *found = c;
-    }
-    return status;
-}
-
 static fram_status add_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
-                              const condition_maxima *of, text_buffer *b, fram_error *error)
+                              const double *block, text_buffer *b, fram_error *error)
 {
     const study_extremes *x = &f->s->extremes;
-    level_interval level[STUDY_LEVELS_MOST];
-    annual_lack lack[STUDY_LEVELS_MOST];
-    fram_status status = annual_levels(f->ctx, x, of, f->s->conditions, level, lack, error);
+    annual_answer answer[STUDY_LEVELS_MOST];
+    fram_status status = study_annual(f, conditions, figure, block, answer, error);
     for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
-        int32_t parting = -1;
-        parted_lines parted;
-        if (figure == ROW_line_tension_largest)
-            status = find_parting(f, conditions, level[i].level, &parting, &parted, error);
-        if (parting >= 0)
-            level[i] = (level_interval){(double)NAN, (double)NAN, (double)NAN};
         text_format(f->ctx, b, "%s,%s,%s", run_figure_name(figure), run_figure_unit(figure), x->gev ? "gev" : "gumbel");
         add_number(f, b, x->annual[i]);
-        add_interval(f, b, &level[i]);
-        if (parting >= 0)
-            text_format(
-                f->ctx, b,
-                ",\"No answer: lines parted in %d runs of condition %d, and hold no more than %.3g kN there; lines "
-                "without breaking_load tell it.\"\n",
-                (int)parted.runs, (int)parting + 1, parted.least * 1e-3);
-        else if (lack[i].condition >= 0 && lack[i].runs > 0)
-            text_format(
-                f->ctx, b,
-                ",\"No answer: the data do not carry this level by gev: it is so rare that %d runs of condition "
-                "%d, which has %d, would tell the shape of its tail; more seeds, or gumbel.\"\n",
-                (int)lack[i].runs, (int)lack[i].condition + 1, (int)lack[i].there);
-        else if (lack[i].condition >= 0)
-            text_format(f->ctx, b, ",\"No answer: condition %d occurs and has no fit: more seeds.\"\n",
-                        (int)lack[i].condition + 1);
-        else
-            text_add(f->ctx, b, ",\n");
+        add_interval(f, b, &answer[i].level);
+        text_format(f->ctx, b, answer[i].why[0] ? ",\"%s\"\n" : ",\n", answer[i].why);
     }
     return status;
 }
@@ -213,7 +166,6 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
     fram_status status = of ? study_blocks(f, &block, error) : error_memory(error);
     for (int32_t c = 0; status == FRAM_OK && c < f->s->conditions; c++)
         of[c].block = block[c];
-    memory_free(f->ctx, block);
     extremes_heads(f, &table);
     text_add(f->ctx, &year, "figure,unit,method,annual_probability,level,low,high,note\n");
     for (int i = 0; i < STUDY_RARE && status == FRAM_OK; i++) {
@@ -221,8 +173,8 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
         if (status != FRAM_OK || !any_values(f, of))
             continue;
         status = add_extremes(f, conditions, study_rare[i], of, &table, error);
-        if (status == FRAM_OK)
-            status = add_annual(f, conditions, study_rare[i], of, &year, error);
+        if (status == FRAM_OK && f->s->extremes.annuals > 0)
+            status = add_annual(f, conditions, study_rare[i], block, &year, error);
     }
     if (status == FRAM_OK)
         status = study_table_write(f, "extremes.csv", &table, error);
@@ -231,6 +183,7 @@ static fram_status write_extremes(const study_folder *f, const condition_rows *c
     for (int32_t c = 0; of && c < f->s->conditions; c++)
         array_free(f->ctx, &of[c].value);
     memory_free(f->ctx, of);
+    memory_free(f->ctx, block);
     text_free(f->ctx, &table);
     text_free(f->ctx, &year);
     return status;

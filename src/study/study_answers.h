@@ -14,11 +14,21 @@ fram_status study_page_write(const study_folder *f, const condition_rows *condit
 /* What the largest values of the runs of conditions say of rare loads. */
 enum { STUDY_RARE = 3 };
 extern const run_figure study_rare[STUDY_RARE]; /* figures that have extremes */
-/* How long the runs of each condition are after their transient [s], to be freed with memory_free. */
-fram_status study_blocks(const study_folder *f, double **out, fram_error *error);
-/* Of one condition; `block` from there.  No values at all: not answered, and the note is "". */
+/* Of one condition; `block` from study_blocks.  No values at all: not answered, and the note is "". */
 fram_status study_extreme(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
                           double block, extreme_result *out, fram_error *error);
+
+/* Values of a figure of the runs of a condition, without those that have none. */
+fram_status study_values(const study_folder *f, const condition_rows *conditions, int32_t condition, run_figure figure,
+                         double_array *out, fram_error *error);
+/* A level that is exceeded with a probability in a year: NaN where `why` says why there is none. */
+typedef struct annual_answer {
+    level_interval level;
+    char why[240];
+} annual_answer;
+/* Of a figure, for each of the probabilities that are asked. */
+fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                         const double *block, annual_answer out[STUDY_LEVELS_MOST], fram_error *error);
 
 /* differences.csv, where conditions differ in one key alone (study/differences.h). */
 fram_status study_differences_write(const study_folder *f, const condition_rows *conditions, fram_error *error);

@@ -102,12 +102,12 @@ fram_status study_differences_write(const study_folder *f, const condition_rows 
 
 /* ---- on the page ---- */
 
-/* "-359 ± 292, lower": a word where the interval does not hold 0. */
+/* "-359 ± 292" and "lower" under it: a word where the interval does not hold 0. */
 static bool add_cell(study_page *p, const condition_pair *pair, const page_figure *figure)
 {
     pair_values v;
     int32_t pairs;
-    char text[PAGE_INTERVAL_SIZE + 16];
+    char text[PAGE_INTERVAL_SIZE];
     if (!take_pair(p->f, p->conditions, pair, figure->figure, &v))
         return false;
     seed_interval of = difference_of_pairs(v.a, v.b, v.both, p->f->s->seeds.confidence, &pairs);
@@ -115,8 +115,10 @@ static bool add_cell(study_page *p, const condition_pair *pair, const page_figur
     of.mean *= figure->factor;
     of.half *= figure->factor;
     page_interval_text(of, text);
-    snprintf(text + strlen(text), 16, "%s", of.mean > of.half ? ", higher" : of.mean < -of.half ? ", lower" : "");
-    html_cell(&p->page, text);
+    text_format(p->f->ctx, &p->page.text, "<td>%s%s</td>", text,
+                of.mean > of.half    ? "<br>higher"
+                : of.mean < -of.half ? "<br>lower"
+                                     : "");
     return true;
 }
 
@@ -127,7 +129,9 @@ static bool add_pair(study_page *p, const condition_pair *pair, const bool *has)
     page_row_begin(p, pair->condition);
     snprintf(text, sizeof text, "%d", (int)pair->reference + 1);
     html_cell(&p->page, text);
-    html_cell(&p->page, pair->key >= 0 ? p->f->s->keys.data[pair->key] : "all keys");
+    char key[PAGE_NAME_SIZE];
+    page_breakable(pair->key >= 0 ? p->f->s->keys.data[pair->key] : "all keys", key);
+    page_text_cell(p, key);
     for (int i = 0; i < PAGE_FIGURES && good; i++)
         if (has[i])
             good = add_cell(p, pair, &page_figures[i]);

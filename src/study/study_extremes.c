@@ -99,6 +99,13 @@ fram_status study_extremes_read(const study_source *r, const yaml_node *node)
 
 fram_status study_extremes_check(const study *s, fram_error *error)
 {
+    if (s->seeds.extreme_within > 0 && !s->extremes.asked)
+        return error_set(error, FRAM_ERROR_INPUT, s->file, 1, "extreme_within",
+                         "takes `extremes`, which tells of what: as extremes: {duration: 3h}");
+    if (s->seeds.extreme_within > 0 && s->seeds.most < LAW_VALUES_LEAST)
+        return error_set(error, FRAM_ERROR_INPUT, s->file, 1, "extreme_within",
+                         "expected most from %d on, since fewer runs carry no law, found %d", (int)LAW_VALUES_LEAST,
+                         (int)s->seeds.most);
     if (s->extremes.hours.count == 0 || s->extremes.hours.count == s->conditions)
         return FRAM_OK;
     return error_set(error, FRAM_ERROR_INPUT, s->file, s->extremes.hours_line, "hours",

@@ -67,7 +67,8 @@ static fram_status read_set(const study_source *r, const yaml_node *node)
 
 static fram_status read_seeds_member(const study_source *r, const yaml_node *k, bool *most_given)
 {
-    static const char *const names[] = {"least", "most", "mean_within", "largest_within", "confidence", "first"};
+    static const char *const names[] = {"least",          "most",       "mean_within", "largest_within",
+                                        "extreme_within", "confidence", "first"};
     study_seeds *s = &r->out->seeds;
     const char *name = study_key(r, k);
     int64_t whole = 0;
@@ -75,6 +76,8 @@ static fram_status read_seeds_member(const study_source *r, const yaml_node *k, 
         return study_number(r, k, 1e-6, 10, &s->mean_within);
     if (strcmp(name, "largest_within") == 0)
         return study_number(r, k, 1e-6, 10, &s->largest_within);
+    if (strcmp(name, "extreme_within") == 0)
+        return study_number(r, k, 1e-6, 10, &s->extreme_within);
     if (strcmp(name, "confidence") == 0)
         return study_number(r, k, 0.01, 0.9999, &s->confidence);
     if (strcmp(name, "first") == 0)
@@ -105,15 +108,15 @@ static fram_status read_seeds(const study_source *r, const yaml_node *node)
         if (status != FRAM_OK)
             return status;
     }
-    bool until = s->mean_within > 0 || s->largest_within > 0;
+    bool until = s->mean_within > 0 || s->largest_within > 0 || s->extreme_within > 0;
     if (!most_given)
         s->most = s->least;
     if (until && s->least < 2)
         return study_refuse(r, node, "an interval takes two seeds: expected least from 2 on, found %d", (int)s->least);
     if (until != (s->most > s->least))
         return study_refuse(r, node,
-                            until ? "mean_within and largest_within take `most`, larger than least"
-                                  : "more than `least` seeds take mean_within or largest_within");
+                            until ? "mean_within, largest_within and extreme_within take `most`, larger than least"
+                                  : "more than `least` seeds take mean_within, largest_within or extreme_within");
     if (s->most < s->least)
         return study_refuse(r, node, "expected most from least on, found %d and %d", (int)s->most, (int)s->least);
     return FRAM_OK;

@@ -4,6 +4,7 @@
        set: {run.duration: 60, run.transient: 15} for all runs
        vessel: drillship                          whose figures the tables tell; default: the first one
        seeds: 20                                  or {least: 6, most: 60, mean_within: 0.05, largest_within: 0.1,
+                                                  extreme_within: 0.1,
                                                       confidence: 0.95, first: 1}
        vary:                                      one of
          grid: {ice.thickness: [0.6, 1.1], vessel.speed: [1, 2]}

@@ -46,6 +46,25 @@ char *study_scenario_path(const study_folder *f, int32_t condition)
     return path;
 }
 
+fram_status study_blocks(const study_folder *f, double **out, fram_error *error)
+{
+    double *block = memory_array(f->ctx, (size_t)f->s->conditions, sizeof *block);
+    fram_status status = block ? FRAM_OK : error_memory(error);
+    for (int32_t c = 0; c < f->s->conditions && status == FRAM_OK; c++) {
+        const scenario_overrides none = {0};
+        scenario one = {0};
+        char *path = study_scenario_path(f, c);
+        status = path ? scenario_read(f->ctx, path, &none, &one, error) : error_memory(error);
+        memory_free(f->ctx, path);
+        if (status != FRAM_OK)
+            break;
+        block[c] = fmax(one.run.duration - one.run.transient, one.run.time_step);
+        scenario_free(f->ctx, &one);
+    }
+    *out = block;
+    return status;
+}
+
 /* ---- making the folder ---- */
 
 /* What decides the result of a run, but for its seed. */

@@ -28,6 +28,9 @@ int study_folder_jobs(const study_folder *f, int jobs);
 char *study_run_path(const study_folder *f, int32_t condition, int64_t seed, const char *ending);
 /* "DIR/conditions/ID.yaml", to be freed. */
 char *study_scenario_path(const study_folder *f, int32_t condition);
+/* How long the runs of each condition are after their transient [s], by its scenario in the folder; to be freed with
+   memory_free. */
+fram_status study_blocks(const study_folder *f, double **out, fram_error *error);
 /* Of a run that ended well and has its row: what is not kept of its folder goes, and at last its log.  Where there is
    no log all this was done before. */
 void study_run_finish(const study_folder *f, int32_t condition, int64_t seed, study_keep keep);

@@ -15,6 +15,7 @@ typedef ARRAY(double) number_list;
 typedef struct study_look {
     study_folder folder;
     study s;
+    double *block; /* how long the runs of each condition are after the transient [s]; NULL: not asked */
     number_list mean, largest;
     text_buffer keys;
 } study_look;
@@ -94,7 +95,8 @@ static fram_status read_rows(study_look *l, int32_t condition, condition_standin
             return status != FRAM_OK ? status : error_memory(error);
         if (!row)
             return FRAM_OK;
-        out->wanted = seeds_wanted(&l->s.seeds, l->mean.data, l->largest.data, l->mean.count);
+        const seeds_extreme rare = seeds_extreme_of(ctx, &l->s, l->block ? l->block[condition] : 1);
+        out->wanted = seeds_wanted(&l->s.seeds, l->mean.data, l->largest.data, &rare, l->mean.count);
     }
     return FRAM_OK;
 }
@@ -124,9 +126,12 @@ fram_status study_list(context *ctx, const char *folder, standing_function tell,
 {
     study_look l = {0};
     fram_status status = open_look(ctx, folder, &l, error);
+    if (status == FRAM_OK && l.s.seeds.extreme_within > 0)
+        status = study_blocks(&l.folder, &l.block, error);
     for (int32_t c = 0; c < l.s.conditions && status == FRAM_OK; c++)
         status = tell_condition(&l, c, tell, user, error);
     memory_free(ctx, l.folder.id);
+    memory_free(ctx, l.block);
     array_free(ctx, &l.mean);
     array_free(ctx, &l.largest);
     text_free(ctx, &l.keys);

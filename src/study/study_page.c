@@ -106,13 +106,12 @@ static bool has_figure(const study_page *p, const page_figure *figure)
 
 /* ---- tables ---- */
 
-enum { HEADS_MOST = 128, HEAD_ROOM = 128 };
+enum { HEADS_MOST = 128 };
 
-/* A head may be broken behind a dot or a low line: a space of no width stands there. */
-static void breakable(const char *head, char out[HEAD_ROOM])
+void page_breakable(const char *name, char out[PAGE_NAME_SIZE])
 {
     size_t n = 0;
-    for (const char *c = head; *c && n + 5 < HEAD_ROOM; c++) {
+    for (const char *c = name; *c && n + 5 < PAGE_NAME_SIZE; c++) {
         out[n++] = *c;
         if (*c == '.' || *c == '_') {
             memcpy(out + n, "\xe2\x80\x8b", 3);
@@ -127,13 +126,13 @@ static void wide_begin(study_page *p) { text_add(p->f->ctx, &p->page.text, "<div
 void page_table_begin(study_page *p, const char *const *heads, int32_t count)
 {
     const char *all[HEADS_MOST] = {"no."};
-    char key[HEADS_MOST / 2][HEAD_ROOM];
+    char key[HEADS_MOST / 2][PAGE_NAME_SIZE];
     int32_t n = 1;
     wide_begin(p);
     for (int32_t k = 0; k < p->f->s->keys.count && k < HEADS_MOST / 2; k++) {
         char text[KEY_TEXT_SIZE];
         key_with_unit(p->f->s->keys.data[k], text);
-        breakable(text, key[k]);
+        page_breakable(text, key[k]);
         all[n++] = key[k];
     }
     for (int32_t i = 0; i < count && n < HEADS_MOST; i++)
@@ -151,6 +150,14 @@ void page_row_begin(study_page *p, int32_t condition)
         page_key_text(study_value(p->f->s, condition, k), text);
         html_cell(&p->page, text);
     }
+}
+
+void page_text_cell(study_page *p, const char *text)
+{
+    text_format(p->f->ctx, &p->page.text, "<td style=\"white-space:normal;min-width:%s\">",
+                strlen(text) > 80 ? "16em" : "9em");
+    html_escaped(&p->page, text);
+    text_add(p->f->ctx, &p->page.text, "</td>");
 }
 
 static void wide_end(study_page *p)

@@ -13,6 +13,7 @@ enum { DOTS_MOST = 2000, BARS_MOST = 500 };
 typedef struct chart_group {
     double_array x, mean, low, high, seed_x, seed_y, bar_x, bar_y;
     char name[PAGE_GROUP_SIZE];
+    bool intervals; /* any */
 } chart_group;
 
 typedef struct study_charts {
@@ -73,6 +74,7 @@ static bool add_condition(study_charts *w, chart_group *g, int32_t condition, do
                 array_push(ctx, &g->high, i.mean + half);
     for (int k = 0; k < 3 && good && half > 0 && w->p->f->s->conditions <= BARS_MOST; k++)
         good = array_push(ctx, &g->bar_x, bar_x[k]) && array_push(ctx, &g->bar_y, bar_y[k]);
+    g->intervals = g->intervals || half > 0;
     /* A single run is its mean. */
     for (int32_t k = 0; k < of->rows.count && good && w->dots && of->rows.count > 1; k++) {
         double y = of->rows.data[k].figure[figure->figure] * figure->factor;
@@ -91,6 +93,7 @@ static bool collect(study_charts *w, const page_figure *figure)
                                &of->seed_x, &of->seed_y, &of->bar_x, &of->bar_y};
         for (size_t i = 0; i < sizeof all / sizeof *all; i++)
             array_clear(all[i]);
+        of->intervals = false;
     }
     for (int32_t c = 0; c < s->conditions; c++) {
         double x = c + 1.0;
@@ -109,11 +112,13 @@ static int32_t group_lines(const study_charts *w, int32_t g, chart_line *out)
 {
     const chart_group *of = &w->group[g];
     bool one = w->groups == 1;
-    chart_line band = chart_line_make(one ? "interval" : "", of->x.data, of->low.data, of->x.count, false);
+    /* The legend names what is there: single runs have neither intervals nor others beside them. */
+    const char *interval = of->intervals ? "interval" : "", *runs = of->seed_x.count > 0 ? "seeds" : "";
+    chart_line band = chart_line_make(one ? interval : "", of->x.data, of->low.data, of->x.count, false);
     band.style = CHART_BAND;
     band.y2 = of->high.data;
-    chart_line bars = chart_line_make("interval", of->bar_x.data, of->bar_y.data, of->bar_x.count, true);
-    chart_line seeds = chart_line_make(one ? "seeds" : "", of->seed_x.data, of->seed_y.data, of->seed_x.count, false);
+    chart_line bars = chart_line_make(interval, of->bar_x.data, of->bar_y.data, of->bar_x.count, true);
+    chart_line seeds = chart_line_make(one ? runs : "", of->seed_x.data, of->seed_y.data, of->seed_x.count, false);
     seeds.style = CHART_POINTS;
     chart_line mean = chart_line_make(of->name, of->x.data, of->mean.data, of->x.count, true);
     mean.style = w->is_series ? CHART_LINE : CHART_POINTS;

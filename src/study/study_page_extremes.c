@@ -60,10 +60,7 @@ static fram_status add_levels(study_page *p, const page_figure *figure, const do
         level_cell(p, &r.most_probable, figure->factor);
         for (int i = 0; i < x->levels; i++)
             level_cell(p, &r.level[i], figure->factor);
-        /* Sentences may be long: they wrap where numbers do not. */
-        text_add(p->f->ctx, &p->page.text, "<td style=\"white-space:normal;min-width:16em\">");
-        html_escaped(&p->page, r.note);
-        text_add(p->f->ctx, &p->page.text, "</td>");
+        page_text_cell(p, r.note);
         html_row_end(&p->page);
     }
     page_table_end(p);
@@ -107,6 +104,43 @@ static bool has_rare(const study_page *p, run_figure figure)
     return false;
 }
 
+/* Levels of a year over all conditions. */
+static fram_status add_annual(study_page *p, const bool *has, const double *block, fram_error *error)
+{
+    const study_extremes *x = &p->f->s->extremes;
+    double hours = 0;
+    fram_status status = FRAM_OK;
+    for (int32_t c = 0; c < x->hours.count; c++)
+        hours += x->hours.data[c];
+    html_paragraph(
+        &p->page,
+        "Levels that are exceeded with a probability in a year, over all conditions with the hours that each "
+        "lasts (%g in all; effective.yaml has them), with %g %% intervals; annual.csv has them too.",
+        hours, 100 * x->confidence);
+    const char *heads[] = {"", "unit", "probability in a year", "level", ""};
+    html_table_begin(&p->page, heads, 5);
+    for (int f = 0; f < STUDY_RARE && status == FRAM_OK; f++) {
+        annual_answer answer[STUDY_LEVELS_MOST];
+        page_figure figure = page_figure_of(study_rare[f]);
+        if (!has[f])
+            continue;
+        status = study_annual(p->f, p->conditions, figure.figure, block, answer, error);
+        for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
+            char text[32];
+            html_row_begin(&p->page);
+            html_cell(&p->page, figure.name);
+            html_cell(&p->page, figure.unit);
+            snprintf(text, sizeof text, "%.6g", x->annual[i]);
+            html_cell(&p->page, text);
+            level_cell(p, &answer[i].level, figure.factor);
+            page_text_cell(p, answer[i].why);
+            html_row_end(&p->page);
+        }
+    }
+    html_table_end(&p->page);
+    return status;
+}
+
 fram_status page_add_extremes(study_page *p, fram_error *error)
 {
     const study_extremes *x = &p->f->s->extremes;
@@ -134,7 +168,7 @@ fram_status page_add_extremes(study_page *p, fram_error *error)
         status = add_plots(p, &figure, block, error);
     }
     if (status == FRAM_OK && x->annuals > 0)
-        html_paragraph(&p->page, "Levels that are exceeded with a probability in a year: annual.csv.");
+        status = add_annual(p, has, block, error);
     memory_free(p->f->ctx, block);
     return status;
 }

@@ -38,6 +38,12 @@ void page_table_begin(study_page *p, const char *const *heads, int32_t count);
 void page_row_begin(study_page *p, int32_t condition);
 void page_table_end(study_page *p);
 
+/* A cell whose text wraps where those of numbers do not. */
+void page_text_cell(study_page *p, const char *text);
+/* The name of a key with a space of no width behind each dot and low line, where it may be broken. */
+enum { PAGE_NAME_SIZE = 128 };
+void page_breakable(const char *name, char out[PAGE_NAME_SIZE]);
+
 /* "1.23 ± 0.45": the uncertainty, to two digits, decides how many the mean has; alone it has three. */
 enum { PAGE_INTERVAL_SIZE = 80 };
 void page_interval_text(seed_interval i, char out[PAGE_INTERVAL_SIZE]);

@@ -66,6 +66,8 @@ static void add_seeds(context *ctx, text_buffer *b, const study_seeds *s)
         add_number(ctx, b, ", mean_within: ", s->mean_within);
     if (s->largest_within > 0)
         add_number(ctx, b, ", largest_within: ", s->largest_within);
+    if (s->extreme_within > 0)
+        add_number(ctx, b, ", extreme_within: ", s->extreme_within);
     add_number(ctx, b, ", confidence: ", s->confidence);
     text_add(ctx, b, "}\n");
 }

@@ -42,6 +42,7 @@ typedef struct study_work {
     const study_options *options;
     study_folder folder;
     study_condition *conditions;
+    double *block;     /* of each condition: how long its runs are after the transient [s]; NULL: not asked */
     int32_t *first_of; /* of each condition: the first one that is the same scenario, whose runs are its own */
     process_pool pool;
     ARRAY(int64_t) task; /* condition and seed of each that was started */
@@ -94,7 +95,8 @@ static fram_status update_wanted(study_work *w, int32_t condition, fram_error *e
             value[i] = c->seeds.data[i].row.figure[ROW_load_mean];
             value[room + i] = c->seeds.data[i].row.figure[ROW_load_largest];
         }
-        c->wanted = seeds_wanted(&w->s->seeds, value, value + room, n);
+        const seeds_extreme rare = seeds_extreme_of(w->ctx, w->s, w->block ? w->block[condition] : 1);
+        c->wanted = seeds_wanted(&w->s->seeds, value, value + room, &rare, n);
         memory_free(w->ctx, value);
         if (c->wanted <= c->seeds.count)
             return FRAM_OK;
@@ -405,6 +407,8 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
     w.first_of = twins_find(ctx, w.folder.id, s->conditions);
     if (!w.conditions || !w.first_of)
         status = error_memory(error);
+    if (s->seeds.extreme_within > 0 && status == FRAM_OK)
+        status = study_blocks(&w.folder, &w.block, error);
     for (int32_t c = 0; c < s->conditions && status == FRAM_OK; c++)
         status = update_wanted(&w, c, error);
     if (status == FRAM_OK)
@@ -419,6 +423,7 @@ fram_status study_run(context *ctx, const study *s, const study_options *options
         array_free(ctx, &w.conditions[c].seeds);
     memory_free(ctx, w.conditions);
     memory_free(ctx, w.first_of);
+    memory_free(ctx, w.block);
     array_free(ctx, &w.task);
     processes_free(ctx, &w.pool);
     study_folder_close(&w.folder);

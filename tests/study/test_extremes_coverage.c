@@ -1,5 +1,6 @@
-/* How often intervals of extremes hold the true value: samples of known laws, again and again.  12 trials of ten cases;
-   with FRAM_TEST_LONG 1,000 of all, and a table of them (`make extremes-coverage`, bench/results/extremes.md). */
+/* How often intervals of extremes hold the true value: samples of known laws, again and again.  12 trials of eleven
+   cases; with FRAM_TEST_LONG 1,000 of all, and a table of them (`make extremes-coverage`, bench/results/extremes.md).
+ */
 #include "testing.h"
 
 #include "base/random.h"
@@ -164,7 +165,7 @@ static const coverage_case cases[] = {
      true},
     {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_GUMBEL, USUAL, true},
     {"Weibull parent", draw_weibull, weibull_truth, 5000, false, EXTREME_GEV, USUAL, true},
-    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_GUMBEL, USUAL, true},
+    {"AR(1)", draw_regression, regression_truth, 20000, false, EXTREME_GUMBEL, USUAL, false},
     {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_GUMBEL, USUAL, true},
     {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_GEV, USUAL, true},
     {"Rayleigh peaks", draw_rayleigh, rayleigh_truth, 10000, false, EXTREME_POT, USUAL, true},

@@ -106,17 +106,29 @@ class StationTest(StudyTest):
         self.assertEqual([tension[k] for k in ("most_probable", "low", "high", "below_0.9")], [""] * 4)
         self.assertIn(f"Lines parted in {len(parted)} of 14 runs", tension["note"])
         self.assertIn(f"Lines parted in {len(parted)} of 14 runs", self.page("out"))
+        # A vessel whose line has parted drifts on: its offset is what the run's end leaves of that.
+        offset = told["offset_largest"]
+        self.assertEqual([offset[k] for k in ("most_probable", "low", "high", "below_0.9")], [""] * 4)
+        self.assertIn(f"Lines parted in {len(parted)} of 14 runs, and the vessel drifted on", offset["note"])
         # The same of their series, one by one.
         run = [str(next((self.at / "out" / "runs").iterdir()) / r["seed"]) for r in (parted[0], whole[0])]
-        for channel, tells in (("line_tension_max", True), ("line_1_tension", True), ("load", False)):
+        for channel, tells in (("line_tension_max", True), ("line_1_tension", True), ("offset_x", True),
+                               ("load", False)):
             done = subprocess.run([FRAM, "extremes", *run, "--channel", channel, "--json"], check=True,
                                   capture_output=True, text=True)
             for method in json.loads(done.stdout)["methods"]:
                 self.assertEqual("Lines parted in 1 of 2 runs" in method["note"], tells, method)
+                self.assertFalse(channel == "offset_x" and method["answered"], method)
         year = {r["figure"]: r for r in self.rows("out", "annual.csv")}
         self.assertNotEqual(year["load_largest"]["level"], "")
-        self.assertEqual(year["line_tension_largest"]["level"], "")
-        self.assertIn("lines parted in", year["line_tension_largest"]["note"])
+        for figure in ("line_tension_largest", "offset_largest"):
+            self.assertEqual(year[figure]["level"], "")
+            self.assertIn("lines parted in", year[figure]["note"])
+        # The page has them too: a level of the load, and why there is none of the others.
+        page = self.page("out")
+        self.assertIn("Levels that are exceeded with a probability in a year", page)
+        rows = [r for r in page.split("<tr>") if "<td>0.01</td>" in r]
+        self.assertEqual(["No answer: lines parted in" in r for r in rows], [False, True, True])
 
     def test_a_series_tells_how_far_the_station_is_kept(self):
         self.plain()

@@ -137,10 +137,10 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertAlmostEqual(float(row["half"]), half, delta=1e-9 * max(runs))
         self.assertAlmostEqual(float(row["means_difference"]), mean, delta=1e-9 * max(runs))
         self.assertGreater(half, 0)
-        told = re.search(r"vessels\.breaker\.present</td><td>(-?[0-9.]+) ± ([0-9.]+)(, higher|, lower|)<",
+        told = re.search(r"breaker\.present</td><td>(-?[0-9.]+) ± ([0-9.]+)(<br>higher|<br>lower|)<",
                          page.replace("\u200b", "")).groups()
         self.assertAlmostEqual(float(told[1]), half * 1e-3, delta=0.06 * half * 1e-3)
-        self.assertEqual(told[2], ", higher" if mean > half else ", lower" if mean < -half else "")
+        self.assertEqual(told[2], "<br>higher" if mean > half else "<br>lower" if mean < -half else "")
         # What is found only as a run begins is its reason, the same wherever the study lies.
         study.write_text("scenario: two.yaml\nvessel: ship\nvary: {grid: {ice.concentration: [0.8, 0.9999]}}\n")
         for folder in ("here", "elsewhere"):
@@ -317,6 +317,11 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.assertTrue(narrow or rows == 9)
         extent = self.fram("check", study)
         self.assertEqual((extent["runs_least"], extent["runs_most"]), (2, 9))
+        # Until a rare load is known: ten runs carry a law, and any interval will do.
+        rare = self.write("seeds: {least: 4, most: 14, extreme_within: 10}\nextremes: {duration: 30s}\n")
+        self.assertEqual(self.fram(rare, "-o", self.at / "rare")["runs"], 10)
+        self.assertEqual(self.fram("list", self.at / "rare")["list"][0]["wanted"], 10)
+        self.assertIn("extreme_within: 10", (self.at / "rare" / "effective.yaml").read_text())
         self.assertGreater(extent["run_s"], 0)
         self.assertGreaterEqual(extent["run_s_packed"], extent["run_s"])
 
@@ -562,7 +567,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("vary:\n  grid: {ice.concentration: [0.5, 0.9999]}\n", "study.yaml:3: ice.concentration: "
                      "condition 2 (ice.concentration=0.9999): concentration")
         self.refused("set:\n  run.duration: -1\n", "study.yaml:3: run.duration")
-        for wrong, right in (("extreme_within", "largest_within"), ("max_within", "largest_within"),
+        for wrong, right in (("extrem_within", "extreme_within"), ("max_within", "largest_within"),
                              ("min", "least"), ("maximum", "most"), ("mean_witin", "mean_within")):
             self.refused(f"seeds: {{{wrong}: 2}}\n", f"study.yaml:2: {wrong}", f"did you mean {right}?")
         # Not taken for the key before the sign, with a value that begins behind it.
@@ -573,6 +578,9 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("seeds: 0\n", "study.yaml:2: seeds")
         self.refused("seeds: {least: 5, most: 9}\n", "mean_within")
         self.refused("seeds: {least: 1, most: 9, mean_within: 0.1}\n", "two seeds")
+        self.refused("seeds: {least: 4, most: 40, extreme_within: 0.1}\n", "extreme_within: takes `extremes`")
+        self.refused("seeds: {least: 4, most: 9, extreme_within: 0.1}\nextremes: {duration: 3h}\n",
+                     "expected most from 10 on")
         self.refused("vary: {grid: {run.seed: [1, 2]}}\n", "run.seed", "`seeds`")
         self.refused("vary: {grid: {vessel.speed: []}}\n", "vessel.speed")
         self.refused("vary: {list: [{vessel.speed: 1}, {ice.thickness: 1}]}\n", "vessel.speed")

@@ -1,0 +1,86 @@
+/* Levels of a year over all conditions, as far as their runs carry them. */
+#include "study/study_answers.h"
+#include "study/study_extremes.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The first condition that occurs in which lines part, of tensions below the level, and how; -1 without. */
+static fram_status find_parting(const study_folder *f, const condition_rows *conditions, double level, int32_t *found,
+                                parted_lines *parted, fram_error *error)
+{
+    fram_status status = FRAM_OK;
+    *found = -1;
+    for (int32_t c = 0; c < f->s->conditions && *found < 0 && status == FRAM_OK; c++) {
+        if (!(f->s->extremes.hours.data[c] > 0))
+            continue;
+        status = study_parted_lines(f, conditions, c, parted, error);
+        if (status == FRAM_OK && parted->runs > 0 && level >= parted->least)
+            *found = c;
+    }
+    return status;
+}
+
+static void say_lack(const annual_lack *lack, annual_answer *out)
+{
+    if (lack->runs > 0)
+        snprintf(
+            out->why, sizeof out->why,
+            "No answer: the data do not carry this level by gev: it is so rare that %d runs of condition %d, which "
+            "has %d, would tell the shape of its tail; more seeds, or gumbel.",
+            (int)lack->runs, (int)lack->condition + 1, (int)lack->there);
+    else
+        snprintf(out->why, sizeof out->why, "No answer: condition %d occurs and has no fit: more seeds.",
+                 (int)lack->condition + 1);
+}
+
+/* Where lines part, tensions go no further, and offsets depend on when a run ends. */
+static fram_status check_parting(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                                 annual_answer *out, fram_error *error)
+{
+    bool tension = figure == ROW_line_tension_largest;
+    int32_t at;
+    parted_lines parted;
+    if (figure == ROW_load_largest)
+        return FRAM_OK;
+    fram_status status = find_parting(f, conditions, tension ? out->level.level : HUGE_VAL, &at, &parted, error);
+    if (status != FRAM_OK || at < 0)
+        return status;
+    out->level = (level_interval){(double)NAN, (double)NAN, (double)NAN};
+    int used = snprintf(out->why, sizeof out->why, "No answer: lines parted in %d runs of condition %d, ",
+                        (int)parted.runs, (int)at + 1);
+    if (tension)
+        snprintf(out->why + used, sizeof out->why - (size_t)used,
+                 "and hold no more than %.3g kN there; lines without breaking_load tell it.", parted.least * 1e-3);
+    else
+        snprintf(out->why + used, sizeof out->why - (size_t)used,
+                 "and the vessel drifted on from there; lines without breaking_load tell it.");
+    return FRAM_OK;
+}
+
+fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
+                         const double *block, annual_answer out[STUDY_LEVELS_MOST], fram_error *error)
+{
+    const study_extremes *x = &f->s->extremes;
+    int32_t count = f->s->conditions;
+    level_interval level[STUDY_LEVELS_MOST];
+    annual_lack lack[STUDY_LEVELS_MOST];
+    condition_maxima *of = memory_array(f->ctx, (size_t)count, sizeof *of);
+    fram_status status = of ? FRAM_OK : error_memory(error);
+    for (int32_t c = 0; c < count && status == FRAM_OK; c++) {
+        of[c].block = block[c];
+        status = study_values(f, conditions, c, figure, &of[c].value, error);
+    }
+    if (status == FRAM_OK)
+        status = annual_levels(f->ctx, x, of, count, level, lack, error);
+    for (int i = 0; i < x->annuals && status == FRAM_OK; i++) {
+        out[i] = (annual_answer){.level = level[i]};
+        if (lack[i].condition >= 0)
+            say_lack(&lack[i], &out[i]);
+        status = check_parting(f, conditions, figure, &out[i], error);
+    }
+    for (int32_t c = 0; of && c < count; c++)
+        array_free(f->ctx, &of[c].value);
+    memory_free(f->ctx, of);
+    return status;
+}

@@ -1,0 +1,102 @@
+/* Intervals that Gumbel's law and the generalized one share. */
+#include "testing.h"
+
+#include "base/random.h"
+#include "base/transcendental.h"
+#include "study/averaged.h"
+#include "study/peaks.h"
+
+enum { COUNT = 30 };
+/* Three times thirty blocks, exceeded once. */
+static const double exposure = 90, exponent = 1;
+
+typedef struct sample {
+    double value[COUNT];
+    extreme_law gumbel, any;
+    gumbel_pivot pivot;
+    profile_question q;
+} sample;
+
+/* Maxima of a bounded law, or of Gumbel's. */
+static void make(sample *s, double shape)
+{
+    random_stream r = random_begin(5, 3, 0);
+    for (int i = 0; i < COUNT; i++) {
+        double y = -real_log(-real_log(1 - random_unit(&r)));
+        s->value[i] = 10 + 2 * (shape == 0 ? y : (real_exp(shape * y) - 1) / shape);
+    }
+    values_sort(&(double_array){.data = s->value, .count = COUNT});
+    ck_assert(extreme_law_fit(LAW_GUMBEL, FIT_LIKELIHOOD, s->value, COUNT, 0, &s->gumbel));
+    ck_assert(extreme_law_fit(LAW_GEV, FIT_LIKELIHOOD, s->value, COUNT, 0, &s->any));
+    gumbel_pivot_make(s->value, COUNT, &s->gumbel, &s->pivot);
+    s->q = (profile_question){.law = &s->any,
+                              .sorted = s->value,
+                              .count = COUNT,
+                              .exposure = exposure,
+                              .exponent = exponent,
+                              .confidence = 0.95};
+}
+
+START_TEST(with_all_the_weight_it_is_the_interval_of_that_law)
+{
+    sample s;
+    make(&s, -0.15);
+    level_interval exact = gumbel_pivot_interval(&s.pivot, exponent / exposure, 0.95);
+    level_interval one = averaged_interval(&s.pivot, exact, &s.q, 1), any = profile_interval(&s.q);
+    assert_absolute(one.level, exact.level, 0);
+    assert_absolute(one.low, exact.low, 1e-6);
+    assert_absolute(one.high, exact.high, 1e-6);
+    one = averaged_interval(&s.pivot, exact, &s.q, 0);
+    assert_absolute(one.level, exact.level, 0);
+    assert_absolute(one.low, any.low, 1e-3);
+    assert_absolute(one.high, any.high, 1e-3);
+}
+END_TEST
+
+/* Each tail of an interval of another confidence is known: of the exact one by its pivot, of the profile's by the
+   confidence at which it ends there. */
+static double profile_confidence(sample *s, double end, bool high)
+{
+    double lo = 0, hi = 0.9999;
+    for (int i = 0; i < 60; i++) {
+        s->q.confidence = 0.5 * (lo + hi);
+        level_interval at = profile_interval(&s->q);
+        bool outside = high ? at.high > end : at.low < end;
+        *(outside ? &hi : &lo) = s->q.confidence;
+    }
+    s->q.confidence = 0.95;
+    return lo;
+}
+
+START_TEST(tails_of_both_laws_add_up_to_what_the_confidence_leaves)
+{
+    sample s;
+    make(&s, -0.15);
+    double weight = 0.6;
+    level_interval exact = gumbel_pivot_interval(&s.pivot, exponent / exposure, 0.95);
+    level_interval one = averaged_interval(&s.pivot, exact, &s.q, weight);
+    double low = weight * gumbel_pivot_below(&s.pivot, exponent / exposure, one.low) +
+                 (1 - weight) * (0.5 - 0.5 * profile_confidence(&s, one.low, false));
+    double high = weight * (1 - gumbel_pivot_below(&s.pivot, exponent / exposure, one.high)) +
+                  (1 - weight) * (0.5 - 0.5 * profile_confidence(&s, one.high, true));
+    assert_absolute(low, 0.025, 1e-4);
+    assert_absolute(high, 0.025, 1e-4);
+}
+END_TEST
+
+START_TEST(the_weight_goes_with_what_the_sample_says)
+{
+    sample near, far;
+    make(&near, 0);
+    make(&far, -0.5);
+    double here = averaged_weight(&near.gumbel, &near.any, near.value, COUNT);
+    /* Of equal fits the one without the shape is better by the price of a parameter (Hurvich and Tsai 1989). */
+    double price = (2 * 3 + 2 * 3 * 4 / (COUNT - 4.0) - 2 * 2 - 2 * 2 * 3 / (COUNT - 3.0)) / 2;
+    assert_absolute(averaged_weight(&near.gumbel, &near.gumbel, near.value, COUNT), 1 / (1 + real_exp(-price)), 1e-12);
+    ck_assert_double_gt(here, 0.5);
+    ck_assert_double_lt(averaged_weight(&far.gumbel, &far.any, far.value, COUNT), 0.05);
+}
+END_TEST
+
+TEST_MAIN("averaged", with_all_the_weight_it_is_the_interval_of_that_law,
+          tails_of_both_laws_add_up_to_what_the_confidence_leaves, the_weight_goes_with_what_the_sample_says)
