@@ -1,5 +1,6 @@
 #include "study/condition_table.h"
 
+#include "base/number_text.h"
 #include "io/file.h"
 #include "io/text_buffer.h"
 #include "io/utf8.h"
@@ -19,6 +20,8 @@ typedef struct table_reader {
     fram_error *error;
     text_buffer cell;
 } table_reader;
+
+static const char hours_head[] = "hours";
 
 static fram_status refuse(const table_reader *r, const char *head, const char *message)
 {
@@ -127,8 +130,9 @@ static fram_status take_unit(table_reader *r, char *head)
         return FRAM_OK;
     }
     *close = '\0';
-    const char *wanted = key && *key->unit ? key->unit : "1";
-    if (!key || strcmp(wanted, open + 1) == 0)
+    bool hours = strcmp(head, hours_head) == 0;
+    const char *wanted = hours ? "h" : key && *key->unit ? key->unit : "1";
+    if ((!key && !hours) || strcmp(wanted, open + 1) == 0)
         return FRAM_OK;
     return error_set(r->error, FRAM_ERROR_INPUT, r->name, r->line, head, "expected the unit %s, found %.40s", wanted,
                      open + 1);
@@ -204,6 +208,39 @@ static fram_status check_text(table_reader *r)
     return FRAM_OK;
 }
 
+/* The column of hours goes out of heads and cells. */
+static fram_status take_hours(table_reader *r)
+{
+    condition_table *t = r->out;
+    int32_t at = 0, heads = t->heads.count, kept = 0;
+    while (at < heads && strcmp(t->heads.data[at], hours_head) != 0)
+        at++;
+    if (at == heads)
+        return FRAM_OK;
+    for (int32_t i = 0; i < t->line.count; i++) {
+        double hours = 0;
+        r->line = t->line.data[i];
+        if (real_from_text(t->cells.data[i * heads + at], &hours) != NUMBER_GOOD || !(hours >= 0))
+            return refuse(r, hours_head, "expected how long a year the condition lasts, in hours from 0 on");
+        if (!array_push(r->ctx, &t->hours, hours))
+            return error_memory(r->error);
+    }
+    r->line = 1;
+    if (heads == 1)
+        return refuse(r, hours_head, "expected a scenario key at the head of another column");
+    for (int32_t i = 0; i < t->cells.count; i++) {
+        if (i % heads == at)
+            memory_free(r->ctx, t->cells.data[i]);
+        else
+            t->cells.data[kept++] = t->cells.data[i];
+    }
+    t->cells.count = kept;
+    memory_free(r->ctx, t->heads.data[at]);
+    for (t->heads.count--; at < t->heads.count; at++)
+        t->heads.data[at] = t->heads.data[at + 1];
+    return FRAM_OK;
+}
+
 static fram_status read_all(table_reader *r)
 {
     r->at += utf8_mark(r->at, (size_t)(r->end - r->at));
@@ -216,7 +253,9 @@ static fram_status read_all(table_reader *r)
                              "expected at most %d conditions, found more", STUDY_CONDITIONS_MOST);
         status = read_row(r);
     }
-    return status == FRAM_OK && r->out->line.count == 0 ? refuse(r, NULL, "the table has no rows") : status;
+    if (status == FRAM_OK && r->out->line.count == 0)
+        return refuse(r, NULL, "the table has no rows");
+    return status == FRAM_OK ? take_hours(r) : status;
 }
 
 fram_status condition_table_parse(context *ctx, const char *name, const char *data, size_t size, condition_table *out,
@@ -248,4 +287,5 @@ void condition_table_free(context *ctx, condition_table *t)
     text_list_free(ctx, &t->heads);
     text_list_free(ctx, &t->cells);
     array_free(ctx, &t->line);
+    array_free(ctx, &t->hours);
 }

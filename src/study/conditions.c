@@ -204,6 +204,10 @@ static fram_status add_table(const study_source *r, const yaml_node *node, condi
     s->keys = t->heads;
     s->values = t->cells;
     s->table_line = t->line;
+    for (int32_t i = 0; i < t->hours.count; i++)
+        if (!array_push(r->ctx, &s->table_hours, t->hours.data[i]))
+            return error_memory(r->error);
+    array_free(r->ctx, &t->hours);
     *t = (condition_table){0};
     return FRAM_OK;
 }

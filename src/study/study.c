@@ -34,5 +34,6 @@ void study_free(context *ctx, study *s)
     array_free(ctx, &s->table_line);
     array_free(ctx, &s->design.point);
     array_free(ctx, &s->extremes.hours);
+    array_free(ctx, &s->table_hours);
     memset(s, 0, sizeof *s);
 }

@@ -56,22 +56,23 @@ typedef struct study_extremes {
     bool asked, gev;                                            /* gev: that law, not Gumbel's */
     double duration, confidence;                                /* [s], 0.95 */
     double level[STUDY_LEVELS_MOST], annual[STUDY_LEVELS_MOST]; /* probabilities of staying below; in a year, over */
-    int levels, annuals, hours_line;
+    int levels, annuals, line, hours_line;
     ARRAY(double) hours; /* a year that each condition lasts; empty: not asked */
 } study_extremes;
 
 typedef struct study {
-    char *file;             /* the study file */
-    char *scenario;         /* path of the scenario, to be opened from here */
-    char *vessel;           /* whose figures the tables tell; NULL: the first that is present */
-    int vessel_line;        /* in the study file */
-    assignment_list set;    /* for all runs */
-    text_list keys;         /* that the conditions vary */
-    text_list values;       /* conditions x keys, one condition after the other */
-    int32_t conditions;     /* at least 1 */
-    int32_t keys_line;      /* in the study file */
-    char *table;            /* file that the conditions are of; NULL: the study file */
-    int32_array table_line; /* of each condition there */
+    char *file;                /* the study file */
+    char *scenario;            /* path of the scenario, to be opened from here */
+    char *vessel;              /* whose figures the tables tell; NULL: the first that is present */
+    int vessel_line;           /* in the study file */
+    assignment_list set;       /* for all runs */
+    text_list keys;            /* that the conditions vary */
+    text_list values;          /* conditions x keys, one condition after the other */
+    int32_t conditions;        /* at least 1 */
+    int32_t keys_line;         /* in the study file */
+    char *table;               /* file that the conditions are of; NULL: the study file */
+    int32_array table_line;    /* of each condition there */
+    ARRAY(double) table_hours; /* a year that each condition lasts, by the table; empty: not told there */
     study_seeds seeds;
     study_keep keep;
     study_worst worst;

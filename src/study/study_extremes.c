@@ -45,7 +45,6 @@ static fram_status read_numbers(const study_source *r, const yaml_node *k, doubl
 
 static fram_status read_hours(const study_source *r, const yaml_node *k)
 {
-    double sum = 0;
     if (k->kind != YAML_SEQUENCE || k->count == 0)
         return study_refuse(r, k, "expected a list: the hours a year that each condition lasts");
     r->out->extremes.hours_line = k->line;
@@ -56,11 +55,7 @@ static fram_status read_hours(const study_source *r, const yaml_node *k)
             return status;
         if (!array_push(r->ctx, &r->out->extremes.hours, hours))
             return error_memory(r->error);
-        sum += hours;
     }
-    if (!(sum > 0 && sum <= HOURS_OF_YEAR))
-        return study_refuse(r, k, "expected hours that add up to more than 0 and at most %g, found %g", HOURS_OF_YEAR,
-                            sum);
     return FRAM_OK;
 }
 
@@ -69,7 +64,8 @@ fram_status study_extremes_read(const study_source *r, const yaml_node *node)
     static const char *const names[] = {"duration", "method", "levels", "confidence", "hours", "annual"};
     study_extremes *x = &r->out->extremes;
     array_free(r->ctx, &x->hours);
-    *x = (study_extremes){.asked = true, .duration = 3 * HOUR, .confidence = 0.95, .level = {0.5, 0.9}, .levels = 2};
+    *x = (study_extremes){
+        .asked = true, .line = node->line, .duration = 3 * HOUR, .confidence = 0.95, .level = {0.5, 0.9}, .levels = 2};
     if (node->kind != YAML_MAPPING)
         return study_refuse(r, node, "expected duration, method, levels, confidence, hours or annual");
     fram_status status = FRAM_OK;
@@ -90,14 +86,45 @@ fram_status study_extremes_read(const study_source *r, const yaml_node *node)
         else
             status = study_unknown(r, k, names, sizeof names / sizeof *names);
     }
-    if (status == FRAM_OK && (x->annuals > 0) != (x->hours.count > 0))
-        return study_refuse(r, node,
-                            x->annuals > 0 ? "annual levels take `hours`: how long a year each condition lasts"
-                                           : "hours take `annual`: probabilities in a year, as [1e-2, 1e-4]");
     return status;
 }
 
-fram_status study_extremes_check(const study *s, fram_error *error)
+static fram_status refuse_hours(const study *s, int line, const char *message, fram_error *error)
+{
+    return error_set(error, FRAM_ERROR_INPUT, s->file, line, "hours", "%s", message);
+}
+
+/* Those of a table of conditions are taken where annual levels are asked for. */
+static fram_status check_hours(context *ctx, study *s, fram_error *error)
+{
+    study_extremes *x = &s->extremes;
+    int line = x->hours_line > 0 ? x->hours_line : x->line;
+    double sum = 0;
+    if (x->hours.count > 0 && s->table_hours.count > 0)
+        return refuse_hours(s, line, "stand here and in a column of the table of conditions: remove one", error);
+    for (int32_t c = 0; x->annuals > 0 && c < s->table_hours.count; c++)
+        if (!array_push(ctx, &x->hours, s->table_hours.data[c]))
+            return error_memory(error);
+    if (x->annuals > 0 && x->hours.count == 0)
+        return refuse_hours(s, line,
+                            "annual levels take `hours`: how long a year each condition lasts, as a list or as "
+                            "a column of the table of conditions",
+                            error);
+    if (x->annuals == 0 && x->hours.count > 0)
+        return refuse_hours(s, line, "hours take `annual`: probabilities in a year, as [1e-2, 1e-4]", error);
+    if (x->hours.count > 0 && x->hours.count != s->conditions)
+        return error_set(error, FRAM_ERROR_INPUT, s->file, line, "hours",
+                         "expected a number for each of the %d conditions, found %d", (int)s->conditions,
+                         (int)x->hours.count);
+    for (int32_t c = 0; c < x->hours.count; c++)
+        sum += x->hours.data[c];
+    if (x->hours.count > 0 && !(sum > 0 && sum <= HOURS_OF_YEAR))
+        return error_set(error, FRAM_ERROR_INPUT, s->file, line, "hours",
+                         "expected hours that add up to more than 0 and at most %g, found %g", HOURS_OF_YEAR, sum);
+    return FRAM_OK;
+}
+
+fram_status study_extremes_check(context *ctx, study *s, fram_error *error)
 {
     if (s->seeds.extreme_within > 0 && !s->extremes.asked)
         return error_set(error, FRAM_ERROR_INPUT, s->file, 1, "extreme_within",
@@ -106,11 +133,7 @@ fram_status study_extremes_check(const study *s, fram_error *error)
         return error_set(error, FRAM_ERROR_INPUT, s->file, 1, "extreme_within",
                          "expected most from %d on, since fewer runs carry no law, found %d", (int)LAW_VALUES_LEAST,
                          (int)s->seeds.most);
-    if (s->extremes.hours.count == 0 || s->extremes.hours.count == s->conditions)
-        return FRAM_OK;
-    return error_set(error, FRAM_ERROR_INPUT, s->file, s->extremes.hours_line, "hours",
-                     "expected a number for each of the %d conditions, found %d", (int)s->conditions,
-                     (int)s->extremes.hours.count);
+    return check_hours(ctx, s, error);
 }
 
 /* ---- levels of a year ---- */

@@ -11,7 +11,7 @@
 /* Reads the node under `extremes`. */
 fram_status study_extremes_read(const study_source *r, const yaml_node *node);
 /* What is asked must fit the conditions: as many hours as there are, and seeds that can end by it. */
-fram_status study_extremes_check(const study *s, fram_error *error);
+fram_status study_extremes_check(context *ctx, study *s, fram_error *error);
 
 /* The greatest values of a figure in the runs of a condition, each `block` seconds long. */
 typedef struct condition_maxima {

@@ -238,7 +238,7 @@ static fram_status read_root(const study_source *r)
                          "found %lld runs, %d conditions with up to %d seeds each: expected at most %d",
                          (long long)runs, (int)r->out->conditions, (int)r->out->seeds.most, STUDY_RUNS_MOST);
     fram_status keys_good = check_keys(r->out, r->error);
-    return keys_good == FRAM_OK ? study_extremes_check(r->out, r->error) : keys_good;
+    return keys_good == FRAM_OK ? study_extremes_check(r->ctx, r->out, r->error) : keys_good;
 }
 
 /* ---- checks of all conditions ---- */

@@ -42,6 +42,27 @@ START_TEST(tables_of_any_program_are_read)
 }
 END_TEST
 
+START_TEST(hours_are_no_key)
+{
+    static const char *const heads[] = {"hours[h],vessel.speed[m/s],ice.thickness\n120,1,0.5\n1.5e1,2,0.7\n",
+                                        "vessel.speed,\"hours\",ice.thickness\n1,120,0.5\n2,15,0.7\n",
+                                        "vessel.speed,ice.thickness,hours [h]\n1,0.5,120\n2,0.7,15\n"};
+    static const char *const cells[] = {"vessel.speed", "ice.thickness", "1", "0.5", "2", "0.7"};
+    for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
+        condition_table t;
+        fram_error error;
+        context ctx;
+        context_init(&ctx);
+        read_as(heads[i], cells, 2, 2);
+        parse(heads[i], FRAM_OK, &t, &error);
+        ck_assert_int_eq(t.hours.count, 2);
+        assert_absolute(t.hours.data[0], 120, 0);
+        assert_absolute(t.hours.data[1], 15, 0);
+        condition_table_free(&ctx, &t);
+    }
+}
+END_TEST
+
 START_TEST(what_is_unclear_is_refused_at_its_place)
 {
     static const struct {
@@ -56,6 +77,10 @@ START_TEST(what_is_unclear_is_refused_at_its_place)
         {"vessel.speed,\n1,2\n", 1, "", "empty one"},
         {"vessel.speed,vessel.speed[m/s]\n1,2\n", 1, "vessel.speed", "two columns"},
         {"vessel.speed\n1\n\xe9\n", 3, "", "UTF-8"},
+        {"hours[d],vessel.speed\n1,1\n", 1, "hours", "unit h, found d"},
+        {"hours,vessel.speed\n1,1\n\n-1,2\n", 4, "hours", "how long a year"},
+        {"vessel.speed,hours\n1,often\n", 2, "hours", "how long a year"},
+        {"hours\n1\n", 1, "hours", "another column"},
         {"vessel.speed [kn]\n1\n", 1, "vessel.speed", "unit m/s, found kn"},
         {"vessel.speed[kn]\n1\n", 1, "vessel.speed", "unit m/s, found kn"},
         {"ice.concentration[2]\n1\n", 1, "ice.concentration", "unit 1, found 2"},
@@ -83,4 +108,4 @@ START_TEST(what_is_unclear_is_refused_at_its_place)
 }
 END_TEST
 
-TEST_MAIN("condition_table", tables_of_any_program_are_read, what_is_unclear_is_refused_at_its_place)
+TEST_MAIN("condition_table", tables_of_any_program_are_read, hours_are_no_key, what_is_unclear_is_refused_at_its_place)
