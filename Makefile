@@ -149,6 +149,9 @@ test-slurm: build | $(STAMPS)/slurm ## studies by a real Slurm of four nodes on 
 slurm-thousand: build | $(STAMPS)/slurm ## the same with 1,002 runs (SLURM_SEEDS=334 of three conditions)
 	@FRAM=build/release/fram FRAM_SLURM_SEEDS=$(or $(SLURM_SEEDS),334) $(PYTHON) tests/slurm/test_arrays.py
 
+slurm-overhead: build | $(STAMPS)/slurm ## what scheduling by Slurm costs a study, of 20 tasks of 12 s (10 minutes)
+	@$(PYTHON) bench/slurm_overhead.py
+
 extremes-coverage: build ## how often intervals of extremes hold the truth: 1,000 trials of each sample (15 minutes)
 	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_extremes_coverage
 	@cd build/release && FRAM_TEST_LONG=1 CK_FORK=no ./tests/test_study_annual_coverage

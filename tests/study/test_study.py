@@ -481,12 +481,14 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         # The same by a scatter diagram: a table of conditions with a column of hours.
         (self.at / "scatter.csv").write_text("hours[h],vessel.speed[m/s]\n100,2\n20,2.5\n")
         before = (self.at / "out" / "annual.csv").read_bytes()
-        ask = "seeds: 12\nvary: {table: scatter.csv}\nextremes: {duration: 10min, levels: [0.9], annual: [1e-2, 1e-4]%s}\n"
+        ask = ("seeds: 12\nvary: {table: scatter.csv}\n"
+               "extremes: {duration: 10min, levels: [0.9], annual: [1e-2, 1e-4]%s}\n")
         told = self.fram(self.write(ask % ""), "-o", self.at / "out")
         self.assertEqual((told["made"], (self.at / "out" / "annual.csv").read_bytes()), (0, before))
         self.assertIn("hours: [100, 20]", (self.at / "out" / "effective.yaml").read_text())
         self.refused((ask % ", hours: [100, 20]"), "study.yaml:4: hours", "remove one")
-        self.refused("vary: {grid: {vessel.speed: [2, 2.5]}}\nextremes: {annual: [0.1]}\n", "annual levels take `hours`")
+        self.refused("vary: {grid: {vessel.speed: [2, 2.5]}}\nextremes: {annual: [0.1]}\n",
+                     "annual levels take `hours`")
         self.refused("vary: {grid: {vessel.speed: [2, 2.5]}}\nextremes: {hours: [5000, 5000], annual: [0.1]}\n",
                      "at most 8784, found 10000")
         # Without a year the rest stays; the runs are there.
