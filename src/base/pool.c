@@ -215,6 +215,13 @@ static void job_await(pool *p)
     pthread_mutex_unlock(&p->mutex);
 }
 
+int32_t pool_block(int32_t count, int32_t least, int32_t most)
+{
+    enum { BLOCKS = 16 }; /* four threads then end within a fifth of each other */
+    int32_t block = (count / BLOCKS / least + 1) * least;
+    return block < most ? block : most;
+}
+
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks)
 {
     if (ctx->lent) {

@@ -18,6 +18,9 @@ int pool_threads(const pool *p);
    threads where it lent some; with neither these nor ctx->threads, or a single block, on the caller.  Not re-entrant.
  */
 void pool_run(context *ctx, block_function fn, void *arg, int32_t blocks);
+/* How many of `count` things make a block: `most`, or so few in a small job that there are about sixteen blocks, but a
+   multiple of `least`.  By the count alone. */
+int32_t pool_block(int32_t count, int32_t least, int32_t most);
 /* Of the pool or the program; 1 without both. */
 int context_threads(const context *ctx);
 

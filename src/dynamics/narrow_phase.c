@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-/* Pairs a block: in a packed field about a thousand contacts. */
-enum { BLOCK_PAIRS = 512 };
+/* Pairs a block: the most make about a thousand contacts in a packed field. */
+enum { LEAST_PAIRS = 32, MOST_PAIRS = 512 };
 /* Bounds are taken smaller by this share, far more than what rounding can take from them. */
 #define SURE (1 - 1e-9)
 
@@ -192,6 +192,7 @@ typedef struct narrow_work {
     collision_scratch *scratch;
     contact_array *contacts; /* where blocks are joined */
     index_array *patch_pairs;
+    int32_t block; /* pairs of one */
 } narrow_work;
 
 static bool is_plain_prism(const party *p) { return p->is_prism && p->shapes->shapes.piece_count[p->shape] == 1; }
@@ -321,8 +322,8 @@ static void narrow_block(void *arg, int32_t block, int32_t thread)
 {
     const narrow_work *w = arg;
     pair_block *out = &w->scratch->pair_blocks.data[block];
-    int32_t first = block * BLOCK_PAIRS, rest = w->pairs->count - first;
-    out->memory_failed = !test_pairs(w, first, first + (rest < BLOCK_PAIRS ? rest : BLOCK_PAIRS),
+    int32_t first = block * w->block, rest = w->pairs->count - first;
+    out->memory_failed = !test_pairs(w, first, first + (rest < w->block ? rest : w->block),
                                      &w->scratch->rooms.data[thread], &out->contacts, &out->patch_pairs);
 }
 
@@ -392,8 +393,9 @@ fram_status narrow_phase_run(context *ctx, const body_table *bodies, const shape
 {
     array_clear(contacts);
     array_clear(patch_pairs);
-    narrow_work work = {ctx, bodies, shapes, boxes, policies, pairs, scratch, contacts, patch_pairs};
-    int32_t threads = context_threads(ctx), blocks = pairs->count / BLOCK_PAIRS + (pairs->count % BLOCK_PAIRS != 0);
+    int32_t block = pool_block(pairs->count, LEAST_PAIRS, MOST_PAIRS);
+    narrow_work work = {ctx, bodies, shapes, boxes, policies, pairs, scratch, contacts, patch_pairs, block};
+    int32_t threads = context_threads(ctx), blocks = pairs->count / block + (pairs->count % block != 0);
     bool ok = make_rooms(ctx, scratch, threads);
     if (ok && threads == 1) { /* in order and into the arrays themselves: the same contacts, and no copy */
         ok = test_pairs(&work, 0, pairs->count, &scratch->rooms.data[0], contacts, patch_pairs);

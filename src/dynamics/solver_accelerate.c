@@ -86,13 +86,10 @@ static void wanted_task(const stage *st, batch_task *task)
     task->wanted = KERNEL_PICK(st->s->ctx, solver_wanted)(&st->view, task->first, task->end);
 }
 
-/* Of the impulses before the first sweep; the position correction starts without any. */
-static double wanted_at_start(stage *st)
+double acceleration_wanted(stage *st)
 {
     const batch_plan *plan = &st->s->fast->plan;
     double sum = 0;
-    if (st->positions)
-        return sum;
     stage_run(st, wanted_task);
     for (int32_t t = 0; t < plan->tasks.count; t++)
         sum += plan->tasks.data[t].wanted;
@@ -176,7 +173,7 @@ bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows)
     a->step_limit = FIRST_STEP_LIMIT;
     a->predicted = 0;
     a->pause = SHORTEST_PAUSE;
-    a->wanted_start = wanted_at_start(st);
+    a->wanted_start = st->positions ? 0 : acceleration_wanted(st); /* a correction starts without impulses */
     memset(a->product, 0, sizeof a->product);
     if (!vector_begin(s->ctx, &a->vector[VECTOR_VELOCITY], &f->velocity, bodies) ||
         !vector_begin(s->ctx, &a->vector[VECTOR_IMPULSE], x, rows) ||
@@ -265,29 +262,41 @@ static double decrease_of(const acceleration *a, const double gradient[SEARCH_DI
 
 typedef struct combination {
     context *ctx;
-    sweep_vector *v;
+    const acceleration *a;
     const double *share;
 } combination;
 
-enum { COMBINE_BLOCK = 1 << 12 };
+/* Doubles of a block. */
+enum { COMBINE_BLOCK = 1 << 11 };
 
+static int32_t combine_blocks(const sweep_vector *v)
+{
+    return (int32_t)((v->count + COMBINE_BLOCK - 1) / COMBINE_BLOCK);
+}
+
+/* Blocks of the first vector, then of the second and so on. */
 static void combine_block(void *arg, int32_t block, int32_t thread)
 {
     const combination *c = arg;
-    int64_t first = (int64_t)block * COMBINE_BLOCK, end = first + COMBINE_BLOCK;
+    const sweep_vector *v = c->a->vector;
     (void)thread;
+    for (; block >= combine_blocks(v); v++)
+        block -= combine_blocks(v);
+    int64_t first = (int64_t)block * COMBINE_BLOCK, end = first + COMBINE_BLOCK;
     KERNEL_PICK(c->ctx, solver_combine)
-    (c->v->x->rows, c->v->start.rows, c->v->kept.rows, c->v->direction, c->share, first,
-     end < c->v->count ? end : c->v->count);
+    (v->x->rows, v->start.rows, v->kept.rows, v->direction, c->share, first, end < v->count ? end : v->count);
 }
 
 /* Moves all vectors on; the newest direction takes the place of the oldest. */
 static void move_on(context *ctx, acceleration *a, const double share[SEARCH_DIRECTIONS])
 {
+    combination c = {ctx, a, share};
+    int32_t blocks = 0;
+    for (int i = 0; i < VECTORS; i++)
+        blocks += combine_blocks(&a->vector[i]);
+    pool_run(ctx, combine_block, &c, blocks);
     for (int i = 0; i < VECTORS; i++) {
         sweep_vector *v = &a->vector[i];
-        combination c = {ctx, v, share};
-        pool_run(ctx, combine_block, &c, (int32_t)((v->count + COMBINE_BLOCK - 1) / COMBINE_BLOCK));
         double *newest = v->direction[SEARCH_DIRECTIONS - 1];
         for (int w = SEARCH_DIRECTIONS - 1; w > 1; w--)
             v->direction[w] = v->direction[w - 1];
@@ -331,10 +340,11 @@ static void roll_back(solver *s)
 {
     acceleration *a = &s->fast->acceleration;
     for (int i = 0; i < VECTORS; i++) {
-        const sweep_vector *v = &a->vector[i];
-        size_t size = (size_t)v->count * sizeof(double);
-        memcpy(v->x->rows, v->kept.rows, size);
-        memcpy(v->start.rows, v->kept.rows, size);
+        sweep_vector *v = &a->vector[i];
+        aligned_rows start = v->start;
+        memcpy(v->x->rows, v->kept.rows, (size_t)v->count * sizeof(double));
+        v->start = v->kept; /* sweeps go on from there; what was kept is not asked for again */
+        v->kept = start;
     }
     scatter_joints(s);
     a->directions = 0;

@@ -101,7 +101,7 @@ static void keep_sums(batch_task *task, sweep_sums sums)
 
 static void sweep_task(const stage *st, batch_task *task)
 {
-    keep_sums(task, KERNEL_PICK(st->s->ctx, solver_sweep)(&st->view, task->first, task->end));
+    keep_sums(task, KERNEL_PICK(st->s->ctx, solver_sweep)(&st->view, task->first, task->end, st->weighs));
 }
 
 static void correct_task(const stage *st, batch_task *task)
@@ -147,15 +147,20 @@ static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), align
         return false;
     int32_t next = a->pause;
     for (*iterations = 0; *iterations < most && sums.energy > negligible;) {
-        sums = sweep_once(st, sweep);
         ++*iterations;
         /* As many sweeps must be left to draw all back into its bounds. */
-        if (*iterations < next || *iterations + a->pause > most || sums.energy <= negligible)
+        bool due = *iterations >= next && *iterations + a->pause <= most;
+        st->weighs = due || *iterations == most;
+        sums = sweep_once(st, sweep);
+        if (!due || sums.energy <= negligible)
             continue;
         if (!acceleration_go_on(st, sums.energy, sums.wanted))
             return true;
         next = *iterations + a->pause;
     }
+    if (*iterations > 0 && !st->weighs && !st->positions)
+        sums.wanted = acceleration_wanted(st);
+    st->weighs = true;
     /* Sweeps alone never give energy for long. */
     for (int32_t i = 0; !acceleration_end(st, sums.energy, sums.wanted) && i < MOST_AFTERWARDS; i++) {
         a->directions = 0;

@@ -70,6 +70,7 @@ typedef struct stage {
     const double *share; /* of solver_push */
     double free_energy;  /* of the bodies without impulses */
     bool positions;      /* position correction, not velocities */
+    bool weighs;         /* sweeps of velocities sum up `wanted` too */
     int32_t first_task;
     void (*run)(const struct stage *, batch_task *);
 } stage;
@@ -125,6 +126,8 @@ void fast_velocities_of_impulses(stage *st);
 
 /* Before the first sweep.  x: multipliers of contacts, `rows` of them.  false: no memory. */
 bool acceleration_begin(stage *st, aligned_rows *x, int64_t rows);
+/* What the impulses now in the rows ask for: the sum `wanted` of a sweep. */
+double acceleration_wanted(stage *st);
 /* After sweeps that took `energy` and left `wanted`: takes a step along their directions, or rolls back what failed.
    false: nothing is left to do. */
 bool acceleration_go_on(stage *st, double energy, double wanted);

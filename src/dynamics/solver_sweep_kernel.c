@@ -413,7 +413,7 @@ V8_INLINE void sweep_batch(const batch_view *view, int32_t number, bool general,
     hub_collect(view, batch);
 }
 
-sweep_sums KERNEL(solver_sweep)(const batch_view *view, int32_t first, int32_t end)
+sweep_sums KERNEL(solver_sweep)(const batch_view *view, int32_t first, int32_t end, bool weigh)
 {
     lanes_sums sums = {v8_set(0), v8_set(0)};
     for (int32_t i = first; i < end; i++) {
@@ -421,10 +421,10 @@ sweep_sums KERNEL(solver_sweep)(const batch_view *view, int32_t first, int32_t e
             sweep_batch(view, i, true, &sums);
         else
             sweep_batch(view, i, false, &sums);
-        if (view->batch[i].driven)
+        if (weigh && view->batch[i].driven)
             sums.wanted = sums.wanted - driven_work(view, i);
     }
-    return (sweep_sums){v8_sum(sums.energy), v8_sum(sums.wanted)};
+    return (sweep_sums){v8_sum(sums.energy), weigh ? v8_sum(sums.wanted) : 0};
 }
 
 V8_INLINE void correct_batch(const batch_view *view, int32_t number, const double *bias, double *impulse, bool general,

@@ -32,8 +32,9 @@ KERNEL_DECLARE(void, solver_work, (const batch_view *view, int32_t first, int32_
 KERNEL_DECLARE(void, solver_push, (const batch_view *view, int32_t first, int32_t end, const double *share));
 /* The sum `wanted` of the impulses as they stand. */
 KERNEL_DECLARE(double, solver_wanted, (const batch_view *view, int32_t first, int32_t end));
-/* One sweep of projected Gauss-Seidel. */
-KERNEL_DECLARE(sweep_sums, solver_sweep, (const batch_view *view, int32_t first, int32_t end));
+/* One sweep of projected Gauss-Seidel.  weigh: `wanted` is summed up, as by solver_wanted to the bit; otherwise it is
+   0. */
+KERNEL_DECLARE(sweep_sums, solver_sweep, (const batch_view *view, int32_t first, int32_t end, bool weigh));
 /* Largest complementarity residual of the normal rows [m/s]. */
 KERNEL_DECLARE(double, solver_residual, (const batch_view *view, int32_t first, int32_t end));
 /* A sweep of the position correction: normal rows only, `bias` and `impulse` of one row of lanes per point, no cap. */

@@ -13,7 +13,11 @@ typedef struct fluid_work {
     held_drag_table *held;
     wrench *loads;
     fluid_details details;
+    int32_t block; /* slots of one, at most LEVEL_BLOCK */
 } fluid_work;
+/* Slots of a block in a small field: so few that several threads find work, so many that floes of as many corners are
+   still found for a batch. */
+enum { LEAST_BLOCK = 32 };
 
 static fluid_motion motion_of(const body_table *b, int32_t slot)
 {
@@ -103,7 +107,7 @@ static void apply_block(void *arg, int32_t block, int32_t thread)
     (void)thread;
     const fluid_work *w = arg;
     const fluid_details *d = &w->details;
-    int32_t first = block * LEVEL_BLOCK, end = first + LEVEL_BLOCK, rest[LEVEL_BLOCK];
+    int32_t first = block * w->block, end = first + w->block, rest[LEVEL_BLOCK];
     if (end > w->bodies->count)
         end = w->bodies->count;
     double own[LEVEL_BLOCK];
@@ -156,10 +160,10 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
     flooding_table *flooding = details ? details->flooding : NULL;
     if (flooding && !table_resize(ctx, flooding, &flooding_table_info, bodies->count))
         return error_memory(error);
-    fluid_work work = {ctx, m, coefficients, bodies, shapes, held, loads, {0}};
+    fluid_work work = {ctx, m, coefficients, bodies, shapes, held, loads, {0}, pool_block(bodies->count, LEAST_BLOCK, LEVEL_BLOCK)};
     if (details)
         work.details = *details;
-    int32_t blocks = bodies->count / LEVEL_BLOCK + (bodies->count % LEVEL_BLOCK != 0);
+    int32_t blocks = bodies->count / work.block + (bodies->count % work.block != 0);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);
     for (int32_t slot = 0; slot < bodies->count; slot++) {

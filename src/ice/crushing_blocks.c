@@ -1,5 +1,7 @@
 #include "ice/crushing_blocks.h"
 
+#include "base/pool.h"
+
 void crushing_blocks_free(context *ctx, crushing_blocks *b)
 {
     for (int32_t i = 0; i < b->made; i++) {
@@ -25,9 +27,20 @@ bool crushing_blocks_make(context *ctx, crushing_blocks *b, int32_t count)
     return true;
 }
 
+typedef struct join_work {
+    const crushing_blocks *blocks;
+    crushing_patch_array *patches;
+    contact_array *contacts;
+} join_work;
+
 /* A block's patches and contacts to their places, with the numbers that they have there. */
-static void place_block(const crushing_block *b, crushing_patch_array *patches, contact_array *contacts)
+static void place_block(void *arg, int32_t block, int32_t thread)
 {
+    const join_work *w = arg;
+    const crushing_block *b = &w->blocks->block.data[block];
+    crushing_patch_array *patches = w->patches;
+    contact_array *contacts = w->contacts;
+    (void)thread;
     for (int32_t i = 0; i < b->patches.count; i++) {
         crushing_patch *to = &patches->data[b->first_patch + i];
         *to = b->patches.data[i];
@@ -58,7 +71,7 @@ fram_status crushing_blocks_join(context *ctx, crushing_blocks *b, crushing_patc
     }
     if (!array_resize(ctx, patches, all_patches) || !array_resize(ctx, contacts, all_contacts))
         return error_memory(error);
-    for (int32_t i = 0; i < b->block.count; i++)
-        place_block(&b->block.data[i], patches, contacts);
+    join_work work = {b, patches, contacts};
+    pool_run(ctx, place_block, &work, b->block.count);
     return FRAM_OK;
 }
