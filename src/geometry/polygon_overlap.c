@@ -36,7 +36,8 @@ static double common_integral(const edge_line *e, const edge_line *f)
     return 0.5 * width * (e_left + e_right - above * above / (fabs(above_left) + fabs(above_right)));
 }
 
-/* Product of the two signed sums: the region under both of two edges is the one under the lower. */
+/* Product of the two signed sums: the region under both of two edges is the one under the lower.  Most edges lie beside
+   each other, and are passed over before their slopes are divided. */
 double polygon_overlap_area(polygon a, polygon b)
 {
     box2 p = polygon_bounds(a), q = polygon_bounds(b);
@@ -46,12 +47,17 @@ double polygon_overlap_area(polygon a, polygon b)
     double sum = 0;
     for (int32_t i = 0; i < a.count; i++) {
         edge_line e, f;
-        if (!edge_line_of(a.vertex[i], a.vertex[i + 1 < a.count ? i + 1 : 0], origin, &e))
+        vec2 begin = a.vertex[i], end = a.vertex[i + 1 < a.count ? i + 1 : 0];
+        double left = real_min(begin.x, end.x), right = real_max(begin.x, end.x);
+        if (left >= q.hi.x || right <= q.lo.x || !edge_line_of(begin, end, origin, &e))
             continue;
         double along = 0;
-        for (int32_t k = 0; k < b.count; k++)
-            if (edge_line_of(b.vertex[k], b.vertex[k + 1 < b.count ? k + 1 : 0], origin, &f))
+        for (int32_t k = 0; k < b.count; k++) {
+            vec2 from = b.vertex[k], to = b.vertex[k + 1 < b.count ? k + 1 : 0];
+            bool beside = real_min(from.x, to.x) >= right || real_max(from.x, to.x) <= left;
+            if (!beside && edge_line_of(from, to, origin, &f))
                 along += f.sign * common_integral(&e, &f);
+        }
         sum += e.sign * along;
     }
     return sum;

@@ -68,40 +68,6 @@ static double contact_width(const fracture_job *j, const fracture_load *l, const
     return width > l->thickness ? width : 0;
 }
 
-static fram_status ice_of_floe(const fracture_job *j, fracture_load *l, double radius, edge_ice *edge)
-{
-    polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
-    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
-    int32_t end;
-    double area[MOST_STENCIL + 1] = {0}, length = crack_length(outline, &start, &end);
-    sectors s;
-    l->width = contact_width(j, l, &start);
-    make_sectors(j, &start, fmin(radius, length), l->width, &s);
-    const vec2 *at = s.corner;
-    for (int i = 0; i < s.count; at += s.size[i], i++)
-        area[i] = polygon_overlap_area(outline, (polygon){at, s.size[i]});
-    *edge = ice_of(j, &s, area, length);
-    return FRAM_OK;
-}
-
-static fram_status ice_of_sheet(const fracture_job *j, fracture_load *l, double radius, edge_ice *edge)
-{
-    crack_start start;
-    bool found;
-    fram_status status =
-        fracture_sheet_start(j, l->place, fracture_sheet_reach(&j->settings->tiles), radius, &start, &found);
-    if (status != FRAM_OK || !found)
-        return status;
-    double area[MOST_STENCIL + 1] = {0};
-    double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius);
-    sectors s;
-    l->width = contact_width(j, l, &start);
-    make_sectors(j, &start, fmin(radius, length), l->width, &s);
-    status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
-    *edge = ice_of(j, &s, area, length);
-    return status;
-}
-
 break_size fracture_break_size(const fracture_load *l)
 {
     bool wide = l->width > 0 && l->stress.strip_length > 0;
@@ -124,12 +90,50 @@ double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, 
     return edge_reach(&e, ice, thickness, area);
 }
 
-fram_status fracture_find_ice(const fracture_job *j, fracture_load *l, edge_ice *edge)
+/* Every load counts as one on a straight edge. */
+static bool is_equal_everywhere(const fracture_job *j)
+{
+    return j->settings->sharing == SHARING_EQUAL && !j->settings->wide_contacts;
+}
+
+edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
+{
+    l->width = 0;
+    if (is_equal_everywhere(j))
+        return EDGE_STRAIGHT;
+    double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area);
+    polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
+    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
+    int32_t end;
+    double area[MOST_STENCIL + 1] = {0}, length = crack_length(outline, &start, &end);
+    sectors s;
+    l->width = contact_width(j, l, &start);
+    make_sectors(j, &start, fmin(radius, length), l->width, &s);
+    const vec2 *at = s.corner;
+    for (int i = 0; i < s.count; at += s.size[i], i++)
+        area[i] = polygon_overlap_area(outline, (polygon){at, s.size[i]});
+    return ice_of(j, &s, area, length);
+}
+
+fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice *edge)
 {
     *edge = EDGE_STRAIGHT;
     l->width = 0;
-    if (j->settings->sharing == SHARING_EQUAL && !j->settings->wide_contacts)
+    if (is_equal_everywhere(j))
         return FRAM_OK;
     double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area);
-    return l->tile ? ice_of_sheet(j, l, radius, edge) : ice_of_floe(j, l, radius, edge);
+    crack_start start;
+    bool found;
+    fram_status status =
+        fracture_sheet_start(j, l->place, fracture_sheet_reach(&j->settings->tiles), radius, &start, &found);
+    if (status != FRAM_OK || !found)
+        return status;
+    double area[MOST_STENCIL + 1] = {0};
+    double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius);
+    sectors s;
+    l->width = contact_width(j, l, &start);
+    make_sectors(j, &start, fmin(radius, length), l->width, &s);
+    status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
+    *edge = ice_of(j, &s, area, length);
+    return status;
 }

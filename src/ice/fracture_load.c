@@ -1,6 +1,7 @@
 /* Loads of crushing patches on floes, and the stresses they make (Metrikin 2014, 5.5). */
 #include "ice/fracture_parts.h"
 
+#include "base/pool.h"
 #include "base/transcendental.h"
 #include "ice/sheet.h"
 #include "ice/strip.h"
@@ -216,36 +217,66 @@ static vec2 place_on_floe(const fracture_state *state, const fracture_load *l)
     return l->tile ? vec2_sub(l->place, vec2_make(at.x, at.y)) : l->place;
 }
 
+/* A load whose ice is known: its stresses, and whether it fails in any way. */
+static void judge(const fracture_job *j, int32_t i, edge_ice edge)
+{
+    fracture_load *l = &j->scratch->load.all.data[i];
+    edge.rise = j->scratch->load.rises.data[i].time;
+    j->scratch->load.edges.data[i] = edge;
+    if (l->split_ratio < 1 && !fails(j->settings, l, edge))
+        return;
+    l->stress = fracture_edge_stress(j->settings, &l->ice, l->thickness, l->force, l->horizontal_area, edge);
+    l->radial_ratio = l->stress.radial_stress / l->ice.flexural_strength;
+    l->wedge_ratio = l->stress.wedge_stress / l->ice.flexural_strength;
+    l->fate = l->radial_ratio >= 1 || l->wedge_ratio >= 1 || l->split_ratio >= 1 ? LOAD_FAILS : LOAD_HOLDS;
+}
+
+/* Loads of a block: an overlap of a floe and sectors takes some microseconds. */
+enum { BLOCK_LOADS = 8 };
+
+/* All that one load tells by itself; loads on sheets, which share one index of tiles, are left open. */
+static void weigh_block(void *arg, int32_t block, int32_t thread)
+{
+    const fracture_job *j = arg;
+    load_work *w = &j->scratch->load;
+    (void)thread;
+    for (int32_t i = BLOCK_LOADS * block; i < w->all.count && i < BLOCK_LOADS * (block + 1); i++) {
+        fracture_load *l = &w->all.data[i];
+        w->edges.data[i] = EDGE_STRAIGHT;
+        l->force = fabs(l->vector.z);
+        l->ice = strength_flexural_at(&j->settings->strength, j->state->floes, l->floe, place_on_floe(j->state, l));
+        l->plane_force = sqrt(l->vector.x * l->vector.x + l->vector.y * l->vector.y);
+        l->split_ratio = split_ratio(j, l);
+        l->fate = LOAD_HOLDS;
+        if (l->split_ratio < 1 && !may_fail(j->settings, l))
+            continue;
+        if (l->tile)
+            l->fate = LOAD_OPEN;
+        else
+            judge(j, i, fracture_floe_ice(j, l));
+    }
+}
+
 /* Stresses of all loads; those that fail in no way go. */
 static fram_status keep_failing(const fracture_job *j)
 {
     fracture_load_array *all = &j->scratch->load.all;
-    load_work *w = &j->scratch->load;
     int32_t kept = 0;
-    if (!array_resize(j->ctx, &w->edges, all->count))
+    if (!array_resize(j->ctx, &j->scratch->load.edges, all->count))
         return error_memory(j->error);
+    fracture_job job = *j;
+    pool_run(j->ctx, weigh_block, &job, (all->count + BLOCK_LOADS - 1) / BLOCK_LOADS);
     for (int32_t i = 0; i < all->count; i++) {
-        fracture_load l = all->data[i];
-        w->edges.data[i] = EDGE_STRAIGHT;
-        l.force = fabs(l.vector.z);
-        l.ice = strength_flexural_at(&j->settings->strength, j->state->floes, l.floe, place_on_floe(j->state, &l));
-        l.plane_force = sqrt(l.vector.x * l.vector.x + l.vector.y * l.vector.y);
-        l.split_ratio = split_ratio(j, &l);
-        if (l.split_ratio < 1 && !may_fail(j->settings, &l))
-            continue;
-        edge_ice edge;
-        fram_status status = fracture_find_ice(j, &l, &edge);
-        if (status != FRAM_OK)
-            return status;
-        edge.rise = w->rises.data[i].time;
-        w->edges.data[i] = edge;
-        if (l.split_ratio < 1 && !fails(j->settings, &l, edge))
-            continue;
-        l.stress = fracture_edge_stress(j->settings, &l.ice, l.thickness, l.force, l.horizontal_area, edge);
-        l.radial_ratio = l.stress.radial_stress / l.ice.flexural_strength;
-        l.wedge_ratio = l.stress.wedge_stress / l.ice.flexural_strength;
-        if (l.radial_ratio >= 1 || l.wedge_ratio >= 1 || l.split_ratio >= 1)
-            all->data[kept++] = l;
+        if (all->data[i].fate == LOAD_OPEN) {
+            edge_ice edge;
+            fram_status status = fracture_sheet_ice(j, &all->data[i], &edge);
+            if (status != FRAM_OK)
+                return status;
+            all->data[i].fate = LOAD_HOLDS;
+            judge(j, i, edge);
+        }
+        if (all->data[i].fate == LOAD_FAILS)
+            all->data[kept++] = all->data[i];
     }
     all->count = kept;
     return FRAM_OK;

@@ -16,6 +16,9 @@ typedef struct fracture_job {
     fram_error *error;
 } fracture_job;
 
+/* What is known of a load. */
+enum { LOAD_HOLDS, LOAD_OPEN, LOAD_FAILS };
+
 /* A patch as a load on a floe, in the floe's own frame; of a level sheet, in the global plan, with what the patch has
    in other tiles. */
 typedef struct fracture_load {
@@ -36,6 +39,7 @@ typedef struct fracture_load {
     edge_stress stress;
     double radial_ratio, wedge_ratio; /* stress over flexural strength */
     double split_ratio;               /* with SPLITTING_TOUGHNESS: load in the plane over the largest; else 0 */
+    int32_t fate;                     /* LOAD_... */
 } fracture_load;
 typedef ARRAY(fracture_load) fracture_load_array;
 
@@ -177,8 +181,9 @@ edge_compliance fracture_edges(const fracture_settings *f);
 /* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);
 /* The ice that a load stands on, by the areas inside the sectors of its stencil; N whole wedges with SHARING_EQUAL. The
-   load gets its width along the edge. */
-fram_status fracture_find_ice(const fracture_job *j, fracture_load *l, edge_ice *edge);
+   load gets its width along the edge.  Of a floe of its own, on any thread; of a sheet, with its index of tiles. */
+edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l);
+fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice *edge);
 
 crack_start crack_start_of(polygon p, vec2 load, double snap);
 

@@ -18,9 +18,11 @@ static edge_ice ice_under(fracture_rig *r, int32_t row, vec2 place, double area)
                        .horizontal_area = area,
                        .thickness = 1,
                        .ice = FRACTURE_RIG_ICE};
+    if (!l.tile)
+        return fracture_floe_ice(&j, &l);
     edge_ice edge;
     r->scratch->sheet.index_is_made = false;
-    assert_ok(fracture_find_ice(&j, &l, &edge), error);
+    assert_ok(fracture_sheet_ice(&j, &l, &edge), error);
     return edge;
 }
 

@@ -107,8 +107,7 @@ START_TEST(without_a_radial_crack_no_floe_splits)
                            .horizontal_area = area,
                            .thickness = 1,
                            .ice = FRACTURE_RIG_ICE};
-        edge_ice edge;
-        assert_ok(fracture_find_ice(&j, &l, &edge), error);
+        edge_ice edge = fracture_floe_ice(&j, &l);
         edge_stress s = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, area, edge);
         ck_assert_double_gt(s.radial_capacity, 1.01 * s.wedge_capacity);
         ck_assert(length > s.breaking_radius && length < r.settings.splitting_factor * s.breaking_radius);
