@@ -142,14 +142,15 @@ static bool insert_near_end(memory_entry *entries, int32_t count, memory_entry e
     return true;
 }
 
-/* The narrow phase lists pairs by ascending keys, and others follow in an order of their own: the tail is sorted and
-   merged. */
-static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, memory_entry *tail)
+/* The narrow phase lists pairs by ascending keys, and pairs with a patch follow by ascending keys of their own: the tail
+   is merged, after it was sorted if some were in another order (`tail_sorted` of it are not). */
+static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, int32_t tail_sorted, memory_entry *tail)
 {
     int32_t left = count - sorted;
     if (left == 0)
         return;
-    qsort(entries + sorted, (size_t)left, sizeof *entries, compare_entries);
+    if (tail_sorted < left)
+        qsort(entries + sorted, (size_t)left, sizeof *entries, compare_entries);
     memcpy(tail, entries + sorted, (size_t)left * sizeof *entries);
     for (int32_t i = sorted - 1, to = count - 1; left > 0; to--)
         entries[to] = i >= 0 && compare_entries(&entries[i], &tail[left - 1]) > 0 ? entries[i--] : tail[--left];
@@ -161,7 +162,7 @@ fram_status contacts_remember(solver *s, const body_table *bodies, const contact
     if (!array_reserve_raw(s->ctx, (void **)&s->entries, &s->entry_capacity, 2 * contacts->count, sizeof *s->entries) ||
         !table_reserve(s->ctx, memory, &contact_memory_table_info, contacts->count))
         return error_memory(error);
-    int32_t count = 0, sorted = 0;
+    int32_t count = 0, sorted = 0, tail_sorted = 0;
     for (int32_t i = 0; i < contacts->count; i++) {
         const contact *c = &contacts->data[i];
         if (c->impulse[0] <= 0 || (!body_is_dynamic(bodies, c->a) && !body_is_dynamic(bodies, c->b)))
@@ -169,11 +170,13 @@ fram_status contacts_remember(solver *s, const body_table *bodies, const contact
         memory_entry e = {c->key, i};
         if (sorted == count && insert_near_end(s->entries, sorted, e))
             sorted++;
+        else if (sorted + tail_sorted == count && insert_near_end(s->entries + sorted, tail_sorted, e))
+            tail_sorted++;
         else
             s->entries[count] = e;
         count++;
     }
-    sort_entries(s->entries, count, sorted, s->entries + contacts->count);
+    sort_entries(s->entries, count, sorted, tail_sorted, s->entries + contacts->count);
     memory->count = count;
     for (int32_t i = 0; i < count; i++) {
         assert(i == 0 || s->entries[i - 1].key <= s->entries[i].key);
