@@ -394,7 +394,8 @@ bool batch_plan_make(context *ctx, batch_plan *plan, const body_table *bodies, c
     plan->points = 0;
     if (!find_groups(ctx, plan, bodies, contacts) || !find_hubs(ctx, plan))
         return false;
-    bodies_partition(bodies, plan->touched.data, plan->touched.count, plan->chunk.data, &plan->chunks);
+    bodies_partition(bodies, plan->touched.data, plan->touched.count, plan->groups.count, plan->chunk.data,
+                     &plan->chunks);
     if (!number_rows(ctx, plan) || !share_out_groups(ctx, plan, bodies, contacts))
         return false;
     for (int32_t t = 0; t < plan->tasks.count; t++)

@@ -118,8 +118,9 @@ void batch_plan_free(context *ctx, batch_plan *plan);
 int32_t batch_plan_row(context *ctx, batch_plan *plan, const body_table *bodies, int32_t slot);
 
 /* Cuts bodies into `*chunks` regions of the plane that hold about equally many; region[slot] is written for the given
-   slots.  By their places alone. */
-void bodies_partition(const body_table *bodies, const int32_t *slots, int32_t count, int32_t *region, int32_t *chunks);
+   slots.  By their places, and by how many groups of contacts there are, alone. */
+void bodies_partition(const body_table *bodies, const int32_t *slots, int32_t count, int32_t groups, int32_t *region,
+                      int32_t *chunks);
 enum { PARTITION_MOST = 64 };
 
 #endif

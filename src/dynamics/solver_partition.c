@@ -5,6 +5,9 @@
 /* Bodies of a region: enough that most contacts lie within regions, few enough that one region stays in a core's own
    cache and several threads find work. */
 enum { REGION_BODIES = 512 };
+/* A field of fewer bodies is halved when it has so many groups of contacts that half a sweep, about 20 us, takes many
+   times what sharing it costs, and so many bodies that few groups lie across. */
+enum { HALVED_GROUPS = 512, HALVED_BODIES = 256 };
 enum { BINS = 512 };
 
 typedef struct binning {
@@ -58,10 +61,10 @@ static extent extent_of(const body_table *bodies, const int32_t *slots, int32_t 
 }
 
 /* Strips and pieces of each strip, for regions that are about square. */
-static void choose_counts(const extent *e, int32_t count, int32_t *strips, int32_t *pieces)
+static void choose_counts(const extent *e, int32_t count, int32_t groups, int32_t *strips, int32_t *pieces)
 {
-    int32_t wanted = count / REGION_BODIES;
-    wanted = wanted < 1 ? 1 : wanted > PARTITION_MOST ? PARTITION_MOST : wanted;
+    int32_t wanted = count / REGION_BODIES, least = groups >= HALVED_GROUPS && count >= HALVED_BODIES ? 2 : 1;
+    wanted = wanted < least ? least : wanted > PARTITION_MOST ? PARTITION_MOST : wanted;
     double length = fmax(e->hi[0] - e->lo[0], e->hi[1] - e->lo[1]);
     double width = fmin(e->hi[0] - e->lo[0], e->hi[1] - e->lo[1]);
     *strips = wanted;
@@ -70,11 +73,12 @@ static void choose_counts(const extent *e, int32_t count, int32_t *strips, int32
     *pieces = wanted / *strips;
 }
 
-void bodies_partition(const body_table *bodies, const int32_t *slots, int32_t count, int32_t *region, int32_t *chunks)
+void bodies_partition(const body_table *bodies, const int32_t *slots, int32_t count, int32_t groups, int32_t *region,
+                      int32_t *chunks)
 {
     extent e = extent_of(bodies, slots, count);
     int32_t strips, pieces;
-    choose_counts(&e, count, &strips, &pieces);
+    choose_counts(&e, count, groups, &strips, &pieces);
     *chunks = strips * pieces;
     if (*chunks == 1) {
         for (int32_t i = 0; i < count; i++)
