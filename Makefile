@@ -146,6 +146,9 @@ bench-peers: build | $(STAMPS)/peers ## Fram beside Bullet and ODE (Box3D, Jolt)
 test-slurm: build | $(STAMPS)/slurm ## studies by a real Slurm of four nodes on this machine, which it installs (as root)
 	@cd build/release && $(CTEST) -L '^slurm$$'
 
+test-statistics: build | $(STAMPS)/statistics ## fits of extremes beside scipy's and R's evd, which it installs (260 MB)
+	@cd build/release && $(CTEST) -R '^study/statistics$$'
+
 slurm-thousand: build | $(STAMPS)/slurm ## the same with 1,002 runs (SLURM_SEEDS=334 of three conditions)
 	@FRAM=build/release/fram FRAM_SLURM_SEEDS=$(or $(SLURM_SEEDS),334) $(PYTHON) tests/slurm/test_arrays.py
 

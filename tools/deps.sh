@@ -1,7 +1,7 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, python,
-#                                             deb, trial, live, wasm, site
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, statistics,
+#                                             python, deb, trial, live, wasm, site
 # Sizes are told first, and a person at a terminal is asked (FRAM_YES=1: not).
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
@@ -61,6 +61,9 @@ slurm  slurmctld        cmd:slurmctld
 slurm  slurmd           cmd:slurmd
 slurm  slurm-client     cmd:sbatch
 slurm  munge            cmd:munged
+statistics python3-scipy deb:python3-scipy
+statistics r-base-core  cmd:Rscript
+statistics r-cran-evd   deb:r-cran-evd
 python python3-numpy    deb:python3-numpy
 python python3-cffi     deb:python3-cffi
 python python3-pip      deb:python3-pip
@@ -96,12 +99,12 @@ groups=""
 for word; do
     case $word in
     --install) install=yes ;;
-    core | dev | viewer | views | peers | validate | slurm | python | deb | trial | live | wasm | site)
+    core | dev | viewer | views | peers | validate | slurm | statistics | python | deb | trial | live | wasm | site)
         groups="$groups $word"
         ;;
     *)
-        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [python] \
-[deb] [trial] [live] [wasm] [site]" >&2
+        echo "usage: tools/deps.sh [--install] [core] [dev] [viewer] [views] [peers] [validate] [slurm] [statistics] \
+[python] [deb] [trial] [live] [wasm] [site]" >&2
         exit 2
         ;;
     esac

@@ -565,7 +565,7 @@ domain: {x_min: -64, x_max: 64, y_min: -40, y_max: 40}
         self.refused("extremes: {method: pot}\n", "study.yaml:2: method", "keep: series")
         self.refused("extremes: {duration: 3x}\n", "duration", "3x")
         self.refused("extremes: {hours: [1, 2], annual: [0.01]}\n", "hours", "1 conditions, found 2")
-        self.refused("extremes: {annual: [0.01]}\n", "extremes", "hours")
+        self.refused("extremes: {annual: [0.01]}\n", "study.yaml:2: hours", "annual levels take")
         self.refused("extremes: {hours: [9000], annual: [0.01]}\n", "hours", "8784")
         self.refused("extremes: {levels: [1]}\n", "levels")
         self.refused("seed: 3\n", "seed", "did you mean seeds?")
