@@ -1,7 +1,7 @@
 #!/bin/sh
 # Say which of Fram's needs are missing on this machine and, with --install, install them from Debian's packages.
-#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm, statistics,
-#                                             python, deb, trial, live, wasm, site
+#   tools/deps.sh [--install] [GROUP...]     groups: core (default), dev, viewer, views, peers, validate, slurm,
+#                                             statistics, python, deb, trial, live, wasm, site
 # Sizes are told first, and a person at a terminal is asked (FRAM_YES=1: not).
 # Exit code 0: all there (or not Debian: the list is printed and the build goes on to find out itself);
 # 1: something is missing and was not installed.
