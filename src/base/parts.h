@@ -50,6 +50,11 @@ V8_INLINE void load_points(const vec2 *ring, int32_t count, int32_t readable, in
 }
 
 V8_INLINE real choose(mask m, real a, real b) { return v8_part_select(m, a, b); }
+/* a < b and a <= b in every lane */
+V8_INLINE mask less(real a, real b) { return (mask)(a < b); }
+V8_INLINE mask less_equal(real a, real b) { return (mask)(a <= b); }
+V8_INLINE bool any(mask m) { return v8_part_bits(m) != 0; }
+V8_INLINE real magnitude(real a) { return (real)((mask)a & INT64_MAX); }
 V8_INLINE real3 choose3(mask m, real3 a, real3 b)
 {
     return (real3){choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
@@ -58,6 +63,13 @@ V8_INLINE real3 choose3(mask m, real3 a, real3 b)
 V8_INLINE real3 add(real3 a, real3 b) { return (real3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 V8_INLINE real3 sub(real3 a, real3 b) { return (real3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 V8_INLINE real3 scale(real3 a, real s) { return (real3){s * a.x, s * a.y, s * a.z}; }
+V8_INLINE real dot(real3 a, real3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/* A symmetric tensor, xx yy zz xy xz yz, times a vector. */
+V8_INLINE real3 sym3_times(const real s[6], real3 a)
+{
+    return (real3){s[0] * a.x + s[3] * a.y + s[4] * a.z, s[3] * a.x + s[1] * a.y + s[5] * a.z,
+                   s[4] * a.x + s[5] * a.y + s[2] * a.z};
+}
 V8_INLINE real3 cross(real3 a, real3 b)
 {
     return (real3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};

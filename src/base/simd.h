@@ -251,6 +251,87 @@ V8_INLINE void v8_scatter_rows(double *base, const int32_t index[8], v8 column[8
         v8_store(base + (ptrdiff_t)V8_LANES * index[i], column[i]);
 }
 
+/* The same of one part: lane i of column[j] is base[8 index[i] + j].  Written out: gcc 12 goes through memory where
+   registers stand in arrays that loops run over. */
+#if V8_PART_LANES == 4
+V8_INLINE void v8_part_gather_four(const double *base, const int32_t *index, v8_part column[4])
+{
+    v8_part a0, a1, a2, a3;
+    memcpy(&a0, base + (ptrdiff_t)V8_LANES * index[0], sizeof a0);
+    memcpy(&a1, base + (ptrdiff_t)V8_LANES * index[1], sizeof a1);
+    memcpy(&a2, base + (ptrdiff_t)V8_LANES * index[2], sizeof a2);
+    memcpy(&a3, base + (ptrdiff_t)V8_LANES * index[3], sizeof a3);
+    v8_part b0 = __builtin_shufflevector(a0, a1, 0, 4, 2, 6), b1 = __builtin_shufflevector(a0, a1, 1, 5, 3, 7);
+    v8_part b2 = __builtin_shufflevector(a2, a3, 0, 4, 2, 6), b3 = __builtin_shufflevector(a2, a3, 1, 5, 3, 7);
+    column[0] = __builtin_shufflevector(b0, b2, 0, 1, 4, 5);
+    column[1] = __builtin_shufflevector(b1, b3, 0, 1, 4, 5);
+    column[2] = __builtin_shufflevector(b0, b2, 2, 3, 6, 7);
+    column[3] = __builtin_shufflevector(b1, b3, 2, 3, 6, 7);
+}
+
+V8_INLINE void v8_part_scatter_four(double *base, const int32_t *index, const v8_part column[4])
+{
+    v8_part b0 = __builtin_shufflevector(column[0], column[1], 0, 4, 2, 6);
+    v8_part b1 = __builtin_shufflevector(column[0], column[1], 1, 5, 3, 7);
+    v8_part b2 = __builtin_shufflevector(column[2], column[3], 0, 4, 2, 6);
+    v8_part b3 = __builtin_shufflevector(column[2], column[3], 1, 5, 3, 7);
+    v8_part a0 = __builtin_shufflevector(b0, b2, 0, 1, 4, 5), a1 = __builtin_shufflevector(b1, b3, 0, 1, 4, 5);
+    v8_part a2 = __builtin_shufflevector(b0, b2, 2, 3, 6, 7), a3 = __builtin_shufflevector(b1, b3, 2, 3, 6, 7);
+    memcpy(base + (ptrdiff_t)V8_LANES * index[0], &a0, sizeof a0);
+    memcpy(base + (ptrdiff_t)V8_LANES * index[1], &a1, sizeof a1);
+    memcpy(base + (ptrdiff_t)V8_LANES * index[2], &a2, sizeof a2);
+    memcpy(base + (ptrdiff_t)V8_LANES * index[3], &a3, sizeof a3);
+}
+#elif V8_PART_LANES == 2
+V8_INLINE void v8_part_gather_two(const double *base, const int32_t *index, v8_part column[2])
+{
+    v8_part a, b;
+    memcpy(&a, base + (ptrdiff_t)V8_LANES * index[0], sizeof a);
+    memcpy(&b, base + (ptrdiff_t)V8_LANES * index[1], sizeof b);
+    column[0] = __builtin_shufflevector(a, b, 0, 2);
+    column[1] = __builtin_shufflevector(a, b, 1, 3);
+}
+
+V8_INLINE void v8_part_scatter_two(double *base, const int32_t *index, const v8_part column[2])
+{
+    v8_part a = __builtin_shufflevector(column[0], column[1], 0, 2);
+    v8_part b = __builtin_shufflevector(column[0], column[1], 1, 3);
+    memcpy(base + (ptrdiff_t)V8_LANES * index[0], &a, sizeof a);
+    memcpy(base + (ptrdiff_t)V8_LANES * index[1], &b, sizeof b);
+}
+#endif
+
+V8_INLINE void v8_part_gather_rows(const double *base, const int32_t *index, v8_part column[8])
+{
+#if V8_PART_LANES == 8
+    v8_gather_rows(base, index, column);
+#elif V8_PART_LANES == 4
+    v8_part_gather_four(base, index, column);
+    v8_part_gather_four(base + 4, index, column + 4);
+#else
+    v8_part_gather_two(base, index, column);
+    v8_part_gather_two(base + 2, index, column + 2);
+    v8_part_gather_two(base + 4, index, column + 4);
+    v8_part_gather_two(base + 6, index, column + 6);
+#endif
+}
+
+/* The inverse, in ascending order.  Changes column. */
+V8_INLINE void v8_part_scatter_rows(double *base, const int32_t *index, v8_part column[8])
+{
+#if V8_PART_LANES == 8
+    v8_scatter_rows(base, index, column);
+#elif V8_PART_LANES == 4
+    v8_part_scatter_four(base, index, column);
+    v8_part_scatter_four(base + 4, index, column + 4);
+#else
+    v8_part_scatter_two(base, index, column);
+    v8_part_scatter_two(base + 2, index, column + 2);
+    v8_part_scatter_two(base + 4, index, column + 4);
+    v8_part_scatter_two(base + 6, index, column + 6);
+#endif
+}
+
 /* ---- arithmetic ---- */
 
 /* a < b ? a : b in every lane, hence b where one is NaN */
