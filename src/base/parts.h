@@ -60,6 +60,15 @@ V8_INLINE real3 choose3(mask m, real3 a, real3 b)
     return (real3){choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)};
 }
 
+/* Sum of eight lanes, in the order of v8_sum. */
+V8_INLINE double parts_sum(const real lanes[V8_PARTS])
+{
+    v8_parts all;
+    for (int h = 0; h < V8_PARTS; h++)
+        all.part[h] = lanes[h];
+    return v8_sum(all.whole);
+}
+
 V8_INLINE real3 add(real3 a, real3 b) { return (real3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 V8_INLINE real3 sub(real3 a, real3 b) { return (real3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 V8_INLINE real3 scale(real3 a, real s) { return (real3){s * a.x, s * a.y, s * a.z}; }

@@ -142,8 +142,8 @@ static bool insert_near_end(memory_entry *entries, int32_t count, memory_entry e
     return true;
 }
 
-/* The narrow phase lists pairs by ascending keys, and pairs with a patch follow by ascending keys of their own: the tail
-   is merged, after it was sorted if some were in another order (`tail_sorted` of it are not). */
+/* The narrow phase lists pairs by ascending keys, and pairs with a patch follow by ascending keys of their own: the
+   tail is merged, after it was sorted if some were in another order (`tail_sorted` of it are not). */
 static void sort_entries(memory_entry *entries, int32_t count, int32_t sorted, int32_t tail_sorted, memory_entry *tail)
 {
     int32_t left = count - sorted;

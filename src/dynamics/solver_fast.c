@@ -4,6 +4,7 @@
 #include "base/pool.h"
 #include "dynamics/motion.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* Fewer rows of points than this in a colour are not worth other threads. */
@@ -152,6 +153,7 @@ static bool iterate(stage *st, void (*sweep)(const stage *, batch_task *), align
         bool due = *iterations >= next && *iterations + a->pause <= most;
         st->weighs = due || *iterations == most;
         sums = sweep_once(st, sweep);
+        assert(st->positions || !st->weighs || sums.wanted == acceleration_wanted(st));
         if (!due || sums.energy <= negligible)
             continue;
         if (!acceleration_go_on(st, sums.energy, sums.wanted))

@@ -157,8 +157,7 @@ static void hub_collect(const batch_view *view, const contact_batch *batch)
 
 V8_INLINE real3 velocity_at(const lanes_body *a, const lanes_body *b, real3 arm_a, real3 arm_b)
 {
-    return sub(add(a->velocity, cross(a->spin, arm_a)),
-                      add(b->velocity, cross(b->spin, arm_b)));
+    return sub(add(a->velocity, cross(a->spin, arm_a)), add(b->velocity, cross(b->spin, arm_b)));
 }
 
 V8_INLINE real3 pushed(const lanes_body *body, real3 impulse, bool general)
@@ -177,16 +176,14 @@ V8_INLINE void apply(lanes_body *a, lanes_body *b, real3 arm_a, real3 arm_b, rea
 /* K times a direction. */
 V8_INLINE real3 response(const lanes_body *a, const lanes_body *b, real3 arm_a, real3 arm_b, real3 d, bool general)
 {
-    real3 angular_a = sym3_times(a->inertia, cross(arm_a, d)),
-           angular_b = sym3_times(b->inertia, cross(arm_b, d));
+    real3 angular_a = sym3_times(a->inertia, cross(arm_a, d)), angular_b = sym3_times(b->inertia, cross(arm_b, d));
     return add(add(pushed(a, d, general), cross(angular_a, arm_a)),
-                      add(pushed(b, d, general), cross(angular_b, arm_b)));
+               add(pushed(b, d, general), cross(angular_b, arm_b)));
 }
 
 V8_INLINE real3 composed(const lanes_frame *f, real p0, real p1, real p2)
 {
-    return add(add(scale(f->normal, p0), scale(f->tangent[0], p1)),
-                      scale(f->tangent[1], p2));
+    return add(add(scale(f->normal, p0), scale(f->tangent[0], p1)), scale(f->tangent[1], p2));
 }
 
 /* 1 / x where x > 0, else 0: lanes without a contact. */
@@ -376,8 +373,7 @@ V8_INLINE real residual_part(const batch_view *view, int32_t number, int part)
     for (int32_t k = 0; k < batch->points; k++) {
         const double *p = point_rows(view, batch->first + k);
         real carried = row(impulse_rows(view, batch->first + k), 0), limit = row(p, POINT_LIMIT);
-        real u =
-            dot(normal, velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B))) - row(p, POINT_BIAS);
+        real u = dot(normal, velocity_at(&a, &b, row3(p, POINT_ARM_A), row3(p, POINT_ARM_B))) - row(p, POINT_BIAS);
         real residual = magnitude(u);
         residual = choose(less_equal(carried, zero), v8_part_max(-u, zero), residual);
         mask full = less_equal(limit, carried), usable = less(zero, limit);
@@ -433,15 +429,6 @@ V8_INLINE void sums_clear(lanes_sums *sums)
         sums->energy[h] = sums->wanted[h] = v8_part_set(0);
 }
 
-/* Sum of eight lanes. */
-V8_INLINE double sum_of(const real lanes[PARTS])
-{
-    v8_parts all;
-    for (int h = 0; h < PARTS; h++)
-        all.part[h] = lanes[h];
-    return v8_sum(all.whole);
-}
-
 /* Bodies with the part of their velocities that no impulse changes. */
 V8_INLINE lanes_body driven_load(const batch_view *view, const int32_t *rows)
 {
@@ -486,7 +473,7 @@ double KERNEL(solver_wanted)(const batch_view *view, int32_t first, int32_t end)
         if (batch->driven)
             take_driven_work(view, i, sums.wanted);
     }
-    return sum_of(sums.wanted);
+    return parts_sum(sums.wanted);
 }
 
 V8_INLINE void sweep_part(const batch_view *view, int32_t number, bool general, batch_motion *after, int part,
@@ -551,7 +538,7 @@ sweep_sums KERNEL(solver_sweep)(const batch_view *view, int32_t first, int32_t e
         if (weigh && view->batch[i].driven)
             take_driven_work(view, i, sums.wanted);
     }
-    return (sweep_sums){sum_of(sums.energy), weigh ? sum_of(sums.wanted) : 0};
+    return (sweep_sums){parts_sum(sums.energy), weigh ? parts_sum(sums.wanted) : 0};
 }
 
 V8_INLINE void correct_part(const batch_view *view, int32_t number, const double *bias, double *impulse, bool general,
@@ -620,7 +607,7 @@ sweep_sums KERNEL(solver_correct)(const batch_view *view, int32_t first, int32_t
         else
             correct_batch(view, i, bias, impulse, false, &sums);
     }
-    return (sweep_sums){sum_of(sums.energy), sum_of(sums.wanted)};
+    return (sweep_sums){parts_sum(sums.energy), parts_sum(sums.wanted)};
 }
 
 /* ---- solver_slide ---- */
@@ -666,8 +653,8 @@ V8_INLINE void slide_part(const batch_view *view, int32_t number, int part, cons
         sums->along[0][part] = sums->along[0][part] + (u0 * step0 + (u1 * step1 + u2 * step2));
         for (int w = 1; w < SEARCH_DIRECTIONS; w++)
             sums->along[w][part] =
-                sums->along[w][part] + (u0 * row(direction[w] + at, 0) +
-                                        (u1 * row(direction[w] + at, 1) + u2 * row(direction[w] + at, 2)));
+                sums->along[w][part] +
+                (u0 * row(direction[w] + at, 0) + (u1 * row(direction[w] + at, 1) + u2 * row(direction[w] + at, 2)));
     }
 }
 
@@ -696,101 +683,5 @@ void KERNEL(solver_slide)(const batch_view *view, int32_t first, int32_t end, co
         }
     }
     for (int w = 0; w < SEARCH_DIRECTIONS; w++)
-        sum[w] = sum_of(sums.along[w]);
-}
-
-/* ---- solver_products ---- */
-
-/* Bodies' rows, one column per number. */
-typedef struct lanes_rows {
-    real column[BODY_ROW];
-} lanes_rows;
-
-V8_INLINE lanes_rows rows_load(const double *rows, int32_t first)
-{
-    lanes_rows r;
-    static const int32_t next[BATCH_LANES] = {0, 1, 2, 3, 4, 5, 6, 7};
-    v8_part_gather_rows(rows + (ptrdiff_t)BODY_ROW * first, next, r.column);
-    return r;
-}
-
-V8_INLINE lanes_rows rows_subtract(lanes_rows a, lanes_rows b)
-{
-    a.column[0] = a.column[0] - b.column[0];
-    a.column[1] = a.column[1] - b.column[1];
-    a.column[2] = a.column[2] - b.column[2];
-    a.column[3] = a.column[3] - b.column[3];
-    a.column[4] = a.column[4] - b.column[4];
-    a.column[5] = a.column[5] - b.column[5];
-    return a;
-}
-
-/* Momentum and spin momentum of velocities. */
-V8_INLINE lanes_rows weighted(const lanes_rows *mass, const lanes_rows *inertia, const lanes_rows *v)
-{
-    real3 linear = sym3_times(mass->column, (real3){v->column[0], v->column[1], v->column[2]});
-    real3 angular = sym3_times(inertia->column, (real3){v->column[3], v->column[4], v->column[5]});
-    return (lanes_rows){{linear.x, linear.y, linear.z, angular.x, angular.y, angular.z}};
-}
-
-V8_INLINE real rows_dot(const lanes_rows *a, const lanes_rows *b)
-{
-    return a->column[0] * b->column[0] + a->column[1] * b->column[1] + a->column[2] * b->column[2] +
-           a->column[3] * b->column[3] + a->column[4] * b->column[4] + a->column[5] * b->column[5];
-}
-
-typedef struct product_sums {
-    real direction[SEARCH_DIRECTIONS][PARTS], velocity[SEARCH_DIRECTIONS][PARTS], square[PARTS];
-} product_sums;
-
-V8_INLINE void products_part(const double *velocity, const double *start, double *const *direction, const double *mass,
-                             const double *inertia, int32_t first, int part, product_sums *sums)
-{
-    lanes_rows m = rows_load(mass, first), j = rows_load(inertia, first), v = rows_load(velocity, first);
-    lanes_rows now = rows_subtract(v, rows_load(start, first));
-    lanes_rows momentum = weighted(&m, &j, &v), change = weighted(&m, &j, &now);
-    sums->square[part] = sums->square[part] + rows_dot(&momentum, &v);
-    sums->direction[0][part] = sums->direction[0][part] + rows_dot(&change, &now);
-    sums->velocity[0][part] = sums->velocity[0][part] + rows_dot(&momentum, &now);
-    for (int w = 1; w < SEARCH_DIRECTIONS; w++) {
-        lanes_rows d = rows_load(direction[w], first);
-        sums->direction[w][part] = sums->direction[w][part] + rows_dot(&change, &d);
-        sums->velocity[w][part] = sums->velocity[w][part] + rows_dot(&momentum, &d);
-    }
-}
-
-direction_products KERNEL(solver_products)(const double *velocity, const double *start, double *const *direction,
-                                           const double *mass, const double *inertia, int32_t first, int32_t end)
-{
-    product_sums all;
-    for (int h = 0; h < PARTS; h++) {
-        for (int w = 0; w < SEARCH_DIRECTIONS; w++)
-            all.direction[w][h] = all.velocity[w][h] = v8_part_set(0);
-        all.square[h] = v8_part_set(0);
-    }
-    for (int32_t i = first; i < end; i += BATCH_LANES)
-        for (int h = 0; h < PARTS; h++)
-            products_part(velocity, start, direction, mass, inertia, i + LANES * h, h, &all);
-    direction_products sums = {.square = sum_of(all.square)};
-    for (int w = 0; w < SEARCH_DIRECTIONS; w++) {
-        sums.direction[w] = sum_of(all.direction[w]);
-        sums.velocity[w] = sum_of(all.velocity[w]);
-    }
-    return sums;
-}
-
-/* ---- solver_combine ---- */
-
-void KERNEL(solver_combine)(double *x, double *start, double *kept, double *const *direction,
-                            const double share[SEARCH_DIRECTIONS], int64_t first, int64_t end)
-{
-    for (int64_t i = first; i < end; i += LANES) {
-        real old = load(x + i), began = load(start + i), next = old + share[0] * (old - began);
-        for (int w = 1; w < SEARCH_DIRECTIONS; w++)
-            next = next + share[w] * load(direction[w] + i);
-        store(kept + i, old);
-        store(direction[SEARCH_DIRECTIONS - 1] + i, next - began);
-        store(start + i, next);
-        store(x + i, next);
-    }
+        sum[w] = parts_sum(sums.along[w]);
 }

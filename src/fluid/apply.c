@@ -160,7 +160,8 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
     flooding_table *flooding = details ? details->flooding : NULL;
     if (flooding && !table_resize(ctx, flooding, &flooding_table_info, bodies->count))
         return error_memory(error);
-    fluid_work work = {ctx, m, coefficients, bodies, shapes, held, loads, {0}, pool_block(bodies->count, LEAST_BLOCK, LEVEL_BLOCK)};
+    fluid_work work = {
+        ctx, m, coefficients, bodies, shapes, held, loads, {0}, pool_block(bodies->count, LEAST_BLOCK, LEVEL_BLOCK)};
     if (details)
         work.details = *details;
     int32_t blocks = bodies->count / work.block + (bodies->count % work.block != 0);

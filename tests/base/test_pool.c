@@ -210,6 +210,18 @@ START_TEST(a_pool_without_any_thread_is_null)
 }
 END_TEST
 
+START_TEST(small_jobs_have_blocks_for_several_threads)
+{
+    for (int32_t count = 0; count < 20000; count += 7) {
+        int32_t block = pool_block(count, 32, 512), blocks = count / block + (count % block != 0);
+        ck_assert(block >= 32 && block <= 512 && block % 32 == 0);
+        ck_assert_int_le(blocks, count < 8192 ? 16 : count / 512 + 1);
+        ck_assert(count < 1024 || blocks >= 8);
+    }
+}
+END_TEST
+
 TEST_MAIN("pool", every_block_runs_once, many_small_jobs_follow_each_other, sleepers_wake_and_the_caller_waits,
-          results_do_not_depend_on_threads, a_single_block_runs_on_the_caller, a_pool_without_memory_is_null,
-          a_pool_makes_do_with_the_threads_there_are, a_pool_without_any_thread_is_null)
+          results_do_not_depend_on_threads, small_jobs_have_blocks_for_several_threads,
+          a_single_block_runs_on_the_caller, a_pool_without_memory_is_null, a_pool_makes_do_with_the_threads_there_are,
+          a_pool_without_any_thread_is_null)

@@ -144,6 +144,27 @@ static vec3 impulse_on(const rig *r, int32_t slot)
     return sum;
 }
 
+/* Regions of a packed field. */
+static int32_t regions_of(int columns, int rows)
+{
+    rig r = packed_fast(columns, rows, 0.3, 3);
+    rig_detect(&r);
+    batch_plan plan = {0};
+    ck_assert(batch_plan_make(&r.ctx, &plan, &r.bodies, &r.contacts));
+    int32_t chunks = plan.chunks;
+    batch_plan_free(&r.ctx, &plan);
+    rig_free(&r);
+    return chunks;
+}
+
+/* A field that is too small for regions of their own, and yet long to sweep, is halved for two threads. */
+START_TEST(a_field_that_is_long_to_sweep_is_halved)
+{
+    ck_assert_int_eq(regions_of(12, 10), 1);
+    ck_assert_int_eq(regions_of(20, 17), 2);
+}
+END_TEST
+
 START_TEST(hubs_move_as_their_contacts_push)
 {
     rig r = field_with_hubs(12, 6), s = field_with_hubs(12, 6);
@@ -288,5 +309,5 @@ START_TEST(a_driven_body_meets_what_it_should_in_any_frame)
 END_TEST
 
 TEST_MAIN("solver_fast", hubs_move_as_their_contacts_push, a_driven_body_meets_what_it_should_in_any_frame,
-          batches_share_no_body, bits_do_not_depend_on_threads, bits_do_not_depend_on_the_instruction_set,
-          long_runs_agree_with_the_reference)
+          batches_share_no_body, a_field_that_is_long_to_sweep_is_halved, bits_do_not_depend_on_threads,
+          bits_do_not_depend_on_the_instruction_set, long_runs_agree_with_the_reference)
