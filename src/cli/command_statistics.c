@@ -218,8 +218,10 @@ static int answer_extremes(const common_options *common, const fram_extremes_def
     if (code >= 0)
         return code;
     fram_extremes *e = calloc(1, sizeof *e);
+    if (!e)
+        error = (fram_error){.status = FRAM_ERROR_MEMORY, .message = "not enough memory"};
     if (!e || fram_extremes_find(context, d, e, &error) != FRAM_OK) {
-        code = e ? answer_error(common, &error) : EXIT_RUN_FAILED;
+        code = answer_error(common, &error);
     } else if (common->json) {
         json j = json_begin();
         json_facts(&j, &e->series);

@@ -126,9 +126,9 @@ static fram_status cut_floe(context *ctx, overlay *o, const feeding_definition *
     double least = fmax(d->smallest_area, SMALLEST_PIECE * w->pattern->area[row]);
     polygon_list_clear(&v->one);
     polygon_list_clear(&v->parts);
-    if (!polygon_list_push(ctx, &v->one, p) || !cells_outside_zones(ctx, &v->one, &v->zones, &v->cells, &v->parts))
+    if (!polygon_list_push(ctx, &v->one, p))
         return error_memory(error);
-    fram_status status = FRAM_OK;
+    fram_status status = cells_outside_zones(ctx, &v->one, &v->zones, &v->cells, &v->parts, error);
     for (int32_t i = 0; i < polygon_list_count(&v->parts) && status == FRAM_OK; i++) {
         polygon part = polygon_list_get(&v->parts, i);
         if (part.count < 3 || polygon_area(part) < least)

@@ -201,8 +201,9 @@ static fram_status make_floes(context *ctx, const field_request *r, field_work *
     fram_status status = make_cells(ctx, r, w, error);
     if (status != FRAM_OK)
         return status;
-    if (!cells_outside_zones(ctx, &w->voronoi, &w->zones, &w->scratch, &w->parts))
-        return error_memory(error);
+    status = cells_outside_zones(ctx, &w->voronoi, &w->zones, &w->scratch, &w->parts, error);
+    if (status != FRAM_OK)
+        return status;
     /* The cells tile the domain, so that what is left of them is the free area. */
     double free_area = cells_area(&w->parts);
     if (!(free_area > 0))

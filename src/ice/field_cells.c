@@ -153,12 +153,19 @@ static bool part_outside_zone(context *ctx, polygon p, polygon zone, cells_scrat
     return true;
 }
 
-bool cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_list *zones, cells_scratch *s,
-                         polygon_list *out)
+/* Cells between two questions whether to go on: a single floe asks nothing. */
+enum { CELLS_A_WORD = 256 };
+
+fram_status cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_list *zones, cells_scratch *s,
+                                polygon_list *out, fram_error *error)
 {
     polygon_list parts = {0}, next = {0};
+    fram_status status = FRAM_OK;
     bool done = true;
-    for (int32_t i = 0; done && i < polygon_list_count(cells); i++) {
+    int32_t count = polygon_list_count(cells);
+    for (int32_t i = 0; done && status == FRAM_OK && i < count; i++) {
+        if (i % CELLS_A_WORD == CELLS_A_WORD - 1)
+            status = work_continue(ctx, "cutting cells at open water", i, count, error);
         polygon_list_clear(&parts);
         polygon cell = polygon_list_get(cells, i);
         done = cell.count < 3 || polygon_list_push(ctx, &parts, cell);
@@ -175,7 +182,7 @@ bool cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_
     }
     polygon_list_free(ctx, &parts);
     polygon_list_free(ctx, &next);
-    return done;
+    return done ? status : error_memory(error);
 }
 
 double cells_area(const polygon_list *cells)
@@ -224,9 +231,16 @@ double cells_corner_area(const polygon_list *cells)
     return area;
 }
 
-bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out)
+fram_status cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out,
+                              fram_error *error)
 {
-    for (int32_t i = 0; i < polygon_list_count(cells); i++) {
+    int32_t count = polygon_list_count(cells);
+    for (int32_t i = 0; i < count; i++) {
+        if (i % CELLS_A_WORD == CELLS_A_WORD - 1) {
+            fram_status status = work_continue(ctx, "cutting corners", i, count, error);
+            if (status != FRAM_OK)
+                return status;
+        }
         polygon p = polygon_list_get(cells, i);
         array_clear(&s->a);
         for (int32_t k = 0; k < p.count; k++) {
@@ -235,12 +249,12 @@ bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cel
             bool cut = length > 0 && c.sine > STRAIGHT_CORNER;
             if (!array_push(ctx, &s->a, vec2_add(p.vertex[k], vec2_scale(c.back, cut ? length : 0))) ||
                 (cut && !array_push(ctx, &s->a, vec2_add(p.vertex[k], vec2_scale(c.forth, length)))))
-                return false;
+                return error_memory(error);
         }
         if (!polygon_list_push(ctx, out, view(&s->a)))
-            return false;
+            return error_memory(error);
     }
-    return true;
+    return FRAM_OK;
 }
 
 /* ---- moving edges inwards ---- */
@@ -323,7 +337,8 @@ fram_status cells_shrink(context *ctx, const polygon_list *cells, double corners
     double most = cells_corner_area(cells), wanted = corners * (cells_area(cells) - target);
     double part = most > 0 && wanted > 0 ? sqrt(wanted / most) : 0;
     polygon_list_clear(cut);
-    if (!cells_cut_corners(ctx, cells, fmin(part, LONGEST_CUT), s, cut))
-        return error_memory(error);
+    fram_status status = cells_cut_corners(ctx, cells, fmin(part, LONGEST_CUT), s, cut, error);
+    if (status != FRAM_OK)
+        return status;
     return cells_inset_to_area(ctx, cut, target, s, out, inset, error);
 }

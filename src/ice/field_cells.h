@@ -20,9 +20,9 @@ fram_status field_area_check(box2 domain, double concentration, const polygon_li
 bool zones_grow(context *ctx, const polygon_list *zones, double margin, polygon_list *out);
 
 /* What lies outside all zones, cut into convex parts; the largest part of a cell comes off first.  Together the parts
-   have exactly the area of the cells less the zones. */
-bool cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_list *zones, cells_scratch *s,
-                         polygon_list *out);
+   have exactly the area of the cells less the zones.  Many cells ask work_continue. */
+fram_status cells_outside_zones(context *ctx, const polygon_list *cells, const polygon_list *zones, cells_scratch *s,
+                                polygon_list *out, fram_error *error);
 
 /* Summed area [m2]. */
 double cells_area(const polygon_list *cells);
@@ -30,7 +30,8 @@ double cells_area(const polygon_list *cells);
 /* Cutting every corner back along both edges by `part` of half the shorter one takes part^2 times this area [m2]. */
 double cells_corner_area(const polygon_list *cells);
 /* The cells with their corners cut so; one ring per cell. */
-bool cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out);
+fram_status cells_cut_corners(context *ctx, const polygon_list *cells, double part, cells_scratch *s, polygon_list *out,
+                              fram_error *error);
 
 /* Every edge of every cell moved inwards by the one distance `inset` [m] that leaves `target` area [m2], at most the
    area there is.  out is made anew, one ring per cell, of 0 vertices where nothing is left. */

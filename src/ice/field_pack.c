@@ -92,19 +92,22 @@ static void corners_of(box2 b, vec2 out[4])
 }
 
 /* Area of the domain outside all zones. */
-static bool find_free_area(context *ctx, const field_packed_request *r, pack_state *s)
+static fram_status find_free_area(context *ctx, const field_packed_request *r, pack_state *s, fram_error *error)
 {
     polygon_list whole = {0}, parts = {0};
     cells_scratch scratch = {0};
     vec2 corner[4];
     corners_of(r->domain, corner);
-    bool good = polygon_list_push(ctx, &whole, (polygon){corner, 4}) &&
-                cells_outside_zones(ctx, &whole, &s->zones, &scratch, &parts);
-    s->free_area = good ? cells_area(&parts) : 0;
+    fram_status status = FRAM_OK;
+    if (!polygon_list_push(ctx, &whole, (polygon){corner, 4}))
+        status = error_memory(error);
+    if (status == FRAM_OK)
+        status = cells_outside_zones(ctx, &whole, &s->zones, &scratch, &parts, error);
+    s->free_area = status == FRAM_OK ? cells_area(&parts) : 0;
     polygon_list_free(ctx, &whole);
     polygon_list_free(ctx, &parts);
     cells_scratch_free(ctx, &scratch);
-    return good;
+    return status;
 }
 
 /* Zones and floes that are there already. */
@@ -129,7 +132,7 @@ static fram_status find_obstacles(context *ctx, overlay *o, const field_packed_r
             return error_memory(error);
         }
     }
-    return find_free_area(ctx, r, s) ? FRAM_OK : error_memory(error);
+    return find_free_area(ctx, r, s, error);
 }
 
 /* ---- drawing ---- */

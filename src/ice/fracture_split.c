@@ -158,7 +158,9 @@ bool fracture_splits(const fracture_settings *settings, polygon outline, const f
 static bool take_side(context *ctx, polygon p, vec2 from, int32_t from_edge, vec2 to, int32_t to_edge, vec2_array *out)
 {
     array_clear(out);
-    bool good = array_push(ctx, out, from);
+    if (!array_push(ctx, out, from))
+        return false; /* nothing stands there to be compared with */
+    bool good = true;
     int32_t i = from_edge;
     do {
         i = i + 1 < p.count ? i + 1 : 0;

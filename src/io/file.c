@@ -62,7 +62,8 @@ static fram_status check_regular(int descriptor, const char *path, uint64_t limi
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL, "expected a regular file, found %s",
                          kind_of(about.st_mode));
     *size = (uint64_t)about.st_size;
-    if (*size == 0 && pread(descriptor, &byte, 1, 0) == 1)
+    /* One that cannot be read from its beginning is no empty file either: /proc/self/mem. */
+    if (*size == 0 && pread(descriptor, &byte, 1, 0) != 0)
         return error_set(error, FRAM_ERROR_INPUT, path, 0, NULL,
                          "expected a regular file, found one of the system that has no size");
     if (*size > limit)

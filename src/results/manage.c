@@ -77,7 +77,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void sum_alarms(const manage_run *m, bool largest, double *least, double *median)
+/* false: no memory. */
+static bool sum_alarms(const manage_run *m, bool largest, double *least, double *median)
 {
     double_array times = {0};
     bool good = true;
@@ -92,6 +93,7 @@ static void sum_alarms(const manage_run *m, bool largest, double *least, double 
         *median = times.data[times.count / 2];
     }
     array_free(m->ctx, &times);
+    return good;
 }
 
 /* Mean and largest size of two channels taken as components; NaN without them. */
@@ -113,21 +115,25 @@ static void magnitude(const manage_run *m, const char *x_name, const char *y_nam
         *mean = sum / n;
 }
 
-/* The line with the greatest damage; NaN without lines, or without memory. */
-static void sum_fatigue(const manage_run *m, int32_t lines, manage_summary *out)
+/* The line with the greatest damage, NaN without lines; false: no memory. */
+static bool sum_fatigue(const manage_run *m, int32_t lines, manage_summary *out)
 {
     const double *t = run_channel(&m->d, "time");
     int32_t first = run_first_row(&m->d), rows = m->d.series.rows;
     /* Each value stands for a step, the last one too. */
     double steps = rows - first - 1.0, seconds = t && steps > 0 ? (t[rows - 1] - t[first]) * (steps + 1) / steps : 0;
     rain_cycles cycles = {0};
+    bool good = true;
     out->tension_range = (double)NAN;
-    for (int32_t line = 1; line <= lines && seconds > 0; line++) {
+    for (int32_t line = 1; line <= lines && seconds > 0 && good; line++) {
         char name[40];
         snprintf(name, sizeof name, "line_%d_tension", (int)line);
         const double *tension = run_vessel_channel(&m->d, m->vessel, name);
-        if (!tension || !rainflow(m->ctx, tension + first, rows - first, &cycles))
+        if (!tension)
             continue;
+        good = rainflow(m->ctx, tension + first, rows - first, &cycles);
+        if (!good)
+            break;
         double range = equivalent_range(&cycles, FATIGUE_CHAIN_SLOPE, seconds);
         if (out->tension_line > 0 && range <= out->tension_range)
             continue;
@@ -135,6 +141,7 @@ static void sum_fatigue(const manage_run *m, int32_t lines, manage_summary *out)
         out->tension_line = line;
     }
     rainflow_free(m->ctx, &cycles);
+    return good;
 }
 
 static int32_t line_count(const scenario_vessel *keys)
@@ -145,25 +152,26 @@ static int32_t line_count(const scenario_vessel *keys)
     return sum;
 }
 
-void manage_sum_up(const manage_run *m, manage_summary *out)
+fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *error)
 {
     double unused;
     *out = (manage_summary){.limit = m->limit, .largest_time = (double)NAN};
     for (int p = 0; p < MANAGE_PLACES; p++)
         sum_place(m, p, out);
     sum_wait(m, out);
-    sum_alarms(m, false, &out->alarm_least, &out->alarm_median);
-    sum_alarms(m, true, &out->warning_least, &out->warning_median);
+    bool good = sum_alarms(m, false, &out->alarm_least, &out->alarm_median) &&
+                sum_alarms(m, true, &out->warning_least, &out->warning_median);
     magnitude(m, "ice_force_averaged_x", "ice_force_averaged_y", &out->load_mean, &out->load_most);
     magnitude(m, "offset_x", "offset_y", &unused, &out->offset_most);
     magnitude(m, "line_tension_max", "line_tension_max", &unused, &out->tension_most);
     out->tension_most *= sqrt(0.5);
     const scenario_vessel *keys = scenario_vessel_entry(&m->d.s, m->vessel).keys;
-    sum_fatigue(m, line_count(keys), out);
+    good = good && sum_fatigue(m, line_count(keys), out);
     if (keys->mooring.lines.count == 0)
         out->tension_most = (double)NAN;
     if (keys->mooring.lines.count == 0 && !keys->positioning.active)
         out->offset_most = (double)NAN;
+    return good ? FRAM_OK : error_memory(error);
 }
 
 /* ---- tables ---- */
@@ -272,8 +280,9 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
     fram_status status = manage_read(ctx, folder, options, &run, error);
     if (status != FRAM_OK)
         return status;
-    manage_sum_up(&run, summary);
-    status = path_given_or(options->output, folder, "manage.html", summary->page, error);
+    status = manage_sum_up(&run, summary, error);
+    if (status == FRAM_OK)
+        status = path_given_or(options->output, folder, "manage.html", summary->page, error);
     bool both = options->beside != NULL && status == FRAM_OK;
     if (both) {
         manage_options same = *options;
@@ -282,7 +291,7 @@ fram_status manage_write(context *ctx, const char *folder, const manage_options 
         both = status == FRAM_OK;
     }
     if (both)
-        manage_sum_up(&other, &other_summary);
+        status = manage_sum_up(&other, &other_summary, error);
     if (status == FRAM_OK)
         status = manage_page(&run, summary, both ? &other : NULL, both ? &other_summary : NULL, error);
     if (status == FRAM_OK)

@@ -41,7 +41,7 @@ fram_status manage_read(context *ctx, const char *folder, const manage_options *
 void manage_free(manage_run *m);
 /* Seconds until unmanaged ice comes: the nearest, or the largest of it. */
 double manage_alarm(const manage_moment *at, bool largest);
-void manage_sum_up(const manage_run *m, manage_summary *out);
+fram_status manage_sum_up(const manage_run *m, manage_summary *out, fram_error *error);
 /* The page, on which `other` (NULL: none) stands beside. */
 fram_status manage_page(const manage_run *m, const manage_summary *s, const manage_run *other,
                         const manage_summary *other_summary, fram_error *error);

@@ -208,14 +208,20 @@ static fram_status list_file(void *user, const scenario_key *key, const void *me
     return array_push(p->ctx, &p->files, f) ? FRAM_OK : error_memory(error);
 }
 
-static fram_status pack_file(packer *p, const char *path, const char *name, bool executable, fram_error *error)
+static fram_status pack_file(packer *p, const char *path, const char *name, bool library, fram_error *error)
 {
+    static const char elf[] = {0x7f, 'E', 'L', 'F'};
     char *data;
     size_t size;
     fram_status status = file_read(p->ctx, path, FILE_LIMIT, &data, &size, error);
     if (status != FRAM_OK)
         return status;
-    status = zip_add(&p->zip, name, data, size, executable, error);
+    /* An importer would say no more than that it cannot load the unit. */
+    if (library && (size < sizeof elf || memcmp(data, elf, sizeof elf) != 0))
+        status = error_set(error, FRAM_ERROR_INPUT, path, 0, "binary",
+                           "expected a shared library (ELF), as fram_fmu.so is, found another file");
+    if (status == FRAM_OK)
+        status = zip_add(&p->zip, name, data, size, library, error);
     memory_free(p->ctx, data);
     return status;
 }

@@ -23,7 +23,7 @@ enum { WORST = 10 };
 
 /* ---- numbers ---- */
 
-seed_interval page_interval(const study_page *p, int32_t condition, const page_figure *figure)
+seed_interval page_interval(study_page *p, int32_t condition, const page_figure *figure)
 {
     const condition_rows *of = &p->conditions[condition];
     seed_interval out = {(double)NAN, (double)NAN};
@@ -32,6 +32,8 @@ seed_interval page_interval(const study_page *p, int32_t condition, const page_f
         value[i] = of->rows.data[i].figure[figure->figure] * figure->factor;
     if (value)
         out = seed_interval_of(value, of->rows.count, p->f->s->seeds.confidence);
+    else
+        p->page.text.failed = true;
     memory_free(p->f->ctx, value);
     return out;
 }
@@ -93,7 +95,7 @@ void page_key_text(const char *value, char out[PAGE_KEY_SIZE])
         snprintf(out, PAGE_KEY_SIZE, "%s", value);
 }
 
-static bool has_figure(const study_page *p, const page_figure *figure)
+static bool has_figure(study_page *p, const page_figure *figure)
 {
     for (int32_t c = 0; c < p->f->s->conditions; c++) {
         double mean = page_interval(p, c, figure).mean;
@@ -224,7 +226,7 @@ static void add_interval(study_page *p, seed_interval i)
 }
 
 /* Half the interval of the mean load is a large part of it. */
-static bool wants_seeds(const study_page *p, int32_t condition)
+static bool wants_seeds(study_page *p, int32_t condition)
 {
     seed_interval of = page_interval(p, condition, &page_figures[0]);
     return isfinite(of.mean) && of.mean != 0 && !(of.half <= WIDE * fabs(of.mean));

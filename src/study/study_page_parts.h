@@ -24,8 +24,9 @@ typedef struct study_page {
 
 /* The figure as the page has it, or as in summary.csv. */
 page_figure page_figure_of(run_figure figure);
-/* Mean over the seeds of a condition and half its interval, in the unit of the page. */
-seed_interval page_interval(const study_page *p, int32_t condition, const page_figure *figure);
+/* Mean over the seeds of a condition and half its interval, in the unit of the page; without memory none, and the
+   page's text has failed. */
+seed_interval page_interval(study_page *p, int32_t condition, const page_figure *figure);
 void page_count_runs(const study_page *p, int64_t *runs, int64_t *failed);
 
 /* Runs of a condition that failed; and "Failed runs", with their reasons, where there are some. */

@@ -32,7 +32,13 @@ START_TEST(units_are_written_and_mistakes_refused)
     ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
     d.output = output;
     ck_assert_int_eq(fram_fmu(s, &d, NULL, &e), FRAM_ERROR_USAGE);
-    d.binary = "/proc/self/exe"; /* any file: it is packed as it is */
+    d.binary = "CMakeLists.txt"; /* tests run in the source folder */
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_INPUT, "expected a shared library");
+    ck_assert_str_eq(e.key, "binary");
+    ck_assert_int_ne(access(output, F_OK), 0);
+    d.binary = "/proc/self/mem"; /* is said to be a regular file, and cannot be read */
+    assert_fails(fram_fmu(s, &d, NULL, &e), e, FRAM_ERROR_INPUT, "one of the system");
+    d.binary = "/proc/self/exe"; /* any program or library: it is packed as it is */
     ck_assert_int_eq(fram_fmu(NULL, &d, NULL, &e), FRAM_ERROR_USAGE);
     assert_ok(fram_fmu(s, &d, &result, &e), e);
     ck_assert(result.inputs > 5 && result.outputs > 90 && result.files == 0);

@@ -24,7 +24,7 @@ refuse() {
     says "$words" err
 }
 for kind in 'pipe:found a pipe' 'folder:found a folder' '/dev/zero:found a device' \
-    '/proc/self/stat:found one of the system'; do
+    '/proc/self/stat:found one of the system' '/proc/self/mem:found one of the system'; do
     file=${kind%%:*} words=${kind#*:}
     [ -e "$file" ] || continue
     refuse "$words" check "$file"
@@ -33,8 +33,9 @@ for kind in 'pipe:found a pipe' 'folder:found a folder' '/dev/zero:found a devic
     refuse "$words" field "$file"
     refuse "$words" run scene.yaml -o no --set environment.wind_file="$file"
     refuse "$words" bench --scene "$file"
+    refuse "$words" fmu scene.yaml -o no.fmu --binary "$file"
 done
-[ ! -e no ] || fail "a refused run left a folder"
+if [ -e no ] || [ -e no.fmu ]; then fail "what was refused left results"; fi
 expect 0 "$FRAM" run scene.yaml -o run -q
 for file in series.csv run.json scenario.yaml record.fram; do
     cp -r run broken

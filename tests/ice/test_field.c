@@ -405,6 +405,48 @@ START_TEST(memory_runs_out)
 }
 END_TEST
 
+/* A stop that is asked for while the work has a certain name. */
+typedef struct stop_at {
+    const char *work;
+    int stop;
+} stop_at;
+
+static void stop_while(void *user, const char *what, double done, double total)
+{
+    stop_at *s = user;
+    ck_assert(done <= total);
+    if (strcmp(what, s->work) == 0)
+        s->stop = 1;
+}
+
+/* Each part of the making ends when it is asked to, the ones between the cells and their shrinking too. */
+START_TEST(every_part_listens)
+{
+    static const char *const parts[] = {"making Voronoi cells", "cutting cells at open water", "cutting corners",
+                                        "shrinking cells to floes", "looking for overlaps"};
+    static const vec2 ship[5] = {{0, 130}, {80, 130}, {100, 145}, {80, 160}, {0, 160}};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        stop_at at = {parts[i], 0};
+        context ctx;
+        context_init(&ctx);
+        ctx.stop = &at.stop;
+        ctx.work = stop_while;
+        ctx.work_user = &at;
+        polygon_list zones = {0}, floes = {0};
+        ck_assert(polygon_list_push(&ctx, &zones, (polygon){ship, 5}));
+        field_request q = request_of(0.9, 1);
+        q.mean_area = 20;
+        q.keep_out = &zones;
+        field_report r;
+        fram_error e = {0};
+        ck_assert_msg(field_voronoi(&ctx, &q, &floes, &r, &e) == FRAM_INTERRUPTED, "%s goes on", parts[i]);
+        ck_assert(strstr(e.message, parts[i]) != NULL);
+        polygon_list_free(&ctx, &zones);
+        polygon_list_free(&ctx, &floes);
+    }
+}
+END_TEST
+
 /* A field that repeats itself: floes beside the seams stand as far from the copies as from other neighbours. */
 START_TEST(periodic_fields)
 {
@@ -439,4 +481,5 @@ START_TEST(periodic_fields)
 END_TEST
 
 TEST_MAIN("field", concentrations, every_seed, periodic_fields, the_same_on_any_threads, sizes, roundness,
-          keep_out_zones, zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out)
+          keep_out_zones, zones_grow_all_around, impossible_targets, wrong_requests, few_cells, memory_runs_out,
+          every_part_listens)

@@ -624,7 +624,8 @@ END_TEST
 
 /* ---- memory ---- */
 
-START_TEST(memory_runs_out)
+/* Of a floe of 40 by 20 m that bends, or of 20 by 10 m that splits. */
+static void break_without_memory(double half, int32_t kind)
 {
     for (long n = 1;; n++) {
         failing_memory memory;
@@ -632,18 +633,26 @@ START_TEST(memory_runs_out)
         fram_error e = {0};
         fram_status status = FRAM_ERROR_MEMORY;
         bool good = fracture_rig_start(&r, failing_context(&memory, n));
-        const vec2 corner[4] = {{-20, -10}, {20, -10}, {20, 10}, {-20, 10}};
+        const vec2 corner[4] = {{-2 * half, -half}, {2 * half, -half}, {2 * half, half}, {-2 * half, half}};
         int32_t row = good ? fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_DYNAMIC) : -1;
-        if (row >= 0 && fracture_rig_load(&r, row, (vec2){0, -10}, 1e7, AREA))
+        if (row >= 0 && fracture_rig_load(&r, row, (vec2){0, -half}, 1e7, AREA))
             status = fracture_rig_try(&r, &e);
+        bool broke = r.events.count == 1 && r.events.data[0].kind == kind;
         fracture_rig_free(&r);
         ck_assert_int_eq(memory.live, 0);
         if (!memory.failed) {
             assert_ok(status, e);
+            ck_assert(broke);
             break;
         }
         ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
     }
+}
+
+START_TEST(memory_runs_out)
+{
+    break_without_memory(10, FRACTURE_BENDING);
+    break_without_memory(5, FRACTURE_SPLIT);
 }
 END_TEST
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The campaign of faults finds what it is for: commands that misbehave on purpose are found, named and made small."""
 
+import copy
 import os
 import pathlib
 import random
@@ -8,12 +9,15 @@ import stat
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TORTURE = ROOT / "tools/torture"
 sys.path.insert(0, str(TORTURE))
 import books  # noqa: E402
+import extras  # noqa: E402
+import fixture  # noqa: E402
 import mangle  # noqa: E402
 import scenario  # noqa: E402
 import schema  # noqa: E402
@@ -101,6 +105,39 @@ class Parts(unittest.TestCase):
         data = b"{\"a\": [1, 2, 3]}\n" * 9
         self.assertEqual(mangle.mangle(random.Random(3), data), mangle.mangle(random.Random(3), data))
 
+    def test_drawing_reaches_what_asks_for_several_keys(self):
+        """Lists of vessels, drifting level ice and so on are drawn, and the keys of any vessel of a list change."""
+        sections = schema.read(FRAM)
+        reached, changed = set(), 0
+        for number in range(200):
+            tree = scenario.scene(random.Random(number))
+            reached.update(extras.reached(tree))
+            if "vessels" in tree:
+                before = copy.deepcopy(tree["vessels"])
+                scenario.perturb(random.Random(number), [s for s in sections if s.path == ("vessel", "hull")], tree, 3)
+                self.assertNotIn("vessel", tree)
+                changed += before[1:] != tree["vessels"][1:]
+        self.assertEqual(reached, set(extras.REACHED))
+        self.assertGreater(changed, 0)
+
+    def test_plain_scenes_are_sound(self):
+        """Before keys are changed, most scenes pass the check."""
+        sound = 0
+        with tempfile.TemporaryDirectory(prefix="fram-torture-test-") as folder:
+            path = pathlib.Path(folder, "scene.yaml")
+            for number in range(24):
+                path.write_text(scenario.text_of(scenario.scene(random.Random(number))) + "\n", encoding="utf-8")
+                sound += subprocess.run([FRAM, "check", path], capture_output=True, check=False).returncode == 0
+        self.assertGreaterEqual(sound, 18)
+
+    def test_the_runs_that_are_hurt_break_ice(self):
+        with tempfile.TemporaryDirectory(prefix="fram-torture-test-") as folder:
+            rig = types.SimpleNamespace(root=ROOT, fram=types.SimpleNamespace(path=FRAM))
+            folder = fixture.make(rig, pathlib.Path(folder, "fixture"))
+            self.assertTrue(fixture.broke_ice(folder / "done"))
+            subprocess.run([FRAM, "run", "scene.yaml", "-o", "short", "--until", "0.2", "-q"], cwd=folder, check=True)
+            self.assertFalse(fixture.broke_ice(folder / "short"))
+
     def test_shrinking_keeps_what_fails(self):
         tree = {"a": {"b": 1, "c": [{"d": 2, "e": 3}, {"d": 4}]}, "f": 5}
         small = scenario.shrink(tree, lambda t: any(x.get("e") == 3 for x in t.get("a", {}).get("c", [])))
@@ -114,6 +151,9 @@ class Parts(unittest.TestCase):
         self.assertIsNone(books.forces_add_up(series))
         series["ice_force_friction_y"][1] += 1e-6
         self.assertIn("ice_force_y in row 2", books.forces_add_up(series))
+        listed = {"ship." + name: column for name, column in series.items()}
+        self.assertIn("ship.ice_force_y in row 2", books.forces_add_up(listed))
+        self.assertIn("no ice load", books.forces_add_up({"time": [0.0]}))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """What a finished run must keep: finite numbers, whole files, and books that close."""
 
 import csv
+import itertools
 import json
 import math
 import pathlib
@@ -14,7 +15,7 @@ MAY_BE_NOTHING = ()
 GROWING = ("ice_mass_left", "ice_mass_entered", "ice_mass_lost", "ice_mass_gained", "ice_mass_crushed", "brash_mass",
            "splits", "bendings")
 # Files that are the same to the byte, whoever computed the run and however often it was interrupted.
-SAME_FILES = ("record.fram", "fractures.csv", "station.json")
+SAME_FILES = ("record.fram", "fractures.csv", "station*.json")
 
 
 def columns(path):
@@ -27,18 +28,21 @@ def columns(path):
 
 
 def forces_add_up(series):
-    """The parts of the ice load sum to the load, by mechanism and by zone."""
-    for parts in PARTS:
-        parts = [p for p in parts if p + "_x" in series]
+    """The parts of the ice load sum to the load, by mechanism and by zone, of each vessel."""
+    vessels = [name.removesuffix("ice_force_x") for name in series if name.split(".")[-1] == "ice_force_x"]
+    if not vessels:
+        return "series.csv has no ice load"
+    for vessel, parts in itertools.product(vessels, PARTS):
+        parts = [p for p in parts if f"{vessel}{p}_x" in series]
         # Of all three axes: where nothing acts across, what is left there is rounding of what acts along.
-        columns = [series[f"{p}_{axis}"] for p in [*parts, "ice_force"] for axis in "xyz"]
+        columns = [series[f"{vessel}{p}_{axis}"] for p in [*parts, "ice_force"] for axis in "xyz"]
         size = max((abs(v) for column in columns for v in column), default=0.0)
         for axis in "xyz":
-            whole = series["ice_force_" + axis]
-            terms = [series[f"{p}_{axis}"] for p in parts]
+            whole = series[f"{vessel}ice_force_{axis}"]
+            terms = [series[f"{vessel}{p}_{axis}"] for p in parts]
             for row, value in enumerate(whole):
                 if abs(sum(t[row] for t in terms) - value) > ROUNDING * size:
-                    return f"the parts {', '.join(parts)} do not sum to ice_force_{axis} in row {row + 1}"
+                    return f"the parts {', '.join(parts)} do not sum to {vessel}ice_force_{axis} in row {row + 1}"
     return None
 
 
@@ -85,10 +89,10 @@ def differ(one, other):
     hashes = [json.loads((f / "run.json").read_text()).get("state_hash") for f in (one, other)]
     if hashes[0] != hashes[1]:
         return "the state differs"
-    for name in SAME_FILES:
+    for name in sorted({p.name for run in (one, other) for pattern in SAME_FILES for p in run.glob(pattern)}):
         if (one / name).exists() != (other / name).exists():
             return f"only one of them has {name}"
-        if (one / name).exists() and (one / name).read_bytes() != (other / name).read_bytes():
+        if (one / name).read_bytes() != (other / name).read_bytes():
             return f"{name} differs"
     if without_wall(one / "series.csv") != without_wall(other / "series.csv"):
         return "series.csv differs"

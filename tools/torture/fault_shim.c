@@ -1,11 +1,12 @@
 /* Makes the n-th call of a kind fail: preloaded into a command by tools/torture/part_faults.py.
 
-   FRAM_FAULT_KIND   memory (realloc, calloc), files (what opens, reads, writes, renames, ...) or threads
+   FRAM_FAULT_KIND   memory (realloc, calloc), files (what opens, reads, writes, renames, ...) or threads (programs too)
    FRAM_FAULT_AT     the number of the call that fails, from 1 on; 0: none, count only
    FRAM_FAULT_ON     1: that call and all after it fail
    FRAM_FAULT_REPORT a file that gets "hit NAME" and, at the end, "calls N"
 
-   Only calls that come from the program itself count: what libraries do with their own memory is not Fram's to mend. */
+   Only calls that come from the program itself count: what libraries do with their own memory is not Fram's to mend.
+   Programs that it starts are left alone. */
 #define _GNU_SOURCE
 #include <dirent.h>
 #include <dlfcn.h>
@@ -13,6 +14,7 @@
 #include <fcntl.h>
 #include <link.h>
 #include <pthread.h>
+#include <spawn.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -66,6 +68,7 @@ __attribute__((constructor)) static void begin(void)
         report = high;
     }
     wanted = !kind ? NOTHING : strcmp(kind, "memory") == 0 ? MEMORY : strcmp(kind, "files") == 0 ? FILES : THREADS;
+    unsetenv("LD_PRELOAD");
 }
 
 static void say(const char *text, const char *more)
@@ -234,3 +237,14 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
         return EAGAIN;
     return next(thread, attributes, run, argument);
 }
+
+#define SPAWN_CALL(name)                                                                                           \
+    int name(pid_t *id, const char *path, const posix_spawn_file_actions_t *actions, const posix_spawnattr_t *how, \
+             char *const words[], char *const variables[])                                                         \
+    {                                                                                                              \
+        NEXT(name);                                                                                                \
+        return FAILS(THREADS, #name) ? EAGAIN : next(id, path, actions, how, words, variables);                    \
+    }
+
+SPAWN_CALL(posix_spawn)
+SPAWN_CALL(posix_spawnp)

@@ -21,6 +21,12 @@ COMMANDS = (
     "field floes.geojson --bad repair -o clean.geojson --draw f.png",
     "field scene.yaml --table floes.csv --cover cover.png", "ice wedge --a-over-l 0.1",
     "ice break --force 3e5 --contact-area 0.2 --thickness 0.8 --flexural-strength 6e5", "keys",
+    "study study.yaml -o made --jobs 2", "study study.yaml -o studied --jobs 1", "study check study.yaml",
+    "study list studied", "extremes tension.csv --channel tension --draw levels.png",
+    "fatigue done --channel line_tension_max -o cycles.csv", "manage done -o manage.html",
+    "manage level --beside level -o manage.html", "why level --peak 1 -o why.png", "why done --peak 1 --no-rerun",
+    "pressure level -o pressed --panel 2", "fmu scene.yaml --binary /proc/self/exe -o scene.fmu",
+    "capability scene.yaml -o held --formula --directions 4 --speed-step 0.5 --speed-most 1",
 )
 # Needs a page that only `make viewer` builds.
 MAY_BE_ABSENT = ("view",)
@@ -80,38 +86,54 @@ def stays_running(folder):
     return False
 
 
-def case(rig, draw, folder):
-    """One command with one failure."""
-    done = Case()
-    words, kind, goes_on = draw.choice(COMMANDS), draw.choice(KINDS), draw.random() < 0.3
+def inject(rig, words, kind, at, goes_on, folder):
+    """One command with one failure: (outcome, name of the call or None, kind of fault or None, what to tell)."""
     calls, contents, err = plain(rig, words, kind, folder / "plain")
-    if calls == 0:
-        done.counts["had no such call"] += 1
-        return done
-    at = draw.randint(1, calls)
     work, report = fixture.copy(rig, folder / "work"), folder / "report"
+    report.unlink(missing_ok=True)
     outcome = rig.fram.call(*words.split(), "--json", folder=work,
                             environment=environment(rig, kind, at, goes_on, report))
     hit, _ = told(report)
-    if hit is None:
-        done.counts["ended before the failure"] += 1
-        return done
     note = f"{kind}: call {at} of {calls}, {hit}, fails{' and all after it' if goes_on else ''}"
+    if hit is None:
+        return outcome, None, None, note
     fault = outcome.fault(json_asked=not goes_on and hit not in STREAMS)
     if not fault and outcome.code == 0 and "warning" not in outcome.err.replace(err, ""):
-        try:
-            now = fixture.contents(work)
-        except ValueError as problem:
-            now = str(problem)
-        # What could not be removed stays, and harms nobody; an old checkpoint that was not listed is not removed.
-        names = set(contents) if hit == "unlink" or not isinstance(now, dict) else set(contents) | set(now)
-        if hit in ("opendir", "readdir"):
-            names = {n for n in names if n in contents or "/checkpoint-" not in n}
-        others = [n for n in sorted(names) if contents.get(n) != now.get(n)] if isinstance(now, dict) else [now]
+        others = differences(contents, work, hit)
         if others:
             fault, note = "hides a failure", note + "; other than without it: " + ", ".join(others[:5])
     if not fault and not goes_on and outcome.code != 0 and stays_running(work):
         fault = "leaves run.json at \"running\""
+    return outcome, hit, fault, note
+
+
+def differences(contents, work, hit):
+    """Names of files that are other ones than without the failure."""
+    try:
+        now = fixture.contents(work)
+    except ValueError as problem:
+        return [str(problem)]
+    # What could not be removed stays, and harms nobody; an old checkpoint that was not listed is not removed, nor what
+    # a study does not keep of its runs.
+    names = set(contents) if hit == "unlink" else set(contents) | set(now)
+    names = {n for n in names if n in contents or "/runs/" not in n}
+    if hit in ("opendir", "readdir"):
+        names = {n for n in names if n in contents or "/checkpoint-" not in n}
+    return [n for n in sorted(names) if contents.get(n) != now.get(n)]
+
+
+def case(rig, draw, folder):
+    """One command with one failure."""
+    done = Case()
+    words, kind, goes_on = draw.choice(COMMANDS), draw.choice(KINDS), draw.random() < 0.3
+    calls, _, _ = plain(rig, words, kind, folder / "plain")
+    if calls == 0:
+        done.counts["had no such call"] += 1
+        return done
+    outcome, hit, fault, note = inject(rig, words, kind, draw.randint(1, calls), goes_on, folder)
+    if hit is None:
+        done.counts["ended before the failure"] += 1
+        return done
     done.counts["told the failure" if outcome.code else "did without"] += 1
     if fault:
         done.found(f"{words.split()[0]} {fault} when {hit} fails", outcome, told=note)

@@ -5,6 +5,7 @@ import json
 import pathlib
 
 import books
+import extras
 import scenario
 from finding import Case
 
@@ -57,6 +58,8 @@ def case(rig, draw, folder):
     done = Case()
     tree = scenario.random_scenario(draw, rig.sections)
     result = judge(rig, scenario.text_of(tree) + "\n", folder / "whole", done.counts)
+    if done.counts["finished"]:
+        done.counts.update(f"with {name} finished" for name in extras.reached(tree))
     if result:
         kind = result[0]
         tries = [0]

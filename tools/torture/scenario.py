@@ -2,6 +2,8 @@
 
 import math
 
+import extras
+
 # What a scene may cost; the keys that are not drawn but set, since they decide it.
 MOST_STEPS = 150
 MOST_FLOES = 300
@@ -65,6 +67,7 @@ def scene(draw):
         tree["vessel"]["thrusters"] = [{"x": 18 * ratio, "thrust": 1e5 * ratio**3},
                                        {"x": -18 * ratio, "kind": "main", "thrust": 1e5 * ratio**3}]
         tree["vessel"]["positioning"] = {"active": True}
+    extras.add(draw, tree, ratio)
     return tree
 
 
@@ -106,6 +109,8 @@ def place(tree, path, make, draw):
     node = tree
     for name in path:
         plain = name.removesuffix("[]")
+        if node is tree and plain == "vessel" and "vessels" in tree:
+            plain = "vessels"
         if plain not in node:
             if not make:
                 return None

@@ -1,0 +1,57 @@
+/* What ice management comes to over a run: warning times and the tired line, also where memory runs out. */
+#include "testing.h"
+
+#include "results/manage_parts.h"
+
+#include <math.h>
+
+enum { ROWS = 6, MOMENTS = 5 };
+
+/* Two lines, of which the second swings further, and five frames in which ice comes in 10 to 50 s, the largest of it in
+   twice that. */
+static fram_status sum_up(context *ctx, manage_summary *out, fram_error *error)
+{
+    static double time[ROWS] = {0, 1, 2, 3, 4, 5};
+    static double first[ROWS] = {0, 1, 0, 1, 0, 1}, second[ROWS] = {0, 3, 0, 3, 0, 3};
+    csv_table_column column[] = {{.name = "time", .value = {time, ROWS, ROWS}},
+                                 {.name = "line_1_tension", .value = {first, ROWS, ROWS}},
+                                 {.name = "line_2_tension", .value = {second, ROWS, ROWS}}};
+    manage_moment moment[MOMENTS] = {{.time = 0}};
+    scenario_mooring_line lines = {.count = 2};
+    manage_run m = {.ctx = ctx, .d = {.series = {.columns = {column, 3, 3}, .rows = ROWS}}};
+    scenario_defaults(&m.d.s, 30);
+    m.d.s.vessel.mooring.lines.data = &lines;
+    m.d.s.vessel.mooring.lines.count = 1;
+    for (int i = 0; i < MOMENTS; i++) {
+        moment[i].time = i;
+        moment[i].speed = 1;
+        moment[i].threat = (manage_threat){.nearest = 10.0 * (i + 1), .largest = 20.0 * (i + 1)};
+    }
+    m.moments.data = moment;
+    m.moments.count = m.moments.capacity = MOMENTS;
+    return manage_sum_up(&m, out, error);
+}
+
+START_TEST(memory_runs_out)
+{
+    for (long n = 1;; n++) {
+        failing_memory memory;
+        context ctx = failing_context(&memory, n);
+        manage_summary sums;
+        fram_error e = {0};
+        fram_status status = sum_up(&ctx, &sums, &e);
+        ck_assert_int_eq(memory.live, 0);
+        if (!memory.failed) {
+            assert_ok(status, e);
+            ck_assert_int_eq(sums.tension_line, 2);
+            ck_assert(sums.tension_range > 0 && sums.alarm_least < sums.alarm_median);
+            ck_assert(sums.warning_least > sums.alarm_least && sums.warning_median > sums.alarm_median);
+            ck_assert_int_gt(n, 3);
+            break;
+        }
+        ck_assert_int_eq(status, FRAM_ERROR_MEMORY);
+    }
+}
+END_TEST
+
+TEST_MAIN("manage_sums", memory_runs_out)
