@@ -47,7 +47,18 @@ object 0 field outline.txt --json
 object 0 hull --length 50 --beam 10 --draught 3 --json
 for what in wedge sheet; do object 0 ice $what --a-over-l 0.1 --json; done
 object 0 ice break --force 1e5 --json
-for command in run resume check bench view export report plot compare video capability hull field ice keys; do
+printf 'scenario: scene.yaml\nset: {run.duration: 0.2}\nseeds: 2\nvary: {grid: {vessel.speed: [1, 2]}}\n' >study.yaml
+object 0 study check study.yaml --json
+object 0 study study.yaml -o studied --json -q
+object 0 study list studied --json
+object 0 extremes run --json
+object 0 fatigue run --json
+object 0 why run --time 0.5 --json -q
+object 0 pressure run -o pressed --json -q
+object 0 manage run --json -q
+object 0 fmu scene.yaml -o unit.fmu --binary /proc/self/exe --json
+for command in run resume check bench study extremes fatigue fmu view export report plot why pressure compare manage \
+    video capability hull field ice keys; do
     object 0 --json $command --help
     object 2 $command --json --no-such-option
     object 2 $command --json ''
@@ -89,6 +100,15 @@ object 2 video run --json --colour red
 object 2 video run --json --fps 0
 object 2 view run --json --page scene.yaml
 object 2 bench --json
+for words in check list; do object 2 study $words --json; done
+object 2 study scene.yaml -o no --json
+object 2 extremes run --json --level 2
+object 2 extremes run --json --duration nan
+object 2 fatigue run --json --slope nan
+object 2 why run --json --peak 0
+object 2 pressure run --json -o no --panel nan
+object 2 manage run --json --limit nan
+object 2 fmu scene.yaml --json -o unit.fmu --binary scene.yaml
 object 2 bench --json --scene scene.yaml
 object 2 capability scene.yaml --json -o out.d
 object 2 hull scene.yaml --json
