@@ -3,6 +3,7 @@
 #include "fluid/fluid.h"
 #include "fluid/hull_load.h"
 #include "fluid/level.h"
+#include "fluid/tilted.h"
 
 typedef struct fluid_work {
     context *ctx;
@@ -10,10 +11,10 @@ typedef struct fluid_work {
     const drag_coefficients *coefficients;
     const body_table *bodies;
     const shape_store *shapes;
-    held_drag_table *held;
+    prism_work prisms;
     wrench *loads;
     fluid_details details;
-    int32_t block; /* slots of one, at most LEVEL_BLOCK */
+    int32_t block; /* slots of one, at most PRISM_BLOCK */
 } fluid_work;
 /* Slots of a block in a small field: so few that several threads find work, so many that floes of as many corners are
    still found for a batch. */
@@ -40,7 +41,7 @@ static fluid_load load_of_body(const fluid_work *w, int32_t slot)
     return load;
 }
 
-/* Of water and air; in the order of level_kernel.h. */
+/* Of water and air; in the order of prism_lanes.h. */
 static wrench total_of(const fluid_load *load)
 {
     wrench sum = load->hydrostatic;
@@ -49,7 +50,7 @@ static wrench total_of(const fluid_load *load)
     return sum;
 }
 
-static void clear_slot(const level_output *out, int32_t at)
+static void clear_slot(const prism_output *out, int32_t at)
 {
     out->total[at] = (wrench){{0, 0, 0}, {0, 0, 0}};
     out->volume[at] = 0;
@@ -57,8 +58,14 @@ static void clear_slot(const level_output *out, int32_t at)
         out->load[at] = (fluid_load){0};
 }
 
+static void add_wrench(wrench *to, const wrench *w)
+{
+    to->force = vec3_add(to->force, w->force);
+    to->moment = vec3_add(to->moment, w->moment);
+}
+
 /* What is missing from the pressure on a floe whose upper face is not flooded. */
-static void flood(const fluid_work *w, int32_t slot, fluid_load *load)
+static void flood(const fluid_work *w, int32_t slot, const prism_output *out, int32_t at)
 {
     const body_table *b = w->bodies;
     const shape_table *s = &w->shapes->shapes;
@@ -72,8 +79,9 @@ static void flood(const fluid_work *w, int32_t slot, fluid_load *load)
     mat3 rotation = quat_matrix(b->orientation[slot]);
     wrench missing = flooding_advance(w->media, shape_outline(w->shapes, shape), s->half_height[shape], &rotation,
                                       b->position[slot].z, w->details.time_step, &state);
-    load->hydrostatic.force = vec3_add(load->hydrostatic.force, missing.force);
-    load->hydrostatic.moment = vec3_add(load->hydrostatic.moment, missing.moment);
+    add_wrench(&out->total[at], &missing);
+    if (out->load)
+        add_wrench(&out->load[at].hydrostatic, &missing);
     t->generation[slot] = b->generation[slot];
     t->water[slot] = state.water;
     t->face[slot] = (uint8_t)state.face;
@@ -85,7 +93,7 @@ static void flood(const fluid_work *w, int32_t slot, fluid_load *load)
 static void dry_level_faces(const fluid_work *w, int32_t first, int32_t end, const int32_t *rest, int32_t left)
 {
     flooding_table *t = w->details.flooding;
-    bool resting[LEVEL_BLOCK] = {false};
+    bool resting[PRISM_BLOCK] = {false};
     if (!t)
         return;
     for (int32_t i = 0; i < left; i++)
@@ -101,30 +109,30 @@ static void dry_level_faces(const fluid_work *w, int32_t first, int32_t end, con
     }
 }
 
-/* Level and sunken floes together, all others one by one. */
+/* Level, sunken and tilted floes together, all others one by one. */
 static void apply_block(void *arg, int32_t block, int32_t thread)
 {
     (void)thread;
     const fluid_work *w = arg;
     const fluid_details *d = &w->details;
-    int32_t first = block * w->block, end = first + w->block, rest[LEVEL_BLOCK];
+    int32_t first = block * w->block, end = first + w->block, rest[PRISM_BLOCK], others[PRISM_BLOCK];
     if (end > w->bodies->count)
         end = w->bodies->count;
-    double own[LEVEL_BLOCK];
-    const level_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL,
-                              d->flooding != NULL};
-    int32_t left =
-        level_block(w->ctx, w->media, w->coefficients, w->bodies, w->shapes, w->held, first, end, &out, rest);
+    double own[PRISM_BLOCK];
+    const prism_output out = {w->loads + first, d->volume ? d->volume + first : own, d->all ? d->all + first : NULL};
+    int32_t left = level_block(w->ctx, &w->prisms, first, end, &out, rest);
     dry_level_faces(w, first, end, rest, left);
-    for (int32_t i = 0; i < left; i++) {
-        fluid_load load = load_of_body(w, rest[i]);
-        flood(w, rest[i], &load);
-        int32_t at = rest[i] - first;
+    int32_t walked = tilted_block(w->ctx, &w->prisms, first, rest, left, &out, others);
+    for (int32_t i = 0; i < walked; i++) {
+        fluid_load load = load_of_body(w, others[i]);
+        int32_t at = others[i] - first;
         out.total[at] = total_of(&load);
         out.volume[at] = load.submerged_volume;
         if (out.load)
             out.load[at] = load;
     }
+    for (int32_t i = 0; i < left; i++)
+        flood(w, rest[i], &out, rest[i] - first);
     for (int32_t slot = first; slot < end; slot++) {
         if (body_is_dynamic(w->bodies, slot))
             w->loads[slot].force.z -= w->bodies->mass[slot] * w->media->gravity;
@@ -160,10 +168,13 @@ fram_status fluid_apply(context *ctx, const media *m, const drag_coefficients co
     flooding_table *flooding = details ? details->flooding : NULL;
     if (flooding && !table_resize(ctx, flooding, &flooding_table_info, bodies->count))
         return error_memory(error);
-    fluid_work work = {
-        ctx, m, coefficients, bodies, shapes, held, loads, {0}, pool_block(bodies->count, LEAST_BLOCK, LEVEL_BLOCK)};
+    fluid_work work = {ctx,    m,      coefficients,
+                       bodies, shapes, prism_work_of(m, coefficients, bodies, shapes),
+                       loads,  {0},    pool_block(bodies->count, LEAST_BLOCK, PRISM_BLOCK)};
     if (details)
         work.details = *details;
+    work.prisms.held = held;
+    work.prisms.level_only = flooding != NULL;
     int32_t blocks = bodies->count / work.block + (bodies->count % work.block != 0);
     if (blocks > 0)
         pool_run(ctx, apply_block, &work, blocks);

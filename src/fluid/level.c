@@ -8,94 +8,31 @@
 #include <assert.h>
 #include <string.h>
 
-/* Outlines of few vertices have long edges, on which the quadrature of skin drag is coarse: they are cut in half. */
-enum { FEW_VERTICES = 4 };
 /* Corners in a line of the cache of 64 bytes. */
 enum { CORNERS_IN_A_LINE = 4 };
-
-static int32_t points_of(int32_t vertices) { return vertices <= FEW_VERTICES ? 2 * vertices : vertices; }
-
-typedef struct level_work {
-    const media *media;
-    drag_coefficients half[MATERIAL_COUNT]; /* 1/2 rho C [kg/m3] */
-    bool wet, dry;                          /* media whose drag is wanted by any material */
-    const body_table *bodies;
-    const shape_store *shapes;
-    held_drag_table *held; /* may be NULL */
-} level_work;
-
-static void set_lane(level_lane *to, int lane, vec3 v)
-{
-    to[0][lane] = v.x;
-    to[1][lane] = v.y;
-    to[2][lane] = v.z;
-}
-
-static vec3 get_lane(const level_lane *from, int lane) { return (vec3){from[0][lane], from[1][lane], from[2][lane]}; }
 
 /* The outline, its first vertex again, and that as often as the longest outline of the batch asks for: edges without
    length add nothing. */
 static void pack_outline(level_batch *b, int lane, const vec2 *vertex, int32_t n)
 {
-    int32_t points = points_of(n);
-    if (points == n) {
-        for (int32_t k = 0; k < n; k++)
-            b->corner[k][lane] = vertex[k];
-    } else {
-        for (int32_t k = 0; k < n; k++) {
-            b->corner[2 * k][lane] = vertex[k];
-            b->corner[2 * k + 1][lane] = vec2_scale(vec2_add(vertex[k], vertex[k + 1 < n ? k + 1 : 0]), 0.5);
-        }
-    }
+    vec2 room[LEVEL_VERTICES];
+    const vec2 *point = prism_outline(vertex, n, room);
+    int32_t points = prism_points(n);
+    for (int32_t k = 0; k < points; k++)
+        b->corner[k][lane] = point[k];
     for (int32_t k = points; k <= b->sides; k++)
         b->corner[k][lane] = vertex[0];
 }
 
-static void pack(const level_work *w, level_batch *b, int lane, int32_t slot)
+static void pack(const prism_work *w, level_batch *b, int lane, int32_t slot)
 {
-    const body_table *t = w->bodies;
     const shape_table *s = &w->shapes->shapes;
-    const drag_coefficients *c = &w->half[t->material[slot]];
-    int32_t shape = t->shape[slot];
-    quat q = t->orientation[slot];
-    b->height[lane] = t->position[slot].z;
-    b->turn[0][lane] = q.w;
-    b->turn[1][lane] = q.x;
-    b->turn[2][lane] = q.y;
-    b->turn[3][lane] = q.z;
-    b->half[lane] = s->half_height[shape];
-    set_lane(b->spin, lane, t->angular_velocity[slot]);
-    set_lane(b->water.velocity, lane, vec3_sub(t->velocity[slot], prism_current(w->media, t, w->shapes, slot)));
-    b->water.form[lane] = c->water_form;
-    b->water.skin[lane] = c->water_skin;
-    if (w->dry) {
-        set_lane(b->air.velocity, lane, vec3_sub(t->velocity[slot], w->media->wind));
-        b->air.form[lane] = c->air_form;
-        b->air.skin[lane] = c->air_skin;
-    }
+    int32_t shape = w->bodies->shape[slot];
+    prism_pack(w, &b->floes, lane, slot);
     pack_outline(b, lane, w->shapes->vertices.point + s->outline_first[shape], s->outline_count[shape]);
 }
 
-static wrench unpack_wrench(const level_wrench *from, int lane)
-{
-    return (wrench){get_lane(from->force, lane), get_lane(from->moment, lane)};
-}
-
-static void unpack(const level_batch *b, int lane, const level_output *out, int32_t to)
-{
-    static const wrench none = {{0, 0, 0}, {0, 0, 0}};
-    out->total[to] = unpack_wrench(&b->total, lane);
-    out->volume[to] = b->volume[lane];
-    if (!out->load)
-        return;
-    fluid_load *load = &out->load[to];
-    load->hydrostatic = unpack_wrench(&b->hydrostatic, lane);
-    load->submerged_volume = b->volume[lane];
-    load->water_drag = b->wet ? unpack_wrench(&b->water_drag, lane) : none;
-    load->wind_drag = b->dry ? unpack_wrench(&b->air_drag, lane) : none;
-}
-
-static void hold_vectors(held_vectors *to, int32_t at, const level_lane *from, int lane)
+static void hold_vectors(held_vectors *to, int32_t at, const prism_lane *from, int lane)
 {
     to->x[at] = from[0][lane];
     to->y[at] = from[1][lane];
@@ -103,13 +40,13 @@ static void hold_vectors(held_vectors *to, int32_t at, const level_lane *from, i
 }
 
 /* Keeps what a lane of the batch is for the steps to come. */
-static void hold(const level_work *w, const level_batch *b, int lane, int32_t slot)
+static void hold(const prism_work *w, const level_batch *b, int lane, int32_t slot)
 {
     held_drag_table *h = w->held;
     const level_state *s = &b->state;
     int32_t row = slot / HELD_LANES, at = slot % HELD_LANES;
     h->generation[row].lane[at] = w->bodies->generation[slot];
-    h->half[row].lane[at] = b->half[lane];
+    h->half[row].lane[at] = b->floes.half[lane];
     h->reach[row].lane[at] = w->shapes->shapes.plan_radius[w->bodies->shape[slot]];
     held_moments *m = &h->moments[row];
     double *const moments[6] = {m->area, m->x, m->y, m->xx, m->yy, m->xy};
@@ -125,14 +62,14 @@ static void hold(const level_work *w, const level_batch *b, int lane, int32_t sl
     hold_vectors(&h->air_moment[row], at, s->air_drag.moment, lane);
 }
 
-static void forget(const level_work *w, int32_t slot)
+static void forget(const prism_work *w, int32_t slot)
 {
     if (w->held)
         w->held->generation[slot / HELD_LANES].lane[slot % HELD_LANES] = 0;
 }
 
 /* The current that each body of a row meets. */
-static held_vectors currents(const level_work *w, int32_t row)
+static held_vectors currents(const prism_work *w, int32_t row)
 {
     held_vectors current = {{0}, {0}, {0}};
     for (int32_t i = 0; i < HELD_LANES; i++) {
@@ -146,10 +83,10 @@ static held_vectors currents(const level_work *w, int32_t row)
 }
 
 /* Floes whose drag is held: bit i of out[k] for the slot first + 8 k + i. */
-static void serve_held(context *ctx, const level_work *w, int32_t first, int32_t end, const level_output *out,
-                       uint8_t served[LEVEL_BLOCK / HELD_LANES])
+static void serve_held(context *ctx, const prism_work *w, int32_t first, int32_t end, const prism_output *out,
+                       uint8_t served[PRISM_BLOCK / HELD_LANES])
 {
-    memset(served, 0, LEVEL_BLOCK / HELD_LANES);
+    memset(served, 0, PRISM_BLOCK / HELD_LANES);
     if (!w->held)
         return;
     held_media m = {.wind = w->media->wind,
@@ -169,112 +106,149 @@ static void serve_held(context *ctx, const level_work *w, int32_t first, int32_t
     }
 }
 
-/* The floes of a block by their number of points, each number in ascending order of slots. */
+typedef enum floe_lie { LIE_LEVEL, LIE_SUNKEN, LIE_OTHER, LIES } floe_lie;
+
+static floe_lie lie_between(double lowest, double highest, double rise, bool upright)
+{
+    if (highest + rise <= 0)
+        return LIE_SUNKEN;
+    return upright && lowest + rise >= 0 && highest - rise <= 0 ? LIE_LEVEL : LIE_OTHER;
+}
+
+/* Floes thicker than this part of the outline's radius: sides that are taken at the middle of their depth, as the kernel
+   of level floes does, are too coarse for such that roll, and level floes do not roll (docs/decisions/0520). */
+static const double DEEP = 0.5;
+
+/* By the outline's radius where that is enough: outlines lie in the order in which floes were made, and waiting for
+   them took a tenth of the time; the kernel needs them a moment later. */
+static floe_lie lie_of(const prism_work *w, int32_t slot)
+{
+    const shape_table *s = &w->shapes->shapes;
+    int32_t shape = w->bodies->shape[slot];
+    const vec2 *outline = w->shapes->vertices.point + s->outline_first[shape];
+    __builtin_prefetch(outline);
+    __builtin_prefetch(outline + CORNERS_IN_A_LINE);
+    mat3 r = quat_matrix(w->bodies->orientation[slot]);
+    vec3 up = {r.m[2][0], r.m[2][1], r.m[2][2]};
+    double height = w->bodies->position[slot].z, rise = s->half_height[shape] * fabs(up.z);
+    double reach = s->plan_radius[shape] * (fabs(up.x) + fabs(up.y));
+    floe_lie lie = lie_between(height - reach, height + reach, rise, up.z > 0);
+    if (lie != LIE_OTHER)
+        return lie;
+    double lowest = HUGE_VAL, highest = -HUGE_VAL;
+    for (int32_t k = 0; k < s->outline_count[shape]; k++) {
+        double z = height + (up.x * outline[k].x + up.y * outline[k].y);
+        lowest = fmin(lowest, z);
+        highest = fmax(highest, z);
+    }
+    return lie_between(lowest, highest, rise, up.z > 0);
+}
+
+/* How it is worked on. */
+static floe_lie treated_as(const prism_work *w, int32_t slot)
+{
+    const shape_table *s = &w->shapes->shapes;
+    int32_t shape = w->bodies->shape[slot];
+    floe_lie lie = lie_of(w, slot);
+    bool deep = 2 * s->half_height[shape] > DEEP * s->plan_radius[shape];
+    return lie == LIE_SUNKEN && (deep || w->level_only) ? LIE_OTHER : lie;
+}
+
+/* The floes of a block by how they lie and their number of points, each kind in ascending order of slots. */
 typedef struct level_list {
-    int32_t count;
-    int32_t slot[LEVEL_BLOCK];
-    uint8_t points[LEVEL_BLOCK];
+    int32_t end[LIES];
+    int32_t slot[PRISM_BLOCK];
+    uint8_t points[PRISM_BLOCK];
 } level_list;
 
-/* Those that are served have their loads.  Other dynamic bodies go to rest; returns how many they are. */
-static int32_t find_floes(const level_work *w, const uint8_t *served, int32_t first, int32_t end, level_list *out,
+/* Those that are served have their loads.  Dynamic bodies that are no prisms go to rest; returns how many they are. */
+static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t first, int32_t end, level_list *out,
                           int32_t *rest)
 {
+    enum { KINDS = LEVEL_VERTICES + 1 }; /* numbers of points */
     const body_table *t = w->bodies;
     const shape_table *s = &w->shapes->shapes;
-    uint8_t points[LEVEL_BLOCK];
-    int32_t begin[LEVEL_VERTICES + 2] = {0}, left = 0;
+    int8_t kind[PRISM_BLOCK];
+    int32_t begin[LIES * KINDS + 1] = {0}, left = 0;
     for (int32_t slot = first; slot < end; slot++) {
-        int32_t shape = t->shape[slot], n = 0, at = slot - first;
+        int32_t shape = t->shape[slot], at = slot - first;
         bool has_load = served[at / HELD_LANES] >> at % HELD_LANES & 1;
-        if (!has_load && body_is_dynamic(t, slot)) {
-            if (shape >= 0 && s->kind[shape] == SHAPE_PRISM && s->outline_count[shape] <= LEVEL_VERTICES) {
-                n = points_of(s->outline_count[shape]);
-                /* Outlines lie in the order in which floes were made: waiting for them took a tenth of the time. */
-                const vec2 *outline = w->shapes->vertices.point + s->outline_first[shape];
-                __builtin_prefetch(outline);
-                __builtin_prefetch(outline + CORNERS_IN_A_LINE);
-            } else {
-                rest[left++] = slot;
-            }
+        kind[at] = -1;
+        if (has_load || !body_is_dynamic(t, slot))
+            continue;
+        if (shape < 0 || s->kind[shape] != SHAPE_PRISM || s->outline_count[shape] > LEVEL_VERTICES) {
+            rest[left++] = slot;
+            continue;
         }
-        points[slot - first] = (uint8_t)n;
-        begin[n + 1]++;
+        kind[at] = (int8_t)((int)treated_as(w, slot) * KINDS + prism_points(s->outline_count[shape]));
+        begin[kind[at] + 1]++;
     }
-    int32_t others = begin[1];
-    begin[1] = 0;
-    for (int n = 1; n <= LEVEL_VERTICES; n++)
-        begin[n + 1] += begin[n];
+    for (int k = 0; k < LIES * KINDS; k++)
+        begin[k + 1] += begin[k];
+    for (int i = 0; i < LIES; i++)
+        out->end[i] = begin[(i + 1) * KINDS];
     for (int32_t slot = first; slot < end; slot++) {
-        int32_t n = points[slot - first];
-        if (n > 0) {
-            out->points[begin[n]] = (uint8_t)n;
-            out->slot[begin[n]++] = slot;
+        int k = kind[slot - first];
+        if (k >= 0) {
+            out->points[begin[k]] = (uint8_t)(k % KINDS);
+            out->slot[begin[k]++] = slot;
         }
     }
-    out->count = end - first - others;
     return left;
 }
 
-static drag_coefficients half_of(const media *m, const drag_coefficients *c)
+/* The floes from..end-1, at most as many as there are lanes.  Sorted: the last one has the most points.  Lanes beyond
+   it repeat it. */
+static void pack_batch(const prism_work *w, const level_list *list, int32_t from, int32_t end, level_batch *b)
 {
-    double water = 0.5 * m->water_density, air = 0.5 * m->air_density;
-    return (drag_coefficients){water * c->water_form, water * c->water_skin, air * c->air_form, air * c->air_skin};
+    b->sides = list->points[end - 1];
+    b->floes.wet = w->wet;
+    b->floes.dry = w->dry;
+    for (int lane = 0; lane < PRISM_LANES; lane++)
+        pack(w, b, lane, list->slot[from + lane < end ? from + lane : end - 1]);
 }
 
-/* The floes `from` and on.  Sorted: the last one has the most points.  Lanes beyond the last floe repeat it. */
-static void pack_batch(const level_work *w, const level_list *list, int32_t from, level_batch *b)
-{
-    int32_t last = (from + LEVEL_LANES < list->count ? from + LEVEL_LANES : list->count) - 1;
-    b->sides = list->points[last];
-    b->wet = w->wet;
-    b->dry = w->dry;
-    for (int lane = 0; lane < LEVEL_LANES; lane++)
-        pack(w, b, lane, list->slot[from + lane < last ? from + lane : last]);
-}
-
-/* Floes that are neither level nor sunken go to rest. */
-static int32_t run_batch(context *ctx, const level_work *w, const level_list *list, int32_t from, level_batch *b,
-                         int32_t first, const level_output *out, int32_t *rest, int32_t left)
+static void run_batch(context *ctx, const prism_work *w, const level_list *list, int32_t from, int32_t end,
+                      level_batch *b, int32_t first, const prism_output *out)
 {
     KERNEL_PICK(ctx, level_loads)(b);
-    for (int32_t k = from; k < list->count && k < from + LEVEL_LANES; k++) {
+    for (int32_t k = from; k < end; k++) {
         int32_t slot = list->slot[k];
-        bool level = b->level >> (k - from) & 1;
-        if (level || b->sunken >> (k - from) & 1)
-            unpack(b, (int)(k - from), out, slot - first);
-        else
-            rest[left++] = slot;
-        if (!level)
+        prism_unpack(&b->floes, (int)(k - from), out, slot - first);
+        if (b->sunken)
             forget(w, slot);
         else if (w->held)
             hold(w, b, (int)(k - from), slot);
     }
-    return left;
 }
 
-int32_t level_block(context *ctx, const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                    const body_table *bodies, const shape_store *shapes, held_drag_table *held, int32_t first,
-                    int32_t end, const level_output *out, int32_t rest[LEVEL_BLOCK])
+/* Floes that lie in one of both ways that the kernel knows. */
+static void run_list(context *ctx, const prism_work *w, const level_list *list, floe_lie lie, int32_t first,
+                     const prism_output *out)
 {
-    assert(!held || !out->load);
-    level_work w = {.media = m, .bodies = bodies, .shapes = shapes, .held = held};
-    for (int i = 0; i < MATERIAL_COUNT; i++) {
-        const drag_coefficients *c = &w.half[i];
-        w.half[i] = half_of(m, &coefficients[i]);
-        w.wet = w.wet || c->water_form > 0 || c->water_skin > 0;
-        w.dry = w.dry || c->air_form > 0 || c->air_skin > 0;
-    }
-    uint8_t served[LEVEL_BLOCK / HELD_LANES];
-    serve_held(ctx, &w, first, end, out, served);
-    level_list list;
-    int32_t left = find_floes(&w, served, first, end, &list, rest);
     level_batch batch;
-    batch.weight = m->water_density * m->gravity;
-    batch.level_only = out->level_only;
-    for (int32_t i = 0; i < list.count; i += LEVEL_LANES) {
-        pack_batch(&w, &list, i, &batch);
-        left = run_batch(ctx, &w, &list, i, &batch, first, out, rest, left);
+    batch.floes.weight = w->media->water_density * w->media->gravity;
+    batch.sunken = lie == LIE_SUNKEN;
+    for (int32_t i = lie > 0 ? list->end[lie - 1] : 0; i < list->end[lie]; i += PRISM_LANES) {
+        int32_t end = i + PRISM_LANES < list->end[lie] ? i + PRISM_LANES : list->end[lie];
+        pack_batch(w, list, i, end, &batch);
+        run_batch(ctx, w, list, i, end, &batch, first, out);
+    }
+}
+
+int32_t level_block(context *ctx, const prism_work *w, int32_t first, int32_t end, const prism_output *out,
+                    int32_t rest[PRISM_BLOCK])
+{
+    assert(!w->held || !out->load);
+    uint8_t served[PRISM_BLOCK / HELD_LANES];
+    serve_held(ctx, w, first, end, out, served);
+    level_list list;
+    int32_t left = find_floes(w, served, first, end, &list, rest);
+    run_list(ctx, w, &list, LIE_LEVEL, first, out);
+    run_list(ctx, w, &list, LIE_SUNKEN, first, out);
+    for (int32_t k = list.end[LIE_SUNKEN]; k < list.end[LIE_OTHER]; k++) {
+        forget(w, list.slot[k]);
+        rest[left++] = list.slot[k];
     }
     return left;
 }

@@ -93,14 +93,20 @@ static double load_share(double own, double other)
     return fabs(other) < fabs(own) ? other / own : 1;
 }
 
-/* Each adds to the other what its load bends there, if both stand at one side of a channel. */
+/* Each adds to the other what its load bends there, if both stand at one side of a channel.  Half of all pairs stand
+   at two sides, and many of the others have no loads that could grow together. */
 static void add_neighbour(edge_piece *x, edge_piece *y)
 {
-    double alike = vec2_dot(x->facing, y->facing), apart = vec2_length(vec2_sub(x->place, y->place));
+    double alike = vec2_dot(x->facing, y->facing);
     if (alike <= 0)
         return;
-    x->influence += alike * load_share(x->load, y->load) * sheet_edge_influence(apart / x->length);
-    y->influence += alike * load_share(y->load, x->load) * sheet_edge_influence(apart / y->length);
+    double of_x = load_share(x->load, y->load), of_y = load_share(y->load, x->load);
+    if (of_x == 0 && of_y == 0)
+        return;
+    double apart = vec2_length(vec2_sub(x->place, y->place)), influence = sheet_edge_influence(apart / x->length);
+    x->influence += alike * of_x * influence;
+    y->influence +=
+        alike * of_y * (y->length == x->length ? influence : sheet_edge_influence(apart / y->length));
 }
 
 static void find_neighbours(edge_piece_array *work)

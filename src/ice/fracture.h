@@ -114,11 +114,11 @@ fram_status fracture_run(context *ctx, fracture_scratch *scratch, const fracture
 
 /* --- the formulas, one load at a time --- */
 
-/* Time in which an edge under a load on this area [m2] responds [s]: 1/omega of the waves of an ice sheet on deep
+/* Time in which an edge responds to a load with this R_bending [m] [s]: 1/omega of the waves of an ice sheet on deep
    water, omega^2 = (D k^4 + rho_w g)/(rho_i h + rho_w/k) (Greenhill 1887), of the wave number k = pi/(4 R_bending),
    with which a beam that is loaded at its end has its largest moment at R_bending (Hetenyi 1946). */
 double fracture_response_time(const fracture_settings *settings, const ice_material *ice, double thickness,
-                              double area);
+                              double reach);
 
 /* The ice that a load stands on. */
 typedef struct edge_ice {

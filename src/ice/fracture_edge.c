@@ -2,6 +2,8 @@
    R_bending, or to where the floe ends along the first crack if that is nearer. */
 #include "ice/fracture_parts.h"
 
+#include "base/transcendental.h"
+
 /* The sectors of a straight edge's N wedges around a start, one after the other, and the strip between them. */
 typedef struct sectors {
     vec2 corner[3 * MOST_STENCIL + 4];
@@ -90,6 +92,65 @@ double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, 
     return edge_reach(&e, ice, thickness, area);
 }
 
+double fracture_reach(const fracture_job *j, fracture_load *l)
+{
+    if (!(l->reach > 0))
+        l->reach = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area);
+    return l->reach;
+}
+
+/* ---- at least ---- */
+
+/* Whether a point is in the triangle s a b, counter-clockwise, or on its border. */
+static bool is_inside(vec2 s, vec2 a, vec2 b, vec2 p)
+{
+    return vec2_cross(vec2_sub(a, s), vec2_sub(p, s)) >= 0 && vec2_cross(vec2_sub(b, a), vec2_sub(p, a)) >= 0 &&
+           vec2_cross(vec2_sub(s, b), vec2_sub(p, b)) >= 0;
+}
+
+/* The triangle between the crack, to `depth` into the ice, and the boundary from its start to vertex `corner`, as far
+   as `depth` too, is ice if no other vertex is in it: an edge could not leave it again.  Twice its area over the depth;
+   0: it may not be ice.  side: 1 where the vertex comes after the start on the ring, -1 before. */
+static double ice_beside(polygon outline, const crack_start *start, int32_t corner, double depth, int side)
+{
+    vec2 s = start->point, edge = vec2_sub(outline.vertex[corner], s),
+         end = vec2_add(s, vec2_scale(start->direction, depth));
+    double length = vec2_length(edge);
+    if (!(length > 0))
+        return 0;
+    vec2 a = vec2_add(s, vec2_scale(edge, fmin(1, depth / length)));
+    double height = side * vec2_cross(vec2_sub(a, s), start->direction);
+    for (int32_t i = 0; i < outline.count && height > 0; i++) {
+        vec2 p = outline.vertex[i];
+        if (i != corner && !(p.x == s.x && p.y == s.y) &&
+            (side > 0 ? is_inside(s, a, end, p) : is_inside(s, end, a, p)))
+            height = 0;
+    }
+    return fmax(height, 0);
+}
+
+/* The stencil of radius R has the area N R^2 sin(pi/N) in its N whole wedges and a disc of R cos(pi/2N) in it.  Two
+   triangles of that depth have the part sum h / (2 N R sin(pi/2N)) of it, and N sin(pi/2N) < pi/2. */
+double fracture_least_ice(const fracture_job *j, fracture_load *l)
+{
+    if (j->settings->sharing == SHARING_EQUAL)
+        return 1;
+    if (l->tile || j->settings->wide_contacts)
+        return 0;
+    polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
+    double reach = fracture_reach(j, l), angle = PI / 2 / j->settings->wedges;
+    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * reach);
+    int32_t end, at = start.edge, next = at + 1 < outline.count ? at + 1 : 0;
+    double radius = fmin(reach, crack_length(outline, &start, &end)), depth = radius * (1 - angle * angle / 2);
+    vec2 first = outline.vertex[at];
+    bool on_vertex = first.x == start.point.x && first.y == start.point.y;
+    int32_t before = !on_vertex ? at : at > 0 ? at - 1 : outline.count - 1;
+    double both = ice_beside(outline, &start, next, depth, 1) + ice_beside(outline, &start, before, depth, -1);
+    return radius > 0 ? both / (PI * radius) : 0;
+}
+
+/* ---- all of it ---- */
+
 /* Every load counts as one on a straight edge. */
 static bool is_equal_everywhere(const fracture_job *j)
 {
@@ -101,7 +162,7 @@ edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
     l->width = 0;
     if (is_equal_everywhere(j))
         return EDGE_STRAIGHT;
-    double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area);
+    double radius = fracture_reach(j, l);
     polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
     crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
     int32_t end;
@@ -121,7 +182,7 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
     l->width = 0;
     if (is_equal_everywhere(j))
         return FRAM_OK;
-    double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area);
+    double radius = fracture_reach(j, l);
     crack_start start;
     bool found;
     fram_status status =

@@ -103,7 +103,8 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
         .horizontal_area = own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
         .thickness = state->floes->thickness[floe],
         .ice = state->floes->material[floe]};
-    spread_of(p, state, body, tile != 0, l.spread);
+    if (settings->wide_contacts)
+        spread_of(p, state, body, tile != 0, l.spread);
     return array_push(ctx, &s->load.all, l);
 }
 
@@ -174,25 +175,51 @@ static bool merge_seams(context *ctx, fracture_scratch *s, const tile_grid *g)
 
 /* ---- which fail ---- */
 
-/* Loads under this part of the strength fail in no way on a straight edge: 6/b0 eta'' and sigma_yy h^2/P are both under
-   12 for a/l of POINT_LOAD and more, and fall from there; vibration adds a twentieth at most.  Less ice than a spike of
-   8 degrees has is at no start: a cleaned outline has no sharper corner. */
+/* 6/b0 eta'' and sigma_yy h^2/P are both under this for a/l of POINT_LOAD and more, and fall from there. */
+static const double MOST_STRESS = 12;
+
+/* Loads under this part of the strength fail in no way on a straight edge; vibration adds a twentieth at most.  Less
+   ice than a spike of 8 degrees has is at no start: a cleaned outline has no sharper corner. */
 static bool may_fail(const fracture_settings *settings, const fracture_load *l)
 {
     static const double SPIKE = 8.0 / 180;
-    double least = settings->sharing == SHARING_EQUAL ? 1 : SPIKE;
-    return 12 * WEDGE_RAMP_MOST_MOMENT * l->force >= least * l->ice.flexural_strength * l->thickness * l->thickness;
+    double least = settings->sharing == SHARING_EQUAL ? 1 : SPIKE, h = l->thickness;
+    return MOST_STRESS * WEDGE_RAMP_MOST_MOMENT * l->force >= least * l->ice.flexural_strength * h * h;
 }
 
-/* Whether a load on this ice fails at all.  Nevel's C is at least 1, that of a load on a point; a sheet of tiles breaks
-   in bending alone. */
+/* Whether a load is too small for the first crack, wherever it stands. */
+static bool radial_holds(const fracture_load *l)
+{
+    return MOST_STRESS * l->force < l->ice.flexural_strength * l->thickness * l->thickness;
+}
+
+/* Part of N whole wedges of which a load needs more to stand on.  Nevel's C is at least 1, that of a load on a point.
+ */
+static double ice_needed(const fracture_load *l, double width)
+{
+    double h = l->thickness, strength = l->ice.flexural_strength * h * h;
+    return 6 * (WEDGE_RAMP_MOST_MOMENT * l->force) / (strength * width);
+}
+
+/* Whether a load on a floe that floats fails in no way, by what costs little to know: nearly all are so small.  width:
+   of N wedges, N b0.  What other floes stand on is wanted whether they fail or not. */
+static bool surely_holds(const fracture_job *j, fracture_load *l, double width)
+{
+    /* More than rounding of the areas that are compared in the end. */
+    static const double SURELY = 0.99;
+    if (l->tile || !body_is_dynamic(j->state->bodies, l->body))
+        return false;
+    return radial_holds(l) && ice_needed(l, width) < SURELY * fracture_least_ice(j, l);
+}
+
+/* Whether a load on this ice fails at all; a sheet of tiles breaks in bending alone. */
 static bool fails(const fracture_settings *settings, const fracture_load *l, edge_ice edge)
 {
     double h = l->thickness, strength = l->ice.flexural_strength * h * h;
     double force = WEDGE_RAMP_MOST_MOMENT * l->force;
     if (6 * force >= strength * settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges)
         return true;
-    if (l->tile)
+    if (l->tile || radial_holds(l))
         return false;
     double length = ice_characteristic_length(&l->ice, h, settings->water_density, settings->gravity);
     double radius = fracture_loaded_radius(l->horizontal_area, PI / 2, h, settings->thick_plate_radius);
@@ -200,13 +227,13 @@ static bool fails(const fracture_settings *settings, const fracture_load *l, edg
 }
 
 /* With SPLITTING_TOUGHNESS a floe of its own splits by its load in the plane, whatever bends it. */
-static double split_ratio(const fracture_job *j, const fracture_load *l)
+static double split_ratio(const fracture_job *j, fracture_load *l)
 {
     if (j->settings->splitting != SPLITTING_TOUGHNESS || l->tile)
         return 0;
     polygon outline = shape_outline(j->state->shapes, j->state->bodies->shape[l->body]);
-    double radius = fracture_edge_reach(j->settings, &l->ice, l->thickness, l->horizontal_area), length;
-    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * radius);
+    double length;
+    crack_start start = crack_start_of(outline, l->place, CRACK_CORNER_REACH * fracture_reach(j, l));
     return fracture_split_ratio(j->settings, outline, l, l->thickness, &start, &length);
 }
 
@@ -239,6 +266,7 @@ static void weigh_block(void *arg, int32_t block, int32_t thread)
 {
     const fracture_job *j = arg;
     load_work *w = &j->scratch->load;
+    double width = j->settings->wedges * fracture_wedge_width(j->settings->wedges);
     (void)thread;
     for (int32_t i = BLOCK_LOADS * block; i < w->all.count && i < BLOCK_LOADS * (block + 1); i++) {
         fracture_load *l = &w->all.data[i];
@@ -248,7 +276,7 @@ static void weigh_block(void *arg, int32_t block, int32_t thread)
         l->plane_force = sqrt(l->vector.x * l->vector.x + l->vector.y * l->vector.y);
         l->split_ratio = split_ratio(j, l);
         l->fate = LOAD_HOLDS;
-        if (l->split_ratio < 1 && !may_fail(j->settings, l))
+        if (l->split_ratio < 1 && (!may_fail(j->settings, l) || surely_holds(j, l, width)))
             continue;
         if (l->tile)
             l->fate = LOAD_OPEN;

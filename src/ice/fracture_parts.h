@@ -31,9 +31,10 @@ typedef struct fracture_load {
     double plane_force;           /* in its plane [N] */
     vec2 place;                   /* r_break [m] */
     box2 plan;                    /* of a sheet: bounds of the patch, global [m] */
-    double spread[3];             /* xx, xy, yy: mean squares of the patch about its place [m2] */
+    double spread[3];             /* xx, xy, yy: mean squares of the patch about its place; with wide_contacts [m2] */
     double width;                 /* of the contact along the edge; 0: it acts as a narrow one [m] */
     double area, horizontal_area; /* of the patch [m2] */
+    double reach;                 /* what fracture_reach told [m]; 0: nobody asked */
     double thickness;             /* of the floe [m] */
     ice_material ice;
     edge_stress stress;
@@ -180,6 +181,11 @@ edge_compliance fracture_edges(const fracture_settings *f);
 
 /* How far into the ice a load's wedges are looked at: R_bending on a straight edge, within 5 % [m]. */
 double fracture_edge_reach(const fracture_settings *f, const ice_material *ice, double thickness, double area);
+/* The same of a load. */
+double fracture_reach(const fracture_job *j, fracture_load *l);
+/* The ice that a load on a floe of its own stands on is at least this part of N whole wedges, what costs little to
+   know: 0 where that is nothing. */
+double fracture_least_ice(const fracture_job *j, fracture_load *l);
 /* The ice that a load stands on, by the areas inside the sectors of its stencil; N whole wedges with SHARING_EQUAL. The
    load gets its width along the edge.  Of a floe of its own, on any thread; of a sheet, with its index of tiles. */
 edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l);

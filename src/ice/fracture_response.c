@@ -9,9 +9,10 @@
 TABLE_DEFINE(edge_load, EDGE_LOAD_FIELDS)
 #undef TABLE_SELF
 
-double fracture_response_time(const fracture_settings *settings, const ice_material *ice, double thickness, double area)
+double fracture_response_time(const fracture_settings *settings, const ice_material *ice, double thickness,
+                              double reach)
 {
-    double k = PI / 4 / fracture_edge_reach(settings, ice, thickness, area), k2 = k * k;
+    double k = PI / 4 / reach, k2 = k * k;
     double stiffness = ice_plate_stiffness(ice, thickness) * k2 * k2 + settings->water_density * settings->gravity;
     double mass = ice->density * thickness + settings->water_density / k;
     return sqrt(mass / stiffness);
@@ -94,7 +95,7 @@ static void hand_over(const fracture_job *j, int32_t row)
 /* The load of the step becomes what the edge feels: exact for a load that is constant within the step. */
 static void respond(const fracture_job *j, fracture_load *l, vec3 felt)
 {
-    double time = fracture_response_time(j->settings, &l->ice, l->thickness, l->horizontal_area);
+    double time = fracture_response_time(j->settings, &l->ice, l->thickness, fracture_reach(j, l));
     double part = 1 - real_exp(-j->settings->time_step / time);
     l->vector = vec3_mad(felt, vec3_sub(l->vector, felt), part);
 }

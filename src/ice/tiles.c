@@ -197,25 +197,31 @@ static polygon outline_of(const tile_sheet_view *v, int32_t row)
     return shape_outline(v->shapes, v->bodies->shape[v->floes->body[row]]);
 }
 
-static vec2 global_point(const tile_sheet_view *v, int32_t row, vec2 local)
+/* A tile on its way to the global plan, with what all of its corners have in common. */
+typedef struct tile_ring {
+    polygon outline; /* frame of its body */
+    vec2 at;
+    box2 cell;
+} tile_ring;
+
+static tile_ring ring_of(const tile_sheet_view *v, int32_t row)
 {
     vec3 at = v->bodies->position[v->floes->body[row]];
-    return snapped_point(tile_cell(v->grid, v->floes->tile[row] - 1), (vec2){at.x + local.x, at.y + local.y});
+    return (tile_ring){outline_of(v, row), {at.x, at.y}, tile_cell(v->grid, v->floes->tile[row] - 1)};
 }
 
-vec2 tile_vertex(const tile_sheet_view *v, int32_t row, int32_t i)
+static vec2 corner_of(const tile_ring *r, int32_t i)
 {
-    polygon p = outline_of(v, row);
-    return global_point(v, row, p.vertex[i < p.count ? i : 0]);
+    return snapped_point(r->cell, vec2_add(r->at, r->outline.vertex[i < r->outline.count ? i : 0]));
 }
 
 bool tile_outline(context *ctx, const tile_sheet_view *v, int32_t row, vec2_array *out)
 {
-    polygon p = outline_of(v, row);
-    if (!array_resize(ctx, out, p.count))
+    tile_ring r = ring_of(v, row);
+    if (!array_resize(ctx, out, r.outline.count))
         return false;
-    for (int32_t i = 0; i < p.count; i++)
-        out->data[i] = global_point(v, row, p.vertex[i]);
+    for (int32_t i = 0; i < r.outline.count; i++)
+        out->data[i] = corner_of(&r, i);
     tile_snap(v->grid, v->floes->tile[row] - 1, out);
     return true;
 }
@@ -277,10 +283,10 @@ static bool next_cover(const tile_sheet_view *v, int32_t beyond, int side, doubl
     bool found = false;
     box2 cell = tile_cell(v->grid, beyond);
     for (int32_t row = v->index->first.data[beyond]; row >= 0; row = v->index->next.data[row]) {
-        int32_t count = outline_of(v, row).count;
-        vec2 a = tile_vertex(v, row, 0);
-        for (int32_t i = 0; i < count; i++) {
-            vec2 b = tile_vertex(v, row, i + 1 < count ? i + 1 : 0);
+        tile_ring r = ring_of(v, row);
+        vec2 a = corner_of(&r, 0);
+        for (int32_t i = 0; i < r.outline.count; i++) {
+            vec2 b = corner_of(&r, i + 1);
             if (side_of(cell, a, b) == opposite(side)) {
                 interval e = interval_of(side, a, b);
                 if (e.hi > from && e.lo < hi && (!found || e.lo < cover->lo)) {
@@ -338,10 +344,10 @@ bool tile_boundary(context *ctx, const tile_sheet_view *v, tile_range range, til
         for (int32_t i = range.column_first; i <= range.column_last; i++) {
             int32_t cell = i + k * v->grid->columns;
             for (int32_t row = v->index->first.data[cell]; row >= 0; row = v->index->next.data[row]) {
-                int32_t count = outline_of(v, row).count;
-                vec2 a = tile_vertex(v, row, 0);
-                for (int32_t m = 0; m < count; m++) {
-                    vec2 b = tile_vertex(v, row, m + 1 < count ? m + 1 : 0);
+                tile_ring r = ring_of(v, row);
+                vec2 a = corner_of(&r, 0);
+                for (int32_t m = 0; m < r.outline.count; m++) {
+                    vec2 b = corner_of(&r, m + 1);
                     if (!push_uncovered(ctx, v, cell, a, b, out))
                         return false;
                     a = b;
@@ -361,14 +367,14 @@ double tile_seam(const tile_sheet_view *v, int32_t row_a, int32_t row_b)
     if (side == SHEET_SIDES)
         return 0;
     double sum = 0;
-    int32_t count_a = outline_of(v, row_a).count, count_b = outline_of(v, row_b).count;
-    for (int32_t i = 0; i < count_a; i++) {
-        vec2 a = tile_vertex(v, row_a, i), b = tile_vertex(v, row_a, i + 1 < count_a ? i + 1 : 0);
+    tile_ring ring_a = ring_of(v, row_a), ring_b = ring_of(v, row_b);
+    for (int32_t i = 0; i < ring_a.outline.count; i++) {
+        vec2 a = corner_of(&ring_a, i), b = corner_of(&ring_a, i + 1);
         if (side_of(box_a, a, b) != side)
             continue;
         interval mine = interval_of(side, a, b);
-        for (int32_t k = 0; k < count_b; k++) {
-            vec2 c = tile_vertex(v, row_b, k), d = tile_vertex(v, row_b, k + 1 < count_b ? k + 1 : 0);
+        for (int32_t k = 0; k < ring_b.outline.count; k++) {
+            vec2 c = corner_of(&ring_b, k), d = corner_of(&ring_b, k + 1);
             if (side_of(box_b, c, d) != opposite(side))
                 continue;
             interval theirs = interval_of(side, c, d);
@@ -380,11 +386,11 @@ double tile_seam(const tile_sheet_view *v, int32_t row_a, int32_t row_b)
 
 bool tile_is_anchored(const tile_sheet_view *v, int32_t row)
 {
-    int32_t cell = v->floes->tile[row] - 1, count = outline_of(v, row).count;
-    box2 box = tile_cell(v->grid, cell);
-    for (int32_t i = 0; i < count; i++) {
-        vec2 a = tile_vertex(v, row, i), b = tile_vertex(v, row, i + 1 < count ? i + 1 : 0);
-        int side = side_of(box, a, b);
+    int32_t cell = v->floes->tile[row] - 1;
+    tile_ring r = ring_of(v, row);
+    for (int32_t i = 0; i < r.outline.count; i++) {
+        vec2 a = corner_of(&r, i), b = corner_of(&r, i + 1);
+        int side = side_of(r.cell, a, b);
         if (side >= 0 && v->grid->anchored[side] && cell_beyond(v->grid, cell, side) < 0 &&
             vec2_length(vec2_sub(b, a)) > v->grid->least_seam)
             return true;
@@ -414,12 +420,12 @@ static bool is_covered(const tile_sheet_view *v, int32_t cell, int side, vec2 a,
 static void mark_piece(const tile_sheet_view *v, shape_store *shapes, int32_t row, int32_t piece)
 {
     int32_t cell = v->floes->tile[row] - 1, shape = v->bodies->shape[v->floes->body[row]];
-    polygon p = shape_piece(shapes, shape, piece);
+    tile_ring r = ring_of(v, row);
+    r.outline = shape_piece(shapes, shape, piece);
     uint64_t *inner = &shapes->pieces.inner_edges[shapes->shapes.piece_first[shape] + piece];
-    box2 box = tile_cell(v->grid, cell);
-    for (int32_t k = 0; k < p.count; k++) {
-        vec2 a = global_point(v, row, p.vertex[k]), b = global_point(v, row, p.vertex[k + 1 < p.count ? k + 1 : 0]);
-        int side = side_of(box, a, b);
+    for (int32_t k = 0; k < r.outline.count; k++) {
+        vec2 a = corner_of(&r, k), b = corner_of(&r, k + 1);
+        int side = side_of(r.cell, a, b);
         if (side < 0)
             continue;
         uint64_t bit = (uint64_t)1 << k;

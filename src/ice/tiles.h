@@ -67,8 +67,6 @@ typedef struct tile_sheet_view {
     const floe_table *floes;
 } tile_sheet_view;
 
-/* Vertex i of a tile, global plan; what lies on a side of its cell does so exactly. */
-vec2 tile_vertex(const tile_sheet_view *v, int32_t row, int32_t i);
 bool tile_outline(context *ctx, const tile_sheet_view *v, int32_t row, vec2_array *out);
 /* Points within rounding of the sides of a cell are put there; of those within rounding of one another one stays. */
 void tile_snap(const tile_grid *g, int32_t cell, vec2_array *ring);
