@@ -261,6 +261,15 @@ static void judge(const fracture_job *j, int32_t i, edge_ice edge)
 /* Loads of a block: an overlap of a floe and sectors takes some microseconds. */
 enum { BLOCK_LOADS = 8 };
 
+/* Its size, and the ice there: the noise of strength fields is remembered, which one thread does. */
+static void read_load(const fracture_job *j, fracture_load *l)
+{
+    l->force = fabs(l->vector.z);
+    l->ice = strength_flexural_at(&j->settings->strength, &j->scratch->load.strengths, j->state->floes, l->floe,
+                                  place_on_floe(j->state, l));
+    l->plane_force = sqrt(l->vector.x * l->vector.x + l->vector.y * l->vector.y);
+}
+
 /* All that one load tells by itself; loads on sheets, which share one index of tiles, are left open. */
 static void weigh_block(void *arg, int32_t block, int32_t thread)
 {
@@ -271,9 +280,6 @@ static void weigh_block(void *arg, int32_t block, int32_t thread)
     for (int32_t i = BLOCK_LOADS * block; i < w->all.count && i < BLOCK_LOADS * (block + 1); i++) {
         fracture_load *l = &w->all.data[i];
         w->edges.data[i] = EDGE_STRAIGHT;
-        l->force = fabs(l->vector.z);
-        l->ice = strength_flexural_at(&j->settings->strength, j->state->floes, l->floe, place_on_floe(j->state, l));
-        l->plane_force = sqrt(l->vector.x * l->vector.x + l->vector.y * l->vector.y);
         l->split_ratio = split_ratio(j, l);
         l->fate = LOAD_HOLDS;
         if (l->split_ratio < 1 && (!may_fail(j->settings, l) || surely_holds(j, l, width)))
@@ -292,6 +298,8 @@ static fram_status keep_failing(const fracture_job *j)
     int32_t kept = 0;
     if (!array_resize(j->ctx, &j->scratch->load.edges, all->count))
         return error_memory(j->error);
+    for (int32_t i = 0; i < all->count; i++)
+        read_load(j, &all->data[i]);
     fracture_job job = *j;
     pool_run(j->ctx, weigh_block, &job, (all->count + BLOCK_LOADS - 1) / BLOCK_LOADS);
     for (int32_t i = 0; i < all->count; i++) {

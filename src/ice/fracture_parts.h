@@ -99,6 +99,7 @@ typedef struct load_work {
     ARRAY(edge_ice) edges;  /* one per load since: the ice that it stands on, a straight edge where it is too small */
     ARRAY(load_rise) rises; /* one per load since */
     int32_array root;       /* the least load that is one with each, across seams */
+    strength_memory strengths;
 } load_work;
 
 /* One floe being cut, in its own frame. */
@@ -138,8 +139,19 @@ typedef struct sheet_work {
     polygon_list loose, united;         /* tiles that nothing holds, and their union */
 } sheet_work;
 
+/* How a hull cuts a floe. */
+typedef struct trim_place {
+    int32_t surface; /* slot of the hull; -1: of none */
+    mat3 rotation;   /* hull to floe */
+    vec3 offset;
+    double half; /* of the floe's thickness [m] */
+    double rim;  /* of ice that stays inside the sections [m] */
+    bool all;    /* both sections go, not what they have in common */
+} trim_place;
+
 /* Crushed ice being cut away from one floe. */
 typedef struct trim_work {
+    trim_place place;         /* for which `gone` was found */
     mesh hull;                /* in the frame of that floe */
     polygon_list top, bottom; /* its sections with the floe's faces */
     polygon_list inner;       /* one of these, moved inwards */

@@ -25,23 +25,42 @@ typedef struct trim_pair {
 } trim_pair;
 
 /* The hull as it last pressed on, in the floe's frame; a tile's is the global plan at its own height. */
-static bool place_hull(const fracture_job *j, const trim_pair *p)
+static trim_place place_of(const fracture_job *j, const trim_pair *p)
 {
     const body_table *b = j->state->bodies;
-    const shape_store *shapes = j->state->shapes;
     int32_t body = j->state->floes->body[p->floe];
-    const solid *hull = shape_solid(shapes, b->shape[p->surface]);
-    mesh *m = &j->scratch->trim.hull;
-    if (!mesh_copy(j->ctx, m, &hull->surface))
-        return false;
     mat3 turn = mat3_transpose(quat_matrix(b->orientation[body]));
-    mat3 rotation = mat3_mul(turn, quat_matrix(b->orientation[p->surface]));
     vec3 origin = b->position[body];
     if (j->state->floes->tile[p->floe] != 0)
         origin.x = origin.y = 0;
-    vec3 offset = mat3_mul_vec(turn, vec3_sub(vec3_add(b->position[p->surface], p->back), origin));
+    return (trim_place){.surface = p->surface,
+                        .rotation = mat3_mul(turn, quat_matrix(b->orientation[p->surface])),
+                        .offset =
+                            mat3_mul_vec(turn, vec3_sub(vec3_add(b->position[p->surface], p->back), origin)),
+                        .half = j->state->floes->thickness[p->floe] / 2,
+                        .rim = p->floats ? 0 : j->settings->edge_threshold,
+                        .all = p->retreats && !p->floats};
+}
+
+static bool is_same_vec(vec3 a, vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/* The tiles of a sheet lie alike, so that a hull among many of them cuts all at the same lines. */
+static bool is_same_place(const trim_place *a, const trim_place *b)
+{
+    bool same = a->surface == b->surface && a->half == b->half && a->rim == b->rim && a->all == b->all &&
+                is_same_vec(a->offset, b->offset);
+    for (int i = 0; i < 3; i++)
+        same = same && is_same_vec(mat3_column(a->rotation, i), mat3_column(b->rotation, i));
+    return same;
+}
+
+static bool place_hull(const fracture_job *j, const trim_place *at, const solid *hull)
+{
+    mesh *m = &j->scratch->trim.hull;
+    if (!mesh_copy(j->ctx, m, &hull->surface))
+        return false;
     for (int32_t i = 0; i < m->vertex.count; i++)
-        m->vertex.data[i] = vec3_add(mat3_mul_vec(rotation, m->vertex.data[i]), offset);
+        m->vertex.data[i] = vec3_add(mat3_mul_vec(at->rotation, m->vertex.data[i]), at->offset);
     return true;
 }
 
@@ -77,43 +96,69 @@ static bool inset(const fracture_job *j, const polygon_list *rings, double rim, 
     return true;
 }
 
+static fram_status find_sections(const fracture_job *j, const trim_place *at)
+{
+    trim_work *t = &j->scratch->trim;
+    const solid *hull = shape_solid(j->state->shapes, j->state->bodies->shape[at->surface]);
+    if (!place_hull(j, at, hull))
+        return error_memory(j->error);
+    polygon_list_clear(&t->top);
+    polygon_list_clear(&t->bottom);
+    fram_status status = mesh_section_along(j->ctx, &t->hull, &hull->adjacency, at->half, &t->top, j->error);
+    return status == FRAM_OK
+               ? mesh_section_along(j->ctx, &t->hull, &hull->adjacency, -at->half, &t->bottom, j->error)
+               : status;
+}
+
+/* All rings of both sections. */
+static bool take_all(const fracture_job *j)
+{
+    trim_work *t = &j->scratch->trim;
+    for (int k = 0; k < 2; k++) {
+        const polygon_list *rings = k ? &t->bottom : &t->top;
+        for (int32_t i = 0; i < polygon_list_count(rings); i++)
+            if (polygon_area(polygon_list_get(rings, i)) > 0 &&
+                !polygon_list_push(j->ctx, &t->gone, polygon_list_get(rings, i)))
+                return false;
+    }
+    return true;
+}
+
+/* What both sections, less the rim, have in common. */
+static fram_status take_common(const fracture_job *j, double rim)
+{
+    trim_work *t = &j->scratch->trim;
+    if (!inset(j, &t->top, rim, &t->inner))
+        return error_memory(j->error);
+    polygon_list swap = t->top;
+    t->top = t->inner;
+    t->inner = swap;
+    if (!inset(j, &t->bottom, rim, &t->inner))
+        return error_memory(j->error);
+    fram_status status = FRAM_OK;
+    for (int32_t i = 0; i < polygon_list_count(&t->top); i++)
+        for (int32_t k = 0; k < polygon_list_count(&t->inner) && status == FRAM_OK; k++)
+            status = overlay_intersection(j->plane, polygon_list_get(&t->top, i), polygon_list_get(&t->inner, k),
+                                          &t->gone, j->error);
+    return status;
+}
+
 /* What may go of the floe, into s->trim.gone: rings of the hull's sections at its two faces. */
 static fram_status find_gone(const fracture_job *j, const trim_pair *p)
 {
-    fracture_scratch *s = j->scratch;
-    double half = j->state->floes->thickness[p->floe] / 2;
-    if (!place_hull(j, p))
-        return error_memory(j->error);
-    polygon_list_clear(&s->trim.top);
-    polygon_list_clear(&s->trim.bottom);
-    polygon_list_clear(&s->trim.gone);
-    fram_status status = mesh_section(j->ctx, &s->trim.hull, half, &s->trim.top, j->error);
-    if (status == FRAM_OK)
-        status = mesh_section(j->ctx, &s->trim.hull, -half, &s->trim.bottom, j->error);
-    if (status != FRAM_OK)
-        return status;
-    if (p->retreats && !p->floats) {
-        for (int k = 0; k < 2; k++) {
-            const polygon_list *rings = k ? &s->trim.bottom : &s->trim.top;
-            for (int32_t i = 0; i < polygon_list_count(rings); i++)
-                if (polygon_area(polygon_list_get(rings, i)) > 0 &&
-                    !polygon_list_push(j->ctx, &s->trim.gone, polygon_list_get(rings, i)))
-                    return error_memory(j->error);
-        }
+    trim_work *t = &j->scratch->trim;
+    const trim_place at = place_of(j, p);
+    if (is_same_place(&at, &t->place))
         return FRAM_OK;
-    }
-    double rim = p->floats ? 0 : j->settings->edge_threshold;
-    if (!inset(j, &s->trim.top, rim, &s->trim.inner))
-        return error_memory(j->error);
-    polygon_list swap = s->trim.top;
-    s->trim.top = s->trim.inner;
-    s->trim.inner = swap;
-    if (!inset(j, &s->trim.bottom, rim, &s->trim.inner))
-        return error_memory(j->error);
-    for (int32_t i = 0; i < polygon_list_count(&s->trim.top); i++)
-        for (int32_t k = 0; k < polygon_list_count(&s->trim.inner) && status == FRAM_OK; k++)
-            status = overlay_intersection(j->plane, polygon_list_get(&s->trim.top, i),
-                                          polygon_list_get(&s->trim.inner, k), &s->trim.gone, j->error);
+    t->place.surface = -1;
+    polygon_list_clear(&t->gone);
+    fram_status status = find_sections(j, &at);
+    if (status == FRAM_OK && !at.all)
+        status = take_common(j, at.rim);
+    else if (status == FRAM_OK && !take_all(j))
+        status = error_memory(j->error);
+    if (status == FRAM_OK)
+        t->place = at;
     return status;
 }
 
@@ -245,6 +290,7 @@ fram_status fracture_trim(const fracture_job *j, const crushing_patch_array *pat
 {
     fram_status status = retreat_sweep(j->ctx, j->state->retreats, j->state->floes) ? FRAM_OK : error_memory(j->error);
     int32_t last = -1, last_surface = -1;
+    j->scratch->trim.place.surface = -1;
     for (int32_t i = 0; i < patches->count && status == FRAM_OK; i++) {
         const crushing_patch *p = &patches->data[i];
         if (!may_trim(j, p))

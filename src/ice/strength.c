@@ -5,6 +5,7 @@
 #include "base/transcendental.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Two fields: of the flexural strength, and of what the crushing strength does not share with it. */
 enum { ICE_STREAM_STRENGTH = 0x1ce40 };
@@ -52,32 +53,50 @@ static double noise(const strength_field *f, uint32_t stream, int64_t column, in
     return (sum - middle) / deviation;
 }
 
+/* As noise.  What a lattice of 8 points has side by side lies in different rows of the memory. */
+static double noise_remembered(const strength_field *f, strength_memory *memory, uint32_t stream, int64_t column,
+                               int64_t row)
+{
+    enum { ROW = 37 };
+    if (!memory)
+        return noise(f, stream, column, row);
+    strength_noise *n = &memory->noise[((uint64_t)column + ROW * (uint64_t)row) % STRENGTH_NOISES];
+    if (!n->known || n->column != column || n->row != row || n->stream != stream)
+        *n = (strength_noise){column, row, noise(f, stream, column, row), stream, true};
+    return n->value;
+}
+
 /* Normal at every place, mean 0 and variance 1. */
-static double gaussian_field(const strength_field *f, uint32_t stream, vec2 place)
+static double gaussian_field(const strength_field *f, strength_memory *memory, uint32_t stream, vec2 place)
 {
     double pitch = 0.5 * f->length, sum = 0;
     kernel x = kernel_about(place.x / pitch), y = kernel_about(place.y / pitch);
     for (int i = 0; i < POINTS; i++) {
         double line = 0;
         for (int k = 0; k < POINTS; k++)
-            line += y.weight[k] * noise(f, stream, x.first + i, y.first + k);
+            line += y.weight[k] * noise_remembered(f, memory, stream, x.first + i, y.first + k);
         sum += x.weight[i] * line;
     }
     return sum / sqrt(x.squares * y.squares);
 }
 
-double strength_factor(const strength_field *f, strength_kind kind, vec2 place)
+double strength_factor(const strength_field *f, strength_memory *memory, strength_kind kind, vec2 place)
 {
     double variation = kind == STRENGTH_FLEXURAL ? f->flexural_variation : f->crushing_variation;
     if (!(variation > 0))
         return 1;
+    if (memory && memory->seed != f->seed) {
+        memset(memory, 0, sizeof *memory);
+        memory->seed = f->seed;
+    }
     double g;
     if (kind == STRENGTH_FLEXURAL || f->common >= 1)
-        g = gaussian_field(f, 0, place);
+        g = gaussian_field(f, memory, 0, place);
     else if (f->common <= 0)
-        g = gaussian_field(f, 1, place);
+        g = gaussian_field(f, memory, 1, place);
     else
-        g = f->common * gaussian_field(f, 0, place) + sqrt(1 - f->common * f->common) * gaussian_field(f, 1, place);
+        g = f->common * gaussian_field(f, memory, 0, place) +
+            sqrt(1 - f->common * f->common) * gaussian_field(f, memory, 1, place);
     double variance = real_log(1 + variation * variation);
     return real_exp(sqrt(variance) * g - 0.5 * variance);
 }
@@ -92,11 +111,12 @@ vec2 strength_place(const floe_table *floes, int32_t floe, vec2 point)
     return (vec2){origin.x + c * point.x - s * point.y, origin.y + s * point.x + c * point.y};
 }
 
-ice_material strength_flexural_at(const strength_field *f, const floe_table *floes, int32_t floe, vec2 point)
+ice_material strength_flexural_at(const strength_field *f, strength_memory *memory, const floe_table *floes,
+                                  int32_t floe, vec2 point)
 {
     ice_material ice = floes->material[floe];
     if (f->flexural_variation > 0)
-        ice.flexural_strength *= strength_factor(f, STRENGTH_FLEXURAL, strength_place(floes, floe, point));
+        ice.flexural_strength *= strength_factor(f, memory, STRENGTH_FLEXURAL, strength_place(floes, floe, point));
     return ice;
 }
 
@@ -104,6 +124,6 @@ ice_material strength_crushing_at(const strength_field *f, const floe_table *flo
 {
     ice_material ice = floes->material[floe];
     if (f->crushing_variation > 0)
-        ice.crushing_strength *= strength_factor(f, STRENGTH_CRUSHING, strength_place(floes, floe, point));
+        ice.crushing_strength *= strength_factor(f, NULL, STRENGTH_CRUSHING, strength_place(floes, floe, point));
     return ice;
 }

@@ -26,6 +26,22 @@ static edge_ice ice_under(fracture_rig *r, int32_t row, vec2 place, double area)
     return edge;
 }
 
+/* At least, of a floe of its own. */
+static double least_under(fracture_rig *r, int32_t row, vec2 place, double area)
+{
+    fracture_state state = fracture_rig_state(r);
+    fram_error error = {0};
+    fracture_job j = {&r->ctx, r->scratch, &r->settings, r->plane, &state, &r->events, &error};
+    fracture_load l = {.body = r->floes.body[row],
+                       .floe = row,
+                       .force = 1e5,
+                       .place = place,
+                       .horizontal_area = area,
+                       .thickness = 1,
+                       .ice = FRACTURE_RIG_ICE};
+    return fracture_least_ice(&j, &l);
+}
+
 /* A large floe whose corner at the origin has this included angle, its bisector along +x; the frame is the floe's. */
 static int32_t corner_floe(fracture_rig *r, double angle, vec2 *corner)
 {
@@ -147,4 +163,55 @@ START_TEST(narrow_band)
 }
 END_TEST
 
-TEST_MAIN("fracture_edge", corners, corner_capacity, edges, beside_a_bite, narrow_band)
+/* A ring about the origin: its corners at random distances, some of them deep notches, some of them spikes. */
+static int32_t star(random_stream *r, double size, double depth, vec2 *out)
+{
+    int32_t count = 3 + (int32_t)(9 * random_unit(r));
+    for (int32_t i = 0; i < count; i++) {
+        double angle = 2 * PI * i / count, far = size * (1 - depth * random_unit(r));
+        out[i] = (vec2){far * real_cos(angle), far * real_sin(angle)};
+    }
+    return count;
+}
+
+/* The ice that there is at least is never more than the ice that there is, and not much less on an edge. */
+START_TEST(at_least)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    random_stream random = random_begin(51, 0, 0);
+    double told = 0, least = HUGE_VAL;
+    int loads = 0;
+    for (int i = 0; i < 300; i++) {
+        vec2 ring[12];
+        int32_t count = star(&random, random_uniform(&random, 1, 60), i % 3 ? random_uniform(&random, 0, 0.97) : 0, ring);
+        int32_t row = fracture_rig_floe(&r, (polygon){ring, count}, 1, MOTION_DYNAMIC);
+        ck_assert_int_ge(row, 0);
+        polygon outline = shape_outline(&r.shapes, r.bodies.shape[r.floes.body[row]]);
+        r.settings.wedges = 2 + (int32_t)(31 * random_unit(&random));
+        for (int k = 0; k < 20; k++) {
+            int32_t a = (int32_t)(outline.count * random_unit(&random)), b = a + 1 < outline.count ? a + 1 : 0;
+            double part = k % 4 ? random_unit(&random) : 0;
+            vec2 at = vec2_add(vec2_scale(outline.vertex[a], 1 - part), vec2_scale(outline.vertex[b], part));
+            double area = random_uniform(&random, 0.01, 3), some = least_under(&r, row, at, area);
+            double all = ice_under(&r, row, at, area).wedges;
+            ck_assert_msg(some >= 0 && some <= all * (1 + 1e-9), "at least %g of %g", some, all);
+            told += some / all;
+            loads++;
+        }
+        fracture_rig_remove_all(&r);
+    }
+    ck_assert_msg(told > 0.25 * loads, "%g in the mean", told / loads);
+    const vec2 plate[4] = {{-100, -100}, {100, -100}, {100, 100}, {-100, 100}};
+    int32_t row = fracture_rig_floe(&r, (polygon){plate, 4}, 1, MOTION_DYNAMIC);
+    for (r.settings.wedges = 2; r.settings.wedges <= 32; r.settings.wedges++)
+        least = fmin(least, least_under(&r, row, (vec2){3, -100}, 0.5));
+    ck_assert_msg(least > 0.4, "%g of an edge", least);
+    ck_assert_double_gt(least_under(&r, row, (vec2){-100, -100}, 0.5), 0.2);
+    r.settings.sharing = SHARING_EQUAL;
+    ck_assert(least_under(&r, row, (vec2){3, -100}, 0.5) == 1);
+    fracture_rig_free(&r);
+}
+END_TEST
+
+TEST_MAIN("fracture_edge", at_least, corners, corner_capacity, edges, beside_a_bite, narrow_band)

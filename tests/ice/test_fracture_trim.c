@@ -74,6 +74,30 @@ START_TEST(a_floe_under_a_hull_stays)
 }
 END_TEST
 
+/* A hull among two plates takes its place out of each, in the frame of each, of whatever thickness: what it cuts is
+   found anew unless both lie alike. */
+START_TEST(plates_that_lie_side_by_side)
+{
+    fracture_rig r;
+    solid_array solids = {0};
+    int32_t row[2] = {start(&r, &solids, MOTION_STATIC), -1};
+    const vec2 corner[4] = {{-20, 20}, {20, 20}, {20, 60}, {-20, 60}};
+    row[1] = fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_STATIC);
+    r.bodies.position[r.hull] = (vec3){-22, 20, 0};
+    r.bodies.velocity[r.hull] = (vec3){SPEED, 0, 0};
+    for (int i = 0; i < 2; i++) {
+        ck_assert(fracture_rig_load(&r, row[i], (vec2){-20, i ? -18 : 18}, 0, 0.5));
+        r.patches.data[r.patches.count - 1].normal = (vec3){1, 0, 0};
+    }
+    (void)fracture_rig_break(&r);
+    /* From x = -20 to -17 less the rim, 5 m less the rim to both sides of y = 20. */
+    double rim = r.settings.edge_threshold, area = 2 * (3 - rim) * (5 - rim);
+    assert_relative(r.crushed, 920 * area, 1e-9);
+    fracture_rig_free(&r);
+    solid_array_free(&r.ctx, &solids);
+}
+END_TEST
+
 /* ---- several hulls on one floe ---- */
 
 enum { HULLS = 3, ROWS = 2 };
@@ -292,5 +316,5 @@ START_TEST(rams_meet_the_notch)
 }
 END_TEST
 
-TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays,
+TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays, plates_that_lie_side_by_side,
           rams_meet_the_notch)

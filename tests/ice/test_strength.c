@@ -40,7 +40,7 @@ static sums sample(const strength_field *f, strength_kind one, strength_kind two
     for (int i = 0; i < ACROSS; i++)
         for (int k = 0; k < ACROSS; k++) {
             vec2 at = {(i - ACROSS / 2) * 10.137 * f->length, (k - ACROSS / 2) * 10.291 * f->length};
-            double a = strength_factor(f, one, at), b = strength_factor(f, two, vec2_add(at, way));
+            double a = strength_factor(f, NULL, one, at), b = strength_factor(f, NULL, two, vec2_add(at, way));
             if (logarithms)
                 sums_add(&s, real_log(a), real_log(b));
             else
@@ -84,24 +84,43 @@ START_TEST(seeds_and_switches)
     strength_field other = FIELD, none = {.seed = 7, .length = 3}, together = FIELD, apart = FIELD;
     vec2 at = {12.3, -4.5};
     other.seed = 8;
-    ck_assert(strength_factor(&FIELD, STRENGTH_FLEXURAL, at) != strength_factor(&other, STRENGTH_FLEXURAL, at));
-    ck_assert_double_eq(strength_factor(&none, STRENGTH_FLEXURAL, at), 1);
-    ck_assert_double_eq(strength_factor(&none, STRENGTH_CRUSHING, at), 1);
+    ck_assert(strength_factor(&FIELD, NULL, STRENGTH_FLEXURAL, at) != strength_factor(&other, NULL, STRENGTH_FLEXURAL, at));
+    ck_assert_double_eq(strength_factor(&none, NULL, STRENGTH_FLEXURAL, at), 1);
+    ck_assert_double_eq(strength_factor(&none, NULL, STRENGTH_CRUSHING, at), 1);
     together.common = 1;
     together.crushing_variation = together.flexural_variation;
-    ck_assert_double_eq(strength_factor(&together, STRENGTH_FLEXURAL, at),
-                        strength_factor(&together, STRENGTH_CRUSHING, at));
+    ck_assert_double_eq(strength_factor(&together, NULL, STRENGTH_FLEXURAL, at),
+                        strength_factor(&together, NULL, STRENGTH_CRUSHING, at));
     apart.common = 0;
     sums s = sample(&apart, STRENGTH_FLEXURAL, STRENGTH_CRUSHING, (vec2){0, 0}, true);
     ck_assert_msg(fabs(correlation(&s)) < 0.04, "%g", correlation(&s));
     /* Continuous: where a point of the lattice comes into reach too. */
-    double largest = 0, before = strength_factor(&FIELD, STRENGTH_FLEXURAL, (vec2){0, 0.2});
+    double largest = 0, before = strength_factor(&FIELD, NULL, STRENGTH_FLEXURAL, (vec2){0, 0.2});
     for (int i = 1; i <= 6000; i++) {
-        double now = strength_factor(&FIELD, STRENGTH_FLEXURAL, (vec2){i * 1e-3, 0.2});
+        double now = strength_factor(&FIELD, NULL, STRENGTH_FLEXURAL, (vec2){i * 1e-3, 0.2});
         largest = fmax(largest, fabs(now - before));
         before = now;
     }
     ck_assert_msg(largest < 2e-3, "a jump of %g within a millimetre", largest);
+}
+END_TEST
+
+/* What is remembered of the lattice changes no bit, whatever was asked for before, also by another field. */
+START_TEST(remembered)
+{
+    static strength_memory memory;
+    strength_field other = FIELD;
+    other.seed = 8;
+    random_stream r = random_begin(41, 0, 0);
+    vec2 at = {0, 0};
+    for (int i = 0; i < 4000; i++) {
+        const strength_field *f = i / 500 % 2 ? &other : &FIELD;
+        double far = i % 100 ? 2 : 1e4;
+        at = vec2_add(at, vec2_make(random_uniform(&r, -far, far), random_uniform(&r, -far, far)));
+        for (int kind = 0; kind < 2; kind++)
+            ck_assert_double_eq(strength_factor(f, &memory, (strength_kind)kind, at),
+                                strength_factor(f, NULL, (strength_kind)kind, at));
+    }
 }
 END_TEST
 
@@ -201,7 +220,7 @@ START_TEST(decides_on_bending)
         r.settings.strength = FIELD;
         int32_t row = fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_DYNAMIC);
         vec2 at = {-60 + 30 * i, -100};
-        double factor = strength_factor(&FIELD, STRENGTH_FLEXURAL, strength_place(&r.floes, row, at));
+        double factor = strength_factor(&FIELD, NULL, STRENGTH_FLEXURAL, strength_place(&r.floes, row, at));
         edge_stress s = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT);
         double load = factor * s.wedge_capacity;
         ck_assert(fracture_rig_load(&r, row, at, 0.99 * load, 0.5));
@@ -221,7 +240,7 @@ END_TEST
 static double factor_at(const ice_rig *r, int32_t row, vec3 global)
 {
     vec3 local = body_to_local(&r->bodies, r->floes.body[row], global);
-    return strength_factor(&FIELD, STRENGTH_CRUSHING, strength_place(&r->floes, row, (vec2){local.x, local.y}));
+    return strength_factor(&FIELD, NULL, STRENGTH_CRUSHING, strength_place(&r->floes, row, (vec2){local.x, local.y}));
 }
 
 /* A wall driven into a floe, and floes on floes, crush at the strength of the weaker ice where they meet. */
@@ -262,5 +281,5 @@ START_TEST(limits_crushing)
 }
 END_TEST
 
-TEST_MAIN("strength", mean_and_variation, correlation_length, seeds_and_switches, goes_with_a_floe, goes_with_a_sheet,
+TEST_MAIN("strength", mean_and_variation, correlation_length, seeds_and_switches, remembered, goes_with_a_floe, goes_with_a_sheet,
           decides_on_bending, limits_crushing)
