@@ -168,7 +168,7 @@ static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t fi
     enum { KINDS = LEVEL_VERTICES + 1 }; /* numbers of points */
     const body_table *t = w->bodies;
     const shape_table *s = &w->shapes->shapes;
-    int8_t kind[PRISM_BLOCK];
+    int16_t kind[PRISM_BLOCK];
     int32_t begin[LIES * KINDS + 1] = {0}, left = 0;
     for (int32_t slot = first; slot < end; slot++) {
         int32_t shape = t->shape[slot], at = slot - first;
@@ -180,7 +180,7 @@ static int32_t find_floes(const prism_work *w, const uint8_t *served, int32_t fi
             rest[left++] = slot;
             continue;
         }
-        kind[at] = (int8_t)((int)treated_as(w, slot) * KINDS + prism_points(s->outline_count[shape]));
+        kind[at] = (int16_t)((int)treated_as(w, slot) * KINDS + prism_points(s->outline_count[shape]));
         begin[kind[at] + 1]++;
     }
     for (int k = 0; k < LIES * KINDS; k++)

@@ -202,8 +202,16 @@ START_TEST(at_least)
         fracture_rig_remove_all(&r);
     }
     ck_assert_msg(told > 0.25 * loads, "%g in the mean", told / loads);
+    /* The stem of a T is loaded from above: beside the crack there is next to nothing. */
+    const vec2 tee[8] = {{-10, 0}, {10, 0}, {10, 0.3}, {0.2, 0.3}, {0.2, 30}, {-0.2, 30}, {-0.2, 0.3}, {-10, 0.3}};
+    int32_t row = fracture_rig_floe(&r, (polygon){tee, 8}, 1, MOTION_DYNAMIC);
+    vec3 centre = r.bodies.position[r.floes.body[row]];
+    vec2 foot = {-centre.x, -centre.y};
+    r.settings.wedges = 32;
+    ck_assert_double_le(least_under(&r, row, foot, 0.5), ice_under(&r, row, foot, 0.5).wedges);
+    fracture_rig_remove_all(&r);
     const vec2 plate[4] = {{-100, -100}, {100, -100}, {100, 100}, {-100, 100}};
-    int32_t row = fracture_rig_floe(&r, (polygon){plate, 4}, 1, MOTION_DYNAMIC);
+    row = fracture_rig_floe(&r, (polygon){plate, 4}, 1, MOTION_DYNAMIC);
     for (r.settings.wedges = 2; r.settings.wedges <= 32; r.settings.wedges++)
         least = fmin(least, least_under(&r, row, (vec2){3, -100}, 0.5));
     ck_assert_msg(least > 0.4, "%g of an edge", least);

@@ -81,12 +81,12 @@ START_TEST(plates_that_lie_side_by_side)
     fracture_rig r;
     solid_array solids = {0};
     int32_t row[2] = {start(&r, &solids, MOTION_STATIC), -1};
-    const vec2 corner[4] = {{-20, 20}, {20, 20}, {20, 60}, {-20, 60}};
+    const vec2 corner[4] = {{-20, 20}, {20, 20}, {20, 100}, {-20, 100}};
     row[1] = fracture_rig_floe(&r, (polygon){corner, 4}, 1, MOTION_STATIC);
     r.bodies.position[r.hull] = (vec3){-22, 20, 0};
     r.bodies.velocity[r.hull] = (vec3){SPEED, 0, 0};
     for (int i = 0; i < 2; i++) {
-        ck_assert(fracture_rig_load(&r, row[i], (vec2){-20, i ? -18 : 18}, 0, 0.5));
+        ck_assert(fracture_rig_load(&r, row[i], (vec2){-20, i ? -38 : 18}, 0, 0.5));
         r.patches.data[r.patches.count - 1].normal = (vec3){1, 0, 0};
     }
     (void)fracture_rig_break(&r);

@@ -105,21 +105,30 @@ START_TEST(seeds_and_switches)
 }
 END_TEST
 
-/* What is remembered of the lattice changes no bit, whatever was asked for before, also by another field. */
+static void assert_remembered(const strength_field *f, strength_memory *memory, strength_kind kind, vec2 at)
+{
+    ck_assert_double_eq(strength_factor(f, memory, kind, at), strength_factor(f, NULL, kind, at));
+}
+
+/* What is remembered of the lattice changes no bit, whatever was asked for before, also by another field, or at places
+   that share their rows of the memory. */
 START_TEST(remembered)
 {
     static strength_memory memory;
+    const double again = STRENGTH_NOISES * 0.5 * FIELD.length;
     strength_field other = FIELD;
     other.seed = 8;
     random_stream r = random_begin(41, 0, 0);
     vec2 at = {0, 0};
-    for (int i = 0; i < 4000; i++) {
-        const strength_field *f = i / 500 % 2 ? &other : &FIELD;
-        double far = i % 100 ? 2 : 1e4;
-        at = vec2_add(at, vec2_make(random_uniform(&r, -far, far), random_uniform(&r, -far, far)));
-        for (int kind = 0; kind < 2; kind++)
-            ck_assert_double_eq(strength_factor(f, &memory, (strength_kind)kind, at),
-                                strength_factor(f, NULL, (strength_kind)kind, at));
+    for (int i = 0; i < 2000; i++) {
+        const strength_field *f = i / 50 % 2 ? &other : &FIELD;
+        at = vec2_add(at, vec2_make(random_uniform(&r, -2, 2), random_uniform(&r, -2, 2)));
+        const strength_kind kind = i / 500 % 2 ? STRENGTH_CRUSHING : STRENGTH_FLEXURAL;
+        assert_remembered(f, &memory, kind, at);
+        if (i % 10 == 0) {
+            assert_remembered(f, &memory, kind, vec2_make(at.x, at.y + again));
+            assert_remembered(f, &memory, kind, vec2_make(at.x + again, at.y));
+        }
     }
 }
 END_TEST
