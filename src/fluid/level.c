@@ -115,8 +115,8 @@ static floe_lie lie_between(double lowest, double highest, double rise, bool upr
     return upright && lowest + rise >= 0 && highest - rise <= 0 ? LIE_LEVEL : LIE_OTHER;
 }
 
-/* Floes thicker than this part of the outline's radius: sides that are taken at the middle of their depth, as the kernel
-   of level floes does, are too coarse for such that roll, and level floes do not roll (docs/decisions/0520). */
+/* Floes thicker than this part of the outline's radius: sides that are taken at the middle of their depth, as the
+   kernel of level floes does, are too coarse for such that roll, and level floes do not roll (docs/decisions/0520). */
 static const double DEEP = 0.5;
 
 /* By the outline's radius where that is enough: outlines lie in the order in which floes were made, and waiting for

@@ -8,10 +8,7 @@ typedef struct level_floes {
     real x[LEVEL_VERTICES + 1], y[LEVEL_VERTICES + 1]; /* outline */
 } level_floes;
 
-V8_INLINE prism_ring ring_of(const level_batch *b, const level_floes *f)
-{
-    return (prism_ring){b->sides, f->x, f->y};
-}
+V8_INLINE prism_ring ring_of(const level_batch *b, const level_floes *f) { return (prism_ring){b->sides, f->x, f->y}; }
 
 V8_INLINE void read_floes(const level_batch *b, level_floes *f)
 {
@@ -46,8 +43,7 @@ V8_INLINE level_volume volume_of(const level_floes *f, const prism_moments *m)
     real squares = m->area * (h * h - half * half) + 2 * h * (s * m->x + t * m->y) +
                    (s * s * m->xx + 2 * s * t * m->xy + t * t * m->yy);
     return (level_volume){
-        volume,
-        {m->x * depth + (s * m->xx + t * m->xy), m->y * depth + (s * m->xy + t * m->yy), 0.5 * squares}};
+        volume, {m->x * depth + (s * m->xx + t * m->xy), m->y * depth + (s * m->xy + t * m->yy), 0.5 * squares}};
 }
 
 /* From cap to cap. */

@@ -1,14 +1,13 @@
-/* Drag on prisms, one in each lane of a register, in the axes of each: on caps or parts of them, which are outlines, and
-   on sides or parts of them, which are trapezia along the prism's axis.  For kernels (base/kernel.h) inside fluid; knows
-   no batches.
+/* Drag on prisms, one in each lane of a register, in the axes of each: on caps or parts of them, which are outlines,
+   and on sides or parts of them, which are trapezia along the prism's axis.  For kernels (base/kernel.h) inside fluid;
+   knows no batches.
 
-   Form drag of a cap is exact for any motion: the inflow f = L + g . r is linear, and where it changes its sign the part
-   with f > 0 is made of triangles from a point of the line f = 0.
-   Form drag of a side is exact along the edge and, unless its motion changes its sign over the depth, over the depth.
-   Skin drag is a quadrature: two Gauss points along each edge.  On caps it is exact along rays from the point that
-   rests; on sides it is taken at the middle of the depth.
-   Floes whose sides may be as deep as they are long get "deep" sides: form drag is exact there, and skin drag has two
-   points over the depth too. */
+   Form drag of a cap is exact for any motion: the inflow f = L + g . r is linear, and where it changes its sign the
+   part with f > 0 is made of triangles from a point of the line f = 0. Form drag of a side is exact along the edge and,
+   unless its motion changes its sign over the depth, over the depth. Skin drag is a quadrature: two Gauss points along
+   each edge.  On caps it is exact along rays from the point that rests; on sides it is taken at the middle of the
+   depth. Floes whose sides may be as deep as they are long get "deep" sides: form drag is exact there, and skin drag
+   has two points over the depth too. */
 #ifndef FLUID_PRISM_DRAG_H
 #define FLUID_PRISM_DRAG_H
 

@@ -1,5 +1,5 @@
-/* The prisms of a batch in the lanes of a register: poses, motions and loads.  For kernels (base/kernel.h) inside fluid;
-   knows no outlines. */
+/* The prisms of a batch in the lanes of a register: poses, motions and loads.  For kernels (base/kernel.h) inside
+   fluid; knows no outlines. */
 #ifndef FLUID_PRISM_LANES_H
 #define FLUID_PRISM_LANES_H
 

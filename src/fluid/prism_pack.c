@@ -10,8 +10,8 @@ static drag_coefficients half_of(const media *m, const drag_coefficients *c)
     return (drag_coefficients){water * c->water_form, water * c->water_skin, air * c->air_form, air * c->air_skin};
 }
 
-prism_work prism_work_of(const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                         const body_table *bodies, const shape_store *shapes)
+prism_work prism_work_of(const media *m, const drag_coefficients coefficients[MATERIAL_COUNT], const body_table *bodies,
+                         const shape_store *shapes)
 {
     prism_work w = {.media = m, .bodies = bodies, .shapes = shapes};
     for (int i = 0; i < MATERIAL_COUNT; i++) {

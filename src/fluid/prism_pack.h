@@ -18,8 +18,8 @@ typedef struct prism_work {
     held_drag_table *held; /* of level floes; may be NULL */
 } prism_work;
 
-prism_work prism_work_of(const media *m, const drag_coefficients coefficients[MATERIAL_COUNT],
-                         const body_table *bodies, const shape_store *shapes);
+prism_work prism_work_of(const media *m, const drag_coefficients coefficients[MATERIAL_COUNT], const body_table *bodies,
+                         const shape_store *shapes);
 
 /* Where the loads of a block go, at [slot - first]. */
 typedef struct prism_output {
@@ -28,11 +28,11 @@ typedef struct prism_output {
     fluid_load *load; /* may be NULL */
 } prism_output;
 
-/* Points that an outline has in a batch.  Those of few vertices have long edges, on which the quadrature of skin drag is
-   coarse: they are cut in half. */
+/* Points that an outline has in a batch.  Those of few vertices have long edges, on which the quadrature of skin drag
+   is coarse: they are cut in half. */
 int32_t prism_points(int32_t vertices);
-/* These points: the vertices themselves, or in `room`, of twice as many. */
-const vec2 *prism_outline(const vec2 *vertex, int32_t vertices, vec2 *room);
+/* These points of n vertices: the vertices themselves, or in `room`, of twice as many. */
+const vec2 *prism_outline(const vec2 *vertex, int32_t n, vec2 *room);
 
 /* Pose and motion of a slot's floe; not wet and dry and the weight, which all have in common. */
 void prism_pack(const prism_work *w, prism_batch *b, int lane, int32_t slot);

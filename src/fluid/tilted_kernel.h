@@ -1,8 +1,8 @@
-/* Fluid on eight floes at once that lie anyhow: the water plane may cut their caps, or miss them.  Inside fluid; knows no
-   tables.
+/* Fluid on eight floes at once that lie anyhow: the water plane may cut their caps, or miss them.  Inside fluid; knows
+   no tables.
 
-   Everything is done in the body's axes.  Each outline has corners of its own where the water plane crosses the rim of a
-   cap, so that between two corners the depth of the water over the lower cap, from none to the whole thickness, is
+   Everything is done in the body's axes.  Each outline has corners of its own where the water plane crosses the rim of
+   a cap, so that between two corners the depth of the water over the lower cap, from none to the whole thickness, is
    linear: the wet and the dry part of a side are trapezia.  The wet part of a cap is an outline of its own, of those of
    the corners that are in the water there, and so is the dry part.
 

@@ -105,8 +105,7 @@ static void add_neighbour(edge_piece *x, edge_piece *y)
         return;
     double apart = vec2_length(vec2_sub(x->place, y->place)), influence = sheet_edge_influence(apart / x->length);
     x->influence += alike * of_x * influence;
-    y->influence +=
-        alike * of_y * (y->length == x->length ? influence : sheet_edge_influence(apart / y->length));
+    y->influence += alike * of_y * (y->length == x->length ? influence : sheet_edge_influence(apart / y->length));
 }
 
 static void find_neighbours(edge_piece_array *work)

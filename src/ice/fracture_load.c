@@ -156,8 +156,8 @@ static bool merge_seams(context *ctx, fracture_scratch *s, const tile_grid *g)
     int32_t *root = s->load.root.data, kept = 0;
     for (int32_t i = 0; i < l->count; i++) {
         root[i] = i;
-        for (int32_t k = 0; k < i; k++) {
-            if (!l->data[i].tile || !l->data[k].tile || !is_one_patch(g, &l->data[k], &l->data[i]))
+        for (int32_t k = 0; k < i && l->data[i].tile; k++) {
+            if (!l->data[k].tile || !is_one_patch(g, &l->data[k], &l->data[i]))
                 continue;
             int32_t a = root_of(root, i), b = root_of(root, k);
             root[a > b ? a : b] = a > b ? b : a;

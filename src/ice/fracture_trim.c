@@ -35,8 +35,7 @@ static trim_place place_of(const fracture_job *j, const trim_pair *p)
         origin.x = origin.y = 0;
     return (trim_place){.surface = p->surface,
                         .rotation = mat3_mul(turn, quat_matrix(b->orientation[p->surface])),
-                        .offset =
-                            mat3_mul_vec(turn, vec3_sub(vec3_add(b->position[p->surface], p->back), origin)),
+                        .offset = mat3_mul_vec(turn, vec3_sub(vec3_add(b->position[p->surface], p->back), origin)),
                         .half = j->state->floes->thickness[p->floe] / 2,
                         .rim = p->floats ? 0 : j->settings->edge_threshold,
                         .all = p->retreats && !p->floats};
@@ -105,9 +104,8 @@ static fram_status find_sections(const fracture_job *j, const trim_place *at)
     polygon_list_clear(&t->top);
     polygon_list_clear(&t->bottom);
     fram_status status = mesh_section_along(j->ctx, &t->hull, &hull->adjacency, at->half, &t->top, j->error);
-    return status == FRAM_OK
-               ? mesh_section_along(j->ctx, &t->hull, &hull->adjacency, -at->half, &t->bottom, j->error)
-               : status;
+    return status == FRAM_OK ? mesh_section_along(j->ctx, &t->hull, &hull->adjacency, -at->half, &t->bottom, j->error)
+                             : status;
 }
 
 /* All rings of both sections. */

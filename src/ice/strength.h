@@ -16,7 +16,7 @@ typedef struct strength_field {
     double common;             /* correlation of the logarithms of both strengths at one place, 0 to 1 [1] */
 } strength_field;
 
-/* Noise of the lattice that was asked for before, of one field: loads come to the same places step after step.  Scratch:
+/* Noise of the lattice that was asked for before, of one field: loads come to the same places step after step. Scratch:
    answers are the same with and without.  Zero: nothing yet. */
 enum { STRENGTH_NOISES = 1024 };
 typedef struct strength_noise {
@@ -35,7 +35,8 @@ typedef enum strength_kind { STRENGTH_FLEXURAL = 0, STRENGTH_CRUSHING } strength
 
 /* What a strength is multiplied by at a place of the ice [m]: lognormal, mean 1 and the field's coefficient of
    variation; 1 without variation.  White noise on a lattice of L/2 under a Gaussian kernel of the standard deviation
-   L/2 (Vanmarcke 1983): mean and variance are exact at every place, the correlation within 2e-3.  memory: may be NULL. */
+   L/2 (Vanmarcke 1983): mean and variance are exact at every place, the correlation within 2e-3.  memory: may be NULL.
+ */
 double strength_factor(const strength_field *f, strength_memory *memory, strength_kind kind, vec2 place);
 
 /* The place in the ice of a point of a floe's plane, in the frame of its body [m]. */

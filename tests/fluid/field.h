@@ -95,7 +95,7 @@ typedef struct load_error {
 } load_error;
 
 static inline load_error error_of(const field *f, const media *m, const drag_coefficients *c, double coefficient,
-                           const fluid_load *load, int i)
+                                  const fluid_load *load, int i)
 {
     fluid_motion state = motion_of(f, i);
     polygon outline = outline_of(i % OUTLINES);

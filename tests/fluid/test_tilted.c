@@ -1,5 +1,5 @@
-/* Tilted floes, eight at a time: against the walk over all faces of a prism, against a fine mesh, in poses that are none
-   in particular and in those where corners and caps lie in the water plane. */
+/* Tilted floes, eight at a time: against the walk over all faces of a prism, against a fine mesh, in poses that are
+   none in particular and in those where corners and caps lie in the water plane. */
 #include "field.h"
 
 enum { FLOES = 900 };
@@ -127,12 +127,13 @@ END_TEST
 
 static const drag_coefficients all_kinds[MATERIAL_COUNT] = {{1, 0.01, 0.8, 0.003}};
 
-/* Corners and whole caps in the water plane, a quarter of a turn and half a one: what of a floe lies in the plane counts
-   once, and a cap as wet. */
+/* Corners and whole caps in the water plane, a quarter of a turn and half a one: what of a floe lies in the plane
+   counts once, and a cap as wet. */
 START_TEST(poses_in_the_plane)
 {
     static const double quarter = 0.70710678118654752; /* sin of half a right angle */
-    const quat turn[] = {{1, 0, 0, 0}, {quarter, quarter, 0, 0}, {quarter, 0, -quarter, 0}, {0, 1, 0, 0}, {0.8, 0.6, 0, 0}};
+    const quat turn[] = {
+        {1, 0, 0, 0}, {quarter, quarter, 0, 0}, {quarter, 0, -quarter, 0}, {0, 1, 0, 0}, {0.8, 0.6, 0, 0}};
     const double height[] = {-4.5, -half_height, -0.25, 0.25, half_height, 4.5};
     enum { TURNS = sizeof turn / sizeof *turn, HEIGHTS = sizeof height / sizeof *height };
     field f;
@@ -207,7 +208,8 @@ START_TEST(thick_blocks)
 }
 END_TEST
 
-/* From under the water to over it: no jump where a corner crosses the plane, and one formula takes over from another. */
+/* From under the water to over it: no jump where a corner crosses the plane, and one formula takes over from another.
+ */
 START_TEST(no_jump_on_the_way_out)
 {
     enum { STEPS = 4000 };

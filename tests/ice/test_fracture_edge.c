@@ -184,7 +184,8 @@ START_TEST(at_least)
     int loads = 0;
     for (int i = 0; i < 300; i++) {
         vec2 ring[12];
-        int32_t count = star(&random, random_uniform(&random, 1, 60), i % 3 ? random_uniform(&random, 0, 0.97) : 0, ring);
+        int32_t count =
+            star(&random, random_uniform(&random, 1, 60), i % 3 ? random_uniform(&random, 0, 0.97) : 0, ring);
         int32_t row = fracture_rig_floe(&r, (polygon){ring, count}, 1, MOTION_DYNAMIC);
         ck_assert_int_ge(row, 0);
         polygon outline = shape_outline(&r.shapes, r.bodies.shape[r.floes.body[row]]);

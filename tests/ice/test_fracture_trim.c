@@ -316,5 +316,5 @@ START_TEST(rams_meet_the_notch)
 }
 END_TEST
 
-TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays, plates_that_lie_side_by_side,
-          rams_meet_the_notch)
+TEST_MAIN("fracture trim", retreat_is_the_way_of_the_hull, each_hull_draws_back_by_itself, a_floe_under_a_hull_stays,
+          plates_that_lie_side_by_side, rams_meet_the_notch)

@@ -84,7 +84,8 @@ START_TEST(seeds_and_switches)
     strength_field other = FIELD, none = {.seed = 7, .length = 3}, together = FIELD, apart = FIELD;
     vec2 at = {12.3, -4.5};
     other.seed = 8;
-    ck_assert(strength_factor(&FIELD, NULL, STRENGTH_FLEXURAL, at) != strength_factor(&other, NULL, STRENGTH_FLEXURAL, at));
+    ck_assert(strength_factor(&FIELD, NULL, STRENGTH_FLEXURAL, at) !=
+              strength_factor(&other, NULL, STRENGTH_FLEXURAL, at));
     ck_assert_double_eq(strength_factor(&none, NULL, STRENGTH_FLEXURAL, at), 1);
     ck_assert_double_eq(strength_factor(&none, NULL, STRENGTH_CRUSHING, at), 1);
     together.common = 1;
@@ -290,5 +291,5 @@ START_TEST(limits_crushing)
 }
 END_TEST
 
-TEST_MAIN("strength", mean_and_variation, correlation_length, seeds_and_switches, remembered, goes_with_a_floe, goes_with_a_sheet,
-          decides_on_bending, limits_crushing)
+TEST_MAIN("strength", mean_and_variation, correlation_length, seeds_and_switches, remembered, goes_with_a_floe,
+          goes_with_a_sheet, decides_on_bending, limits_crushing)
