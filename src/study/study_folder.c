@@ -162,19 +162,18 @@ static fram_status write_condition(study_folder *f, int32_t condition, fram_erro
     return status;
 }
 
-/* A study that was killed while it wrote its first file left a part of that. */
-static void remove_leftovers(context *ctx, const char *path)
+/* A study that was killed while it wrote its first file left a part of that; one that has just begun has it there for a
+   moment.  Which of them it is shows when the folder is locked: then it is swept. */
+static bool has_leftovers_only(const char *path)
 {
     DIR *dir = opendir(path);
-    for (struct dirent *e = dir ? readdir(dir) : NULL; e; e = readdir(dir)) {
-        text_buffer b = {0};
-        text_format(ctx, &b, "%s/%s", path, e->d_name);
-        if (temporary_is_of(e->d_name, "study.yaml") && !b.failed)
-            (void)unlink(b.data);
-        text_free(ctx, &b);
-    }
+    bool only = dir != NULL;
+    int failure = 0;
+    for (const char *name = dir ? folder_next(dir, &failure) : NULL; name && only; name = folder_next(dir, &failure))
+        only = temporary_is_of(name, "study.yaml");
     if (dir)
         closedir(dir);
+    return only && failure == 0;
 }
 
 /* A folder that holds something else is left alone. */
@@ -183,10 +182,8 @@ static fram_status check_folder(context *ctx, const char *path, fram_error *erro
     text_buffer b = {0};
     text_format(ctx, &b, "%s/study.yaml", path);
     fram_status status = b.failed ? error_memory(error) : FRAM_OK;
-    if (status == FRAM_OK && !file_is_readable(b.data)) {
-        remove_leftovers(ctx, path);
-        status = run_folder_check(path, false, error);
-    }
+    if (status == FRAM_OK && !file_is_readable(b.data))
+        status = run_folder_check(path, has_leftovers_only(path), error);
     text_free(ctx, &b);
     return status;
 }
