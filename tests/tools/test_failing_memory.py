@@ -25,8 +25,8 @@ class FailingMemory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="fram-memory-test-")))
-        cls.rig = torture.Rig(types.SimpleNamespace(fram=os.environ["FRAM"], shrink=0, minutes=1, out=cls.folder / "out",
-                                                    soak_hours=0))
+        options = types.SimpleNamespace(fram=os.environ["FRAM"], shrink=0, minutes=1, out=cls.folder, soak_hours=0)
+        cls.rig = torture.Rig(options)
         cls.addClassCleanup(cls.rig.clear, cls.rig.work)
 
     def hold(self, words, tried):

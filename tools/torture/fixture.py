@@ -49,7 +49,8 @@ keep: series
 """
 # A series to find extremes of: waves of two lengths that do not repeat.
 TENSION = "time[s],tension[N]\n" + "".join(
-    f"{i / 5:g},{1e5 + 2e4 * math.sin(i / 3) * math.sin(i / 7.1) + 3e3 * math.sin(i * i / 11):.6g}\n" for i in range(1500))
+    f"{i / 5:g},{1e5 + 2e4 * math.sin(i / 3) * math.sin(i / 7.1) + 3e3 * math.sin(i * i / 11):.6g}\n"
+    for i in range(1500))
 FLOES = """{"type":"FeatureCollection","features":[
 {"type":"Feature","properties":{"thickness":0.8},"geometry":
  {"type":"Polygon","coordinates":[[[0,0],[9,0],[9,8],[0,8],[0,0]]]}},
