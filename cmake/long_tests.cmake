@@ -38,6 +38,7 @@ set(fram_long_tests
     "views/live_view:      a browser beside runs that go on"
     "views/peaks:          a browser opens the page at each peak of several runs"
     "views/playback:       a browser plays several runs, looks at pixels and clicks"
+    "tools/failing_memory: fifty commands, each with another allocation that fails, on files of their own"
     "tools/torture:        the campaign of faults tried on commands that misbehave on purpose")
 set(fram_short_limit 150) # [s]: thirty times 5 s, for machines that are busy or slow
 set(fram_long_limit 600)  # [s]
