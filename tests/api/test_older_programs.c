@@ -23,7 +23,7 @@ static fram_field *field, *rings;
 static fram_hull *hull;
 static fram_study *study;
 static fram_body_id vessel;
-static char folder[200], run[260], live[260], unit[260], table[260], outlines[260], plan[260];
+static char folder[200], run[260], live[260], unit[260], library[260], table[260], outlines[260], plan[260];
 
 /* ---- one call of each function ---- */
 
@@ -89,7 +89,7 @@ FILL_BY(fram_ice_split, fram_ice_floe, fram_ice_floe_default, (void)0, &d, out)
 FILL_BY(fram_run, fram_run_definition, fram_run_default, (d.folder = run, d.force = true), s, &d, out)
 FILL_BY(fram_resume, fram_run_definition, fram_run_default, d.folder = run, ctx, &d, out)
 FILL_BY(fram_manage, fram_manage_definition, fram_manage_default, (void)0, ctx, run, &d, out, &words)
-FILL_BY(fram_fmu, fram_fmu_definition, fram_fmu_default, (d.output = unit, d.binary = table), s, &d, out)
+FILL_BY(fram_fmu, fram_fmu_definition, fram_fmu_default, (d.output = unit, d.binary = library), s, &d, out)
 FILL_BY(fram_study_run, fram_study_definition, fram_study_default, d.folder = folder, study, &d, out)
 FILL_BY(fram_extremes_find, fram_extremes_definition, fram_extremes_default,
         (d.source.files = tables, d.source.file_count = 1, d.source.channel = "x", d.method = "pot"), ctx, &d, out)
@@ -305,6 +305,7 @@ static void name_files(void)
     snprintf(run, sizeof run, "%s/run", folder);
     snprintf(live, sizeof live, "%s/live", folder);
     snprintf(unit, sizeof unit, "%s/ship.fmu", folder);
+    snprintf(library, sizeof library, "%s/library.so", folder);
     snprintf(table, sizeof table, "%s/table.csv", folder);
     snprintf(outlines, sizeof outlines, "%s/outlines.txt", folder);
     snprintf(plan, sizeof plan, "%s/study.yaml", folder);
@@ -315,6 +316,7 @@ static void write_files(void)
     char floe[260];
     snprintf(floe, sizeof floe, "%s/floe.yaml", folder);
     write_text(floe, "run: {duration: 0.2, time_step: 0.02}\nice: {source: floes, floes: [{length: 9, width: 9}]}\n");
+    write_text(library, "\177ELF"); /* what a unit packs begins so */
     write_text(plan, "scenario: floe.yaml\nseeds: 2\nvary: {grid: {ice.thickness: [0.5, 1]}}\n");
     /* A floe, and two rings that cross themselves. */
     write_text(outlines, "0 0\n10 0\n10 10\n0 10\n0 0\n\n20 0\n30 10\n30 0\n20 10\n20 0\n\n"
