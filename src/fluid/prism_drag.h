@@ -245,6 +245,17 @@ V8_INLINE side_form side_form_of(real ga, real gb, real slope, real depth_a, rea
                        (length * (1.0 / 6)) * (slope * (pc * cubes + ph * cubes_t))};
 }
 
+/* The force of form drag on a side: p0 and pz are the integrals of p^2 and z p^2 over it by the square of its length, p1
+   that of s p^2. */
+V8_INLINE void add_side_push(const prism_side *e, real along_a, real p0, real p1, real pz, prism_sum *sum)
+{
+    sum->force.x -= e->ey * p0;
+    sum->force.y += e->ex * p0;
+    sum->moment.x -= e->ex * pz;
+    sum->moment.y -= e->ey * pz;
+    sum->moment.z += along_a * p0 + p1;
+}
+
 V8_INLINE void add_side_form(const prism_stream *v, const prism_side *e, prism_sum *sum)
 {
     /* Speed into the medium times the edge's length, at the middle plane, and its change with z. */
@@ -255,14 +266,11 @@ V8_INLINE void add_side_form(const prism_stream *v, const prism_side *e, prism_s
     side_form p = side_form_of(ga + gz * za, gb + gz * zb, gz, e->depth_a, e->depth_b);
     real p0 = e->inverse2 * p.zeroth;
     real pz = e->inverse2 * (za * p.zeroth + ((zb - za) * p.first + p.over_depth));
-    sum->force.x -= e->ey * p0;
-    sum->force.y += e->ex * p0;
-    sum->moment.x -= e->ex * pz;
-    sum->moment.y -= e->ey * pz;
-    sum->moment.z += along_a * p0 + p.first;
+    add_side_push(e, along_a, p0, p.first, pz, sum);
 }
 
-V8_INLINE void add_side_skin(const prism_stream *v, const prism_side *e, prism_sum *sum)
+/* With two Gauss points along the edge, and `layers` over its depth, one in the middle or two. */
+V8_INLINE void add_layered_skin(const prism_stream *v, const prism_side *e, int layers, prism_sum *sum)
 {
     real cross = e->xa * e->ey - e->ya * e->ex; /* of the edge about the axis */
     /* Speed along the edge times its length, at z = 0, and its change with z; vertical speed at both ends. */
@@ -270,28 +278,34 @@ V8_INLINE void add_side_skin(const prism_stream *v, const prism_side *e, prism_s
     real qz = e->ex * v->spin.y - e->ey * v->spin.x;
     real wa = v->velocity.z + v->spin.x * e->ya - v->spin.y * e->xa, dw = v->spin.x * e->ey - v->spin.y * e->ex;
     real along = zero(), along_z = zero(), up = zero(), up_s = zero();
-#pragma GCC unroll 2
-    for (int i = 0; i < 2; i++) {
-        double s = i ? GAUSS_FAR : GAUSS_NEAR;
+#pragma GCC unroll 4
+    for (int i = 0; i < 2 * layers; i++) {
+        double s = i & 1 ? GAUSS_FAR : GAUSS_NEAR, t = layers == 1 ? 0.5 : i & 2 ? GAUSS_FAR : GAUSS_NEAR;
         real depth = e->depth_a + s * (e->depth_b - e->depth_a), base = e->base_a + s * (e->base_b - e->base_a);
-        real w = wa + s * dw, z = base + 0.5 * depth, q = q0 + z * qz;
+        real w = wa + s * dw, z = base + t * depth, q = q0 + z * qz;
         real speed = depth * root(q * q + e->length2 * (w * w)), push = speed * q, lift = speed * w;
         along += push;
         along_z += push * z;
         up += lift;
         up_s += s * lift;
     }
-    real scale = 0.5 * e->inverse2;
+    double weight = 0.5 / layers;
+    real scale = weight * e->inverse2;
     along *= scale;
     along_z *= scale;
-    up *= 0.5;
-    up_s *= 0.5;
+    up *= weight;
+    up_s *= weight;
     sum->force.x -= e->ex * along;
     sum->force.y -= e->ey * along;
     sum->force.z -= up;
     sum->moment.x += e->ey * along_z - (e->ya * up + e->ey * up_s);
     sum->moment.y += (e->xa * up + e->ex * up_s) - e->ex * along_z;
     sum->moment.z -= cross * along;
+}
+
+V8_INLINE void add_side_skin(const prism_stream *v, const prism_side *e, prism_sum *sum)
+{
+    add_layered_skin(v, e, 1, sum);
 }
 
 /* ---- sides, over all of their depth ---- */
@@ -356,43 +370,13 @@ V8_INLINE void add_deep_side_form(const prism_stream *v, const prism_side *e, pr
         p.height = choose(parted, exact.height, p.height);
     }
     real p0 = e->inverse2 * p.zeroth, pz = e->inverse2 * p.height;
-    sum->force.x -= e->ey * p0;
-    sum->force.y += e->ex * p0;
-    sum->moment.x -= e->ex * pz;
-    sum->moment.y -= e->ey * pz;
-    sum->moment.z += along_a * p0 + p.first;
+    add_side_push(e, along_a, p0, p.first, pz, sum);
 }
 
 /* As add_side_skin, with two Gauss points over the depth too. */
 V8_INLINE void add_deep_side_skin(const prism_stream *v, const prism_side *e, prism_sum *sum)
 {
-    real cross = e->xa * e->ey - e->ya * e->ex;
-    real q0 = e->ex * v->velocity.x + e->ey * v->velocity.y + v->spin.z * cross;
-    real qz = e->ex * v->spin.y - e->ey * v->spin.x;
-    real wa = v->velocity.z + v->spin.x * e->ya - v->spin.y * e->xa, dw = v->spin.x * e->ey - v->spin.y * e->ex;
-    real along = zero(), along_z = zero(), up = zero(), up_s = zero();
-#pragma GCC unroll 4
-    for (int i = 0; i < 4; i++) {
-        double s = i & 1 ? GAUSS_FAR : GAUSS_NEAR, t = i & 2 ? GAUSS_FAR : GAUSS_NEAR;
-        real depth = e->depth_a + s * (e->depth_b - e->depth_a), base = e->base_a + s * (e->base_b - e->base_a);
-        real w = wa + s * dw, z = base + t * depth, q = q0 + z * qz;
-        real speed = depth * root(q * q + e->length2 * (w * w)), push = speed * q, lift = speed * w;
-        along += push;
-        along_z += push * z;
-        up += lift;
-        up_s += s * lift;
-    }
-    real scale = 0.25 * e->inverse2;
-    along *= scale;
-    along_z *= scale;
-    up *= 0.25;
-    up_s *= 0.25;
-    sum->force.x -= e->ex * along;
-    sum->force.y -= e->ey * along;
-    sum->force.z -= up;
-    sum->moment.x += e->ey * along_z - (e->ya * up + e->ey * up_s);
-    sum->moment.y += (e->xa * up + e->ex * up_s) - e->ex * along_z;
-    sum->moment.z -= cross * along;
+    add_layered_skin(v, e, 2, sum);
 }
 
 V8_INLINE void add_scaled(prism_sum *to, const prism_sum *add, real by)
