@@ -89,7 +89,7 @@ static inline double apart(const wrench *a, const wrench *b, double reach)
 }
 
 /* How far a floe's load is from the prism's own: drag over that of a face at the floe's largest speed and one
-   coefficient, hydrostatics over the weight. */
+   coefficient, hydrostatics over the buoyancy; of a floe in the air in N and m3. */
 typedef struct load_error {
     double water, air, hydrostatic, volume;
 } load_error;
@@ -103,10 +103,11 @@ static inline load_error error_of(const field *f, const media *m, const drag_coe
     fluid_load_prism(m, c, outline, half_height, &state, &expected);
     double reach = 0.5 * polygon_diameter(outline), speed = largest_speed(&state, m->current, reach);
     double size = 0.5 * 1025 * coefficient * polygon_area(outline) * speed * speed;
+    double volume = expected.submerged_volume, buoyancy = expected.hydrostatic.force.z;
     return (load_error){apart(&load->water_drag, &expected.water_drag, reach) / size,
                         apart(&load->wind_drag, &expected.wind_drag, reach) / size,
-                        apart(&load->hydrostatic, &expected.hydrostatic, reach) / expected.hydrostatic.force.z,
-                        fabs(load->submerged_volume / expected.submerged_volume - 1)};
+                        apart(&load->hydrostatic, &expected.hydrostatic, reach) / (buoyancy > 0 ? buoyancy : 1),
+                        fabs(load->submerged_volume - volume) / (volume > 0 ? volume : 1)};
 }
 
 #endif
