@@ -245,8 +245,8 @@ V8_INLINE side_form side_form_of(real ga, real gb, real slope, real depth_a, rea
                        (length * (1.0 / 6)) * (slope * (pc * cubes + ph * cubes_t))};
 }
 
-/* The force of form drag on a side: p0 and pz are the integrals of p^2 and z p^2 over it by the square of its length, p1
-   that of s p^2. */
+/* The force of form drag on a side: p0 and pz are the integrals of p^2 and z p^2 over it by the square of its length,
+   p1 that of s p^2. */
 V8_INLINE void add_side_push(const prism_side *e, real along_a, real p0, real p1, real pz, prism_sum *sum)
 {
     sum->force.x -= e->ey * p0;
