@@ -182,8 +182,12 @@ static fram_status check_folder(context *ctx, const char *path, fram_error *erro
     text_buffer b = {0};
     text_format(ctx, &b, "%s/study.yaml", path);
     fram_status status = b.failed ? error_memory(error) : FRAM_OK;
-    if (status == FRAM_OK && !file_is_readable(b.data))
+    if (status == FRAM_OK && !file_is_readable(b.data)) {
         status = run_folder_check(path, has_leftovers_only(path), error);
+        /* Another study that begins may have made folder and file between these looks. */
+        if (status == FRAM_ERROR_USAGE && (has_leftovers_only(path) || file_is_readable(b.data)))
+            status = FRAM_OK;
+    }
     text_free(ctx, &b);
     return status;
 }
