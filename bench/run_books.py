@@ -22,8 +22,8 @@ ROOT = HERE.parent
 RESULTS = HERE / "results"
 BOUND = 1e-9
 # Those that take longest, last.
-LONG = ("supply_ship", "turret_ship", "conical_unit", "drillship", "uikku_303", "escort", "drillship_one_icebreaker",
-        "drillship_two_icebreakers")
+LONG = ("supply_ship", "turret_ship", "conical_unit", "drillship", "uikku_303", "escort", "drillship_circle",
+        "drillship_one_icebreaker", "drillship_two_icebreakers")
 KEYS = ("scene", "time", "duration", "vessels", "steps", "loaded", "peak", "step", "zones", "row", "processor", "date",
         "commit")
 ABOUT = """# Parts of the ice load and the load

@@ -107,6 +107,9 @@ static fram_status check_propulsion(const scenario *s, const vessel_entry *e, fr
     if (p->waypoints.count > 0 && p->pattern.kind != PATTERN_NONE)
         return vessel_fault(s, e, "propulsion.waypoints", error, "expected none, since there is a pattern, found %d",
                             (int)p->waypoints.count);
+    if (p->pattern.kind == PATTERN_AHEAD && !is_automatic(p->pattern.period))
+        return vessel_fault(s, e, "propulsion.pattern.period", error,
+                            "expected auto, since the way ahead has no rounds: set propulsion.speed");
     return FRAM_OK;
 }
 

@@ -9,13 +9,16 @@
     X(y, REAL(0, -1e7, 1e7), "m", "of the centre of mass")
 
 #define SCENARIO_PATTERN_KEYS(X)                                                                                  \
-    X(kind, CHOICE(pattern_kind, PATTERN_NONE, "none line across circle square sector"), "",                      \
+    X(kind, CHOICE(pattern_kind, PATTERN_NONE, "none line across circle square sector ahead"), "",                \
       "line: updrift and back; across: to and fro across the drift; circle, square: about a centre updrift; "     \
-      "sector: to and fro on an arc about the place")                                                             \
+      "sector: to and fro on an arc about the place; ahead: updrift, on and on")                                  \
     X(x, REAL(0, -1e7, 1e7), "m", "place that the pattern is updrift of: that of the vessel it protects")         \
     X(y, REAL(0, -1e7, 1e7), "m", "of that place")                                                                \
     X(distance, REAL(500, 1e-3, 1e6), "m", "updrift of it: of the middle, of the near end of a line, of the arc") \
     X(width, REAL(200, 1e-3, 1e6), "m", "length of a line or an arc, diameter of a circle, side of a square")     \
+    X(aside, REAL(0, -1e6, 1e6), "m", "all of it is moved so far to port of updrift")                             \
+    X(forecast, BOOLEAN(false), "",                                                                               \
+      "it points to where the ice is now that comes to the place as the drift turns, not against the drift")      \
     X(period, AUTOMATIC(1e-3, 1e7), "s", "of a round, which gives the speed that is wanted; auto: propulsion.speed")
 
 #define SCENARIO_PROPULSION_KEYS(X)                                                                                  \

@@ -40,7 +40,7 @@ static const column_rule column_rules[] = {
     {"station", "heading_rule", HEADING_FIXED, HEADING_VANING, NULL},
     {"event", "kind", 0, EVENT_COUNT - 1, NULL},
     {"propulsion", "vessel", 0, 0, "vessel"},
-    {"propulsion", "pattern", PATTERN_NONE, PATTERN_SECTOR, NULL},
+    {"propulsion", "pattern", PATTERN_NONE, PATTERN_AHEAD, NULL},
     {"propulsion", "phase", PROPULSION_AHEAD, PROPULSION_ASTERN, NULL},
     {"propulsion", "leg", 0, INT32_MAX, NULL},
     {"course", "vessel", 0, 0, "vessel"},

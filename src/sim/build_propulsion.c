@@ -61,6 +61,7 @@ static propulsion_settings settings_of(const scenario_propulsion *p, double leng
                                  .y = p->pattern.y,
                                  .distance = p->pattern.distance,
                                  .width = p->pattern.width,
+                                 .aside = p->pattern.aside,
                                  .track_limit = automatic_or(p->track_limit, beam)};
 }
 
@@ -69,7 +70,7 @@ static propulsion_settings settings_of(const scenario_propulsion *p, double leng
 static void give_speed(context *ctx, const model *m, int32_t vessel, const scenario_propulsion *p,
                        propulsion_settings *s)
 {
-    pattern_shape shape = {p->pattern.kind, s->distance, s->width};
+    pattern_shape shape = {p->pattern.kind, s->distance, s->width, s->aside};
     double round = track_of_pattern(&shape, 0).length;
     s->speed = wanted_speed(p, round);
     s->turning = turning_ability_of(ctx, m, vessel, s, fmin(s->speed, s->open_water_speed));
@@ -96,5 +97,6 @@ fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry
     settings.ship = ship_of(s, hull, w, w->vessels.body[vessel]);
     settings.rudder = rudders_of(s, p, hull);
     give_speed(ctx, m, vessel, p, &settings);
-    return propulsion_add(ctx, &settings, p->pattern.kind, vessel, &w->vessels, &w->bodies, &w->propulsion, error);
+    return propulsion_add(ctx, &settings, p->pattern.kind, p->pattern.forecast, vessel, &w->vessels, &w->bodies,
+                          &w->propulsion, error);
 }

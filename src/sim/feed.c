@@ -1,6 +1,8 @@
 #include "sim/feed.h"
 
+#include "base/transcendental.h"
 #include "sim/media_now.h"
+#include "vessel/plane_motion.h"
 
 #include <math.h>
 
@@ -40,6 +42,42 @@ vec2 feed_drift(const model *m, const input_table *inputs, double time)
     media now = media_now(m, inputs, time);
     vec3 current = media_current(&now, 0);
     return vec2_make(current.x, current.y);
+}
+
+/* Steps in which ice at the drift of now comes, and those in which its way is followed, by the midpoint rule. */
+enum { ORIGIN_STEPS = 32, ORIGIN_MOST = 4 * ORIGIN_STEPS };
+
+static double updrift_at(const model *m, const input_table *inputs, double time)
+{
+    vec2 drift = feed_drift(m, inputs, time);
+    return real_atan2(-drift.y, -drift.x);
+}
+
+/* The way at a place whose ice comes at a time: in the ice it is where the drift is going to lead. */
+static track_place way_of(const model *m, const input_table *inputs, vec2 at, double time, double dt)
+{
+    double speed = vec2_length(feed_drift(m, inputs, time));
+    double turn = updrift_at(m, inputs, time + dt) - updrift_at(m, inputs, time - dt);
+    return (track_place){.at = at,
+                         .heading = updrift_at(m, inputs, time),
+                         .curvature = speed > 0 ? plane_angle(turn) / (2 * dt * speed) : 0};
+}
+
+track_place feed_origin(const model *m, const input_table *inputs, double time, double distance)
+{
+    double speed = vec2_length(feed_drift(m, inputs, time)), dt = distance / (ORIGIN_STEPS * speed);
+    vec2 from = {0, 0};
+    if (!(speed > 0) || !(distance > 0))
+        return (track_place){.at = from};
+    for (int i = 0; i < ORIGIN_MOST; i++) {
+        vec2 way = vec2_scale(feed_drift(m, inputs, time + (i + 0.5) * dt), -dt), next = vec2_add(from, way);
+        if (vec2_length(next) >= distance) {
+            double near = vec2_length(from), part = (distance - near) / (vec2_length(next) - near);
+            return way_of(m, inputs, vec2_add(from, vec2_scale(way, part)), time + (i + part) * dt, dt);
+        }
+        from = next;
+    }
+    return way_of(m, inputs, from, time + ORIGIN_MOST * dt, dt);
 }
 
 /* Skin friction of a medium on a plane area [N]. */

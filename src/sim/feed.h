@@ -4,6 +4,7 @@
 #define SIM_FEED_H
 
 #include "model/world.h"
+#include "vessel/track.h"
 
 /* The parts of a world that feeding reads and changes. */
 feeding_world feed_world(world *w);
@@ -13,6 +14,11 @@ tile_grid feed_grid(const model *m, const world *w);
 /* Velocity of the far field at a time: what was told from outside, its own history, what the scenario gives, or the
    current at the surface [m/s]. */
 vec2 feed_drift(const model *m, const input_table *inputs, double time);
+/* From a place to the ice that is going to come there and is this distance [m] away from it at a time, as the drift is
+   known to go on: from its history, or as it is; and the way through the ice that comes there, outward.  Where the ice
+   does not come from so far, as far as it comes within four times as long as at the drift of now; at (0, 0): there is
+   no drift. */
+track_place feed_origin(const model *m, const input_table *inputs, double time, double distance);
 /* Before the solve of the step that ends at `time`. */
 void feed_drive(const model *m, world *w, double time);
 /* After the solve: what the sheet met. */

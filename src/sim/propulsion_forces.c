@@ -24,6 +24,31 @@ static wrench drag_now(const model *m, const world *w, int32_t vessel)
     return known ? w->scratch.fluid.data[row].water_drag : (wrench){{0, 0, 0}, {0, 0, 0}};
 }
 
+track_place propulsion_comes(const model *m, const world *w, int32_t row, double time, double away)
+{
+    track_place out = {.at = {0, 0}};
+    if (m->boundary != DOMAIN_FEEDING)
+        return out;
+    bool ahead = w->propulsion.pattern[row] == PATTERN_AHEAD;
+    double distance = ahead ? away : w->propulsion.settings[row].distance;
+    if (w->propulsion.forecast[row])
+        return feed_origin(m, &w->inputs, time, distance);
+    vec2 drift = feed_drift(m, &w->inputs, time);
+    double speed = vec2_length(drift);
+    if (speed > 0) {
+        out.at = vec2_scale(drift, -distance / speed);
+        out.heading = real_atan2(-drift.y, -drift.x);
+    }
+    return out;
+}
+
+static double away_from_place(const world *w, int32_t row)
+{
+    const propulsion_settings *s = &w->propulsion.settings[row];
+    vec3 at = w->bodies.position[w->vessels.body[w->propulsion.vessel[row]]];
+    return vec2_length(vec2_make(at.x - s->x, at.y - s->y));
+}
+
 fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error *error)
 {
     if (w->propulsion.count == 0)
@@ -36,10 +61,12 @@ fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error
     fram_status status = FRAM_OK;
     for (int32_t i = 0; i < w->propulsion.count && status == FRAM_OK; i++) {
         int32_t vessel = w->propulsion.vessel[i], body = w->vessels.body[vessel];
+        double away = away_from_place(w, i);
         propulsion_moment moment = {w->clock.time[0],
                                     m->time_step,
                                     water,
                                     drift,
+                                    propulsion_comes(m, w, i, w->clock.time[0], away),
                                     m->forces == FORCES_FLUID ? propulsion_resistance(m, w, vessel, water) : 0,
                                     drag_now(m, w, vessel)};
         status = propulsion_step(ctx, &w->propulsion, i, &moment, &w->vessels, &w->bodies, &w->course,

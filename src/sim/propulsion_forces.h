@@ -4,10 +4,14 @@
 
 #include "model/world.h"
 
-/* After the water's forces are known: steers, and adds thrust to the loads. */
 /* What the water takes of a vessel's thrust along its bow [N], its velocity at the surface being `water`: drag on the
    hull, and the linear damping of surge. */
 double propulsion_resistance(const model *m, const world *w, int32_t vessel, vec2 water);
+/* From the place of a row's pattern to the ice that comes there, at the distance of the pattern, or of the ship, that
+   is so far `away` [m], from a pattern that goes ahead: against the drift, or with a forecast where it is going to come
+   from; and its way, outward.  At (0, 0): no drift. */
+track_place propulsion_comes(const model *m, const world *w, int32_t row, double time, double away);
+/* After the water's forces are known: steers, and adds thrust to the loads. */
 fram_status propulsion_forces(context *ctx, const model *m, world *w, fram_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 #include "sim/turning_tell.h"
 
 #include "base/transcendental.h"
-#include "sim/feed.h"
+#include "sim/propulsion_forces.h"
 
 #include <math.h>
 
@@ -55,35 +55,55 @@ static void tell_arcs(const pattern_view *v)
 
 /* ---- the domain ---- */
 
-/* Where the frame of the pattern points when the drift is this. */
-static double axis_at(const model *m, const world *w, int32_t row, double time)
+/* A place of the track over the ground at a time. */
+static vec2 place_at(const pattern_view *v, const model *m, const world *w, int32_t row, const track *path, double time,
+                     double way)
 {
-    vec2 drift = m->boundary == DOMAIN_FEEDING ? feed_drift(m, &w->inputs, time) : vec2_make(0, 0);
-    return vec2_length(drift) > 0 ? real_atan2(-drift.y, -drift.x) : w->propulsion.axis[row];
+    vec2 place = {v->set->x, v->set->y};
+    track_place comes = propulsion_comes(m, w, row, time, way);
+    bool drifts = vec2_length(comes.at) > 0;
+    double axis = drifts ? real_atan2(comes.at.y, comes.at.x) : w->propulsion.axis[row];
+    if (v->shape.kind == PATTERN_AHEAD)
+        return vec2_add(place, drifts ? comes.at : vec2_scale(vec2_make(real_cos(axis), real_sin(axis)), way));
+    vec2 at = track_at(path, way).at;
+    double c = real_cos(axis), e = real_sin(axis);
+    return vec2_add(place, vec2_make(c * at.x - e * at.y, e * at.x + c * at.y));
+}
+
+/* Whether a place is in the domain; tells if it is not. */
+static bool check_place(const pattern_view *v, double time, vec2 at)
+{
+    const scenario_domain *d = &v->s->domain;
+    if (at.x >= d->x_min && at.x <= d->x_max && at.y >= d->y_min && at.y <= d->y_max)
+        return true;
+    log_write(v->ctx, LOG_WARNING,
+              "%s.propulsion.pattern: at %.4g s it leads to (%.4g, %.4g) m, outside of the domain, where there is "
+              "no ice: enlarge the domain, or take a smaller or nearer pattern (loops have a radius of %.4g m)",
+              v->entry->path, time, at.x, at.y, v->set->turning.corner);
+    return false;
+}
+
+/* How far the way ahead has led at a time, if the ship is as fast as it is told to be. */
+static double way_ahead(const pattern_view *v, const world *w, int32_t row, double time)
+{
+    vec3 at = w->bodies.position[w->vessels.body[w->propulsion.vessel[row]]];
+    double begun = vec2_length(vec2_make(at.x - v->set->x, at.y - v->set->y));
+    return begun + fmin(v->set->speed, v->set->open_water_speed) * time;
 }
 
 static void tell_domain(const pattern_view *v, const model *m, const world *w, int32_t row)
 {
-    const scenario_domain *d = &v->s->domain;
     track path = track_of_pattern(&v->shape, v->set->turning.corner);
+    int places = v->shape.kind == PATTERN_AHEAD ? 1 : PLACES;
     if (v->s->ice.source == ICE_NONE)
         return;
-    for (int i = 0; i <= MOMENTS; i++) {
-        double time = v->s->run.duration * i / MOMENTS, axis = axis_at(m, w, row, time);
-        double c = real_cos(axis), e = real_sin(axis);
-        for (int k = 0; k < PLACES; k++) {
-            vec2 at = track_at(&path, path.length * k / PLACES).at;
-            double x = v->set->x + c * at.x - e * at.y, y = v->set->y + e * at.x + c * at.y;
-            if (x >= d->x_min && x <= d->x_max && y >= d->y_min && y <= d->y_max)
-                continue;
-            log_write(
-                v->ctx, LOG_WARNING,
-                "%s.propulsion.pattern: at %.4g s it leads to (%.4g, %.4g) m, outside of the domain, where there is "
-                "no ice: enlarge the domain, or take a smaller or nearer pattern (loops have a radius of %.4g m)",
-                v->entry->path, time, x, y, v->set->turning.corner);
-            return;
+    for (int i = 0; i <= MOMENTS; i++)
+        for (int k = 0; k < places; k++) {
+            double time = v->s->run.duration * i / MOMENTS;
+            double way = path.closed ? path.length * k / PLACES : way_ahead(v, w, row, time);
+            if (!check_place(v, time, place_at(v, m, w, row, &path, time, way)))
+                return;
         }
-    }
 }
 
 void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, const world *w,
@@ -94,7 +114,8 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
         return;
     const propulsion_settings *set = &p->settings[p->count - 1];
     const turning_ability *t = &set->turning;
-    pattern_view v = {ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width}};
+    pattern_view v = {
+        ctx, s, entry, set, {(pattern_kind)p->pattern[p->count - 1], set->distance, set->width, set->aside}};
     log_write(ctx, LOG_INFO,
               "%s turns on a radius of %.4g m at full helm in open water at %.3g m/s%s; corners and loops of its track "
               "have %.4g m",

@@ -20,6 +20,35 @@ static int32_t keys_apart(const study *s, int32_t a, int32_t b, int32_t *key)
     return n;
 }
 
+/* Whether each condition can be reached from each by pairs. */
+static bool joined(const condition_pairs *pairs, int32_t conditions)
+{
+    int32_t group[COMPARED_ALL];
+    for (int32_t c = 0; c < conditions; c++)
+        group[c] = c;
+    for (int32_t i = 0; i < pairs->count; i++) {
+        int32_t from = group[pairs->data[i].condition], to = group[pairs->data[i].reference];
+        for (int32_t c = 0; c < conditions; c++)
+            group[c] = group[c] == from ? to : group[c];
+    }
+    for (int32_t c = 1; c < conditions; c++)
+        if (group[c] != group[0])
+            return false;
+    return true;
+}
+
+static bool pair_all(context *ctx, const study *s, condition_pairs *out)
+{
+    array_clear(out);
+    for (int32_t c = 1; c < s->conditions; c++)
+        for (int32_t r = 0; r < c; r++) {
+            int32_t key = -1, apart = keys_apart(s, c, r, &key);
+            if (apart > 0 && !array_push(ctx, out, ((condition_pair){c, r, apart == 1 ? key : -1})))
+                return false;
+        }
+    return true;
+}
+
 bool study_pairs(context *ctx, const study *s, condition_pairs *out)
 {
     array_clear(out);
@@ -37,10 +66,7 @@ bool study_pairs(context *ctx, const study *s, condition_pairs *out)
             }
         }
     }
-    int32_t key = -1;
-    if (s->conditions == 2 && keys_apart(s, 1, 0, &key) > 1)
-        return array_push(ctx, out, ((condition_pair){1, 0, -1}));
-    return true;
+    return s->conditions > COMPARED_ALL || joined(out, s->conditions) || pair_all(ctx, s, out);
 }
 
 /* ---- how much ---- */

@@ -6,15 +6,15 @@
 
 #include "study/seeds.h"
 
-/* A condition and the first one that differs from it in this key alone; key -1: of two conditions that differ in
-   several, all of them. */
+/* A condition and the first one that differs from it in this key alone, or any one before it where few conditions do
+   not hang together so; key -1: they differ in several. */
 typedef struct condition_pair {
     int32_t condition, reference, key;
 } condition_pair;
 typedef ARRAY(condition_pair) condition_pairs;
 
 /* Conditions of larger studies are not compared: their number grows with the square. */
-enum { COMPARED_MOST = 500 };
+enum { COMPARED_MOST = 500, COMPARED_ALL = 6 };
 /* By condition, then by key; none of a design of sensitivity, which has its own tables.  false: no memory. */
 bool study_pairs(context *ctx, const study *s, condition_pairs *out);
 

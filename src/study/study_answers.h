@@ -30,7 +30,7 @@ typedef struct annual_answer {
 fram_status study_annual(const study_folder *f, const condition_rows *conditions, run_figure figure,
                          const double *block, annual_answer out[STUDY_LEVELS_MOST], fram_error *error);
 
-/* differences.csv, where conditions differ in one key alone (study/differences.h). */
+/* differences.csv, where conditions can be compared (study/differences.h). */
 fram_status study_differences_write(const study_folder *f, const condition_rows *conditions, fram_error *error);
 /* Runs of a condition in which lines parted, but for those that are let go, and the least of the largest tensions of
    such runs: up to that one the tensions are known [N]. */

@@ -1,4 +1,4 @@
-/* differences.csv and its part of the page: conditions that differ in one key, run by run of the same seed. */
+/* differences.csv and its part of the page: conditions that are compared, run by run of the same seed. */
 #include "base/number_text.h"
 #include "study/differences.h"
 #include "study/study_page_parts.h"
@@ -130,7 +130,7 @@ static bool add_pair(study_page *p, const condition_pair *pair, const bool *has)
     snprintf(text, sizeof text, "%d", (int)pair->reference + 1);
     html_cell(&p->page, text);
     char key[PAGE_NAME_SIZE];
-    page_breakable(pair->key >= 0 ? p->f->s->keys.data[pair->key] : "all keys", key);
+    page_breakable(pair->key >= 0 ? p->f->s->keys.data[pair->key] : "several", key);
     page_text_cell(p, key);
     for (int i = 0; i < PAGE_FIGURES && good; i++)
         if (has[i])
@@ -158,8 +158,8 @@ static bool add_table(study_page *p, const condition_pairs *pairs, const bool *h
     double confidence = p->f->s->seeds.confidence;
     html_paragraph(
         &p->page,
-        "A condition less the first one that differs from it in one key alone: the mean of the differences of "
-        "runs of the same seed, with half its interval (Student's t of pairs). \"higher\" and \"lower\": "
+        "A condition less the first one that differs from it in one key alone, or each one before it where few "
+        "conditions differ in several: the mean of the differences of runs of the same seed, with half its interval (Student's t of pairs). \"higher\" and \"lower\": "
         "the interval of %g %% does not hold 0; of %.0f such intervals of what differs in nothing one does so "
         "by chance. differences.csv has them too, and those of means without pairs (Welch's).",
         100 * confidence, 1 / (1 - confidence));

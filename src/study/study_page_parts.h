@@ -79,7 +79,7 @@ void page_group_name(const study *s, const study_series *of, int32_t group, bool
 /* "Seeds and means": a dot a run, means with their intervals; lines along a key where the conditions are series over
    it (study/study_series.h). */
 fram_status page_add_charts(study_page *p, const bool *has, fram_error *error);
-/* "Differences" of conditions that differ in one key, where they have two runs each. */
+/* "Differences" of conditions that are compared, where they have two runs each. */
 fram_status page_add_differences(study_page *p, const bool *has, fram_error *error);
 /* "Station": in how many runs each condition kept what was required, where vessels are on a station. */
 fram_status page_add_station(study_page *p, fram_error *error);

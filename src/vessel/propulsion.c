@@ -26,8 +26,8 @@ double propulsion_net_thrust(double bollard_pull, double open_water_speed, doubl
     return bollard_pull * (1 - r / 3 - 2 * r * r / 3);
 }
 
-fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, int32_t vessel,
-                           const vessel_table *vessels, const body_table *bodies, propulsion_table *out,
+fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, bool forecast,
+                           int32_t vessel, const vessel_table *vessels, const body_table *bodies, propulsion_table *out,
                            fram_error *error)
 {
     int32_t row = out->count, body = vessels->body[vessel];
@@ -36,6 +36,7 @@ fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pa
     out->vessel[row] = vessel;
     out->settings[row] = *settings;
     out->pattern[row] = (uint8_t)pattern;
+    out->forecast[row] = forecast;
     out->axis[row] = quat_roll_pitch_yaw(bodies->orientation[body]).z;
     out->from[row] = vec2_make(bodies->position[body].x, bodies->position[body].y);
     out->way[row] = -1;
@@ -93,9 +94,10 @@ static bool way_point(const course_table *course, int32_t vessel, int32_t n, vec
 static double turn_axis(const pilot *p)
 {
     propulsion_table *t = p->table;
-    if (!(vec2_length(p->now->drift) > 0))
+    vec2 comes = p->now->comes.at;
+    if (!(vec2_length(comes) > 0))
         return 0;
-    double axis = real_atan2(-p->now->drift.y, -p->now->drift.x);
+    double axis = real_atan2(comes.y, comes.x);
     double turn = plane_angle(axis - t->axis[p->row]) / p->now->dt;
     t->axis[p->row] = axis;
     double way = vec2_length(vec2_sub(p->place, vec2_make(p->s->x, p->s->y)));
@@ -173,16 +175,41 @@ static bool leg_track(const pilot *p, const course_table *course, track *out)
     return true;
 }
 
+/* On the way on which the ice comes, past the ice: the ship heads where it goes through it.  Without a drift it goes
+   straight on as the axis of its pattern points. */
+static void look_ahead(const pilot *p, double thrust, autopilot_view *v, track *sailed)
+{
+    const propulsion_settings *s = p->s;
+    track_place way = p->now->comes;
+    vec2 place = vec2_make(s->x, s->y);
+    if (vec2_length(way.at) > 0)
+        p->table->axis[p->row] = real_atan2(way.at.y, way.at.x);
+    else
+        way.heading = p->table->axis[p->row];
+    vec2 port = vec2_make(-real_sin(way.heading), real_cos(way.heading));
+    *sailed = track_of_bend(vec2_add(vec2_add(place, way.at), vec2_scale(port, s->aside)), way.heading, way.curvature);
+    *v = view_of(p, vec2_make(0, 0), 0, 0, thrust);
+    v->velocity = vec2_sub(v->velocity, p->now->drift);
+    p->table->way[p->row] = 0;
+}
+
+static void look_round(const pilot *p, double thrust, autopilot_view *v, track *sailed)
+{
+    const propulsion_settings *s = p->s;
+    pattern_shape shape = {(pattern_kind)p->table->pattern[p->row], s->distance, s->width, s->aside};
+    double turn = turn_axis(p);
+    *sailed = track_of_pattern(&shape, s->turning.corner);
+    *v = view_of(p, vec2_make(s->x, s->y), p->table->axis[p->row], turn, thrust);
+}
+
 /* What the autopilot sees, and the track that it follows; false: it keeps a heading. */
 static bool look(const pilot *p, const course_table *course, double thrust, autopilot_view *v, track *sailed)
 {
-    const propulsion_settings *s = p->s;
     propulsion_table *t = p->table;
-    if (t->pattern[p->row] != PATTERN_NONE) {
-        pattern_shape shape = {(pattern_kind)t->pattern[p->row], s->distance, s->width};
-        double turn = turn_axis(p);
-        *sailed = track_of_pattern(&shape, s->turning.corner);
-        *v = view_of(p, vec2_make(s->x, s->y), t->axis[p->row], turn, thrust);
+    if (t->pattern[p->row] == PATTERN_AHEAD) {
+        look_ahead(p, thrust, v, sailed);
+    } else if (t->pattern[p->row] != PATTERN_NONE) {
+        look_round(p, thrust, v, sailed);
     } else {
         *v = view_of(p, vec2_make(0, 0), 0, 0, thrust);
         t->way[p->row] = fmax(t->way[p->row], 0);

@@ -34,6 +34,7 @@ typedef struct propulsion_settings {
     double ram_distance;     /* it backs so far [m] */
     double x, y;             /* place of the pattern [m] */
     double distance, width;  /* of the pattern [m] */
+    double aside;            /* it is moved so far to the left [m] */
     double track_limit;      /* track error beyond which it is off its track [m] */
     double transient;        /* until when the track error does not count [s] */
     manoeuvring ship;
@@ -43,8 +44,9 @@ typedef struct propulsion_settings {
 
 #define PROPULSION_FIELDS(X)                                                                                 \
     X(vessel, int32_t, FIELD_I32, 1, "1", "row of the vessel")                                               \
-    X(settings, propulsion_settings, FIELD_F64, 37, "SI", "thrust, steering, autopilot, pattern")            \
+    X(settings, propulsion_settings, FIELD_F64, 38, "SI", "thrust, steering, autopilot, pattern")            \
     X(pattern, uint8_t, FIELD_U8, 1, "1", "enum pattern_kind")                                               \
+    X(forecast, uint8_t, FIELD_U8, 1, "1", "1: the pattern points to the ice that is going to come")         \
     X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                             \
     X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift; without a track: heading that is kept") \
     X(way, double, FIELD_F64, 1, "m", "along the track to the foot of the ship; negative: not looked for")   \
@@ -75,15 +77,17 @@ TABLE_DECLARE(course, COURSE_FIELDS)
 double propulsion_net_thrust(double bollard_pull, double open_water_speed, double speed);
 
 /* A new row for a vessel that lies where it was made. */
-fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, int32_t vessel,
-                           const vessel_table *vessels, const body_table *bodies, propulsion_table *out,
+fram_status propulsion_add(context *ctx, const propulsion_settings *settings, pattern_kind pattern, bool forecast,
+                           int32_t vessel, const vessel_table *vessels, const body_table *bodies, propulsion_table *out,
                            fram_error *error);
 
 /* What the step looks like to a propulsion. */
 typedef struct propulsion_moment {
     double time, dt;
     vec2 water;        /* velocity of the water [m/s] */
-    vec2 drift;        /* velocity of the ice far away; 0: the pattern keeps its axis [m/s] */
+    vec2 drift;        /* velocity of the ice far away [m/s] */
+    track_place comes; /* where the ice is, from the place of the pattern, that is going to come there, and the way on
+                          which it does, outward; at (0, 0): the pattern keeps its axis */
     double resistance; /* of the water to the hull, against its way ahead [N] */
     wrench drag;       /* of the water on the hull, without its lift: what the autopilot reckons with */
 } propulsion_moment;

@@ -56,7 +56,7 @@ static track square_track(const pattern_shape *p, double radius)
     return t;
 }
 
-track track_of_pattern(const pattern_shape *p, double radius)
+static track shape_track(const pattern_shape *p, double radius)
 {
     double half;
     track circle;
@@ -75,10 +75,25 @@ track track_of_pattern(const pattern_shape *p, double radius)
         half = 0.5 * p->width / p->distance;
         return there_and_back((vec2){p->distance * real_cos(half), -p->distance * real_sin(half)}, 0.5 * PI - half,
                               p->width, 1 / p->distance, radius);
+    case PATTERN_AHEAD: /* no shape: it is where the ice comes from */
     case PATTERN_NONE:
         break;
     }
     return (track){.count = 0};
+}
+
+track track_of_pattern(const pattern_shape *p, double radius)
+{
+    track t = shape_track(p, radius);
+    t.start.y += p->aside;
+    return t;
+}
+
+track track_of_bend(vec2 at, double heading, double curvature)
+{
+    track t = {.start = at, .heading = heading};
+    add(&t, curvature == 0 ? 1 : PI / fabs(curvature), curvature, false);
+    return t;
 }
 
 static double angle_between(double from, double to)

@@ -37,8 +37,10 @@ typedef struct track_place {
 /* The pattern as a ship can sail it, in the pattern's frame: the corners of a square are rounded by this radius [m], or
    by half a side where that is less, and each end of a line or an arc is a loop of three arcs of that radius, on which
    the ship comes back to the same point the other way.  A line is moved updrift by its loop, so that nothing of it is
-   nearer than `distance`.  A circle stays as it is. */
+   nearer than `distance`.  A circle stays as it is.  The way ahead has none. */
 track track_of_pattern(const pattern_shape *p, double radius);
+/* An open track that bends on from a place for half a round. */
+track track_of_bend(vec2 at, double heading, double curvature);
 /* A leg to a corner, the corner rounded by this radius [m] or by what half the shorter leg leaves room for, and the leg
    after it; next NULL: the leg alone.  A corner of more than 135 degrees is not rounded. */
 track track_of_legs(vec2 from, vec2 corner, const vec2 *next, double radius);

@@ -258,6 +258,7 @@ START_TEST(ready_scenes)
     static const char *const names[] = {"conical_unit",
                                         "demo",
                                         "drillship",
+                                        "drillship_circle",
                                         "fixed_cone",
                                         "free_vessel",
                                         "level_ice",

@@ -115,7 +115,7 @@ START_TEST(room_to_turn_can_be_given)
         snprintf(key, sizeof key, "vessel.propulsion.turning_radius=%g", given[i]);
         scene_open_with(&k, SHIP_AT("", "pattern: {kind: across, distance: 500, width: 800}"), sets, 1);
         const propulsion_settings *s = &k.w.propulsion.settings[0];
-        pattern_shape shape = {(pattern_kind)k.w.propulsion.pattern[0], s->distance, s->width};
+        pattern_shape shape = {(pattern_kind)k.w.propulsion.pattern[0], s->distance, s->width, s->aside};
         corner[i] = s->turning.corner;
         length[i] = track_of_pattern(&shape, corner[i]).length;
         scene_close(&k);

@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include "base/transcendental.h"
+#include "sim/feed.h"
 
 #include <stdio.h>
 
@@ -27,6 +28,17 @@ static const char *const SMALL = "run: {duration: 9000, time_step: 0.25, scale: 
                                  "         stern_angle_deg: 30, parallel_midbody: 0.4}\n"
                                  "  hydrodynamics: {source: estimate}\n"
                                  "  propulsion: {bollard_pull: 8.0e5, open_water_speed: 7, propellers: 2}\n" SEA;
+
+/* That of the scenes of ice management, whose thrust turns. */
+static const char *const AZIMUTH =
+    "run: {duration: 9000, time_step: 0.25, scale: 30}\n"
+    "vessel:\n  mode: free\n  mass: 1.0961e7\n  centre_of_gravity_z: 0\n"
+    "  hull: {form: icebreaker, length: 104, beam: 24, draught: 8, freeboard: 5, stem_angle_deg: 22,\n"
+    "         entrance_angle_deg: 35, flare_angle_deg: 8, stern_angle_deg: 35, parallel_midbody: 0.45,\n"
+    "         block_coefficient: 0.536}\n"
+    "  hydrodynamics: {source: estimate}\n"
+    "  propulsion: {bollard_pull: 2.10e6, open_water_speed: 8.75, rudder_area: 0, steering_angle_deg: 60,\n"
+    "               steering_rate_deg: 9}\n" SEA;
 
 typedef struct pattern_case {
     const char *kind;
@@ -59,7 +71,7 @@ static void open_on_track(scene *k, const pattern_case *c)
     const track_place nowhere = {.at = {0, 0}};
     open_case(k, c, 100, &nowhere);
     double corner = k->w.propulsion.settings[0].turning.corner;
-    pattern_shape shape = {(pattern_kind)k->w.propulsion.pattern[0], c->distance * corner, c->width * corner};
+    pattern_shape shape = {(pattern_kind)k->w.propulsion.pattern[0], c->distance * corner, c->width * corner, 0};
     scene_close(k);
     track sailed = track_of_pattern(&shape, corner);
     track_place start = track_at(&sailed, 0);
@@ -93,7 +105,7 @@ static void check_kept(const pattern_case *c, double degrees)
     sail(&k, 0, 200, degrees); /* gathers way */
     p->off_most[0] = p->off_square[0] = p->off_time[0] = 0;
     const propulsion_settings *s = &p->settings[0];
-    pattern_shape shape = {(pattern_kind)p->pattern[0], s->distance, s->width};
+    pattern_shape shape = {(pattern_kind)p->pattern[0], s->distance, s->width, 0};
     double round = track_of_pattern(&shape, s->turning.corner).length / c->speed;
     sail(&k, 200, 200 + 1.4 * round, degrees);
     double breadth = c->large ? 25 : 14, rms = sqrt(p->off_square[0] / fmax(p->off_time[0], 1e-9));
@@ -199,5 +211,119 @@ START_TEST(turns_as_it_is_told)
 }
 END_TEST
 
+/* A drift of 0.3 m/s that turns by 60 degrees from 600 to 2400 s, and a current that goes with it. */
+enum { DRIFT_ROWS = 61 };
+static double drift_time[DRIFT_ROWS];
+static vec3 drift_velocity[DRIFT_ROWS];
+
+static void turn_the_drift(scene *k)
+{
+    for (int i = 0; i < DRIFT_ROWS; i++) {
+        drift_time[i] = 600 + 30 * i;
+        vec2 drift = drift_at(30.0 * i, 60);
+        drift_velocity[i] = vec3_make(drift.x, drift.y, 0);
+    }
+    k->m.boundary = DOMAIN_FEEDING;
+    k->m.history.drift = k->m.history.current = (velocity_series){DRIFT_ROWS, drift_time, drift_velocity};
+}
+
+static void close_turning(scene *k)
+{
+    k->m.history.drift = k->m.history.current = (velocity_series){0};
+    scene_close(k);
+}
+
+static vec2 plane_place(const scene *k)
+{
+    vec3 r = k->w.bodies.position[k->w.vessels.body[0]];
+    return vec2_make(r.x, r.y);
+}
+
+/* How far to port of its drift the ice goes by the origin that is at a place at a time, all that comes until `until`;
+   NAN: it does not come by then. */
+static double passes_at(const scene *k, vec2 at, double time, double until)
+{
+    for (; time < until; time += STEP) {
+        vec2 drift = feed_drift(&k->m, &k->w.inputs, time);
+        if (vec2_dot(at, drift) > 0)
+            return vec2_cross(drift, at) / vec2_length(drift);
+        at = vec2_add(at, vec2_scale(drift, STEP));
+    }
+    return NAN;
+}
+
+/* The way ahead while the drift turns: the ice that the ship went through passes the place by how far it is aside,
+   wherever the drift has turned to by then.  Without the forecast it does not. */
+static double worst_pass(const char *forecast, double aside)
+{
+    enum { MARKS = 100 };
+    char asides[60], y[30];
+    const char *sets[] = {"vessel.propulsion.pattern.kind=ahead",
+                          asides,
+                          forecast,
+                          "vessel.x=180",
+                          y,
+                          "vessel.propulsion.speed=0.2",
+                          "vessel.speed=0.2",
+                          "vessel.propulsion.lookahead=100"};
+    snprintf(asides, sizeof asides, "vessel.propulsion.pattern.aside=%g", aside);
+    snprintf(y, sizeof y, "vessel.y=%g", aside);
+    scene k;
+    scene_open_with(&k, AZIMUTH, sets, sizeof sets / sizeof *sets);
+    turn_the_drift(&k);
+    double worst = 0;
+    for (int mark = 0; mark < MARKS; mark++) {
+        double time = 24.0 * mark, passes = passes_at(&k, plane_place(&k), time, 9000);
+        ck_assert(isfinite(passes));
+        worst = fmax(worst, fabs(passes + aside));
+        scene_steps(&k, 96);
+    }
+    printf("ahead, %g m aside, %s: passes wrong by %.1f m at most\n", aside, forecast, worst);
+    close_turning(&k);
+    return worst;
+}
+
+START_TEST(ahead_is_where_ice_comes_from)
+{
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", 0) < 12);
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", 10) < 12);
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", -10) < 12);
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=false", 0) > 40);
+}
+END_TEST
+
+/* Ice that comes on an arc: in a drift that turns at a steady rate it is on a chord of its circle. */
+START_TEST(ice_comes_along_its_arc)
+{
+    scene k;
+    scene_open_with(&k, AZIMUTH, NULL, 0);
+    turn_the_drift(&k);
+    const double rate = PI / 3 / 1800, radius = 0.3 / rate;
+    track_place from = feed_origin(&k.m, &k.w.inputs, 0, 150), none = feed_origin(&k.m, &k.w.inputs, 0, 0);
+    assert_absolute(from.at.x, 150, 1e-9);
+    assert_absolute(from.at.y, 0, 1e-9);
+    assert_absolute(from.heading, 0, 1e-9);
+    ck_assert(from.curvature == 0 && none.at.x == 0 && none.at.y == 0);
+    for (double distance = 50; distance < 500; distance += 50) {
+        /* Half the angle by which it turns on the way. */
+        double half = asin(0.5 * distance / radius);
+        from = feed_origin(&k.m, &k.w.inputs, 700, distance);
+        assert_absolute(vec2_length(from.at), distance, 1e-4 * distance);
+        assert_absolute(real_atan2(from.at.y, from.at.x), rate * 100 + half, 3e-4);
+        assert_absolute(from.heading, rate * 100 + 2 * half, 1e-3);
+        assert_relative(from.curvature, 1 / radius, 0.02);
+    }
+    /* A drift that turns about brings nothing from farther than it goes. */
+    vec3 about[] = {{-0.5, 0, 0}, {0.5, 0, 0}};
+    double times[] = {0, 400};
+    k.m.history.drift = (velocity_series){2, times, about};
+    from = feed_origin(&k.m, &k.w.inputs, 0, 20);
+    assert_absolute(from.at.x, 20, 0.02);
+    from = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    ck_assert_msg(from.at.x < 0 || vec2_length(from.at) < 51, "%g %g", from.at.x, from.at.y);
+    close_turning(&k);
+}
+END_TEST
+
 TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, the_ready_circle_is_kept,
-          legs_are_kept_and_mirrored, turns_as_it_is_told)
+          legs_are_kept_and_mirrored, turns_as_it_is_told, ahead_is_where_ice_comes_from, ice_comes_along_its_arc)

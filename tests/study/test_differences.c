@@ -85,7 +85,14 @@ START_TEST(conditions_that_differ_in_one_key_are_compared)
     const condition_pair of_two[] = {{1, 0, -1}};
     assert_pairs(two, 2, 2, of_two, 1);
     char *cube[] = {"1", "x", "2", "y", "3", "z"};
-    assert_pairs(cube, 2, 3, NULL, 0);
+    const condition_pair of_cube[] = {{1, 0, -1}, {2, 0, -1}, {2, 1, -1}};
+    assert_pairs(cube, 2, 3, of_cube, 3);
+    /* One icebreaker, two others, none: one of them hangs together with none by one key. */
+    char *fleet[] = {"yes", "no", "no", "no", "yes", "yes", "no", "no", "no"};
+    const condition_pair of_fleet[] = {{1, 0, -1}, {2, 0, 0}, {2, 1, -1}};
+    assert_pairs(fleet, 3, 3, of_fleet, 3);
+    char *many[] = {"1", "a", "2", "b", "3", "c", "4", "d", "5", "e", "6", "f", "7", "g"};
+    assert_pairs(many, 2, 7, NULL, 0);
     char *same[] = {"1", "x", "1", "x"};
     assert_pairs(same, 2, 2, NULL, 0);
 }

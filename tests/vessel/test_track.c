@@ -10,7 +10,7 @@
 START_TEST(patterns_are_closed_and_smooth)
 {
     for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
-        pattern_shape p = {(pattern_kind)kind, 900, 600};
+        pattern_shape p = {(pattern_kind)kind, 900, 600, 0};
         const double radius = 120;
         track t = track_of_pattern(&p, radius);
         enum { PLACES = 20000 };
@@ -39,7 +39,7 @@ END_TEST
 START_TEST(patterns_lie_where_they_are_asked_for)
 {
     for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
-        pattern_shape p = {(pattern_kind)kind, 900, 600};
+        pattern_shape p = {(pattern_kind)kind, 900, 600, 0};
         track t = track_of_pattern(&p, 120);
         double work = 0, nearest = HUGE_VAL;
         for (int i = 0; i < 4000; i++) {
@@ -68,7 +68,7 @@ END_TEST
 START_TEST(feet_are_found)
 {
     for (int kind = PATTERN_LINE; kind <= PATTERN_SECTOR; kind++) {
-        pattern_shape p = {(pattern_kind)kind, 900, 600};
+        pattern_shape p = {(pattern_kind)kind, 900, 600, 0};
         track t = track_of_pattern(&p, 150);
         for (int i = 0; i < 97; i++) {
             double way = t.length * i / 97;
@@ -90,7 +90,7 @@ END_TEST
 /* A ship that comes along the leg back joins that one, though the leg there is as near. */
 START_TEST(joins_the_way_that_it_goes)
 {
-    pattern_shape p = {PATTERN_ACROSS, 900, 600};
+    pattern_shape p = {PATTERN_ACROSS, 900, 600, 0};
     track t = track_of_pattern(&p, 120);
     vec2 here = {905, 100};
     double there = track_join(&t, here, 0.5 * PI, 240), back = track_join(&t, here, -0.5 * PI, 240);
