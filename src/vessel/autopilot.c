@@ -2,7 +2,8 @@
 
 #include "vessel/plane_motion.h"
 
-/* The lag is the time for half the helm and this part of the time for a length. */
+/* The lag is the time for half the helm and this part of the time for a length; for that at most as long as for the
+   helm: of a slow ship it is the thrust, not its way, that turns it. */
 static const double LENGTHS = 0.1;
 /* A ship comes back on its course within so many lags. */
 static const double COURSE_LAGS = 3;
@@ -21,7 +22,8 @@ static double speed_of(const turning_ability *t, double ahead) { return fmax(ahe
 
 double autopilot_lag(const turning_ability *t, double length, double ahead, double steering_most, double steering_rate)
 {
-    return 0.5 * steering_most / steering_rate + LENGTHS * length / speed_of(t, ahead);
+    double helm = 0.5 * steering_most / steering_rate;
+    return helm + fmin(LENGTHS * length / speed_of(t, ahead), helm);
 }
 
 /* Past the rate of the steady turn at full helm a ship is told to turn by so much at most. */
