@@ -57,17 +57,18 @@ static double updrift_at(const model *m, const input_table *inputs, double time)
 static track_place way_of(const model *m, const input_table *inputs, vec2 at, double time, double dt)
 {
     double speed = vec2_length(feed_drift(m, inputs, time));
+    if (!(speed > FEED_STILL))
+        return (track_place){.at = at, .heading = real_atan2(at.y, at.x)};
     double turn = updrift_at(m, inputs, time + dt) - updrift_at(m, inputs, time - dt);
-    return (track_place){.at = at,
-                         .heading = updrift_at(m, inputs, time),
-                         .curvature = speed > 0 ? plane_angle(turn) / (2 * dt * speed) : 0};
+    return (track_place){
+        .at = at, .heading = updrift_at(m, inputs, time), .curvature = plane_angle(turn) / (2 * dt * speed)};
 }
 
 track_place feed_origin(const model *m, const input_table *inputs, double time, double distance)
 {
     double speed = vec2_length(feed_drift(m, inputs, time)), dt = distance / (ORIGIN_STEPS * speed);
     vec2 from = {0, 0};
-    if (!(speed > 0) || !(distance > 0))
+    if (!(speed > FEED_STILL) || !(distance > 0))
         return (track_place){.at = from};
     for (int i = 0; i < ORIGIN_MOST; i++) {
         vec2 way = vec2_scale(feed_drift(m, inputs, time + (i + 0.5) * dt), -dt), next = vec2_add(from, way);

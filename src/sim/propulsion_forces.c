@@ -35,7 +35,7 @@ track_place propulsion_comes(const model *m, const world *w, int32_t row, double
         return feed_origin(m, &w->inputs, time, distance);
     vec2 drift = feed_drift(m, &w->inputs, time);
     double speed = vec2_length(drift);
-    if (speed > 0) {
+    if (speed > FEED_STILL) {
         out.at = vec2_scale(drift, -distance / speed);
         out.heading = real_atan2(-drift.y, -drift.x);
     }

@@ -331,6 +331,13 @@ START_TEST(ice_comes_along_its_arc)
     from = feed_origin(&k.m, &k.w.inputs, 0, 20);
     assert_absolute(from.at.x, 20, 0.02);
     from = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    about[1] = vec3_make(0, 0, 0);
+    track_place dies = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    assert_absolute(dies.at.x, 100, 5);
+    ck_assert(dies.heading == 0 && dies.curvature == 0);
+    about[0] = about[1] = vec3_make(1e-310, 0, 0);
+    track_place still = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    ck_assert(still.at.x == 0 && still.at.y == 0);
     ck_assert_msg(from.at.x < 0 || vec2_length(from.at) < 51, "%g %g", from.at.x, from.at.y);
     close_turning(&k);
 }
