@@ -288,8 +288,7 @@ START_TEST(refusals_name_their_key)
     static const char *const none[] = {"vessel.propulsion.bollard_pull=auto", "vessel.propulsion.pattern.kind=line"};
     static const char *const both[] = {"vessel.propulsion.pattern.kind=line"};
     static const char *const kind[] = {"vessel.propulsion.pattern.kind=spiral"};
-    static const char *const round[] = {"vessel.propulsion.pattern.kind=ahead",
-                                        "vessel.propulsion.pattern.period=100"};
+    static const char *const round[] = {"vessel.propulsion.pattern.kind=ahead", "vessel.propulsion.pattern.period=100"};
     check_refusal(SHIP, towed, 1, "vessel.propulsion.bollard_pull");
     check_refusal(SHIP, none, 2, "vessel.propulsion.bollard_pull");
     check_refusal(SHIP_WITH(", waypoints: [{x: 1, y: 1}]"), both, 1, "vessel.propulsion.waypoints");
