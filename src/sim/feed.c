@@ -66,10 +66,11 @@ static track_place way_of(const model *m, const input_table *inputs, vec2 at, do
 
 track_place feed_origin(const model *m, const input_table *inputs, double time, double distance)
 {
-    double speed = vec2_length(feed_drift(m, inputs, time)), dt = distance / (ORIGIN_STEPS * speed);
+    double speed = vec2_length(feed_drift(m, inputs, time));
     vec2 from = {0, 0};
     if (!(speed > FEED_STILL) || !(distance > 0))
         return (track_place){.at = from};
+    double dt = distance / (ORIGIN_STEPS * speed);
     for (int i = 0; i < ORIGIN_MOST; i++) {
         vec2 way = vec2_scale(feed_drift(m, inputs, time + (i + 0.5) * dt), -dt), next = vec2_add(from, way);
         if (vec2_length(next) >= distance) {
