@@ -41,6 +41,7 @@ static const column_rule column_rules[] = {
     {"event", "kind", 0, EVENT_COUNT - 1, NULL},
     {"propulsion", "vessel", 0, 0, "vessel"},
     {"propulsion", "pattern", PATTERN_NONE, PATTERN_AHEAD, NULL},
+    {"propulsion", "forecast", 0, 1, NULL},
     {"propulsion", "phase", PROPULSION_AHEAD, PROPULSION_ASTERN, NULL},
     {"propulsion", "leg", 0, INT32_MAX, NULL},
     {"course", "vessel", 0, 0, "vessel"},

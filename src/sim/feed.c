@@ -44,6 +44,8 @@ vec2 feed_drift(const model *m, const input_table *inputs, double time)
     return vec2_make(current.x, current.y);
 }
 
+/* A drift that is slower brings no ice [m/s]: 0.1 m in a day. */
+static const double STILL = 1e-6;
 /* Steps in which ice at the drift of now comes, and those in which its way is followed, by the midpoint rule. */
 enum { ORIGIN_STEPS = 32, ORIGIN_MOST = 4 * ORIGIN_STEPS };
 
@@ -57,19 +59,21 @@ static double updrift_at(const model *m, const input_table *inputs, double time)
 static track_place way_of(const model *m, const input_table *inputs, vec2 at, double time, double dt)
 {
     double speed = vec2_length(feed_drift(m, inputs, time));
-    if (!(speed > FEED_STILL))
+    if (!(speed > STILL))
         return (track_place){.at = at, .heading = real_atan2(at.y, at.x)};
     double turn = updrift_at(m, inputs, time + dt) - updrift_at(m, inputs, time - dt);
     return (track_place){
         .at = at, .heading = updrift_at(m, inputs, time), .curvature = plane_angle(turn) / (2 * dt * speed)};
 }
 
-track_place feed_origin(const model *m, const input_table *inputs, double time, double distance)
+track_place feed_origin(const model *m, const input_table *inputs, double time, double distance, bool forecast)
 {
-    double speed = vec2_length(feed_drift(m, inputs, time));
-    vec2 from = {0, 0};
-    if (!(speed > FEED_STILL) || !(distance > 0))
+    vec2 from = {0, 0}, drift = feed_drift(m, inputs, time);
+    double speed = vec2_length(drift);
+    if (!(speed > STILL) || !(distance > 0))
         return (track_place){.at = from};
+    if (!forecast)
+        return (track_place){.at = vec2_scale(drift, -distance / speed), .heading = updrift_at(m, inputs, time)};
     double dt = distance / (ORIGIN_STEPS * speed);
     for (int i = 0; i < ORIGIN_MOST; i++) {
         vec2 way = vec2_scale(feed_drift(m, inputs, time + (i + 0.5) * dt), -dt), next = vec2_add(from, way);

@@ -14,13 +14,12 @@ tile_grid feed_grid(const model *m, const world *w);
 /* Velocity of the far field at a time: what was told from outside, its own history, what the scenario gives, or the
    current at the surface [m/s]. */
 vec2 feed_drift(const model *m, const input_table *inputs, double time);
-/* A drift that is slower brings no ice [m/s]: 0.1 m in a day. */
-static const double FEED_STILL = 1e-6;
-/* From a place to the ice that is going to come there and is this distance [m] away from it at a time, as the drift is
-   known to go on: from its history, or as it is; and the way through the ice that comes there, outward.  Where the ice
+/* From a place to the ice that is going to come there and is this distance [m] away from it at a time, global frame:
+   with a forecast as the drift is known to go on, else as if it stayed; and the way through the ice that comes there,
+   outward.  Where the ice
    does not come from so far, as far as it comes within four times as long as at the drift of now; at (0, 0): there is
    no drift. */
-track_place feed_origin(const model *m, const input_table *inputs, double time, double distance);
+track_place feed_origin(const model *m, const input_table *inputs, double time, double distance, bool forecast);
 /* Before the solve of the step that ends at `time`. */
 void feed_drive(const model *m, world *w, double time);
 /* After the solve: what the sheet met. */

@@ -26,20 +26,11 @@ static wrench drag_now(const model *m, const world *w, int32_t vessel)
 
 track_place propulsion_comes(const model *m, const world *w, int32_t row, double time, double away)
 {
-    track_place out = {.at = {0, 0}};
     if (m->boundary != DOMAIN_FEEDING)
-        return out;
+        return (track_place){.at = {0, 0}};
     bool ahead = w->propulsion.pattern[row] == PATTERN_AHEAD;
     double distance = ahead ? away : w->propulsion.settings[row].distance;
-    if (w->propulsion.forecast[row])
-        return feed_origin(m, &w->inputs, time, distance);
-    vec2 drift = feed_drift(m, &w->inputs, time);
-    double speed = vec2_length(drift);
-    if (speed > FEED_STILL) {
-        out.at = vec2_scale(drift, -distance / speed);
-        out.heading = real_atan2(-drift.y, -drift.x);
-    }
-    return out;
+    return feed_origin(m, &w->inputs, time, distance, w->propulsion.forecast[row]);
 }
 
 static double away_from_place(const world *w, int32_t row)

@@ -187,10 +187,10 @@ static void look_ahead(const pilot *p, double thrust, autopilot_view *v, track *
     else
         way.heading = p->table->axis[p->row];
     vec2 port = vec2_make(-real_sin(way.heading), real_cos(way.heading));
-    *sailed = track_of_bend(vec2_add(vec2_add(place, way.at), vec2_scale(port, s->aside)), way.heading, way.curvature);
+    *sailed = track_of_bend(vec2_add(vec2_add(place, way.at), vec2_scale(port, s->aside)), way.heading, way.curvature,
+                            &p->table->way[p->row]);
     *v = view_of(p, vec2_make(0, 0), 0, 0, thrust);
     v->velocity = vec2_sub(v->velocity, p->now->drift);
-    p->table->way[p->row] = 0;
 }
 
 static void look_round(const pilot *p, double thrust, autopilot_view *v, track *sailed)

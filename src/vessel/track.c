@@ -89,13 +89,6 @@ track track_of_pattern(const pattern_shape *p, double radius)
     return t;
 }
 
-track track_of_bend(vec2 at, double heading, double curvature)
-{
-    track t = {.start = at, .heading = heading};
-    add(&t, curvature == 0 ? 1 : PI / fabs(curvature), curvature, false);
-    return t;
-}
-
 static double angle_between(double from, double to)
 {
     double a = to - from;
@@ -132,6 +125,17 @@ static track_place along(const track_place *from, const track_piece *piece, doub
         chord = vec2_scale((vec2){real_sin(end) - chord.y, chord.x - real_cos(end)}, 1 / piece->curvature);
     out.at = vec2_add(from->at, chord);
     return out;
+}
+
+track track_of_bend(vec2 at, double heading, double curvature, double *way)
+{
+    track_piece piece = {curvature == 0 ? 1 : PI / fabs(curvature), curvature, false};
+    const track_place middle = {at, heading, curvature, false};
+    *way = 0.5 * piece.length;
+    track_place start = along(&middle, &piece, -*way);
+    track t = {.start = start.at, .heading = start.heading};
+    add(&t, piece.length, curvature, false);
+    return t;
 }
 
 track_place track_at(const track *t, double way)

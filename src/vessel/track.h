@@ -39,8 +39,9 @@ typedef struct track_place {
    the ship comes back to the same point the other way.  A line is moved updrift by its loop, so that nothing of it is
    nearer than `distance`.  A circle stays as it is.  The way ahead has none. */
 track track_of_pattern(const pattern_shape *p, double radius);
-/* An open track that bends on from a place for half a round. */
-track track_of_bend(vec2 at, double heading, double curvature);
+/* An open track through a place at this heading [rad], *way [m] along it, that bends [1/m] before and after it for a
+   quarter of a round. */
+track track_of_bend(vec2 at, double heading, double curvature, double *way);
 /* A leg to a corner, the corner rounded by this radius [m] or by what half the shorter leg leaves room for, and the leg
    after it; next NULL: the leg alone.  A corner of more than 135 degrees is not rounded. */
 track track_of_legs(vec2 from, vec2 corner, const vec2 *next, double radius);

@@ -296,10 +296,27 @@ static double worst_pass(const char *forecast, double aside)
 
 START_TEST(ahead_is_where_ice_comes_from)
 {
-    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", 0) < 9);
-    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", 10) < 9);
-    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", -10) < 9);
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", 0) < 8);
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", 10) < 8);
+    ck_assert(worst_pass("vessel.propulsion.pattern.forecast=true", -10) < 7);
     ck_assert(worst_pass("vessel.propulsion.pattern.forecast=false", 0) > 40);
+}
+END_TEST
+
+/* A pattern that goes round points to the ice that comes from its own distance. */
+START_TEST(a_circle_points_to_the_ice_that_comes)
+{
+    static const char *const sets[] = {
+        "vessel.propulsion.pattern.kind=circle", "vessel.propulsion.pattern.distance=400",
+        "vessel.propulsion.pattern.forecast=true", "vessel.x=600", "vessel.heading_deg=90"};
+    scene k;
+    scene_open_with(&k, AZIMUTH, sets, sizeof sets / sizeof *sets);
+    turn_the_drift(&k);
+    scene_steps(&k, 1);
+    vec2 from = feed_origin(&k.m, &k.w.inputs, k.w.clock.time[0] - STEP, 400, true).at;
+    ck_assert_msg(from.y > 20, "%g", from.y);
+    assert_absolute(k.w.propulsion.axis[0], real_atan2(from.y, from.x), 1e-3);
+    close_turning(&k);
 }
 END_TEST
 
@@ -310,7 +327,7 @@ START_TEST(ice_comes_along_its_arc)
     scene_open_with(&k, AZIMUTH, NULL, 0);
     turn_the_drift(&k);
     const double rate = PI / 3 / 1800, radius = 0.3 / rate;
-    track_place from = feed_origin(&k.m, &k.w.inputs, 0, 150), none = feed_origin(&k.m, &k.w.inputs, 0, 0);
+    track_place from = feed_origin(&k.m, &k.w.inputs, 0, 150, true), none = feed_origin(&k.m, &k.w.inputs, 0, 0, true);
     assert_absolute(from.at.x, 150, 1e-9);
     assert_absolute(from.at.y, 0, 1e-9);
     assert_absolute(from.heading, 0, 1e-9);
@@ -318,25 +335,29 @@ START_TEST(ice_comes_along_its_arc)
     for (double distance = 50; distance < 500; distance += 50) {
         /* Half the angle by which it turns on the way. */
         double half = asin(0.5 * distance / radius);
-        from = feed_origin(&k.m, &k.w.inputs, 700, distance);
+        from = feed_origin(&k.m, &k.w.inputs, 700, distance, true);
         assert_absolute(vec2_length(from.at), distance, 1e-4 * distance);
         assert_absolute(real_atan2(from.at.y, from.at.x), rate * 100 + half, 3e-4);
         assert_absolute(from.heading, rate * 100 + 2 * half, 1e-3);
         assert_relative(from.curvature, 1 / radius, 0.02);
     }
+    from = feed_origin(&k.m, &k.w.inputs, 2400, 200, false);
+    assert_absolute(from.at.x, 100, 1e-6);
+    assert_absolute(from.at.y, 100 * sqrt(3), 1e-6);
+    ck_assert(from.curvature == 0);
     /* A drift that turns about brings nothing from farther than it goes. */
     vec3 about[] = {{-0.5, 0, 0}, {0.5, 0, 0}};
     double times[] = {0, 400};
     k.m.history.drift = (velocity_series){2, times, about};
-    from = feed_origin(&k.m, &k.w.inputs, 0, 20);
+    from = feed_origin(&k.m, &k.w.inputs, 0, 20, true);
     assert_absolute(from.at.x, 20, 0.02);
-    from = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    from = feed_origin(&k.m, &k.w.inputs, 0, 1000, true);
     about[1] = vec3_make(0, 0, 0);
-    track_place dies = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    track_place dies = feed_origin(&k.m, &k.w.inputs, 0, 1000, true);
     assert_absolute(dies.at.x, 100, 5);
     ck_assert(dies.heading == 0 && dies.curvature == 0);
     about[0] = about[1] = vec3_make(1e-310, 0, 0);
-    track_place still = feed_origin(&k.m, &k.w.inputs, 0, 1000);
+    track_place still = feed_origin(&k.m, &k.w.inputs, 0, 1000, true);
     ck_assert(still.at.x == 0 && still.at.y == 0);
     ck_assert_msg(from.at.x < 0 || vec2_length(from.at) < 51, "%g %g", from.at.x, from.at.y);
     close_turning(&k);
@@ -345,4 +366,4 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, the_ready_circle_is_kept,
           legs_are_kept_and_mirrored, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
-          ahead_is_where_ice_comes_from, ice_comes_along_its_arc)
+          ahead_is_where_ice_comes_from, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)

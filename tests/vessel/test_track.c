@@ -123,5 +123,29 @@ START_TEST(corners_are_rounded)
 }
 END_TEST
 
+/* Through its place, with its heading, and as bent behind it as before it. */
+START_TEST(a_bend_goes_both_ways)
+{
+    const double radius = 500, heading = 0.3;
+    for (int side = -1; side <= 1; side++) {
+        double way;
+        track bend = track_of_bend(vec2_make(40, -30), heading, side / radius, &way);
+        track_place middle = track_at(&bend, way);
+        assert_absolute(middle.at.x, 40, 1e-9);
+        assert_absolute(middle.at.y, -30, 1e-9);
+        assert_absolute(middle.heading, heading, 1e-12);
+        ck_assert(!bend.closed && (side != 0 || way > 0));
+        for (double far = -200; far <= 200; far += 400) {
+            assert_absolute(track_turned(&bend, way + far) - track_turned(&bend, way), side * far / radius, 1e-12);
+            /* On its circle. */
+            vec2 centre = {40 - side * radius * real_sin(heading), -30 + side * radius * real_cos(heading)};
+            vec2 from = vec2_sub(track_at(&bend, way + far).at, centre);
+            if (side != 0)
+                assert_absolute(vec2_length(from), radius, 1e-9);
+        }
+    }
+}
+END_TEST
+
 TEST_MAIN("track", patterns_are_closed_and_smooth, patterns_lie_where_they_are_asked_for, feet_are_found,
-          joins_the_way_that_it_goes, corners_are_rounded)
+          joins_the_way_that_it_goes, corners_are_rounded, a_bend_goes_both_ways)
