@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Screenshots of the pages that people open, at two widths of the window:  make pictures
 
-Runs half a minute of the demo, 40 s of the drillship, three minutes of the escort and a study of eight runs, makes
+Runs half a minute of the demo, 40 s of the drillship, five minutes of the escort and a study of eight runs, makes
 their pages (playback, report, comparison, ice management, study, a plot, the documents) and takes
 docs/pictures/pages/NAME-WIDTH.png of each with headless Chromium, for eyes to look at.  Needs `make viewer`.
 """
@@ -23,8 +23,7 @@ RUNS = {
     "demo": ("demo.yaml", ["run.duration=30", "run.transient=10"], 25),
     "calm": ("drillship.yaml", ["run.duration=40", "run.transient=10"], None),
     # Until the tanker has sailed in the channel for a while.
-    "escort": ("escort.yaml", ["run.duration=190", "run.transient=100", "run.time_step=0.02",
-                               "ice.smallest_floe_area=8", "vessels.tanker.x=-250"], None),
+    "escort": ("escort.yaml", ["run.duration=340"], None),
     "drillship": ("drillship.yaml", ["run.duration=40", "run.transient=10", "environment.wind_speed=12",
                                      "environment.wind_direction_deg=200"], 40),
 }
