@@ -43,7 +43,9 @@ static void fill_row(contact_row *row, const solver_body *a, const solver_body *
             row_axis_make(a, b, direction[i], vec3_cross(arm_a, direction[i]), vec3_cross(arm_b, direction[i]));
     row->normal_mass = 1 / contact_row_coupling(row, a, b, 0, 0);
     double k11 = contact_row_coupling(row, a, b, 1, 1), k12 = contact_row_coupling(row, a, b, 1, 2);
-    double k22 = contact_row_coupling(row, a, b, 2, 2), scale = 1 / (k11 * k22 - k12 * k12);
+    double k22 = contact_row_coupling(row, a, b, 2, 2), square = k11 * k22 - k12 * k12;
+    /* Of a matrix whose couplings are positive: none where rounding has eaten it. */
+    double scale = square > 0 ? 1 / square : 0;
     row->stick[0] = k22 * scale;
     row->stick[1] = -k12 * scale;
     row->stick[2] = k11 * scale;

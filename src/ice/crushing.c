@@ -336,6 +336,8 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
         if (gives) {
             c = give_way(j, p, &found->data[i], i, &pressure, &compliance);
             area = vec3_length(c.area);
+            if (!(fabs(c.area.z) > CLOSED_PATCH * found->data[i].surface))
+                continue;
         }
         if (j->settings->top_plane_area)
             area = top_plane_share(&c, section_area, horizontal_sum);

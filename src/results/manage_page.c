@@ -79,8 +79,11 @@ static void verdict(page *p)
         snprintf(advice, sizeof advice, "Give run.transient %.4g or more.", s->first_time);
         html_verdict_line(&p->html, VERDICT_CAUTION, text, advice);
     }
-    snprintf(text, sizeof text, "The largest floe that reached it was %.3g m across, at %.0f s.",
-             s->place[MANAGE_AT].largest, s->largest_time);
+    if (isfinite(s->largest_time))
+        snprintf(text, sizeof text, "The largest floe that reached it was %.3g m across, at %.0f s.",
+                 s->place[MANAGE_AT].largest, s->largest_time);
+    else
+        snprintf(text, sizeof text, "No loose floe reached it.");
     html_verdict_line(&p->html, VERDICT_NOTE, text, "");
     duration_text(s->alarm_least, time);
     if (isinf(s->alarm_least))

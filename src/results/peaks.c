@@ -167,6 +167,7 @@ void peak_sentence(context *ctx, const run_data *run, const peak_detail *d, text
     tell_floe(ctx, d, out);
     peak_breaks b = peak_breaks_before(run, d->time, 5);
     if (b.splits + b.bendings > 0)
-        text_format(ctx, out, "; %d breaks in bending and %d splits in the 5 s before", (int)b.bendings, (int)b.splits);
+        text_format(ctx, out, "; in all of the ice %d breaks in bending and %d splits in the 5 s before",
+                    (int)b.bendings, (int)b.splits);
     text_add(ctx, out, ".");
 }

@@ -65,17 +65,26 @@ static propulsion_settings settings_of(const scenario_propulsion *p, double leng
                                  .track_limit = automatic_or(p->track_limit, beam)};
 }
 
+/* A speed that a period asks for is known to this part, or after so many turns. */
+#define SPEED_PRECISION 1e-3
+enum { MOST_SPEED_TURNS = 20 };
+
 /* The speed that is wanted, and how the ship turns at it.  A period gives the speed by the length of a round, which
-   depends on how the ship turns: found at the speed that a round without turns would have. */
+   depends on how the ship turns at that speed: found from that of a round without turns on. */
 static void give_speed(context *ctx, const model *m, int32_t vessel, const scenario_propulsion *p,
                        propulsion_settings *s)
 {
     pattern_shape shape = {p->pattern.kind, s->distance, s->width, s->aside};
-    double round = track_of_pattern(&shape, 0).length;
-    s->speed = wanted_speed(p, round);
-    s->turning = turning_ability_of(ctx, m, vessel, s, fmin(s->speed, s->open_water_speed));
-    s->turning.corner = fmax(s->turning.corner, automatic_or(p->turning_radius, 0));
-    s->speed = wanted_speed(p, track_of_pattern(&shape, s->turning.corner).length);
+    double speed = wanted_speed(p, track_of_pattern(&shape, 0).length);
+    for (int turn = 0; turn < MOST_SPEED_TURNS; turn++) {
+        s->speed = speed;
+        s->turning = turning_ability_of(ctx, m, vessel, s, fmin(s->speed, s->open_water_speed));
+        s->turning.corner = fmax(s->turning.corner, automatic_or(p->turning_radius, 0));
+        speed = wanted_speed(p, track_of_pattern(&shape, s->turning.corner).length);
+        if (!(fabs(speed - s->speed) > SPEED_PRECISION * speed))
+            break;
+    }
+    s->speed = speed;
 }
 
 fram_status build_propulsion(context *ctx, const scenario *s, const vessel_entry *entry, const model *m, int32_t vessel,

@@ -78,6 +78,8 @@ fram_status capability_ice_formula(context *ctx, const scenario *s, const world 
 
 /* Ice goes past for a third of each run before it counts. */
 #define UNCOUNTED (1.0 / 3)
+/* A sheet may take so many times as long before it comes. */
+enum { MOST_WAIT = 20 };
 
 typedef struct load_history {
     double_array time, force[3]; /* averaged over the window, ship's frame */
@@ -121,6 +123,23 @@ static void describe_ice(const world *w, const field_report *report, capability 
     c->concentration = report->concentration;
 }
 
+/* A sheet has come to the hull; what counts of other fields counts from the start, open water included. */
+static bool has_come(const scenario *s, const world *w)
+{
+    vec3 force = w->scratch.ice_loads.data[0].total.force;
+    return s->ice.source != ICE_LEVEL || vec3_dot(force, force) > 0;
+}
+
+static fram_status refuse_wait(const scenario *s, double time, fram_error *error)
+{
+    error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.openings",
+              "no ice came to the hull in %g s, so that there is no load to measure: take openings away or make them "
+              "smaller, or measure longer",
+              time);
+    scenario_locate(s, error);
+    return FRAM_ERROR_INPUT;
+}
+
 static fram_status record(context *ctx, const scenario *s, const model *m, capability *c, load_history *h,
                           fram_error *error)
 {
@@ -132,8 +151,9 @@ static fram_status record(context *ctx, const scenario *s, const model *m, capab
     if (!(c->thickness > 0))
         describe_ice(&w, &report, c);
     double heading = radians(s->vessel.heading_deg);
-    int64_t steps = (int64_t)ceil(c->options.measure / s->run.time_step);
-    for (int64_t i = 0; i < steps && status == FRAM_OK; i++) {
+    int64_t steps = (int64_t)ceil(c->options.measure / s->run.time_step), waited = 0;
+    bool met = false;
+    for (int64_t i = 0; i < steps && status == FRAM_OK;) {
         status = capability_go_on(c, error);
         if (status == FRAM_OK)
             status = work_continue(ctx, "measuring ice loads", c->loads.runs_done + (double)i / (double)steps,
@@ -141,9 +161,16 @@ static fram_status record(context *ctx, const scenario *s, const model *m, capab
         if (status != FRAM_OK)
             break;
         status = world_step(ctx, m, &w, error);
+        met = met || status != FRAM_OK || has_come(s, &w);
+        if (!met && ++waited > MOST_WAIT * steps)
+            status = refuse_wait(s, w.clock.time[0], error);
+        if (!met)
+            continue;
+        i++;
         wrench mean = load_window_average(&w, 0);
         vec3 load = plane_to_vessel(heading, vec3_make(mean.force.x, mean.force.y, mean.moment.z));
-        bool good = array_push(ctx, &h->time, w.clock.time[0]) && array_push(ctx, &h->force[0], load.x) &&
+        double time = w.clock.time[0] - (double)waited * s->run.time_step;
+        bool good = array_push(ctx, &h->time, time) && array_push(ctx, &h->force[0], load.x) &&
                     array_push(ctx, &h->force[1], load.y) && array_push(ctx, &h->force[2], load.z);
         if (status == FRAM_OK && !good)
             status = error_memory(error);

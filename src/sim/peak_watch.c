@@ -293,6 +293,9 @@ fram_status peak_watch_write(peak_watch *p, const char *folder, fram_error *erro
         status = error_memory(error);
     for (int32_t v = 0; v < p->vessels.count && status == FRAM_OK; v++)
         status = append_vessel(&file, room, &p->vessels.data[v], error);
+    /* Those of the call before stay where this one has made no step. */
+    for (int32_t i = 0; i < p->earlier.count && status == FRAM_OK; i++)
+        status = append(&file, room, &p->earlier.data[i], error);
     memory_free(p->ctx, room);
     fram_status closed = record_close(&file, status == FRAM_OK ? error : NULL);
     status = status == FRAM_OK ? closed : status;

@@ -123,6 +123,11 @@ void turning_tell(context *ctx, const scenario *s, const vessel_entry *entry, co
               s->ice.source == ICE_NONE ? "" : ", in ice on a larger one", t->corner);
     if (v.shape.kind == PATTERN_NONE)
         return;
+    if (s->domain.boundary != DOMAIN_FEEDING)
+        log_write(ctx, LOG_INFO,
+                  "%s: its pattern points as its bow does at the start, whatever the current, since no ice drifts "
+                  "through (domain.boundary: feeding)",
+                  vessel_title_of(entry).text);
     tell_arcs(&v);
     tell_domain(&v, m, w, p->count - 1);
 }

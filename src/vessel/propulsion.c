@@ -129,6 +129,22 @@ static autopilot_view view_of(const pilot *p, vec2 origin, double axis, double f
         .lag = autopilot_lag(&p->s->turning, p->length, p->through_water, p->s->steering_most, p->s->steering_rate)};
 }
 
+/* How far a place on a closed track is from where the ship joined it, as it goes. */
+static double since_joined(double way, double joined, double length)
+{
+    return way < joined ? way - joined + length : way - joined;
+}
+
+/* Over the place where it joined, forward or back, as the foot goes from one place to the next. */
+static void count_rounds(propulsion_table *t, int32_t row, double before, double length)
+{
+    double from = since_joined(before, t->joined[row], length), to = since_joined(t->way[row], t->joined[row], length);
+    if (to < from - 0.5 * length)
+        t->rounds[row]++;
+    else if (to > from + 0.5 * length)
+        t->rounds[row]--;
+}
+
 /* Brings the foot of the ship on a track up to date, and its error, which counts after the transient, from when the
    ship first is near its track, and not where the track turns about. */
 static void follow(const pilot *p, const autopilot_view *v, const track *path)
@@ -138,8 +154,10 @@ static void follow(const pilot *p, const autopilot_view *v, const track *path)
     double before = t->way[row];
     t->way[row] = before < 0 && path->closed ? track_join(path, v->place, v->heading, 2 * p->s->turning.radius)
                                              : track_foot(path, before, v->place);
-    if (before >= 0 && path->closed && t->way[row] < before - 0.5 * path->length)
-        t->rounds[row]++;
+    if (before < 0)
+        t->joined[row] = t->way[row];
+    else if (path->closed)
+        count_rounds(t, row, before, path->length);
     track_place foot = track_at(path, t->way[row]);
     double off = t->off[row] = track_off(&foot, v->place);
     if (foot.turning || p->now->time < p->s->transient || (t->off_time[row] == 0 && fabs(off) > JOINED * p->length))

@@ -50,7 +50,8 @@ typedef struct propulsion_settings {
     X(phase, uint8_t, FIELD_U8, 1, "1", "enum propulsion_phase")                                             \
     X(axis, double, FIELD_F64, 1, "rad", "direction that is updrift; without a track: heading that is kept") \
     X(way, double, FIELD_F64, 1, "m", "along the track to the foot of the ship; negative: not looked for")   \
-    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done")                                      \
+    X(joined, double, FIELD_F64, 1, "m", "along a closed track to where the ship joined it")                 \
+    X(rounds, int64_t, FIELD_I64, 1, "1", "rounds of the pattern done, from there")                          \
     X(leg, int32_t, FIELD_I32, 1, "1", "way point that is steered for, from 0")                              \
     X(from, vec2, FIELD_F64, 2, "m", "where that leg began")                                                 \
     X(steering, double, FIELD_F64, 1, "rad", "steering angle, positive turns to port")                       \

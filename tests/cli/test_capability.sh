@@ -47,6 +47,15 @@ says 'ice.populations: expected none' err
 expect 0 "$FRAM" capability mixed.yaml -o mixed --measure 3 --directions 4 --speed-step 0.2 --speed-most 0.2
 python3 -c 'import json; j = json.load(open("mixed/capability.json"))
 assert 0.5 < j["ice_thickness_m"] < 0.7 and abs(j["ice_concentration"] - 0.6) < 0.01, j' || fail "what ice was met"
+# Level ice is measured from when it comes to the hull, across the opening that the ship lies in; or there is no load.
+level=$FRAM_SOURCE/scenes/turret_turning.yaml
+expect 0 "$FRAM" capability "$level" -o level --measure 6 --directions 4 --speed-step 0.3 --speed-most 0.3
+same "$(grep -c '^ice from' err)" 3 "directions that are measured"
+grep 'surge -\{0,1\}0 kN, sway -\{0,1\}0 kN' err && fail "a load of no ice"
+expect 2 "$FRAM" capability "$level" -o none --measure 0.5 --directions 4 --speed-step 0.3 --speed-most 0.3
+says "ice from 0 deg at 0.3 m/s: no ice came to the hull in 10" err
+says "ice.level.openings" err
+[ ! -e none/capability.json ] || fail "loads of no ice were written"
 touch file
 expect 2 "$FRAM" capability "$scene" -o "$scratch/file/b" --formula
 says 'file' err

@@ -133,6 +133,19 @@ expect 0 "$FRAM" manage full --beside half
 says "fatigue of line 2" out
 grep -q "takes 8 times the damage" full/manage.html || fail "the page does not compare the damages"
 
+# A vessel that met the sheet alone: no loose floe came.
+cat >sheet.yaml <<'YAML'
+run: {duration: 3, time_step: 0.05}
+vessel: {mode: prescribed, hull: {length: 20, beam: 6, draught: 2}}
+ice: {source: level, thickness: 0.2, level: {openings: [{x: 0, y: 0, length: 21, width: 8}]}}
+domain: {boundary: feeding, drift_speed: 0.6, drift_direction_deg: 180, x_min: -30, x_max: 60, y_min: -20, y_max: 20}
+output: {frame_interval: 0.5}
+YAML
+expect 0 "$FRAM" run sheet.yaml -o sheet -q
+expect 0 "$FRAM" manage sheet -q
+grep -q "No loose floe reached it" sheet/manage.html || fail "the page does not say that no floe came"
+grep -qw "nan" sheet/manage.html && fail "the page tells a time of nothing"
+
 # What cannot be told is refused.
 expect 2 "$FRAM" manage
 expect 2 "$FRAM" manage nowhere

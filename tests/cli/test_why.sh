@@ -89,6 +89,10 @@ says "trying the one before" err
 says "computing again from t = 0 s" err
 says "series.csv holds no rows of that time" out
 rm -r cut
+# A run that is resumed at its end keeps the peaks that it has.
+cp run/peaks.fram before.fram
+expect 0 "$FRAM" resume run -q
+cmp run/peaks.fram before.fram || fail "peaks of a finished run after a resume"
 rm run/peaks.fram
 expect 2 "$FRAM" why run --peak 1 --no-rerun
 says "keeps no peaks" err

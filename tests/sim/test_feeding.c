@@ -445,13 +445,15 @@ START_TEST(refusals_name_their_key)
     static const char *const small_tile[] = {"domain.tile_x=82"}, *const thin[] = {"domain.band=1"},
                              *const wide[] = {"domain.band=30"}, *const none[] = {"ice.source=none"},
                              *const walls[] = {"domain.boundary=walls", "domain.drift_speed=1"},
-                             *const file[] = {"domain.boundary=open", "domain.drift_file=drift.csv"};
+                             *const file[] = {"domain.boundary=open", "domain.drift_file=drift.csv"},
+                             *const both[] = {"domain.drift_speed=0.3", "domain.drift_file=drift.csv"};
     check_refusal(alone, small_tile, 1, "domain.tile_x");
     check_refusal(alone, thin, 1, "domain.band");
     check_refusal(alone, wide, 1, "domain.band");
     check_refusal(alone, none, 1, "ice.source");
     check_refusal(alone, walls, 2, "domain.drift_speed");
     check_refusal(alone, file, 2, "domain.drift_file");
+    check_refusal(alone, both, 2, "domain.drift_speed");
     static const char *const aside[] = {"vessel.x=35"};
     check_refusal(around, aside, 1, "domain.band");
 }

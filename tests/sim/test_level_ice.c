@@ -365,5 +365,21 @@ START_TEST(fixed_cone)
 }
 END_TEST
 
-TEST_MAIN("level_ice", a_channel_as_wide_as_the_hull, ram_back_off_return, crushed_ice_is_never_less,
+/* A seam of tiles leaves slivers of contact that give way until rounding is left of them. */
+START_TEST(slivers_on_seams_carry_nothing)
+{
+    const char *text = "run: {duration: 11, time_step: 0.02, solver: {kind: sequential}}\n"
+                       "vessel: {mode: towed, y: -512, speed: 1, hull: {length: 40, beam: 12, draught: 4}}\n"
+                       "ice:\n  source: level\n  thickness: 0.4\n  breakable: true\n"
+                       "  level: {openings: [{x: 0, y: -512, length: 50, width: 20}]}\n"
+                       "domain: {boundary: walls, x_min: -60, x_max: 80, y_min: -600, y_max: 600}\n";
+    scene k;
+    scene_open(&k, text);
+    scene_steps(&k, 550);
+    ck_assert(ice_force(&k) > 0);
+    scene_close(&k);
+}
+END_TEST
+
+TEST_MAIN("level_ice", slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull, ram_back_off_return, crushed_ice_is_never_less,
           trimming_keeps_the_load, dead_shapes_go, the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)

@@ -152,15 +152,16 @@ START_TEST(wrong_files)
     static const struct {
         const char *environment, *series, *message;
         int line;
+        const char *column;
     } cases[] = {
-        {"current_file: series.csv", "time,x\n0,1\n", "column", 1},
-        {"current_file: series.csv", "time,x,y\n", "at least one row", 2},
-        {"current_file: series.csv", "time,x,y\n0,1,0\n0,2,0\n", "row before", 3},
-        {"wind_file: series.csv", "time,x,y\n0,nan,0\n", "finite", 2},
-        {"wind_file: series.csv", "time,x,y\n0,fast,0\n", "expected a number", 2},
-        {"current_file: series.csv", "time,x,y\n0,1,0\n5,0,-201\n", "at most 200 m/s", 3},
-        {"wind_file: missing.csv", "", "expected a file that can be read", 5},
-        {"current_profile_file: series.csv", "depth,x,y\n-1,1,0\n", "depths", 0},
+        {"current_file: series.csv", "time,x\n0,1\n", "column", 1, ""},
+        {"current_file: series.csv", "time,x,y\n", "at least one row", 2, ""},
+        {"current_file: series.csv", "time,x,y\n0,1,0\n0,2,0\n", "row before", 3, ""},
+        {"wind_file: series.csv", "time,x,y\n0,nan,0\n", "finite", 2, "x[m/s]"},
+        {"wind_file: series.csv", "time,x,y\n0,fast,0\n", "expected a number", 2, ""},
+        {"current_file: series.csv", "time,x,y\n0,1,0\n5,0,-201\n", "at most 200 m/s, found -201", 3, "y[m/s]"},
+        {"wind_file: missing.csv", "", "expected a file that can be read", 5, ""},
+        {"current_profile_file: series.csv", "depth,x,y\n-1,1,0\n", "depths", 0, ""},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         sea k;
@@ -168,6 +169,8 @@ START_TEST(wrong_files)
         ck_assert_int_ne(open_sea(&k, cases[i].environment, cases[i].series, &error), FRAM_OK);
         ck_assert_msg(strstr(error.message, cases[i].message) != NULL, "case %d: %s", (int)i, error.message);
         ck_assert_int_eq(error.line, cases[i].line);
+        if (*cases[i].column)
+            ck_assert_str_eq(error.key, cases[i].column);
         ck_assert(error.file[0]);
         scenario_free(&k.ctx, &k.s);
         remove_folder(&k);

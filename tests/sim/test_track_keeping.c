@@ -303,6 +303,59 @@ START_TEST(ahead_is_where_ice_comes_from)
 }
 END_TEST
 
+/* The place where a ship joins is where its rounds begin: nothing is one before it has been all the way, wherever on the
+   pattern that is, and the seam of the track is no round. */
+START_TEST(rounds_begin_where_the_ship_joined)
+{
+    static const char *const sets[] = {
+        "vessel.propulsion.pattern.kind=circle", "vessel.propulsion.pattern.distance=400",
+        "vessel.propulsion.pattern.width=400",   "vessel.propulsion.speed=4",
+        "vessel.speed=4",                        "vessel.x=400",
+        "vessel.y=-195",                         "vessel.heading_deg=20"};
+    scene k;
+    scene_open_with(&k, AZIMUTH, sets, sizeof sets / sizeof *sets);
+    k.m.boundary = DOMAIN_FEEDING;
+    k.m.drift_given = true;
+    k.m.drift = drift_at(0, 0);
+    const propulsion_table *p = &k.w.propulsion;
+    double way = 0, last = -1, seam = 0, round = 400 * PI;
+    while (way < 1.2 * round) {
+        scene_steps(&k, 1);
+        way += STEP * vec3_length(k.w.bodies.velocity[k.w.vessels.body[0]]);
+        if (seam == 0 && last >= 0 && p->way[0] < last - 0.5 * round)
+            seam = way;
+        last = p->way[0];
+        ck_assert_msg(p->rounds[0] == (p->rounds[0] > 0) && (p->rounds[0] == 0 || way > 0.95 * round), "%d after %g m",
+                      (int)p->rounds[0], way);
+    }
+    /* It came to the seam in the middle of a round. */
+    ck_assert_msg(seam > 0.1 * round && seam < 0.9 * round, "%g m", seam);
+    ck_assert_int_eq(p->rounds[0], 1);
+    scene_close(&k);
+}
+END_TEST
+
+/* The speed by which a round takes its period is that at which the ship turns as it was found to. */
+START_TEST(a_period_is_that_of_the_round_that_is_sailed)
+{
+    static const char *const kinds[] = {"sector", "line", "across", "square", "circle"};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        char kind[60];
+        const char *sets[] = {kind, "vessel.propulsion.pattern.distance=500", "vessel.propulsion.pattern.width=500",
+                              "vessel.propulsion.pattern.period=500"};
+        snprintf(kind, sizeof kind, "vessel.propulsion.pattern.kind=%s", kinds[i]);
+        scene k;
+        scene_open_with(&k, SMALL, sets, sizeof sets / sizeof *sets);
+        const propulsion_settings *s = &k.w.propulsion.settings[0];
+        pattern_shape shape = {(pattern_kind)k.w.propulsion.pattern[0], s->distance, s->width, 0};
+        double round = track_of_pattern(&shape, s->turning.corner).length;
+        assert_relative(s->speed * 500, round, 1e-12);
+        assert_relative(s->turning.speed, fmin(s->speed, s->open_water_speed), 2e-3);
+        scene_close(&k);
+    }
+}
+END_TEST
+
 /* A pattern that goes round points to the ice that comes from its own distance. */
 START_TEST(a_circle_points_to_the_ice_that_comes)
 {
@@ -366,4 +419,5 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, the_ready_circle_is_kept,
           legs_are_kept_and_mirrored, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
-          ahead_is_where_ice_comes_from, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)
+          ahead_is_where_ice_comes_from,
+          rounds_begin_where_the_ship_joined, a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)
