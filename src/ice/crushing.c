@@ -335,9 +335,7 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
         bool gives = edge_gives(j, p) && c.area.z != 0;
         if (gives) {
             c = give_way(j, p, &found->data[i], i, &pressure, &compliance);
-            area = vec3_length(c.area);
-            if (!(fabs(c.area.z) > CLOSED_PATCH * found->data[i].surface))
-                continue;
+            area = fabs(c.area.z) > CLOSED_PATCH * found->data[i].surface ? vec3_length(c.area) : 0;
         }
         if (j->settings->top_plane_area)
             area = top_plane_share(&c, section_area, horizontal_sum);

@@ -98,8 +98,8 @@ static fram_status check_feeding(const scenario *s, fram_error *error)
                          "expected a field that can go on without end, since domain.boundary is feeding, found %s",
                          s->ice.source == ICE_NONE ? "none" : "floes");
         if (d->drift_file[0] && !is_automatic(d->drift_speed))
-            return fault(s, error, "domain.drift_speed", "expected auto, since domain.drift_file tells it, found %g m/s",
-                         d->drift_speed);
+            return fault(s, error, "domain.drift_speed",
+                         "expected auto, since domain.drift_file tells it, found %g m/s", d->drift_speed);
         return FRAM_OK;
     }
     if (d->drift_file[0])

@@ -381,5 +381,6 @@ START_TEST(slivers_on_seams_carry_nothing)
 }
 END_TEST
 
-TEST_MAIN("level_ice", slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull, ram_back_off_return, crushed_ice_is_never_less,
-          trimming_keeps_the_load, dead_shapes_go, the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)
+TEST_MAIN("level_ice", slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull, ram_back_off_return,
+          crushed_ice_is_never_less, trimming_keeps_the_load, dead_shapes_go, the_same_bits_on_any_threads, brash,
+          an_island_drifts, fixed_cone)

@@ -303,15 +303,18 @@ START_TEST(ahead_is_where_ice_comes_from)
 }
 END_TEST
 
-/* The place where a ship joins is where its rounds begin: nothing is one before it has been all the way, wherever on the
-   pattern that is, and the seam of the track is no round. */
+/* The place where a ship joins is where its rounds begin: nothing is one before it has been all the way, wherever on
+   the pattern that is, and the seam of the track is no round. */
 START_TEST(rounds_begin_where_the_ship_joined)
 {
-    static const char *const sets[] = {
-        "vessel.propulsion.pattern.kind=circle", "vessel.propulsion.pattern.distance=400",
-        "vessel.propulsion.pattern.width=400",   "vessel.propulsion.speed=4",
-        "vessel.speed=4",                        "vessel.x=400",
-        "vessel.y=-195",                         "vessel.heading_deg=20"};
+    static const char *const sets[] = {"vessel.propulsion.pattern.kind=circle",
+                                       "vessel.propulsion.pattern.distance=400",
+                                       "vessel.propulsion.pattern.width=400",
+                                       "vessel.propulsion.speed=4",
+                                       "vessel.speed=4",
+                                       "vessel.x=400",
+                                       "vessel.y=-195",
+                                       "vessel.heading_deg=20"};
     scene k;
     scene_open_with(&k, AZIMUTH, sets, sizeof sets / sizeof *sets);
     k.m.boundary = DOMAIN_FEEDING;
@@ -419,5 +422,5 @@ END_TEST
 
 TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, the_ready_circle_is_kept,
           legs_are_kept_and_mirrored, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
-          ahead_is_where_ice_comes_from,
-          rounds_begin_where_the_ship_joined, a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)
+          ahead_is_where_ice_comes_from, rounds_begin_where_the_ship_joined,
+          a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)
