@@ -57,6 +57,30 @@ static bool has_course(const autopilot_view *v)
 
 static vec2 unit(double angle) { return vec2_make(real_cos(angle), real_sin(angle)); }
 
+/* No more of a ship's speed through the water goes against a current aside. */
+static const double MOST_AGAINST = 0.9;
+
+/* A ship that hardly makes way against a current comes back to its track as if it made so much. */
+static const double LEAST_WAY = 0.1;
+
+/* How a ship that goes a way over the ground lies to it in a current: its heading is by `angle` to port of its course,
+   and turns so many times as fast as that; `bends` is how much more its way through the water is curved than that over
+   the ground, and `way` how much shorter. */
+typedef struct crab {
+    double angle, turns, bends, way;
+} crab;
+
+static crab crab_of(const autopilot_view *v, const turning_ability *t, vec2 over)
+{
+    double speed = vec2_length(over), u = speed_of(t, v->ahead);
+    if (!(speed > 0))
+        return (crab){0, 1, 1, 1};
+    double aside = vec2_cross(over, v->current) / (speed * u), along = vec2_dot(over, v->current) / (speed * u);
+    double sine = fmin(fmax(-aside, -MOST_AGAINST), MOST_AGAINST), cosine = sqrt(1 - sine * sine);
+    double turns = 1 + along / cosine;
+    return (crab){real_atan2(sine, cosine), turns, turns * turns * cosine, fmax(cosine + along, LEAST_WAY)};
+}
+
 /* How fast the velocity over the ground turns in the track's frame, of a ship that follows the track and turns with it
    at this rate. */
 static double turn_over_ground(const autopilot_view *v, vec2 place, const track_place *foot, double speed, double rate)
@@ -79,14 +103,17 @@ double autopilot_rate(const autopilot_view *v, const turning_ability *t, const m
     double bend = t->reach * t->reach / t->corner, from = ahead - 0.5 * bend, to = ahead + 0.5 * bend;
     double curvature = (track_turned(path, to) - track_turned(path, from)) / bend;
     double change = (track_at(path, to).curvature - track_at(path, from).curvature) / bend;
-    /* Back to the track, with the frame, and askew as the ship is in a turn. */
+    /* Back to the track, with the frame, and askew as the ship is in a turn; in as long as in still water. */
+    double least = fmax(speed, NO_COURSE);
     double reach = fmax(v->lookahead, fmax(t->reach, LEAST_LOOKAHEAD * u * COURSE_LAGS * v->lag));
-    vec2 over =
-        ground_velocity(v, there, vec2_scale(unit(foot.heading - real_atan2(off, reach)), fmax(speed, NO_COURSE)));
-    double wanted = real_atan2(over.y, over.x) + t->drift * curvature - seen->drift;
+    reach *= crab_of(v, t, ground_velocity(v, there, vec2_scale(unit(foot.heading), least))).way;
+    vec2 over = ground_velocity(v, there, vec2_scale(unit(foot.heading - real_atan2(off, reach)), least));
+    crab lies = crab_of(v, t, over);
+    double wanted = real_atan2(over.y, over.x) + lies.angle + t->drift * lies.bends * curvature - seen->drift;
     double error = plane_angle(v->heading + turn * v->lag - wanted);
     double round = speed * curvature / fmax(1 - curvature * off, LEAST_NEARNESS);
-    double rate = v->frame_turn + turn_over_ground(v, there, &foot, speed, round) + speed * t->drift * change;
+    double over_ground = v->frame_turn + turn_over_ground(v, there, &foot, speed, round);
+    double rate = lies.turns * over_ground + speed * t->drift * change;
     return limited_rate(v, t, rate - rate_back(v, t, error));
 }
 
@@ -140,6 +167,6 @@ void autopilot_observe(const autopilot_view *v, const turning_ability *t, const 
         return;
     vec2 over = ground_velocity(v, v->place, v->velocity);
     double u = speed_of(t, v->ahead), drift = plane_angle(real_atan2(over.y, over.x) - v->heading);
-    double of_turn = -t->drift * v->turn / u;
+    double of_turn = -t->drift * v->turn / u - crab_of(v, t, over).angle;
     seen->drift += dt * u / (DRIFT_REACHES * t->reach) * (drift - of_turn - seen->drift);
 }

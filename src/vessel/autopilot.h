@@ -25,6 +25,7 @@ typedef struct turning_ability {
 typedef struct autopilot_view {
     vec2 place;          /* in the track's frame [m] */
     vec2 velocity;       /* past the track, in its frame [m/s] */
+    vec2 current;        /* of the water, over the ground as that velocity is, along the frame's axes [m/s] */
     double heading;      /* in its frame [rad] */
     double turn;         /* over the ground [rad/s] */
     double frame_turn;   /* of the track's frame [rad/s] */
@@ -38,7 +39,7 @@ typedef struct autopilot_view {
 
 /* What a ship with this steering gear can be told to need for it [s]. */
 double autopilot_lag(const turning_ability *t, double length, double ahead, double steering_most, double steering_rate);
-/* What the ship knows of its motion beyond its data: what ice, wind and current do. */
+/* What the ship knows of its motion beyond its data: what ice and wind do, and what is not known of the current. */
 typedef struct motion_observer {
     double rate;   /* of turn that is expected [rad/s] */
     double moment; /* that is left over [N m] */

@@ -117,6 +117,7 @@ static autopilot_view view_of(const pilot *p, vec2 origin, double axis, double f
     return (autopilot_view){
         .place = turned(from, -axis),
         .velocity = turned(vec2_sub(p->speed, vec2_scale(vec2_perp(from), frame_turn)), -axis),
+        .current = turned(vec2_make(p->now->water.x, p->now->water.y), -axis),
         .heading = p->heading - axis,
         .turn = p->turn,
         .frame_turn = frame_turn,
@@ -209,6 +210,7 @@ static void look_ahead(const pilot *p, double thrust, autopilot_view *v, track *
                             &p->table->way[p->row]);
     *v = view_of(p, vec2_make(0, 0), 0, 0, thrust);
     v->velocity = vec2_sub(v->velocity, p->now->drift);
+    v->current = vec2_sub(v->current, p->now->drift);
 }
 
 static void look_round(const pilot *p, double thrust, autopilot_view *v, track *sailed)

@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include "base/transcendental.h"
+#include "model/inputs.h"
 #include "sim/feed.h"
 
 #include <stdio.h>
@@ -96,11 +97,14 @@ static void sail(scene *k, double from, double to, double degrees)
 }
 
 /* Round its pattern, the drift turning for as long as it does: within the ship's breadth where it is at work,
-   loops and rounded corners left out, and within half of it in the mean. */
-static void check_kept(const pattern_case *c, double degrees)
+   loops and rounded corners left out, and within half of it in the mean; a current along the
+   x axis carries it too. */
+static void check_kept(const pattern_case *c, double degrees, double current)
 {
     scene k;
     open_on_track(&k, c);
+    int32_t water = input_row(&k.ctx, &k.w.inputs, INPUT_CURRENT, 0);
+    k.w.inputs.first[water] = vec3_make(-current, 0, 0);
     propulsion_table *p = &k.w.propulsion;
     sail(&k, 0, 200, degrees); /* gathers way */
     p->off_most[0] = p->off_square[0] = p->off_time[0] = 0;
@@ -109,8 +113,10 @@ static void check_kept(const pattern_case *c, double degrees)
     double round = track_of_pattern(&shape, s->turning.corner).length / c->speed;
     sail(&k, 200, 200 + 1.4 * round, degrees);
     double breadth = c->large ? 25 : 14, rms = sqrt(p->off_square[0] / fmax(p->off_time[0], 1e-9));
-    printf("%s, %s hull, %g m/s, drift turns by %g degrees: %.1f m at most, %.1f m rms, %.2f of the time\n", c->kind,
-           c->large ? "large" : "small", c->speed, degrees, p->off_most[0], rms, p->off_time[0] / (1.4 * round));
+    printf(
+        "%s, %s hull, %g m/s, drift turns by %g degrees, current of %g m/s: %.1f m at most, %.1f m rms, %.2f of the time\n",
+        c->kind, c->large ? "large" : "small", c->speed, degrees, current, p->off_most[0], rms,
+        p->off_time[0] / (1.4 * round));
     ck_assert_msg(p->off_most[0] < breadth, "%s: %g m off the track", c->kind, p->off_most[0]);
     ck_assert_msg(rms < 0.5 * breadth, "%s: %g m rms", c->kind, rms);
     ck_assert_int_ge(p->rounds[0], 1);
@@ -128,7 +134,15 @@ static size_t case_count(void) { return getenv("FRAM_TEST_SHORT") ? 2 : sizeof C
 START_TEST(patterns_are_kept)
 {
     for (size_t i = 0; i < case_count(); i++)
-        check_kept(&CASES[i], 0);
+        check_kept(&CASES[i], 0, 0);
+}
+END_TEST
+
+/* In water that goes with the drift, or twice as fast, a ship lies askew on every curve. */
+START_TEST(patterns_are_kept_in_a_current)
+{
+    for (size_t i = 0; i < case_count(); i++)
+        check_kept(&CASES[i], 0, i % 3 ? 0.3 : 0.6);
 }
 END_TEST
 
@@ -137,7 +151,7 @@ END_TEST
 START_TEST(patterns_are_kept_as_the_drift_turns)
 {
     for (size_t i = 0; i < case_count(); i++)
-        check_kept(&CASES[i], i % 2 ? 20 : -20);
+        check_kept(&CASES[i], i % 2 ? 20 : -20, 0);
 }
 END_TEST
 
@@ -303,6 +317,43 @@ START_TEST(ahead_is_where_ice_comes_from)
 }
 END_TEST
 
+/* A ship that begins 15 m beside its leg; how far off it is after 20, 40, ... s. */
+enum { MOMENTS = 20 };
+static void come_back(double speed, double current, double *off)
+{
+    char demanded[60], begins[40], flows[60];
+    const char *sets[] = {demanded,      begins,
+                          flows,         "environment.current_direction_deg=180",
+                          "vessel.y=15", "vessel.propulsion.lookahead=100"};
+    snprintf(demanded, sizeof demanded, "vessel.propulsion.speed=%g", speed);
+    snprintf(begins, sizeof begins, "vessel.speed=%g", speed);
+    snprintf(flows, sizeof flows, "environment.current_speed=%g", fabs(current));
+    sets[3] = current < 0 ? "environment.current_direction_deg=0" : sets[3];
+    scene k;
+    scene_open_with(&k, LARGE_WITH(", waypoints: [{x: 9000, y: 0}]"), sets, sizeof sets / sizeof *sets);
+    k.w.propulsion.from[0] = vec2_make(0, 0);
+    for (int i = 0; i < MOMENTS; i++) {
+        scene_steps(&k, (int)(20 / STEP));
+        off[i] = plane_place(&k).y;
+    }
+    scene_close(&k);
+}
+
+/* Galileo: against or with a current it comes back to its leg in the time that it takes in still water. */
+START_TEST(a_leg_along_a_current_is_kept_as_in_still_water)
+{
+    double still[MOMENTS], against[MOMENTS], with[MOMENTS];
+    come_back(1.5, 0, still);
+    come_back(0.5, 1, against);
+    come_back(2.5, -1, with);
+    ck_assert(fabs(still[MOMENTS - 1]) < 1 && still[3] > 3);
+    for (int i = 0; i < MOMENTS; i++)
+        ck_assert_msg(fabs(against[i] - still[i]) < 0.1 && fabs(with[i] - still[i]) < 0.1,
+                      "after %d s %g m in still water, %g against and %g with a current", 20 * (i + 1), still[i],
+                      against[i], with[i]);
+}
+END_TEST
+
 /* The place where a ship joins is where its rounds begin: nothing is one before it has been all the way, wherever on
    the pattern that is, and the seam of the track is no round. */
 START_TEST(rounds_begin_where_the_ship_joined)
@@ -420,7 +471,8 @@ START_TEST(ice_comes_along_its_arc)
 }
 END_TEST
 
-TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, the_ready_circle_is_kept,
-          legs_are_kept_and_mirrored, turns_as_it_is_told, slow_ships_are_steered_as_quickly_as_their_helm,
-          ahead_is_where_ice_comes_from, rounds_begin_where_the_ship_joined,
+TEST_MAIN("track_keeping", patterns_are_kept, patterns_are_kept_as_the_drift_turns, patterns_are_kept_in_a_current,
+          the_ready_circle_is_kept, legs_are_kept_and_mirrored, turns_as_it_is_told,
+          slow_ships_are_steered_as_quickly_as_their_helm, ahead_is_where_ice_comes_from,
+          rounds_begin_where_the_ship_joined, a_leg_along_a_current_is_kept_as_in_still_water,
           a_period_is_that_of_the_round_that_is_sailed, ice_comes_along_its_arc, a_circle_points_to_the_ice_that_comes)
