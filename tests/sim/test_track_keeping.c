@@ -113,10 +113,9 @@ static void check_kept(const pattern_case *c, double degrees, double current)
     double round = track_of_pattern(&shape, s->turning.corner).length / c->speed;
     sail(&k, 200, 200 + 1.4 * round, degrees);
     double breadth = c->large ? 25 : 14, rms = sqrt(p->off_square[0] / fmax(p->off_time[0], 1e-9));
-    printf(
-        "%s, %s hull, %g m/s, drift turns by %g deg, current %g m/s: %.1f m at most, %.1f m rms, %.2f of the time\n",
-        c->kind, c->large ? "large" : "small", c->speed, degrees, current, p->off_most[0], rms,
-        p->off_time[0] / (1.4 * round));
+    printf("%s, %s hull, %g m/s, drift turns by %g deg, current %g m/s: %.1f m at most, %.1f m rms, %.2f of the time\n",
+           c->kind, c->large ? "large" : "small", c->speed, degrees, current, p->off_most[0], rms,
+           p->off_time[0] / (1.4 * round));
     ck_assert_msg(p->off_most[0] < breadth, "%s: %g m off the track", c->kind, p->off_most[0]);
     ck_assert_msg(rms < 0.5 * breadth, "%s: %g m rms", c->kind, rms);
     ck_assert_int_ge(p->rounds[0], 1);
