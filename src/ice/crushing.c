@@ -12,7 +12,7 @@
 #include <assert.h>
 
 /* A component whose area vectors cancel to less than this part of its area closes round inside the floe (a hull's
-   corner, a pile): what is left is rounding and has no direction. */
+   corner, a pile), or is less when its edge has given: what is left is rounding and has no direction. */
 static const double CLOSED_PATCH = 1e-9;
 
 /* The comparison switch: under this |normal . z| the reference's A_I / cos(gamma) has no meaning (a vertical side has

@@ -37,6 +37,10 @@ YAML
 expect 0 "$FRAM" check scene.yaml
 holds "vessel breaker turns on a radius of .* m at full helm in open water at 4 m/s, in ice on a larger one" err
 grep '^warning.*pattern' err && fail "a warning without reason"
+grep 'points as its bow does' err && fail "a pattern that turns with the drift is said to stand"
+expect 0 "$FRAM" check scene.yaml --set domain.boundary=open --set domain.drift_speed=auto \
+    --set domain.drift_direction_deg=0
+says "vessel breaker: its pattern points as its bow does at the start, whatever the current" err
 expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.width=8
 holds "vessels\[1\].propulsion.pattern.width: 8 m asks for a radius of 4 m.*it cannot keep this pattern" err
 expect 0 "$FRAM" check scene.yaml --set vessels.breaker.propulsion.pattern.distance=160
