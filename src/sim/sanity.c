@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PATTERN_SIZE = 96 };
 void sanity_say(sanity_teller tell, const void *to, const char *format, ...)
 {
     char text[SANITY_SENTENCE];
@@ -125,15 +124,14 @@ static void tell_radians(const teller *t, const char *path, double value)
                    value / PI);
 }
 
-/* A path without its indices, and with vessels in a list read as the one vessel. */
-static void pattern_of(const char *path, char out[PATTERN_SIZE])
+void sanity_pattern(const char *path, char out[SANITY_PATTERN])
 {
     size_t n = 0;
     if (strncmp(path, "vessels[", 8) == 0) {
         path = strchr(path, ']') ? strchr(path, ']') + 1 : path;
-        n = (size_t)snprintf(out, PATTERN_SIZE, "vessel");
+        n = (size_t)snprintf(out, SANITY_PATTERN, "vessel");
     }
-    for (; *path && n + 1 < PATTERN_SIZE; path++) {
+    for (; *path && n + 1 < SANITY_PATTERN; path++) {
         out[n++] = *path;
         if (*path == '[' && strchr(path, ']'))
             path = strchr(path, ']') - 1;
@@ -150,8 +148,8 @@ static fram_status look_at_number(void *user, const scenario_key *key, const voi
     if (is_automatic(value))
         return FRAM_OK;
     bool has_unit = *key->unit && strcmp(key->unit, "1") != 0;
-    char pattern[PATTERN_SIZE];
-    pattern_of(path, pattern);
+    char pattern[SANITY_PATTERN];
+    sanity_pattern(path, pattern);
     if (is_angle(pattern))
         tell_radians(t, path, value);
     for (size_t i = 0; i < sizeof usual_values / sizeof *usual_values; i++) {
@@ -433,6 +431,7 @@ void sanity_tell(const scenario *s, sanity_teller tell, const void *to)
     tell_heave(&t);
     tell_ice_shape(&t);
     sanity_tell_ice(s, tell, to);
+    sanity_tell_idle(s, tell, to);
     tell_directions(&t);
     tell_times(&t);
     tell_rest(&t);

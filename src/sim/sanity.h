@@ -18,5 +18,7 @@ void sanity_tell_vessel(const scenario *s, const vessel_entry *e, sanity_teller 
 void sanity_tell_control(const scenario *s, const vessel_entry *e, sanity_teller tell, const void *to);
 /* Of the ice: sizes that are left out, friction, populations, level ice.  sanity_tell asks. */
 void sanity_tell_ice(const scenario *s, sanity_teller tell, const void *to);
+/* Keys that were set and decide nothing, since another one leaves them without a meaning.  sanity_tell asks. */
+void sanity_tell_idle(const scenario *s, sanity_teller tell, const void *to);
 
 #endif

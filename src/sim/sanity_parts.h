@@ -13,6 +13,10 @@ typedef struct teller {
     const vessel_entry *e; /* NULL where no vessel is looked at */
 } teller;
 
+enum { SANITY_PATTERN = 96 };
+/* A path without its indices, and with vessels in a list read as the one vessel. */
+void sanity_pattern(const char *path, char out[SANITY_PATTERN]);
+
 /* A hull by its particulars; that of a file has its size in the file. */
 static inline bool sanity_own_hull(const scenario_vessel *v) { return v->hull.form != HULL_MESH; }
 

@@ -12,7 +12,7 @@ sed 's/speed: 1, /path: [{time: 0, x: 0}, {time: 60, x: 60}], /' towed.yaml >pat
 sed 's/towed, speed: 1,/free, propulsion: {bollard_pull: 8.0e5, speed: 1},/' towed.yaml >drive.yaml
 sed 's/^ice:.*/ice: {source: floes, floes: [{x: 50, length: 20, width: 20}]}/' towed.yaml >floes.yaml
 sed 's/^ice:.*/ice: {source: packed, populations: [{size: lognormal, diameter: 20}]}/' towed.yaml >packed.yaml
-sed 's/^ice: {/&source: level, breakable: true, /' ship.yaml >level.yaml
+sed 's/^ice: {.*thickness/ice: {source: level, breakable: true, thickness/' ship.yaml >level.yaml
 sed 's/^vessel:/&\n  positioning: {active: true}\n  station: {offset_limit: 5}/' ship.yaml >held.yaml
 for scene in towed path drive floes packed level held; do
     expect 0 "$FRAM" check $scene.yaml

@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# Keys that were set and decide nothing: each is told with its reason, and decides nothing indeed; what does is not told.
+. "$FRAM_SOURCE/tests/cli/slips.sh"
+
+cat >field.yaml <<'YAML'
+run: {duration: 0.2, time_step: 0.02}
+vessel: {mode: towed, x: -60, speed: 2, hull: {form: icebreaker, length: 60, beam: 14, draught: 4}}
+ice: {mean_floe_area: 200, thickness: 0.7, concentration: 0.7}
+domain: {x_min: -100, x_max: 100, y_min: -100, y_max: 100, boundary: open}
+output: {frame_interval: 0}
+YAML
+sed 's/^ice.*/ice: {source: level, breakable: true, level: {x_min: -29}}/' field.yaml >level.yaml
+cat >fleet.yaml <<'YAML'
+run: {duration: 0.2, time_step: 0.02}
+vessels:
+  - {name: one, mode: free, hull: {length: 60, beam: 14, draught: 4}, positioning: {frequency: 0.2}}
+  - {name: two, mode: free, x: 90, hull: {length: 60, beam: 14, draught: 4}, approach: {look_ahead: 20},
+     positioning: {frequency: 0.2, damping: 0.7}}
+ice: {source: none}
+domain: {x_min: -200, x_max: 200, y_min: -100, y_max: 100, boundary: open}
+environment: {current_speed: 0.5}
+YAML
+
+hash_of() { # SCENE OPTIONS...
+    "$FRAM" run "$@" -o of_it --force --quiet 2>err || fail "run of $*: $(cat err)"
+    grep -o '"state_hash": *"[0-9a-f]*"' of_it/run.json
+}
+# idle SCENE KEY=VALUE WORDS: told so, with these words, and the same bits as without
+idle() {
+    told "$1" "${2%%=*}|: without effect, since $3" --set "$2"
+    same "$(hash_of "$1" --set "$2")" "$before" "state after $2"
+}
+silent() { # SCENE OPTIONS...
+    expect 0 "$FRAM" check "$@"
+    grep 'without effect' err && fail "told of $*"
+    return 0
+}
+
+silent field.yaml
+before=$(hash_of field.yaml)
+idle field.yaml run.solver.most_iterations=7 "run.solver.kind is not accurate"
+idle field.yaml ice.level.tile_size=9 "ice.source is not level"
+idle field.yaml ice.file_scale=2 "ice.source is not file"
+idle field.yaml ice.strength.correlation_length=3 "neither strength varies"
+idle field.yaml ice.sleep_time=1 "ice.sleep_speed is 0"
+idle field.yaml ice.fracture.wedges=5 "ice.breakable is false"
+idle field.yaml domain.band=20 "no field of floes is fed"
+idle field.yaml domain.tile_x=500 "no field of floes is fed"
+idle field.yaml domain.drift_direction_deg=30 "there is no domain.drift_speed"
+idle field.yaml domain.wall_height=5 "domain.boundary is not walls"
+idle field.yaml vessel.hull.piece_distance=0.3 "hull.form is not file"
+idle field.yaml vessel.hull.transom=0.2 "hull.form is not ship"
+idle field.yaml vessel.mooring.turret=true "there are no mooring.lines"
+idle field.yaml vessel.positioning.observer=kalman "positioning.active is false"
+idle field.yaml vessel.propulsion.astern=0.3 "there is no propulsion.bollard_pull"
+idle field.yaml vessel.propulsion.pattern.forecast=true "there is no propulsion.bollard_pull"
+idle field.yaml vessel.approach.look_ahead=20 "there is no approach.limit"
+idle field.yaml vessel.wash.reach=20 "wash.active is false"
+idle field.yaml vessel.hydrodynamics.roll_damping=0.9 "hydrodynamics.source is not estimate"
+idle field.yaml vessel.hydrodynamics.axes=down "hydrodynamics.source is not given"
+
+before=$(hash_of level.yaml)
+idle level.yaml ice.concentration=0.3 "no floes are drawn"
+idle level.yaml ice.mean_floe_area=30 "floes are not cells of ice.source voronoi"
+idle level.yaml ice.roundness=0.5 "ice.source is not voronoi"
+
+# Some of one section in one sentence, of each vessel by itself.
+told field.yaml "vessel.positioning.frequency and 1 more: without effect" \
+    --set vessel.positioning.frequency=0.2 --set vessel.positioning.damping=0.7
+told fleet.yaml "vessels[0].positioning.frequency: without effect"
+told fleet.yaml "vessels[1].positioning.frequency and 1 more: without effect"
+told fleet.yaml "vessels[1].approach.look_ahead: without effect"
+
+# What has an effect, and what says no more than its default.
+silent field.yaml --set ice.sleep_speed=0.1 --set ice.sleep_time=1
+silent field.yaml --set ice.strength.flexural_variation=0.2 --set ice.strength.correlation_length=3
+silent field.yaml --set domain.boundary=feeding --set domain.band=20
+silent field.yaml --set vessel.approach.limit=50 --set vessel.approach.look_ahead=20
+silent field.yaml --set vessel.mode=prescribed --set vessel.ramp=1
+silent field.yaml --set ice.sleep_time=5 --set vessel.wash.reach=50 --set run.solver.most_iterations=10000
+told field.yaml "vessel.ramp: without effect, since mode is free" --set vessel.mode=free --set vessel.ramp=1
