@@ -34,7 +34,7 @@ vessel:
   ramp: 5
   hull: {{form: icebreaker, length: 100, beam: 20, draught: 7, freeboard: 4, stem_angle_deg: 30, entrance_angle_deg: 32,
          flare_angle_deg: 10, stern_angle_deg: 30, parallel_midbody: 0.45}}
-ice: {{source: voronoi, concentration: 0.8, mean_floe_area: 80, size_deviation: 0.7, roundness: 0.2, thickness: 1,
+ice: {{source: voronoi, concentration: {cover}, mean_floe_area: 80, size_deviation: 0.7, roundness: 0.2, thickness: 1,
       density: 910, crushing_strength: 2.0e6{breaking}}}
 domain: {{x_min: -{half}, x_max: {half}, y_min: -{half}, y_max: {half}, boundary: walls}}
 environment: {{current_speed: 0.3, wind_speed: {wind}}}
@@ -42,8 +42,8 @@ environment: {{current_speed: 0.3, wind_speed: {wind}}}
 BREAKING = ", breakable: true"
 
 
-def field(half, wind, breaking=""):
-    return FIELD.format(half=half, start=-half + 70, wind=wind, breaking=breaking)
+def field(half, wind, breaking="", cover=0.8):
+    return FIELD.format(half=half, start=-half + 70, wind=wind, breaking=breaking, cover=cover)
 
 
 SCENES = {
@@ -51,6 +51,7 @@ SCENES = {
     "field_12k": field(490, 0),
     "field_12k_wind": field(490, 8),
     "field_12k_breaking": field(490, 8, BREAKING),
+    "field_10k_90": field(447, 0, BREAKING, 0.9),
     "level_ice": "scenes/level_ice.yaml",
     "uikku_303": "scenes/uikku_303.yaml",
     "conical_unit": "scenes/conical_unit.yaml",
@@ -62,7 +63,7 @@ SCENES = {
 
 
 # Until the vessel is well in the ice [s]; others: --warm.
-WARM = {"level_ice": 15, "uikku_303": 15}
+WARM = {"level_ice": 40, "uikku_303": 100}
 
 
 def bench(program, scene, warm, time, threads):

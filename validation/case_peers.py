@@ -16,7 +16,7 @@ FLOES, SEEDS = 300, range(1, 7)
 # Cover [%] and what judges there: the accurate solver takes minutes a run in a packed field.
 JUDGES = {75: "accurate", 90: "sequential, 300 sweeps"}
 OPTIONS = {"fram": str(ladder.FRAM), "dt": 0.02, "iterations": 30, "time": 20.0, "warm": 5.0,
-           "core": f"0-{(os.cpu_count() or 1) - 1}"}
+           "core": f"0-{(os.cpu_count() or 1) - 1}", "programs": ("bullet_f64", "ode"), "box3d": None, "jolt": None}
 
 
 def peers():
@@ -26,7 +26,7 @@ def peers():
     for module in ("bullet-float64", "ode"):
         if subprocess.run(["pkg-config", "--exists", module]).returncode != 0:
             raise ladder.Skipped(f"{module} is not installed; `tools/deps.sh --install peers` does it")
-    built = run_peers.build_peers()
+    built = run_peers.build_peers(argparse.Namespace(**OPTIONS))
     return {"Bullet (double)": built["bullet_f64"], "ODE": built["ode"]}
 
 

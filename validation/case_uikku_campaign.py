@@ -147,8 +147,8 @@ def case(out):
         6,
         "Five published towing tests (full-scale values of a 1:31.56 model): resistance averaged over 0.5 s at full "
         f"scale, over {LENGTHS} ship lengths from where the whole hull is in the ice, from {len(STARTS)} starts that "
-        "differ by a third of R_bending; mean, standard deviation and largest are the means of the starts'. Pieces that "
-        f"are slower than {100 * ASLEEP:g} % of the ship's speed sleep."
+        "differ by a third of R_bending; mean, standard deviation and largest are the means of the starts'. "
+        f"Pieces that are slower than {100 * ASLEEP:g} % of the ship's speed sleep."
         + (" For tests 103 and 303 the mean over the first of these ship lengths also with stem and entrance angle -5 "
            "and +5 degrees and friction 0.05 and 0.15." if SPREAD else ""),
         "Hu and Zhou (2016), IJNAOE 8:169-176. Hull angles (30 and 21 degrees), friction 0.1 and ice density 920 "

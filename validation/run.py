@@ -70,6 +70,12 @@ def spent(seconds, reused):
     return f"{seconds:.0f} s{again}" if seconds < 600 else f"{seconds / 60:.0f} min{again}"
 
 
+def all_cases(verdicts):
+    """What the cases took together when each of them was made; nothing where one was not timed."""
+    took = [v.get("seconds") for v in verdicts.values()]
+    return "" if None in took else f"One after the other the cases of this edition took {sum(took) / 60:.0f} min. "
+
+
 def page(name, case, cost, head):
     """The page of one case."""
     made = f"{head}; {cost}; again: `make validate VALIDATE_FLAGS=\"--only {name}\"`."
@@ -98,7 +104,7 @@ def index(book, names):
              "disagrees, and the size of each known error, stands in the [limits](../limits.md). The last column names "
              "the code that has changed since a page was made: its numbers may have changed with it "
              "(`make validate-status` compares with the present code).", "",
-             f"{agree} of {len(verdicts)} cases agree. "
+             f"{agree} of {len(verdicts)} cases agree. {all_cases(verdicts)}"
              + " ".join(book["times"][key] for key in ("whole", "quick") if key in book["times"]), ""]
     for rung, title in RUNGS.items():
         of_rung = {n: v for n, v in verdicts.items() if v["rung"] == rung}
@@ -172,7 +178,8 @@ def main():
             failed += 1
             skipped += 1
             continue
-        cost = spent(time.monotonic() - start, len(ladder.REUSED) - before)
+        seconds, reused = time.monotonic() - start, len(ladder.REUSED) - before
+        cost = spent(seconds, reused)
         for what, good in case.checks:
             print(f"  {'good' if good else 'FAILED'}: {what}", flush=True)
         print(f"  {cost}", flush=True)
@@ -180,9 +187,12 @@ def main():
         (options.out / f"{name}.md").write_text(page(name, case, cost, head))
         # Read anew: another run may have made other cases meanwhile.
         book = read_book(options.out / "verdicts.json", modules)
+        if reused:  # what it takes to make them too is known from before, if at all
+            seconds = max(seconds, book["cases"].get(name, {}).get("seconds", 0))
         book["cases"][name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
                                "failed": [what for what, good in case.checks if not good],
-                               "made": f"{datetime.date.today()}, {revision()}", "code": code}
+                               "made": f"{datetime.date.today()}, {revision()}", "code": code,
+                               "seconds": round(seconds)}
         write_book(options.out, book, modules)
     seconds = time.monotonic() - begun
     if not options.only and not skipped:
