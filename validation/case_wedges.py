@@ -61,7 +61,7 @@ def case(out):
         c.check(abs(off) <= 0.05 + doubt, f"resistance of the ship with N = {n}: {100 * off:+.1f} % of that with N = "
                                           f"{AGREES[0]}, two standard errors {100 * doubt:.1f} %")
     c.found = ("An edge converges at second order. From N = 3 to 8 the ship's resistance falls by 5 to 8 %, as the "
-               "capacity of an edge does (9 %): what is left of the dependence is that of Nevel's wedges themselves. "
+               "capacity of an edge does (8 %): what is left of the dependence is that of Nevel's wedges themselves. "
                "It was +21 % from N = 3 to 5 while broken pieces arched between hull and sheet and corners carried as "
                "edges do ([0111](../decisions/0111-ice-yields-to-ice.md), "
                "[0044](../decisions/0044-wedges-that-are-there.md)).")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Which pages of the validation book were made on other solver, contact, fracture or water code than there is now.
+"""Which pages of the validation book were made on other solver, contact, fracture, water or geometry code than there is
+now.
 
   validation/status.py            names them; exit code 0 whatever it finds: a page may wait, but not in silence
   validation/status.py --adopt    for pages without a record of their code: take that of the revision they name
@@ -21,14 +22,16 @@ BOOK = ROOT / "docs" / "validation" / "verdicts.json"
 CONTACT = ("src/dynamics/broad*", "src/dynamics/narrow*", "src/dynamics/prism*", "src/dynamics/manifold*",
            "src/dynamics/separation*", "src/dynamics/collision*", "src/dynamics/contact.*",
            "src/ice/crushing*", "src/ice/patch*")
-FIELDS = ("src/ice/field*", "src/ice/packing*", "src/ice/import*", "src/ice/feeding*", "src/ice/floe.*")
+FIELDS = ("src/ice/field*", "src/ice/packing*", "src/ice/import*", "src/ice/feeding*")
 # Part -> its files, and those of them that belong to another part.
 PARTS = {
     "solver": (("src/dynamics/*",), CONTACT),
     "contact": (CONTACT, ()),
     "fracture": (("src/ice/*",), CONTACT + FIELDS),
     "water": (("src/fluid/*",), ()),
+    "geometry": (("src/geometry/*", "src/bodies/*"), ()),
 }
+ROOMS = sorted({name.split("/")[1] for names, _ in PARTS.values() for name in names})
 COMMENT = re.compile(r'/\*.*?\*/|//[^\n]*|("(?:\\.|[^"\\\n])*")', re.S)
 
 
@@ -50,7 +53,7 @@ def fingerprint(files, read):
 
 
 def of_checkout():
-    files = [str(p.relative_to(ROOT)) for room in ("dynamics", "ice", "fluid") for p in (ROOT / "src" / room).iterdir()]
+    files = [str(p.relative_to(ROOT)) for room in ROOMS for p in (ROOT / "src" / room).iterdir()]
     return fingerprint([f for f in files if f.endswith((".c", ".h"))], lambda f: (ROOT / f).read_text())
 
 
@@ -58,7 +61,7 @@ def of_revision(revision):
     def git(*words):
         return subprocess.run(["git", "-C", str(ROOT), *words], capture_output=True, text=True, check=True).stdout
 
-    files = git("ls-tree", "-r", "--name-only", revision, "src/dynamics", "src/ice", "src/fluid").split()
+    files = git("ls-tree", "-r", "--name-only", revision, *(f"src/{room}" for room in ROOMS)).split()
     return fingerprint([f for f in files if f.endswith((".c", ".h"))], lambda f: git("show", f"{revision}:{f}"))
 
 
@@ -89,7 +92,7 @@ def main():
         if other:
             older.setdefault((verdict["made"], ", ".join(other)), []).append(name)
     fresh = len(cases) - sum(map(len, older.values()))
-    print(f"validation: {fresh} of {len(cases)} pages were made on the solver, contact, fracture and water code of now")
+    print(f"validation: {fresh} of {len(cases)} pages were made on the {', '.join(PARTS)} code of now")
     for (made, parts), names in sorted(older.items()):
         print(f"  made {made}, on other {parts} code: {', '.join(sorted(names))}")
     return 0

@@ -43,15 +43,24 @@ static bool chord_serves(const cleaning *c, int32_t a, int32_t b)
     return true;
 }
 
-/* Which vertex of the short edge from i goes; -1 when both must stay. */
+/* Twice the area that goes or comes with a kept vertex. */
+static double area_at(const cleaning *c, int32_t i)
+{
+    const vec2 *v = c->p.vertex;
+    return fabs(vec2_cross(vec2_sub(v[i], v[c->node[i].previous]), vec2_sub(v[c->node[i].next], v[i])));
+}
+
+/* Which vertex of the short edge from i goes; -1 when both must stay.  Of two for which a chord serves alike, or does
+   not, the one that costs less area: where a corner between long edges has a short one beside it, the other end. */
 static int32_t short_edge_victim(const cleaning *c, int32_t i)
 {
     int32_t next = c->node[i].next;
     if (stays(c, i) || stays(c, next))
         return !stays(c, i) ? i : !stays(c, next) ? next : -1;
-    if (!chord_serves(c, c->node[i].previous, next) && chord_serves(c, i, c->node[next].next))
-        return next;
-    return i;
+    bool serves = chord_serves(c, c->node[i].previous, next), other = chord_serves(c, i, c->node[next].next);
+    if (serves != other)
+        return serves ? i : next;
+    return area_at(c, i) <= area_at(c, next) ? i : next;
 }
 
 /* The vertex that goes because of vertex i, or -1. */

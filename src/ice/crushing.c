@@ -1,19 +1,13 @@
 /* Crushing patches and their contacts; see crushing.h. */
-#include "ice/crushing.h"
+#include "ice/crushing_parts.h"
 
 #include "base/pool.h"
 #include "geometry/mesh_point.h"
 #include "ice/crushing_blocks.h"
-#include "ice/patch.h"
 #include "ice/patch_points.h"
-#include "ice/prism_surfaces.h"
 #include "ice/surface_frame.h"
 
 #include <assert.h>
-
-/* A component whose area vectors cancel to less than this part of its area closes round inside the floe (a hull's
-   corner, a pile), or is less when its edge has given: what is left is rounding and has no direction. */
-static const double CLOSED_PATCH = 1e-9;
 
 /* The comparison switch: under this |normal . z| the reference's A_I / cos(gamma) has no meaning (a vertical side has
    no section area at all), and the patch's own area is kept. */
@@ -21,10 +15,6 @@ static const double VERTICAL_SIDE = 0.02;
 
 /* A winding number of a closed surface about a point is 1 inside and 0 outside, to rounding. */
 static const double INSIDE_WINDING = 0.5;
-
-/* How well the way is found that an edge gives, as part of the largest; and in how many turns at most. */
-static const double GIVE_PRECISION = 1e-13;
-enum { MOST_GIVE_TURNS = 100 };
 
 /* Pairs a block, 0.1 ms of work: many more than waking a thread takes, and few enough to share out level ice. */
 enum { BLOCK_PAIRS = 32 };
@@ -72,34 +62,9 @@ void crushing_scratch_free(context *ctx, crushing_scratch *s)
     memory_free(ctx, s);
 }
 
-/* What one call works on, or one block of it. */
-typedef struct job {
-    context *ctx;
-    const prism_surfaces *prisms; /* with all that are asked for */
-    patch_scratch *room;          /* of the thread */
-    const crushing_settings *settings;
-    const body_table *bodies;
-    const shape_store *shapes;
-    const floe_table *floes;
-    const edge_support_table *supports;
-    crushing_patch_array *patches;
-    contact_array *contacts;
-    fram_error *error;
-} job;
-
-/* One pair, seen from its floe. */
-typedef struct crushing_pair {
-    int32_t floe, floe_body, surface_body;
-    const pair_policy *policy;
-    patch_floe prism;
-    patch_surface surface;
-    mat3 rotation; /* floe to global */
-    vec3 position;
-} crushing_pair;
-
 /* ---- the surface of a body ---- */
 
-static void set_surface(const job *j, crushing_pair *p)
+static void set_surface(const crushing_job *j, crushing_pair *p)
 {
     int32_t row = j->bodies->shape[p->surface_body];
     if (j->shapes->shapes.kind[row] == SHAPE_SOLID) {
@@ -131,7 +96,8 @@ static int32_t surface_body_of(const body_table *bodies, int32_t a, int32_t b)
 /* Which of both is the floe: the one of ice, of two floes the higher slot, so that the surface of the lower one serves
    all its pairs (the patches are equal and opposite, since the parts of both surfaces inside the other body together
    are closed). */
-static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_policies *policies, crushing_pair *p)
+static fram_status set_pair(const crushing_job *j, int32_t a, int32_t b, const pair_policies *policies,
+                            crushing_pair *p)
 {
     const body_table *bodies = j->bodies;
     p->surface_body = surface_body_of(bodies, a, b);
@@ -151,7 +117,7 @@ static fram_status set_pair(const job *j, int32_t a, int32_t b, const pair_polic
 /* Pressure on a patch about a centre in the frame of the floe; between two floes that of the weaker one, and no more
    than builds a ridge: the width of the patch along the plane is its area, seen level, over the thickness of the
    thinner floe. */
-static double pair_pressure(const job *j, const crushing_pair *p, vec3 centre, double area, double level_area)
+static double pair_pressure(const crushing_job *j, const crushing_pair *p, vec3 centre, double area, double level_area)
 {
     ice_material ice = strength_crushing_at(&j->settings->strength, j->floes, p->floe, vec2_make(centre.x, centre.y));
     double pressure = ice_crushing_pressure(&ice, area);
@@ -167,18 +133,16 @@ static double pair_pressure(const job *j, const crushing_pair *p, vec3 centre, d
 
 /* ---- contacts ---- */
 
-/* A hull never pushes a floe out of itself, nor a floe another one: the overlap is ice that is crushed or about to
-   break. */
-static bool pair_corrects(const job *j, const crushing_pair *p)
+/* Neither a hull nor a wall that crushes it pushes a floe out of itself, nor a floe another one: the overlap is ice
+   that is crushed or about to break. */
+static bool pair_corrects(const crushing_job *j, const crushing_pair *p)
 {
-    material other = j->bodies->material[p->surface_body];
-    if (other == MATERIAL_HULL)
-        return j->settings->correct_unbreakable && !j->floes->breakable[p->floe];
-    return other != MATERIAL_ICE;
+    return j->bodies->material[p->surface_body] == MATERIAL_HULL && j->settings->correct_unbreakable &&
+           !j->floes->breakable[p->floe];
 }
 
-static bool push_contact(const job *j, const crushing_pair *p, const crushing_patch *patch, int point, vec3 place,
-                         double depth, double weight, bool correct)
+static bool push_contact(const crushing_job *j, const crushing_pair *p, const crushing_patch *patch, int point,
+                         vec3 place, double depth, double weight, bool correct)
 {
     contact c = {.a = p->floe_body,
                  .b = p->surface_body,
@@ -198,89 +162,14 @@ static bool push_contact(const job *j, const crushing_pair *p, const crushing_pa
 
 /* ---- patches ---- */
 
-/* The pressure on a component of this area. */
-static double component_pressure(const job *j, const crushing_pair *p, const patch_component *c, double area)
+double crushing_component_pressure(const crushing_job *j, const crushing_pair *p, const patch_component *c, double area)
 {
     double z = vec3_unit(c->area).z;
     return pair_pressure(j, p, c->centre, area, sqrt(fmax(1 - z * z, 0)) * area);
 }
 
-/* ---- edges that give ---- */
-
-/* Ice that can break and does not move freely, under a hull; areas by the paper's rule are not those of the patch. */
-static bool edge_gives(const job *j, const crushing_pair *p)
-{
-    return j->settings->edges.gives && j->floes->breakable[p->floe] && !j->settings->top_plane_area &&
-           !body_is_dynamic(j->bodies, p->floe_body) && j->bodies->material[p->surface_body] == MATERIAL_HULL;
-}
-
-/* An edge under one component. */
-typedef struct loaded_edge {
-    const patch_component *whole;
-    int32_t number;
-    edge_stand stand;
-    double sign; /* of the way that it gives, along the floe's z */
-} loaded_edge;
-
-/* What bears the edge after it gave by this much, less what crushes on it then [N]; with what seams divide off. */
-static double excess(const job *j, const crushing_pair *p, const loaded_edge *e, double give, double *stiffness)
-{
-    vec3 left = patch_area_left(j->room, &p->prism, e->number, e->sign * give);
-    double area = vec3_length(left), level = fabs(left.z) + e->stand.beside;
-    *stiffness = edge_stiffness(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], level,
-                                e->stand);
-    return *stiffness * give - (area > 0 ? component_pressure(j, p, e->whole, area) * level : 0);
-}
-
-/* The largest way that is not more than balance, and whether there is balance before theory ends: by secants between
-   two ways with both signs, every third time by halves, so that a patch that leaves the edge all at once ends the
-   search too. */
-static double find_give(const job *j, const crushing_pair *p, const loaded_edge *e, bool *balance)
-{
-    double lo = 0, hi = EDGE_SMALL_DEFLECTION * j->floes->thickness[p->floe], stiffness;
-    double below = excess(j, p, e, lo, &stiffness), above = excess(j, p, e, hi, &stiffness);
-    *balance = above > 0;
-    if (!*balance)
-        return hi;
-    for (int i = 0; i < MOST_GIVE_TURNS && hi - lo > GIVE_PRECISION * hi; i++) {
-        double at = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * below / (below - above);
-        at = at > lo && at < hi ? at : 0.5 * (lo + hi);
-        double now = excess(j, p, e, at, &stiffness);
-        if (now > 0) {
-            hi = at;
-            above = now;
-        } else {
-            lo = at;
-            below = now;
-        }
-    }
-    return lo;
-}
-
-/* What is left of a component when its edge has given, and the pressure there: no more than bends the edge so far. */
-static patch_component give_way(const job *j, const crushing_pair *p, const patch_component *c, int32_t number,
-                                double *pressure, double *compliance)
-{
-    double reach =
-        edge_reach(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], fabs(c->area.z));
-    vec3 centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre));
-    loaded_edge e = {.whole = c, .number = number, .sign = c->area.z < 0 ? -1 : 1};
-    e.stand =
-        j->supports ? edge_stand_find(j->supports, j->bodies, p->surface_body, centre, reach) : EDGE_STAND_STRAIGHT;
-    e.stand.rise += j->settings->time_step;
-    bool balance;
-    double give = find_give(j, p, &e, &balance), stiffness;
-    patch_component left = patch_left(j->room, &p->prism, number, e.sign * give);
-    excess(j, p, &e, give, &stiffness);
-    *pressure = component_pressure(j, p, c, vec3_length(left.area));
-    if (balance && give > 0 && left.area.z != 0)
-        *pressure = fmin(*pressure, stiffness * give / (fabs(left.area.z) + e.stand.beside));
-    *compliance = left.area.z != 0 ? (1 + e.stand.beside / fabs(left.area.z)) / stiffness : 0;
-    return left;
-}
-
-static bool push_patch(const job *j, const crushing_pair *p, const patch_component *c, int32_t number, double area,
-                       double pressure, double compliance)
+static bool push_patch(const crushing_job *j, const crushing_pair *p, const patch_component *c, int32_t number,
+                       double area, double pressure, double compliance)
 {
     vec3 normal = vec3_unit(c->area), point[PATCH_MOST_POINTS];
     crushing_patch patch = {.floe = p->floe,
@@ -317,7 +206,7 @@ static double top_plane_share(const patch_component *c, double section_area, dou
     return cosine < VERTICAL_SIDE ? area : section_area * (fabs(c->area.z) / horizontal_sum) / cosine;
 }
 
-static fram_status push_patches(const job *j, const crushing_pair *p, const patch_component_array *found)
+static fram_status push_patches(const crushing_job *j, const crushing_pair *p, const patch_component_array *found)
 {
     double section_area = 0, horizontal_sum = 0;
     if (j->settings->top_plane_area) {
@@ -332,15 +221,15 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
         double area = vec3_length(c.area), pressure = 0, compliance = 0;
         if (!(area > CLOSED_PATCH * c.surface))
             continue;
-        bool gives = edge_gives(j, p) && c.area.z != 0;
+        bool gives = crushing_edge_gives(j, p, &c);
         if (gives) {
-            c = give_way(j, p, &found->data[i], i, &pressure, &compliance);
+            c = crushing_give_way(j, p, &found->data[i], i, &pressure, &compliance);
             area = fabs(c.area.z) > CLOSED_PATCH * found->data[i].surface ? vec3_length(c.area) : 0;
         }
         if (j->settings->top_plane_area)
             area = top_plane_share(&c, section_area, horizontal_sum);
         if (!gives)
-            pressure = component_pressure(j, p, &c, area);
+            pressure = crushing_component_pressure(j, p, &c, area);
         if (area > 0 && area >= j->settings->smallest_area && !push_patch(j, p, &c, i, area, pressure, compliance))
             return error_memory(j->error);
     }
@@ -349,7 +238,7 @@ static fram_status push_patches(const job *j, const crushing_pair *p, const patc
 
 /* ---- a floe that has slipped inside ---- */
 
-static bool surface_holds(const job *j, const crushing_pair *p, vec3 point)
+static bool surface_holds(const crushing_job *j, const crushing_pair *p, vec3 point)
 {
     int32_t row = j->bodies->shape[p->surface_body];
     const shape_table *shapes = &j->shapes->shapes;
@@ -368,7 +257,7 @@ static bool surface_holds(const job *j, const crushing_pair *p, vec3 point)
 
 /* A floe without any patch lies outside the surface or wholly inside; inside, one contact at the floe's middle holds it
    against the nearest way out. */
-static fram_status push_buried(const job *j, const crushing_pair *p)
+static fram_status push_buried(const crushing_job *j, const crushing_pair *p)
 {
     vec3 inner = patch_inner_point(&p->prism);
     vec3 point = mat3_tmul_vec(p->surface.rotation, vec3_sub(inner, p->surface.offset));
@@ -400,7 +289,7 @@ static fram_status push_buried(const job *j, const crushing_pair *p)
 }
 
 /* clear: of the pair; without a patch the narrow phase has to look at it again. */
-static fram_status crush_pair(const job *j, int32_t a, int32_t b, double *clear, const pair_policies *policies)
+static fram_status crush_pair(const crushing_job *j, int32_t a, int32_t b, double *clear, const pair_policies *policies)
 {
     crushing_pair p;
     fram_status status = set_pair(j, a, b, policies, &p);
@@ -422,14 +311,14 @@ static fram_status crush_pair(const job *j, int32_t a, int32_t b, double *clear,
 
 /* What blocks share; each makes a job of its own out of it. */
 typedef struct block_work {
-    job job;
+    crushing_job job;
     crushing_scratch *scratch;
     pair_table *pairs;
     const index_array *rows;
     const pair_policies *policies;
 } block_work;
 
-static fram_status crush_rows(const block_work *w, const job *j, int32_t first, int32_t end)
+static fram_status crush_rows(const block_work *w, const crushing_job *j, int32_t first, int32_t end)
 {
     for (int32_t i = first; i < end; i++) {
         int32_t row = w->rows->data[i];
@@ -444,7 +333,7 @@ static void crush_block(void *arg, int32_t block, int32_t thread)
 {
     const block_work *w = arg;
     crushing_block *to = &w->scratch->blocks.block.data[block];
-    job j = w->job;
+    crushing_job j = w->job;
     j.room = w->scratch->rooms.data[thread];
     j.patches = &to->patches;
     j.contacts = &to->contacts;
@@ -456,7 +345,7 @@ static void crush_block(void *arg, int32_t block, int32_t thread)
 /* The surfaces of all prisms that pairs ask for. */
 static fram_status make_surfaces(const block_work *w)
 {
-    const job *j = &w->job;
+    const crushing_job *j = &w->job;
     prism_surfaces_begin(&w->scratch->prisms);
     for (int32_t i = 0; i < w->rows->count; i++) {
         int32_t row = w->rows->data[i];

@@ -114,7 +114,7 @@ static fram_status commit(const fracture_job *j, const fracture_load *l, fractur
     if (!fracture_gather(j->ctx, s, &s->floe.whole, fracture_motion(j, l->floe), 0, 0) ||
         !fracture_gather(j->ctx, s, &s->floe.wedges, MOTION_DYNAMIC, 0, 1))
         return error_memory(j->error);
-    fram_status status = fracture_birth(j, &l->floe, 1, 2, event, &broke);
+    fram_status status = fracture_birth(j, &l->floe, 1, 2, HUGE_VAL, event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     s->broken.data[l->body] = 1;

@@ -286,7 +286,7 @@ static fram_status make_pieces(birth *b)
     return status;
 }
 
-fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least,
+fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least, double most,
                            fracture_event *event, bool *broke)
 {
     fracture_scratch *s = j->scratch;
@@ -299,7 +299,7 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     fram_status status = fracture_join_dust(j);
     if (status == FRAM_OK)
         status = dust_of(j, &dust);
-    double budget = MOST_BOOKED * parent_area - dust;
+    double budget = fmin(MOST_BOOKED * parent_area, most) - dust;
     /* What comes loose may be dust itself: nothing holds it. */
     if (status != FRAM_OK || s->piece.rows.count < least || (budget < 0 && least > 1))
         return status;

@@ -282,8 +282,9 @@ fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has);
 
 /* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,
    and the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than
-   `least`, or when they are so small that more area would be lost with them than an event may book. */
-fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least,
+   `least`, or when they are so small that more area would be lost with them than an event may book: `most` [m2], and a
+   thousandth of the parents'. */
+fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least, double most,
                            fracture_event *event, bool *broke);
 
 /* An event as its load tells it; place is global. */

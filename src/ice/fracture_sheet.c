@@ -283,7 +283,7 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     fracture_event event = fracture_event_of(l, place, FRACTURE_BENDING, radius);
     fracture_sheet_touch(j);
     fracture_mark_broken(j);
-    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count, 2, &event, &broke);
+    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count, 2, HUGE_VAL, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, event) ? fracture_sheet_changed(j) : error_memory(j->error);

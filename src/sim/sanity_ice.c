@@ -51,7 +51,7 @@ static void tell_thresholds(const teller *t)
     double speck = SPECK * i->thickness * i->thickness;
     tell_left_out(t, "smallest_floe_area", i->smallest_floe_area);
     tell_left_out(t, "smallest_piece_area", i->smallest_piece_area);
-    if (i->breakable && i->smallest_floe_area > 0 && i->smallest_floe_area < speck)
+    if (i->breakable && i->smallest_floe_area < speck)
         sanity_say(t->tell, t->to,
                    "ice.smallest_floe_area: %.3g m2 keeps specks of ice that is %.3g m thick, thousands of them where "
                    "it breaks: take %.2g m2 or more",

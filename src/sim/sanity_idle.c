@@ -23,10 +23,7 @@ static bool is_no_file(const question *q) { return q->s->ice.source != ICE_FILE;
 static bool is_no_list(const question *q) { return q->s->ice.source != ICE_FLOES; }
 static bool is_no_voronoi(const question *q) { return q->s->ice.source != ICE_VORONOI; }
 static bool is_of_cells(const question *q) { return is_no_voronoi(q) || q->s->ice.populations.count > 0; }
-static bool is_no_field(const question *q)
-{
-    return !is_no_list(q) || !is_no_sheet(q) || q->s->ice.source == ICE_NONE;
-}
+static bool is_no_field(const question *q) { return !is_no_list(q) || !is_no_sheet(q) || q->s->ice.source == ICE_NONE; }
 static bool draws_nothing(const question *q)
 {
     return is_no_field(q) || (q->s->ice.source == ICE_FILE && q->s->ice.populations.count == 0);

@@ -113,8 +113,31 @@ static const char *size_key(const scenario *s)
     return s->ice.populations.count > 0 ? "ice.populations" : "ice.mean_floe_area";
 }
 
+/* Tiles under the smallest floe are not made: there would be no sheet, or holes in it. */
+static fram_status check_tiles(const scenario *s, fram_error *error)
+{
+    if (s->ice.source != ICE_LEVEL)
+        return FRAM_OK;
+    tile_grid g = build_tiles(s);
+    box2 cell = tile_cell(&g, 0);
+    double area = (cell.hi.x - cell.lo.x) * (cell.hi.y - cell.lo.y), least = s->ice.smallest_floe_area;
+    if (area >= least)
+        return FRAM_OK;
+    if (is_automatic(s->ice.level.tile_size))
+        return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.smallest_floe_area",
+                         "expected no more than a tile of the sheet, %.4g m2, or nothing is left of it, found %g m2",
+                         area, least);
+    return error_set(error, FRAM_ERROR_INPUT, NULL, 0, "ice.level.tile_size",
+                     "expected tiles no smaller than ice.smallest_floe_area, %g m2, or nothing is left of the sheet, "
+                     "found %g m, %.4g m2",
+                     least, s->ice.level.tile_size, area);
+}
+
 fram_status scene_size_check(const scenario *s, fram_error *error)
 {
+    fram_status status = check_tiles(s, error);
+    if (status != FRAM_OK)
+        return status;
     scene_size size = scene_size_of(s);
     double limit = s->run.memory_limit * 1e9;
     if (size.bytes <= limit && size.floes <= MOST_FLOES)

@@ -13,7 +13,7 @@ typedef struct scene_size {
 scene_size scene_size_of(const scenario *s);
 
 /* FRAM_ERROR_INPUT, naming the key that makes it so large, when the scenario takes more than run.memory_limit, or has
-   more floes than can be numbered. */
+   more floes than can be numbered; or for tiles of level ice that are smaller than the smallest floe. */
 fram_status scene_size_check(const scenario *s, fram_error *error);
 
 #endif

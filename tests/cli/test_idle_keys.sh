@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Keys that were set and decide nothing: each is told with its reason, and decides nothing indeed; what does is not told.
+# Keys that were set and decide nothing: each is told with its reason, and changes nothing indeed; others are not told.
 . "$FRAM_SOURCE/tests/cli/slips.sh"
 
 cat >field.yaml <<'YAML'

@@ -41,8 +41,10 @@ START_TEST(short_edges_spikes_and_straight_vertices_go)
     const vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     const vec2 short_edge[] = {{0, 0}, {0.997, 0}, {1, 0}, {1, 1}, {0, 1}};
     expect(short_edge, 5, 0.005, square, 4);
+    /* Of the two ends the one goes that costs less, here nothing. */
     const vec2 corner[] = {{0, 0}, {1, -0.003}, {1, 0}, {1, 1}, {0, 1}};
-    expect(corner, 5, 0.005, square, 4);
+    const vec2 cheap[] = {{0, 0}, {1, -0.003}, {1, 1}, {0, 1}};
+    expect(corner, 5, 0.005, cheap, 4);
     const vec2 straight[] = {{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0, 1}};
     expect(straight, 5, 0.005, square, 4);
     const vec2 bent[] = {{0, 0}, {0.5, 0.004}, {1, 0}, {1, 1}, {0, 1}};
@@ -163,6 +165,23 @@ START_TEST(the_other_end_of_a_short_edge)
 }
 END_TEST
 
+/* A short edge between a long one and a middling one: its end on the long edge stays, from whichever side it comes, or
+   half the long edge times the short one would go with it. */
+START_TEST(a_short_edge_costs_no_long_one)
+{
+    const vec2 ring[] = {{0, -40}, {0, 0}, {-0.04, 0.03}, {-1, 1}, {-40, 1}, {-40, -40}};
+    vec2 mirrored[6];
+    for (int i = 0; i < 6; i++)
+        mirrored[5 - i] = vec2_make(ring[i].x, -ring[i].y);
+    for (int turn = 0; turn < 2; turn++) {
+        polygon p = clean(turn ? mirrored : ring, 6, 0.15);
+        ck_assert_int_eq(p.count, 5);
+        assert_absolute(polygon_area(p), polygon_area((polygon){ring, 6}), 0.03);
+    }
+    array_free(&plain, &out);
+}
+END_TEST
+
 START_TEST(no_memory)
 {
     const vec2 square[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -212,4 +231,5 @@ END_TEST
 
 TEST_MAIN("polygon_clean", nothing_to_clean, is_clean, merging_keeps_spikes,
           short_edges_spikes_and_straight_vertices_go, a_long_shallow_corner_stays, a_bound_is_not_under_itself,
-          a_fine_circle_keeps_its_shape, random_outlines, the_other_end_of_a_short_edge, no_memory)
+          a_fine_circle_keeps_its_shape, random_outlines, the_other_end_of_a_short_edge, a_short_edge_costs_no_long_one,
+          no_memory)

@@ -68,6 +68,35 @@ START_TEST(balance)
 }
 END_TEST
 
+/* Friction of a hull that slides along the edge takes part of the load off that bends it: what crushes less what is
+   dragged up is K w; under the friction angle nothing is left, and the edge stays.  At rest it is as without. */
+START_TEST(friction_bears_a_part)
+{
+    static const double SLOPES[] = {1, -1, 0.2, 0.05};
+    for (int i = 0; i < 4; i++) {
+        double slope = SLOPES[i], way = 0.04, mu = 0.1, lean = 1 / sqrt(1 + slope * slope);
+        for (int moves = 0; moves < 2; moves++) {
+            ice_rig r;
+            ramp_make(&r, slope, way, 40);
+            r.policies.of[MATERIAL_ICE][MATERIAL_HULL].friction_kinetic = mu;
+            r.policies.of[MATERIAL_HULL][MATERIAL_ICE].friction_kinetic = mu;
+            if (!moves)
+                r.bodies.velocity[0] = (vec3){0, 0, 0};
+            ice_rig_crush(&r);
+            ck_assert_int_eq(r.patches.count, 1);
+            const crushing_patch *p = &r.patches.data[0];
+            /* Upright load over p A: the lean of the normal, less mu along the slope. */
+            double share = moves ? 1 - mu / fabs(slope) : 1, area = p->horizontal_area;
+            double give = share > 0 ? share * p->pressure * area / nevel(area) : 0;
+            assert_relative(2 * (way - fabs(slope) * give), area, 1e-7);
+            assert_relative(p->area * fabs(slope) * lean, area, 1e-9);
+            ck_assert((p->compliance > 0) == (share > 0));
+            ice_rig_free(&r);
+        }
+    }
+}
+END_TEST
+
 /* 362 kN on a wedge tip of 0.1 l put it down by 0.101 m (1 m, 5 GPa). */
 START_TEST(stiffness_of_an_edge)
 {
@@ -240,5 +269,5 @@ START_TEST(kept_by_fracture)
 }
 END_TEST
 
-TEST_MAIN("edge_give", balance, stiffness_of_an_edge, what_does_not_give, flat_face, small_deflections, seams, less_ice,
-          kept_by_fracture)
+TEST_MAIN("edge_give", balance, friction_bears_a_part, stiffness_of_an_edge, what_does_not_give, flat_face,
+          small_deflections, seams, less_ice, kept_by_fracture)

@@ -375,7 +375,7 @@ START_TEST(no_convex_part)
         int32_t parent = sheet_tile_at(&r, (vec2){1, 1});
         fracture_event event = {0};
         bool broke;
-        assert_ok(fracture_birth(&j, &parent, 1, 1, &event, &broke), e);
+        assert_ok(fracture_birth(&j, &parent, 1, 1, HUGE_VAL, &event, &broke), e);
         ck_assert(broke);
         /* Joined, lost, and kept where its largest part is large enough. */
         ck_assert_int_eq(event.pieces, turn == 2 ? 2 : 1);

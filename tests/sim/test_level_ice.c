@@ -151,8 +151,8 @@ START_TEST(ram_back_off_return)
 }
 END_TEST
 
-/* A box that runs into a wall of ice and draws back slowly: outlines that cleaning makes larger give nothing back of
-   what was crushed. */
+/* A box that runs into a wall of ice and draws back slowly: cleaning gives nothing back of what was crushed, since it
+   adds no more than a part of what was cut away. */
 START_TEST(crushed_ice_is_never_less)
 {
     scene k;
@@ -169,7 +169,7 @@ START_TEST(crushed_ice_is_never_less)
         before = crushed;
     }
     ck_assert(before > 1e4);
-    ck_assert(k.w.clock.ice_gained[0] > 0);
+    assert_absolute(k.w.clock.ice_gained[0], 0, 0.1 * before);
     assert_relative(ice_mass(&k) + booked_mass(&k), mass, 1e-12);
     scene_close(&k);
 }

@@ -70,6 +70,10 @@ START_TEST(what_is_too_large_is_refused)
         const char *text, *key, *message;
     } cases[] = {
         {HOUSE WIDE "ice: {source: level, thickness: 0.001}\n", "ice.level.tile_size", "expected at most 2e+07 floes"},
+        {HOUSE PLAN "ice: {source: level, level: {tile_size: 0.4}}\n", "ice.level.tile_size",
+         "no smaller than ice.smallest_floe_area"},
+        {HOUSE PLAN "ice: {source: level, smallest_floe_area: 1000}\n", "ice.smallest_floe_area",
+         "no more than a tile of the sheet"},
         {"vessel: {present: false}\nrun: {memory_limit: 1}\n" WIDE "ice: {source: level, level: {tile_size: 25000}}\n",
          "ice.level.tile_size", "at most run.memory_limit, 1 GB, found about 1.295"},
         {HOUSE WIDE "ice: {source: voronoi, mean_floe_area: 1}\n", "ice.mean_floe_area", "found about 4e+14"},

@@ -1,0 +1,95 @@
+/* Edges of level and fixed ice that give under what crushes on them (docs/decisions/0220); see crushing_parts.h. */
+#include "ice/crushing_parts.h"
+
+/* How well the way is found that an edge gives, as part of the largest; and in how many turns at most. */
+static const double GIVE_PRECISION = 1e-13;
+enum { MOST_GIVE_TURNS = 100 };
+
+/* Vertical load on the floe over that of the pressure alone: what friction leaves of it as the hull slides along the
+   ice, F_z = p (A_z + mu |A| t_z), t the direction in which the surface slides.  1 at rest, where friction has no
+   direction; under 0 where friction turns the load over. */
+static double share_of_friction(const crushing_job *j, const crushing_pair *p, const patch_component *c)
+{
+    vec3 centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre));
+    vec3 past = vec3_sub(body_point_velocity(j->bodies, p->surface_body, centre),
+                         body_point_velocity(j->bodies, p->floe_body, centre));
+    vec3 normal = vec3_unit(c->area), slip = mat3_tmul_vec(p->rotation, past);
+    slip = vec3_mad(slip, normal, -vec3_dot(slip, normal));
+    double speed = vec3_length(slip);
+    if (!(speed > p->surface.rest))
+        return 1;
+    return 1 + p->policy->friction_kinetic * slip.z / speed / normal.z;
+}
+
+bool crushing_edge_gives(const crushing_job *j, const crushing_pair *p, const patch_component *c)
+{
+    return j->settings->edges.gives && j->floes->breakable[p->floe] && !j->settings->top_plane_area &&
+           !body_is_dynamic(j->bodies, p->floe_body) && j->bodies->material[p->surface_body] == MATERIAL_HULL &&
+           fabs(c->area.z) > CLOSED_PATCH * c->surface && share_of_friction(j, p, c) > 0;
+}
+
+/* An edge under one component. */
+typedef struct loaded_edge {
+    const patch_component *whole;
+    int32_t number;
+    edge_stand stand;
+    double sign;  /* of the way that it gives, along the floe's z */
+    double share; /* of the pressure's vertical load that friction leaves */
+} loaded_edge;
+
+/* What bears the edge after it gave by this much, less what crushes on it then [N]; with what seams divide off. */
+static double excess(const crushing_job *j, const crushing_pair *p, const loaded_edge *e, double give,
+                     double *stiffness)
+{
+    vec3 left = patch_area_left(j->room, &p->prism, e->number, e->sign * give);
+    double area = vec3_length(left), level = fabs(left.z) + e->stand.beside;
+    *stiffness = edge_stiffness(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], level,
+                                e->stand);
+    return *stiffness * give - (area > 0 ? crushing_component_pressure(j, p, e->whole, area) * level * e->share : 0);
+}
+
+/* The largest way that is not more than balance, and whether there is balance before theory ends: by secants between
+   two ways with both signs, every third time by halves, so that a patch that leaves the edge all at once ends the
+   search too. */
+static double find_give(const crushing_job *j, const crushing_pair *p, const loaded_edge *e, bool *balance)
+{
+    double lo = 0, hi = EDGE_SMALL_DEFLECTION * j->floes->thickness[p->floe], stiffness;
+    double below = excess(j, p, e, lo, &stiffness), above = excess(j, p, e, hi, &stiffness);
+    *balance = above > 0;
+    if (!*balance)
+        return hi;
+    for (int i = 0; i < MOST_GIVE_TURNS && hi - lo > GIVE_PRECISION * hi; i++) {
+        double at = i % 3 == 2 ? 0.5 * (lo + hi) : lo + (hi - lo) * below / (below - above);
+        at = at > lo && at < hi ? at : 0.5 * (lo + hi);
+        double now = excess(j, p, e, at, &stiffness);
+        if (now > 0) {
+            hi = at;
+            above = now;
+        } else {
+            lo = at;
+            below = now;
+        }
+    }
+    return lo;
+}
+
+patch_component crushing_give_way(const crushing_job *j, const crushing_pair *p, const patch_component *c,
+                                  int32_t number, double *pressure, double *compliance)
+{
+    double reach =
+        edge_reach(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], fabs(c->area.z));
+    vec3 centre = vec3_add(p->position, mat3_mul_vec(p->rotation, c->centre));
+    loaded_edge e = {.whole = c, .number = number, .sign = c->area.z < 0 ? -1 : 1, .share = share_of_friction(j, p, c)};
+    e.stand =
+        j->supports ? edge_stand_find(j->supports, j->bodies, p->surface_body, centre, reach) : EDGE_STAND_STRAIGHT;
+    e.stand.rise += j->settings->time_step;
+    bool balance;
+    double give = find_give(j, p, &e, &balance), stiffness;
+    patch_component left = patch_left(j->room, &p->prism, number, e.sign * give);
+    excess(j, p, &e, give, &stiffness);
+    *pressure = crushing_component_pressure(j, p, c, vec3_length(left.area));
+    if (balance && give > 0 && left.area.z != 0)
+        *pressure = fmin(*pressure, stiffness * give / ((fabs(left.area.z) + e.stand.beside) * e.share));
+    *compliance = left.area.z != 0 ? (1 + e.stand.beside / fabs(left.area.z)) / stiffness : 0;
+    return left;
+}
