@@ -53,6 +53,8 @@ static int read_words(const command_row *self, ice_words *w, common_options *com
          "split: distance of the load from the middle of the side [m] (0)"},
     };
     int code = options_read(self, rows, sizeof rows / sizeof *rows, common, argc, argv, &w->what, 1);
+    if (code < 0 && !(angle > 0 && angle <= 360))
+        return answer_usage(common, "--included-angle", "expected more than 0 and at most 360 degrees");
     w->floe.thickness = w->load.thickness;
     w->load.included_angle = angle * (3.14159265358979323846 / 180);
     return code;

@@ -40,8 +40,10 @@ near 'j["wedge_capacity"]' "${rest% *} / 0.9322" 1e-2 "capacity under a load tha
 near 'j["breaking_radius"]' "${rest#* } * 0.5390" 2e-2 "length under a load that rises"
 expect 2 "$FRAM" ice break --rise-time -1
 says rise_time err
+expect 2 "$FRAM" ice break --included-angle -30
+says "more than 0 and at most 360 degrees" err
 expect 2 "$FRAM" ice break --included-angle 361
-says included_angle err
+says included-angle err
 expect 2 "$FRAM" ice break --contact-width -1
 says contact_width err
 
