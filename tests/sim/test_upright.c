@@ -64,4 +64,37 @@ START_TEST(turned_box)
 }
 END_TEST
 
-TEST_MAIN("upright", cylinder, turned_box)
+/* A floe of 500 m that is pressed on the end of a box splits when the push in its plane has reached what opens a crack
+   at its mouth, 0.1869 h K_IC sqrt(L) (docs/oracles.md, section 3), although nothing bends it. */
+START_TEST(a_large_floe_splits_on_a_box)
+{
+    static const char *const SCENE =
+        "run: {duration: 3, time_step: 0.001}\n"
+        "vessel: {mode: prescribed, x: -10.03, speed: 0.05, hull: {form: box, length: 20, beam: 4, draught: 5}}\n"
+        "ice:\n  source: floes\n  thickness: 1\n  breakable: true\n  fracture: {splitting: toughness}\n"
+        "  floes: [{length: 500, width: 500, x: 250, yaw_deg: 0.5}]\n"
+        "domain: {x_min: -60, x_max: 600, y_min: -280, y_max: 280, boundary: open}\n";
+    double needed = 0.1869 * 150e3 * sqrt(500.0);
+    for (int fixed = 0; fixed < 2; fixed++) {
+        const char *const options[] = {fixed ? "ice.floes[0].fixed=true" : "ice.floes[0].fixed=false"};
+        scene k;
+        scene_open_with(&k, SCENE, options, 1);
+        double before = 0;
+        for (int i = 0; i < 2000 && k.w.scratch.fractures.count == 0; i++) {
+            before = k.w.scratch.ice_loads.count > 0 ? -k.w.scratch.ice_loads.data[0].total.force.x : 0;
+            scene_steps(&k, 1);
+        }
+        ck_assert_int_eq(k.w.scratch.fractures.count, 1);
+        const fracture_event *e = &k.w.scratch.fractures.data[0];
+        ck_assert_int_eq(e->pieces, 2);
+        assert_relative(e->crack_length, 500, 1e-3);
+        /* What floats breaks by its load over the time in which it responds. */
+        if (fixed)
+            ck_assert_double_lt(before, 1.002 * needed);
+        assert_relative(e->load, needed, 0.03); /* grows by 2 % in a step */
+        scene_close(&k);
+    }
+}
+END_TEST
+
+TEST_MAIN("upright", cylinder, turned_box, a_large_floe_splits_on_a_box)
