@@ -273,6 +273,16 @@ static pair6 turning_terms(const matrix6 *a, pair6 v)
     return (pair6){force, moment};
 }
 
+static double munk(const matrix6 *a, vec3 velocity)
+{
+    return -vec3_cross(velocity, matrix6_mul(a, (pair6){velocity, {0, 0, 0}}).linear).z;
+}
+
+double hydrodynamics_munk(const hydrodynamics *h, vec3 velocity)
+{
+    return h->measured ? 0 : munk(&h->added_mass, velocity);
+}
+
 static pair6 pair_sum(pair6 a, pair6 b, double scale)
 {
     return (pair6){vec3_mad(a.linear, b.linear, scale), vec3_mad(a.angular, b.angular, scale)};
@@ -318,6 +328,8 @@ void hydrodynamics_respond(const hydrodynamics *h, bool coupled, const media *m,
         vec3 turning = matrix6_mul(&diagonal, v).angular;
         gyroscopic = vec3_cross(v.angular, vec3_add(sym3_mul_vec(bodies->inertia[slot], v.angular), turning));
         force = pair_sum(force, turning_terms(&added, v), 1);
+        if (h->measured)
+            force.angular.z -= munk(&added, v.linear);
         force.angular = vec3_sub(force.angular, gyroscopic);
     }
     pair6 acceleration;

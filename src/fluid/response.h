@@ -42,7 +42,12 @@ void prisms_respond(context *ctx, const media *m, const drag_coefficients coeffi
 typedef struct hydrodynamics {
     matrix6 added_mass; /* symmetric [kg, kg m, kg m2] */
     matrix6 damping;    /* [N s/m, N s, N m s] */
+    bool measured;      /* what a steady flow does is a table's, which has Munk's moment in it */
 } hydrodynamics;
+
+/* Munk's moment about the body's z axis on one that goes through the water with this velocity and does not turn, body
+   axes: -(v x A v)_z [N m]; 0 where it is measured. */
+double hydrodynamics_munk(const hydrodynamics *h, vec3 velocity);
 
 /* Changes the load of a dynamic body, whose added mass and inertia in `bodies` must be the diagonal of h->added_mass:
    its acceleration under the changed load by mass and diagonal is what (M + A + dt D) a = F - D v - (Kirchhoff's

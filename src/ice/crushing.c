@@ -256,9 +256,12 @@ static bool surface_holds(const crushing_job *j, const crushing_pair *p, vec3 po
 }
 
 /* A floe without any patch lies outside the surface or wholly inside; inside, one contact at the floe's middle holds it
-   against the nearest way out. */
+   against the nearest way out.  Ice that is held or carried was crushed as the surface came over it, and is no floe
+   that slipped in: the rim of a tile that the hull has passed. */
 static fram_status push_buried(const crushing_job *j, const crushing_pair *p)
 {
+    if (!body_is_dynamic(j->bodies, p->floe_body))
+        return FRAM_OK;
     vec3 inner = patch_inner_point(&p->prism);
     vec3 point = mat3_tmul_vec(p->surface.rotation, vec3_sub(inner, p->surface.offset));
     if (!surface_holds(j, p, point))

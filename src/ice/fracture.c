@@ -45,6 +45,7 @@ static void free_trim(context *ctx, trim_work *w)
     polygon_list_free(ctx, &w->room);
     array_free(ctx, &w->ring);
     array_free(ctx, &w->clipped);
+    array_free(ctx, &w->outline);
 }
 
 void fracture_scratch_free(context *ctx, fracture_scratch *s)

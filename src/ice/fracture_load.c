@@ -56,11 +56,28 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
     return s;
 }
 
-static vec3 patch_impulse(const crushing_patch *p, const contact_array *contacts)
+/* Whether a surface goes up or down past the floe by itself, more than its face does as it crushes on. */
+static bool slides_upright(const body_table *bodies, const crushing_patch *p, vec3 up)
 {
-    vec3 sum = {0, 0, 0};
-    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++)
-        sum = vec3_add(sum, contact_impulse(&contacts->data[i]));
+    vec3 past = vec3_sub(body_point_velocity(bodies, p->surface_body, p->centre),
+                         body_point_velocity(bodies, p->floe_body, p->centre));
+    return fabs(vec3_dot(past, up)) > fabs(vec3_dot(past, p->normal) * vec3_dot(p->normal, up));
+}
+
+/* Impulse of a patch on its floe, floe frame [N s].  Friction on a face that crushes on holds what the pressure presses
+   down or up, and does not press it the other way: on a steep face the ice goes along with the hull (decision 0553). */
+static vec3 patch_impulse(const fracture_state *state, const crushing_patch *p, const mat3 *rotation)
+{
+    vec3 sum = {0, 0, 0}, up = mat3_column(*rotation, 2);
+    double pressed = 0;
+    for (int32_t i = p->contact_first; i < p->contact_first + p->contact_count; i++) {
+        const contact *c = &state->contacts->data[i];
+        sum = vec3_add(sum, contact_impulse(c));
+        pressed += c->impulse[0] * vec3_dot(c->normal, up);
+    }
+    sum = mat3_tmul_vec(*rotation, sum);
+    if (sum.z * pressed < 0 && !slides_upright(state->bodies, p, up))
+        sum.z = 0;
     return sum;
 }
 
@@ -90,19 +107,19 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
     mat3 rotation = quat_matrix(state->bodies->orientation[body]);
     vec3 place = tile ? p->centre : body_to_local(state->bodies, body, p->centre), at = state->bodies->position[body];
     bool own = body == p->floe_body;
-    fracture_load l = {
-        .body = body,
-        .floe = floe,
-        .patch = patch,
-        .tile = tile,
-        .surface = own ? p->surface_body : p->floe_body,
-        .vector = vec3_scale(mat3_tmul_vec(rotation, patch_impulse(p, state->contacts)), 1 / settings->time_step),
-        .place = {place.x, place.y},
-        .plan = {{p->plan.lo.x + at.x, p->plan.lo.y + at.y}, {p->plan.hi.x + at.x, p->plan.hi.y + at.y}},
-        .area = p->area,
-        .horizontal_area = own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
-        .thickness = state->floes->thickness[floe],
-        .ice = state->floes->material[floe]};
+    fracture_load l = {.body = body,
+                       .floe = floe,
+                       .patch = patch,
+                       .tile = tile,
+                       .surface = own ? p->surface_body : p->floe_body,
+                       .vector = vec3_scale(patch_impulse(state, p, &rotation), 1 / settings->time_step),
+                       .place = {place.x, place.y},
+                       .plan = {{p->plan.lo.x + at.x, p->plan.lo.y + at.y}, {p->plan.hi.x + at.x, p->plan.hi.y + at.y}},
+                       .area = p->area,
+                       .horizontal_area =
+                           own ? p->horizontal_area : p->area * fabs(mat3_tmul_vec(rotation, p->normal).z),
+                       .thickness = state->floes->thickness[floe],
+                       .ice = state->floes->material[floe]};
     if (settings->wide_contacts)
         spread_of(p, state, body, tile != 0, l.spread);
     return array_push(ctx, &s->load.all, l);

@@ -157,6 +157,7 @@ typedef struct trim_work {
     polygon_list inner;       /* one of these, moved inwards */
     polygon_list gone;        /* where no ice may be */
     polygon_list left, room;  /* of the floe, and its spare */
+    vec2_array outline;       /* of the floe */
     vec2_array ring, clipped;
 } trim_work;
 

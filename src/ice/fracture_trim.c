@@ -21,6 +21,7 @@ typedef struct trim_pair {
     int32_t floe, surface;
     bool floats;
     bool retreats; /* the hull has left */
+    bool flush;    /* no rim stays: the hull has come nearly through */
     vec3 back;     /* from where it stands to where it was when it last pressed on, global [m] */
 } trim_pair;
 
@@ -37,7 +38,7 @@ static trim_place place_of(const fracture_job *j, const trim_pair *p)
                         .rotation = mat3_mul(turn, quat_matrix(b->orientation[p->surface])),
                         .offset = mat3_mul_vec(turn, vec3_sub(vec3_add(b->position[p->surface], p->back), origin)),
                         .half = j->state->floes->thickness[p->floe] / 2,
-                        .rim = p->floats ? 0 : j->settings->edge_threshold,
+                        .rim = p->floats || p->flush ? 0 : j->settings->edge_threshold,
                         .all = p->retreats && !p->floats};
 }
 
@@ -227,20 +228,52 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
     return tile ? fracture_sheet_changed(j) : FRAM_OK;
 }
 
-static fram_status trim_floe(const fracture_job *j, const trim_pair *p, bool *trimmed)
+/* Area of the ring that may go. */
+static fram_status find_overlap(const fracture_job *j, const trim_pair *p, polygon ring, double *overlap)
 {
-    fracture_scratch *s = j->scratch;
+    const trim_work *t = &j->scratch->trim;
     fram_status status = find_gone(j, p);
+    *overlap = 0;
+    for (int32_t i = 0; i < polygon_list_count(&t->gone) && status == FRAM_OK; i++)
+        *overlap += polygon_overlap_area(ring, polygon_list_get(&t->gone, i));
+    return status;
+}
+
+/* A hull that has come nearly through a tile leaves no rim behind: without ice before the hull that would carry
+   nothing, lie inside of it and come loose there.  Nearly: less ice is left before it than in the rim. */
+static fram_status leave_no_rim(const fracture_job *j, trim_pair *p, polygon ring, double *overlap)
+{
+    box2 box = polygon_bounds(ring);
+    double rim = 2 * j->settings->edge_threshold * (box.hi.x - box.lo.x + box.hi.y - box.lo.y), whole;
+    double left = polygon_area(ring) - *overlap;
+    if (p->floats || p->retreats || left > 2 * rim)
+        return FRAM_OK;
+    p->flush = true;
+    fram_status status = find_overlap(j, p, ring, &whole);
+    p->flush = polygon_area(ring) - whole < whole - *overlap;
     if (status != FRAM_OK)
         return status;
-    if (!floe_ring(j, p->floe, &s->trim.ring))
+    if (p->flush)
+        *overlap = whole;
+    return p->flush ? FRAM_OK : find_gone(j, p);
+}
+
+static fram_status trim_floe(const fracture_job *j, trim_pair *p, bool *trimmed)
+{
+    fracture_scratch *s = j->scratch;
+    if (!floe_ring(j, p->floe, &s->trim.outline))
         return error_memory(j->error);
-    polygon ring = {s->trim.ring.data, s->trim.ring.count};
-    double overlap = 0;
-    for (int32_t i = 0; i < polygon_list_count(&s->trim.gone); i++)
-        overlap += polygon_overlap_area(ring, polygon_list_get(&s->trim.gone, i));
-    /* Less than a floe is not worth a cut; the next one takes it. */
-    if (!(overlap > (p->retreats && !p->floats ? 0 : j->settings->smallest_floe_area)))
+    polygon ring = {s->trim.outline.data, s->trim.outline.count};
+    double overlap, least = j->settings->smallest_floe_area;
+    fram_status status = find_overlap(j, p, ring, &overlap);
+    if (status == FRAM_OK)
+        status = leave_no_rim(j, p, ring, &overlap);
+    if (status != FRAM_OK)
+        return status;
+    /* Less than a floe is not worth a cut, unless little else is left; the next one takes it. */
+    if (p->flush)
+        least = fmin(least, polygon_area(ring) / 2);
+    if (!(overlap > (p->retreats && !p->floats ? 0 : least)))
         return FRAM_OK;
     polygon_list_clear(&s->trim.left);
     if (!polygon_list_push(j->ctx, &s->trim.left, ring))
@@ -287,7 +320,11 @@ static bool find_pair(const fracture_job *j, const crushing_patch *p, bool first
     else if (first)
         way = vec3_mad(way, v, j->settings->time_step);
     bool left = -vec3_dot(way, p->normal) > j->settings->edge_threshold;
-    *pair = (trim_pair){p->floe, p->surface_body, floats(j, p), left, left ? vec3_neg(way) : (vec3){0, 0, 0}};
+    *pair = (trim_pair){.floe = p->floe,
+                        .surface = p->surface_body,
+                        .floats = floats(j, p),
+                        .retreats = left,
+                        .back = left ? vec3_neg(way) : (vec3){0, 0, 0}};
     return retreat_keep(j->ctx, s->retreats, s->bodies, s->floes, p->floe, p->surface_body, way);
 }
 

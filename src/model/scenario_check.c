@@ -246,6 +246,12 @@ static fram_status check_level(const scenario *s, fram_error *error)
         x_min = s->domain.x_min, x_max = s->domain.x_max;
         y_min = s->domain.y_min, y_max = s->domain.y_max;
     }
+    bool held = l->anchored_x_min || l->anchored_x_max || l->anchored_y_min || l->anchored_y_max;
+    if (!held && s->domain.boundary != DOMAIN_FEEDING)
+        return fault(
+            s, error, "ice.level.anchored_x_min",
+            "expected a sheet that is held at one of its edges at least, found none: ice that nothing holds is "
+            "a floe (ice.source floes), or drifts through (domain.boundary feeding)");
     double size = automatic_or(l->tile_size, x_max - x_min);
     if ((x_max - x_min) / size * ((y_max - y_min) / size) > MOST_TILES)
         return fault(s, error, "ice.level.tile_size",

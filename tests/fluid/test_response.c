@@ -78,7 +78,7 @@ START_TEST(whole_matrix_accelerates)
         rig k;
         int32_t slot = rig_open(&k, 900, (sym3){800, 900, 1000, 20, -30, 10});
         k.bodies.orientation[slot] = quat_from_roll_pitch_yaw(0.3, -0.2, random_uniform(&r, -3, 3));
-        hydrodynamics h = {coupled_matrix(&r, 500), {{{0}}}};
+        hydrodynamics h = {.added_mass = coupled_matrix(&r, 500)};
         set_diagonal(&k.bodies, slot, &h.added_mass);
         pair6 a = {random_vector(&r, 1), random_vector(&r, 1)};
         mat3 turn = quat_matrix(k.bodies.orientation[slot]);
@@ -273,7 +273,7 @@ static double energy_drift(double dt)
     random_stream r = random_begin(42, 0, 0);
     rig k;
     int32_t slot = rig_open(&k, 900, (sym3){800, 900, 1300, 20, -30, 10});
-    hydrodynamics h = {coupled_matrix(&r, 300), {{{0}}}};
+    hydrodynamics h = {.added_mass = coupled_matrix(&r, 300)};
     set_diagonal(&k.bodies, slot, &h.added_mass);
     k.bodies.velocity[slot] = vec3_make(1, 0.4, -0.3);
     k.bodies.angular_velocity[slot] = vec3_make(0.2, -0.3, 0.5);
@@ -310,7 +310,8 @@ START_TEST(damping_of_any_strength)
     for (double rate = 1e-3; rate < 1e6; rate *= 10) {
         rig k;
         int32_t slot = rig_open(&k, 500, (sym3){800, 900, 1300, 0, 0, 0});
-        hydrodynamics h = {{{{100}, {0, 100}, {0, 0, 500}}}, {{{0}, {0}, {0, 0, rate}, {0, 0, 0, rate}}}};
+        hydrodynamics h = {.added_mass = {{{100}, {0, 100}, {0, 0, 500}}},
+                           .damping = {{{0}, {0}, {0, 0, rate}, {0, 0, 0, rate}}}};
         set_diagonal(&k.bodies, slot, &h.added_mass);
         k.bodies.velocity[slot].z = 2;
         k.bodies.angular_velocity[slot].x = 1;

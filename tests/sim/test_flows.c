@@ -55,6 +55,37 @@ START_TEST(turning_is_damped)
 }
 END_TEST
 
+/* Munk's moment of a free hull in an oblique current is what the equilibrium and the capability plot take, once: in a
+   table of coefficients it is measured with the rest. */
+START_TEST(munk_is_in_a_table)
+{
+    for (int table = 0; table < 2; table++) {
+        char text[1024];
+        snprintf(text, sizeof text,
+                 "run: {time_step: 0.001}\nvessel:\n  mode: free\n  hydrodynamics: {source: estimate}\n"
+                 "  hull: {form: box, length: 60, beam: 12, draught: 4, freeboard: 3}\n"
+                 "  current_coefficients:\n    table: %s\n"
+                 "ice: {source: none}\ndomain: {boundary: open}\n"
+                 "environment: {current_speed: 0.8, current_direction_deg: 45}\n",
+                 table ? "[{angle_deg: 0}, {angle_deg: 45, cn: 0.1}, {angle_deg: 180}]" : "[]");
+        scene k;
+        scene_open(&k, text);
+        int32_t body = k.w.vessels.body[0];
+        const hydrodynamics *h = &k.m.vessels.data[0].hydrodynamics;
+        double inertia = k.w.bodies.inertia[body].zz + h->added_mass.m[5][5], half = 0.8 / sqrt(2.0);
+        double munk = -(h->added_mass.m[1][1] - h->added_mass.m[0][0]) * half * half;
+        double still = steady_media_load(&k.m, &k.w, 0, &k.m.media, 0).z;
+        scene_steps(&k, 1);
+        assert_relative(k.w.bodies.angular_velocity[body].z * inertia / 0.001, still, 1e-3);
+        if (table)
+            assert_relative(still, 0.5 * 1025 * 0.64 * 0.1 * 60 * 4 * 60, 1e-6);
+        else
+            assert_relative(still, munk, 0.02); /* and the drag of its sides, which balance */
+        scene_close(&k);
+    }
+}
+END_TEST
+
 static void refuse(const char *rows, const char *key)
 {
     char text[1024];
@@ -83,4 +114,4 @@ START_TEST(faulty_tables)
 }
 END_TEST
 
-TEST_MAIN("flows", the_hull_meets_the_tables, turning_is_damped, faulty_tables)
+TEST_MAIN("flows", the_hull_meets_the_tables, turning_is_damped, munk_is_in_a_table, faulty_tables)

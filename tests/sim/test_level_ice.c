@@ -365,6 +365,15 @@ START_TEST(fixed_cone)
 }
 END_TEST
 
+/* A sheet that nothing holds would stand where it is for ever: it is refused. */
+START_TEST(a_sheet_is_held_somewhere)
+{
+    static const char *const none[] = {"ice.level.anchored_x_min=false", "ice.level.anchored_x_max=false",
+                                       "ice.level.anchored_y_min=false", "ice.level.anchored_y_max=false"};
+    check_refusal(SHIP, none, 4, "ice.level.anchored_x_min");
+}
+END_TEST
+
 /* A seam of tiles leaves slivers of contact that give way until rounding is left of them. */
 START_TEST(slivers_on_seams_carry_nothing)
 {
@@ -381,6 +390,6 @@ START_TEST(slivers_on_seams_carry_nothing)
 }
 END_TEST
 
-TEST_MAIN("level_ice", slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull, ram_back_off_return,
-          crushed_ice_is_never_less, trimming_keeps_the_load, dead_shapes_go, the_same_bits_on_any_threads, brash,
-          an_island_drifts, fixed_cone)
+TEST_MAIN("level_ice", a_sheet_is_held_somewhere, slivers_on_seams_carry_nothing, a_channel_as_wide_as_the_hull,
+          ram_back_off_return, crushed_ice_is_never_less, trimming_keeps_the_load, dead_shapes_go,
+          the_same_bits_on_any_threads, brash, an_island_drifts, fixed_cone)

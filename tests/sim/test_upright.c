@@ -64,6 +64,41 @@ START_TEST(turned_box)
 }
 END_TEST
 
+/* A face of 40 m carries the same while rows of tiles pass it: what the hull has come through leaves nothing in it. */
+START_TEST(wide_face)
+{
+    const char *const options[] = {"vessel.hull.form=box", "vessel.hull.beam=40", "ice.level.tile_size=8",
+                                   "domain.drift_speed=1"};
+    scene k;
+    scene_open_with(&k, PILE, options, 4);
+    scene_steps(&k, 200);
+    for (int i = 0; i < 900; i++) {
+        scene_steps(&k, 1);
+        vec3 load = k.w.scratch.ice_loads.data[0].total.force;
+        assert_relative(load.x, 4 * CRUSHING, 1e-9);
+        assert_absolute(load.y, 0, 1e-6 * CRUSHING);
+    }
+    ck_assert_double_gt(k.w.clock.ice_crushed[0], 0.9 * 920 * 40 * 18);
+    scene_close(&k);
+}
+END_TEST
+
+/* Friction holds the ice on a face that leans by a tenth of a degree, and breaks none: the load is that without. */
+START_TEST(friction_breaks_nothing)
+{
+    const char *const options[] = {"vessel.hull.flare_angle_deg=0.1", "ice.friction.ice_hull_static=0.3",
+                                   "ice.friction.ice_hull_kinetic=0.3"};
+    scene k;
+    scene_open_with(&k, PILE, options, 3);
+    for (int i = 0; i < 900; i++) {
+        scene_steps(&k, 1);
+        ck_assert_int_eq(k.w.scratch.fractures.count, 0);
+    }
+    ck_assert_double_gt(k.w.scratch.ice_loads.data[0].total.force.x, 0.95 * CRUSHING);
+    scene_close(&k);
+}
+END_TEST
+
 /* A floe of 500 m that is pressed on the end of a box splits when the push in its plane has reached what opens a crack
    at its mouth, 0.1869 h K_IC sqrt(L) (docs/oracles.md, section 3), although nothing bends it. */
 START_TEST(a_large_floe_splits_on_a_box)
@@ -97,4 +132,4 @@ START_TEST(a_large_floe_splits_on_a_box)
 }
 END_TEST
 
-TEST_MAIN("upright", cylinder, turned_box, a_large_floe_splits_on_a_box)
+TEST_MAIN("upright", cylinder, turned_box, wide_face, friction_breaks_nothing, a_large_floe_splits_on_a_box)
