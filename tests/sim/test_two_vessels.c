@@ -42,7 +42,7 @@ static const char moored[] =
     METHOD "vessel:\n  mode: free\n  x: 2000\n  y: -20\n  heading_deg: -15\n"
            "  hull: {length: 50, beam: 16, draught: 4, freeboard: 3, parallel_midbody: 0.3}\n"
            "  hydrodynamics: {source: estimate}\n  station: {offset_limit: 0.01}\n"
-           "  mooring:\n    lines:\n"
+           "  mooring:\n    equilibrium: false\n    lines:\n"
            "      - {count: 4, spacing_deg: 90, direction_deg: 45, distance: 400, pretension: 2e5}\n" OPEN SEA
            "ice:\n  source: floes\n  thickness: 0.8\n  floes:\n"
            "    - {x: 2034, y: -28, length: 16, width: 20, velocity_x: -1}\n";
