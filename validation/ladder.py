@@ -17,7 +17,8 @@ FRAM = ROOT / "build" / "release" / "fram"
 WORK = ROOT / "build" / "validation"
 DATA = ROOT.parent / "shared" / "data"
 JOBS = os.cpu_count() or 1  # runs side by side, one thread each
-REUSED = []  # names of the runs that were read again
+REUSED = []  # names of the runs that were read again, and were there before this command
+MADE = set()  # names of the runs of this command
 
 
 class Skipped(Exception):
@@ -83,7 +84,8 @@ def run(scenario, name, **keys):
         folder.parent.mkdir(parents=True, exist_ok=True)
         answer("run", scenario, "-o", folder, "--quiet", "--threads", 1, *sets)
         done.write_text(mark)
-    else:
+        MADE.add(name)
+    elif name not in MADE:
         REUSED.append(name)
     return channels(folder)
 

@@ -188,11 +188,11 @@ def main():
         # Read anew: another run may have made other cases meanwhile.
         book = read_book(options.out / "verdicts.json", modules)
         if reused:  # what it takes to make them too is known from before, if at all
-            seconds = max(seconds, book["cases"].get(name, {}).get("seconds", 0))
+            seconds = book["cases"].get(name, {}).get("seconds")
         book["cases"][name] = {"title": case.title, "rung": case.rung, "good": case.good, "checks": len(case.checks),
                                "failed": [what for what, good in case.checks if not good],
                                "made": f"{datetime.date.today()}, {revision()}", "code": code,
-                               "seconds": round(seconds)}
+                               "seconds": seconds and round(seconds)}
         write_book(options.out, book, modules)
     seconds = time.monotonic() - begun
     if not options.only and not skipped:

@@ -64,6 +64,7 @@ static bool is_no_estimate(const question *q) { return q->v->hydrodynamics.sourc
 static bool is_not_given(const question *q) { return q->v->hydrodynamics.source != HYDRODYNAMICS_GIVEN; }
 
 static const char OWN_FORM[] = "hull.form is not file", MESH[] = "with hull.form file the mesh has its own";
+static const char UNBREAKABLE[] = "ice.breakable is false";
 static const char PATH[] = "the vessel goes along its path", NO_VANING[] = "positioning.heading is not vaning";
 
 static const idle_rule rules[] = {
@@ -87,7 +88,19 @@ static const idle_rule rules[] = {
     {"ice.strength.common", is_even, "neither strength varies (ice.strength)"},
     {"ice.ridging_resistance", never_yields, "ice.cap_ice_ice is false"},
     {"ice.sleep_time", is_awake, "ice.sleep_speed is 0: nothing sleeps"},
-    {"ice.fracture.", is_unbreakable, "ice.breakable is false"},
+    {"ice.fracture.wedges", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.sharing", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.load_over", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.edge_compliance", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.edge_elastic", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.edge_inertia", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.splitting", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.splitting_factor", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.toughness", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.narrowness", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.thick_plate_radius", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.wide_contacts", is_unbreakable, UNBREAKABLE},
+    {"ice.fracture.wedge_room", is_unbreakable, UNBREAKABLE},
     {"domain.band", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
     {"domain.tile_x", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
     {"domain.tile_y", is_no_endless_field, "no field of floes is fed (domain.boundary feeding)"},
@@ -119,7 +132,6 @@ static const idle_rule rules[] = {
     {"vessel.hull.transom", is_no_ship, "hull.form is not ship"},
     {"vessel.mooring.depth", has_no_lines, "there are no mooring.lines"},
     {"vessel.mooring.turret", has_no_lines, "there are no mooring.lines"},
-    {"vessel.mooring.z", has_no_lines, "there are no mooring.lines"},
     {"vessel.positioning.", is_not_positioned, "positioning.active is false"},
     {"vessel.positioning.bias_rate", is_passive, "positioning.observer is not kalman"},
     {"vessel.positioning.force_noise", is_passive, "positioning.observer is not kalman"},
@@ -213,7 +225,8 @@ static fram_status look_at_key(void *user, const scenario_key *key, const void *
     /* What an item of an idle list says is idle with it. */
     const char *item = strncmp(path, "vessels[", 8) == 0 ? strchr(path, ']') : path;
     const question q = {s, vessel_of(s, path)};
-    if (!q.v->present || strchr(item, '[') || !is_set(key, member, s->run.scale))
+    bool absent = strncmp(path, "vessel", 6) == 0 && !q.v->present;
+    if (absent || strchr(item, '[') || !is_set(key, member, s->run.scale))
         return FRAM_OK;
     char pattern[SANITY_PATTERN];
     sanity_pattern(path, pattern);

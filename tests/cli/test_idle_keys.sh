@@ -72,10 +72,14 @@ told fleet.yaml "vessels[1].positioning.frequency and 1 more: without effect"
 told fleet.yaml "vessels[1].approach.look_ahead: without effect"
 
 # What has an effect, and what says no more than its default.
+silent field.yaml --set ice.fracture.under_ice_contacts=true
+silent field.yaml --set vessel.mooring.z=-3
 silent field.yaml --set ice.sleep_speed=0.1 --set ice.sleep_time=1
 silent field.yaml --set ice.strength.flexural_variation=0.2 --set ice.strength.correlation_length=3
 silent field.yaml --set domain.boundary=feeding --set domain.band=20
 silent field.yaml --set vessel.approach.limit=50 --set vessel.approach.look_ahead=20
 silent field.yaml --set vessel.mode=prescribed --set vessel.ramp=1
 silent field.yaml --set ice.sleep_time=5 --set vessel.wash.reach=50 --set run.solver.most_iterations=10000
+silent field.yaml --set vessel.present=false --set vessel.wash.reach=20
+told field.yaml "ice.sleep_time: without effect" --set vessel.present=false --set ice.sleep_time=1
 told field.yaml "vessel.ramp: without effect, since mode is free" --set vessel.mode=free --set vessel.ramp=1
