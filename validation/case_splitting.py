@@ -8,6 +8,7 @@ LONG = False
 TOUGHNESS = 150e3
 LENGTHS = [20.0, 35.0, 50.0, 80.0]
 SLOPE, PLATE, STRENGTH, END = 0.1, 3.0, 2e6, 1.5
+STEMS = [15, 25, 40]  # half angles [deg]
 
 
 def exact(length, width, place):
@@ -19,16 +20,30 @@ def exact(length, width, place):
     return factor * TOUGHNESS * math.sqrt(length)
 
 
-def split_load(length, width, place, load, step):
-    """In-plane load and kind of the first break of a fixed floe, whose side a steep plate meets."""
+def plate():
+    """A steep plate, and its crushed area per metre that it goes into ice of 1 m, at first."""
     hull = ladder.WORK / "splitting" / "plate.obj"
     ladder.box_obj(hull, (-10, -PLATE / 2, -3), (0, PLATE / 2, 3), lambda x, y, z: (x + SLOPE * z, y, z))
+    return hull, PLATE / SLOPE
+
+
+def stem(half_angle):
+    """An upright wedge, its edge at x = 0, and that area."""
+    hull, slope = ladder.WORK / "splitting" / f"stem_{half_angle:g}.obj", math.tan(math.radians(half_angle))
+    ladder.box_obj(hull, (-1, -1, -3), (0, 0, 3), lambda x, y, z: (5 * (x + y), 5 * slope * (y - x), z))
+    return hull, 2 * slope
+
+
+def split_load(length, width, place, load, step, half_angle=None):
+    """In-plane load and kind of the first break of a fixed floe, whose side a steep plate or a stem meets."""
+    hull, area = plate() if half_angle is None else stem(half_angle)
+    begin = -0.5 * SLOPE if half_angle is None else 0
     # The load grows in proportion to the way, up to the exact load at 0.6 of the time.  The flexural strength lets
     # neither a radial crack open by then nor a wedge break.
-    speed = load / STRENGTH / PLATE * SLOPE / (0.6 * END)
+    speed = load / STRENGTH / area / (0.6 * END)
     text = f"""run: {{duration: {END}, time_step: {step}}}
 domain: {{boundary: open}}
-vessel: {{mode: prescribed, x: {-0.5 * SLOPE:.17g}, speed: {speed}, hull: {{form: file, file: {hull}}}}}
+vessel: {{mode: prescribed, x: {begin:.17g}, speed: {speed:.17g}, hull: {{form: file, file: {hull}}}}}
 ice:
   source: floes
   breakable: true
@@ -41,7 +56,7 @@ ice:
     - {{length: {length}, width: {width}, x: {length / 2}, y: {-place}, elevation: 0, thickness: 1, fixed: true}}
 output: {{frame_interval: 0}}
 """
-    name = f"splitting/{length:g}_{width:g}_{place:g}_{step:g}"
+    name = f"splitting/{length:g}_{width:g}_{place:g}_{step:g}_{half_angle or 'plate'}"
     ladder.run(text, name)
     events = ladder.fractures(name)
     if not events["load"]:
@@ -55,16 +70,17 @@ def case(out):
         2,
         "Fixed floes of 1 m, 20 to 80 m long, whose side meets a steep plate, frictionless, with the option "
         "`splitting: toughness` (K_IC 150 kPa m^0.5): the in-plane load at which the floe splits; bending does not "
-        "reach its strength.",
+        "reach its strength. And the same with upright stems.",
         "Edge crack in a rectangular plate opened at its mouth: F = f h K_IC sqrt(L), f by finite elements, computed "
         "for each floe (`validation/splitting_factors.py`; 0.1334 at a width of 0.5 lengths, 0.1869 at 1, 0.2105 at "
         "2, as "
-        "published).",
+        "published). A frictionless stem of half angle b parts the ice by F/(2 tan b): it splits at 2 tan b of that "
+        "load, where it is sharper than 53 degrees in all ([0557](../decisions/0557-what-parts-the-ice.md)).",
         "First order in dt: the floe splits in the first step at which the load is reached, so that the simulated "
         "load is above the exact one by less than a step's growth.",
     )
-    c.header = ["floe [m]", "off the middle [m]", "dt [s]", "load at splitting [kN]", "exact [kN]", "difference",
-                "crack [m]"]
+    c.header = ["floe [m]", "stem [deg]", "off the middle [m]", "dt [s]", "load at splitting [kN]", "exact [kN]",
+                "difference", "crack [m]"]
     steps, squares, square = (4e-3, 2e-3, 1e-3), [], exact(1, 1, 0)
     floes = [(50.0, 50.0, 0.0), (50.0, 25.0, 0.0), (50.0, 100.0, 0.0), (75.0, 50.0, 0.0), (40.0, 60.0, 0.0),
              (50.0, 50.0, 12.5), (60.0, 80.0, 30.0), *((x, x, 0.0) for x in LENGTHS if x != 50)]
@@ -74,7 +90,7 @@ def case(out):
         table = 1e-3 if length == width and not place else 6e-3
         for step in steps if (length, width, place) == floes[0] else steps[-1:]:
             load, kind, crack = split_load(length, width, place, want, step)
-            c.rows.append([f"{length:g} x {width:g}", f"{place:g}", step, f"{load / 1e3:.2f}", f"{want / 1e3:.2f}",
+            c.rows.append([f"{length:g} x {width:g}", "", f"{place:g}", step, f"{load / 1e3:.2f}", f"{want / 1e3:.2f}",
                            f"{100 * (load / want - 1):.2f} %", f"{crack:.3f}"])
             off, most = load / want - 1, 2 * step / END + table
             c.check(kind == 1 and abs(crack / length - 1) < 1e-6 and -table <= off <= most,
@@ -82,6 +98,16 @@ def case(out):
                     f"{100 * off:+.2f} % of the exact load, {100 * most:.2f} % allowed")
         if length == width and not place:
             squares.append((length, load))
+    for half_angle in STEMS:
+        want = exact(50, 50, 0) * min(1, 2 * math.tan(math.radians(half_angle)))
+        for step in steps[::2]:
+            load, kind, crack = split_load(50, 50, 0, want, step, half_angle)
+            c.rows.append(["50 x 50", f"2 x {half_angle}", 0, step, f"{load / 1e3:.2f}", f"{want / 1e3:.2f}",
+                           f"{100 * (load / want - 1):.2f} %", f"{crack:.3f}"])
+            off, most = load / want - 1, 2 * step / END + 1e-3
+            c.check(kind == 1 and abs(crack / 50 - 1) < 1e-6 and -1e-3 <= off <= most,
+                    f"stem of 2 x {half_angle} degrees, dt {step}: splits across at {100 * off:+.2f} % of the exact "
+                    f"load, {100 * most:.2f} % allowed")
     c.found = ("This is an option. The default rule, that of the reference, involves no load at all: a radial crack "
                "runs through "
                "when it is shorter than S_k = 3 breaking radii, and never when it is longer.")

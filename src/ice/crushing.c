@@ -115,20 +115,25 @@ static fram_status set_pair(const crushing_job *j, int32_t a, int32_t b, const p
 }
 
 /* Pressure on a patch about a centre in the frame of the floe; between two floes that of the weaker one, and no more
-   than builds a ridge: the width of the patch along the plane is its area, seen level, over the thickness of the
-   thinner floe. */
+   than builds a ridge or a raft: the width of the patch along the plane is its area, seen level, over the thickness of
+   the thinner floe. */
 static double pair_pressure(const crushing_job *j, const crushing_pair *p, vec3 centre, double area, double level_area)
 {
-    ice_material ice = strength_crushing_at(&j->settings->strength, j->floes, p->floe, vec2_make(centre.x, centre.y));
-    double pressure = ice_crushing_pressure(&ice, area);
+    pack_floe floe[2];
+    floe[0] =
+        (pack_floe){strength_crushing_at(&j->settings->strength, j->floes, p->floe, vec2_make(centre.x, centre.y)),
+                    j->floes->thickness[p->floe]};
+    double pressure = ice_crushing_pressure(&floe[0].ice, area);
     if (j->bodies->material[p->surface_body] != MATERIAL_ICE)
         return pressure;
     int32_t other = j->bodies->owner[p->surface_body];
     vec3 seen = mat3_tmul_vec(p->surface.rotation, vec3_sub(centre, p->surface.offset));
-    ice = strength_crushing_at(&j->settings->strength, j->floes, other, vec2_make(seen.x, seen.y));
-    pressure = fmin(pressure, ice_crushing_pressure(&ice, area));
-    double thickness = fmin(j->floes->thickness[p->floe], j->floes->thickness[other]);
-    return fmin(pressure, ice_ridging_line_load(j->settings->ridging, thickness, level_area / thickness) / thickness);
+    floe[1] = (pack_floe){strength_crushing_at(&j->settings->strength, j->floes, other, vec2_make(seen.x, seen.y)),
+                          j->floes->thickness[other]};
+    pressure = fmin(pressure, ice_crushing_pressure(&floe[1].ice, area));
+    double thickness = fmin(floe[0].thickness, floe[1].thickness);
+    double line = pack_line_load(&j->settings->pack, floe, p->policy->friction_static, level_area / thickness);
+    return fmin(pressure, line / thickness);
 }
 
 /* ---- contacts ---- */

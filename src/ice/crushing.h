@@ -18,6 +18,7 @@
 #include "dynamics/collision.h"
 #include "geometry/mesh_bvh.h"
 #include "ice/edge_give.h"
+#include "ice/pack_limit.h"
 #include "ice/strength.h"
 
 /* Scratch row, made anew each step.  Where the edge gives, all but plan is of what is left of the overlap then. */
@@ -41,7 +42,7 @@ typedef struct crushing_settings {
     double time_step;        /* [s] */
     double smallest_area;    /* patches under it are dropped [m2] */
     double skin;             /* bodies nearer than this touch: run.solver.contact_skin [m] */
-    double ridging;          /* R of the ridge-building line load between floes, 0: none (ice/material.h) */
+    pack_limit pack;         /* ridges and rafts between floes */
     strength_field strength; /* how strengths vary over the ice */
     double small_patch;    /* floes: lengths of a patch under this part of the smaller radius turn neither, 0: all do */
     edge_compliance edges; /* how far edges of level and fixed ice give */

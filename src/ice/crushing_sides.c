@@ -100,13 +100,11 @@ static double contact_area(const side_floe floe[2], vec3 middle, const contact *
     return width * common_height(floe, middle);
 }
 
-/* Largest force on a contact of two floes: the pressure of the weaker one, no more than what builds a ridge. */
-static double largest_force(const crushing_settings *s, const floe_table *floes, const ice_material ice[2],
-                            const int32_t row[2], double area, double width)
+/* Largest force on a contact of two floes: the pressure of the weaker one, no more than builds a ridge or a raft. */
+static double largest_force(const pack_limit *limit, const pack_floe ice[2], double friction, double area, double width)
 {
-    double pressure = fmin(ice_crushing_pressure(&ice[0], area), ice_crushing_pressure(&ice[1], area));
-    double thickness = fmin(floes->thickness[row[0]], floes->thickness[row[1]]), force = pressure * area;
-    return width > 0 ? fmin(force, ice_ridging_line_load(s->ridging, thickness, width) * width) : force;
+    double force = fmin(ice_crushing_pressure(&ice[0].ice, area), ice_crushing_pressure(&ice[1].ice, area)) * area;
+    return width > 0 ? fmin(force, pack_line_load(limit, ice, friction, width) * width) : force;
 }
 
 static void limit_group(const crushing_settings *s, const body_table *bodies, const shape_store *shapes,
@@ -129,12 +127,14 @@ static void limit_group(const crushing_settings *s, const body_table *bodies, co
         const side_floe floe[2] = {floe_of(bodies, shapes, g->a), floe_of(bodies, shapes, g->b)};
         double width, area = contact_area(floe, middle, &contacts->data[deepest], rim, &width);
         const int32_t row[2] = {bodies->owner[g->a], bodies->owner[g->b]};
-        ice_material ice[2];
+        pack_floe ice[2];
         for (int i = 0; i < 2; i++) {
             vec3 local = mat3_tmul_vec(floe[i].turn, vec3_sub(middle, floe[i].at));
-            ice[i] = strength_crushing_at(&s->strength, floes, row[i], vec2_make(local.x, local.y));
+            ice[i] = (pack_floe){strength_crushing_at(&s->strength, floes, row[i], vec2_make(local.x, local.y)),
+                                 floes->thickness[row[i]]};
         }
-        limit = largest_force(s, floes, ice, row, area, width) * s->time_step / touching;
+        double friction = contacts->data[deepest].friction_static;
+        limit = largest_force(&s->pack, ice, friction, area, width) * s->time_step / touching;
     }
     assert(limit >= 0 && isfinite(limit));
     for (int32_t i = g->first; i < g->end; i++) {

@@ -95,6 +95,14 @@ static void spread_of(const crushing_patch *p, const fracture_state *state, int3
     }
 }
 
+/* Half of the areas that cancel in a patch, over what is left: two sides of a wedge of half angle b, each of area S,
+   leave 2 S sin b of 2 S and cancel S cos b. */
+static double aside_of(const crushing_patch *p)
+{
+    double cancelled = p->surface_area * p->surface_area - p->area * p->area;
+    return cancelled > 0 ? sqrt(cancelled) / (2 * p->area) : 0;
+}
+
 /* The load of a patch on one of its two bodies. */
 static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings *settings,
                      const crushing_patch_array *patches, int32_t patch, const fracture_state *state, int32_t body)
@@ -113,6 +121,8 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
                        .tile = tile,
                        .surface = own ? p->surface_body : p->floe_body,
                        .vector = vec3_scale(patch_impulse(state, p, &rotation), 1 / settings->time_step),
+                       .normal = mat3_tmul_vec(rotation, p->normal),
+                       .aside = aside_of(p),
                        .place = {place.x, place.y},
                        .plan = {{p->plan.lo.x + at.x, p->plan.lo.y + at.y}, {p->plan.hi.x + at.x, p->plan.hi.y + at.y}},
                        .area = p->area,
@@ -234,11 +244,12 @@ static bool fails(const fracture_settings *settings, const fracture_load *l, edg
 {
     double h = l->thickness, strength = l->ice.flexural_strength * h * h;
     double force = WEDGE_RAMP_MOST_MOMENT * l->force;
-    if (6 * force >= strength * settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges)
+    double length = ice_characteristic_length(&l->ice, h, settings->water_density, settings->gravity);
+    double wedges = settings->wedges * fracture_wedge_width(settings->wedges) * edge.wedges;
+    if (6 * force >= strength * (wedges + edge.strip / (STRIP_MOST_MOMENT * length)))
         return true;
     if (l->tile || radial_holds(l))
         return false;
-    double length = ice_characteristic_length(&l->ice, h, settings->water_density, settings->gravity);
     double radius = fracture_loaded_radius(l->horizontal_area, PI / 2, h, settings->thick_plate_radius);
     return sheet_stress(fmax(radius / length, POINT_LOAD), l->ice.poisson_ratio) * l->force >= strength;
 }
@@ -285,6 +296,7 @@ static void read_load(const fracture_job *j, fracture_load *l)
     l->ice = strength_flexural_at(&j->settings->strength, &j->scratch->load.strengths, j->state->floes, l->floe,
                                   place_on_floe(j->state, l));
     l->plane_force = sqrt(l->vector.x * l->vector.x + l->vector.y * l->vector.y);
+    l->opening_force = fmax(l->plane_force, fabs(vec3_dot(l->vector, l->normal)) * l->aside);
 }
 
 /* All that one load tells by itself; loads on sheets, which share one index of tiles, are left open. */

@@ -22,17 +22,20 @@ enum { LOAD_HOLDS, LOAD_OPEN, LOAD_FAILS };
 /* A patch as a load on a floe, in the floe's own frame; of a level sheet, in the global plan, with what the patch has
    in other tiles. */
 typedef struct fracture_load {
-    int32_t body, floe;           /* slot and row; of a sheet those of one of its tiles */
-    int32_t patch;                /* row, for ties */
-    int32_t tile;                 /* cell of the sheet plus 1, 0: a floe of its own */
-    int32_t surface;              /* slot of the body that pushes */
-    vec3 vector;                  /* force on the floe, floe frame [N] */
-    double force;                 /* P: along the floe's own z [N] */
-    double plane_force;           /* in its plane [N] */
-    vec2 place;                   /* r_break [m] */
-    box2 plan;                    /* of a sheet: bounds of the patch, global [m] */
-    double spread[3];             /* xx, xy, yy: mean squares of the patch about its place; with wide_contacts [m2] */
-    double width;                 /* of the contact along the edge; 0: it acts as a narrow one [m] */
+    int32_t body, floe;   /* slot and row; of a sheet those of one of its tiles */
+    int32_t patch;        /* row, for ties */
+    int32_t tile;         /* cell of the sheet plus 1, 0: a floe of its own */
+    int32_t surface;      /* slot of the body that pushes */
+    vec3 vector;          /* force on the floe, floe frame [N] */
+    double force;         /* P: along the floe's own z [N] */
+    double plane_force;   /* in its plane [N] */
+    vec3 normal;          /* of the patch, floe frame */
+    double aside;         /* what a patch parts the ice with over its load along the normal: 1/(2 tan b) of a wedge */
+    double opening_force; /* what opens a crack in the plane: that, and no less than plane_force [N] */
+    vec2 place;           /* r_break [m] */
+    box2 plan;            /* of a sheet: bounds of the patch, global [m] */
+    double spread[3];     /* xx, xy, yy: mean squares of the patch about its place; with wide_contacts [m2] */
+    double width;         /* of the contact along the edge; 0: it acts as a narrow one [m] */
     double area, horizontal_area; /* of the patch [m2] */
     double reach;                 /* what fracture_reach told [m]; 0: nobody asked */
     double thickness;             /* of the floe [m] */

@@ -134,7 +134,7 @@ double fracture_split_ratio(const fracture_settings *settings, polygon outline, 
     sides_of(outline, start, side);
     if (edge < 0 || !(fmin(side[0], side[1]) > 0))
         return 0;
-    return load->plane_force / fracture_splitting_force(thickness, settings->toughness, *length, side[0], side[1]);
+    return load->opening_force / fracture_splitting_force(thickness, settings->toughness, *length, side[0], side[1]);
 }
 
 bool fracture_splits(const fracture_settings *settings, polygon outline, const fracture_load *load, double thickness,

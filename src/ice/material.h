@@ -23,5 +23,12 @@ double ice_crushing_pressure(const ice_material *m, double area);
    D in metres and R 2 to 10 (ISO 19906; docs/decisions/0113), returned in N/m; infinite for R = 0 (no ridges) and on no
    width. */
 double ice_ridging_line_load(double resistance, double thickness, double width);
+/* Vertical line load [N/m] at which the edges of two sheets have pushed each other up and down far enough for one to
+   slide over the other, by (h_a + h_b)/2 [m] together, on water of weight k = rho_w g [N/m3]: half-infinite strips give
+   by 2 V/(k sqrt(2) l) at a loaded end, l the characteristic length (Hetenyi 1946).  Infinite where that bends one of
+   them, by at most exp(-pi/4) sin(pi/4) V sqrt(2) l, past its flexural strength: such ice breaks instead (Parmerter
+   1975; docs/decisions/0556). */
+double ice_rafting_lift(const ice_material *a, double thickness_a, const ice_material *b, double thickness_b,
+                        double water_weight);
 
 #endif

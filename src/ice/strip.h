@@ -13,6 +13,9 @@ typedef struct strip {
     double stiffness; /* p over k w l, w the deflection of the loaded end: semi-infinite 1/sqrt(2), short L/(4 l) */
 } strip;
 
+/* No moment is above this, over p l: the semi-infinite strip's is the largest. */
+#define STRIP_MOST_MOMENT 0.46
+
 /* The strip of this length over l, which may be infinite; to about 1e-9. */
 strip strip_solve(double length_over_l);
 

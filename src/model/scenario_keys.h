@@ -178,6 +178,9 @@
     X(cap_ice_wall, BOOLEAN(false), "", "crushing limits contacts with walls too")                                     \
     X(ridging_resistance, REAL(0, 0, 1e3), "MN/m",                                                                     \
       "R of the line load R h^1.25 D^-0.54 at which floes build a ridge; bounds contacts between them; 0: none")       \
+    X(rafting_edge_angle_deg, REAL(0, 0, 85), "deg",                                                                   \
+      "slope of broken edges, on which floes thin enough to bend out of the way slide over each other; bounds "        \
+      "contacts between them; 0: none")                                                                                \
     X(correct_unbreakable, BOOLEAN(false), "",                                                                         \
       "comparison switch: crushed overlap pushes a hull and unbreakable floes apart again")                            \
     X(crush_trims, BOOLEAN(true), "",                                                                                  \
@@ -247,7 +250,7 @@
       "R_size: a floe does not split into one whose box is longer than this many "                                    \
       "widths")                                                                                                       \
     X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")          \
-    X(wide_contacts, BOOLEAN(false), "",                                                                              \
+    X(wide_contacts, BOOLEAN(true), "",                                                                               \
       "a load that is wide along the edge breaks a strip off between its wedges; false: it acts as a narrow one")     \
     X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")            \
     X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")                  \

@@ -1,4 +1,5 @@
 #include "sim/build_model.h"
+#include "base/transcendental.h"
 
 #include "sim/approach_watch.h"
 #include "sim/build_flows.h"
@@ -84,7 +85,9 @@ static model settings_of(const scenario *s)
         .collision = {.margin = s->run.collision_margin, .lookahead = LOOKAHEAD_STEPS * s->run.time_step},
         .crushing = {.time_step = s->run.time_step,
                      .skin = v->contact_skin,
-                     .ridging = s->ice.ridging_resistance,
+                     .pack = {.ridging = s->ice.ridging_resistance,
+                              .edge_slope = real_tan(radians(s->ice.rafting_edge_angle_deg)),
+                              .water_weight = e->water_density * e->gravity},
                      .strength = strength_of(s),
                      .small_patch = s->ice.small_patch,
                      .edges = compliance_of(s),

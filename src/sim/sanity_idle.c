@@ -87,6 +87,7 @@ static const idle_rule rules[] = {
     {"ice.strength.correlation_length", is_even, "neither strength varies (ice.strength)"},
     {"ice.strength.common", is_even, "neither strength varies (ice.strength)"},
     {"ice.ridging_resistance", never_yields, "ice.cap_ice_ice is false"},
+    {"ice.rafting_edge_angle_deg", never_yields, "ice.cap_ice_ice is false"},
     {"ice.sleep_time", is_awake, "ice.sleep_speed is 0: nothing sleeps"},
     {"ice.fracture.wedges", is_unbreakable, UNBREAKABLE},
     {"ice.fracture.sharing", is_unbreakable, UNBREAKABLE},

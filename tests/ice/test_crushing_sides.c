@@ -163,7 +163,7 @@ START_TEST(ridge_line_load)
         double thin = i < 2 ? 1 : 2, thick = i < 2 ? 1 : 3;
         sides_rig s;
         sides_make(&s, 0.01, 0);
-        s.r.settings.ridging = 2;
+        s.r.settings.pack.ridging = 2;
         ice_rig_plate(&s.r, 40, 100, i % 2 ? thin : thick, MOTION_DYNAMIC);
         ice_rig_plate(&s.r, 40, 100, i % 2 ? thick : thin, MOTION_DYNAMIC);
         ice_rig_place(&s.r, 1, (vec3){40 - thin * depth[i % 2], 0, 0}, 0, 0, 0);
@@ -175,7 +175,7 @@ START_TEST(ridge_line_load)
     /* A narrow face is crushed before. */
     sides_rig s;
     sides_make(&s, 0.01, 0);
-    s.r.settings.ridging = 2;
+    s.r.settings.pack.ridging = 2;
     for (int k = 0; k < 2; k++)
         ice_rig_plate(&s.r, 4, 0.5, 1, MOTION_DYNAMIC);
     ice_rig_place(&s.r, 1, (vec3){4 - 0.01, 0, 0}, 0, 0, 0);
@@ -191,7 +191,7 @@ START_TEST(ridge_of_an_inclined_patch)
 {
     sides_rig s;
     sides_make(&s, 0.01, 0);
-    s.r.settings.ridging = 0.5;
+    s.r.settings.pack.ridging = 0.5;
     ice_rig_plate(&s.r, 40, 100, 2, MOTION_DYNAMIC);
     ice_rig_plate(&s.r, 40, 100, 2, MOTION_DYNAMIC);
     ice_rig_place(&s.r, 0, (vec3){-36, 0, 9}, 0, radians(30), 0);
@@ -203,6 +203,57 @@ START_TEST(ridge_of_an_inclined_patch)
     double width = level * p->area / 2;
     assert_relative(p->pressure, 0.5e6 * real_pow(2, 1.25) * real_pow(width, -0.54) / 2, 1e-9);
     sides_free(&s);
+}
+END_TEST
+
+/* Sheets of 5 cm pass each other at 274.6 N/m, of 5 and 4 cm at 226.5 N/m, from finite elements of the beam on water;
+   the thickness beyond which a sheet breaks before is Parmerter's 14.2 (1 - nu^2) sigma^2/(rho_w g E) within a tenth
+   (he counts the thrust in the sheet too), and the stress goes with the root of the thickness. */
+START_TEST(raft_lift)
+{
+    ice_material m = {.elastic_modulus = 5e9, .poisson_ratio = 0.3, .flexural_strength = 6e5};
+    double k = 1025 * 9.81;
+    assert_relative(ice_rafting_lift(&m, 0.05, &m, 0.05, k), 274.558, 1e-3);
+    assert_relative(ice_rafting_lift(&m, 0.05, &m, 0.04, k), 226.473, 1e-3);
+    assert_relative(ice_rafting_lift(&m, 0.04, &m, 0.05, k), 226.473, 1e-3);
+    double lo = 0.01, hi = 1;
+    while (hi - lo > 1e-9) {
+        double h = 0.5 * (lo + hi);
+        *(isfinite(ice_rafting_lift(&m, h, &m, h, k)) ? &lo : &hi) = h;
+    }
+    assert_relative(lo, 14.2 * (1 - 0.09) * 6e5 * 6e5 / (k * 5e9), 0.1);
+    m.flexural_strength *= sqrt(2);
+    ck_assert(isfinite(ice_rafting_lift(&m, 1.999 * lo, &m, 1.999 * lo, k)));
+    ck_assert(isinf(ice_rafting_lift(&m, 2.001 * lo, &m, 2.001 * lo, k)));
+    /* Of a thin sheet and a thick one either may break. */
+    ck_assert(isinf(ice_rafting_lift(&m, 1, &m, 0.05, k)) && isinf(ice_rafting_lift(&m, 0.05, &m, 1, k)));
+}
+END_TEST
+
+/* Up a slope of 45 degrees with friction 0.1 it takes 1.1/0.9 of the lift, on one of 85 friction holds it; side to side
+   and as a patch; the lower of ridges and rafts. */
+START_TEST(raft_line_load)
+{
+    static const double depth[2] = {0.01, 0.02};
+    for (int i = 0; i < 8; i++) {
+        sides_rig s;
+        sides_make(&s, 0.01, 0);
+        pair_policy *policy = &s.r.policies.of[MATERIAL_ICE][MATERIAL_ICE];
+        policy->friction_static = policy->friction_kinetic = 0.1;
+        double h = i / 2 == 1 ? 0.5 : 0.05, slope = i / 2 == 2 ? 12 : 1;
+        s.r.settings.pack = (pack_limit){i / 2 == 3 ? 1e-4 : 0, slope, 1025 * 9.81};
+        for (int k = 0; k < 2; k++)
+            ck_assert_int_eq(ice_rig_plate(&s.r, 4, 20, h, MOTION_DYNAMIC), k);
+        ice_rig_place(&s.r, 1, (vec3){4 - depth[i % 2], 0, 0}, 0, 0, 0);
+        sides_find(&s);
+        ck_assert_int_eq(s.r.patches.count, i / 2 == 1 ? 0 : i % 2);
+        const ice_material *ice = &s.r.floes.material[0];
+        double raft = 20 * ice_rafting_lift(ice, 0.05, ice, 0.05, 1025 * 9.81) * 1.1 / 0.9;
+        double ridge = 20 * ice_ridging_line_load(1e-4, 0.05, 20);
+        ck_assert(ridge < raft && raft < 2e6 * 20 * 0.05);
+        assert_relative(sum_of_limits(&s.r), i / 2 == 0 ? raft : i / 2 == 3 ? ridge : 2e6 * 20 * h, 1e-4);
+        sides_free(&s);
+    }
 }
 END_TEST
 
@@ -236,7 +287,7 @@ START_TEST(squeezed_row)
         sides_rig s;
         double dt = i % 2 ? 0.01 : 0.02, line = 2e6 * real_pow(100, -0.54);
         sides_make(&s, dt, 1e-4);
-        s.r.settings.ridging = i < 2 ? 2 : 0;
+        s.r.settings.pack.ridging = i < 2 ? 2 : 0;
         for (int k = 0; k < 6; k++) {
             ice_rig_plate(&s.r, 40, 100, 1, k == 0 ? MOTION_PRESCRIBED : k == 5 ? MOTION_STATIC : MOTION_DYNAMIC);
             ice_rig_place(&s.r, k, (vec3){40.0 * k, 0, 0}, 0, 0, 0);
@@ -287,4 +338,5 @@ START_TEST(others_have_patches)
 END_TEST
 
 TEST_MAIN("crushing sides", face_to_face, corner_in_a_side, corner_impact_on_ice, ridge_line_load,
-          ridge_of_an_inclined_patch, points_apart_carry_nothing, squeezed_row, others_have_patches)
+          ridge_of_an_inclined_patch, raft_lift, raft_line_load, points_apart_carry_nothing, squeezed_row,
+          others_have_patches)

@@ -272,6 +272,35 @@ START_TEST(split_by_toughness)
 }
 END_TEST
 
+/* A wedge of half angle b whose sides press frictionless parts the ice by F/(2 tan b): at 15 and 25 degrees it splits
+   at 0.536 and 0.933 of the mouth load, at 35 at no more than that load itself; tilted, too. */
+START_TEST(split_by_a_wedge)
+{
+    static const double HALF_ANGLE[] = {15, 25, 35}, PART[] = {0.535898, 0.932615, 1};
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_TOUGHNESS;
+    for (int i = 0; i < 12; i++) {
+        double over = i < 6 ? 1.001 : 0.999, tilt = i / 3 % 2 ? radians(20) : 0;
+        double needed = PART[i % 3] * fracture_splitting_force(1, 150e3, 50, 25, 25);
+        int32_t row = plate(&r, 50, 50, MOTION_DYNAMIC), body = r.floes.body[row];
+        r.bodies.orientation[body] = quat_from_roll_pitch_yaw(tilt, tilt, 0.5);
+        ck_assert(fracture_rig_load(&r, row, (vec2){0, -25}, over * needed, AREA));
+        vec3 into = mat3_mul_vec(quat_matrix(r.bodies.orientation[body]), (vec3){0, 1, 0});
+        r.contacts.data[0].normal = r.patches.data[0].normal = into;
+        r.patches.data[0].horizontal_area = 0;
+        r.patches.data[0].surface_area = AREA / sin(radians(HALF_ANGLE[i % 3]));
+        ck_assert_int_eq(fracture_rig_break(&r), over > 1);
+        if (over > 1) {
+            assert_relative(r.events.data[0].load, over * needed, 1e-9);
+            assert_relative(r.events.data[0].stress_ratio, over, 1e-5);
+        }
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
 /* A floe at 20 deg tilt, spinning, split in two: corners, momenta and energy stay. */
 START_TEST(split_while_spinning)
 {
@@ -668,6 +697,6 @@ END_TEST
 
 TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, splitting_beside_the_middle, strong_enough,
           unbreakable, split_in_two, no_split, narrow_child, concave_shortest_crack, crack_from_a_corner,
-          split_by_toughness, split_while_spinning, wedge_angles, floe_smaller_than_the_stencil, huge_floe,
-          level_ice_stays, several_patches, overlapping_patches, order_of_patches, several_floes, void_contacts,
-          under_ice_contacts, six_hundred_bites, memory_runs_out, nothing_to_do)
+          split_by_toughness, split_by_a_wedge, split_while_spinning, wedge_angles, floe_smaller_than_the_stencil,
+          huge_floe, level_ice_stays, several_patches, overlapping_patches, order_of_patches, several_floes,
+          void_contacts, under_ice_contacts, six_hundred_bites, memory_runs_out, nothing_to_do)

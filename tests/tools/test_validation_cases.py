@@ -13,7 +13,7 @@ with tempfile.TemporaryDirectory() as out:
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
     page = (pathlib.Path(out) / "squeeze.md").read_text()
-    assert "**Verdict: agrees.**" in page and page.count("- agrees:") == 7, page
+    assert "**Verdict: agrees.**" in page and page.count("- agrees:") == 11, page
     for asked in ("x", "0", "4", ""):
         done = subprocess.run([sys.executable, str(ROOT / "validation" / "run.py"), "--only", "squeeze", "--out", out],
                               capture_output=True, text=True, env={**os.environ, "FRAM_UIKKU_STARTS": asked})
