@@ -117,11 +117,10 @@ fuzz: build/fuzz/build.ninja ## fuzz every reader for FUZZ_SECONDS (20) each
 	@cmake --build --preset fuzz -j$(JOBS) --target fuzz_targets
 	@tools/fuzz.sh build/fuzz $(FUZZ_SECONDS) $(JOBS)
 
-fuzz-fracture: build/release/build.ninja build/asan/build.ninja ## break FUZZ_EVENTS (1,000,000) random floes
-	@cmake --build --preset release -j$(JOBS) --target test_ice_fracture_fuzz
-	@cmake --build --preset asan -j$(JOBS) --target test_ice_fracture_fuzz
-	@tools/fuzz_fracture.sh build/release/tests/test_ice_fracture_fuzz build/asan/tests/test_ice_fracture_fuzz \
-	    $(FUZZ_EVENTS)
+fuzz-fracture: build/release/build.ninja build/asan/build.ninja ## break FUZZ_EVENTS (1,000,000) random floes, and sheets as often
+	@cmake --build --preset release -j$(JOBS) --target test_ice_fracture_fuzz test_ice_fracture_fuzz_sheet
+	@cmake --build --preset asan -j$(JOBS) --target test_ice_fracture_fuzz test_ice_fracture_fuzz_sheet
+	@tools/fuzz_fracture.sh build/release/tests build/asan/tests $(FUZZ_EVENTS)
 
 .PHONY: torture torture-short mutate mutate-check
 

@@ -1,7 +1,8 @@
 #!/bin/sh
-# tools/fuzz_fracture.sh PLAIN ASAN EVENTS: random floes broken EVENTS times in ten parts, each with its own seed, by
-# the test program PLAIN; the first part once more by ASAN, the same test with AddressSanitizer and
-# UndefinedBehaviorSanitizer.  Stops at the first part that fails, and says how to repeat it.
+# tools/fuzz_fracture.sh PLAIN ASAN EVENTS: random floes broken EVENTS times, and random sheets of level ice as often, in
+# ten parts each with its own seed, by the test programs in the folder PLAIN; the first part once more by those in ASAN,
+# the same with AddressSanitizer and UndefinedBehaviorSanitizer.  Stops at the first part that fails, and says how to
+# repeat it.
 set -eu
 part=$((($3 + 9) / 10))
 
@@ -14,8 +15,11 @@ part_of() {
     echo "$said" | sed -n "s/^[0-9]* events/seed $2: &/p"
 }
 
-for seed in 1 2 3 4 5 6 7 8 9 10; do
-    part_of "$1" "$seed"
+for test in test_ice_fracture_fuzz test_ice_fracture_fuzz_sheet; do
+    echo "$test:"
+    for seed in 1 2 3 4 5 6 7 8 9 10; do
+        part_of "$1/$test" "$seed"
+    done
+    echo "seed 1 under ASan and UBSan:"
+    part_of "$2/$test" 1
 done
-echo "seed 1 under ASan and UBSan:"
-part_of "$2" 1

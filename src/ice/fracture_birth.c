@@ -245,7 +245,8 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
 
 #ifndef NDEBUG
 /* Area of what was cut out is that of the floes made of it and what is booked, but for this part of the parents':
-   rounding of areas far from the origin.  What was trimmed away before is booked as crushed elsewhere. */
+   rounding of areas far from the origin.  What tiles lost as they became one floe is booked before, and what was
+   trimmed away as crushed elsewhere. */
 static const double SAME_AREA = 1e-8;
 #endif
 
@@ -265,7 +266,7 @@ static fram_status make_pieces(birth *b)
 {
     const fracture_job *j = b->job;
     fram_status status = FRAM_OK;
-    double cut = 0;
+    double cut = b->event->area_lost - b->event->area_gained;
     for (int32_t i = 0; i < j->scratch->piece.rows.count && status == FRAM_OK; i++) {
         const cut_piece *c = &j->scratch->piece.rows.data[i];
         cut += c->area;

@@ -160,6 +160,19 @@ static bool mark_held(const fracture_job *j)
     return flood(j, &all, MARK_HELD, NULL);
 }
 
+/* Tiles of which cleaning had made two lie over one another lose that once they are one floe; what corners that are put
+   on a seam move is in here too [m2]. */
+static double area_merged(const fracture_job *j)
+{
+    const fracture_scratch *s = j->scratch;
+    double area = 0;
+    for (int32_t i = 0; i < s->sheet.touched.count; i++)
+        area += j->state->floes->area[s->sheet.touched.data[i]];
+    for (int32_t i = 0; i < s->piece.rows.count; i++)
+        area -= s->piece.rows.data[i].area;
+    return area;
+}
+
 /* One outline for the tiles in sheet.touched where there is one, theirs otherwise, as pieces that move. */
 static fram_status gather_loose(const fracture_job *j)
 {
@@ -188,8 +201,11 @@ static fram_status let_go(const fracture_job *j)
         return status;
     polygon first = polygon_list_get(&s->piece.outlines, 0);
     vec2 centre = polygon_moments_of(first).centroid;
+    double merged = area_merged(j);
     fracture_event event = {
         .kind = FRACTURE_RELEASE,
+        .area_lost = merged > 0 ? merged : 0,
+        .area_gained = merged < 0 ? -merged : 0,
         .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->sheet.touched.data[0]]].z}};
     fracture_mark_broken(j);
     bool broke;
