@@ -1,8 +1,8 @@
 #!/bin/sh
-# tools/fuzz_fracture.sh PLAIN ASAN EVENTS: random floes broken EVENTS times, and random sheets of level ice as often, in
-# ten parts each with its own seed, by the test programs in the folder PLAIN; the first part once more by those in ASAN,
-# the same with AddressSanitizer and UndefinedBehaviorSanitizer.  Stops at the first part that fails, and says how to
-# repeat it.
+# tools/fuzz_fracture.sh PLAIN ASAN EVENTS: random floes broken EVENTS times, and random sheets of level ice as often,
+# in ten parts each with its own seed, by the test programs in the folder PLAIN; the first part once more by those in
+# ASAN, the same with AddressSanitizer and UndefinedBehaviorSanitizer.  Stops at the first part that fails, and says how
+# to repeat it.
 set -eu
 part=$((($3 + 9) / 10))
 

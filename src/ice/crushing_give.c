@@ -37,12 +37,14 @@ typedef struct loaded_edge {
     double share; /* of the pressure's vertical load that friction leaves */
 } loaded_edge;
 
-/* What bears the edge after it gave by this much, less what crushes on it then [N]; with what seams divide off. */
+/* What bears the edge after it gave by this much, less what crushes on it then [N]; with what seams divide off, which
+   gives as this part does.  Were that kept as it was, parts would answer one another's last step, and loads over three
+   tiles and more grow from swing to swing. */
 static double excess(const crushing_job *j, const crushing_pair *p, const loaded_edge *e, double give,
                      double *stiffness)
 {
     vec3 left = patch_area_left(j->room, &p->prism, e->number, e->sign * give);
-    double area = vec3_length(left), level = fabs(left.z) + e->stand.beside;
+    double area = vec3_length(left), level = fabs(left.z) / e->stand.part;
     *stiffness = edge_stiffness(&j->settings->edges, &j->floes->material[p->floe], j->floes->thickness[p->floe], level,
                                 e->stand);
     return *stiffness * give - (area > 0 ? crushing_component_pressure(j, p, e->whole, area) * level * e->share : 0);
@@ -89,7 +91,7 @@ patch_component crushing_give_way(const crushing_job *j, const crushing_pair *p,
     excess(j, p, &e, give, &stiffness);
     *pressure = crushing_component_pressure(j, p, c, vec3_length(left.area));
     if (balance && give > 0 && left.area.z != 0)
-        *pressure = fmin(*pressure, stiffness * give / ((fabs(left.area.z) + e.stand.beside) * e.share));
-    *compliance = left.area.z != 0 ? (1 + e.stand.beside / fabs(left.area.z)) / stiffness : 0;
+        *pressure = fmin(*pressure, stiffness * give * e.stand.part / (fabs(left.area.z) * e.share));
+    *compliance = left.area.z != 0 ? 1 / (e.stand.part * stiffness) : 0;
     return left;
 }

@@ -49,7 +49,7 @@ edge_stand edge_stand_find(const edge_support_table *supports, const body_table 
     if (best < 0)
         return EDGE_STAND_STRAIGHT;
     return (edge_stand){.wedges = supports->wedges[best],
-                        .beside = supports->beside[best],
+                        .part = supports->part[best],
                         .strip = supports->strip[best],
                         .impulse = supports->impulse[best],
                         .rise = edge_rise_time(supports->impulse[best], supports->load[best])};

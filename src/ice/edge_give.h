@@ -14,15 +14,15 @@
 
 /* What a patch on level or fixed ice stood on in the last step; rows are made anew in each, and found again by the
    nearest place on the surface.  State. */
-#define EDGE_SUPPORT_FIELDS(X)                                                                                   \
-    X(surface, int32_t, FIELD_I32, 1, "1", "slot of the body that pushes")                                       \
-    X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")                                                   \
-    X(place, vec3, FIELD_F64, 3, "m", "middle of the patch, frame of that body")                                 \
-    X(wedges, double, FIELD_F64, 1, "1", "ice of the wedges over that of N whole ones")                          \
-    X(beside, double, FIELD_F64, 1, "m2", "horizontal area of what the load has in other tiles")                 \
-    X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g") \
-    X(load, double, FIELD_F64, 1, "N", "vertical load of the last step, of the whole load")                      \
-    X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")                                \
+#define EDGE_SUPPORT_FIELDS(X)                                                                                    \
+    X(surface, int32_t, FIELD_I32, 1, "1", "slot of the body that pushes")                                        \
+    X(generation, uint32_t, FIELD_U32, 1, "1", "of that body")                                                    \
+    X(place, vec3, FIELD_F64, 3, "m", "middle of the patch, frame of that body")                                  \
+    X(wedges, double, FIELD_F64, 1, "1", "ice of the wedges over that of N whole ones")                           \
+    X(part, double, FIELD_F64, 1, "1", "horizontal area of the patch over that of the load, in all of its tiles") \
+    X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g")  \
+    X(load, double, FIELD_F64, 1, "N", "vertical load of the last step, of the whole load")                       \
+    X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")                                 \
     X(own, double, FIELD_F64, 1, "N", "vertical load of this patch on the ice in the last step, up")
 TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)
 
@@ -38,7 +38,7 @@ typedef struct edge_compliance {
 
 /* One row of the table, without its place. */
 typedef struct edge_stand {
-    double wedges, beside, strip, impulse;
+    double wedges, part, strip, impulse;
     double rise; /* for how long the load has risen [s] */
 } edge_stand;
 /* The theory of plates of small deflection ends at this part of the thickness (Timoshenko and Woinowsky-Krieger 1959);
@@ -48,7 +48,7 @@ typedef struct edge_stand {
 #define EDGE_LEAST_ICE 1e-6
 
 /* A straight edge under a narrow load that no seam divides. */
-#define EDGE_STAND_STRAIGHT ((edge_stand){.wedges = 1})
+#define EDGE_STAND_STRAIGHT ((edge_stand){.wedges = 1, .part = 1})
 
 /* The row of what stood under a patch with this middle (global [m]) of the surface's body: the nearest within `reach`
    [m], -1 without one. */

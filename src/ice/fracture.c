@@ -106,7 +106,7 @@ static fracture_event event_of(const fracture_job *j, const fracture_load *l, co
     return fracture_event_of(l, place, kind, length);
 }
 
-static fram_status commit(const fracture_job *j, const fracture_load *l, fracture_event *event)
+static fram_status commit(const fracture_job *j, const fracture_load *l, const edge_bend *bend, fracture_event *event)
 {
     fracture_scratch *s = j->scratch;
     bool broke;
@@ -115,7 +115,8 @@ static fram_status commit(const fracture_job *j, const fracture_load *l, fractur
     if (!fracture_gather(j->ctx, s, &s->floe.whole, fracture_motion(j, l->floe), 0, 0) ||
         !fracture_gather(j->ctx, s, &s->floe.wedges, MOTION_DYNAMIC, 0, 1))
         return error_memory(j->error);
-    fram_status status = fracture_birth(j, &l->floe, 1, 2, HUGE_VAL, event, &broke);
+    fram_status status =
+        fracture_birth(j, &l->floe, 1, (birth_terms){.least = 2, .most = HUGE_VAL, .bend = bend}, event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     s->broken.data[l->body] = 1;
@@ -140,7 +141,7 @@ static fram_status split_floe(const fracture_job *j, polygon outline, floe_loads
         if (fracture_split(j->ctx, j->settings, outline, &start, &s->floe.whole, &memory)) {
             fracture_event event = event_of(j, l, &start, FRACTURE_SPLIT, length);
             *done = true;
-            return commit(j, l, &event);
+            return commit(j, l, NULL, &event);
         }
         if (memory)
             return error_memory(j->error);
@@ -227,6 +228,7 @@ static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads 
         return error_memory(j->error);
     const fracture_load *first = NULL;
     fracture_event event;
+    edge_bend bend;
     for (int32_t i = 0; i < loads.count; i++) {
         const fracture_load *l = &loads.load[i];
         if (l->wedge_ratio < 1)
@@ -241,8 +243,9 @@ static fram_status bend_floe(const fracture_job *j, polygon outline, floe_loads 
             continue;
         first = l;
         event = event_of(j, l, &start, FRACTURE_BENDING, l->stress.breaking_radius);
+        bend = fracture_bend_of(j, l, &start);
     }
-    return first ? commit(j, first, &event) : FRAM_OK;
+    return first ? commit(j, first, &bend, &event) : FRAM_OK;
 }
 
 /* ---- contacts of broken floes ---- */

@@ -1,6 +1,8 @@
 /* From cut outlines to new floes : cleaning, poses and velocities of the children, books. */
 #include "ice/fracture_parts.h"
 
+#include "base/transcendental.h"
+
 #include <assert.h>
 
 /* What the children inherit, copied before the parent goes. */
@@ -17,6 +19,7 @@ typedef struct birth {
     const fracture_job *job;
     parent from;
     fracture_event *event;
+    const edge_bend *bend;
     body_books before, after; /* of the parents and of the pieces */
 } birth;
 
@@ -46,14 +49,37 @@ static parent parent_of(const fracture_job *j, int32_t floe)
     return p;
 }
 
+/* Turns a piece about where it broke off until it stands at the load as the edge stood, which gave; in the parent's
+   frame, in which it lies flat so far.  The ice keeps its place as it breaks, and is not pushed into the hull. */
+static void keep_bent(const edge_bend *bend, vec3 *place, quat *turn)
+{
+    vec2 d = bend->start.direction, along = {-d.y, d.x}, centre = {place->x, place->y};
+    double half = bend->size.width / 2, at = vec2_dot(vec2_sub(centre, bend->start.point), along);
+    bool strip = half > 0 && fabs(at) < half;
+    double length = strip ? bend->size.strip_length : bend->size.radius;
+    vec2 tip = vec2_add(bend->start.point, vec2_scale(along, fmin(fmax(at, -half), half)));
+    vec2 out = strip ? d : vec2_sub(centre, tip);
+    double away = strip ? vec2_dot(vec2_sub(centre, tip), d) : vec2_length(out);
+    if (!(away > 0 && away < length) || bend->rise == 0)
+        return;
+    out = vec2_scale(out, 1 / vec2_length(out));
+    double slope = bend->rise / length, half_angle = slope / 2;
+    place->z += bend->rise * (1 - away / length);
+    *turn = (quat){real_cos(half_angle), -out.y * real_sin(half_angle), out.x * real_sin(half_angle), 0};
+}
+
 /* The floe was made at its centroid with no turn, in the parent's frame; it goes to where its ice is, and moves as that
    ice moved: v_new = v_old + Omega x (r_new - r_old). */
-static void place_child(const birth *b, int32_t body)
+static void place_child(const birth *b, int32_t body, const edge_bend *bend)
 {
     body_table *bodies = b->job->state->bodies;
-    vec3 arm = mat3_mul_vec(b->from.rotation, bodies->position[body]);
+    vec3 place = bodies->position[body];
+    quat turn = quat_identity();
+    if (bend)
+        keep_bent(bend, &place, &turn);
+    vec3 arm = mat3_mul_vec(b->from.rotation, place);
     bodies->position[body] = vec3_add(b->from.position, arm);
-    bodies->orientation[body] = b->from.orientation;
+    bodies->orientation[body] = quat_mul(b->from.orientation, turn);
     if (bodies->motion[body] == MOTION_STATIC)
         return;
     bodies->velocity[body] = vec3_add(b->from.velocity, vec3_cross(b->from.angular_velocity, arm));
@@ -81,7 +107,7 @@ static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece, 
     }
     if (status != FRAM_OK)
         return status;
-    place_child(b, to->floes->body[row]);
+    place_child(b, to->floes->body[row], piece->wedge ? b->bend : NULL);
     /* A part of static ice that begins to move brings no momentum, and takes none. */
     body_books_add(to->bodies, to->floes->body[row], &b->after);
     b->event->pieces++;
@@ -287,11 +313,11 @@ static fram_status make_pieces(birth *b)
     return status;
 }
 
-fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least, double most,
+fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, birth_terms terms,
                            fracture_event *event, bool *broke)
 {
     fracture_scratch *s = j->scratch;
-    birth b = {.job = j, .from = parent_of(j, parents[0]), .event = event};
+    birth b = {.job = j, .from = parent_of(j, parents[0]), .event = event, .bend = terms.bend};
     *broke = false;
     double parent_area = 0;
     for (int32_t i = 0; i < count; i++)
@@ -300,9 +326,9 @@ fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_
     fram_status status = fracture_join_dust(j);
     if (status == FRAM_OK)
         status = dust_of(j, &dust);
-    double budget = fmin(MOST_BOOKED * parent_area, most) - dust;
+    double budget = fmin(MOST_BOOKED * parent_area, terms.most) - dust;
     /* What comes loose may be dust itself: nothing holds it. */
-    if (status != FRAM_OK || s->piece.rows.count < least || (budget < 0 && least > 1))
+    if (status != FRAM_OK || s->piece.rows.count < terms.least || (budget < 0 && terms.least > 1))
         return status;
     bool sound;
     status = clean_pieces(j, budget, &sound);

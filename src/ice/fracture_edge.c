@@ -51,6 +51,43 @@ static double part_of(const sectors *s, const double *area)
     return whole > 0 ? 2 * sum / whole : 0;
 }
 
+/* Rays across a strip besides the crack's own, at even distances. */
+enum { STRIP_RAYS = 4 };
+
+static crack_start ray_of(const crack_start *start, double width, int i)
+{
+    vec2 d = start->direction;
+    double by = width * ((i + 0.5) / STRIP_RAYS - 0.5);
+    crack_start ray = *start;
+    ray.point = vec2_add(ray.point, vec2_make(-d.y * by, d.x * by));
+    return ray;
+}
+
+/* A strip is as long as its longest part: a hole or a lead in a part of it makes no short beam of the whole, which
+   would bear many times as much. */
+static double floe_strip_length(polygon outline, const crack_start *start, double width, double snap, double length)
+{
+    for (int i = 0; i < STRIP_RAYS && width > 0; i++) {
+        crack_start ray = ray_of(start, width, i);
+        double least = HUGE_VAL;
+        for (int32_t k = 0; k < outline.count; k++)
+            crack_shorten(&ray, outline.vertex[k], outline.vertex[k + 1 < outline.count ? k + 1 : 0], snap, &least);
+        if (least < HUGE_VAL)
+            length = fmax(length, least);
+    }
+    return length;
+}
+
+static double sheet_strip_length(const fracture_job *j, const crack_start *start, double width, double snap)
+{
+    double length = fracture_sheet_crack_length(j, start, snap, true);
+    for (int i = 0; i < STRIP_RAYS && width > 0; i++) {
+        crack_start ray = ray_of(start, width, i);
+        length = fmax(length, fracture_sheet_crack_length(j, &ray, snap, true));
+    }
+    return length;
+}
+
 static edge_ice ice_of(const fracture_job *j, const sectors *s, const double *area, double length)
 {
     bool equal = j->settings->sharing == SHARING_EQUAL;
@@ -68,6 +105,11 @@ static double contact_width(const fracture_job *j, const fracture_load *l, const
     double square = t.x * t.x * l->spread[0] + 2 * t.x * t.y * l->spread[1] + t.y * t.y * l->spread[2];
     double width = j->settings->wide_contacts ? sqrt(12 * fmax(square, 0)) : 0;
     return width > l->thickness ? width : 0;
+}
+
+edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)
+{
+    return (edge_bend){*start, fracture_break_size(l), body_is_dynamic(j->state->bodies, l->body) ? 0 : l->rise};
 }
 
 break_size fracture_break_size(const fracture_load *l)
@@ -173,6 +215,7 @@ edge_ice fracture_floe_ice(const fracture_job *j, fracture_load *l)
     const vec2 *at = s.corner;
     for (int i = 0; i < s.count; at += s.size[i], i++)
         area[i] = polygon_overlap_area(outline, (polygon){at, s.size[i]});
+    length = floe_strip_length(outline, &start, l->width, CRACK_CORNER_REACH * radius, length);
     return ice_of(j, &s, area, length);
 }
 
@@ -190,11 +233,11 @@ fram_status fracture_sheet_ice(const fracture_job *j, fracture_load *l, edge_ice
     if (status != FRAM_OK || !found)
         return status;
     double area[MOST_STENCIL + 1] = {0};
-    double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius);
+    double length = fracture_sheet_crack_length(j, &start, CRACK_CORNER_REACH * radius, false);
     sectors s;
     l->width = contact_width(j, l, &start);
     make_sectors(j, &start, fmin(radius, length), l->width, &s);
     status = fracture_sheet_areas(j, s.corner, s.size, s.count, area);
-    *edge = ice_of(j, &s, area, length);
+    *edge = ice_of(j, &s, area, sheet_strip_length(j, &start, l->width, CRACK_CORNER_REACH * radius));
     return status;
 }

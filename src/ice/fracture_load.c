@@ -25,6 +25,7 @@ edge_stress fracture_edge_stress(const fracture_settings *settings, const ice_ma
     edge_stress s = {.length = ice_characteristic_length(ice, h, settings->water_density, settings->gravity)};
     width *= fmax(edge.wedges, EDGE_LEAST_ICE);
     s.radial_radius = fracture_loaded_radius(horizontal_area, PI / 2, h, settings->thick_plate_radius);
+    s.radial_radius = fmax(s.radial_radius, s.length * sheet_disk_of_strip(edge.strip / 2 / s.length));
     double radial = sheet_stress(fmax(s.radial_radius / s.length, POINT_LOAD), ice->poisson_ratio);
     s.radial_stress = radial * load / (h * h);
     s.radial_capacity = ice->flexural_strength * h * h / radial;
@@ -132,6 +133,7 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
                        .ice = state->floes->material[floe]};
     if (settings->wide_contacts)
         spread_of(p, state, body, tile != 0, l.spread);
+    l.rise = own ? p->compliance * l.vector.z : 0;
     return array_push(ctx, &s->load.all, l);
 }
 
@@ -160,6 +162,7 @@ static void merge_into(fracture_load *a, const fracture_load *b)
     for (int i = 0; i < 3; i++)
         a->spread[i] = (1 - share) * a->spread[i] + share * b->spread[i] + share * (1 - share) * between[i];
     a->vector = vec3_add(a->vector, b->vector);
+    a->rise = fabs(b->rise) > fabs(a->rise) ? b->rise : a->rise;
     a->place = vec2_add(a->place, vec2_scale(vec2_sub(b->place, a->place), share));
     a->plan.lo = (vec2){fmin(a->plan.lo.x, b->plan.lo.x), fmin(a->plan.lo.y, b->plan.lo.y)};
     a->plan.hi = (vec2){fmax(a->plan.hi.x, b->plan.hi.x), fmax(a->plan.hi.y, b->plan.hi.y)};

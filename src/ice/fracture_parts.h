@@ -30,6 +30,7 @@ typedef struct fracture_load {
     double force;         /* P: along the floe's own z [N] */
     double plane_force;   /* in its plane [N] */
     vec3 normal;          /* of the patch, floe frame */
+    double rise;          /* of the edge that gave, against its floe, up [m] */
     double aside;         /* what a patch parts the ice with over its load along the normal: 1/(2 tan b) of a wedge */
     double opening_force; /* what opens a crack in the plane: that, and no less than plane_force [N] */
     vec2 place;           /* r_break [m] */
@@ -211,6 +212,9 @@ crack_start crack_start_of(polygon p, vec2 load, double snap);
 
 /* Whether the crack's ray crosses the segment ab; *length gets the distance from the start, which may be negative. */
 bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length);
+/* *least becomes the length to where the ray crosses the segment, if it is shorter and the segment begins farther than
+   `snap` from the start [m]. */
+void crack_shorten(const crack_start *start, vec2 a, vec2 b, double snap, double *least);
 /* Length of the crack's ray to where it first leaves the polygon; edge gets the edge met, -1 when there is none. */
 double crack_length(polygon p, const crack_start *start, int32_t *edge);
 
@@ -284,12 +288,27 @@ fram_status fracture_is_dust(const fracture_job *j, const cut_piece *piece, poly
 /* Whether a ring has convex parts that contacts can be made with (bodies/shape.h). */
 fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has);
 
+/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack. */
+typedef struct edge_bend {
+    crack_start start;
+    break_size size;
+    double rise; /* [m] */
+} edge_bend;
+
+/* Pieces fewer than `least`, or so small that more than `most` [m2], or a thousandth of the parents' area, would be
+   lost with them: nothing breaks.  bend: of an edge that gave, or NULL. */
+typedef struct birth_terms {
+    int32_t least;
+    double most;
+    const edge_bend *bend;
+} birth_terms;
+
 /* The parents (floe rows; more than one only of a level sheet) go; the gathered pieces are cleaned and become floes,
-   and the event's books are filled in.  *broke is false, and nothing has changed, when there are fewer pieces than
-   `least`, or when they are so small that more area would be lost with them than an event may book: `most` [m2], and a
-   thousandth of the parents'. */
-fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, int32_t least, double most,
+   and the event's books are filled in.  *broke is false, and nothing has changed, when the terms are not met. */
+fram_status fracture_birth(const fracture_job *j, const int32_t *parents, int32_t count, birth_terms terms,
                            fracture_event *event, bool *broke);
+/* How the edge under a load stands as it breaks: not at all where the floe floats. */
+edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start);
 
 /* An event as its load tells it; place is global. */
 fracture_event fracture_event_of(const fracture_load *l, vec3 place, fracture_kind kind, double length);
@@ -307,8 +326,8 @@ fram_status fracture_sheet_start(const fracture_job *j, vec2 load, double reach,
                                  bool *found);
 /* Loads farther than this from an edge do not break the sheet [m]. */
 double fracture_sheet_reach(const tile_grid *g);
-/* Length of a crack's ray to the boundary in sheet.boundary. */
-double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap);
+/* Length of a crack's ray to where ice ends, by sheet.boundary; past_held: it goes on beyond sides that are held. */
+double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap, bool past_held);
 /* Adds the areas that the sheet has in common with each of these polygons to out. */
 fram_status fracture_sheet_areas(const fracture_job *j, const vec2 *corner, const int32_t *size, int count,
                                  double *out);

@@ -209,7 +209,8 @@ static fram_status let_go(const fracture_job *j)
         .place = {centre.x, centre.y, j->state->bodies->position[j->state->floes->body[s->sheet.touched.data[0]]].z}};
     fracture_mark_broken(j);
     bool broke;
-    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count, 1, HUGE_VAL, &event, &broke);
+    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count,
+                            (birth_terms){.least = 1, .most = HUGE_VAL}, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, event) ? FRAM_OK : error_memory(j->error);

@@ -87,16 +87,38 @@ fram_status fracture_sheet_start(const fracture_job *j, vec2 load, double reach,
     return FRAM_OK;
 }
 
-double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap)
+/* Cuts that divide a tile around a hole have ice on both sides, and stand twice in the boundary: out and in again
+   within this part of a cell. */
+static const double SAME_CUT = 1e-7;
+
+/* Whether the ray goes into ice again where it leaves it through segment i. */
+static bool goes_on(const tile_segment_array *boundary, int32_t i, const crack_start *start, double length,
+                    double reach)
+{
+    const tile_segment *own = &boundary->data[i];
+    double out = vec2_cross(start->direction, vec2_sub(own->b, own->a));
+    for (int32_t k = 0; k < boundary->count; k++) {
+        const tile_segment *e = &boundary->data[k];
+        double other;
+        if (k != i && out * vec2_cross(start->direction, vec2_sub(e->b, e->a)) < 0 &&
+            crack_meets(start, e->a, e->b, &other) && fabs(other - length) <= reach)
+            return true;
+    }
+    return false;
+}
+
+double fracture_sheet_crack_length(const fracture_job *j, const crack_start *start, double snap, bool past_held)
 {
     const tile_segment_array *boundary = &j->scratch->sheet.boundary;
-    double least = HUGE_VAL;
+    const tile_grid *grid = &j->settings->tiles;
+    box2 cell = tile_cell(grid, 0);
+    double least = HUGE_VAL, reach = SAME_CUT * (cell.hi.x - cell.lo.x + cell.hi.y - cell.lo.y);
     for (int32_t i = 0; i < boundary->count; i++) {
         const tile_segment *e = &boundary->data[i];
-        if (vec2_length(vec2_sub(segment_nearest(e->a, e->b, start->point), start->point)) <= snap)
-            continue;
-        double length;
-        if (crack_meets(start, e->a, e->b, &length) && length > 0 && length < least)
+        double length = least;
+        crack_shorten(start, e->a, e->b, snap, &length);
+        if (length < least && !(past_held && tile_grid_is_held(grid, e->a, e->b)) &&
+            !goes_on(boundary, i, start, length, reach))
             least = length;
     }
     return least;
@@ -283,7 +305,9 @@ static fram_status cut_sheet(const fracture_job *j, const fracture_load *l, cons
     fracture_event event = fracture_event_of(l, place, FRACTURE_BENDING, radius);
     fracture_sheet_touch(j);
     fracture_mark_broken(j);
-    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count, 2, HUGE_VAL, &event, &broke);
+    edge_bend bend = fracture_bend_of(j, l, start);
+    status = fracture_birth(j, s->sheet.touched.data, s->sheet.touched.count,
+                            (birth_terms){.least = 2, .most = HUGE_VAL, .bend = &bend}, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     return array_push(j->ctx, j->events, event) ? fracture_sheet_changed(j) : error_memory(j->error);
@@ -319,7 +343,7 @@ static fram_status renew_start(const fracture_job *j, const fracture_load *l, cr
         return status;
     *is_there = start->distance <= CRACK_GONE_REACH * radius;
     if (*is_there && j->settings->wedge_room)
-        *is_there = fracture_sheet_crack_length(j, start, CRACK_CORNER_REACH * radius) > radius;
+        *is_there = fracture_sheet_crack_length(j, start, CRACK_CORNER_REACH * radius, false) > radius;
     start->distance = distance;
     return FRAM_OK;
 }

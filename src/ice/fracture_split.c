@@ -57,6 +57,14 @@ bool crack_meets(const crack_start *start, vec2 a, vec2 b, double *length)
     return true;
 }
 
+void crack_shorten(const crack_start *start, vec2 a, vec2 b, double snap, double *least)
+{
+    double length;
+    if (vec2_length(vec2_sub(segment_nearest(a, b, start->point), start->point)) > snap &&
+        crack_meets(start, a, b, &length) && length > 0 && length < *least)
+        *least = length;
+}
+
 double crack_length(polygon p, const crack_start *start, int32_t *edge)
 {
     double least = HUGE_VAL;

@@ -107,7 +107,7 @@ fram_status fracture_keep_supports(const fracture_job *j)
         e->load[row] = w->rises.data[root->load].load;
         e->impulse[row] = w->rises.data[root->load].impulse;
         e->own[row] = p->own;
-        e->beside[row] = root->sum - p->level;
+        e->part[row] = p->level > 0 ? p->level / root->sum : 1;
         e->strip[row++] = strip_stiffness(j, p, edge);
     }
     return table_resize(j->ctx, e, &edge_support_table_info, row) ? FRAM_OK : error_memory(j->error);

@@ -215,7 +215,8 @@ static fram_status commit(const fracture_job *j, int32_t floe, bool *trimmed)
         cut -= polygon_area(polygon_list_get(&s->trim.left, i));
     if (tile)
         fracture_sheet_touch(j);
-    fram_status status = fracture_birth(j, s->sheet.touched.data, 1, 0, MOST_CLEANED * fmax(cut, 0), &event, &broke);
+    fram_status status =
+        fracture_birth(j, s->sheet.touched.data, 1, (birth_terms){.most = MOST_CLEANED * fmax(cut, 0)}, &event, &broke);
     if (status != FRAM_OK || !broke)
         return status;
     *trimmed = true;

@@ -96,6 +96,8 @@ double sheet_stress_strip(double c_over_l, double poisson_ratio)
     return stress_factor(poisson_ratio) * integrate_waves(strip_response, &load, 1000);
 }
 
+double sheet_disk_of_strip(double c_over_l) { return c_over_l * (0.73 + 0.06 * fmin(c_over_l, 2)); }
+
 double sheet_edge_deflection(double poisson_ratio)
 {
     /* The integrand falls as k^-3: on to k = 1/u. */

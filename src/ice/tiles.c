@@ -384,6 +384,12 @@ double tile_seam(const tile_sheet_view *v, int32_t row_a, int32_t row_b)
     return sum;
 }
 
+bool tile_grid_is_held(const tile_grid *g, vec2 a, vec2 b)
+{
+    int side = side_of(g->drifts ? tile_grid_plan(g) : g->plan, a, b);
+    return side >= 0 && g->anchored[side];
+}
+
 bool tile_is_anchored(const tile_sheet_view *v, int32_t row)
 {
     int32_t cell = v->floes->tile[row] - 1;

@@ -30,6 +30,8 @@ tile_grid tile_grid_over(box2 plan, double size);
 box2 tile_grid_plan(const tile_grid *g);
 /* The cell of column i and row k is i + k columns. */
 box2 tile_cell(const tile_grid *g, int32_t cell);
+/* Whether a segment lies on a side of the sheet that is held: ice goes on beyond it. */
+bool tile_grid_is_held(const tile_grid *g, vec2 a, vec2 b);
 /* Columns and rows that a box reaches into, clamped to the grid; false when it lies outside. */
 typedef struct tile_range {
     int32_t column_first, column_last, row_first, row_last;

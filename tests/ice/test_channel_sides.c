@@ -95,8 +95,8 @@ static void keep_supports(ice_rig *r)
         e->surface[i] = p->surface_body;
         e->generation[i] = r->bodies.generation[p->surface_body];
         e->place[i] = body_to_local(&r->bodies, p->surface_body, p->centre);
-        e->wedges[i] = 1;
-        e->beside[i] = e->strip[i] = e->load[i] = e->impulse[i] = e->own[i] = 0;
+        e->wedges[i] = e->part[i] = 1;
+        e->strip[i] = e->load[i] = e->impulse[i] = e->own[i] = 0;
         for (int32_t k = p->contact_first; k < p->contact_first + p->contact_count; k++)
             e->own[i] += contact_impulse(&r->contacts.data[k]).z / r->settings.time_step;
     }

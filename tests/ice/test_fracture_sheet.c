@@ -374,8 +374,9 @@ START_TEST(no_convex_part)
         ck_assert(fracture_gather(&r.ctx, r.scratch, &rings, MOTION_STATIC, 1, 0));
         int32_t parent = sheet_tile_at(&r, (vec2){1, 1});
         fracture_event event = {0};
+        birth_terms terms = {.least = 1, .most = HUGE_VAL};
         bool broke;
-        assert_ok(fracture_birth(&j, &parent, 1, 1, HUGE_VAL, &event, &broke), e);
+        assert_ok(fracture_birth(&j, &parent, 1, terms, &event, &broke), e);
         ck_assert(broke);
         /* Joined, lost, and kept where its largest part is large enough. */
         ck_assert_int_eq(event.pieces, turn == 2 ? 2 : 1);

@@ -2,6 +2,7 @@
    behind the contact makes it (docs/decisions/0129). */
 #include "sheet_rig.h"
 
+#include "ice/sheet.h"
 #include "ice/strip.h"
 #include "ice_rig.h"
 
@@ -186,4 +187,138 @@ START_TEST(sheets)
 }
 END_TEST
 
-TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, sheets)
+/* What a load of 20 m bears near the middle of the end of a sheet of 80 m, `deep` and held all round, with an opening
+ * [N]. */
+static double sheet_bears(double deep, double tile, const vec2 hole[4])
+{
+    fracture_rig r;
+    polygon_list openings = {0};
+    fracture_rig_make(&r);
+    if (hole)
+        ck_assert(polygon_list_push(&r.ctx, &openings, (polygon){hole, 4}));
+    sheet_make(&r, (box2){{-40, 0}, {40, deep}}, tile, &openings);
+    /* The end is open water. */
+    r.settings.tiles.anchored[SHEET_Y_MIN] = false;
+    r.settings.wide_contacts = true;
+    r.settings.smallest_floe_area = r.settings.smallest_piece_area = 1e-3;
+    ck_assert(sheet_load(&r, (vec2){0.7, 0.01}, 1e7, 0.4) && fracture_rig_widen(&r, (vec2){10, 0}));
+    ck_assert_int_ge(fracture_rig_break(&r), 1); /* what comes loose with it is released */
+    double bears = r.events.data[0].load / r.events.data[0].stress_ratio;
+    polygon_list_free(&r.ctx, &openings);
+    fracture_rig_free(&r);
+    return bears;
+}
+
+/* A lead or a hole in a part of a strip makes no short beam of the whole, on whatever side of the crack it ends and
+   however the tile around it is cut; nor does a side that is held, beyond which ice goes on. */
+START_TEST(openings_in_a_strip)
+{
+    static const vec2 SHORT_LEAD[4] = {{0.8, 3}, {39, 3}, {39, 3.5}, {0.8, 3.5}};
+    static const vec2 LONG_LEAD[4] = {{0.6, 8}, {39, 8}, {39, 8.5}, {0.6, 8.5}};
+    static const vec2 HOLE[4] = {{0.6, 3.4}, {0.8, 3.4}, {0.8, 3.6}, {0.6, 3.6}};
+    static const vec2 ASIDE[4] = {{5.5, 3}, {6.5, 3}, {6.5, 4}, {5.5, 4}};
+    static const vec2 ACROSS[4] = {{-39, 8}, {39, 8}, {39, 8.5}, {-39, 8.5}};
+    double whole = sheet_bears(80, 100, NULL);
+    assert_relative(whole, 562e3, 0.02); /* docs/oracles.md, section 1 */
+    for (int i = 0; i < 3; i++) {
+        static const double TILES[] = {100, 29, 10};
+        assert_relative(sheet_bears(80, TILES[i], NULL), whole, 1e-6);
+        assert_relative(sheet_bears(80, TILES[i], SHORT_LEAD), whole, 0.06);
+        assert_relative(sheet_bears(80, TILES[i], LONG_LEAD), whole, 1e-6);
+        assert_relative(sheet_bears(80, TILES[i], HOLE), whole, 0.01);
+        assert_relative(sheet_bears(80, TILES[i], ASIDE), whole, 0.02);
+        assert_relative(sheet_bears(10, TILES[i], NULL), whole, 1e-6);
+        ck_assert_double_gt(sheet_bears(80, TILES[i], ACROSS), 2 * whole);
+    }
+}
+END_TEST
+
+/* A slit from the far end of a floe to 5 m from the load, on its crack, makes no short beam of the rest; and what opens
+   the first crack is spread as far as the load. */
+START_TEST(slit_in_a_floe)
+{
+    static const vec2 SLIT[8] = {{-50, -20}, {50, -20}, {50, -0.1}, {-45, -0.1},
+                                 {-45, 0.1}, {50, 0.1}, {50, 20},   {-50, 20}};
+    double l = ice_characteristic_length(&FRACTURE_RIG_ICE, 1, 1025, 9.81), bears[2];
+    for (int i = 0; i < 2; i++) {
+        fracture_rig r;
+        fracture_rig_make(&r);
+        r.settings.splitting = SPLITTING_NONE;
+        r.settings.wide_contacts = true;
+        int32_t row = i ? fracture_rig_floe(&r, (polygon){SLIT, 8}, 1, MOTION_DYNAMIC) : beam_floe(&r, 100, 40);
+        vec3 at = r.bodies.position[r.floes.body[row]];
+        wide_load(&r, row, (vec2){-49.99 - at.x, 0 - at.y}, (vec2){0, 10}, 1e7, 0.4);
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        bears[i] = r.events.data[0].load / r.events.data[0].stress_ratio;
+        edge_ice wide = {1, 20, HUGE_VAL, HUGE_VAL};
+        edge_stress s = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.4, wide);
+        assert_relative(s.radial_capacity, 0.5e6 / sheet_stress_strip(10 / l, 0.3), 0.03);
+        fracture_rig_free(&r);
+    }
+    assert_relative(bears[1], bears[0], 0.02);
+}
+END_TEST
+
+/* ---- pieces that come off ---- */
+
+/* Height of a point of a body above the level at which it lay [m]. */
+static double height_at(const fracture_rig *r, int32_t body, vec2 place)
+{
+    mat3 turn = quat_matrix(r->bodies.orientation[body]);
+    vec3 up = mat3_column(turn, 2), at = r->bodies.position[body];
+    return at.z - (up.x * (place.x - at.x) + up.y * (place.y - at.y)) / up.z;
+}
+
+/* An edge that had given by w as it broke leaves pieces that are as far down, or up, at the load, and not at all where
+   they broke off, of sheets and of fixed floes; pieces of floes that float lie as these did. */
+START_TEST(pieces_stay_bent)
+{
+    for (int i = 0; i < 12; i++) {
+        bool wide = i % 2, up = i / 2 % 2, sheet = i < 4, floats = i >= 8;
+        double give = up ? 0.04 : -0.04, load = up ? -1e6 : 1e6;
+        fracture_rig r;
+        fracture_rig_make(&r);
+        r.settings.wide_contacts = wide;
+        r.settings.splitting = SPLITTING_NONE;
+        r.settings.edges_give = true;
+        double z = 0;
+        vec2 tip = {0, 0};
+        if (sheet) {
+            sheet_make(&r, (box2){{-40, 0}, {40, 80}}, 30, NULL);
+            ck_assert(sheet_load(&r, (vec2){0, 0.01}, load, 0.4));
+        } else {
+            int32_t row = beam_floe(&r, 80, 80), body = r.floes.body[row];
+            r.bodies.motion[body] = floats ? MOTION_DYNAMIC : MOTION_STATIC;
+            z = r.bodies.position[body].z = 0.2;
+            tip = (vec2){0, -40};
+            ck_assert(fracture_rig_load(&r, row, (vec2){0, -39.99}, load, 0.4));
+        }
+        ck_assert(!wide || fracture_rig_widen(&r, (vec2){5, 0}));
+        r.patches.data[0].compliance = give / -load;
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        int pieces = 0;
+        for (int32_t k = 0; k < r.floes.count; k++) {
+            int32_t body = r.floes.body[k];
+            if (body < 0 || r.floes.tile[k] != 0 || r.floes.area[k] > 500)
+                continue;
+            pieces++;
+            double x = r.bodies.position[body].x;
+            vec2 at = {wide ? fmin(fmax(x, -5), 5) : 0, tip.y};
+            assert_absolute(height_at(&r, body, at) - z, floats ? 0 : give, 1e-3 * fabs(give));
+            polygon p = fracture_rig_outline(&r, k);
+            double least = HUGE_VAL;
+            for (int32_t m = 0; m < p.count; m++) {
+                vec3 corner = body_to_global(&r.bodies, body, (vec3){p.vertex[m].x, p.vertex[m].y, 0});
+                least = fmin(least, fabs(corner.z - z));
+                ck_assert_double_le(fabs(corner.z - z), (floats ? 0 : fabs(give)) + 1e-6);
+            }
+            ck_assert_double_le(least, 0.2 * fabs(give));
+        }
+        ck_assert_int_ge(pieces, wide ? 4 : 3);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
+TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, sheets, openings_in_a_strip, slit_in_a_floe,
+          pieces_stay_bent)

@@ -19,6 +19,9 @@ START_TEST(strip)
     assert_absolute(sheet_stress_strip(0.1, 0.3), 4.41870577, 1e-7);
     assert_absolute(sheet_stress_strip(0.2, 0.3), 3.38000883, 1e-7);
     assert_absolute(sheet_stress_strip(1, 0.3), 1.08357296, 1e-7);
+    for (double c = 0.05; c < 2; c *= 1.4)
+        for (double nu = 0.2; nu < 0.41; nu += 0.1)
+            assert_relative(sheet_stress(sheet_disk_of_strip(c), nu), sheet_stress_strip(c, nu), 0.03);
 }
 END_TEST
 

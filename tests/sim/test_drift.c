@@ -124,8 +124,9 @@ START_TEST(whichever_moves)
         ck_assert_int_lt(i, 600 * scale);
         history a = history_of(&drifts, 500 * scale), b = history_of(&comes, 500 * scale);
         ck_assert_msg(fabs(a.mean - b.mean) < 0.1 * b.mean, "mean %g and %g N", a.mean, b.mean);
-        ck_assert_msg(llabs(a.breaks - b.breaks) <= 1 + b.breaks / 10, "%lld and %lld breaks", (long long)a.breaks,
-                      (long long)b.breaks);
+        /* Counts of some twenty scatter by their root. */
+        ck_assert_msg((double)llabs(a.breaks - b.breaks) <= 1 + sqrt((double)b.breaks), "%lld and %lld breaks",
+                      (long long)a.breaks, (long long)b.breaks);
         ck_assert_int_gt(b.breaks, 5);
         scene_close(&drifts);
         scene_close(&comes);

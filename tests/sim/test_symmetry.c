@@ -207,8 +207,8 @@ START_TEST(breaking_ice_is_mirrored)
         apart = fmax(apart, fmax(fabs(port.x - starboard.x), fabs(port.y + starboard.y)));
     }
     ck_assert(most > 1e5);
-    ck_assert_double_lt(aside, 0.1 * most);
-    ck_assert_double_lt(apart, 0.02 * most);
+    ck_assert_double_lt(aside, 0.05 * most);
+    ck_assert_double_lt(apart, 0.04 * most);
     for (int i = 0; i < 3; i++)
         scene_close(&k[i]);
 }
