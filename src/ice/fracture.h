@@ -56,6 +56,7 @@ typedef struct fracture_settings {
     bool thick_plate_radius;    /* small loads act as on a radius that grows with the thickness (Westergaard) */
     bool wide_contacts;         /* option: a load that is wide along the edge breaks a strip off between its wedges */
     bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
+    bool under_pieces;          /* patches of free floes on held ice break that */
     bool under_ice_contacts;    /* option: patches between floes break them too */
     tile_grid tiles;            /* level sheet, if there is one */
     strength_field strength;    /* how strengths vary over the ice */

@@ -115,7 +115,11 @@ edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const 
 break_size fracture_break_size(const fracture_load *l)
 {
     bool wide = l->width > 0 && l->stress.strip_length > 0;
-    return (break_size){l->stress.breaking_radius, wide ? l->width : 0, l->stress.strip_length};
+    break_size size = {l->stress.breaking_radius, wide ? l->width : 0, l->stress.strip_length};
+    /* From the ends of the wedges' cracks that of the strip goes inwards no steeper than along it (decision 0558). */
+    if (wide && !l->beam)
+        size.strip_length = fmin(size.strip_length, size.radius + size.width / 2);
+    return size;
 }
 
 edge_compliance fracture_edges(const fracture_settings *f)

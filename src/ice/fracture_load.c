@@ -231,13 +231,19 @@ static double ice_needed(const fracture_load *l, double width)
     return 6 * (WEDGE_RAMP_MOST_MOMENT * l->force) / (strength * width);
 }
 
-/* Whether a load on a floe that floats fails in no way, by what costs little to know: nearly all are so small.  width:
-   of N wedges, N b0.  What other floes stand on is wanted whether they fail or not. */
+/* Loads of pieces on held ice are looked at that would break what a corner has of this part of an edge's ice. */
+static const double LEAST_CORNER = 0.125;
+
+/* Whether a load fails in no way, by what costs little to know: nearly all are so small.  width: of N wedges, N b0.
+   What held ice stands on is wanted whether it fails under a vessel or not. */
 static bool surely_holds(const fracture_job *j, fracture_load *l, double width)
 {
     /* More than rounding of the areas that are compared in the end. */
     static const double SURELY = 0.99;
-    if (l->tile || !body_is_dynamic(j->state->bodies, l->body))
+    bool held = !body_is_dynamic(j->state->bodies, l->body);
+    if (held && j->state->bodies->material[l->surface] == MATERIAL_ICE)
+        return ice_needed(l, width) < LEAST_CORNER;
+    if (l->tile || held)
         return false;
     return radial_holds(l) && ice_needed(l, width) < SURELY * fracture_least_ice(j, l);
 }
@@ -280,6 +286,7 @@ static void judge(const fracture_job *j, int32_t i, edge_ice edge)
 {
     fracture_load *l = &j->scratch->load.all.data[i];
     edge.rise = j->scratch->load.rises.data[i].time;
+    l->beam = edge.wedges <= EDGE_LEAST_ICE;
     j->scratch->load.edges.data[i] = edge;
     if (l->split_ratio < 1 && !fails(j->settings, l, edge))
         return;
@@ -364,6 +371,14 @@ static int compare_loads(const void *a, const void *b)
     return x->patch < y->patch ? -1 : x->patch > y->patch ? 1 : 0;
 }
 
+/* Whether a load of this material may break the ice of a body. */
+static bool bears_load(const fracture_job *j, int32_t body, uint8_t other)
+{
+    const fracture_settings *f = j->settings;
+    return other != MATERIAL_ICE || f->under_ice_contacts ||
+           (f->under_pieces && !body_is_dynamic(j->state->bodies, body));
+}
+
 fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *patches)
 {
     context *ctx = j->ctx;
@@ -372,10 +387,12 @@ fram_status fracture_loads(const fracture_job *j, const crushing_patch_array *pa
     for (int32_t i = 0; i < patches->count; i++) {
         const crushing_patch *p = &patches->data[i];
         uint8_t other = j->state->bodies->material[p->surface_body];
-        if (other == MATERIAL_WALL || (other == MATERIAL_ICE && !j->settings->under_ice_contacts))
+        if (other == MATERIAL_WALL)
             continue;
-        if (!add_load(ctx, s, j->settings, patches, i, j->state, p->floe_body) ||
-            (other == MATERIAL_ICE && !add_load(ctx, s, j->settings, patches, i, j->state, p->surface_body)))
+        if (bears_load(j, p->floe_body, other) && !add_load(ctx, s, j->settings, patches, i, j->state, p->floe_body))
+            return error_memory(j->error);
+        if (other == MATERIAL_ICE && bears_load(j, p->surface_body, other) &&
+            !add_load(ctx, s, j->settings, patches, i, j->state, p->surface_body))
             return error_memory(j->error);
     }
     if (!fracture_note_parts(j, patches) || !merge_seams(ctx, s, &j->settings->tiles) || !fracture_note_rises(j))

@@ -37,6 +37,7 @@ typedef struct fracture_load {
     box2 plan;            /* of a sheet: bounds of the patch, global [m] */
     double spread[3];     /* xx, xy, yy: mean squares of the patch about its place; with wide_contacts [m2] */
     double width;         /* of the contact along the edge; 0: it acts as a narrow one [m] */
+    bool beam;            /* no ice for wedges: loaded along the whole end of a floe */
     double area, horizontal_area; /* of the patch [m2] */
     double reach;                 /* what fracture_reach told [m]; 0: nobody asked */
     double thickness;             /* of the floe [m] */

@@ -253,6 +253,8 @@
     X(wide_contacts, BOOLEAN(true), "",                                                                               \
       "a load that is wide along the edge breaks a strip off between its wedges; false: it acts as a narrow one")     \
     X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")            \
+    X(under_pieces, BOOLEAN(true), "",                                                                                \
+      "level and fixed ice breaks under pieces of ice that press on it too; false: under hulls alone")                \
     X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")                  \
     X(brash, BOOLEAN(false), "",                                                                                      \
       "pieces under smallest_floe_area are booked as brash, with their momentum, not as lost")

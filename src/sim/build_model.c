@@ -47,6 +47,7 @@ fracture_settings build_fracture_settings(const scenario *s)
                                .thick_plate_radius = s->ice.fracture.thick_plate_radius,
                                .wide_contacts = s->ice.fracture.wide_contacts,
                                .wedge_room = s->ice.fracture.wedge_room,
+                               .under_pieces = s->ice.fracture.under_pieces,
                                .under_ice_contacts = s->ice.fracture.under_ice_contacts,
                                .tiles = build_tiles(s),
                                .strength = strength_of(s),

@@ -571,6 +571,26 @@ START_TEST(under_ice_contacts)
 }
 END_TEST
 
+/* Held ice breaks under pieces where it is asked to, at the load of a hull. */
+START_TEST(under_pieces)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, AREA, EDGE_STRAIGHT).wedge_capacity;
+    for (int i = 0; i < 4; i++) {
+        r.settings.under_pieces = i > 0;
+        int32_t held = plate(&r, 80, 80, MOTION_STATIC), piece = plate(&r, 20, 10, MOTION_DYNAMIC);
+        ck_assert(fracture_rig_load(&r, held, (vec2){0, -40}, (i == 1 ? 0.99 : 1.01) * bears, AREA));
+        if (i < 3)
+            r.contacts.data[0].b = r.patches.data[0].surface_body = r.floes.body[piece];
+        ck_assert_int_eq(fracture_rig_break(&r), i >= 2);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
 /* ---- dust ---- */
 
 /* Least angle between two edges of an outline, inside or outside the ice [rad]: what a cleaned one keeps (Algorithm 10:
@@ -699,4 +719,4 @@ TEST_MAIN("fracture", loaded_radius, wedge_capacity, splitting_force, splitting_
           unbreakable, split_in_two, no_split, narrow_child, concave_shortest_crack, crack_from_a_corner,
           split_by_toughness, split_by_a_wedge, split_while_spinning, wedge_angles, floe_smaller_than_the_stencil,
           huge_floe, level_ice_stays, several_patches, overlapping_patches, order_of_patches, several_floes,
-          void_contacts, under_ice_contacts, six_hundred_bites, memory_runs_out, nothing_to_do)
+          void_contacts, under_ice_contacts, under_pieces, six_hundred_bites, memory_runs_out, nothing_to_do)
