@@ -55,7 +55,7 @@ static double excess(const crushing_job *j, const crushing_pair *p, const loaded
    search too. */
 static double find_give(const crushing_job *j, const crushing_pair *p, const loaded_edge *e, bool *balance)
 {
-    double lo = 0, hi = EDGE_SMALL_DEFLECTION * j->floes->thickness[p->floe], stiffness;
+    double lo = 0, hi = EDGE_MOST_DEFLECTION * j->floes->thickness[p->floe], stiffness;
     double below = excess(j, p, e, lo, &stiffness), above = excess(j, p, e, hi, &stiffness);
     *balance = above > 0;
     if (!*balance)

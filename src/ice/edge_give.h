@@ -41,9 +41,10 @@ typedef struct edge_stand {
     double wedges, part, strip, impulse;
     double rise; /* for how long the load has risen [s] */
 } edge_stand;
-/* The theory of plates of small deflection ends at this part of the thickness (Timoshenko and Woinowsky-Krieger 1959);
-   an edge gives no further. */
-#define EDGE_SMALL_DEFLECTION 0.5
+/* An edge gives by this part of the thickness at most: ice that is farther down is out of the hull that loads it.
+   Plates that are held all round stretch from half the thickness on (Timoshenko and Woinowsky-Krieger 1959); beams and
+   wedges with free ends draw in instead. */
+#define EDGE_MOST_DEFLECTION 1
 /* Less ice than this part of a straight edge's is rounding. */
 #define EDGE_LEAST_ICE 1e-6
 

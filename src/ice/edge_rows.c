@@ -28,7 +28,7 @@ static edge_piece piece_of(const edge_job *j, const contact *contacts, edge_piec
     double h = floes->thickness[floe], sign = is_a ? -1 : 1, count = p.end - p.first;
     p.length = ice_characteristic_length(&floes->material[floe], h, e->water_density, e->gravity);
     p.stiffness = e->water_density * e->gravity * p.length * p.length;
-    p.most = EDGE_SMALL_DEFLECTION * h;
+    p.most = EDGE_MOST_DEFLECTION * h;
     p.load = -sign * contact_memory_pair(j->memory, c).z / j->time_step;
     p.facing = vec2_scale(vec2_make(c->normal.x, c->normal.y), sign);
     for (int32_t i = p.first; i < p.end; i++) {
@@ -162,7 +162,7 @@ static void set_patches(const edge_job *j, edge_rows_work *w, const crushing_pat
         double load = row < 0 ? 0 : j->supports->own[row] * p->horizontal_area / w->claimed.data[row];
         if (p->compliance > 0)
             set_rows(j, first, first + p->contact_count, 1, p->compliance, load,
-                     EDGE_SMALL_DEFLECTION * j->floes->thickness[p->floe], contacts);
+                     EDGE_MOST_DEFLECTION * j->floes->thickness[p->floe], contacts);
     }
 }
 

@@ -109,7 +109,8 @@ static double contact_width(const fracture_job *j, const fracture_load *l, const
 
 edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
-    return (edge_bend){*start, fracture_break_size(l), body_is_dynamic(j->state->bodies, l->body) ? 0 : l->rise};
+    double most = EDGE_MOST_DEFLECTION * l->thickness, rise = fmin(fmax(l->rise, -most), most);
+    return (edge_bend){*start, fracture_break_size(l), body_is_dynamic(j->state->bodies, l->body) ? 0 : rise};
 }
 
 break_size fracture_break_size(const fracture_load *l)

@@ -135,12 +135,12 @@ START_TEST(any_direction)
 }
 END_TEST
 
-/* Nothing gives with the switch off, on ice that cannot break or that moves freely, and past half the thickness. */
+/* Nothing gives with the switch off, on ice that cannot break or that moves freely, and past the thickness. */
 START_TEST(what_stays_rigid)
 {
     for (int i = 0; i < 5; i++) {
         ice_rig r;
-        double down, force = i == 4 ? 1.01 * 0.5 * THICKNESS * plate_stiffness() / 0.45 : 1e3;
+        double down, force = i == 4 ? 1.01 * THICKNESS * plate_stiffness() / 0.45 : 1e3;
         wall_of(&r, 1, 1);
         remember(&r, &force);
         if (i == 1)
