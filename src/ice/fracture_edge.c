@@ -97,14 +97,25 @@ static edge_ice ice_of(const fracture_job *j, const sectors *s, const double *ar
                       .rise = HUGE_VAL};
 }
 
-/* Width along the edge of an even load with the patch's mean square; none that is narrower than the ice is thick, since
-   a beam of that width is none. */
+/* Length in a direction of an even load with the patch's mean square. */
+static double extent(const double spread[3], vec2 t)
+{
+    double square = t.x * t.x * spread[0] + 2 * t.x * t.y * spread[1] + t.y * t.y * spread[2];
+    return sqrt(12 * fmax(square, 0));
+}
+
+/* A contact this many times as long as it is deep lies along a straight edge; a stem's or a narrow cone's goes round.
+ */
+static const double STRAIGHT = 4;
+
+/* Width of the contact along the edge; none that is narrower than the ice is thick, since a beam of that width is none,
+   nor of one that follows no edge. */
 static double contact_width(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
-    vec2 t = {-start->direction.y, start->direction.x};
-    double square = t.x * t.x * l->spread[0] + 2 * t.x * t.y * l->spread[1] + t.y * t.y * l->spread[2];
-    double width = j->settings->wide_contacts ? sqrt(12 * fmax(square, 0)) : 0;
-    return width > l->thickness ? width : 0;
+    if (!j->settings->wide_contacts)
+        return 0;
+    double width = extent(l->spread, vec2_make(-start->direction.y, start->direction.x));
+    return width > l->thickness && width >= STRAIGHT * extent(l->spread, start->direction) ? width : 0;
 }
 
 edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)

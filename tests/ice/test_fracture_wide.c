@@ -156,6 +156,25 @@ START_TEST(narrow)
 }
 END_TEST
 
+/* A contact that goes round a stem follows no straight edge: more than a quarter as deep as it is long, it is narrow.
+ */
+START_TEST(round_a_stem)
+{
+    fracture_rig r;
+    fracture_rig_make(&r);
+    r.settings.splitting = SPLITTING_NONE;
+    r.settings.wide_contacts = true;
+    double bears = fracture_edge_stress(&r.settings, &FRACTURE_RIG_ICE, 1, 1, 0.5, EDGE_STRAIGHT).wedge_capacity;
+    for (int turn = 0; turn < 2; turn++) {
+        int32_t row = beam_floe(&r, 100, 100);
+        wide_load(&r, row, (vec2){-49.9, 0}, (vec2){turn ? 1.6 : 1.4, 6}, 1.001 * bears, 0.5);
+        ck_assert_int_eq(fracture_rig_break(&r), turn);
+        fracture_rig_remove_all(&r);
+    }
+    fracture_rig_free(&r);
+}
+END_TEST
+
 /* The same load on a sheet of tiles and on one floe breaks the same off; patches that a seam divides are one. */
 START_TEST(sheets)
 {
@@ -322,5 +341,5 @@ START_TEST(pieces_stay_bent)
 }
 END_TEST
 
-TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, sheets, openings_in_a_strip, slit_in_a_floe,
+TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, round_a_stem, sheets, openings_in_a_strip, slit_in_a_floe,
           pieces_stay_bent)
