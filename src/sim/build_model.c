@@ -1,6 +1,6 @@
 #include "sim/build_model.h"
-#include "base/transcendental.h"
 
+#include "base/transcendental.h"
 #include "sim/approach_watch.h"
 #include "sim/build_flows.h"
 #include "sim/build_hull.h"
