@@ -16,8 +16,7 @@ FRAM, BUILD = os.environ["FRAM"], pathlib.Path(os.environ["FRAM_BUILD"])
 if os.environ.get("FRAM_TEST_SANITIZE"):
     print("skipped: a unit under sanitizers is not loaded by a Python without them")
     sys.exit(77)
-SHORT = bool(os.environ.get("FRAM_TEST_SHORT"))
-SECONDS, ROLL_BACKS = (10, 50) if SHORT else (20, 1000)
+SECONDS, ROLL_BACKS = 20, 1000
 SCENE = "scenes/supply_ship.yaml"
 # The part of the field that the ship sees in so short a time.
 SMALLER = ("domain.x_min=-90", "domain.x_max=90", "domain.y_min=-60", "domain.y_max=60", "ice.concentration=0.75")
