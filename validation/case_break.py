@@ -47,8 +47,9 @@ def case(out):
     c = ladder.Case(
         "A whole break",
         2,
-        "A plate 2 m wide at 45 degrees, frictionless, driven at 0.1 m/s into the edge of fixed ice of 1 m: "
-        "crushing, load, bending, cut; downward and upward, with a rigid edge and with a compliant one; and the "
+        "A plate 2 m wide at 45 degrees, frictionless, driven at 0.1 m/s into the edge of fixed ice of 1 m, its load "
+        "taken as narrow (`wide_contacts: false`; wide ones are in [their own page](plates.md)): crushing, load, "
+        "bending, cut; downward and upward, with a rigid edge and with a compliant one; and the "
         "direction of the load with friction.",
         "Nevel's wedge (1961) with the load of the patch, N = 3: breaks at 311.743 kN, 0.779357 s after first contact, "
         "R_bending 4.14196 m; with a compliant edge after 1.686608 s, its tip being down by 0.090725 m then. "

@@ -126,8 +126,7 @@ def case(out):
     c.found = ("Where crushed ice is cut away (crush_trims, on for fixed and level ice), a rim of the edge threshold "
                "stays beside the hull and adds 0.1 % to the load. An impact that ends within one step, as the face "
                "would at dt = 10 ms, is a perfectly plastic stop: the impulse is right, the force is not (mass times "
-               "speed over dt). In the steps after the stop the position correction pushes a floe that cannot "
-               "break out of the crushed overlap, without a velocity. Errors of a corner's penetration, a micrometre, "
+               "speed over dt). Errors of a corner's penetration, a micrometre, "
                "do not fall monotonically: the order is checked between the last two steps only.")
 
     def draw(axes):

@@ -206,9 +206,9 @@ START_TEST(ridge_of_an_inclined_patch)
 }
 END_TEST
 
-/* Sheets of 5 cm pass each other at 274.6 N/m, of 5 and 4 cm at 226.5 N/m, from finite elements of the beam on water;
-   the thickness beyond which a sheet breaks before is Parmerter's 14.2 (1 - nu^2) sigma^2/(rho_w g E) within a tenth
-   (he counts the thrust in the sheet too), and the stress goes with the root of the thickness. */
+/* Sheets of 5 cm pass each other at 274.6 N/m, of 5 and 4 cm at 226.5 N/m, from finite elements of the beam on water
+   (validation/raft_beams.py); the thickness beyond which a sheet breaks before is Parmerter's 14.2 (1 - nu^2)
+   sigma^2/(rho_w g E) within a tenth, and the stress goes with the root of the thickness. */
 START_TEST(raft_lift)
 {
     ice_material m = {.elastic_modulus = 5e9, .poisson_ratio = 0.3, .flexural_strength = 6e5};
