@@ -52,6 +52,7 @@ edge_stand edge_stand_find(const edge_support_table *supports, const body_table 
                         .part = supports->part[best],
                         .strip = supports->strip[best],
                         .impulse = supports->impulse[best],
+                        .up = supports->rise[best],
                         .rise = edge_rise_time(supports->impulse[best], supports->load[best])};
 }
 

@@ -23,7 +23,8 @@
     X(strip, double, FIELD_F64, 1, "m2", "load over deflection of the strip under a wide contact, over rho_w g")  \
     X(load, double, FIELD_F64, 1, "N", "vertical load of the last step, of the whole load")                       \
     X(impulse, double, FIELD_F64, 1, "N s", "of that load since the first touch")                                 \
-    X(own, double, FIELD_F64, 1, "N", "vertical load of this patch on the ice in the last step, up")
+    X(own, double, FIELD_F64, 1, "N", "vertical load of this patch on the ice in the last step, up")              \
+    X(rise, double, FIELD_F64, 1, "m", "of the edge under the whole load in the last step, up")
 TABLE_DECLARE(edge_support, EDGE_SUPPORT_FIELDS)
 
 typedef struct edge_compliance {
@@ -40,6 +41,7 @@ typedef struct edge_compliance {
 typedef struct edge_stand {
     double wedges, part, strip, impulse;
     double rise; /* for how long the load has risen [s] */
+    double up;   /* how far the edge stood up in the last step [m] */
 } edge_stand;
 /* An edge gives by this part of the thickness at most: ice that is farther down is out of the hull that loads it.
    Plates that are held all round stretch from half the thickness on (Timoshenko and Woinowsky-Krieger 1959); beams and

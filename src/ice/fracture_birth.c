@@ -49,11 +49,20 @@ static parent parent_of(const fracture_job *j, int32_t floe)
     return p;
 }
 
-/* Turns a piece about where it broke off until it stands at the load as the edge stood, which gave; in the parent's
-   frame, in which it lies flat so far.  The ice keeps its place as it breaks, and is not pushed into the hull. */
-static void keep_bent(const edge_bend *bend, vec3 *place, quat *turn)
+/* How a piece comes off an edge that gave, in the parent's frame, in which it lies flat until then. */
+typedef struct bent_piece {
+    quat turn;
+    double rise;  /* of its centre [m] */
+    double climb; /* of its centre [m/s] */
+    vec3 spin;    /* [rad/s] */
+} bent_piece;
+
+/* Turns a piece about where it broke off until it stands at the load as the edge stood, and lets it turn on as the edge
+   went: the ice keeps its place and its motion as it breaks, and the hull does not meet it anew. */
+static bent_piece keep_bent(const edge_bend *bend, vec3 place)
 {
-    vec2 d = bend->start.direction, along = {-d.y, d.x}, centre = {place->x, place->y};
+    bent_piece flat = {.turn = quat_identity()};
+    vec2 d = bend->start.direction, along = {-d.y, d.x}, centre = {place.x, place.y};
     double half = bend->size.width / 2, at = vec2_dot(vec2_sub(centre, bend->start.point), along);
     bool strip = half > 0 && fabs(at) < half;
     double length = strip ? bend->size.strip_length : bend->size.radius;
@@ -61,11 +70,13 @@ static void keep_bent(const edge_bend *bend, vec3 *place, quat *turn)
     vec2 out = strip ? d : vec2_sub(centre, tip);
     double away = strip ? vec2_dot(vec2_sub(centre, tip), d) : vec2_length(out);
     if (!(away > 0 && away < length) || bend->rise == 0)
-        return;
+        return flat;
     out = vec2_scale(out, 1 / vec2_length(out));
-    double slope = bend->rise / length, half_angle = slope / 2;
-    place->z += bend->rise * (1 - away / length);
-    *turn = (quat){real_cos(half_angle), -out.y * real_sin(half_angle), out.x * real_sin(half_angle), 0};
+    double half_angle = bend->rise / length / 2, spin = bend->rate / length, left = 1 - away / length;
+    return (bent_piece){.turn = {real_cos(half_angle), -out.y * real_sin(half_angle), out.x * real_sin(half_angle), 0},
+                        .rise = bend->rise * left,
+                        .climb = bend->rate * left,
+                        .spin = {-out.y * spin, out.x * spin, 0}};
 }
 
 /* The floe was made at its centroid with no turn, in the parent's frame; it goes to where its ice is, and moves as that
@@ -74,16 +85,16 @@ static void place_child(const birth *b, int32_t body, const edge_bend *bend)
 {
     body_table *bodies = b->job->state->bodies;
     vec3 place = bodies->position[body];
-    quat turn = quat_identity();
-    if (bend)
-        keep_bent(bend, &place, &turn);
+    bent_piece bent = bend ? keep_bent(bend, place) : (bent_piece){.turn = quat_identity()};
+    place.z += bent.rise;
     vec3 arm = mat3_mul_vec(b->from.rotation, place);
     bodies->position[body] = vec3_add(b->from.position, arm);
-    bodies->orientation[body] = quat_mul(b->from.orientation, turn);
+    bodies->orientation[body] = quat_mul(b->from.orientation, bent.turn);
     if (bodies->motion[body] == MOTION_STATIC)
         return;
-    bodies->velocity[body] = vec3_add(b->from.velocity, vec3_cross(b->from.angular_velocity, arm));
-    bodies->angular_velocity[body] = b->from.angular_velocity;
+    vec3 climb = vec3_scale(mat3_column(b->from.rotation, 2), bent.climb);
+    bodies->velocity[body] = vec3_add(vec3_add(b->from.velocity, climb), vec3_cross(b->from.angular_velocity, arm));
+    bodies->angular_velocity[body] = vec3_add(b->from.angular_velocity, mat3_mul_vec(b->from.rotation, bent.spin));
 }
 
 /* *made is false when no floe can be made of the outline after all, which was tried: rounding as it is moved.  That is
@@ -108,7 +119,6 @@ static fram_status make_floe(birth *b, polygon outline, const cut_piece *piece, 
     if (status != FRAM_OK)
         return status;
     place_child(b, to->floes->body[row], piece->wedge ? b->bend : NULL);
-    /* A part of static ice that begins to move brings no momentum, and takes none. */
     body_books_add(to->bodies, to->floes->body[row], &b->after);
     b->event->pieces++;
     b->event->piece_area += to->floes->area[row];
@@ -276,10 +286,10 @@ bool fracture_gather(context *ctx, fracture_scratch *s, const polygon_list *ring
 static const double SAME_AREA = 1e-8;
 #endif
 
-/* Ice that breaks off a sheet that is carried keeps the velocity that it had: lost is only what the lost ice took. */
+/* Ice that breaks off what is held or carried keeps the velocity that it had: lost is only what the lost ice took. */
 static void book_momentum(const birth *b)
 {
-    if (b->from.motion == MOTION_CARRIED) {
+    if (b->from.motion != MOTION_DYNAMIC) {
         b->event->momentum_lost = vec3_scale(b->from.velocity, b->event->mass_lost - b->event->mass_gained);
         b->event->angular_momentum_lost = vec3_cross(b->event->place, b->event->momentum_lost);
         return;

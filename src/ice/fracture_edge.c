@@ -120,8 +120,10 @@ static double contact_width(const fracture_job *j, const fracture_load *l, const
 
 edge_bend fracture_bend_of(const fracture_job *j, const fracture_load *l, const crack_start *start)
 {
-    double most = EDGE_MOST_DEFLECTION * l->thickness, rise = fmin(fmax(l->rise, -most), most);
-    return (edge_bend){*start, fracture_break_size(l), body_is_dynamic(j->state->bodies, l->body) ? 0 : rise};
+    double most = EDGE_MOST_DEFLECTION * l->thickness;
+    bool floats = body_is_dynamic(j->state->bodies, l->body);
+    return (edge_bend){*start, fracture_break_size(l), floats ? 0 : fmin(fmax(l->rise, -most), most),
+                       floats ? 0 : l->rate};
 }
 
 break_size fracture_break_size(const fracture_load *l)

@@ -65,6 +65,15 @@ static bool slides_upright(const body_table *bodies, const crushing_patch *p, ve
     return fabs(vec3_dot(past, up)) > fabs(vec3_dot(past, p->normal) * vec3_dot(p->normal, up));
 }
 
+/* At which a surface comes up through a place in the ice, along the floe's z [m/s]. */
+static double face_rate(const body_table *bodies, const crushing_patch *p, const mat3 *rotation)
+{
+    double level = vec3_dot(p->normal, mat3_column(*rotation, 2));
+    vec3 past = vec3_sub(body_point_velocity(bodies, p->surface_body, p->centre),
+                         body_point_velocity(bodies, p->floe_body, p->centre));
+    return level != 0 ? vec3_dot(past, p->normal) / level : 0;
+}
+
 /* Impulse of a patch on its floe, floe frame [N s].  Friction on a face that crushes on holds what the pressure presses
    down or up, and does not press it the other way: on a steep face the ice goes along with the hull (decision 0553). */
 static vec3 patch_impulse(const fracture_state *state, const crushing_patch *p, const mat3 *rotation)
@@ -134,6 +143,7 @@ static bool add_load(context *ctx, fracture_scratch *s, const fracture_settings 
     if (settings->wide_contacts)
         spread_of(p, state, body, tile != 0, l.spread);
     l.rise = own ? p->compliance * l.vector.z : 0;
+    l.rate = own ? face_rate(state->bodies, p, &rotation) : 0;
     return array_push(ctx, &s->load.all, l);
 }
 

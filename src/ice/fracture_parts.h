@@ -31,6 +31,7 @@ typedef struct fracture_load {
     double plane_force;   /* in its plane [N] */
     vec3 normal;          /* of the patch, floe frame */
     double rise;          /* of the edge that gave, against its floe, up [m] */
+    double rate;          /* at which it goes on up; until its growth is known, that of the surface there [m/s] */
     double aside;         /* what a patch parts the ice with over its load along the normal: 1/(2 tan b) of a wedge */
     double opening_force; /* what opens a crack in the plane: that, and no less than plane_force [N] */
     vec2 place;           /* r_break [m] */
@@ -85,6 +86,7 @@ typedef struct load_part {
     double level;    /* horizontal area [m2] */
     double sum;      /* of a root: of all parts [m2] */
     double impulse;  /* of the load that was here, up to the last step [N s] */
+    double up;       /* how far the edge stood up under that [m] */
     double own;      /* vertical load of the part, up [N] */
 } load_part;
 
@@ -93,6 +95,7 @@ typedef struct load_rise {
     double load;    /* vertical, in this step [N] */
     double impulse; /* since the first touch [N s] */
     double time;    /* of rising; infinite on ice that floats, or without inertia [s] */
+    double up;      /* how far the edge stands up [m] */
 } load_rise;
 
 /* The loads at hand. */
@@ -289,11 +292,13 @@ fram_status fracture_is_dust(const fracture_job *j, const cut_piece *piece, poly
 /* Whether a ring has convex parts that contacts can be made with (bodies/shape.h). */
 fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has);
 
-/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack. */
+/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack; and goes on
+   up as the edge did. */
 typedef struct edge_bend {
     crack_start start;
     break_size size;
     double rise; /* [m] */
+    double rate; /* [m/s] */
 } edge_bend;
 
 /* Pieces fewer than `least`, or so small that more than `most` [m2], or a thousandth of the parents' area, would be

@@ -2,13 +2,12 @@
 #include "ice/fracture_parts.h"
 #include "ice/strip.h"
 
-/* The impulse of the load that was nearest to a part in the last step [N s]. */
-static double old_impulse(const fracture_job *j, const fracture_load *l, vec3 place)
+/* The load that was nearest to a part in the last step. */
+static edge_stand old_stand(const fracture_job *j, const fracture_load *l, vec3 place)
 {
     const fracture_settings *f = j->settings;
     double reach = fracture_edge_reach(f, &l->ice, l->thickness, l->horizontal_area);
-    edge_stand s = edge_stand_find(j->state->supports, j->state->bodies, l->surface, place, reach);
-    return s.impulse;
+    return edge_stand_find(j->state->supports, j->state->bodies, l->surface, place, reach);
 }
 
 bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patches)
@@ -27,8 +26,11 @@ bool fracture_note_parts(const fracture_job *j, const crushing_patch_array *patc
                        .place = body_to_local(bodies, l->surface, patches->data[l->patch].centre),
                        .level = l->horizontal_area,
                        .own = l->vector.z};
-        if (held && j->settings->edge_inertia && j->state->supports)
-            p.impulse = old_impulse(j, l, patches->data[l->patch].centre);
+        if (held && j->state->supports) {
+            edge_stand old = old_stand(j, l, patches->data[l->patch].centre);
+            p.impulse = old.impulse;
+            p.up = old.up;
+        }
         if (!array_push(j->ctx, &w->parts, p))
             return false;
     }
@@ -49,7 +51,15 @@ static void find_roots(load_work *w)
         load_part *root = &w->parts.data[p->root];
         root->sum += p->level;
         root->impulse = fmax(root->impulse, p->impulse);
+        root->up = fabs(p->up) > fabs(root->up) ? p->up : root->up;
     }
+}
+
+/* At which an edge goes up that stood up by this much a step ago: no faster than the surface that takes it along. */
+static double rate_of(const fracture_job *j, const fracture_load *l, double up)
+{
+    double rate = (l->rise - up) / j->settings->time_step;
+    return fmin(fmax(rate, fmin(l->rate, 0)), fmax(l->rate, 0));
 }
 
 bool fracture_note_rises(const fracture_job *j)
@@ -62,12 +72,19 @@ bool fracture_note_rises(const fracture_job *j)
     if (!j->settings->edges_give)
         return true;
     find_roots(w);
-    for (int32_t i = 0; i < w->parts.count && j->settings->edge_inertia; i++) {
+    for (int32_t i = 0; i < w->parts.count; i++) {
         const load_part *p = &w->parts.data[i];
-        if (p->root != i || !p->held)
+        if (p->root != i)
+            continue;
+        fracture_load *l = &w->all.data[p->load];
+        l->rate = p->held ? rate_of(j, l, p->up) : 0;
+        if (!p->held)
             continue;
         load_rise *r = &w->rises.data[p->load];
-        r->load = fabs(w->all.data[p->load].vector.z);
+        r->up = l->rise;
+        if (!j->settings->edge_inertia)
+            continue;
+        r->load = fabs(l->vector.z);
         r->impulse = p->impulse + r->load * j->settings->time_step;
         r->time = edge_rise_time(r->impulse, r->load);
     }
@@ -107,6 +124,7 @@ fram_status fracture_keep_supports(const fracture_job *j)
         e->load[row] = w->rises.data[root->load].load;
         e->impulse[row] = w->rises.data[root->load].impulse;
         e->own[row] = p->own;
+        e->rise[row] = w->rises.data[root->load].up;
         e->part[row] = p->level > 0 ? p->level / root->sum : 1;
         e->strip[row++] = strip_stiffness(j, p, edge);
     }

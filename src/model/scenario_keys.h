@@ -194,7 +194,8 @@
     X(small_patch, REAL(0.01, 0, 0.1), "1",                                                                            \
       "where two floes touch over less than this part of the smaller one's radius (length of gyration), in one "       \
       "direction or in both, they touch in two points or in one, without a moment there, not in four; 0: always four") \
-    X(top_plane_area, BOOLEAN(false), "", "comparison switch: contact area from the cut with the floe's top plane")    \
+    X(top_plane_area, BOOLEAN(false), "",                                                                              \
+      "comparison switch: contact area from the cut with the floe's top plane; edges of level ice do not give then")   \
     X(sleep_speed, REAL(0, 0, 10), "m/s",                                                                              \
       "floes that were slower than this for sleep_time, centre and rim together, are put to sleep until something "    \
       "wakes them: they cost nothing, as in the channel behind a ship; where level ice drifts, slower past "           \
@@ -251,10 +252,12 @@
       "widths")                                                                                                       \
     X(thick_plate_radius, BOOLEAN(true), "", "small loads act as on a radius that grows with the thickness")          \
     X(wide_contacts, BOOLEAN(true), "",                                                                               \
-      "a load that is wide along the edge breaks a strip off between its wedges; false: it acts as a narrow one")     \
+      "a load that is wider along the edge than the ice is thick, and four times as wide as it is deep, breaks a "    \
+      "strip off between its wedges; false: it acts as a narrow one")                                                 \
     X(wedge_room, BOOLEAN(false), "", "floes that end within the breaking radius do not break in bending")            \
     X(under_pieces, BOOLEAN(true), "",                                                                                \
-      "level and fixed ice breaks under pieces of ice that press on it too; false: under hulls alone")                \
+      "level and fixed ice breaks under pieces of ice too, where they press with more than breaks an eighth of a "    \
+      "straight edge; false: under hulls alone")                                                                      \
     X(under_ice_contacts, BOOLEAN(false), "", "with cap_ice_ice: floes break under other floes too")                  \
     X(brash, BOOLEAN(false), "",                                                                                      \
       "pieces under smallest_floe_area are booked as brash, with their momentum, not as lost")

@@ -341,5 +341,70 @@ START_TEST(pieces_stay_bent)
 }
 END_TEST
 
+/* What patches stood on is remembered: the edge under the only one by this much [m]. */
+static void stood(fracture_rig *r, double up)
+{
+    edge_support_table *e = &r->supports;
+    ck_assert(table_resize(&r->ctx, e, &edge_support_table_info, 1));
+    e->surface[0] = r->hull;
+    e->generation[0] = r->bodies.generation[r->hull];
+    e->place[0] = body_to_local(&r->bodies, r->hull, r->patches.data[0].centre);
+    e->wedges[0] = e->part[0] = 1;
+    e->rise[0] = up;
+}
+
+/* Pieces go on as the edge went, turning about where they broke off: by what it gave in the step, no faster than the
+   surface that took it along, never back; the books take nothing for it.  Pieces of floes that float move as these. */
+START_TEST(pieces_go_on)
+{
+    static const double DOWN = 0.04;
+    static const struct {
+        double before, surface, rate; /* [m], [m/s], [m/s] */
+    } CASES[] = {{0, -0.3, -0.3}, {0.001 - DOWN, -0.3, -0.1}, {0, 0.2, 0}, {-0.01 - DOWN, -0.3, 0}};
+    for (int i = 0; i < 24; i++) {
+        bool wide = i / 4 % 2, sheet = i < 8, floats = i >= 16;
+        double rate = floats ? 0 : CASES[i % 4].rate;
+        fracture_rig r;
+        fracture_rig_make(&r);
+        r.settings.wide_contacts = wide;
+        r.settings.splitting = SPLITTING_NONE;
+        r.settings.edges_give = true;
+        r.bodies.velocity[r.hull].z = CASES[i % 4].surface;
+        vec2 tip = {0, sheet ? 0 : -40};
+        if (sheet) {
+            sheet_make(&r, (box2){{-40, 0}, {40, 80}}, 30, NULL);
+            ck_assert(sheet_load(&r, (vec2){0, 0.01}, 1e6, 0.4));
+        } else {
+            int32_t row = beam_floe(&r, 80, 80);
+            r.bodies.motion[r.floes.body[row]] = floats ? MOTION_DYNAMIC : MOTION_STATIC;
+            ck_assert(fracture_rig_load(&r, row, (vec2){0, -39.99}, 1e6, 0.4));
+        }
+        ck_assert(!wide || fracture_rig_widen(&r, (vec2){5, 0}));
+        r.patches.data[0].compliance = DOWN / 1e6;
+        stood(&r, CASES[i % 4].before);
+        ck_assert_int_eq(fracture_rig_break(&r), 1);
+        assert_absolute(vec3_length(r.events.data[0].momentum_lost), 0, 1e-9);
+        int pieces = 0;
+        for (int32_t k = 0; k < r.floes.count; k++) {
+            int32_t body = r.floes.body[k];
+            if (body < 0 || r.floes.tile[k] != 0 || r.floes.area[k] > 500)
+                continue;
+            pieces++;
+            double x = r.bodies.position[body].x, least = HUGE_VAL;
+            vec3 at = {wide ? fmin(fmax(x, -5), 5) : 0, tip.y, r.bodies.position[body].z};
+            assert_absolute(body_point_velocity(&r.bodies, body, at).z, rate, 0.01 * fabs(rate));
+            polygon p = fracture_rig_outline(&r, k);
+            for (int32_t m = 0; m < p.count; m++) {
+                vec3 corner = body_to_global(&r.bodies, body, (vec3){p.vertex[m].x, p.vertex[m].y, 0});
+                least = fmin(least, fabs(body_point_velocity(&r.bodies, body, corner).z));
+            }
+            ck_assert_double_le(least, 0.2 * fabs(rate));
+        }
+        ck_assert_int_ge(pieces, wide ? 4 : 3);
+        fracture_rig_free(&r);
+    }
+}
+END_TEST
+
 TEST_MAIN("fracture_wide", plates, floes_are_beams, narrow, round_a_stem, sheets, openings_in_a_strip, slit_in_a_floe,
-          pieces_stay_bent)
+          pieces_stay_bent, pieces_go_on)
