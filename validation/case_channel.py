@@ -111,7 +111,7 @@ def case(out):
             axes.plot([(k + 0.5) / 2 for k in range(len(means))], means, "o-", label=label)
         axes.set(xlabel="way since the whole hull is in the ice [ship lengths]", ylabel="resistance [kN]",
                  ylim=(0, None))
-        axes.legend(loc=(0.02, 0.43))
+        axes.legend(loc=(0.02, 0.46))
 
     ladder.figure(c, out, "channel", "Means over half a ship length.", draw)
     return c

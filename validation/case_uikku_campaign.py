@@ -197,8 +197,8 @@ def case(out):
                "start of test 303 had shown that a rule was missing "
                "([0558](../decisions/0558-loads-keep-their-width.md)). "
                "Off, as by default: the inertia of edges, and water that runs over sunken pieces late (both raise "
-               "loads with speed); strength that varies; ridge building and rafting between floes. Defaults are for all ice: "
-               "a test does not choose them. [More](../level_ice.md).")
+               "loads with speed); strength that varies; ridge building and rafting between floes. Defaults are for "
+               "all ice: a test does not choose them. [More](../level_ice.md).")
     ladder.figure(c, out, "uikku_campaign", "Measured and simulated resistance.",
                   lambda axes: draw_means(axes, found, spans))
     ladder.figure(c, out, "uikku_running_mean", "Running means of the starts, over the measured means.",

@@ -54,7 +54,7 @@ typedef struct fracture_settings {
     double smallest_piece_area; /* as in shape_add_prism [m2] */
     double edge_threshold;      /* as in polygon_clean [m] */
     bool thick_plate_radius;    /* small loads act as on a radius that grows with the thickness (Westergaard) */
-    bool wide_contacts;         /* option: a load that is wide along the edge breaks a strip off between its wedges */
+    bool wide_contacts;         /* a load that is wide along the edge breaks a strip off between its wedges */
     bool wedge_room;            /* option: no wedges where the floe ends within R_bending along the first crack */
     bool under_pieces;          /* patches of free floes on held ice break that */
     bool under_ice_contacts;    /* option: patches between floes break them too */

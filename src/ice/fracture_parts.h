@@ -292,8 +292,8 @@ fram_status fracture_is_dust(const fracture_job *j, const cut_piece *piece, poly
 /* Whether a ring has convex parts that contacts can be made with (bodies/shape.h). */
 fram_status fracture_has_parts(const fracture_job *j, polygon ring, bool *has);
 
-/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack; and goes on
-   up as the edge did. */
+/* An edge as it breaks: what comes off is as far up at the load as the edge was, and not at all at the crack; and goes
+   on up as the edge did. */
 typedef struct edge_bend {
     crack_start start;
     break_size size;

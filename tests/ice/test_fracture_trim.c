@@ -233,8 +233,8 @@ static double ram_step(ram *t)
     ice_rig_crush(r);
     wrench *loads = memory_array(&r->ctx, (size_t)r->bodies.count, sizeof *loads);
     ck_assert(loads);
-    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, t->dt, &r->bodies, loads, &r->joints, &r->contacts, &r->memory,
-                           &r->report, &e),
+    assert_ok(solver_solve(&r->ctx, r->solve, &r->solver, t->dt, &r->bodies, loads, &r->joints, &r->contacts,
+                           &r->memory, &r->report, &e),
               e);
     memory_free(&r->ctx, loads);
     double force = 0;
