@@ -52,7 +52,7 @@ def ways(series, length, speed, start):
 def of_starts(each):
     """Means of the starts, by halves of a ship length; and with standard errors by whole ones."""
     halves, wholes = zip(*each)
-    return [statistics.fmean(column) for column in zip(*halves)], [ladder.mean_and_error(c) for c in zip(*wholes)]
+    return [statistics.fmean(column) for column in zip(*halves)], ladder.means_and_errors(wholes)
 
 
 def check_stationary(c, what, lengths):

@@ -34,16 +34,14 @@ def jobs():
 def found(rule, dt, series):
     """Bending failures, splits, mean load, largest half-second mean and largest load of a step [kN]: means of the seeds
     with standard errors."""
-    columns = [[] for _ in range(5)]
+    each = []
     for seed in SEEDS:
         run = next(series)
         kinds = ladder.fractures(f"field_steps/{rule}_{dt:g}_{seed}")["kind"]
         averaged = [-f / 1e3 for f in ladder.after(run, "ice_force_averaged_x", BEGIN)]
         raw = [-f / 1e3 for f in ladder.after(run, "ice_force_x", BEGIN)]
-        of_seed = (kinds.count(2), kinds.count(1), statistics.fmean(raw), max(averaged), max(raw))
-        for column, value in zip(columns, of_seed):
-            column.append(value)
-    return [ladder.mean_and_error(column) for column in columns]
+        each.append((kinds.count(2), kinds.count(1), statistics.fmean(raw), max(averaged), max(raw)))
+    return ladder.means_and_errors(each)
 
 
 def case(out):

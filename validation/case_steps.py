@@ -23,14 +23,13 @@ def jobs():
 def found(dt, series):
     """Mean, standard deviation and largest half-second mean [kN] and number of breaks, as means of the starts with
     standard errors."""
-    loads = [[-f / 1e3 for f in ladder.after(next(series), "ice_force_averaged_x", BEGIN)] for _ in STARTS]
-    breaks = []
+    each = []
     for back in STARTS:
+        loads = [-f / 1e3 for f in ladder.after(next(series), "ice_force_averaged_x", BEGIN)]
         e = ladder.fractures(f"steps/{dt:g}_{back:g}")
-        breaks.append(sum(time >= BEGIN and kind == 2 for time, kind in zip(e["time"], e["kind"])))
-    each = (
-        [statistics.fmean(x) for x in loads], [statistics.pstdev(x) for x in loads], [max(x) for x in loads], breaks)
-    return [ladder.mean_and_error(values) for values in each]
+        breaks = sum(time >= BEGIN and kind == 2 for time, kind in zip(e["time"], e["kind"]))
+        each.append((statistics.fmean(loads), statistics.pstdev(loads), max(loads), breaks))
+    return ladder.means_and_errors(each)
 
 
 def case(out):

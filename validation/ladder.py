@@ -131,6 +131,11 @@ def mean_and_error(values):
     return statistics.fmean(values), spread / math.sqrt(len(values))
 
 
+def means_and_errors(each):
+    """Of what several runs give, number by number."""
+    return [mean_and_error(values) for values in zip(*each)]
+
+
 def significant(values):
     """The mean of the highest third of the peaks between upcrossings of the mean."""
     level, peaks, peak = statistics.fmean(values), [], -math.inf

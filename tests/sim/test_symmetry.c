@@ -208,7 +208,7 @@ START_TEST(breaking_ice_is_mirrored)
     }
     ck_assert(most > 1e5);
     ck_assert_double_lt(aside, 0.05 * most);
-    ck_assert_double_lt(apart, 0.04 * most);
+    ck_assert_double_lt(apart, 0.02 * most);
     for (int i = 0; i < 3; i++)
         scene_close(&k[i]);
 }
